@@ -1,0 +1,36 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Fractals;
+
+/// <summary>
+/// What a fractal file says: a base mesh and the steps applied to it (paper §4.2.2). It is never longer than
+/// the file, whatever number of instances it describes.
+/// </summary>
+/// <param name="BaseFile">The base mesh's file, as the fractal file names it.</param>
+/// <param name="Steps">Outermost first: the last step is applied to the base mesh first.</param>
+/// <param name="Composition">How transformations along a chain are composed.</param>
+public sealed record FractalDescription(
+    string BaseFile, ImmutableArray<FractalStep> Steps, Composition Composition = Composition.Affine)
+{
+    /// <summary>True when some step is repeated without end.</summary>
+    public bool IsInfinite => FractalSteps.LevelCount(Steps) is null;
+
+    /// <summary>True when there is a repetition whose depth can be changed.</summary>
+    public bool HasDepth => Steps.Any(step => step is Repetition);
+
+    /// <summary>
+    /// The same fractal with the outermost repetition carried out <paramref name="depth"/> times, whatever the file says.
+    /// </summary>
+    /// <param name="depth">Not negative.</param>
+    /// <exception cref="InvalidOperationException">Nothing in the fractal is repeated.</exception>
+    public FractalDescription WithDepth(int depth) => Steps.FirstOrDefault(step => step is Repetition) switch
+    {
+        Repetition outermost => this with { Steps = Steps.Replace(outermost, outermost.WithCount(depth)) },
+        _ => throw new InvalidOperationException("the fractal has no recursive step, so it has no depth to change"),
+    };
+
+    /// <summary>The same fractal moved as a whole: one more level above all others.</summary>
+    public FractalDescription Under(Transformation placement) =>
+        this with { Steps = Steps.Insert(0, TransformationSet.Of(placement)) };
+}

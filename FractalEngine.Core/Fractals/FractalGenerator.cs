@@ -1,0 +1,115 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Fractals;
+
+/// <summary>
+/// The factory of fractals (paper §4.2.4): makes a fractal from a description and a base mesh, and, for those who ask,
+/// concatenates its levels into one list of instances.
+/// </summary>
+public static class FractalGenerator
+{
+    /// <summary>Makes the fractal. <paramref name="loadMesh"/> is called once, with the base file as the description names it.</summary>
+    public static Fractal Create(FractalDescription description, Func<string, Mesh> loadMesh) =>
+        new(description, loadMesh(description.BaseFile));
+
+    /// <summary>
+    /// The distinct instances of a fractal as maps from the base mesh's frame to the fractal's.
+    /// </summary>
+    /// <param name="fractal">Finite.</param>
+    /// <param name="budget">The most instances allowed, equal ones counted in affine mode, distinct ones in componentwise mode.</param>
+    /// <exception cref="FractalLimitException">The fractal has more instances.</exception>
+    /// <remarks>
+    /// Two maps count as equal when they differ by rounding only (see <see cref="DistinctMaps"/>); the first in the order of
+    /// the file stays. Time and memory are proportional to the instances, 96 bytes each.
+    /// </remarks>
+    public static ImmutableArray<AffineMap> Expand(Fractal fractal, long budget)
+    {
+        if (fractal.Description.Composition == Composition.Componentwise)
+        {
+            return [.. ComponentwiseSums(fractal, budget).Select(transformation => transformation.ToAffineMap())];
+        }
+
+        if (fractal.InstanceCount is not { } count || count > budget)
+        {
+            throw new FractalLimitException($"the fractal has {Text(fractal)} instances, more than the limit of {budget}");
+        }
+
+        var distinct = DistinctInstances.AreProvedDistinct(fractal);
+        AffineMap[] instances = [AffineMap.Identity];
+        for (var level = 0L; level < fractal.LevelCount; level++)
+        {
+            var set = fractal.LevelAt(level);
+            // A level of the identity alone changes nothing; a recursion of depth a million may consist of them.
+            if (set.Maps is not [var only] || only != AffineMap.Identity)
+            {
+                var pairs = ConcatenatePair(instances, set.Maps.AsSpan(), static (m1, m2) => m1 * m2);
+                instances = distinct ? pairs : DistinctMaps.Of(pairs);
+            }
+        }
+
+        return System.Runtime.InteropServices.ImmutableCollectionsMarshal.AsImmutableArray(instances);
+    }
+
+    /// <summary>
+    /// The distinct sums of componentwise composition. Since it commutes, their number grows like a power of the
+    /// depth only.
+    /// </summary>
+    /// <exception cref="FractalLimitException">There are more than <paramref name="budget"/>, or the fractal is infinite.</exception>
+    public static ImmutableArray<Transformation> ComponentwiseSums(Fractal fractal, long budget)
+    {
+        if (fractal.LevelCount is not { } levels)
+        {
+            throw new FractalLimitException("an infinite fractal can't be composed componentwise: its positions don't shrink");
+        }
+
+        Transformation[] sums = [Transformation.Identity];
+        for (var level = 0L; level < levels; level++)
+        {
+            var set = fractal.LevelAt(level).Transformations;
+            if (set is not [{ IsIdentity: true }])
+            {
+                if ((long)sums.Length * set.Length > Math.Max(budget, 1) * 64)
+                {
+                    throw TooManySums(budget);
+                }
+
+                sums = DistinctMaps.Of(ConcatenatePair(sums, set.AsSpan(), Transformation.ComposeComponentwise));
+            }
+
+            if (sums.Length > budget)
+            {
+                throw TooManySums(budget);
+            }
+        }
+
+        return System.Runtime.InteropServices.ImmutableCollectionsMarshal.AsImmutableArray(sums);
+    }
+
+    /// <summary>The paper's concatPair: [m1·m2 | ∀ m1 ∈ set1, ∀ m2 ∈ set2], in that order.</summary>
+    public static T[] ConcatenatePair<T>(ReadOnlySpan<T> set1, ReadOnlySpan<T> set2, Func<T, T, T> compose)
+    {
+        var pairs = new T[set1.Length * set2.Length];
+        var next = 0;
+        foreach (var m1 in set1)
+        {
+            foreach (var m2 in set2)
+            {
+                pairs[next++] = compose(m1, m2);
+            }
+        }
+
+        return pairs;
+    }
+
+    private static FractalLimitException TooManySums(long budget) =>
+        new($"componentwise composition of the fractal has more than {budget} distinct sums");
+
+    private static string Text(Fractal fractal) => fractal.InstanceCount switch
+    {
+        null => "infinitely many",
+        var count when count < 1_000_000_000_000 => count.Value.ToString(System.Globalization.CultureInfo.InvariantCulture),
+        var count => $"about 10^{(long)System.Numerics.BigInteger.Log10(count.Value)}",
+    };
+}

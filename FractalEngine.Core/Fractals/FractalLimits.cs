@@ -1,0 +1,26 @@
+namespace FractalEngine.Core.Fractals;
+
+/// <summary>The stated limits of fractals. Each bounds time or memory, and is named in the error that it causes.</summary>
+public static class FractalLimits
+{
+    /// <summary>The largest n of <c>z n</c>.</summary>
+    public const int Depth = 1_000_000;
+
+    /// <summary>The most sets that a chain may pass through, repetitions of repetitions multiplied out.</summary>
+    public const long Levels = 10_000_000;
+
+    /// <summary>
+    /// The most instances that are drawn, when nothing else is asked for: the paper's Menger sponge of 3.2 million
+    /// fits; at 48 bytes each they take 192 MB on the GPU.
+    /// </summary>
+    public const int DrawnInstances = 4_000_000;
+
+    /// <summary>The most faces that are exported, when nothing else is asked for: about 3 GB of text.</summary>
+    public const long ExportedFaces = 50_000_000;
+
+    /// <summary>The most chains that are enumerated only to count the distinct ones among them.</summary>
+    public const int EnumeratedInstances = 500_000;
+
+    /// <summary>The most distinct sums that componentwise composition is carried out for.</summary>
+    public const int ComponentwiseSums = 4_000_000;
+}

@@ -1,0 +1,38 @@
+using System.Collections.Immutable;
+using System.Numerics;
+
+namespace FractalEngine.Core.Fractals;
+
+/// <summary>Sums and look-ups over a sequence of steps, outermost first.</summary>
+public static class FractalSteps
+{
+    /// <summary>How many sets a chain passes through; null when they are infinitely many.</summary>
+    public static long? LevelCount(ImmutableArray<FractalStep> steps) =>
+        steps.Aggregate((long?)0, (sum, step) => sum + step.LevelCount);
+
+    /// <summary>How many chains of transformations there are, repeated ones counted; null for infinitely many.</summary>
+    public static BigInteger? InstanceCount(ImmutableArray<FractalStep> steps) =>
+        steps.Any(step => step.InstanceCount is { IsZero: true }) ? BigInteger.Zero
+        : steps.Aggregate((BigInteger?)BigInteger.One, (product, step) => product * step.InstanceCount);
+
+    /// <summary>The set at one level. Cost O(steps), whatever the number of rounds.</summary>
+    /// <param name="steps">Outermost first.</param>
+    /// <param name="level">From 0, the outermost.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such level.</exception>
+    public static TransformationSet LevelAt(ImmutableArray<FractalStep> steps, long level)
+    {
+        ArgumentOutOfRangeException.ThrowIfNegative(level);
+        var rest = level;
+        foreach (var step in steps)
+        {
+            if (step.LevelCount is not { } count || rest < count)
+            {
+                return step.LevelAt(rest);
+            }
+
+            rest -= count;
+        }
+
+        throw new ArgumentOutOfRangeException(nameof(level), level, "the fractal has fewer levels");
+    }
+}

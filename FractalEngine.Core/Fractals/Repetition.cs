@@ -1,0 +1,55 @@
+using System.Collections.Immutable;
+using System.Numerics;
+
+namespace FractalEngine.Core.Fractals;
+
+/// <summary>A sequence of steps applied over and over: what <c>z 6</c> means for the steps that z adds to its base.</summary>
+public sealed class Repetition : FractalStep
+{
+    /// <summary>The steps of one round, outermost first, and how often they are applied.</summary>
+    /// <param name="body">At least one step, each with finitely many levels.</param>
+    /// <param name="count">Not negative; null for the infinite fractal.</param>
+    /// <exception cref="ArgumentException">The body is empty or infinite itself.</exception>
+    public Repetition(ImmutableArray<FractalStep> body, int? count)
+    {
+        if (body.Length == 0 || body.Any(step => step.LevelCount is null))
+        {
+            throw new ArgumentException("expected at least one step, and only finite ones", nameof(body));
+        }
+
+        if (count < 0)
+        {
+            throw new ArgumentOutOfRangeException(nameof(count), "expected no negative number");
+        }
+
+        (Body, Count) = (body, count);
+        LevelsPerRound = FractalSteps.LevelCount(body)!.Value;
+    }
+
+    /// <summary>The steps of one round, outermost first.</summary>
+    public ImmutableArray<FractalStep> Body { get; }
+
+    /// <summary>How often the body is applied; null without end.</summary>
+    public int? Count { get; }
+
+    /// <summary>How many sets one round passes through.</summary>
+    public long LevelsPerRound { get; }
+
+    /// <inheritdoc/>
+    public override long? LevelCount => Count * LevelsPerRound;
+
+    /// <inheritdoc/>
+    /// <remarks>Exact at any size: a million rounds of 25 maps give a number of 1.4 million digits in about a second.</remarks>
+    public override BigInteger? InstanceCount => (Count, FractalSteps.InstanceCount(Body)!.Value) switch
+    {
+        (_, var perRound) when perRound.IsZero || perRound.IsOne => Count == 0 ? BigInteger.One : perRound,
+        (null, _) => null,
+        ({ } count, var perRound) => BigInteger.Pow(perRound, count),
+    };
+
+    /// <inheritdoc/>
+    public override TransformationSet LevelAt(long level) => FractalSteps.LevelAt(Body, level % LevelsPerRound);
+
+    /// <summary>The same steps, repeated another number of times.</summary>
+    public Repetition WithCount(int? count) => new(Body, count);
+}

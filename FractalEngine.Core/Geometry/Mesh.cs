@@ -1,0 +1,169 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Geometry;
+
+/// <summary>
+/// A triangle mesh as plain data: flat arrays, immutable, not tied to any file, collider or graphics API.
+/// Front faces are wound so that <c>Cross(b − a, c − a)</c> points outwards.
+/// </summary>
+public sealed class Mesh
+{
+    /// <summary>A mesh of positions and faces.</summary>
+    /// <param name="positions">Coordinates, [vertices × 3].</param>
+    /// <param name="faces">Vertex numbers from 0, [faces × 3].</param>
+    /// <exception cref="ArgumentException">A length is not a multiple of three, or a vertex number is out of range.</exception>
+    public Mesh(ImmutableArray<double> positions, ImmutableArray<int> faces)
+    {
+        Require(positions.Length % 3 == 0, nameof(positions), "three coordinates a vertex");
+        Positions = positions;
+        Faces = faces;
+        RequireIndices(faces, faces.Length, positions.Length / 3, 0, nameof(faces));
+        Bounds = BoundsOf(positions.AsSpan());
+    }
+
+    /// <summary>The mesh without vertices.</summary>
+    public static Mesh Empty { get; } = new([], []);
+
+    /// <summary>Vertex coordinates in scene units, [<see cref="VertexCount"/> × 3].</summary>
+    public ImmutableArray<double> Positions { get; }
+
+    /// <summary>Vertex numbers from 0, [<see cref="FaceCount"/> × 3].</summary>
+    public ImmutableArray<int> Faces { get; }
+
+    /// <summary>Texture coordinates (u, v), v upwards, [n × 2]; empty when the mesh has none.</summary>
+    public ImmutableArray<double> TextureCoordinates { get; private init; } = [];
+
+    /// <summary>Numbers into <see cref="TextureCoordinates"/>, −1 for none, [<see cref="FaceCount"/> × 3], or empty.</summary>
+    public ImmutableArray<int> TextureFaces { get; private init; } = [];
+
+    /// <summary>Normals as the file gives them, of any length, [n × 3]; empty when the mesh has none.</summary>
+    public ImmutableArray<double> Normals { get; private init; } = [];
+
+    /// <summary>Numbers into <see cref="Normals"/>, −1 for none, [<see cref="FaceCount"/> × 3], or empty.</summary>
+    public ImmutableArray<int> NormalFaces { get; private init; } = [];
+
+    /// <summary>The faces in runs of one name and material, in order; together they cover all faces, or there are none.</summary>
+    public ImmutableArray<MeshGroup> Groups { get; private init; } = [];
+
+    /// <summary>Material files as the mesh's file names them (<c>mtllib</c>).</summary>
+    public ImmutableArray<string> MaterialLibraries { get; private init; } = [];
+
+    /// <summary>How many vertices the mesh has, unused ones included.</summary>
+    public int VertexCount => Positions.Length / 3;
+
+    /// <summary>How many triangles the mesh has.</summary>
+    public int FaceCount => Faces.Length / 3;
+
+    /// <summary>The box of all vertices, unused ones included.</summary>
+    public BoundingBox Bounds { get; }
+
+    /// <summary>The same mesh with texture coordinates.</summary>
+    /// <param name="coordinates">(u, v), [n × 2].</param>
+    /// <param name="faces">Numbers into them, −1 for none, [faces × 3].</param>
+    public Mesh WithTextureCoordinates(ImmutableArray<double> coordinates, ImmutableArray<int> faces)
+    {
+        Require(coordinates.Length % 2 == 0, nameof(coordinates), "two coordinates each");
+        RequireIndices(faces, Faces.Length, coordinates.Length / 2, -1, nameof(faces));
+        return new(this) { TextureCoordinates = coordinates, TextureFaces = faces };
+    }
+
+    /// <summary>The same mesh with normals.</summary>
+    /// <param name="normals">[n × 3].</param>
+    /// <param name="faces">Numbers into them, −1 for none, [faces × 3].</param>
+    public Mesh WithNormals(ImmutableArray<double> normals, ImmutableArray<int> faces)
+    {
+        Require(normals.Length % 3 == 0, nameof(normals), "three components each");
+        RequireIndices(faces, Faces.Length, normals.Length / 3, -1, nameof(faces));
+        return new(this) { Normals = normals, NormalFaces = faces };
+    }
+
+    /// <summary>The same mesh with named runs of faces.</summary>
+    public Mesh WithGroups(ImmutableArray<MeshGroup> groups, ImmutableArray<string> materialLibraries) =>
+        new(this) { Groups = groups, MaterialLibraries = materialLibraries };
+
+    /// <summary>The position of a vertex.</summary>
+    /// <param name="vertex">From 0.</param>
+    public Vector Vertex(int vertex) =>
+        new(Positions[3 * vertex], Positions[(3 * vertex) + 1], Positions[(3 * vertex) + 2]);
+
+    /// <summary>The three corners of a face.</summary>
+    /// <param name="face">From 0.</param>
+    public (Vector A, Vector B, Vector C) Face(int face) =>
+        (Vertex(Faces[3 * face]), Vertex(Faces[(3 * face) + 1]), Vertex(Faces[(3 * face) + 2]));
+
+    /// <summary>
+    /// A function applied to every vertex: the paper's T(t) (§4.2.3). Normals are dropped, since a general function
+    /// does not say what becomes of them.
+    /// </summary>
+    public Mesh Transform(Func<Vector, Vector> function)
+    {
+        var positions = ImmutableArray.CreateBuilder<double>(Positions.Length);
+        for (var vertex = 0; vertex < VertexCount; vertex++)
+        {
+            var (x, y, z) = function(Vertex(vertex));
+            positions.Add(x);
+            positions.Add(y);
+            positions.Add(z);
+        }
+
+        return new(positions.MoveToImmutable(), Faces)
+        {
+            TextureCoordinates = TextureCoordinates,
+            TextureFaces = TextureFaces,
+            Groups = Groups,
+            MaterialLibraries = MaterialLibraries,
+        };
+    }
+
+    /// <summary>
+    /// The distance of the farthest vertex from the image of the origin under a map (paper §4.3.3):
+    /// max |m·v − m.position|; 0 for an empty mesh. Cost O(vertices).
+    /// </summary>
+    public double Radius(AffineMap map)
+    {
+        var largest = 0.0;
+        for (var vertex = 0; vertex < VertexCount; vertex++)
+        {
+            largest = Math.Max(largest, (map.Linear * Vertex(vertex)).Length());
+        }
+
+        return largest;
+    }
+
+    private Mesh(Mesh other)
+    {
+        (Positions, Faces, Bounds) = (other.Positions, other.Faces, other.Bounds);
+        (TextureCoordinates, TextureFaces) = (other.TextureCoordinates, other.TextureFaces);
+        (Normals, NormalFaces) = (other.Normals, other.NormalFaces);
+        (Groups, MaterialLibraries) = (other.Groups, other.MaterialLibraries);
+    }
+
+    private static BoundingBox BoundsOf(ReadOnlySpan<double> positions)
+    {
+        var box = BoundingBox.Empty;
+        for (var i = 0; i + 2 < positions.Length; i += 3)
+        {
+            box = box.Including(new(positions[i], positions[i + 1], positions[i + 2]));
+        }
+
+        return box;
+    }
+
+    private static void RequireIndices(ImmutableArray<int> indices, int length, int count, int smallest, string name)
+    {
+        Require(indices.Length % 3 == 0 && indices.Length == length, name, "three numbers a face");
+        foreach (var index in indices)
+        {
+            Require(index >= smallest && index < count, name, "numbers of elements that exist");
+        }
+    }
+
+    private static void Require(bool condition, string name, string what)
+    {
+        if (!condition)
+        {
+            throw new ArgumentException($"expected {what}", name);
+        }
+    }
+}

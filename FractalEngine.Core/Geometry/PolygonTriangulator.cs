@@ -1,0 +1,122 @@
+using System.Runtime.InteropServices;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Geometry;
+
+/// <summary>
+/// Cuts polygons in space into triangles by ear clipping, so that concave ones come out right (a fan would cover
+/// area outside them). Source: G. H. Meisters, "Polygons have ears", 1975. One instance is reused for many polygons.
+/// </summary>
+/// <remarks>
+/// A polygon of n corners gives exactly n − 2 triangles, wound as the polygon. Polygons that are not simple (crossing or
+/// of zero area) have no right answer; they still give n − 2 triangles over their corners. Cost O(n·r) for r reflex corners.
+/// </remarks>
+public sealed class PolygonTriangulator
+{
+    private readonly List<(double X, double Y)> _points = [];
+    private readonly List<int> _previous = [];
+    private readonly List<int> _next = [];
+
+    /// <summary>Triangulates one polygon.</summary>
+    /// <param name="corners">Positions in order, at least three.</param>
+    /// <param name="triangles">Receives numbers into <paramref name="corners"/>, three a triangle; it is not cleared.</param>
+    public void Triangulate(ReadOnlySpan<Vector> corners, List<int> triangles)
+    {
+        ArgumentOutOfRangeException.ThrowIfLessThan(corners.Length, 3);
+        if (corners.Length == 3)
+        {
+            triangles.AddRange([0, 1, 2]);
+            return;
+        }
+
+        Project(corners);
+        Link(corners.Length);
+        ClipEars(corners.Length, triangles);
+    }
+
+    /// <summary>Drops the axis along which the polygon's normal (by Newell's sums) is longest, keeping the winding.</summary>
+    private void Project(ReadOnlySpan<Vector> corners)
+    {
+        var origin = corners[0];
+        var normal = Vector.Zero;
+        for (var i = 0; i < corners.Length; i++)
+        {
+            normal += Vector.Cross(corners[i] - origin, corners[(i + 1) % corners.Length] - origin);
+        }
+
+        var size = normal.Absolute();
+        _points.Clear();
+        foreach (var corner in corners)
+        {
+            var (x, y, z) = corner - origin;
+            _points.Add(size.X >= size.Y && size.X >= size.Z ? (normal.X >= 0 ? (y, z) : (z, y))
+                : size.Y >= size.Z ? (normal.Y >= 0 ? (z, x) : (x, z))
+                : normal.Z >= 0 ? (x, y) : (y, x));
+        }
+    }
+
+    private void Link(int count)
+    {
+        _previous.Clear();
+        _next.Clear();
+        for (var i = 0; i < count; i++)
+        {
+            _previous.Add((i + count - 1) % count);
+            _next.Add((i + 1) % count);
+        }
+    }
+
+    private void ClipEars(int count, List<int> triangles)
+    {
+        var corner = 0;
+        var tried = 0;
+        for (var left = count; left > 3;)
+        {
+            // A corner is cut when it is an ear, or, where the polygon is not simple, once nothing else is left to try.
+            if (tried < left && !IsEar(corner))
+            {
+                corner = _next[corner];
+                tried++;
+                continue;
+            }
+
+            triangles.AddRange([_previous[corner], corner, _next[corner]]);
+            _next[_previous[corner]] = _next[corner];
+            _previous[_next[corner]] = _previous[corner];
+            // Going on two corners later spreads the cuts and avoids long thin fans.
+            corner = _next[_next[corner]];
+            tried = 0;
+            left--;
+        }
+
+        triangles.AddRange([_previous[corner], corner, _next[corner]]);
+    }
+
+    private bool IsEar(int corner)
+    {
+        var (before, after) = (_previous[corner], _next[corner]);
+        var points = CollectionsMarshal.AsSpan(_points);
+        var (a, b, c) = (points[before], points[corner], points[after]);
+        if (Area(a, b, c) <= 0)
+        {
+            return false;
+        }
+
+        for (var other = _next[after]; other != before; other = _next[other])
+        {
+            // Only a reflex corner can reach into the triangle first.
+            if (points[other] != a && points[other] != b && points[other] != c
+                && Area(points[_previous[other]], points[other], points[_next[other]]) <= 0
+                && Area(a, b, points[other]) >= 0 && Area(b, c, points[other]) >= 0 && Area(c, a, points[other]) >= 0)
+            {
+                return false;
+            }
+        }
+
+        return true;
+    }
+
+    /// <summary>Twice the signed area of a triangle; positive when it turns the way the polygon does.</summary>
+    private static double Area((double X, double Y) a, (double X, double Y) b, (double X, double Y) c) =>
+        ((b.X - a.X) * (c.Y - a.Y)) - ((b.Y - a.Y) * (c.X - a.X));
+}

@@ -1,0 +1,153 @@
+using System.Globalization;
+
+namespace FractalEngine.Core.Maths;
+
+/// <summary>
+/// A 3×3 matrix of three column vectors (paper §4.1.2). Applied to (α, β, γ) it gives α·V1 + β·V2 + γ·V3.
+/// Immutable; every operation is pure.
+/// </summary>
+/// <param name="V1">First column; the local right axis of an orientation.</param>
+/// <param name="V2">Second column; the local up axis of an orientation.</param>
+/// <param name="V3">Third column; the local forward axis of an orientation.</param>
+public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
+{
+    /// <summary>The neutral matrix (i j k).</summary>
+    public static Matrix Identity => new(Vector.I, Vector.J, Vector.K);
+
+    /// <summary>The matrix that stretches by the given factors.</summary>
+    public static Matrix Diagonal(Vector factors) =>
+        new(new(factors.X, 0, 0), new(0, factors.Y, 0), new(0, 0, factors.Z));
+
+    /// <summary>The matrix with the given rows.</summary>
+    public static Matrix FromRows(Vector row1, Vector row2, Vector row3) => new Matrix(row1, row2, row3).Transpose();
+
+    /// <summary>Rotation about the x axis, by rows [1 0 0; 0 c s; 0 −s c].</summary>
+    /// <param name="angle">Radians.</param>
+    public static Matrix Pitch(double angle) => Pitch(SineCosine.OfRadians(angle));
+
+    /// <summary>Rotation about the y axis, by rows [c 0 −s; 0 1 0; s 0 c].</summary>
+    /// <param name="angle">Radians.</param>
+    public static Matrix Yaw(double angle) => Yaw(SineCosine.OfRadians(angle));
+
+    /// <summary>Rotation about the z axis, by rows [c s 0; −s c 0; 0 0 1].</summary>
+    /// <param name="angle">Radians.</param>
+    public static Matrix Roll(double angle) => Roll(SineCosine.OfRadians(angle));
+
+    /// <summary>Rotation by <paramref name="angle"/> about a unit <paramref name="axis"/> (Rodrigues' formula).</summary>
+    /// <param name="axis">Of length 1.</param>
+    /// <param name="angle">Radians, in the direction in which <see cref="Pitch(double)"/> turns for a negative angle: i → j about k.</param>
+    public static Matrix Rotation(Vector axis, double angle) => SineCosine.OfRadians(angle) switch
+    {
+        var (s, c) => (c * Identity) + (s * CrossProduct(axis)) + ((1 - c) * Outer(axis, axis)),
+    };
+
+    /// <summary>The matrix that sends v to <c>Cross(axis, v)</c>.</summary>
+    public static Matrix CrossProduct(Vector axis) =>
+        new(Vector.Cross(axis, Vector.I), Vector.Cross(axis, Vector.J), Vector.Cross(axis, Vector.K));
+
+    /// <summary>The matrix that sends v to <c>Dot(v2, v)·v1</c>.</summary>
+    public static Matrix Outer(Vector v1, Vector v2) => new(v2.X * v1, v2.Y * v1, v2.Z * v1);
+
+    /// <summary>The matrix applied to a vector.</summary>
+    public static Vector operator *(Matrix m, Vector v) => (v.X * m.V1) + (v.Y * m.V2) + (v.Z * m.V3);
+
+    /// <summary>Composition: <paramref name="m2"/> first, then <paramref name="m1"/>.</summary>
+    public static Matrix operator *(Matrix m1, Matrix m2) => new(m1 * m2.V1, m1 * m2.V2, m1 * m2.V3);
+
+    /// <summary>Entry by entry product with a number.</summary>
+    public static Matrix operator *(double factor, Matrix m) => new(factor * m.V1, factor * m.V2, factor * m.V3);
+
+    /// <summary>Entry by entry division by a number.</summary>
+    public static Matrix operator /(Matrix m, double divisor) => new(m.V1 / divisor, m.V2 / divisor, m.V3 / divisor);
+
+    /// <summary>Entry by entry sum.</summary>
+    public static Matrix operator +(Matrix m1, Matrix m2) => new(m1.V1 + m2.V1, m1.V2 + m2.V2, m1.V3 + m2.V3);
+
+    /// <summary>Rows and columns exchanged.</summary>
+    public Matrix Transpose() => new(new(V1.X, V2.X, V3.X), new(V1.Y, V2.Y, V3.Y), new(V1.Z, V2.Z, V3.Z));
+
+    /// <summary>The signed volume that a unit cube takes: <c>Dot(V1, Cross(V2, V3))</c>.</summary>
+    public double Determinant() => Vector.Dot(V1, Vector.Cross(V2, V3));
+
+    /// <summary>The matrix that undoes this one.</summary>
+    /// <exception cref="SingularMatrixException">The determinant is zero, or so small that its inverse is not finite.</exception>
+    /// <remarks>The relative error grows with the condition number: about 1e-16 times its square root to its first power.</remarks>
+    public Matrix Inverse() => MaximumEntry() switch
+    {
+        // Scaling the entries to about 1 first keeps products of three of them from under- or overflowing.
+        > 0 and < double.PositiveInfinity and var largest => (this / largest).ScaledInverse(this) / largest,
+        _ => throw new SingularMatrixException(this),
+    };
+
+    /// <summary>
+    /// The cofactor matrix: it sends the normal <c>Cross(a, b)</c> of two edges to that of their images, for every
+    /// matrix, singular ones too.
+    /// </summary>
+    public Matrix Cofactors() => new(Vector.Cross(V2, V3), Vector.Cross(V3, V1), Vector.Cross(V1, V2));
+
+    /// <summary>The largest absolute entry.</summary>
+    public double MaximumEntry() =>
+        Math.Max(V1.MaximumComponent(), Math.Max(V2.MaximumComponent(), V3.MaximumComponent()));
+
+    /// <summary>Every entry replaced by its absolute value.</summary>
+    public Matrix Absolute() => new(V1.Absolute(), V2.Absolute(), V3.Absolute());
+
+    /// <summary>
+    /// The nearest-in-order orthonormal axes: forward kept, right made perpendicular to it, up rebuilt from the two.
+    /// Undoes the drift of an orientation that is turned many times.
+    /// </summary>
+    /// <exception cref="InvalidOperationException">Forward is zero, or right is parallel to it.</exception>
+    public Matrix Orthonormalized() => V3.UnitVector() switch
+    {
+        var forward => (V1 - (Vector.Dot(V1, forward) * forward)).UnitVector() switch
+        {
+            var right => new(right, Vector.Cross(forward, right), forward),
+        },
+    };
+
+    /// <summary>
+    /// The angles (pitch, yaw, roll) in radians whose <see cref="Vector.LocalAxes"/> is this rotation. Where the yaw
+    /// is ±90° only the sum of pitch and roll is determined (gimbal lock): the roll is 0 then.
+    /// </summary>
+    /// <remarks>
+    /// Read off Pitch·Yaw·Roll, by rows:
+    /// [cy·cr, cy·sr, −sy; …, …, sp·cy; …, …, cp·cy].
+    /// </remarks>
+    public Vector EulerAngles() => Math.Sqrt((V1.X * V1.X) + (V2.X * V2.X)) switch
+    {
+        > 1e-12 and var cosineOfYaw => new(
+            Math.Atan2(V3.Y, V3.Z), Math.Atan2(-V3.X, cosineOfYaw), Math.Atan2(V2.X, V1.X)),
+        var cosineOfYaw => new(Math.Atan2(-V2.Z, V2.Y), Math.Atan2(-V3.X, cosineOfYaw), 0),
+    };
+
+    /// <summary>True when no entry is NaN or infinite.</summary>
+    public bool IsFinite() => V1.IsFinite() && V2.IsFinite() && V3.IsFinite();
+
+    /// <summary>The three columns, invariant culture.</summary>
+    public override string ToString() => string.Create(CultureInfo.InvariantCulture, $"[{V1} {V2} {V3}]");
+
+    internal static Matrix Pitch(SineCosine angle) => angle switch
+    {
+        var (s, c) => FromRows(new(1, 0, 0), new(0, c, s), new(0, -s, c)),
+    };
+
+    internal static Matrix Yaw(SineCosine angle) => angle switch
+    {
+        var (s, c) => FromRows(new(c, 0, -s), new(0, 1, 0), new(s, 0, c)),
+    };
+
+    internal static Matrix Roll(SineCosine angle) => angle switch
+    {
+        var (s, c) => FromRows(new(c, s, 0), new(-s, c, 0), new(0, 0, 1)),
+    };
+
+    private Matrix ScaledInverse(Matrix unscaled) => Determinant() switch
+    {
+        0.0 => throw new SingularMatrixException(unscaled),
+        var determinant => (Cofactors().Transpose() / determinant) switch
+        {
+            var inverse when inverse.IsFinite() => inverse,
+            _ => throw new SingularMatrixException(unscaled),
+        },
+    };
+}

@@ -1,0 +1,32 @@
+namespace FractalEngine.Core.Maths;
+
+/// <summary>A matrix without an inverse was to be inverted: its determinant is zero or out of the range of a double.</summary>
+public sealed class SingularMatrixException : ArithmeticException
+{
+    /// <summary>For the given matrix.</summary>
+    public SingularMatrixException(Matrix matrix)
+        : base($"the matrix {matrix} has no inverse: its determinant is {Text(matrix)}") => Matrix = matrix;
+
+    /// <summary>With a message of one's own.</summary>
+    public SingularMatrixException(string message)
+        : base(message)
+    {
+    }
+
+    /// <summary>With a message and a cause.</summary>
+    public SingularMatrixException(string message, Exception innerException)
+        : base(message, innerException)
+    {
+    }
+
+    /// <summary>Without details.</summary>
+    public SingularMatrixException()
+    {
+    }
+
+    /// <summary>The matrix that has no inverse.</summary>
+    public Matrix Matrix { get; }
+
+    private static string Text(Matrix matrix) =>
+        matrix.Determinant().ToString("R", System.Globalization.CultureInfo.InvariantCulture);
+}

@@ -1,0 +1,40 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Scenes;
+
+/// <summary>Cameras that show a whole box.</summary>
+public static class CameraFraming
+{
+    private const double Margin = 1.1;
+
+    /// <summary>Where a scene without a camera is seen from: from the right, above and before it.</summary>
+    public static Vector DefaultRotation => LookRotation(new(-0.55, -0.42, 1));
+
+    /// <summary>The angles (radians) that turn the forward axis to a direction, without roll.</summary>
+    /// <param name="direction">Of any length but 0; straight up and down are allowed.</param>
+    public static Vector LookRotation(Vector direction)
+    {
+        var forward = direction.UnitVector();
+        var level = Vector.Cross(Vector.J, forward);
+        // Looking straight up or down, any direction may be right: the x axis is taken.
+        var right = level.Length() > 1e-12 ? level.UnitVector() : Vector.I;
+        return new Matrix(right, Vector.Cross(forward, right), forward).EulerAngles();
+    }
+
+    /// <summary>The same camera moved along its forward axis so that it sees the whole box.</summary>
+    /// <param name="camera">Its rotation and angle of view are kept.</param>
+    /// <param name="box">World space.</param>
+    /// <param name="aspect">Width divided by height of the picture.</param>
+    public static Camera Frame(Camera camera, BoundingBox box, double aspect)
+    {
+        var radius = Math.Max(0.5 * box.Diagonal, 1e-9 * (1 + box.Centre.MaximumComponent()));
+        var half = Math.Atan(camera.HalfHeightAtUnitDepth * Math.Min(1, aspect));
+        var distance = Margin * radius / Math.Sin(half);
+        return camera with { Position = box.Centre - (distance * camera.LocalAxes.V3) };
+    }
+
+    /// <summary>The camera of a scene that names none.</summary>
+    public static Camera Default(BoundingBox box, double aspect) =>
+        Frame(Camera.Default with { Rotation = DefaultRotation }, box, aspect);
+}
