@@ -9,6 +9,12 @@ public static class FractalLimits
     /// <summary>The most sets that a chain may pass through, repetitions of repetitions multiplied out.</summary>
     public const long Levels = 10_000_000;
 
+    /// <summary>The most sets and repetitions, one after the other, that an object may be made of.</summary>
+    public const int Steps = 1_000;
+
+    /// <summary>The most repetitions inside each other.</summary>
+    public const int Nesting = 32;
+
     /// <summary>
     /// The most instances that are drawn, when nothing else is asked for: the paper's Menger sponge of 3.2 million
     /// fits; at 48 bytes each they take 192 MB on the GPU.

@@ -30,5 +30,8 @@ public sealed class TransformationSet : FractalStep
     public override BigInteger? InstanceCount => Transformations.Length;
 
     /// <inheritdoc/>
+    public override int Nesting => 0;
+
+    /// <inheritdoc/>
     public override TransformationSet LevelAt(long level) => this;
 }
