@@ -4,7 +4,7 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Fractals;
-using FractalEngine.Parsing.Obj;
+using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Scenes;
 using FractalEngine.Parsing.Text;
 

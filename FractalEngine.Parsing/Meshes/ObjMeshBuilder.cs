@@ -3,7 +3,7 @@ using System.Runtime.InteropServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Parsing.Obj;
+namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>Collects the elements of an OBJ file into the flat arrays of a mesh; polygons become triangles on the way in.</summary>
 internal sealed class ObjMeshBuilder

@@ -2,7 +2,7 @@ using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing.Text;
 
-namespace FractalEngine.Parsing.Obj;
+namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>What an OBJ file holds, and what was passed over in it.</summary>
 /// <param name="Mesh">Its geometry.</param>

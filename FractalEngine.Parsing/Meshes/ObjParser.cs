@@ -1,10 +1,9 @@
 using System.Collections.Immutable;
 using System.Runtime.InteropServices;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
 
-namespace FractalEngine.Parsing.Obj;
+namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>
 /// Reads Wavefront OBJ meshes (paper §4.1.1): vertices, texture coordinates, normals, polygons of any size, names,

@@ -1,4 +1,4 @@
-namespace FractalEngine.Parsing.Obj;
+namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>One corner of a polygon: numbers from 0 of its position, texture coordinate and normal.</summary>
 internal readonly record struct ObjCorner(int Position, int TextureCoordinate, int Normal)
