@@ -19,7 +19,7 @@ public static class MeshCountHeader
     {
         // Latin-1 maps bytes to characters and back one to one, whatever the file's encoding.
         var text = Encoding.Latin1.GetString(File.ReadAllBytes(path));
-        var updated = Update(text, faceCount);
+        var updated = WithHeader(text, faceCount);
         if (updated == text)
         {
             return false;
@@ -29,7 +29,7 @@ public static class MeshCountHeader
         return true;
     }
 
-    private static string Update(string text, int faceCount)
+    private static string WithHeader(string text, int faceCount)
     {
         const string byteOrderMark = "\u00EF\u00BB\u00BF";
         var header = string.Create(CultureInfo.InvariantCulture, $"{Prefix} {faceCount}");
