@@ -1,4 +1,5 @@
 using System.Buffers.Text;
+using System.Collections.Immutable;
 using System.Globalization;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
@@ -52,13 +53,13 @@ public sealed class ObjWriter
     private static string Name(PlacedModel placed) =>
         placed.Declaration.Name ?? Path.GetFileNameWithoutExtension(placed.Declaration.File);
 
-    private static IReadOnlyList<AffineMap> Instances(Model model, long faceLimit) => model switch
+    private static ImmutableArray<AffineMap> Instances(Model model, long faceLimit) => model switch
     {
         FractalModel { Fractal: var fractal } => FractalGenerator.Expand(fractal, faceLimit / Math.Max(1, fractal.BaseMesh.FaceCount)),
         _ => [AffineMap.Identity],
     };
 
-    private void WriteObject(AffineMap placement, Mesh mesh, IReadOnlyList<AffineMap> instances)
+    private void WriteObject(AffineMap placement, Mesh mesh, ImmutableArray<AffineMap> instances)
     {
         var textureStart = _textureCoordinates;
         for (var i = 0; i < mesh.TextureCoordinates.Length; i += 2)
