@@ -50,13 +50,13 @@ public sealed class Fractal
     public Fractal Within(long budget)
     {
         ArgumentOutOfRangeException.ThrowIfNegativeOrZero(budget);
-        if (FractalSteps.HasAtMost(Description.Steps, budget))
+        if (Fits(Description.Steps, budget))
         {
             return this;
         }
 
         var steps = Description.Steps;
-        for (var i = 0; i < steps.Length && !FractalSteps.HasAtMost(steps, budget); i++)
+        for (var i = 0; i < steps.Length && !Fits(steps, budget); i++)
         {
             if (steps[i] is Repetition repetition)
             {
@@ -64,13 +64,16 @@ public sealed class Fractal
             }
         }
 
-        while (!FractalSteps.HasAtMost(steps, budget))
+        while (!Fits(steps, budget))
         {
             steps = steps.RemoveAt(steps.Length - 1);
         }
 
         return new(Description with { Steps = steps }, BaseMesh);
     }
+
+    private static bool Fits(ImmutableArray<FractalStep> steps, long budget) =>
+        FractalSteps.LevelCount(steps) is not null && FractalSteps.HasAtMost(steps, budget);
 
     /// <summary>The largest number of rounds with which the whole still fits; 0 where none does.</summary>
     private static int DeepestCount(ImmutableArray<FractalStep> steps, int index, Repetition repetition, long budget)
