@@ -2,6 +2,7 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Passes;
 using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Ui;
 using FractalEngine.Render.Windowing;
 using OpenTK.Graphics.OpenGL4;
 
@@ -19,6 +20,7 @@ public sealed class FrameRenderer : IDisposable
 
     private readonly RenderContext _context;
     private readonly LinesPass _lines;
+    private readonly OverlayPass _overlay;
     private Framebuffer? _drawn;
     private Framebuffer? _resolved;
     private int _samples;
@@ -29,6 +31,7 @@ public sealed class FrameRenderer : IDisposable
         context.MakeCurrent();
         _context = context;
         _lines = new(context.Resources);
+        _overlay = new(context.Resources);
     }
 
     /// <summary>Draws a scene, or the background alone.</summary>
@@ -65,16 +68,18 @@ public sealed class FrameRenderer : IDisposable
 
     /// <summary>Shows what was drawn last in a window.</summary>
     /// <param name="window">Of this renderer's context.</param>
-    public void Present(RenderWindow window)
+    /// <param name="overlay">Panels over the picture. They can change while the scene need not be drawn again.</param>
+    public void Present(RenderWindow window, params IReadOnlyList<OverlayPanel> overlay)
     {
-        Resolve().CopyToWindow(window.Width, window.Height);
+        Resolve(overlay).CopyToWindow(window.Width, window.Height);
         window.SwapBuffers();
     }
 
     /// <summary>Reads what was drawn last.</summary>
-    public PixelImage Capture()
+    /// <param name="overlay">Panels over the picture; none for the scene alone.</param>
+    public PixelImage Capture(params IReadOnlyList<OverlayPanel> overlay)
     {
-        var picture = Resolve();
+        var picture = Resolve(overlay);
         var rows = new byte[4 * picture.Width * picture.Height];
         picture.Read(rows);
         return PixelImage.FromBottomUp(picture.Width, picture.Height, rows);
@@ -86,6 +91,7 @@ public sealed class FrameRenderer : IDisposable
         _drawn?.Dispose();
         _resolved?.Dispose();
         _lines.Dispose();
+        _overlay.Dispose();
     }
 
     /// <summary>Fills the picture. The sRGB values are written as they are, so that the background is exact.</summary>
@@ -135,7 +141,7 @@ public sealed class FrameRenderer : IDisposable
         return _drawn;
     }
 
-    private Framebuffer Resolve()
+    private Framebuffer Resolve(IReadOnlyList<OverlayPanel> overlay)
     {
         if (_drawn is null || _resolved is null)
         {
@@ -144,6 +150,8 @@ public sealed class FrameRenderer : IDisposable
 
         _context.MakeCurrent();
         _drawn.ResolveTo(_resolved);
+        _resolved.Bind();
+        _overlay.Draw(overlay, _resolved.Width, _resolved.Height);
         return _resolved;
     }
 }

@@ -27,7 +27,7 @@ public sealed class SceneRenderer : IDisposable
         (Scene, Context) = (scene, context);
         _maps = [.. scene.Objects.Select(item => item.Map)];
         _pass = new(context.Resources);
-        _lights = new(context.Resources, scene.Source.Scene.Lights);
+        _lights = new(context.Resources, scene.Source.Scene.Lights, scene.Source.Bounds);
         _blocks = [.. scene.Objects.Select(item => new ObjectBlock(context.Resources, item.Name))];
         try
         {

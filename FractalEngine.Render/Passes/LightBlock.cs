@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using System.Runtime.InteropServices;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Gl;
@@ -23,21 +24,33 @@ internal sealed class LightBlock : IDisposable
     private Vector? _lastCamera;
 
     /// <summary>For the lights of a scene, or the default ones where it has none.</summary>
-    public LightBlock(GlResources resources, ImmutableArray<Light> lights)
+    /// <param name="resources">Of the current context.</param>
+    /// <param name="lights">As the scene declares them.</param>
+    /// <param name="bounds">Of the scene: the default lights stand around it.</param>
+    public LightBlock(GlResources resources, ImmutableArray<Light> lights, BoundingBox bounds)
     {
         _isDefault = lights.IsEmpty;
-        _lights = [.. (_isDefault ? DefaultLights : lights).Where(light => light is not AmbientLight).Take(MaximumLights)];
+        _lights = [.. (_isDefault ? DefaultLights(bounds) : lights).Where(light => light is not AmbientLight).Take(MaximumLights)];
         _buffer = new(resources, "lights", BufferTarget.UniformBuffer);
         WriteAmbient(lights);
         MemoryMarshal.Cast<float, int>(_data.AsSpan(8))[0] = _lights.Length;
     }
 
-    /// <summary>A warm key light from the upper left and a weak cool one from the right, so that the three sides of a cube differ.</summary>
-    public static ImmutableArray<Light> DefaultLights { get; } =
-    [
-        new DirectionalLight(new(0.38, -0.84, 0.56), new(1, 0.975, 0.93), 0.92),
-        new DirectionalLight(new(-0.85, -0.2, 0.35), new(0.72, 0.84, 1), 0.24),
-    ];
+    /// <summary>
+    /// A warm key light from the upper left and a weak cool one from the right, so that the three sides of a cube differ. The key light
+    /// stands near enough for its falling off to show: a large even face then does not look like paper.
+    /// </summary>
+    public static ImmutableArray<Light> DefaultLights(BoundingBox bounds)
+    {
+        var key = new Vector(-0.42, 0.80, -0.62).UnitVector();
+        var distance = 1.8 * (bounds.Diagonal is > 0 and < double.PositiveInfinity and var diagonal ? diagonal : 1);
+        // At a tenth of the range, where the scene's middle is, it has its full intensity.
+        return
+        [
+            new PointLight(bounds.Centre + (distance * key), new(1, 0.975, 0.93), 0.80, 10 * distance),
+            new DirectionalLight(new(-0.85, -0.2, 0.35), new(0.86, 0.89, 1), 0.24),
+        ];
+    }
 
     /// <summary>Binds the block; uploads it only at first and, where a light has a place, when the camera has moved.</summary>
     /// <param name="bindingPoint">As the program connects it.</param>
@@ -103,7 +116,7 @@ internal sealed class LightBlock : IDisposable
             sum += light.Intensity * new Vector(red, green, blue);
         }
 
-        Write(_isDefault ? new(0.25, 0.29, 0.36) : sum, 0, _data);
-        Write(_isDefault ? new(0.11, 0.10, 0.10) : sum, 0, _data.AsSpan(4));
+        Write(_isDefault ? new(0.23, 0.245, 0.28) : sum, 0, _data);
+        Write(_isDefault ? new(0.11, 0.10, 0.095) : sum, 0, _data.AsSpan(4));
     }
 }
