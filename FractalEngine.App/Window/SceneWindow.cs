@@ -27,7 +27,7 @@ internal sealed class SceneWindow : IDisposable
     private readonly Projection? _projection;
     private readonly RenderWindow _window;
     private readonly FrameRenderer _frame;
-    private readonly WindowOverlay _overlay;
+    private readonly WindowOverlay _overlay = new();
     private readonly Stopwatch _clock = Stopwatch.StartNew();
     private RenderSettings _settings;
     private BackgroundLoad _load;
@@ -43,7 +43,6 @@ internal sealed class SceneWindow : IDisposable
         (_options, _projection, _settings) = (options, projection, settings);
         _window = new("FractalEngine", size.Width, size.Height);
         _frame = new(_window);
-        _overlay = new(_window);
         _load = StartLoading(path);
     }
 
@@ -63,7 +62,6 @@ internal sealed class SceneWindow : IDisposable
     public void Dispose()
     {
         _document?.Renderer.Dispose();
-        _overlay.Dispose();
         _frame.Dispose();
         _window.Dispose();
     }
@@ -235,8 +233,7 @@ internal sealed class SceneWindow : IDisposable
             _frame.Draw(null, new(Camera.Default, Projection.Perspective), _window.Width, _window.Height, _settings);
         }
 
-        _overlay.Draw(_frame);
-        _frame.Present(_window);
+        _frame.Present(_window, _overlay.Panels);
     }
 
     private void DrawScene(Document document)
