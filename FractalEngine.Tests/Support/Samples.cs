@@ -1,3 +1,4 @@
+using System.Text;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -59,6 +60,9 @@ internal static class Samples
     public static Mesh Triangle { get; } = new([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 2]);
 
     public static FractalFile ParseFractal(string text) => FractalParser.Parse(new("test.fdo", text));
+
+    /// <summary>As from a file: a byte order mark is none of its characters.</summary>
+    public static FractalFile ParseFractalBytes(string text) => FractalParser.Parse(SourceText.Decode(Encoding.UTF8.GetBytes(text), "test.fdo"));
 
     public static ObjFile ParseObj(string text) => ObjParser.Parse(new SourceText("test.obj", text));
 
