@@ -24,4 +24,7 @@ public abstract class FractalStep
     /// <summary>The set at one level of this step.</summary>
     /// <param name="level">From 0, the outermost; less than <see cref="LevelCount"/>.</param>
     public abstract TransformationSet LevelAt(long level);
+
+    /// <summary>The number of chains, or, if they are more, some number above the limit.</summary>
+    internal abstract BigInteger CountUpTo(long limit);
 }

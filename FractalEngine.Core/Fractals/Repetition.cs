@@ -56,4 +56,22 @@ public sealed class Repetition : FractalStep
 
     /// <summary>The same steps, repeated another number of times.</summary>
     public Repetition WithCount(int? count) => new(Body, count);
+
+    /// <inheritdoc/>
+    internal override BigInteger CountUpTo(long limit)
+    {
+        var perRound = FractalSteps.CountUpTo(Body, limit);
+        if (perRound <= 1)
+        {
+            return Count == 0 ? BigInteger.One : perRound;
+        }
+
+        var product = BigInteger.One;
+        for (var round = 0; product <= limit && !(round >= Count); round++)
+        {
+            product *= perRound;
+        }
+
+        return product;
+    }
 }

@@ -34,4 +34,7 @@ public sealed class TransformationSet : FractalStep
 
     /// <inheritdoc/>
     public override TransformationSet LevelAt(long level) => this;
+
+    /// <inheritdoc/>
+    internal override BigInteger CountUpTo(long limit) => Transformations.Length;
 }
