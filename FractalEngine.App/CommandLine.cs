@@ -1,8 +1,9 @@
 using System.CommandLine;
-using System.CommandLine.Parsing;
 using FractalEngine.App.Commands;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Render.Gl;
+using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.App;
 
@@ -33,7 +34,7 @@ internal static class CommandLine
         var root = new RootCommand("FractalEngine draws fractals of any size, and regular models beside them.");
         foreach (var command in (Command[])[
             ViewCommand.Create(), RenderCommand.Create(), InfoCommand.Create(), CountCommand.Create(), ExportCommand.Create(),
-            CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create()])
+            CheckCommand.Create(), SaveCommand.Create()])
         {
             root.Add(command);
         }
@@ -54,6 +55,10 @@ internal static class CommandLine
             return exception.Diagnostic.IsLimit ? ExitCode.OverLimit : ExitCode.BadInput;
         }
         catch (FractalLimitException exception)
+        {
+            return Fail(ExitCode.OverLimit, exception.Message);
+        }
+        catch (GlException exception)
         {
             return Fail(ExitCode.OverLimit, exception.Message);
         }

@@ -9,7 +9,9 @@ public static class AtomicFile
     /// <exception cref="IOException">The folder does not exist, or can't be written to.</exception>
     public static void Write(string path, Action<Stream> write)
     {
-        var target = File.ResolveLinkTarget(path, returnFinalTarget: true)?.FullName ?? Path.GetFullPath(path);
+        var target = new FileInfo(path) is { LinkTarget: not null } link
+            ? link.ResolveLinkTarget(returnFinalTarget: true)!.FullName
+            : Path.GetFullPath(path);
         if (Directory.Exists(target))
         {
             throw new IOException($"{path} is a directory");

@@ -1,0 +1,51 @@
+using OpenTK.Graphics.OpenGL4;
+
+namespace FractalEngine.Render.Gl;
+
+/// <summary>A buffer object.</summary>
+internal sealed class GlBuffer : GlObject
+{
+    private readonly BufferTarget _target;
+    private readonly int _name;
+    private nint _size;
+
+    /// <summary>An empty buffer.</summary>
+    public GlBuffer(GlResources resources, string label, BufferTarget target)
+        : base(resources, label) => (_target, _name) = (target, GL.GenBuffer());
+
+    /// <summary>Binds the buffer to its target.</summary>
+    public void Bind() => GL.BindBuffer(_target, _name);
+
+    /// <summary>Binds a uniform buffer to a binding point.</summary>
+    public void BindTo(int bindingPoint) => GL.BindBufferBase(BufferRangeTarget.UniformBuffer, bindingPoint, _name);
+
+    /// <summary>Replaces the contents; storage is allocated only when the size changes.</summary>
+    /// <param name="data">Plain data.</param>
+    /// <param name="usage">How often it changes.</param>
+    /// <exception cref="GlException">The memory does not suffice.</exception>
+    public void Upload<T>(ReadOnlySpan<T> data, BufferUsageHint usage)
+        where T : unmanaged
+    {
+        Bind();
+        unsafe
+        {
+            var size = checked((nint)data.Length * sizeof(T));
+            fixed (T* start = data)
+            {
+                if (size != _size)
+                {
+                    GL.BufferData(_target, size, (nint)start, usage);
+                    _size = size;
+                    Resources.ThrowOnError($"{this} of {size} bytes");
+                }
+                else if (size > 0)
+                {
+                    GL.BufferSubData(_target, IntPtr.Zero, size, (nint)start);
+                }
+            }
+        }
+    }
+
+    /// <inheritdoc/>
+    protected override void Delete() => GL.DeleteBuffer(_name);
+}

@@ -1,0 +1,122 @@
+using System.Collections.Immutable;
+using System.Runtime.InteropServices;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Gl;
+using OpenTK.Graphics.OpenGL4;
+
+namespace FractalEngine.Render.Passes;
+
+/// <summary>The lights of a scene in a uniform buffer, laid out as <c>LightBlock</c> in mesh.vert (std140).</summary>
+internal sealed class LightBlock : IDisposable
+{
+    /// <summary>The most lights with a direction or a place; ambient ones are added up and don't count.</summary>
+    public const int MaximumLights = 16;
+
+    private const int HeaderFloats = 12;
+    private const int LightFloats = 16;
+
+    private readonly ImmutableArray<Light> _lights;
+    private readonly bool _isDefault;
+    private readonly GlBuffer _buffer;
+    private readonly float[] _data = new float[HeaderFloats + (MaximumLights * LightFloats)];
+    private Vector? _lastCamera;
+
+    /// <summary>For the lights of a scene, or the default ones where it has none.</summary>
+    /// <param name="resources">Of the current context.</param>
+    /// <param name="lights">As the scene declares them.</param>
+    /// <param name="bounds">Of the scene: the default lights stand around it.</param>
+    public LightBlock(GlResources resources, ImmutableArray<Light> lights, BoundingBox bounds)
+    {
+        _isDefault = lights.IsEmpty;
+        _lights = [.. (_isDefault ? DefaultLights(bounds) : lights).Where(light => light is not AmbientLight).Take(MaximumLights)];
+        _buffer = new(resources, "lights", BufferTarget.UniformBuffer);
+        WriteAmbient(lights);
+        MemoryMarshal.Cast<float, int>(_data.AsSpan(8))[0] = _lights.Length;
+    }
+
+    /// <summary>
+    /// A warm key light from the upper left and a weak cool one from the right, so that the three sides of a cube differ. The key light
+    /// stands near enough for its falling off to show: a large even face then does not look like paper.
+    /// </summary>
+    public static ImmutableArray<Light> DefaultLights(BoundingBox bounds)
+    {
+        var key = new Vector(-0.42, 0.80, -0.62).UnitVector();
+        var distance = 1.8 * (bounds.Diagonal is > 0 and < double.PositiveInfinity and var diagonal ? diagonal : 1);
+        // At a tenth of the range, where the scene's middle is, it has its full intensity.
+        return
+        [
+            new PointLight(bounds.Centre + (distance * key), new(1, 0.975, 0.93), 0.80, 10 * distance),
+            new DirectionalLight(new(-0.85, -0.2, 0.35), new(0.86, 0.89, 1), 0.24),
+        ];
+    }
+
+    /// <summary>Binds the block; uploads it only at first and, where a light has a place, when the camera has moved.</summary>
+    /// <param name="bindingPoint">As the program connects it.</param>
+    /// <param name="camera">World space: places are written relative to it.</param>
+    public void Bind(int bindingPoint, Vector camera)
+    {
+        if (_lastCamera is null || (_lastCamera != camera && _lights.Any(static light => light is PointLight)))
+        {
+            for (var i = 0; i < _lights.Length; i++)
+            {
+                Write(_lights[i], camera, _data.AsSpan(HeaderFloats + (i * LightFloats), LightFloats));
+            }
+
+            _buffer.Upload<float>(_data, BufferUsageHint.DynamicDraw);
+            _lastCamera = camera;
+        }
+
+        _buffer.BindTo(bindingPoint);
+    }
+
+    /// <inheritdoc/>
+    public void Dispose() => _buffer.Dispose();
+
+    private static void Write(Light light, Vector camera, Span<float> target)
+    {
+        var (red, green, blue) = light.Colour.ToLinear();
+        Write(light.Intensity * new Vector(red, green, blue), KindOf(light), target);
+        if (light is PointLight point)
+        {
+            Write(point.Position - camera, point.Range, target[4..]);
+        }
+        else if (light is DirectionalLight directional)
+        {
+            Write(-directional.Direction.UnitVector(), 0, target[4..]);
+        }
+
+        if (light is SpotLight spot)
+        {
+            var half = 0.5 * spot.Angle * Math.PI / 180;
+            Write(spot.Direction.UnitVector(), Math.Cos(0.9 * half), target[8..]);
+            target[12] = (float)Math.Cos(half);
+        }
+    }
+
+    private static double KindOf(Light light) => light switch
+    {
+        DirectionalLight => 0,
+        SpotLight => 2,
+        PointLight => 1,
+        _ => throw new ArgumentException($"a light of an unknown kind: {light}", nameof(light)),
+    };
+
+    private static void Write(Vector v, double fourth, Span<float> target) =>
+        (target[0], target[1], target[2], target[3]) = ((float)v.X, (float)v.Y, (float)v.Z, (float)fourth);
+
+    private void WriteAmbient(ImmutableArray<Light> lights)
+    {
+        // Declared ambient light is the same from everywhere; the default one is that of a sky over dry ground.
+        var sum = Vector.Zero;
+        foreach (var light in lights.OfType<AmbientLight>())
+        {
+            var (red, green, blue) = light.Colour.ToLinear();
+            sum += light.Intensity * new Vector(red, green, blue);
+        }
+
+        Write(_isDefault ? new(0.23, 0.245, 0.28) : sum, 0, _data);
+        Write(_isDefault ? new(0.11, 0.10, 0.095) : sum, 0, _data.AsSpan(4));
+    }
+}

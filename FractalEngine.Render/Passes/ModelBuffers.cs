@@ -1,0 +1,76 @@
+using FractalEngine.Render.Gl;
+using FractalEngine.Render.Preparation;
+using OpenTK.Graphics.OpenGL4;
+
+namespace FractalEngine.Render.Passes;
+
+/// <summary>A model on the GPU: one vertex array with its vertices, indices and instances (paper §4.3.1). Uploaded once.</summary>
+internal sealed class ModelBuffers : IDisposable
+{
+    private const int Position = 0;
+    private const int Normal = 1;
+    private const int InstanceRows = 2;
+
+    private readonly GlBuffer _vertices;
+    private readonly GlBuffer _indices;
+    private readonly GlBuffer _instances;
+    private readonly VertexArray _array;
+    private readonly int _indexCount;
+    private readonly int _instanceCount;
+
+    /// <summary>Uploads a model.</summary>
+    /// <exception cref="GlException">The memory does not suffice.</exception>
+    public ModelBuffers(GlResources resources, DrawableModel model)
+    {
+        (_indexCount, _instanceCount) = (model.Indices.Length, model.InstanceCount);
+        _array = new(resources, model.Name);
+        _vertices = new(resources, $"vertices of {model.Name}", BufferTarget.ArrayBuffer);
+        _indices = new(resources, $"indices of {model.Name}", BufferTarget.ElementArrayBuffer);
+        _instances = new(resources, $"instances of {model.Name}", BufferTarget.ArrayBuffer);
+        try
+        {
+            Upload(model);
+        }
+        catch
+        {
+            Dispose();
+            throw;
+        }
+    }
+
+    /// <summary>Draws all instances in one call.</summary>
+    public void Draw()
+    {
+        if (_instanceCount > 0 && _indexCount > 0)
+        {
+            _array.Bind();
+            GL.DrawElementsInstanced(
+                PrimitiveType.Triangles, _indexCount, DrawElementsType.UnsignedInt, IntPtr.Zero, _instanceCount);
+        }
+    }
+
+    /// <inheritdoc/>
+    public void Dispose()
+    {
+        _array.Dispose();
+        _vertices.Dispose();
+        _indices.Dispose();
+        _instances.Dispose();
+    }
+
+    private void Upload(DrawableModel model)
+    {
+        _array.Bind();
+        _vertices.Upload(model.Vertices.Span, BufferUsageHint.StaticDraw);
+        _indices.Upload(model.Indices.Span, BufferUsageHint.StaticDraw);
+        _instances.Upload(model.Instances.Span, BufferUsageHint.StaticDraw);
+        _array.Attribute(_vertices, Position, 3, DrawableModel.VertexFloats, 0);
+        _array.Attribute(_vertices, Normal, 3, DrawableModel.VertexFloats, 3);
+        for (var row = 0; row < 3; row++)
+        {
+            _array.Attribute(_instances, InstanceRows + row, 4, DrawableModel.InstanceFloats, 4 * row, divisor: 1);
+        }
+
+        VertexArray.Unbind();
+    }
+}

@@ -1,0 +1,44 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Render.Preparation;
+
+/// <summary>A model as the GPU takes it: plain arrays, no GL. Shared by all objects that show the model.</summary>
+public sealed class DrawableModel
+{
+    /// <summary>Floats of one vertex: position, then normal.</summary>
+    public const int VertexFloats = 6;
+
+    /// <summary>Floats of one instance: the three rows of a 3×4 map.</summary>
+    public const int InstanceFloats = 12;
+
+    internal DrawableModel(string name, Vector origin, BoundingBox bounds, float[] vertices, uint[] indices, float[] instances) =>
+        (Name, Origin, Bounds, Vertices, Indices, Instances) = (name, origin, bounds, vertices, indices, instances);
+
+    /// <summary>The file's name, for labels.</summary>
+    public string Name { get; }
+
+    /// <summary>
+    /// The point of the model's frame that the floats are relative to: the model's middle, so that they keep their precision for
+    /// models far from their own origin.
+    /// </summary>
+    public Vector Origin { get; }
+
+    /// <summary>Of the model, in its own frame.</summary>
+    public BoundingBox Bounds { get; }
+
+    /// <summary>Position and unit normal, [vertices × 6].</summary>
+    public ReadOnlyMemory<float> Vertices { get; }
+
+    /// <summary>Vertex numbers, [triangles × 3].</summary>
+    public ReadOnlyMemory<uint> Indices { get; }
+
+    /// <summary>Maps from the mesh to the model, by rows, [<see cref="InstanceCount"/> × 12].</summary>
+    public ReadOnlyMemory<float> Instances { get; }
+
+    /// <summary>How many copies of the mesh one draw call makes.</summary>
+    public int InstanceCount => Instances.Length / InstanceFloats;
+
+    /// <summary>Triangles of all instances together.</summary>
+    public long TriangleCount => (long)InstanceCount * (Indices.Length / 3);
+}

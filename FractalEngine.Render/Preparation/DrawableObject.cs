@@ -1,0 +1,11 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Render.Preparation;
+
+/// <summary>An object of a scene as it is drawn.</summary>
+/// <param name="Name">For labels.</param>
+/// <param name="Model">Shared with the other objects of the same file.</param>
+/// <param name="Map">From the model's frame to world space (the paper's m), where the object stands at first.</param>
+/// <param name="Colour">sRGB.</param>
+public sealed record DrawableObject(string Name, DrawableModel Model, AffineMap Map, Colour Colour);

@@ -1,0 +1,116 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+
+namespace FractalEngine.Render.Preparation;
+
+/// <summary>
+/// A scene prepared for the GPU: vertices, indices and instances as plain arrays. Made without any GL, so that it can be made on another
+/// thread while a window stays responsive.
+/// </summary>
+public sealed class DrawableScene
+{
+    private DrawableScene(
+        LoadedScene source, ImmutableArray<DrawableModel> models, ImmutableArray<DrawableObject> objects, ImmutableArray<string> notices) =>
+        (Source, Models, Objects, Notices) = (source, models, objects, notices);
+
+    /// <summary>What it was made from.</summary>
+    public LoadedScene Source { get; }
+
+    /// <summary>Each model once, in the order of first use.</summary>
+    public ImmutableArray<DrawableModel> Models { get; }
+
+    /// <summary>In the order of the scene's objects.</summary>
+    public ImmutableArray<DrawableObject> Objects { get; }
+
+    /// <summary>Sentences for the user about what is not drawn in full.</summary>
+    public ImmutableArray<string> Notices { get; }
+
+    /// <summary>The instances that one frame draws.</summary>
+    public long InstanceCount => Objects.Sum(item => (long)item.Model.InstanceCount);
+
+    /// <summary>The triangles that one frame draws.</summary>
+    public long TriangleCount => Objects.Sum(item => item.Model.TriangleCount);
+
+    /// <summary>Prepares a scene.</summary>
+    /// <param name="scene">With its files loaded.</param>
+    /// <param name="settings">Budgets and crease angle.</param>
+    /// <param name="progress">Told of each model before and after it is prepared, on this thread.</param>
+    /// <param name="cancellation">Looked at between models.</param>
+    /// <exception cref="OperationCanceledException">Preparation was cancelled.</exception>
+    /// <remarks>Time and memory grow with the instances drawn: about 0.2 s and 150 MB a million.</remarks>
+    public static DrawableScene Prepare(
+        LoadedScene scene,
+        RenderSettings settings,
+        IProgress<PreparationProgress>? progress = null,
+        CancellationToken cancellation = default)
+    {
+        var models = new Dictionary<Model, DrawableModel>(ReferenceEqualityComparer.Instance);
+        var notices = ImmutableArray.CreateBuilder<string>();
+        var sources = scene.Models.ToArray();
+        foreach (var model in sources)
+        {
+            cancellation.ThrowIfCancellationRequested();
+            var name = Path.GetFileName(model.Path);
+            progress?.Report(new(name, (double)models.Count / sources.Length));
+            models.Add(model, PrepareModel(name, model, settings, notices));
+            progress?.Report(new(name, (double)models.Count / sources.Length));
+        }
+
+        return new(
+            scene,
+            [.. sources.Select(model => models[model])],
+            [.. scene.Objects.Select((placed, index) => new DrawableObject(
+                placed.Declaration.Name ?? models[placed.Model].Name,
+                models[placed.Model],
+                placed.Map,
+                placed.Declaration.Colour ?? ObjectPalette.ColourOf(index)))],
+            notices.ToImmutable());
+    }
+
+    private static DrawableModel PrepareModel(
+        string name, Model model, RenderSettings settings, ImmutableArray<string>.Builder notices)
+    {
+        var mesh = model.Mesh;
+        var maps = ImmutableArray.Create(AffineMap.Identity);
+        if (model is FractalModel { Fractal: var fractal })
+        {
+            (maps, var notice) = FractalInstances.Of(name, fractal, settings);
+            if (notice is not null)
+            {
+                notices.Add(notice);
+            }
+        }
+
+        if (mesh.FaceCount == 0)
+        {
+            return new(name, Vector.Zero, BoundingBox.Empty, [], [], []);
+        }
+
+        var (origin, meshOrigin) = (MiddleOf(model.Bounds), MiddleOf(mesh.Bounds));
+        var (vertices, indices) = DrawableMeshBuilder.Build(mesh, meshOrigin, settings.CreaseAngle);
+        return new(name, origin, model.Bounds, vertices, indices, Rows(maps, meshOrigin, origin));
+    }
+
+    /// <summary>The origin where there is no middle: an unbounded fractal has none.</summary>
+    private static Vector MiddleOf(BoundingBox box) => box.Centre is var centre && centre.IsFinite() ? centre : Vector.Zero;
+
+    /// <summary>The maps between the shifted frames, by rows. Shifted in double precision, before anything is rounded.</summary>
+    private static float[] Rows(ImmutableArray<AffineMap> maps, Vector meshOrigin, Vector origin)
+    {
+        var rows = new float[maps.Length * DrawableModel.InstanceFloats];
+        var next = rows.AsSpan();
+        foreach (ref readonly var map in maps.AsSpan())
+        {
+            var (v1, v2, v3) = map.Linear;
+            var t = (map * meshOrigin) - origin;
+            (next[0], next[1], next[2], next[3]) = ((float)v1.X, (float)v2.X, (float)v3.X, (float)t.X);
+            (next[4], next[5], next[6], next[7]) = ((float)v1.Y, (float)v2.Y, (float)v3.Y, (float)t.Y);
+            (next[8], next[9], next[10], next[11]) = ((float)v1.Z, (float)v2.Z, (float)v3.Z, (float)t.Z);
+            next = next[DrawableModel.InstanceFloats..];
+        }
+
+        return rows;
+    }
+}

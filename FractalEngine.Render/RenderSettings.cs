@@ -1,0 +1,35 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+
+namespace FractalEngine.Render;
+
+/// <summary>How a scene is prepared and drawn, apart from what the scene itself says.</summary>
+public sealed record RenderSettings
+{
+    /// <summary>The most instances of one fractal that are drawn; deeper fractals are drawn at a smaller depth, with a notice.</summary>
+    public int InstanceBudget { get; init; } = FractalLimits.DrawnInstances;
+
+    /// <summary>The most triangles of one fractal that are drawn: limits instances of large meshes further.</summary>
+    public long TriangleBudget { get; init; } = 200_000_000;
+
+    /// <summary>Where faces meet at a larger angle, generated normals make an edge. Degrees.</summary>
+    public double CreaseAngle { get; init; } = NormalGenerator.DefaultCreaseAngle;
+
+    /// <summary>Samples a pixel; 0 switches multisampling off. More than the driver has means as many as it has.</summary>
+    public int Samples { get; init; } = 4;
+
+    /// <summary>Draws the edges of the triangles only.</summary>
+    public bool Wireframe { get; init; }
+
+    /// <summary>Draws a grid on the plane y = 0.</summary>
+    public bool Grid { get; init; }
+
+    /// <summary>Draws the x axis red, the y axis green and the z axis blue.</summary>
+    public bool Axes { get; init; }
+
+    /// <summary>Behind everything, where the scene does not say.</summary>
+    public Colour Background { get; init; } = DefaultBackground;
+
+    /// <summary>A dark blue grey that lets both light and saturated surfaces stand out.</summary>
+    public static Colour DefaultBackground => new(0.118, 0.133, 0.161);
+}

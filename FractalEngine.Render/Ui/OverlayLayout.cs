@@ -1,0 +1,181 @@
+namespace FractalEngine.Render.Ui;
+
+/// <summary>Turns panels into rectangles in whole pixels: font size, wrapping, columns, stacking.</summary>
+internal sealed class OverlayLayout
+{
+    // At 720 rows of pixels the text is 16 pixels high; it grows with the picture.
+    private const double RowsOfText = 45;
+    private const double ColumnsOfText = 78;
+
+    private static readonly (float, float, float, float) PanelColour = (0.055f, 0.065f, 0.085f, 0.74f);
+    private static readonly (float, float, float, float) TrackColour = (1, 1, 1, 0.14f);
+    private static readonly (float, float, float, float) BarColour = (0.42f, 0.71f, 0.93f, 1);
+
+    private readonly GlyphAtlas _atlas;
+    private readonly (int Width, int Height) _size;
+    private readonly Dictionary<OverlayAnchor, int> _stacked = [];
+
+    private OverlayLayout(GlyphAtlas atlas, int sheet, int width, int height) =>
+        (_atlas, SheetIndex, _size) = (atlas, sheet, (width, height));
+
+    /// <summary>The number of the sheet that the glyphs are taken from.</summary>
+    public int SheetIndex { get; }
+
+    /// <summary>In drawing order.</summary>
+    public List<OverlayQuad> Quads { get; } = [];
+
+    private GlyphSheet Sheet => _atlas.Sheets[SheetIndex];
+
+    private int Margin => Sheet.CellHeight / 2;
+
+    private int Padding => Sheet.CellWidth;
+
+    /// <summary>Lays panels out.</summary>
+    /// <param name="atlas">The font.</param>
+    /// <param name="panels">In the order in which they stack: away from their corner.</param>
+    /// <param name="width">Of the picture, pixels.</param>
+    /// <param name="height">Of the picture, pixels.</param>
+    public static OverlayLayout Of(GlyphAtlas atlas, IReadOnlyList<OverlayPanel> panels, int width, int height)
+    {
+        for (var sheet = PreferredSheet(atlas, width, height); ; sheet--)
+        {
+            var layout = new OverlayLayout(atlas, sheet, width, height);
+            var fits = true;
+            foreach (var panel in panels)
+            {
+                fits &= layout.Add(panel);
+            }
+
+            // What does not fit at the smallest size either is cut off by the picture's edge.
+            if (fits || sheet == 0)
+            {
+                return layout;
+            }
+        }
+    }
+
+    private static int PreferredSheet(GlyphAtlas atlas, int width, int height)
+    {
+        var lineHeight = 1.2 * Math.Min(height / RowsOfText, width / ColumnsOfText);
+        var best = 0;
+        for (var i = 1; i < atlas.Sheets.Count; i++)
+        {
+            if (Math.Abs(atlas.Sheets[i].CellHeight - lineHeight) < Math.Abs(atlas.Sheets[best].CellHeight - lineHeight))
+            {
+                best = i;
+            }
+        }
+
+        return best;
+    }
+
+    private static (float, float, float, float) ColourOf(OverlayTone tone) => tone switch
+    {
+        OverlayTone.Dim => (0.66f, 0.70f, 0.75f, 1),
+        OverlayTone.Accent => (0.98f, 0.84f, 0.58f, 1),
+        OverlayTone.Warning => (1.00f, 0.62f, 0.48f, 1),
+        _ => (0.93f, 0.94f, 0.96f, 1),
+    };
+
+    /// <returns>False when the panel is larger than the picture.</returns>
+    private bool Add(OverlayPanel panel)
+    {
+        var (cell, line) = (Sheet.CellWidth, Sheet.CellHeight);
+        var lines = Wrap(panel.Lines);
+        var firstColumn = lines.Where(item => item.Second is not null).Select(item => item.Text.Length + 2).DefaultIfEmpty(0).Max();
+        var columns = lines.Select(item => item.Second is null ? item.Text.Length : firstColumn + item.Second.Length)
+            .Append(panel.Title?.Length ?? 0).Append(panel.Progress is null ? 0 : 32).Max();
+        var width = (columns * cell) + (2 * Padding);
+        var titleHeight = panel.Title is null ? 0 : line + (line / 3);
+        var barHeight = panel.Progress is null ? 0 : line;
+        var height = titleHeight + (lines.Count * line) + barHeight + (2 * Padding * 3 / 4);
+
+        var (x, y) = Place(panel.Anchor, width, height);
+        Quads.Add(new(x, y, width, height, PanelColour, -1, 0.4f * line));
+        var (left, top) = (x + Padding, y + (Padding * 3 / 4));
+        if (panel.Title is not null)
+        {
+            Write(panel.Title, left, top, OverlayTone.Accent);
+            top += titleHeight;
+        }
+
+        foreach (var item in lines)
+        {
+            Write(item.Text, left, top, item.Second is null ? item.Tone : OverlayTone.Accent);
+            Write(item.Second ?? "", left + (firstColumn * cell), top, item.Tone);
+            top += line;
+        }
+
+        if (panel.Progress is { } progress)
+        {
+            AddBar(left, top + (line / 2), width - (2 * Padding), Math.Max(3, line / 4), progress);
+        }
+
+        return width + (2 * Margin) <= _size.Width && _stacked[panel.Anchor] <= _size.Height;
+    }
+
+    private void AddBar(int x, int y, int width, int height, double progress)
+    {
+        var filled = (int)Math.Round(width * (progress >= 0 ? Math.Min(progress, 1) : 0));
+        Quads.Add(new(x, y, width, height, TrackColour, -1, 0.5f * height));
+        if (filled > 0)
+        {
+            Quads.Add(new(x, y, Math.Max(filled, height), height, BarColour, -1, 0.5f * height));
+        }
+    }
+
+    /// <summary>The upper left corner of the next panel at an anchor.</summary>
+    private (int X, int Y) Place(OverlayAnchor anchor, int width, int height)
+    {
+        var before = _stacked.GetValueOrDefault(anchor, Margin);
+        _stacked[anchor] = before + height + (Margin / 2);
+        var x = anchor switch
+        {
+            OverlayAnchor.TopLeft or OverlayAnchor.BottomLeft => Margin,
+            OverlayAnchor.TopRight or OverlayAnchor.BottomRight => _size.Width - width - Margin,
+            _ => (_size.Width - width) / 2,
+        };
+        var y = anchor switch
+        {
+            OverlayAnchor.TopLeft or OverlayAnchor.TopRight => before,
+            OverlayAnchor.Centre => ((_size.Height - height) / 2) + before - Margin,
+            _ => _size.Height - height - before,
+        };
+        return (x, y);
+    }
+
+    /// <summary>Breaks lines of one column at blanks so that they fit the picture; a longer word is broken anywhere.</summary>
+    private List<OverlayLine> Wrap(IReadOnlyList<OverlayLine> lines)
+    {
+        var columns = Math.Max(8, (_size.Width - (2 * Margin) - (2 * Padding)) / Sheet.CellWidth);
+        var wrapped = new List<OverlayLine>();
+        foreach (var line in lines.SelectMany(line => line.Second is null
+            ? line.Text.Split('\n').Select(part => line with { Text = part })
+            : [line]))
+        {
+            var rest = line.Text;
+            while (line.Second is null && rest.Length > columns)
+            {
+                var end = rest.LastIndexOf(' ', columns) is > 0 and var blank ? blank : columns;
+                wrapped.Add(line with { Text = rest[..end] });
+                rest = rest[end..].TrimStart();
+            }
+
+            wrapped.Add(line with { Text = rest });
+        }
+
+        return wrapped;
+    }
+
+    private void Write(string text, int x, int y, OverlayTone tone)
+    {
+        for (var i = 0; i < text.Length; i++)
+        {
+            if (text[i] != ' ')
+            {
+                Quads.Add(new(
+                    x + (i * Sheet.CellWidth), y, Sheet.CellWidth, Sheet.CellHeight, ColourOf(tone), _atlas.GlyphOf(text[i]), 0));
+            }
+        }
+    }
+}
