@@ -27,7 +27,7 @@ public static class DistinctInstances
         if (fractal.Description.Composition == Composition.Affine)
         {
             return AreProvedDistinct(fractal) ? fractal.InstanceCount
-                : fractal.InstanceCount <= budget ? FractalGenerator.Expand(fractal, budget).Length
+                : FractalSteps.HasAtMost(fractal.Description.Steps, budget) ? FractalGenerator.Expand(fractal, budget).Length
                 : null;
         }
 

@@ -50,13 +50,13 @@ public sealed class Fractal
     public Fractal Within(long budget)
     {
         ArgumentOutOfRangeException.ThrowIfNegativeOrZero(budget);
-        if (InstanceCount <= budget)
+        if (Fits(Description.Steps, budget))
         {
             return this;
         }
 
         var steps = Description.Steps;
-        for (var i = 0; i < steps.Length && !(FractalSteps.InstanceCount(steps) <= budget); i++)
+        for (var i = 0; i < steps.Length && !Fits(steps, budget); i++)
         {
             if (steps[i] is Repetition repetition)
             {
@@ -64,7 +64,7 @@ public sealed class Fractal
             }
         }
 
-        while (!(FractalSteps.InstanceCount(steps) <= budget))
+        while (!Fits(steps, budget))
         {
             steps = steps.RemoveAt(steps.Length - 1);
         }
@@ -72,17 +72,20 @@ public sealed class Fractal
         return new(Description with { Steps = steps }, BaseMesh);
     }
 
+    private static bool Fits(ImmutableArray<FractalStep> steps, long budget) =>
+        FractalSteps.LevelCount(steps) is not null && FractalSteps.HasAtMost(steps, budget);
+
     /// <summary>The largest number of rounds with which the whole still fits; 0 where none does.</summary>
     private static int DeepestCount(ImmutableArray<FractalStep> steps, int index, Repetition repetition, long budget)
     {
-        if (FractalSteps.InstanceCount(steps.RemoveAt(index)) is not { IsZero: false } others)
+        var (others, perRound) = (FractalSteps.CountUpTo(steps.RemoveAt(index), budget), FractalSteps.CountUpTo(repetition.Body, budget));
+        if (perRound <= 1)
         {
-            return 0;
+            return repetition.Count ?? FractalLimits.Depth;
         }
 
-        var perRound = FractalSteps.InstanceCount(repetition.Body)!.Value;
         var count = 0;
-        for (var total = others * perRound; total <= budget && count < (repetition.Count ?? FractalLimits.Depth); total *= perRound)
+        for (var total = others * perRound; total <= budget && !(count >= repetition.Count); total *= perRound)
         {
             count++;
         }

@@ -21,7 +21,7 @@ public static class FractalBounds
     public static BoundingBox BoxOf(Fractal fractal) => fractal switch
     {
         { BaseMesh.VertexCount: 0 } => BoundingBox.Empty,
-        { InstanceCount.IsZero: true } => BoundingBox.Empty,
+        _ when FractalSteps.CountUpTo(fractal.Description.Steps, 1).IsZero => BoundingBox.Empty,
         { Description.Composition: Composition.Componentwise } => ComponentwiseBox(fractal),
         _ => AffineBox(fractal, LevelBounds.Of(fractal)),
     };
@@ -90,11 +90,10 @@ public static class FractalBounds
     /// </summary>
     private static BoundingBox ComponentwiseBox(Fractal fractal)
     {
-        if (fractal.InstanceCount <= FractalLimits.EnumeratedInstances
-            && fractal.InstanceCount * fractal.BaseMesh.VertexCount <= 20 * FractalLimits.EnumeratedInstances)
+        if (FractalSteps.HasAtMost(fractal.Description.Steps, 20L * FractalLimits.EnumeratedInstances / fractal.BaseMesh.VertexCount))
         {
             var box = BoundingBox.Empty;
-            foreach (var map in FractalGenerator.Expand(fractal, FractalLimits.EnumeratedInstances))
+            foreach (var map in FractalGenerator.Expand(fractal, 20L * FractalLimits.EnumeratedInstances))
             {
                 for (var vertex = 0; vertex < fractal.BaseMesh.VertexCount; vertex++)
                 {

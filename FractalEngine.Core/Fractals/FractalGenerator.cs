@@ -31,7 +31,7 @@ public static class FractalGenerator
             return [.. ComponentwiseSums(fractal, budget).Select(transformation => transformation.ToAffineMap())];
         }
 
-        if (fractal.InstanceCount is not { } count || count > budget)
+        if (!FractalSteps.HasAtMost(fractal.Description.Steps, budget) || fractal.Description.IsInfinite)
         {
             throw new FractalLimitException($"the fractal has {Text(fractal)} instances, more than the limit of {budget}");
         }

@@ -6,8 +6,17 @@ public static class FractalLimits
     /// <summary>The largest n of <c>z n</c>.</summary>
     public const int Depth = 1_000_000;
 
-    /// <summary>The most sets that a chain may pass through, repetitions of repetitions multiplied out.</summary>
-    public const long Levels = 10_000_000;
+    /// <summary>
+    /// The most sets that a chain may pass through, repetitions of repetitions multiplied out. Of 25 maps each, so many give
+    /// a number of instances of 2.8 million digits, which takes some seconds to write out.
+    /// </summary>
+    public const long Levels = 2_000_000;
+
+    /// <summary>The most sets and repetitions, one after the other, that an object may be made of.</summary>
+    public const int Steps = 1_000;
+
+    /// <summary>The most repetitions inside each other.</summary>
+    public const int Nesting = 32;
 
     /// <summary>
     /// The most instances that are drawn, when nothing else is asked for: the paper's Menger sponge of 3.2 million

@@ -18,7 +18,13 @@ public abstract class FractalStep
     /// <summary>How many chains of transformations there are in this step; null when they are infinitely many.</summary>
     public abstract BigInteger? InstanceCount { get; }
 
+    /// <summary>How many repetitions stand inside each other, this one included.</summary>
+    public abstract int Nesting { get; }
+
     /// <summary>The set at one level of this step.</summary>
     /// <param name="level">From 0, the outermost; less than <see cref="LevelCount"/>.</param>
     public abstract TransformationSet LevelAt(long level);
+
+    /// <summary>The number of chains, or, if they are more, some number above the limit.</summary>
+    internal abstract BigInteger CountUpTo(long limit);
 }

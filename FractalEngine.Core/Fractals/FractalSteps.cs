@@ -15,6 +15,26 @@ public static class FractalSteps
         steps.Any(step => step.InstanceCount is { IsZero: true }) ? BigInteger.Zero
         : steps.Aggregate((BigInteger?)BigInteger.One, (product, step) => product * step.InstanceCount);
 
+    /// <summary>
+    /// True when there are at most <paramref name="limit"/> chains. Unlike the exact count, which may have millions of digits, this
+    /// costs next to nothing.
+    /// </summary>
+    public static bool HasAtMost(ImmutableArray<FractalStep> steps, long limit) => CountUpTo(steps, limit) <= limit;
+
+    /// <summary>How many chains there are, or, if they are more, some number above the limit.</summary>
+    internal static BigInteger CountUpTo(ImmutableArray<FractalStep> steps, long limit)
+    {
+        var product = BigInteger.One;
+        foreach (var step in steps)
+        {
+            // A set without maps anywhere leaves nothing, so the product may not be given up before the last step.
+            product *= step.CountUpTo(limit);
+            product = BigInteger.Min(product, new BigInteger(limit) + 1);
+        }
+
+        return product;
+    }
+
     /// <summary>The set at one level. Cost O(steps), whatever the number of rounds.</summary>
     /// <param name="steps">Outermost first.</param>
     /// <param name="level">From 0, the outermost.</param>

@@ -41,6 +41,7 @@ internal sealed class LevelBounds
         {
             var body = step is Repetition repetition ? repetition : new([step], 1);
             var rounds = body.Count ?? LimitRounds;
+            var settled = false;
             for (var round = 0; round < rounds; round++)
             {
                 var before = below;
@@ -54,7 +55,8 @@ internal sealed class LevelBounds
 
                 if (IsSettled(before, below) || !below.Sphere.Centre.IsFinite() || !double.IsFinite(below.Sphere.Radius))
                 {
-                    // Settled: the rounds left have the same bounds, so only as many of them are listed as are ever looked at.
+                    // The rounds left have the same bounds, so only as many of them are listed as are ever looked at.
+                    settled = true;
                     var left = (rounds - round - 1) * body.LevelsPerRound;
                     complete &= left <= KeptLevels;
                     for (var more = Math.Min(left, KeptLevels); more > 0; more--)
@@ -70,6 +72,13 @@ internal sealed class LevelBounds
                     kept.RemoveRange(0, kept.Count - KeptLevels);
                     complete = false;
                 }
+            }
+
+            if (body.Count is null && !settled)
+            {
+                // The maps don't shrink, or by so little that there is no limit within reach.
+                below = Unknown;
+                kept.Add(below);
             }
         }
 

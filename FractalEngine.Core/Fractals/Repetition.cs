@@ -24,6 +24,7 @@ public sealed class Repetition : FractalStep
 
         (Body, Count) = (body, count);
         LevelsPerRound = FractalSteps.LevelCount(body)!.Value;
+        Nesting = 1 + body.Max(step => step.Nesting);
     }
 
     /// <summary>The steps of one round, outermost first.</summary>
@@ -39,6 +40,9 @@ public sealed class Repetition : FractalStep
     public override long? LevelCount => Count * LevelsPerRound;
 
     /// <inheritdoc/>
+    public override int Nesting { get; }
+
+    /// <inheritdoc/>
     /// <remarks>Exact at any size: a million rounds of 25 maps give a number of 1.4 million digits in about a second.</remarks>
     public override BigInteger? InstanceCount => (Count, FractalSteps.InstanceCount(Body)!.Value) switch
     {
@@ -52,4 +56,22 @@ public sealed class Repetition : FractalStep
 
     /// <summary>The same steps, repeated another number of times.</summary>
     public Repetition WithCount(int? count) => new(Body, count);
+
+    /// <inheritdoc/>
+    internal override BigInteger CountUpTo(long limit)
+    {
+        var perRound = FractalSteps.CountUpTo(Body, limit);
+        if (perRound <= 1)
+        {
+            return Count == 0 ? BigInteger.One : perRound;
+        }
+
+        var product = BigInteger.One;
+        for (var round = 0; product <= limit && !(round >= Count); round++)
+        {
+            product *= perRound;
+        }
+
+        return product;
+    }
 }

@@ -30,5 +30,11 @@ public sealed class TransformationSet : FractalStep
     public override BigInteger? InstanceCount => Transformations.Length;
 
     /// <inheritdoc/>
+    public override int Nesting => 0;
+
+    /// <inheritdoc/>
     public override TransformationSet LevelAt(long level) => this;
+
+    /// <inheritdoc/>
+    internal override BigInteger CountUpTo(long limit) => Transformations.Length;
 }

@@ -107,18 +107,19 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
 
     /// <summary>
     /// The angles (pitch, yaw, roll) in radians whose <see cref="Vector.LocalAxes"/> is this rotation. Where the yaw
-    /// is ±90° only the sum of pitch and roll is determined (gimbal lock): the roll is 0 then.
+    /// is ±90° only the sum or difference of pitch and roll is determined (gimbal lock): the pitch is 0 then.
     /// </summary>
     /// <remarks>
-    /// Read off Pitch·Yaw·Roll, by rows:
-    /// [cy·cr, cy·sr, −sy; …, …, sp·cy; …, …, cp·cy].
+    /// Read off Pitch·Yaw·Roll, whose first row is [cy·cr, cy·sr, −sy] and whose third column is (−sy, sp·cy, cp·cy). The roll is
+    /// read off Pitch⁻¹ times the matrix, so that it makes up for the error that the pitch has near the lock.
     /// </remarks>
-    public Vector EulerAngles() => Math.Sqrt((V1.X * V1.X) + (V2.X * V2.X)) switch
+    public Vector EulerAngles()
     {
-        > 1e-12 and var cosineOfYaw => new(
-            Math.Atan2(V3.Y, V3.Z), Math.Atan2(-V3.X, cosineOfYaw), Math.Atan2(V2.X, V1.X)),
-        var cosineOfYaw => new(Math.Atan2(-V2.Z, V2.Y), Math.Atan2(-V3.X, cosineOfYaw), 0),
-    };
+        var cosineOfYaw = Math.Sqrt((V1.X * V1.X) + (V2.X * V2.X));
+        var pitch = cosineOfYaw > 1e-12 ? Math.Atan2(V3.Y, V3.Z) : 0;
+        var unpitched = Pitch(-pitch) * this;
+        return new(pitch, Math.Atan2(-V3.X, cosineOfYaw), Math.Atan2(-unpitched.V1.Y, unpitched.V2.Y));
+    }
 
     /// <summary>True when no entry is NaN or infinite.</summary>
     public bool IsFinite() => V1.IsFinite() && V2.IsFinite() && V3.IsFinite();

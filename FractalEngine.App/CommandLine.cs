@@ -1,0 +1,81 @@
+using System.CommandLine;
+using FractalEngine.App.Commands;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Render.Gl;
+using FractalEngine.Render.Windowing;
+
+namespace FractalEngine.App;
+
+/// <summary>The commands, and what becomes of their errors: one message on stderr and an exit code.</summary>
+internal static class CommandLine
+{
+    /// <summary>Runs what the arguments ask for.</summary>
+    /// <returns>The exit code.</returns>
+    public static int Run(string[] args)
+    {
+        var result = Root().Parse(args);
+        if (result.Errors.Count > 0)
+        {
+            foreach (var message in result.Errors.Select(error => error.Message).Distinct())
+            {
+                Console.Error.WriteLine($"error: {message}");
+            }
+
+            Console.Error.WriteLine("Run with --help to see the commands and their options.");
+            return ExitCode.WrongUsage;
+        }
+
+        return Invoke(result);
+    }
+
+    private static RootCommand Root()
+    {
+        var root = new RootCommand("FractalEngine draws fractals of any size, and regular models beside them.");
+        foreach (var command in (Command[])[
+            ViewCommand.Create(), RenderCommand.Create(), InfoCommand.Create(), CountCommand.Create(), ExportCommand.Create(),
+            CheckCommand.Create(), SaveCommand.Create()])
+        {
+            root.Add(command);
+        }
+
+        ViewCommand.AddTo(root);
+        return root;
+    }
+
+    private static int Invoke(ParseResult result)
+    {
+        try
+        {
+            return result.Invoke(new() { EnableDefaultExceptionHandler = false });
+        }
+        catch (SourceException exception)
+        {
+            Console.Error.WriteLine(exception.Diagnostic);
+            return exception.Diagnostic.IsLimit ? ExitCode.OverLimit : ExitCode.BadInput;
+        }
+        catch (FractalLimitException exception)
+        {
+            return Fail(ExitCode.OverLimit, exception.Message);
+        }
+        catch (GlException exception)
+        {
+            return Fail(ExitCode.OverLimit, exception.Message);
+        }
+        catch (GraphicsUnavailableException exception)
+        {
+            return Fail(ExitCode.NoGraphics, exception.Message);
+        }
+        catch (Exception exception) when (exception is UsageException or IOException or UnauthorizedAccessException)
+        {
+            // Input that can't be read has become a SourceException already, so this is about an output.
+            return Fail(ExitCode.WrongUsage, exception.Message);
+        }
+    }
+
+    private static int Fail(int exitCode, string message)
+    {
+        Console.Error.WriteLine($"error: {message}");
+        return exitCode;
+    }
+}

@@ -1,0 +1,39 @@
+using System.CommandLine;
+using System.Text;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Scenes;
+
+namespace FractalEngine.App.Commands;
+
+/// <summary><c>save FILE --output Y.sdo</c></summary>
+internal static class SaveCommand
+{
+    public static Command Create()
+    {
+        var shared = new SharedOptions();
+        var output = SharedOptions.Output(".sdo", "The scene to write.");
+        var command = new Command("save", "Load a scene and write it back; a mesh or fractal becomes a scene of one object.") { output };
+        shared.AddTo(command);
+        command.SetAction(result => Run(result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetRequiredValue(output)));
+        return command;
+    }
+
+    private static int Run(string path, LoadOptions options, string output)
+    {
+        var file = Loading.Load(path, options);
+        Save(file, file.Scene.Scene, output);
+        return ExitCode.Done;
+    }
+
+    /// <summary>Writes a scene, which may have changed since it was loaded; file names are made relative to its new place.</summary>
+    public static void Save(LoadedFile file, Core.Scenes.Scene scene, string output)
+    {
+        var moved = SceneRelocation.Relocate(scene, file.Path, Path.GetFullPath(output));
+        AtomicFile.Write(output, stream => stream.Write(Encoding.UTF8.GetBytes(SceneWriter.Write(moved, file.SceneFile))));
+        var folder = AssetFolder.Of(Path.GetFullPath(output));
+        if (file.Scene.Models.Any(model => !folder.Contains(model.Path)))
+        {
+            Console.Error.WriteLine($"warning: {output} names files outside its folder: it opens only with --allow-outside");
+        }
+    }
+}

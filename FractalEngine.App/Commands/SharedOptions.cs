@@ -1,0 +1,122 @@
+using System.CommandLine;
+using System.CommandLine.Parsing;
+using System.Globalization;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
+
+namespace FractalEngine.App.Commands;
+
+/// <summary>Arguments and options that several commands have.</summary>
+internal sealed class SharedOptions
+{
+    /// <summary>The file that a command works on.</summary>
+    public Argument<string> File { get; } = new("FILE") { Description = "A mesh (.obj), a fractal (.fdo) or a scene (.sdo)." };
+
+    /// <summary>Lifts the restriction of <see cref="AssetFolder"/>.</summary>
+    public Option<bool> AllowOutside { get; } = new("--allow-outside")
+    {
+        Description = "Let files name others outside their folder.",
+    };
+
+    /// <summary>How transformations are composed.</summary>
+    public Option<Composition?> Composition { get; } = new("--composition")
+    {
+        Description = "How the transformations of a fractal are composed, whatever its file says: affine or componentwise.",
+        HelpName = "affine|componentwise",
+        CustomParser = result => ParseWord(
+            result, ("affine", Core.Fractals.Composition.Affine), ("componentwise", Core.Fractals.Composition.Componentwise)),
+    };
+
+    /// <summary>Adds what every command that loads a file has.</summary>
+    public void AddTo(Command command)
+    {
+        command.Add(File);
+        command.Add(AllowOutside);
+        command.Add(Composition);
+    }
+
+    /// <summary>How to load the file.</summary>
+    public LoadOptions LoadOptions(ParseResult result) => new()
+    {
+        AllowOutside = result.GetValue(AllowOutside),
+        Composition = result.GetValue(Composition),
+    };
+
+    /// <summary>Where a command writes to.</summary>
+    public static Option<string> Output(string ending, string description) => new("--output", "-o")
+    {
+        Description = description,
+        HelpName = $"FILE{ending}",
+        Required = true,
+        Validators =
+        {
+            result =>
+            {
+                if (result.Tokens is [{ Value: var path }] && !path.EndsWith(ending, StringComparison.OrdinalIgnoreCase))
+                {
+                    result.AddError($"--output '{path}' must end in {ending}");
+                }
+            },
+        },
+    };
+
+    /// <summary>One of a few words.</summary>
+    public static T? ParseWord<T>(ArgumentResult result, params (string Word, T Value)[] words)
+        where T : struct
+    {
+        foreach (var (word, value) in words)
+        {
+            if (result.Tokens is [{ Value: var token }] && token == word)
+            {
+                return value;
+            }
+        }
+
+        result.AddError($"expected one of: {string.Join(", ", words.Select(item => item.Word))}");
+        return null;
+    }
+
+    /// <summary>A whole number within bounds.</summary>
+    public static Func<ArgumentResult, long?> ParseInteger(long smallest, long largest) => result =>
+    {
+        if (result.Tokens is [{ Value: var token }]
+            && long.TryParse(token, NumberStyles.AllowLeadingSign, CultureInfo.InvariantCulture, out var number)
+            && number >= smallest && number <= largest)
+        {
+            return number;
+        }
+
+        result.AddError($"expected a whole number from {smallest} to {largest}");
+        return null;
+    };
+
+    /// <summary>The projection of a picture.</summary>
+    public static Option<Projection?> Projection() => new("--projection")
+    {
+        Description = "The projection, whatever the scene says: perspective or orthographic.",
+        HelpName = "perspective|orthographic",
+        CustomParser = result => ParseWord(
+            result, ("perspective", Core.Scenes.Projection.Perspective), ("orthographic", Core.Scenes.Projection.Orthographic)),
+    };
+
+    /// <summary>The size of a picture or window in pixels.</summary>
+    public static Option<(int Width, int Height)> Resolution() => new("--resolution")
+    {
+        Description = "Width and height in pixels.",
+        HelpName = "WIDTHxHEIGHT",
+        DefaultValueFactory = _ => (1280, 720),
+        CustomParser = result =>
+        {
+            if (result.Tokens is [{ Value: var token }] && token.Split('x') is [var width, var height]
+                && int.TryParse(width, NumberStyles.None, CultureInfo.InvariantCulture, out var w) && w is > 0 and <= 32768
+                && int.TryParse(height, NumberStyles.None, CultureInfo.InvariantCulture, out var h) && h is > 0 and <= 32768)
+            {
+                return (w, h);
+            }
+
+            result.AddError("expected a size such as 1280x720, each side from 1 to 32768");
+            return default;
+        },
+    };
+}

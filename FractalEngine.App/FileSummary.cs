@@ -1,0 +1,88 @@
+using System.Globalization;
+using System.Text.Encodings.Web;
+using System.Text.Json;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
+using BigInteger = System.Numerics.BigInteger;
+
+namespace FractalEngine.App;
+
+/// <summary>What <c>info</c> tells of a file. Counts are exact; null stands for infinitely many, or for an unknown number of distinct instances.</summary>
+internal sealed record FileSummary(
+    string Kind,
+    BigInteger? Vertices,
+    BigInteger? Faces,
+    BigInteger? Instances,
+    BigInteger? DistinctInstances,
+    BoundingBox Bounds,
+    long StorageBytes,
+    TimeSpan LoadTime)
+{
+    /// <summary>Counts a loaded file; repeated objects count as often as they stand in the scene.</summary>
+    public static FileSummary Of(LoadedFile file, TimeSpan loadTime)
+    {
+        var models = file.Scene.Objects.Select(placed => placed.Model).ToArray();
+        var distinct = models.Distinct().ToDictionary(model => model, DistinctCount);
+        return new(
+            file.Kind.ToString().ToLowerInvariant(),
+            Sum(models, model => model.VertexCount),
+            Sum(models, model => model.FaceCount),
+            Sum(models, model => model.InstanceCount),
+            Sum(models, model => distinct[model]),
+            file.Scene.Bounds,
+            file.StorageBytes,
+            loadTime);
+    }
+
+    /// <summary>One JSON object; numbers of any length are written out.</summary>
+    public string ToJson() => "{" + string.Join(", ", Fields(Json).Select(field => $"\"{field.Name}\": {field.Value}")) + "}";
+
+    /// <summary>A line a field.</summary>
+    public string ToText() => string.Join('\n', Fields(Plain).Select(field => $"{field.Name,-18}{field.Value}"));
+
+    private IEnumerable<(string Name, string Value)> Fields(Func<object?, string> format) =>
+    [
+        ("kind", format(Kind)),
+        ("vertices", Count(Vertices, format)),
+        ("faces", Count(Faces, format)),
+        ("instances", Count(Instances, format)),
+        ("infinite", format(Instances is null)),
+        ("distinctInstances", DistinctInstances is { } distinct ? DecimalText.Of(distinct) : format(null)),
+        ("boundsMin", format(Bounds.IsEmpty ? null : Bounds.Minimum)),
+        ("boundsMax", format(Bounds.IsEmpty ? null : Bounds.Maximum)),
+        ("storageBytes", format(StorageBytes)),
+        ("loadMilliseconds", format(Math.Round(LoadTime.TotalMilliseconds, 3))),
+    ];
+
+    private static string Count(BigInteger? count, Func<object?, string> format) =>
+        count is { } number ? DecimalText.Of(number) : format(null);
+
+    private static string Json(object? value) => value switch
+    {
+        null => "null",
+        bool flag => flag ? "true" : "false",
+        string text => $"\"{JavaScriptEncoder.UnsafeRelaxedJsonEscaping.Encode(text)}\"",
+        Vector(var x, var y, var z) => $"[{JsonSerializer.Serialize(x)}, {JsonSerializer.Serialize(y)}, {JsonSerializer.Serialize(z)}]",
+        IFormattable number => number.ToString(null, CultureInfo.InvariantCulture),
+        _ => throw new ArgumentOutOfRangeException(nameof(value)),
+    };
+
+    private static string Plain(object? value) => value switch
+    {
+        null => "-",
+        bool flag => flag ? "yes" : "no",
+        Vector(var x, var y, var z) => string.Create(CultureInfo.InvariantCulture, $"{x:R} {y:R} {z:R}"),
+        _ => string.Create(CultureInfo.InvariantCulture, $"{value}"),
+    };
+
+    private static BigInteger? DistinctCount(Model model) => model switch
+    {
+        FractalModel { Fractal: var fractal } => Core.Fractals.DistinctInstances.Count(fractal),
+        _ => BigInteger.One,
+    };
+
+    private static BigInteger? Sum(IEnumerable<Model> models, Func<Model, BigInteger?> count) =>
+        models.Aggregate((BigInteger?)BigInteger.Zero, (sum, model) => sum + count(model));
+}

@@ -1,0 +1,43 @@
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Render;
+using FractalEngine.Render.Preparation;
+
+namespace FractalEngine.App.Window;
+
+/// <summary>Loads and prepares a file on another thread.</summary>
+internal sealed class BackgroundLoad
+{
+    private readonly LatestProgress _progress = new();
+    private readonly Task<(LoadedFile File, DrawableScene Drawable)> _task;
+
+    /// <summary>Starts at once.</summary>
+    /// <param name="path">The file.</param>
+    /// <param name="options">How to load it.</param>
+    /// <param name="settings">How to prepare it.</param>
+    /// <param name="completed">Called on the other thread when it is done, or has failed.</param>
+    public BackgroundLoad(string path, LoadOptions options, RenderSettings settings, Action completed)
+    {
+        _task = Task.Run(() =>
+        {
+            var file = AssetLoader.Load(path, options, _progress);
+            return (file, DrawableScene.Prepare(file.Scene, settings, _progress));
+        });
+        _task.ContinueWith(_ => completed(), TaskScheduler.Default);
+    }
+
+    /// <summary>Done, or failed.</summary>
+    public bool IsCompleted => _task.IsCompleted;
+
+    /// <summary>True once the result has been asked for.</summary>
+    public bool IsTaken { get; private set; }
+
+    /// <summary>What it is doing, and how far it has come.</summary>
+    public (string Text, double Fraction) Progress => _progress.Latest;
+
+    /// <summary>The result, or the exception that the load ended with.</summary>
+    public (LoadedFile File, DrawableScene Drawable) Take()
+    {
+        IsTaken = true;
+        return _task.GetAwaiter().GetResult();
+    }
+}

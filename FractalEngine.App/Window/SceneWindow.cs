@@ -1,0 +1,299 @@
+using System.Diagnostics;
+using FractalEngine.App.Commands;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Render;
+using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Windowing;
+
+namespace FractalEngine.App.Window;
+
+/// <summary>
+/// The window: loads a file in the background, draws when something has changed, and sleeps otherwise. What keys and mouse do to
+/// the camera is <see cref="CameraControls"/>; here are the keys that do something else.
+/// </summary>
+internal sealed class SceneWindow : IDisposable
+{
+    private static readonly TimeSpan FrameTime = TimeSpan.FromSeconds(1 / 60.0);
+    private static readonly TimeSpan ProgressInterval = TimeSpan.FromSeconds(0.1);
+
+    // A frame that took long must not make the camera jump.
+    private static readonly TimeSpan LongestStep = TimeSpan.FromSeconds(0.1);
+
+    private readonly LoadOptions _options;
+    private readonly Projection? _projection;
+    private readonly RenderWindow _window;
+    private readonly FrameRenderer _frame;
+    private readonly WindowOverlay _overlay = new();
+    private readonly Stopwatch _clock = Stopwatch.StartNew();
+    private RenderSettings _settings;
+    private BackgroundLoad _load;
+    private Document? _document;
+    private TimeSpan _advanced;
+    private int _exitCode;
+    private bool _isClosing;
+    private bool _isVisible = true;
+    private bool _isDirty = true;
+
+    private SceneWindow(string path, LoadOptions options, Projection? projection, RenderSettings settings, (int Width, int Height) size)
+    {
+        (_options, _projection, _settings) = (options, projection, settings);
+        _window = new("FractalEngine", size.Width, size.Height);
+        _frame = new(_window);
+        _load = StartLoading(path);
+    }
+
+    private double Aspect => (double)Math.Max(1, _window.Width) / Math.Max(1, _window.Height);
+
+    /// <summary>Opens a window on a file and returns when it is closed.</summary>
+    /// <returns>The exit code: that of the load, since everything else succeeds or says so on the screen.</returns>
+    /// <exception cref="GraphicsUnavailableException">There is no display, or no OpenGL.</exception>
+    public static int Show(string path, LoadOptions options, Projection? projection, RenderSettings settings, (int Width, int Height) size)
+    {
+        using var window = new SceneWindow(path, options, projection, settings, size);
+        window.Run();
+        return window._exitCode;
+    }
+
+    /// <inheritdoc/>
+    public void Dispose()
+    {
+        _document?.Renderer.Dispose();
+        _frame.Dispose();
+        _window.Dispose();
+    }
+
+    private void Run()
+    {
+        while (!_isClosing)
+        {
+            foreach (var windowEvent in _window.WaitEvents(TimeToSleep()))
+            {
+                Handle(windowEvent);
+            }
+
+            FinishLoading();
+            Advance();
+            _isDirty |= _overlay.Expire(_clock.Elapsed);
+            if (_isDirty && _isVisible && _window.Width > 0 && _window.Height > 0 && !_isClosing)
+            {
+                _isDirty = false;
+                Draw();
+            }
+        }
+    }
+
+    private TimeSpan TimeToSleep() =>
+        _isDirty && _isVisible ? TimeSpan.Zero
+        : _document?.Controls.IsMoving == true ? Max(TimeSpan.Zero, FrameTime - (_clock.Elapsed - _advanced))
+        : !_load.IsTaken ? ProgressInterval
+        : _overlay.NextExpiry is { } expiry ? Max(TimeSpan.Zero, expiry - _clock.Elapsed)
+        : Timeout.InfiniteTimeSpan;
+
+    private static TimeSpan Max(TimeSpan time1, TimeSpan time2) => time1 > time2 ? time1 : time2;
+
+    private BackgroundLoad StartLoading(string path)
+    {
+        _window.Title = $"{Path.GetFileName(path)} - FractalEngine";
+        return new(path, _options, _settings, _window.Wake);
+    }
+
+    private void FinishLoading()
+    {
+        if (_load.IsTaken)
+        {
+            return;
+        }
+
+        if (!_load.IsCompleted)
+        {
+            _overlay.Progress = _load.Progress;
+            _isDirty |= _overlay.Progress is not null;
+            return;
+        }
+
+        (_overlay.Progress, _overlay.Error, _isDirty) = (null, null, true);
+        try
+        {
+            var (file, drawable) = _load.Take();
+            Open(file, drawable);
+            _exitCode = ExitCode.Done;
+        }
+        catch (SourceException exception)
+        {
+            _exitCode = exception.Diagnostic.IsLimit ? ExitCode.OverLimit : ExitCode.BadInput;
+            _overlay.Error = exception.Diagnostic.ToString();
+            Console.Error.WriteLine(exception.Diagnostic);
+        }
+        catch (FractalLimitException exception)
+        {
+            _exitCode = ExitCode.OverLimit;
+            _overlay.Error = $"error: {exception.Message}";
+            Console.Error.WriteLine(_overlay.Error);
+        }
+    }
+
+    private void Open(LoadedFile file, DrawableScene drawable)
+    {
+        _document?.Renderer.Dispose();
+        var scene = file.Scene.Scene;
+        var view = View.Of(file.Scene, Aspect);
+        var controls = new CameraControls(
+            file.Scene.Bounds, view.Camera, _projection ?? scene.Projection, scene.OrthographicHeight);
+        _document = new(file, new(_window, drawable), controls);
+        foreach (var message in file.Warnings.Select(warning => warning.ToString()).Concat(drawable.Notices))
+        {
+            Console.Error.WriteLine(message);
+        }
+
+        _overlay.Describe(file, drawable);
+    }
+
+    private void Handle(WindowEvent windowEvent)
+    {
+        switch (windowEvent)
+        {
+            case CloseRequested or KeyPressed { Key: Key.Escape }:
+                _isClosing = true;
+                return;
+            case WindowResized or WindowExposed:
+                _isDirty = true;
+                break;
+            case VisibilityChanged visibility:
+                _isVisible = visibility.IsVisible;
+                _isDirty = true;
+                break;
+            case FileDropped dropped when _load.IsTaken:
+                _load = StartLoading(dropped.Path);
+                break;
+            case KeyPressed { IsRepeat: false } pressed:
+                Press(pressed);
+                break;
+        }
+
+        if (_document is { } document)
+        {
+            var wasMoving = document.Controls.IsMoving;
+            _isDirty |= document.Controls.Handle(windowEvent, Aspect);
+            if (!wasMoving)
+            {
+                _advanced = _clock.Elapsed;
+            }
+        }
+    }
+
+    private void Press(KeyPressed pressed)
+    {
+        var isCommand = pressed.Modifiers.HasFlag(KeyModifiers.Control);
+        switch (pressed.Key)
+        {
+            case Key.H:
+                _overlay.ShowsKeys = !_overlay.ShowsKeys;
+                break;
+            case Key.G:
+                _settings = _settings with { Grid = !_settings.Grid, Axes = !_settings.Grid };
+                break;
+            case Key.X:
+                _settings = _settings with { Wireframe = !_settings.Wireframe };
+                break;
+            case Key.F12 when _document is { } document:
+                TrySay(() => SaveScreenshot(document));
+                break;
+            case Key.S when isCommand && _document is { } document:
+                TrySay(() => SaveScene(document));
+                break;
+            default:
+                return;
+        }
+
+        _isDirty = true;
+    }
+
+    private void Advance()
+    {
+        var time = _clock.Elapsed - _advanced;
+        if (_document?.Controls.IsMoving == true && time >= FrameTime)
+        {
+            _advanced = _clock.Elapsed;
+            _isDirty |= _document.Controls.Advance(time < LongestStep ? time : LongestStep);
+        }
+    }
+
+    private void Draw()
+    {
+        if (_document is { } document)
+        {
+            DrawScene(document);
+        }
+        else
+        {
+            _frame.Draw(null, new(Camera.Default, Projection.Perspective), _window.Width, _window.Height, _settings);
+        }
+
+        _frame.Present(_window, _overlay.Panels);
+    }
+
+    private void DrawScene(Document document)
+    {
+        var scene = document.SceneNow();
+        var view = View.Of(document.File.Scene with { Scene = scene }, Aspect);
+        _frame.Draw(document.Renderer, view, _window.Width, _window.Height, _settings);
+    }
+
+    private string SaveScreenshot(Document document)
+    {
+        // The window's picture has text over it, the file's has not.
+        DrawScene(document);
+        Directory.CreateDirectory("out");
+        var name = Path.GetFileNameWithoutExtension(document.File.Path);
+        var output = Enumerable.Range(1, int.MaxValue)
+            .Select(number => Path.Combine("out", $"{name}-{number:D3}.png"))
+            .First(candidate => !File.Exists(candidate));
+        ImageFile.SavePng(_frame.Capture(), output);
+        return $"saved {output}";
+    }
+
+    private static string SaveScene(Document document)
+    {
+        var output = Path.ChangeExtension(document.File.Path, ".sdo");
+        if (document.File.Kind != FileKind.Scene && File.Exists(output))
+        {
+            throw new IOException($"{Path.GetFileName(output)} exists already and is another scene: it is not overwritten");
+        }
+
+        SaveCommand.Save(document.File, document.SceneNow(), output);
+        return $"saved {Path.GetFileName(output)}";
+    }
+
+    /// <summary>Does something with files, and says on the screen and the terminal what came of it.</summary>
+    private void TrySay(Func<string> act)
+    {
+        string message;
+        try
+        {
+            message = act();
+        }
+        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
+        {
+            message = $"error: {exception.Message}";
+        }
+
+        Console.Error.WriteLine(message);
+        _overlay.Say(message, _clock.Elapsed);
+    }
+
+    /// <summary>What the window shows.</summary>
+    private sealed record Document(LoadedFile File, SceneRenderer Renderer, CameraControls Controls)
+    {
+        /// <summary>The scene as it would be saved: with the present camera and projection.</summary>
+        public Scene SceneNow() => File.Scene.Scene with
+        {
+            Camera = Controls.Camera,
+            Projection = Controls.Projection,
+            OrthographicHeight = Controls.OrthographicHeight,
+        };
+    }
+}

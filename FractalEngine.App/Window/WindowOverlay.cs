@@ -1,0 +1,97 @@
+using System.Globalization;
+using System.Numerics;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Ui;
+
+namespace FractalEngine.App.Window;
+
+/// <summary>What is written over the picture: what it shows, keys, progress, errors and passing messages.</summary>
+internal sealed class WindowOverlay
+{
+    private static readonly TimeSpan MessageTime = TimeSpan.FromSeconds(4);
+
+    private static readonly OverlayPanel Keys = OverlayPanel.OfTable(OverlayAnchor.TopRight, "Keys",
+    [
+        ("W A S D", "fly (or arrows)"),
+        ("E Q", "fly up, down"),
+        ("Shift Alt", "faster, slower"),
+        ("left drag", "orbit"),
+        ("right drag", "look around"),
+        ("middle drag", "pan (or Shift + left)"),
+        ("wheel", "zoom"),
+        ("F", "frame the scene"),
+        ("1 3 7", "front, right, top"),
+        ("5", "perspective, orthographic"),
+        ("Enter", "back to the start"),
+        ("G X", "grid, wireframe"),
+        ("F12", "screenshot"),
+        ("Ctrl+S", "save scene and camera"),
+        ("H", "these keys"),
+        ("Esc", "close"),
+    ]);
+
+    private OverlayPanel? _description;
+    private OverlayPanel? _message;
+
+    /// <summary>What is being loaded, and how far; null when nothing is.</summary>
+    public (string Text, double Fraction)? Progress { get; set; }
+
+    /// <summary>Why there is no picture; null when there is one.</summary>
+    public string? Error { get; set; }
+
+    /// <summary>Whether the keys are listed.</summary>
+    public bool ShowsKeys { get; set; }
+
+    /// <summary>When a message will have been shown long enough; null when there is none.</summary>
+    public TimeSpan? NextExpiry { get; private set; }
+
+    /// <summary>Everything that is written now.</summary>
+    public IReadOnlyList<OverlayPanel> Panels =>
+    [
+        .. ShowsKeys ? [Keys] : Array.Empty<OverlayPanel>(),
+        .. Error is { } error
+            ? [new OverlayPanel(OverlayAnchor.Centre, [.. error.Split('\n').Select(line => new OverlayLine(line, null, OverlayTone.Warning))])]
+            : _description is { } description ? [description] : Array.Empty<OverlayPanel>(),
+        .. Progress is { } progress ? [OverlayPanel.OfProgress($"loading {progress.Text}", progress.Fraction)] : Array.Empty<OverlayPanel>(),
+        .. _message is { } message ? [message] : Array.Empty<OverlayPanel>(),
+    ];
+
+    /// <summary>Tells what is shown from now on.</summary>
+    public void Describe(LoadedFile file, DrawableScene drawable)
+    {
+        var faces = file.Scene.Objects.Aggregate((BigInteger?)BigInteger.Zero, (sum, placed) => sum + placed.Model.FaceCount);
+        _description = new(OverlayAnchor.BottomLeft,
+        [
+            new($"{Path.GetFileName(file.Path)} · {Count(faces)} faces · H: keys", null, OverlayTone.Dim),
+            .. drawable.Notices.Select(notice => new OverlayLine(notice, null, OverlayTone.Accent)),
+        ]);
+    }
+
+    /// <summary>Shows a message for a few seconds.</summary>
+    public void Say(string message, TimeSpan now)
+    {
+        _message = OverlayPanel.OfText(OverlayAnchor.Bottom, message);
+        NextExpiry = now + MessageTime;
+    }
+
+    /// <summary>Takes a message away that was shown long enough.</summary>
+    /// <returns>True when there was one.</returns>
+    public bool Expire(TimeSpan now)
+    {
+        if (!(now >= NextExpiry))
+        {
+            return false;
+        }
+
+        (_message, NextExpiry) = (null, null);
+        return true;
+    }
+
+    private static string Count(BigInteger? faces) => faces switch
+    {
+        null => "infinitely many",
+        { } count when count < 1_000_000_000_000_000 => count.ToString("N0", CultureInfo.InvariantCulture),
+        { } count => string.Create(CultureInfo.InvariantCulture, $"about 10^{Math.Round(BigInteger.Log10(count)):F0}"),
+    };
+}

@@ -1,0 +1,182 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.Parsing.Fractals;
+
+/// <content>Transformation functions, and the sets that call them.</content>
+public sealed partial class FractalParser
+{
+    private const int MostParameters = 3;
+
+    /// <summary><c>t.a.b. (out, out, out)</c>; each output is a parameter, the number of a vector, or '#'.</summary>
+    private bool ParseFunction(Cursor cursor, out Cursor rest)
+    {
+        if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
+            || !ParseParameters(rest, out var parameters, out rest)
+            || !ParseBlanks(rest, out rest) || !ParseChar(rest, '(', out rest)
+            || !ParseBlanks(rest, out rest) || !ParseOutput(rest, parameters, Vector.Zero, out var position, out rest)
+            || !ParseSeparator(rest, out rest) || !ParseOutput(rest, parameters, Vector.Zero, out var rotation, out rest)
+            || !ParseSeparator(rest, out rest) || !ParseOutput(rest, parameters, Vector.One, out var scale, out rest)
+            || !ParseBlanks(rest, out rest) || !ParseChar(rest, ')', out rest))
+        {
+            return false;
+        }
+
+        return _functions.TryAdd(name, new(parameters.Count, position, rotation, scale)) ? true
+            : throw Error(cursor, $"the transformation '{name}' is declared twice");
+    }
+
+    private bool ParseParameters(Cursor cursor, out List<string> parameters, out Cursor rest)
+    {
+        parameters = [];
+        for (rest = cursor; char.IsLetter(rest.Current) || rest.Current == '_';)
+        {
+            var place = rest;
+            if (!ParseName(rest, "a parameter", out var parameter, out rest) || !ParseChar(rest, '.', out rest))
+            {
+                return false;
+            }
+
+            if (parameters.Contains(parameter))
+            {
+                throw Error(place, $"the parameter '{parameter}' is named twice");
+            }
+
+            if (parameters.Count == MostParameters)
+            {
+                throw Error(place, $"a transformation has at most {MostParameters} parameters");
+            }
+
+            parameters.Add(parameter);
+        }
+
+        return true;
+    }
+
+    private bool ParseOutput(
+        Cursor cursor, List<string> parameters, Vector neutral, out Func<ImmutableArray<Vector>, Vector> output, out Cursor rest)
+    {
+        output = _ => neutral;
+        rest = cursor;
+        if (char.IsAsciiDigit(cursor.Current))
+        {
+            if (!ParseVectorNumber(cursor, out var vector, out rest))
+            {
+                return false;
+            }
+
+            output = _ => vector;
+            return true;
+        }
+
+        if (char.IsLetter(cursor.Current) && ParseName(cursor, "a parameter", out var name, out var behind) && parameters.IndexOf(name) is >= 0 and var index)
+        {
+            output = arguments => arguments[index];
+            rest = behind;
+            return true;
+        }
+
+        if (cursor.Current == '#')
+        {
+            rest = cursor.Advance(1);
+            return true;
+        }
+
+        return Fail(cursor, "a vector number") | Fail(cursor, "a parameter") | Fail(cursor, "'#'");
+    }
+
+    /// <summary>The number of a vector that is declared above.</summary>
+    private bool ParseVectorNumber(Cursor cursor, out Vector vector, out Cursor rest)
+    {
+        vector = default;
+        if (!ParseInteger(cursor, "a vector number", out var number, out rest))
+        {
+            return false;
+        }
+
+        vector = number >= 1 && number <= _vectors.Count ? _vectors[number - 1]
+            : throw Error(cursor, $"vector {number} of {_vectors.Count}: {(number == 0 ? "vectors are numbered from 1" : "it is not declared above")}");
+        return true;
+    }
+
+    /// <summary><c>[#, t.1, u.6.10]</c></summary>
+    private bool ParseSet(Cursor cursor, out TransformationSet set, out Cursor rest)
+    {
+        var transformations = ImmutableArray.CreateBuilder<Transformation>();
+        set = new([]);
+        if (!ParseChar(cursor, '[', out rest) || !ParseBlanks(rest, out rest))
+        {
+            return false;
+        }
+
+        for (var first = true; rest.Current != ']'; first = false)
+        {
+            if ((!first && !ParseSeparator(rest, out rest)) || !ParseCall(rest, out var transformation, out rest))
+            {
+                return false;
+            }
+
+            transformations.Add(transformation);
+            if (ParseBlanks(rest, out var next) && next.Current == ']')
+            {
+                rest = next;
+            }
+        }
+
+        set = new(transformations.ToImmutable());
+        return ParseChar(rest, ']', out rest);
+    }
+
+    /// <summary><c>#</c>, or a function and the numbers of its arguments: <c>t.4</c>, <c>u.6.10</c>, <c>r.</c></summary>
+    private bool ParseCall(Cursor cursor, out Transformation transformation, out Cursor rest)
+    {
+        transformation = Transformation.Identity;
+        if (cursor.Current == '#')
+        {
+            rest = cursor.Advance(1);
+            return true;
+        }
+
+        Fail(cursor, "'#'");
+        if (!ParseName(cursor, "the name of a transformation", out var name, out rest))
+        {
+            return false;
+        }
+
+        var function = _functions.TryGetValue(name, out var found) ? found
+            : throw Error(cursor, $"the transformation '{name}' is not declared above");
+        var arguments = ImmutableArray.CreateBuilder<Vector>(MostParameters);
+        if (!ParseChar(rest, '.', out rest))
+        {
+            return false;
+        }
+
+        while (char.IsAsciiDigit(rest.Current))
+        {
+            if (!ParseVectorNumber(rest, out var argument, out rest))
+            {
+                return false;
+            }
+
+            arguments.Add(argument);
+            if (rest.Current != '.')
+            {
+                break;
+            }
+
+            rest = rest.Advance(1);
+        }
+
+        if (arguments.Count != function.ParameterCount)
+        {
+            throw Error(cursor, $"'{name}' takes {Arguments(function.ParameterCount)}, not {arguments.Count}");
+        }
+
+        transformation = function.Apply(arguments.ToImmutable());
+        return ScaleCheck.IsRegular(transformation.Scale) ? true : throw Error(cursor, ScaleCheck.Message(transformation.Scale));
+    }
+
+    private static string Arguments(int count) => count == 1 ? "1 argument" : $"{count} arguments";
+}

@@ -1,0 +1,10 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.Parsing.Meshes;
+
+/// <summary>What an OBJ file holds, and what was passed over in it.</summary>
+/// <param name="Mesh">Its geometry.</param>
+/// <param name="Warnings">At most one.</param>
+public sealed record ObjFile(Mesh Mesh, ImmutableArray<Diagnostic> Warnings);

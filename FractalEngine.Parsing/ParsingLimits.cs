@@ -1,0 +1,14 @@
+namespace FractalEngine.Parsing;
+
+/// <summary>The stated limits of what is read. Each bounds time or memory, and is named in the error that it causes.</summary>
+public static class ParsingLimits
+{
+    /// <summary>The longest mesh file: 1 GiB. A text in memory takes two bytes a character.</summary>
+    public const long ObjBytes = 1L << 30;
+
+    /// <summary>The longest scene or fractal file: 16 MiB, far beyond what anyone writes.</summary>
+    public const long DescriptionBytes = 1L << 24;
+
+    /// <summary>The most corners of one polygon. Ear clipping takes the square of their number at worst: half a second here.</summary>
+    public const int PolygonCorners = 20_000;
+}

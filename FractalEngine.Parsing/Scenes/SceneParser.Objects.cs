@@ -1,0 +1,125 @@
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.Parsing.Scenes;
+
+/// <content>Objects and what may stand behind them.</content>
+public sealed partial class SceneParser
+{
+    private static readonly string[] ColliderNames = ["exact", "fractal", "hierarchy", "bounding-box", "simple"];
+
+    /// <summary>The name by which scene files and the command line call a collider.</summary>
+    public static string NameOf(ColliderKind collider) => ColliderNames[(int)collider];
+
+    private bool ParseObject(Cursor cursor, out Cursor rest)
+    {
+        if (!ParseFileName(cursor, out var file, out rest) || !ParseMatrix(rest, out var placement, out rest))
+        {
+            return false;
+        }
+
+        var declared = new SceneObject(file, placement);
+        while (ParseOption(rest, ref declared, out rest))
+        {
+        }
+
+        return Declare(_scene with { Objects = _scene.Objects.Add(declared) });
+    }
+
+    private bool ParsePhysicsObject(Cursor cursor, out Cursor rest)
+    {
+        if (!ParseFileName(cursor, out var file, out rest) || !ParseMatrix(rest, out var placement, out rest)
+            || !ParseSeparatorOrNothing(rest, out var place) || !ParseNumber(place, out var restitution, out rest))
+        {
+            return false;
+        }
+
+        Require(restitution is >= 0 and <= 1, place, "the coefficient of restitution must lie between 0 and 1");
+        SceneObject declared = new PhysicsObject(file, placement, restitution);
+        while (ParseOption(rest, ref declared, out rest))
+        {
+        }
+
+        return Declare(_scene with { Objects = _scene.Objects.Add(declared) });
+    }
+
+    /// <summary>A file name in quotes; its ending says what the file holds.</summary>
+    private bool ParseFileName(Cursor cursor, out string file, out Cursor rest)
+    {
+        if (!ParseString(cursor, "a file name in quotes", out file, out rest))
+        {
+            return false;
+        }
+
+        Require(
+            file.EndsWith(".obj", StringComparison.OrdinalIgnoreCase) || file.EndsWith(".fdo", StringComparison.OrdinalIgnoreCase),
+            cursor, "expected the name of a .obj or .fdo file");
+        _fileOffset = cursor.Offset;
+        return ParseSeparatorOrNothing(rest, out rest);
+    }
+
+    /// <summary>One of the trailing parts of an object; false, and the cursor unmoved, when there is none.</summary>
+    private bool ParseOption(Cursor cursor, ref SceneObject declared, out Cursor rest)
+    {
+        rest = cursor;
+        ParseBlanks(cursor, out var start);
+        if (start.Offset == cursor.Offset && !IsAtEndOfLine(start))
+        {
+            return Fail(start, "a blank");
+        }
+
+        var (success, next) = (false, start);
+        if (ParseKeyword(start, "name", out next))
+        {
+            success = ParseString(next, "a name in quotes", out var name, out next);
+            declared = declared with { Name = name };
+        }
+        else if (ParseKeyword(start, "colour", out next) || ParseKeyword(start, "color", out next))
+        {
+            success = ParseColour(next, out var colour, out next);
+            declared = declared with { Colour = colour };
+        }
+        else if (declared is PhysicsObject body)
+        {
+            success = ParseBodyOption(start, ref body, out next);
+            declared = body;
+        }
+
+        rest = success ? next : next.Offset > start.Offset ? throw SyntaxError() : cursor;
+        return success;
+    }
+
+    private bool ParseBodyOption(Cursor start, ref PhysicsObject body, out Cursor rest)
+    {
+        if (ParseKeyword(start, "velocity", out rest))
+        {
+            var success = ParseVector(rest, out var velocity, out rest);
+            body = body with { Velocity = velocity };
+            return success;
+        }
+
+        if (ParseKeyword(start, "mass", out rest))
+        {
+            var place = rest;
+            var success = ParseNumber(place, out var mass, out rest);
+            Require(!success || mass > 0, place, "the mass must be positive");
+            body = body with { Mass = mass };
+            return success;
+        }
+
+        if (ParseKeyword(start, "collider", out rest))
+        {
+            var place = rest;
+            for (var kind = 0; kind < ColliderNames.Length; kind++)
+            {
+                if (ParseWord(place, ColliderNames[kind], out rest))
+                {
+                    body = body with { Collider = (ColliderKind)kind };
+                    return true;
+                }
+            }
+        }
+
+        return false;
+    }
+}

@@ -1,0 +1,197 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.Parsing.Scenes;
+
+/// <summary>Reads scene files (paper §4.1.5). The grammar stands in docs/manual.md.</summary>
+public sealed partial class SceneParser : SceneValueParser
+{
+    private readonly Dictionary<SceneDeclarationKind, int> _declared = [];
+    private Scene _scene = new();
+    private int _fileOffset;
+
+    private SceneParser(SourceText source)
+        : base(source)
+    {
+    }
+
+    private delegate bool DeclarationParser(Cursor cursor, out Cursor rest);
+
+    /// <summary>Parses a whole file. The files that it names are not touched.</summary>
+    /// <exception cref="SourceException">The text is no scene, or says something that makes no sense.</exception>
+    public static SceneFile Parse(SourceText source) => new SceneParser(source).ParseFile();
+
+    private SceneFile ParseFile()
+    {
+        var lines = ImmutableArray.CreateBuilder<SceneLine>();
+        for (var cursor = Source.Start; !cursor.IsAtEnd;)
+        {
+            if (!ParseLine(cursor, out var kind, out var rest))
+            {
+                throw SyntaxError();
+            }
+
+            var text = Source.Text[cursor.Offset..rest.Offset];
+            lines.Add(new(text, kind, kind is { } declared ? IndexOfLast(declared) : 0, _fileOffset));
+            cursor = rest;
+        }
+
+        return lines.Any(line => line.Kind is not null)
+            ? new(Source, _scene, lines.ToImmutable())
+            : throw Error(Source.Start, "the scene declares nothing: it has no camera, object or light");
+    }
+
+    private int IndexOfLast(SceneDeclarationKind kind) => kind switch
+    {
+        SceneDeclarationKind.Light => _scene.Lights.Length - 1,
+        SceneDeclarationKind.SceneObject => _scene.Objects.Length - 1,
+        _ => 0,
+    };
+
+    private bool ParseLine(Cursor cursor, out SceneDeclarationKind? kind, out Cursor rest)
+    {
+        ParseBlanks(cursor, out var start);
+        kind = null;
+        if (start.Current == '#')
+        {
+            rest = SkipLine(start);
+            return true;
+        }
+
+        return (IsAtEndOfLine(start) || ParseDeclaration(start, out kind, out start)) && ParseEndOfLine(start, out rest)
+            || Failed(start, out rest);
+    }
+
+    private static bool Failed(Cursor cursor, out Cursor rest)
+    {
+        rest = cursor;
+        return false;
+    }
+
+    private bool ParseDeclaration(Cursor cursor, out SceneDeclarationKind? kind, out Cursor rest) =>
+        ParseDeclaration(cursor, "c", SceneDeclarationKind.Camera, ParseCamera, out kind, out rest)
+        || ParseDeclaration(cursor, "o", SceneDeclarationKind.SceneObject, ParseObject, out kind, out rest)
+        || ParseDeclaration(cursor, "p", SceneDeclarationKind.SceneObject, ParsePhysicsObject, out kind, out rest)
+        || ParseDeclaration(cursor, "projection", SceneDeclarationKind.Projection, ParseProjection, out kind, out rest)
+        || ParseDeclaration(cursor, "aspect", SceneDeclarationKind.Aspect, ParseAspect, out kind, out rest)
+        || ParseDeclaration(cursor, "clip", SceneDeclarationKind.Clip, ParseClip, out kind, out rest)
+        || ParseDeclaration(cursor, "background", SceneDeclarationKind.Background, ParseBackground, out kind, out rest)
+        || ParseDeclaration(cursor, "light", SceneDeclarationKind.Light, ParseLight, out kind, out rest)
+        || ParseDeclaration(cursor, "gravity", SceneDeclarationKind.Gravity, ParseGravity, out kind, out rest)
+        || ParseDeclaration(cursor, "player", SceneDeclarationKind.Player, ParsePlayer, out kind, out rest);
+
+    /// <summary>A keyword and what follows it; what a scene has only one of may be declared once.</summary>
+    private bool ParseDeclaration(
+        Cursor cursor, string keyword, SceneDeclarationKind declared, DeclarationParser parse, out SceneDeclarationKind? kind, out Cursor rest)
+    {
+        kind = null;
+        if (!ParseWord(cursor, keyword, out rest))
+        {
+            return false;
+        }
+
+        if (declared is not (SceneDeclarationKind.Light or SceneDeclarationKind.SceneObject) && !_declared.TryAdd(declared, cursor.Offset))
+        {
+            throw Error(cursor, $"'{keyword}' is declared twice, first in line {Source.Diagnose(_declared[declared], "").Line}");
+        }
+
+        ParseBlanks(rest, out rest);
+        kind = declared;
+        return parse(rest, out rest);
+    }
+
+    private bool ParseCamera(Cursor cursor, out Cursor rest)
+    {
+        if (!ParseVectorOr(cursor, Vector.Zero, out var position, out rest) || !ParseSeparatorOrNothing(rest, out rest)
+            || !ParseVectorOr(rest, Vector.Zero, out var rotation, out rest) || !ParseSeparatorOrNothing(rest, out var fieldOfViewPlace)
+            || !ParseNumber(fieldOfViewPlace, out var fieldOfView, out rest))
+        {
+            return false;
+        }
+
+        Require(fieldOfView is > 0 and < 180, fieldOfViewPlace, "the angle of view must lie between 0 and 180 degrees");
+        return Declare(_scene with { Camera = new(position, rotation, fieldOfView) });
+    }
+
+    private bool ParseProjection(Cursor cursor, out Cursor rest)
+    {
+        if (ParseWord(cursor, "perspective", out rest))
+        {
+            return Declare(_scene with { Projection = Projection.Perspective });
+        }
+
+        if (!ParseWord(cursor, "orthographic", out rest))
+        {
+            return false;
+        }
+
+        ParseBlanks(rest, out var place);
+        double? height = null;
+        if (!IsAtEndOfLine(place))
+        {
+            if (!ParseNumber(place, out var number, out rest))
+            {
+                return false;
+            }
+
+            Require(number > 0, place, "the visible height must be positive");
+            height = number;
+        }
+
+        return Declare(_scene with { Projection = Projection.Orthographic, OrthographicHeight = height });
+    }
+
+    private bool ParseAspect(Cursor cursor, out Cursor rest)
+    {
+        if (!ParseNumber(cursor, out var width, out rest))
+        {
+            return false;
+        }
+
+        var height = 1.0;
+        if (ParseBlanks(rest, out var colon) && colon.Current == ':' && !(ParseBlanks(colon.Advance(1), out rest) && ParseNumber(rest, out height, out rest)))
+        {
+            return false;
+        }
+
+        Require(width > 0 && height > 0 && width / height is >= 0.01 and <= 100, cursor, "the aspect ratio must lie between 1:100 and 100:1");
+        return Declare(_scene with { Aspect = width / height });
+    }
+
+    private bool ParseClip(Cursor cursor, out Cursor rest)
+    {
+        if (!ParseNumber(cursor, out var near, out rest) || !ParseSeparator(rest, out rest) || !ParseNumber(rest, out var far, out rest))
+        {
+            return false;
+        }
+
+        Require(near > 0 && far > near, cursor, "the clip planes must satisfy 0 < near < far");
+        return Declare(_scene with { Clip = (near, far) });
+    }
+
+    private bool ParseBackground(Cursor cursor, out Cursor rest) =>
+        ParseColour(cursor, out var colour, out rest) && Declare(_scene with { Background = colour });
+
+    private bool ParseGravity(Cursor cursor, out Cursor rest) =>
+        ParseVectorOr(cursor, Vector.Zero, out var gravity, out rest) && Declare(_scene with { Gravity = gravity });
+
+    private bool ParsePlayer(Cursor cursor, out Cursor rest)
+    {
+        if (!ParseVector(cursor, out var position, out rest) || !ParseSeparatorOrNothing(rest, out var sizes)
+            || !ParseNumber(sizes, out var radius, out rest) || !ParseSeparator(rest, out rest) || !ParseNumber(rest, out var height, out rest))
+        {
+            return false;
+        }
+
+        Require(radius > 0 && height >= 2 * radius, sizes, "the player's radius must be positive, and the height at least twice as much");
+        return Declare(_scene with { Player = new(position, radius, height) });
+    }
+
+    private bool Declare(Scene scene)
+    {
+        _scene = scene;
+        return true;
+    }
+}

@@ -1,0 +1,94 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.Parsing.Scenes;
+
+/// <summary>The values that scene files write: vectors, matrices and colours, with '#' for "no transformation".</summary>
+public abstract class SceneValueParser : Parser
+{
+    /// <summary>A parser of one text.</summary>
+    protected SceneValueParser(SourceText source)
+        : base(source)
+    {
+    }
+
+    /// <summary>(position, rotation, scale), each a vector or '#'; or '#' for no transformation at all.</summary>
+    protected bool ParseMatrix(Cursor cursor, out Transformation placement, out Cursor rest)
+    {
+        placement = Transformation.Identity;
+        if (cursor.Current == '#')
+        {
+            rest = cursor.Advance(1);
+            return true;
+        }
+
+        if (cursor.Current != '(')
+        {
+            rest = cursor;
+            return Fail(cursor, "'('") | Fail(cursor, "'#'");
+        }
+
+        ParseBlanks(cursor.Advance(1), out rest);
+        if (!ParseVectorOr(rest, Vector.Zero, out var position, out rest) || !ParseSeparator(rest, out rest)
+            || !ParseVectorOr(rest, Vector.Zero, out var rotation, out rest) || !ParseSeparator(rest, out var scalePlace)
+            || !ParseVectorOr(scalePlace, Vector.One, out var scale, out rest)
+            || !ParseBlanks(rest, out rest) || !ParseChar(rest, ')', out rest))
+        {
+            return false;
+        }
+
+        placement = new(position, rotation, scale);
+        Require(ScaleCheck.IsRegular(scale), scalePlace, ScaleCheck.Message(scale));
+        return true;
+    }
+
+    /// <summary>A vector, or '#' for the neutral one.</summary>
+    protected bool ParseVectorOr(Cursor cursor, Vector neutral, out Vector vector, out Cursor rest)
+    {
+        vector = neutral;
+        if (cursor.Current == '#')
+        {
+            rest = cursor.Advance(1);
+            return true;
+        }
+
+        Fail(cursor, "'#'");
+        return ParseVector(cursor, out vector, out rest);
+    }
+
+    /// <summary>A given word and the blanks behind it.</summary>
+    protected bool ParseKeyword(Cursor cursor, string word, out Cursor rest) =>
+        ParseWord(cursor, word, out rest) && ParseBlanks(rest, out rest);
+
+    /// <summary>Three components from 0 to 1.</summary>
+    protected bool ParseColour(Cursor cursor, out Colour colour, out Cursor rest)
+    {
+        var success = ParseVector(cursor, out var vector, out rest);
+        colour = new(vector.X, vector.Y, vector.Z);
+        Require(
+            Vector.Min(vector, Vector.Zero) == Vector.Zero && Vector.Max(vector, Vector.One) == Vector.One,
+            cursor, "the components of a colour must lie between 0 and 1");
+        return success;
+    }
+
+    /// <summary>A vector and what separates it from the next part.</summary>
+    protected bool ParseVectorAndSeparator(Cursor cursor, out Vector vector, out Cursor rest) =>
+        ParseVector(cursor, out vector, out rest) && ParseSeparatorOrNothing(rest, out rest);
+
+    /// <summary>Between parts that end in a bracket and begin with one, nothing need stand.</summary>
+    protected bool ParseSeparatorOrNothing(Cursor cursor, out Cursor rest)
+    {
+        ParseBlanks(cursor, out rest);
+        return rest.Current != ',' || ParseBlanks(rest.Advance(1), out rest);
+    }
+
+    /// <summary>Throws for what was parsed but makes no sense.</summary>
+    protected void Require(bool condition, Cursor place, string message)
+    {
+        if (!condition)
+        {
+            throw Error(place, message);
+        }
+    }
+}

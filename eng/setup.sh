@@ -1,0 +1,76 @@
+# Shared by run.sh and test.sh; sourced, not run. Brings a machine with the .NET SDK to where the engine builds and draws:
+# packages (Debian and its relatives only), restore, build. Says nothing on stdout, and does nothing when all is there.
+
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+configuration=Release
+export DOTNET_NOLOGO=1 DOTNET_CLI_TELEMETRY_OPTOUT=1 DOTNET_SKIP_FIRST_TIME_EXPERIENCE=1 DOTNET_GENERATE_ASPNET_CERTIFICATE=false
+# Servers that outlive a build keep memory, and the pipe of whoever waits for the script's output.
+export MSBUILDDISABLENODEREUSE=1
+
+fail() {
+    printf 'error: %s\n' "$1" >&2
+    exit "${2:-1}"
+}
+
+has_library() {
+    # Debian keeps libraries below the machine's triplet; ldconfig knows them wherever they are.
+    ldconfig -p 2>/dev/null | grep -q "$1" || ls /usr/lib/*/"$1"* >/dev/null 2>&1
+}
+
+# Prints the Debian packages that are missing; looks for files and commands, since asking apt takes a second.
+missing_packages() {
+    [ -e /usr/lib/cli/OpenTK-1.1/OpenTK.dll ] || echo libopentk1.1-cil
+    has_library libSDL2_image-2.0.so.0 || echo libsdl2-image-2.0-0
+    has_library libGL.so.1 || echo libgl1
+    { ls /usr/lib/*/dri/swrast_dri.so || ls /usr/lib/*/libgallium*; } >/dev/null 2>&1 || echo libgl1-mesa-dri
+    command -v Xvfb >/dev/null || echo xvfb
+    command -v xauth >/dev/null || echo xauth
+    if [ "${1:-}" = tests ]; then
+        command -v xdotool >/dev/null || echo xdotool
+    fi
+}
+
+install_packages() {
+    command -v apt-get >/dev/null || return 0
+    local packages log
+    packages="$(missing_packages "$@")"
+    [ -n "$packages" ] || return 0
+    local sudo=()
+    if [ "$(id -u)" != 0 ]; then
+        command -v sudo >/dev/null || fail "missing packages, and no root or sudo to install them: $(echo $packages)"
+        sudo=(sudo)
+    fi
+    log="$(mktemp)"
+    # shellcheck disable=SC2086
+    if ! { "${sudo[@]}" apt-get install -y --no-install-recommends $packages \
+        || { "${sudo[@]}" apt-get update && "${sudo[@]}" apt-get install -y --no-install-recommends $packages; }; } \
+        >"$log" 2>&1 </dev/null; then
+        cat "$log" >&2
+        rm -f "$log"
+        fail "can't install $(echo $packages)"
+    fi
+    rm -f "$log"
+}
+
+# Builds a project if a source is newer than its last build.
+build() {
+    local project="$1" stamp="$root/$1/obj/built.stamp" log
+    if [ -e "$stamp" ] && [ -z "$(find "$root" \
+        \( -name bin -o -name obj -o -name .git -o -name out -o -name assets -o -name docs \) -prune -o \
+        \( -name '*.cs' -o -name '*.csproj' -o -name '*.props' -o -name '*.json' -o -name '.editorconfig' \
+        -o -name '*.vert' -o -name '*.frag' -o -name '*.glsl' -o -name '*.atlas' \) -newer "$stamp" -print -quit)" ]; then
+        return 0
+    fi
+    command -v dotnet >/dev/null || fail "the .NET SDK 10 is missing: see https://dotnet.microsoft.com/download"
+    log="$(mktemp)"
+    touch "$log"
+    if ! dotnet build "$root/$project" -c "$configuration" -v quiet -nodeReuse:false --disable-build-servers \
+        >"$log" 2>&1 </dev/null; then
+        cat "$log" >&2
+        rm -f "$log"
+        fail "the build of $project failed"
+    fi
+    mkdir -p "$(dirname "$stamp")"
+    touch -r "$log" "$stamp"
+    rm -f "$log"
+}

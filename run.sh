@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Runs FractalEngine; does all the set-up that a machine with the .NET SDK needs. See README.md, or --help.
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/eng/setup.sh"
+
+install_packages
+build FractalEngine.App
+
+app=("$root/FractalEngine.App/bin/$configuration/net10.0/FractalEngine.App")
+[ -x "${app[0]}" ] || app=(dotnet "${app[0]}.dll")
+
+# Pictures need OpenGL, and OpenGL needs a display. Without one, a virtual one serves for pictures; a window on
+# it would be seen by nobody, so the program is told to draw that into a file.
+if [ -z "${DISPLAY:-}" ] && command -v xvfb-run >/dev/null; then
+    case " $* " in
+        *" info "* | *" count "* | *" export "* | *" check "* | *" save "* | *" generate "* | *" --help "* | *" -h "* | *" --version "*) ;;
+        *) FRACTALENGINE_NO_WINDOW=1 exec xvfb-run -a -s '-screen 0 1280x720x24' "${app[@]}" "$@" ;;
+    esac
+fi
+exec "${app[@]}" "$@"
