@@ -1,7 +1,6 @@
 using System.Diagnostics;
 using System.Text;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Parsing.Fractals;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
