@@ -207,10 +207,10 @@ public sealed class AssetLoaderTests : IDisposable
     }
 
     [Fact]
-    public void Load_OfAnInfiniteFractalThatGrows_IsRefused()
+    public void Load_OfAnInfiniteFractalThatDoesNotShrink_IsRefused()
     {
         _folder.Write("b.obj", Triangle);
-        _folder.Write("f.fdo", "v 2 2 2\nt.a. (#, #, a)\nx. \"b.obj\"\nz<x>. [t.1] x\n<$>. z");
+        _folder.Write("f.fdo", "v 1 0 0\nt.a. (a, #, #)\nx. \"b.obj\"\nz<x>. [#, t.1] x\n<$>. z");
         Assert.Contains("f.fdo:5:1: error: the infinite fractal has no bounds", Fails("f.fdo"), StringComparison.Ordinal);
     }
 

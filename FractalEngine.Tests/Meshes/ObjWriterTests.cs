@@ -116,12 +116,11 @@ public class ObjWriterTests
     }
 
     [Fact]
-    public void Write_BeyondTheLimit_NamesItAndWritesNothing()
+    public void Write_BeyondTheLimit_WritesNothing()
     {
         using var stream = new MemoryStream();
         var scene = Scene((Model(Samples.Repeated(100, Samples.Move(1, 0, 0), Samples.Move(2, 0, 0))), Transformation.Identity));
-        var error = Assert.Throws<FractalLimitException>(() => ObjWriter.Write(scene, stream, 12_345));
-        Assert.Equal("12345", error.Message);
+        Assert.Throws<FractalLimitException>(() => ObjWriter.Write(scene, stream, 12_345));
         Assert.Equal(0, stream.Length);
     }
 
