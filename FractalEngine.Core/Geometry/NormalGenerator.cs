@@ -56,12 +56,13 @@ public static class NormalGenerator
             for (var face = 0; face < normals.Length; face++)
             {
                 var (a, b, c) = mesh.Face(face);
-                normals[face] = Direction(Vector.Cross(b - a, c - a));
-                if (normals[face] != Vector.Zero)
+                var (ab, bc, ca) = (Direction(b - a), Direction(c - b), Direction(a - c));
+                if (IsProper(ab, bc, ca))
                 {
-                    angles[3 * face] = Angle(b - a, c - a);
-                    angles[(3 * face) + 1] = Angle(c - b, a - b);
-                    angles[(3 * face) + 2] = Angle(a - c, b - c);
+                    normals[face] = Direction(Vector.Cross(b - a, c - a));
+                    angles[3 * face] = Angle(ab, -ca);
+                    angles[(3 * face) + 1] = Angle(bc, -ab);
+                    angles[(3 * face) + 2] = Angle(ca, -bc);
                 }
             }
 
@@ -119,8 +120,17 @@ public static class NormalGenerator
             _ => Vector.Zero,
         };
 
-        private static double Angle(Vector v1, Vector v2) =>
-            Math.Atan2(Vector.Cross(v1, v2).Length(), Vector.Dot(v1, v2)) is var angle && angle > 0 ? angle : 0;
+        /// <summary>False for slivers and points, whose direction is decided by the rounding of their corners.</summary>
+        private static bool IsProper(Vector ab, Vector bc, Vector ca)
+        {
+            const double SmallestSine = 1e-9;
+            return Vector.Cross(ab, bc).LengthSquared() > SmallestSine * SmallestSine
+                && Vector.Cross(bc, ca).LengthSquared() > SmallestSine * SmallestSine
+                && Vector.Cross(ca, ab).LengthSquared() > SmallestSine * SmallestSine;
+        }
+
+        /// <summary>Between unit vectors, radians.</summary>
+        private static double Angle(Vector v1, Vector v2) => Math.Atan2(Vector.Cross(v1, v2).Length(), Vector.Dot(v1, v2));
     }
 
     private sealed class Builder(Corners corners, double creaseCosine)

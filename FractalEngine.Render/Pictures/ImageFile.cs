@@ -17,7 +17,7 @@ public static class ImageFile
         var temporary = $"{path}.{Guid.NewGuid():N}.tmp";
         try
         {
-            Write(image, temporary);
+            Write(image, path, temporary);
             File.Move(temporary, path, overwrite: true);
         }
         catch (Exception exception) when (exception is DllNotFoundException or EntryPointNotFoundException)
@@ -26,7 +26,11 @@ public static class ImageFile
         }
         finally
         {
-            File.Delete(temporary);
+            // Gone after the move; not there at all where its directory is missing.
+            if (File.Exists(temporary))
+            {
+                File.Delete(temporary);
+            }
         }
     }
 
@@ -44,7 +48,7 @@ public static class ImageFile
         }
     }
 
-    private static unsafe void Write(PixelImage image, string path)
+    private static unsafe void Write(PixelImage image, string path, string temporary)
     {
         fixed (byte* pixels = image.Pixels)
         {
@@ -56,7 +60,7 @@ public static class ImageFile
 
             try
             {
-                if (SdlImage.SavePng(surface, path) != 0)
+                if (SdlImage.SavePng(surface, temporary) != 0)
                 {
                     throw new IOException($"{path} cannot be written: {SdlImage.ErrorText()}");
                 }

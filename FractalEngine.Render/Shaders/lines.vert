@@ -5,8 +5,8 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 colour; // linear light and opacity
 
 uniform vec3 cameraAxes[3]; // right, up and forward: the rows of the inverse axes
-uniform vec2 viewScale;     // 1 / (half height · aspect), 1 / half height
-uniform vec4 depthScale;    // z = x·depth + y, w = z·depth + w
+uniform vec2 viewScale;     // 1 / (half height * aspect), 1 / half height
+uniform vec4 depthScale;    // z = x*depth + y, w = z*depth + w
 uniform vec3 offset;        // of the point the lines are relative to, from the camera
 
 out vec4 lineColour;

@@ -1,5 +1,5 @@
 #version 330 core
-// One vertex of one instance: to the screen by map(v) = axes⁻¹·(v − position), lit by all lights on both of its sides.
+// One vertex of one instance: to the screen by map(v) = axes^-1 * (v - position), lit by all lights on both of its sides.
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -34,8 +34,8 @@ layout(std140) uniform LightBlock
 };
 
 uniform vec3 cameraAxes[3]; // right, up and forward: the rows of the inverse axes
-uniform vec2 viewScale;     // 1 / (half height · aspect), 1 / half height
-uniform vec4 depthScale;    // z = x·depth + y, w = z·depth + w
+uniform vec2 viewScale;     // 1 / (half height * aspect), 1 / half height
+uniform vec4 depthScale;    // z = x*depth + y, w = z*depth + w
 uniform vec4 flatColour;     // linear light; w: how much of it replaces the lit colour
 
 out vec3 frontColour;

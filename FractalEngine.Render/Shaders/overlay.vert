@@ -3,7 +3,7 @@
 
 layout(location = 0) in vec4 rectangle; // pixels from the upper left corner: x, y, width, height
 layout(location = 1) in vec4 tint;      // sRGB and opacity
-layout(location = 2) in vec2 kind;      // the glyph's number or −1; the radius of the corners in pixels
+layout(location = 2) in vec2 kind;      // the glyph's number or -1; the radius of the corners in pixels
 
 uniform vec2 pictureSize; // pixels
 

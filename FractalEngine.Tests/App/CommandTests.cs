@@ -86,6 +86,13 @@ public sealed class CommandTests : IDisposable
     }
 
     [Fact]
+    public void Export_IntoAFolderThatIsNotThere_MakesIt()
+    {
+        Assert.Equal(0, Run("export", "row.fdo", "--output", "a/b/flat.obj").ExitCode);
+        Assert.True(File.Exists(_folder["a/b/flat.obj"]));
+    }
+
+    [Fact]
     public void Export_OverTheLimit_ExitsWith3AndWritesNothing()
     {
         var (exitCode, output, error) = Run("export", "row.fdo", "--output", "flat.obj", "--limit", "95");
@@ -145,7 +152,7 @@ public sealed class CommandTests : IDisposable
     [InlineData("export", "row.fdo", "--output", "flat.obj", "--depth", "-1")]
     [InlineData("export", "row.fdo", "--output", "flat.obj", "--depth", "many")]
     [InlineData("export", "cube.obj", "--output", "flat.obj", "--depth", "2")]
-    [InlineData("export", "cube.obj", "--output", "no/such/folder/flat.obj")]
+    [InlineData("export", "cube.obj", "--output", "row.fdo/flat.obj")]
     [InlineData("render", "cube.obj", "--output", "a.png", "--resolution", "0x10")]
     [InlineData("render", "cube.obj", "--output", "a.png", "--projection", "fisheye")]
     public void WrongUsage_ExitsWith2AndOnlyTalksOnStderr(params string[] arguments)

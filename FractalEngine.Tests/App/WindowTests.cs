@@ -1,7 +1,6 @@
 using System.Diagnostics;
 using System.Globalization;
 using FractalEngine.Parsing.Scenes;
-using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Pictures;
 using FractalEngine.Tests.Support;
 

@@ -1,0 +1,210 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
+using FractalEngine.Render.Gl;
+using FractalEngine.Render.Preparation;
+
+namespace FractalEngine.Tests.Render;
+
+[Collection(GlTests.Name)]
+public sealed class DrawingTests
+{
+    private static readonly Camera Aside = new(new(-3.2, 2.6, -4), CameraFraming.LookRotation(new(3.2, -2.6, 4)), 45);
+
+    [SkippableFact]
+    public void Fractal_Instanced_LooksLikeTheSameFractalAsOneMesh()
+    {
+        var fractal = RenderScenes.Menger(2);
+        var flat = Flatten(fractal.Fractal);
+        var placement = new Transformation(new(0.2, -0.1, 0.3), new(20, 30, 10), new(1, 1.2, 0.9));
+        var view = new View(Aside, Projection.Perspective);
+        var instanced = RenderScenes.Draw(RenderScenes.Scene(new Scene(), (fractal, placement, null)), view, 400, 300);
+        var meshed = RenderScenes.Draw(RenderScenes.Scene(new Scene(), (RenderScenes.Model(flat), placement, null)), view, 400, 300);
+
+        // Products of floats are rounded otherwise than those of doubles: samples on edges may fall to the other side.
+        var (mean, share) = RenderScenes.Difference(instanced, meshed);
+        Assert.True(mean < 0.05 && share < 0.002, $"mean difference {mean}, share of different pixels {share}");
+    }
+
+    [SkippableTheory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Depth_NearerObject_HidesTheFartherInEitherOrder(bool nearFirst)
+    {
+        var near = (RenderScenes.Model(RenderScenes.Square(0.5), "near.obj"), RenderScenes.At(0, 0, -1), (Colour?)new Colour(1, 0, 0));
+        var far = (RenderScenes.Model(RenderScenes.Square(2), "far.obj"), RenderScenes.At(0, 0, 1), (Colour?)new Colour(0, 0, 1));
+        var settings = new Scene { Lights = [RenderScenes.FullLight], Background = Colour.Black };
+        var scene = nearFirst ? RenderScenes.Scene(settings, near, far) : RenderScenes.Scene(settings, far, near);
+        var image = RenderScenes.Draw(scene, RenderScenes.FrontView);
+
+        Assert.Equal((255, 0, 0, 255), image[100, 75]);
+        Assert.Equal((0, 0, 255, 255), image[60, 75]);
+    }
+
+    [SkippableTheory]
+    [InlineData(Projection.Perspective, 1, 4.5, 0)]
+    [InlineData(Projection.Perspective, 5.5, 9, 0)]
+    [InlineData(Projection.Perspective, 4.5, 5.5, 1)]
+    [InlineData(Projection.Orthographic, 1, 4.5, 0)]
+    [InlineData(Projection.Orthographic, 5.5, 9, 0)]
+    [InlineData(Projection.Orthographic, 4.5, 5.5, 1)]
+    public void Clip_ObjectAtDepthFive_IsDrawnBetweenThePlanesOnly(Projection projection, double near, double far, int drawn)
+    {
+        var view = new View(Camera.Default, projection) { Clip = (near, far) };
+        var image = RenderScenes.Draw(RenderScenes.WhiteOnBlack(RenderScenes.Square(1), Transformation.Identity), view);
+        Assert.Equal(drawn, Math.Sign(RenderScenes.CountOther(image, (0, 0, 0, 255))));
+    }
+
+    [SkippableTheory]
+    [InlineData(-1, 1, 1)]
+    [InlineData(1, -1, 1)]
+    [InlineData(1, 1, -1)]
+    [InlineData(-1, -1, -1)]
+    public void Mirror_SymmetricBall_IsLitLikeTheUnmirroredOne(double x, double y, double z)
+    {
+        var view = new View(Aside, Projection.Perspective);
+        var plain = RenderScenes.Draw(
+            RenderScenes.Scene(new Scene(), (RenderScenes.Model(RenderScenes.Ball(16)), Transformation.Identity, null)), view);
+        var mirrored = RenderScenes.Draw(
+            RenderScenes.Scene(
+                new Scene(), (RenderScenes.Model(RenderScenes.Ball(16)), Transformation.Identity with { Scale = new(x, y, z) }, null)),
+            view);
+        var fractal = new FractalModel("mirror.fdo", 1, new Fractal(
+            new("ball.obj", [new TransformationSet([Transformation.Identity with { Scale = new(x, y, z) }])]), RenderScenes.Ball(16)));
+        var instance = RenderScenes.Draw(RenderScenes.Scene(new Scene(), (fractal, Transformation.Identity, null)), view);
+
+        // The diagonals of the faces lie the other way round, which moves silhouettes and interpolated colours a little.
+        Assert.True(RenderScenes.Difference(plain, mirrored) is { Mean: < 0.3, Share: < 0.01 });
+        Assert.True(RenderScenes.Difference(plain, instance) is { Mean: < 0.3, Share: < 0.01 });
+    }
+
+    [SkippableFact]
+    public void Scale_WithZeros_DrawsWhatIsLeftWithoutInvalidColours()
+    {
+        var scene = RenderScenes.Scene(
+            new Scene { Background = Colour.Black },
+            (RenderScenes.Model(RenderScenes.Ball(12)), Transformation.Identity with { Scale = new(1, 1, 0) }, Colour.White));
+        var image = RenderScenes.Draw(scene, RenderScenes.FrontView);
+        // The disc looks at the camera and at the key light: bright throughout, no dark speck.
+        Assert.True(image[100, 75].Red > 100 && image[85, 75].Red > 100 && image[100, 60].Red > 100);
+
+        var gone = RenderScenes.Draw(
+            scene with { Objects = [new(new SceneObject("x.obj", Transformation.Identity with { Scale = Vector.Zero }), scene.Objects[0].Model)] },
+            RenderScenes.FrontView);
+        Assert.Equal(0, RenderScenes.CountOther(gone, (0, 0, 0, 255)));
+    }
+
+    [SkippableTheory]
+    [InlineData(0)]
+    [InlineData(4)]
+    public void Background_EveryGrey_IsExactAndUniform(int samples)
+    {
+        using var context = GlTests.Open();
+        using var frame = new FrameRenderer(context);
+        for (var grey = 0; grey < 256; grey += 5)
+        {
+            var colour = new Colour(grey / 255.0, (255 - grey) / 255.0, grey / 255.0);
+            frame.Draw(null, RenderScenes.FrontView, 16, 8, new() { Background = colour, Samples = samples });
+            Assert.Equal(0, RenderScenes.CountOther(frame.Capture(), ((byte)grey, (byte)(255 - grey), (byte)grey, 255)));
+        }
+    }
+
+    [SkippableFact]
+    public void Wireframe_Ball_DrawsFewerPixelsThanTheFilledOneAndSome()
+    {
+        var scene = RenderScenes.WhiteOnBlack(RenderScenes.Ball(6), Transformation.Identity);
+        var filled = RenderScenes.CountOther(RenderScenes.Draw(scene, RenderScenes.FrontView, 400, 300), (0, 0, 0, 255));
+        var lines = RenderScenes.CountOther(
+            RenderScenes.Draw(scene, RenderScenes.FrontView, 400, 300, new() { Wireframe = true }), (0, 0, 0, 255));
+        Assert.InRange(lines, filled / 20, filled * 3 / 4);
+    }
+
+    [SkippableFact]
+    public void Samples_None_GivesNoIntermediateColours()
+    {
+        var image = RenderScenes.Draw(
+            RenderScenes.WhiteOnBlack(RenderScenes.Ball(12), Transformation.Identity), RenderScenes.FrontView, settings: new() { Samples = 0 });
+        Assert.DoesNotContain(image.Pixels, component => component is not 0 and not 255);
+        var smooth = RenderScenes.Draw(RenderScenes.WhiteOnBlack(RenderScenes.Ball(12), Transformation.Identity), RenderScenes.FrontView);
+        Assert.Contains(smooth.Pixels, component => component is not 0 and not 255);
+    }
+
+    [SkippableFact]
+    public void GridAndAxes_AskedFor_AreDrawnWithoutAnyObject()
+    {
+        var empty = RenderScenes.Scene(new Scene { Background = Colour.Black });
+        var view = new View(Aside, Projection.Perspective);
+        Assert.Equal(0, RenderScenes.CountOther(RenderScenes.Draw(empty, view), (0, 0, 0, 255)));
+        Assert.InRange(
+            RenderScenes.CountOther(RenderScenes.Draw(empty, view, settings: new() { Grid = true, Axes = true }), (0, 0, 0, 255)), 200, 30_000);
+    }
+
+    [SkippableFact]
+    public void EmptyMesh_IsPreparedAndDrawnAsNothing()
+    {
+        var scene = RenderScenes.WhiteOnBlack(Mesh.Empty, Transformation.Identity);
+        Assert.Equal(0, RenderScenes.CountOther(RenderScenes.Draw(scene, View.Of(scene, 1)), (0, 0, 0, 255)));
+    }
+
+    [SkippableFact]
+    public void Move_Object_IsDrawnAtItsNewPlace()
+    {
+        using var context = GlTests.Open();
+        var scene = DrawableScene.Prepare(RenderScenes.WhiteOnBlack(RenderScenes.Cube(0.2), Transformation.Identity), new());
+        using var renderer = new SceneRenderer(context, scene);
+        using var frame = new FrameRenderer(context);
+        renderer.Move(0, AffineMap.Translate(new(1, 0.5, 20)));
+        frame.Draw(renderer, RenderScenes.FrontView, 200, 150, new());
+        var expected = RenderScenes.FrontView.Project(new(1, 0.5, 20), 200, 150)!.Value;
+        var found = RenderScenes.Centroid(frame.Capture());
+        Assert.Equal(expected.X, found.X, 0.3);
+        Assert.Equal(expected.Y, found.Y, 0.3);
+    }
+
+    [SkippableFact]
+    public void Draw_NothingChanged_AllocatesNothing()
+    {
+        using var context = GlTests.Open();
+        var scene = RenderScenes.Scene(
+            new Scene { Lights = [new PointLight(new(0, 3, -3), Colour.White, 1, 30)] }, (RenderScenes.Menger(1), Transformation.Identity, null));
+        using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, new()));
+        using var frame = new FrameRenderer(context);
+        var (view, settings) = (RenderScenes.FrontView, new RenderSettings { Grid = true });
+        for (var warmUp = 0; warmUp < 3; warmUp++)
+        {
+            frame.Draw(renderer, view, 64, 64, settings);
+        }
+
+        var before = GC.GetAllocatedBytesForCurrentThread();
+        frame.Draw(renderer, view, 64, 64, settings);
+        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
+    }
+
+    [SkippableFact]
+    public void Size_BeyondTheDriver_IsRefusedWithTheLimit()
+    {
+        using var context = GlTests.Open();
+        using var frame = new FrameRenderer(context);
+        var error = Assert.Throws<GlException>(() => frame.Draw(null, RenderScenes.FrontView, 1_000_000, 10, new()));
+        Assert.Equal(
+            $"a picture of 1000000×10 pixels cannot be drawn: this driver allows 1 to {context.MaximumSize} pixels a side", error.Message);
+    }
+
+    private static Mesh Flatten(Fractal fractal)
+    {
+        var (positions, faces) = (new List<double>(), new List<int>());
+        foreach (var map in FractalGenerator.Expand(fractal, 100_000))
+        {
+            faces.AddRange(fractal.BaseMesh.Faces.Select(vertex => vertex + (positions.Count / 3)));
+            for (var vertex = 0; vertex < fractal.BaseMesh.VertexCount; vertex++)
+            {
+                var (x, y, z) = map * fractal.BaseMesh.Vertex(vertex);
+                positions.AddRange([x, y, z]);
+            }
+        }
+
+        return new([.. positions], [.. faces]);
+    }
+}

@@ -1,0 +1,108 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
+using FractalEngine.Render.Preparation;
+
+namespace FractalEngine.Tests.Render;
+
+public sealed class PreparationTests
+{
+    [Fact]
+    public void Prepare_FractalBeyondTheBudget_IsDrawnLessDeepAndSaysSo()
+    {
+        var scene = Prepare(new() { InstanceBudget = 10_000 }, RenderScenes.Menger(6));
+        Assert.Equal(8000, scene.Models[0].InstanceCount);
+        Assert.Equal("menger.fdo: 64,000,000 instances are more than the budget of 10,000: drawn at depth 3 of 6", Assert.Single(scene.Notices));
+    }
+
+    [Theory]
+    [InlineData(20, "menger.fdo: about 10^26 instances are more than the budget of 8,000: drawn at depth 3 of 20")]
+    [InlineData(null, "menger.fdo: infinitely many instances are more than the budget of 8,000: drawn at depth 3 of infinitely many")]
+    public void Prepare_HugeOrInfiniteFractal_IsDrawnAtOnce(int? depth, string notice) =>
+        Assert.Equal(notice, Assert.Single(Prepare(new() { InstanceBudget = 8000 }, RenderScenes.Menger(depth)).Notices));
+
+    [Fact]
+    public void Prepare_FractalOfALargeMesh_KeepsTheTriangleBudget()
+    {
+        var scene = Prepare(new() { TriangleBudget = 12 * 500 }, RenderScenes.Menger(3));
+        Assert.Equal(400, scene.Models[0].InstanceCount);
+        Assert.Equal(4800, scene.TriangleCount);
+        Assert.Single(scene.Notices);
+    }
+
+    [Fact]
+    public void Prepare_ComponentwiseFractal_CountsDistinctSumsNotChains()
+    {
+        // 20^4 chains are beyond the budget, their distinct sums are not.
+        var scene = Prepare(new() { InstanceBudget = 5000 }, RenderScenes.Menger(4, Composition.Componentwise));
+        Assert.Empty(scene.Notices);
+        Assert.InRange(scene.Models[0].InstanceCount, 100, 5000);
+    }
+
+    [Fact]
+    public void Prepare_ModelUsedTwice_IsPreparedOnce()
+    {
+        var model = RenderScenes.Model(RenderScenes.Cube(1));
+        var scene = DrawableScene.Prepare(
+            RenderScenes.Scene(new Scene(), (model, Transformation.Identity, null), (model, RenderScenes.At(5, 0, 0), null)), new());
+        Assert.Same(scene.Objects[0].Model, scene.Objects[1].Model);
+        Assert.NotEqual(scene.Objects[0].Colour, scene.Objects[1].Colour);
+    }
+
+    [Fact]
+    public void Prepare_Cube_HasSharpEdgesAndUnitNormals()
+    {
+        var model = Prepare(new(), RenderScenes.Model(RenderScenes.Cube(1))).Models[0];
+        Assert.Equal(24, model.Vertices.Length / DrawableModel.VertexFloats);
+        Assert.Equal(36, model.Indices.Length);
+        AssertUnitNormals(model);
+    }
+
+    [Fact]
+    public void Prepare_UnusedVertices_AreLeftOut()
+    {
+        var mesh = new Mesh([9, 9, 9, 0, 0, 0, 1, 0, 0, 0, 1, 0, 8, 8, 8], [1, 2, 3]);
+        Assert.Equal(3, Prepare(new(), RenderScenes.Model(mesh)).Models[0].Vertices.Length / DrawableModel.VertexFloats);
+    }
+
+    [Fact]
+    public void Prepare_NormalsOfTheFile_AreTakenAndTurnedToTheFacesSide()
+    {
+        var mesh = RenderScenes.Square(1).WithNormals([0, 0.6, -0.8, 0, 0, 5, 0, 0, 0], [0, 0, 0, 1, 1, 2]);
+        var model = Prepare(new(), RenderScenes.Model(mesh)).Models[0];
+        var normals = model.Vertices.ToArray().Chunk(DrawableModel.VertexFloats).Select(vertex => (vertex[3], vertex[4], vertex[5])).Distinct();
+        // As given; opposing the winding, so turned round; of no direction at all.
+        Assert.Equal([(0f, 0.6f, -0.8f), (0f, 0f, -1f), (0f, 0f, 0f)], normals);
+    }
+
+    [Fact]
+    public void Prepare_ModelFarFromItsOrigin_KeepsItsShape()
+    {
+        var far = RenderScenes.Cube(1).Transform(vertex => vertex + new Vector(1e9, 0, 0));
+        var (near, moved) = (Prepare(new(), RenderScenes.Model(RenderScenes.Cube(1))).Models[0], Prepare(new(), RenderScenes.Model(far)).Models[0]);
+        Assert.Equal(near.Vertices.ToArray(), moved.Vertices.ToArray());
+        Assert.Equal(new(1e9, 0, 0), moved.Origin);
+    }
+
+    [Fact]
+    public void Prepare_Cancelled_Stops()
+    {
+        using var source = new CancellationTokenSource();
+        source.Cancel();
+        var scene = RenderScenes.Scene(new Scene(), (RenderScenes.Menger(2), Transformation.Identity, null));
+        Assert.Throws<OperationCanceledException>(() => DrawableScene.Prepare(scene, new(), null, source.Token));
+    }
+
+    private static DrawableScene Prepare(RenderSettings settings, Model model) =>
+        DrawableScene.Prepare(RenderScenes.Scene(new Scene(), (model, Transformation.Identity, null)), settings);
+
+    private static void AssertUnitNormals(DrawableModel model)
+    {
+        foreach (var vertex in model.Vertices.ToArray().Chunk(DrawableModel.VertexFloats))
+        {
+            Assert.Equal(1, Math.Sqrt((vertex[3] * vertex[3]) + (vertex[4] * vertex[4]) + (vertex[5] * vertex[5])), 1e-6);
+        }
+    }
+}

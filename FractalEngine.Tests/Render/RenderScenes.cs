@@ -1,0 +1,140 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
+using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Preparation;
+
+namespace FractalEngine.Tests.Render;
+
+/// <summary>Small scenes to draw, and ways to look at the pictures.</summary>
+internal static class RenderScenes
+{
+    /// <summary>Light from everywhere at full strength: what is drawn has exactly its own colour.</summary>
+    public static readonly Light FullLight = new AmbientLight(Colour.White, 1);
+
+    public static Mesh Cube(double half) => new(
+        [
+            -half, -half, -half, half, -half, -half, -half, half, -half, half, half, -half,
+            -half, -half, half, half, -half, half, -half, half, half, half, half, half,
+        ],
+        [0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 4, 2, 4, 6, 2, 1, 3, 5, 3, 7, 5, 2, 6, 3, 3, 6, 7, 0, 1, 4, 1, 5, 4]);
+
+    /// <summary>A square in the plane z = 0 whose front looks towards −z.</summary>
+    public static Mesh Square(double half) => new(
+        [-half, -half, 0, half, -half, 0, -half, half, 0, half, half, 0], [0, 2, 1, 1, 2, 3]);
+
+    /// <summary>A ball of radius 1 about the origin; its poles lie on the y axis.</summary>
+    public static Mesh Ball(int rings)
+    {
+        var (positions, faces) = (ImmutableArray.CreateBuilder<double>(), ImmutableArray.CreateBuilder<int>());
+        for (var i = 0; i <= rings; i++)
+        {
+            for (var j = 0; j < 2 * rings; j++)
+            {
+                // Exactly 0 at both poles.
+                var (sine, cosine) = double.SinCosPi((double)i / rings);
+                var (acrossSine, acrossCosine) = double.SinCosPi((double)j / rings);
+                positions.AddRange(sine * acrossCosine, cosine, sine * acrossSine);
+                if (i < rings)
+                {
+                    var (a, b) = ((i * 2 * rings) + j, (i * 2 * rings) + ((j + 1) % (2 * rings)));
+                    faces.AddRange(a, b, a + (2 * rings), b, b + (2 * rings), a + (2 * rings));
+                }
+            }
+        }
+
+        return new(positions.ToImmutable(), faces.ToImmutable());
+    }
+
+    public static Model Model(Mesh mesh, string file = "mesh.obj") => new MeshModel(file, 1, mesh);
+
+    public static FractalModel Menger(int? depth, Composition composition = Composition.Affine) =>
+        new("menger.fdo", 1, new Fractal(
+            new FractalDescription("cube.obj", [new Repetition([new TransformationSet(MengerSet())], depth)], composition), Cube(1)));
+
+    public static Transformation At(double x, double y, double z) => Transformation.Identity with { Position = new(x, y, z) };
+
+    public static LoadedScene Scene(Scene scene, params ReadOnlySpan<(Model Model, Transformation Placement, Colour? Colour)> objects) =>
+        new(scene, [.. objects.ToArray().Select(item =>
+            new PlacedModel(new SceneObject(item.Model.Path, item.Placement) { Colour = item.Colour }, item.Model))]);
+
+    /// <summary>A white thing in full light on black.</summary>
+    public static LoadedScene WhiteOnBlack(Mesh mesh, Transformation placement) => Scene(
+        new Scene { Background = Colour.Black, Lights = [FullLight] }, (Model(mesh), placement, Colour.White));
+
+    public static PixelImage Draw(LoadedScene scene, View view, int width = 200, int height = 150, RenderSettings? settings = null)
+    {
+        using var context = GlTests.Open();
+        using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, settings ?? new()));
+        using var frame = new FrameRenderer(context);
+        frame.Draw(renderer, view, width, height, settings ?? new());
+        context.Resources.ThrowOnError("drawing");
+        return frame.Capture();
+    }
+
+    /// <summary>From five units before the origin.</summary>
+    public static View FrontView => new(Camera.Default, Projection.Perspective);
+
+    /// <summary>How many pixels differ from a colour.</summary>
+    public static int CountOther(PixelImage image, (byte, byte, byte, byte) colour)
+    {
+        var count = 0;
+        for (var y = 0; y < image.Height; y++)
+        {
+            for (var x = 0; x < image.Width; x++)
+            {
+                count += image[x, y] == colour ? 0 : 1;
+            }
+        }
+
+        return count;
+    }
+
+    /// <summary>The centre of what is drawn on black, weighted with linear light, in pixels from the upper left corner.</summary>
+    public static (double X, double Y) Centroid(PixelImage image)
+    {
+        var (sum, sumX, sumY) = (0.0, 0.0, 0.0);
+        for (var y = 0; y < image.Height; y++)
+        {
+            for (var x = 0; x < image.Width; x++)
+            {
+                var light = new Colour(image[x, y].Green / 255.0, 0, 0).ToLinear().Red;
+                (sum, sumX, sumY) = (sum + light, sumX + (light * (x + 0.5)), sumY + (light * (y + 0.5)));
+            }
+        }
+
+        return (sumX / sum, sumY / sum);
+    }
+
+    /// <summary>The mean absolute difference of all components, and the share of pixels with a component that differs by more than 8.</summary>
+    public static (double Mean, double Share) Difference(PixelImage image1, PixelImage image2)
+    {
+        Assert.Equal((image1.Width, image1.Height), (image2.Width, image2.Height));
+        var (sum, different) = (0L, 0);
+        for (var i = 0; i < image1.Pixels.Length; i += 4)
+        {
+            var largest = 0;
+            for (var j = i; j < i + 4; j++)
+            {
+                var difference = Math.Abs(image1.Pixels[j] - image2.Pixels[j]);
+                (sum, largest) = (sum + difference, Math.Max(largest, difference));
+            }
+
+            different += largest > 8 ? 1 : 0;
+        }
+
+        return ((double)sum / image1.Pixels.Length, 4.0 * different / image1.Pixels.Length);
+    }
+
+    private static ImmutableArray<Transformation> MengerSet() =>
+    [
+        .. from x in (int[])[-1, 0, 1]
+           from y in (int[])[-1, 0, 1]
+           from z in (int[])[-1, 0, 1]
+           where Math.Abs(x) + Math.Abs(y) + Math.Abs(z) >= 2
+           select new Transformation(2.0 / 3 * new Vector(x, y, z), Vector.Zero, Vector.One / 3),
+    ];
+}
