@@ -147,4 +147,12 @@ public class ObjWriterTests
             Assert.True(first[i].Zip(second[i]).All(pair => Math.Abs(pair.First - pair.Second) < 1e-11), $"face {i} differs");
         }
     }
+
+    [Fact]
+    public void Write_BeyondTheLimit_NamesTheLimitThatWasGiven()
+    {
+        var scene = Scene((Model(Samples.Repeated(100, Samples.Move(1, 0, 0), Samples.Move(2, 0, 0))), Transformation.Identity));
+        var error = Assert.Throws<FractalLimitException>(() => Write(scene, 12_345));
+        Assert.Contains("12345", error.Message, StringComparison.Ordinal);
+    }
 }
