@@ -301,7 +301,8 @@ public class FractalParserErrorTests
             Assert.True(error.Message.Length < 1000, "the message fills the screen");
         }
 
-        Assert.True(start.ElapsedMilliseconds < 2000, $"{start.ElapsedMilliseconds} ms");
+        // Half a second by itself; the rest is for a machine that runs other tests beside it. A hang is minutes.
+        Assert.True(start.ElapsedMilliseconds < 15_000, $"{start.ElapsedMilliseconds} ms");
     }
 
     [Fact]

@@ -156,7 +156,7 @@ public class SceneParserTests
     public void FileOffset_PointsAtTheName()
     {
         var file = SceneParser.Parse(new("test.sdo", Samples.AppendixA));
-        Assert.StartsWith("\"SampleAsset2.obj\"", file.Source.Text[file.FileOffset(1)..], StringComparison.Ordinal);
+        Assert.StartsWith("\"SampleAsset2.obj\"", file.Source.Text[file.FileOffsets.ElementAt(1)..], StringComparison.Ordinal);
     }
 
     [Fact]
