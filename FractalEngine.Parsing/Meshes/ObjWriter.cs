@@ -50,6 +50,20 @@ public sealed class ObjWriter
         writer.Flush();
     }
 
+    /// <summary>Writes one mesh, with its groups where it has some.</summary>
+    /// <param name="mesh">Of any size.</param>
+    /// <param name="name">What the object is called in the file.</param>
+    /// <param name="stream">Receives UTF-8 text.</param>
+    public static void Write(Mesh mesh, string name, Stream stream)
+    {
+        var writer = new ObjWriter(stream);
+        writer.Text(string.Create(CultureInfo.InvariantCulture, $"# Mesh count: {mesh.FaceCount}\n"));
+        writer.Text($"o {name}\n");
+        writer.WriteTextureCoordinates(mesh);
+        writer.WriteInstance(AffineMap.Identity, mesh, textureStart: 0, writeGroups: true);
+        writer.Flush();
+    }
+
     private static string Name(PlacedModel placed) =>
         placed.Declaration.Name ?? Path.GetFileNameWithoutExtension(placed.Declaration.File);
 
@@ -75,6 +89,15 @@ public sealed class ObjWriter
     private void WriteObject(AffineMap placement, Mesh mesh, ImmutableArray<AffineMap> instances)
     {
         var textureStart = _textureCoordinates;
+        WriteTextureCoordinates(mesh);
+        foreach (var instance in instances)
+        {
+            WriteInstance(placement * instance, mesh, textureStart);
+        }
+    }
+
+    private void WriteTextureCoordinates(Mesh mesh)
+    {
         for (var i = 0; i < mesh.TextureCoordinates.Length; i += 2)
         {
             Text("vt");
@@ -84,13 +107,9 @@ public sealed class ObjWriter
         }
 
         _textureCoordinates += mesh.TextureCoordinates.Length / 2;
-        foreach (var instance in instances)
-        {
-            WriteInstance(placement * instance, mesh, textureStart);
-        }
     }
 
-    private void WriteInstance(AffineMap map, Mesh mesh, long textureStart)
+    private void WriteInstance(AffineMap map, Mesh mesh, long textureStart, bool writeGroups = false)
     {
         for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
         {
@@ -99,8 +118,14 @@ public sealed class ObjWriter
 
         var mirrored = map.Linear.Determinant() < 0;
         WriteNormals(map.Linear, mirrored, mesh);
+        var nextGroup = 0;
         for (var face = 0; face < mesh.FaceCount; face++)
         {
+            if (writeGroups && nextGroup < mesh.Groups.Length && mesh.Groups[nextGroup].FirstFace == face)
+            {
+                Text($"g {mesh.Groups[nextGroup++].GroupName}\n");
+            }
+
             Text("f");
             Corner(mesh, 3 * face, textureStart);
             // A mirror turns faces inside out; two corners exchanged turn them back.

@@ -1,0 +1,16 @@
+namespace FractalEngine.Core.Geometry.Generation;
+
+/// <summary>A corner of a face: the numbers of its position and texture coordinate.</summary>
+internal readonly record struct MeshCorner(int Position, int Coordinate);
+
+/// <summary>A face with the group of faces that it is smooth with; 0 for none.</summary>
+internal readonly record struct MeshTriangle(MeshCorner A, MeshCorner B, MeshCorner C, int Smoothing)
+{
+    /// <summary>The same face, beginning with another corner: 0 is A, 1 is B, 2 is C.</summary>
+    public MeshTriangle StartingAt(int corner) => corner switch
+    {
+        0 => this,
+        1 => new(B, C, A, Smoothing),
+        _ => new(C, A, B, Smoothing),
+    };
+}

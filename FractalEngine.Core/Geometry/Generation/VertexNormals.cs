@@ -1,0 +1,52 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Geometry.Generation;
+
+/// <summary>Normals of smooth faces: at each corner the mean over the faces of one smoothing group, weighted by area.</summary>
+internal static class VertexNormals
+{
+    /// <summary>Normals, [n × 3], and their numbers, [faces × 3], −1 for flat faces; empty when all are flat.</summary>
+    public static (ImmutableArray<double> Normals, ImmutableArray<int> Faces) Of(List<Vector> positions, List<MeshTriangle> triangles)
+    {
+        var numbers = new Dictionary<(int Position, int Smoothing), int>();
+        var sums = new List<Vector>();
+        var faces = ImmutableArray.CreateBuilder<int>(3 * triangles.Count);
+        foreach (var (a, b, c, smoothing) in triangles)
+        {
+            if (smoothing == 0)
+            {
+                faces.AddRange(-1, -1, -1);
+                continue;
+            }
+
+            var start = positions[a.Position];
+            var area = Vector.Cross(positions[b.Position] - start, positions[c.Position] - start);
+            foreach (var corner in (ReadOnlySpan<MeshCorner>)[a, b, c])
+            {
+                if (!numbers.TryGetValue((corner.Position, smoothing), out var number))
+                {
+                    number = numbers[(corner.Position, smoothing)] = sums.Count;
+                    sums.Add(Vector.Zero);
+                }
+
+                sums[number] += area;
+                faces.Add(number);
+            }
+        }
+
+        if (sums.Count == 0)
+        {
+            return ([], []);
+        }
+
+        var normals = ImmutableArray.CreateBuilder<double>(3 * sums.Count);
+        foreach (var sum in sums)
+        {
+            var normal = sum == Vector.Zero ? Vector.J : sum.UnitVector();
+            normals.AddRange(normal.X, normal.Y, normal.Z);
+        }
+
+        return (normals.MoveToImmutable(), faces.MoveToImmutable());
+    }
+}

@@ -1,0 +1,179 @@
+using System.Globalization;
+using System.Numerics;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Tests.Support;
+using Vector = FractalEngine.Core.Maths.Vector;
+
+namespace FractalEngine.Tests.Assets;
+
+/// <summary>The files under assets/: each loads, and is what it says that it is.</summary>
+public sealed class AssetTests
+{
+    private static readonly string Root = FindRoot();
+
+    public static TheoryData<string> Files => Named(".obj", ".fdo", ".sdo");
+
+    public static TheoryData<string> Meshes => Named(".obj");
+
+    public static TheoryData<string> Scenes => Named(".sdo");
+
+    [Theory]
+    [MemberData(nameof(Files))]
+    public void File_IsCheckedWithoutErrorOrWarning(string file) => Assert.Empty(AssetLoader.Check(Full(file)));
+
+    [Theory]
+    [InlineData("sierpinski", 10, 16_807)]
+    [InlineData("diamond", 10, 117_649)]
+    [InlineData("menger", 12, 3_200_000)]
+    [InlineData("menger-4", 12, 160_000)]
+    [InlineData("menger-3", 12, 8_000)]
+    [InlineData("appendix-b", 8, 244_140_625)]
+    [InlineData("appendix-b-structure", 8, 390_625)]
+    [InlineData("tetrahedron", 4, 16_384)]
+    [InlineData("tree", 44, 78_125)]
+    [InlineData("tree-leaves", 24, 49_152)]
+    [InlineData("romanesco", 28, 32_768)]
+    [InlineData("fern", 24, 110_592)]
+    [InlineData("shell", 160, 128)]
+    [InlineData("snowflake", 34, 14_406)]
+    [InlineData("terrain", 12, 65_536)]
+    public void Fractal_HasTheStatedFacesAndInstances(string name, int faces, long instances)
+    {
+        var fractal = Fractal(name);
+        Assert.Equal(faces, fractal.BaseMesh.FaceCount);
+        Assert.Equal(instances, fractal.InstanceCount);
+    }
+
+    [Theory]
+    [InlineData("sierpinski", 168_070)]
+    [InlineData("diamond", 1_176_490)]
+    [InlineData("menger", 38_400_000)]
+    public void PapersModel_HasThePapersFaces(string name, long faces) => Assert.Equal(faces, Fractal(name).FaceCount);
+
+    [Theory]
+    [InlineData("sierpinski", 16_807)]
+    [InlineData("diamond", 117_649)]
+    [InlineData("tree", 21_845)]
+    [InlineData("snowflake", 9_330)]
+    [InlineData("terrain", 65_536)]
+    public void Fractal_HasTheStatedDistinctInstances(string name, int distinct) =>
+        Assert.Equal(distinct, DistinctInstances.Count(Fractal(name)));
+
+    [Fact]
+    public void Googol_HasAGoogolInstances() => Assert.Equal(BigInteger.Pow(10, 100), Fractal("googol").InstanceCount);
+
+    [Fact]
+    public void InfiniteMenger_IsInfiniteAndBounded()
+    {
+        var fractal = Fractal("infinite-menger");
+        Assert.Null(fractal.InstanceCount);
+        // The attractor is the unit cube; the bounds are found to 1e-12 of its size.
+        Assert.True((fractal.Bounds.Size - Vector.One).MaximumComponent() < 1e-11, fractal.Bounds.ToString());
+    }
+
+    [Theory]
+    [InlineData("sierpinski")]
+    [InlineData("diamond")]
+    [InlineData("menger-3")]
+    [InlineData("tetrahedron")]
+    [InlineData("terrain")]
+    [InlineData("shell")]
+    public void Fractal_IsInOnePiece_CornerOnCorner(string name)
+    {
+        var fractal = Fractal(name);
+        // Rounding separates corners that meet by 1e-15; the smallest details are 1e-3 of the whole.
+        Assert.Equal(1, Pieces.Count(FractalGenerator.Expand(fractal, 200_000), fractal.BaseMesh, 1e-8 * fractal.Bounds.Diagonal));
+    }
+
+    [Theory]
+    [InlineData("sierpinski")]
+    [InlineData("diamond")]
+    [InlineData("menger")]
+    [InlineData("tetrahedron")]
+    [InlineData("romanesco")]
+    [InlineData("fern")]
+    [InlineData("terrain")]
+    [InlineData("googol")]
+    public void Recursion_Contracts(string name)
+    {
+        var repetition = Assert.IsType<Repetition>(Fractal(name).Description.Steps.First(step => step is Repetition));
+        foreach (var map in FractalGenerator.Expand(new(new("", repetition.Body), Fractal(name).BaseMesh), 100_000))
+        {
+            // Every distance shrinks after a few rounds: the map's spectral radius is that of its linear part's powers.
+            var power = Enumerable.Repeat(map.Linear, 64).Aggregate((m1, m2) => m1 * m2);
+            Assert.True(power.MaximumEntry() < 1e-1, $"{name}: {map}");
+        }
+    }
+
+    [Theory]
+    [MemberData(nameof(Meshes))]
+    public void Mesh_StatesItsFacesAndUsesEveryVertex(string file)
+    {
+        var mesh = AssetLoader.Load(Full(file)).Scene.Objects[0].Model.Mesh;
+        var header = File.ReadLines(Full(file)).First();
+        Assert.Equal(string.Create(CultureInfo.InvariantCulture, $"# Mesh count: {mesh.FaceCount}"), header);
+        Assert.Equal(mesh.VertexCount, mesh.Faces.Distinct().Count());
+        for (var face = 0; face < mesh.FaceCount; face++)
+        {
+            var (a, b, c) = mesh.Face(face);
+            Assert.True(Vector.Cross(b - a, c - a).Length() > 1e-9, $"face {face} has no area");
+        }
+    }
+
+    [Theory]
+    [MemberData(nameof(Meshes))]
+    public void Mesh_IsClosedAndWoundOutwards(string file)
+    {
+        var mesh = AssetLoader.Load(Full(file)).Scene.Objects[0].Model.Mesh;
+        var edges = new HashSet<(int From, int To)>();
+        for (var corner = 0; corner < mesh.Faces.Length; corner++)
+        {
+            Assert.True(edges.Add((mesh.Faces[corner], mesh.Faces[corner % 3 == 2 ? corner - 2 : corner + 1])), "two faces run the same way along an edge");
+        }
+
+        // A floor needs no underside.
+        Assert.True(file.Contains("floor-", StringComparison.Ordinal) || edges.All(edge => edges.Contains((edge.To, edge.From))), "there is a hole");
+        var volume = Enumerable.Range(0, mesh.FaceCount).Select(mesh.Face).Sum(face => Vector.Dot(face.A, Vector.Cross(face.B, face.C)));
+        Assert.True(volume > 0, "it is inside out");
+    }
+
+    [Theory]
+    [MemberData(nameof(Scenes))]
+    public void Scene_ShowsSomethingBeforeItsCamera(string file)
+    {
+        var scene = AssetLoader.Load(Full(file)).Scene;
+        Assert.NotNull(scene.Scene.Camera);
+        Assert.Contains(scene.Objects, placed => scene.Scene.Camera.Map(placed.Bounds.Centre).Z > 0);
+    }
+
+    [Fact]
+    public void Gallery_HasNoMoreInstancesThanDrawInASecondOrTwo()
+    {
+        var scene = AssetLoader.Load(Full("assets/scenes/gallery.sdo")).Scene;
+        var instances = scene.Objects.Aggregate(BigInteger.Zero, (sum, placed) => sum + placed.Model.InstanceCount!.Value);
+        Assert.True(instances <= 1_500_000, $"{instances} instances");
+    }
+
+    private static Fractal Fractal(string name) =>
+        Assert.IsType<FractalModel>(AssetLoader.Load(Full($"assets/fractals/{name}.fdo")).Scene.Objects[0].Model).Fractal;
+
+    private static TheoryData<string> Named(params string[] endings) =>
+        [.. Directory.EnumerateFiles(Path.Combine(Root, "assets"), "*", SearchOption.AllDirectories)
+            .Where(file => endings.Contains(Path.GetExtension(file)))
+            .Select(file => Path.GetRelativePath(Root, file).Replace('\\', '/')).Order(StringComparer.Ordinal)];
+
+    private static string Full(string file) => Path.Combine(Root, file);
+
+    private static string FindRoot()
+    {
+        DirectoryInfo? folder = new(AppContext.BaseDirectory);
+        while (folder is not null && !File.Exists(Path.Combine(folder.FullName, "FractalEngine.sln")))
+        {
+            folder = folder.Parent;
+        }
+
+        return folder?.FullName ?? throw new InvalidOperationException("the tests do not lie below FractalEngine.sln");
+    }
+}
