@@ -14,7 +14,7 @@ app=("$root/FractalEngine.App/bin/$configuration/net10.0/FractalEngine.App")
 if [ -z "${DISPLAY:-}" ] && command -v xvfb-run >/dev/null; then
     case " $* " in
         *" info "* | *" count "* | *" export "* | *" check "* | *" save "* | *" generate "* | *" --help "* | *" -h "* | *" --version "*) ;;
-        *) FRACTALENGINE_NO_WINDOW=1 exec xvfb-run -a -s '-screen 0 1280x720x24' "${app[@]}" "$@" ;;
+        *) FRACTALENGINE_NO_WINDOW=1 exec xvfb-run -a -s '-screen 0 1280x720x24 -noreset' "${app[@]}" "$@" ;;
     esac
 fi
 exec "${app[@]}" "$@"

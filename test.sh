@@ -17,9 +17,10 @@ results="$(mktemp -d)"
 trap 'rm -rf "$results"' EXIT
 command=(dotnet test "$root/FractalEngine.Tests" -c "$configuration" --no-build --nologo --filter "$filter"
     --logger "trx;LogFileName=tests.trx" --logger "console;verbosity=minimal" --results-directory "$results" "$@")
-# Tests draw on a display of their own, so that windows and the user's keyboard don't meet.
+# Tests draw on a display of their own, so that windows and the user's keyboard don't meet. It must not reset between two
+# programs (-noreset): who connects just then is turned away.
 if command -v xvfb-run >/dev/null; then
-    command=(xvfb-run -a -s '-screen 0 1280x960x24' "${command[@]}")
+    command=(xvfb-run -a -s '-screen 0 1280x960x24 -noreset' "${command[@]}")
 fi
 "${command[@]}" </dev/null
 status=$?

@@ -37,7 +37,9 @@ internal static class RenderCommand
         }
 
         var view = View.Of(scene, (double)size.Width / size.Height);
-        ImageFile.SavePng(OffscreenRenderer.Render(drawable, view, size.Width, size.Height, settings), output);
+        var image = OffscreenRenderer.Render(drawable, view, size.Width, size.Height, settings);
+        Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(output))!);
+        ImageFile.SavePng(image, output);
         return ExitCode.Done;
     }
 }

@@ -42,7 +42,6 @@ internal static class ViewCommand
         }
 
         var output = Path.Combine("out", Path.GetFileNameWithoutExtension(path) + ".png");
-        Directory.CreateDirectory("out");
         var exitCode = RenderCommand.Run(path, options, output, size, projection, settings);
         Console.Error.WriteLine($"there is no display to open a window on: drew {output} instead");
         return exitCode;

@@ -36,7 +36,10 @@ internal sealed class SceneWindow : IDisposable
     private int _exitCode;
     private bool _isClosing;
     private bool _isVisible = true;
-    private bool _isDirty = true;
+
+    // What the window shows is older than the scene, or than the text over it. A new text costs no new drawing.
+    private bool _isDrawingStale = true;
+    private bool _isWindowStale = true;
 
     private SceneWindow(string path, LoadOptions options, Projection? projection, RenderSettings settings, (int Width, int Height) size)
     {
@@ -77,17 +80,18 @@ internal sealed class SceneWindow : IDisposable
 
             FinishLoading();
             Advance();
-            _isDirty |= _overlay.Expire(_clock.Elapsed);
-            if (_isDirty && _isVisible && _window.Width > 0 && _window.Height > 0 && !_isClosing)
+            _isWindowStale |= _overlay.Expire(_clock.Elapsed);
+            if (IsStale && _window.Width > 0 && _window.Height > 0 && !_isClosing)
             {
-                _isDirty = false;
-                Draw();
+                Refresh();
             }
         }
     }
 
+    private bool IsStale => _isVisible && (_isDrawingStale || _isWindowStale);
+
     private TimeSpan TimeToSleep() =>
-        _isDirty && _isVisible ? TimeSpan.Zero
+        IsStale ? TimeSpan.Zero
         : _document?.Controls.IsMoving == true ? Max(TimeSpan.Zero, FrameTime - (_clock.Elapsed - _advanced))
         : !_load.IsTaken ? ProgressInterval
         : _overlay.NextExpiry is { } expiry ? Max(TimeSpan.Zero, expiry - _clock.Elapsed)
@@ -111,11 +115,11 @@ internal sealed class SceneWindow : IDisposable
         if (!_load.IsCompleted)
         {
             _overlay.Progress = _load.Progress;
-            _isDirty |= _overlay.Progress is not null;
+            _isWindowStale = true;
             return;
         }
 
-        (_overlay.Progress, _overlay.Error, _isDirty) = (null, null, true);
+        (_overlay.Progress, _overlay.Error, _isWindowStale) = (null, null, true);
         try
         {
             var (file, drawable) = _load.Take();
@@ -150,6 +154,7 @@ internal sealed class SceneWindow : IDisposable
         }
 
         _overlay.Describe(file, drawable);
+        _isDrawingStale = true;
     }
 
     private void Handle(WindowEvent windowEvent)
@@ -159,12 +164,15 @@ internal sealed class SceneWindow : IDisposable
             case CloseRequested or KeyPressed { Key: Key.Escape }:
                 _isClosing = true;
                 return;
-            case WindowResized or WindowExposed:
-                _isDirty = true;
+            case WindowResized:
+                _isDrawingStale = true;
+                break;
+            case WindowExposed:
+                _isWindowStale = true;
                 break;
             case VisibilityChanged visibility:
                 _isVisible = visibility.IsVisible;
-                _isDirty = true;
+                _isWindowStale = true;
                 break;
             case FileDropped dropped when _load.IsTaken:
                 _load = StartLoading(dropped.Path);
@@ -177,7 +185,7 @@ internal sealed class SceneWindow : IDisposable
         if (_document is { } document)
         {
             var wasMoving = document.Controls.IsMoving;
-            _isDirty |= document.Controls.Handle(windowEvent, Aspect);
+            _isDrawingStale |= document.Controls.Handle(windowEvent, Aspect);
             if (!wasMoving)
             {
                 _advanced = _clock.Elapsed;
@@ -192,12 +200,15 @@ internal sealed class SceneWindow : IDisposable
         {
             case Key.H:
                 _overlay.ShowsKeys = !_overlay.ShowsKeys;
+                _isWindowStale = true;
                 break;
             case Key.G:
                 _settings = _settings with { Grid = !_settings.Grid, Axes = !_settings.Grid };
+                _isDrawingStale = true;
                 break;
             case Key.X:
                 _settings = _settings with { Wireframe = !_settings.Wireframe };
+                _isDrawingStale = true;
                 break;
             case Key.F12 when _document is { } document:
                 TrySay(() => SaveScreenshot(document));
@@ -205,11 +216,7 @@ internal sealed class SceneWindow : IDisposable
             case Key.S when isCommand && _document is { } document:
                 TrySay(() => SaveScene(document));
                 break;
-            default:
-                return;
         }
-
-        _isDirty = true;
     }
 
     private void Advance()
@@ -218,35 +225,33 @@ internal sealed class SceneWindow : IDisposable
         if (_document?.Controls.IsMoving == true && time >= FrameTime)
         {
             _advanced = _clock.Elapsed;
-            _isDirty |= _document.Controls.Advance(time < LongestStep ? time : LongestStep);
+            _isDrawingStale |= _document.Controls.Advance(time < LongestStep ? time : LongestStep);
         }
+    }
+
+    private void Refresh()
+    {
+        if (_isDrawingStale)
+        {
+            Draw();
+        }
+
+        _frame.Present(_window, _overlay.Panels);
+        (_isDrawingStale, _isWindowStale) = (false, false);
     }
 
     private void Draw()
     {
-        if (_document is { } document)
-        {
-            DrawScene(document);
-        }
-        else
-        {
-            _frame.Draw(null, new(Camera.Default, Projection.Perspective), _window.Width, _window.Height, _settings);
-        }
-
-        _frame.Present(_window, _overlay.Panels);
-    }
-
-    private void DrawScene(Document document)
-    {
-        var scene = document.SceneNow();
-        var view = View.Of(document.File.Scene with { Scene = scene }, Aspect);
-        _frame.Draw(document.Renderer, view, _window.Width, _window.Height, _settings);
+        var view = _document is { } document
+            ? View.Of(document.File.Scene with { Scene = document.SceneNow() }, Aspect)
+            : new(Camera.Default, Projection.Perspective);
+        _frame.Draw(_document?.Renderer, view, _window.Width, _window.Height, _settings);
     }
 
     private string SaveScreenshot(Document document)
     {
-        // The window's picture has text over it, the file's has not.
-        DrawScene(document);
+        // What was drawn last is the scene alone; the text is added on the way to the window.
+        Draw();
         Directory.CreateDirectory("out");
         var name = Path.GetFileNameWithoutExtension(document.File.Path);
         var output = Enumerable.Range(1, int.MaxValue)
@@ -283,6 +288,7 @@ internal sealed class SceneWindow : IDisposable
 
         Console.Error.WriteLine(message);
         _overlay.Say(message, _clock.Elapsed);
+        _isWindowStale = true;
     }
 
     /// <summary>What the window shows.</summary>

@@ -16,6 +16,7 @@ public sealed class PolygonTriangulator
     private readonly List<(double X, double Y)> _points = [];
     private readonly List<int> _previous = [];
     private readonly List<int> _next = [];
+    private readonly List<int> _reflex = [];
 
     /// <summary>Triangulates one polygon.</summary>
     /// <param name="corners">Positions in order, at least three.</param>
@@ -31,6 +32,7 @@ public sealed class PolygonTriangulator
 
         Project(corners);
         Link(corners.Length);
+        CollectReflexCorners(corners.Length);
         ClipEars(corners.Length, triangles);
     }
 
@@ -66,6 +68,21 @@ public sealed class PolygonTriangulator
         }
     }
 
+    /// <summary>Corners that turn inwards, or straight on: only they can reach into an ear. Cutting ears makes none of the others so.</summary>
+    private void CollectReflexCorners(int count)
+    {
+        _reflex.Clear();
+        for (var corner = 0; corner < count; corner++)
+        {
+            if (IsReflex(corner))
+            {
+                _reflex.Add(corner);
+            }
+        }
+    }
+
+    private bool IsReflex(int corner) => Area(_points[_previous[corner]], _points[corner], _points[_next[corner]]) <= 0;
+
     private void ClipEars(int count, List<int> triangles)
     {
         var corner = 0;
@@ -80,9 +97,14 @@ public sealed class PolygonTriangulator
                 continue;
             }
 
-            triangles.AddRange([_previous[corner], corner, _next[corner]]);
-            _next[_previous[corner]] = _next[corner];
-            _previous[_next[corner]] = _previous[corner];
+            var (before, after) = (_previous[corner], _next[corner]);
+            triangles.AddRange([before, corner, after]);
+            (_next[before], _previous[after]) = (after, before);
+            if (_reflex.Count > 0)
+            {
+                _reflex.RemoveAll(reflex => reflex == corner || ((reflex == before || reflex == after) && !IsReflex(reflex)));
+            }
+
             // Going on two corners later spreads the cuts and avoids long thin fans.
             corner = _next[_next[corner]];
             tried = 0;
@@ -102,11 +124,9 @@ public sealed class PolygonTriangulator
             return false;
         }
 
-        for (var other = _next[after]; other != before; other = _next[other])
+        foreach (var other in CollectionsMarshal.AsSpan(_reflex))
         {
-            // Only a reflex corner can reach into the triangle first.
             if (points[other] != a && points[other] != b && points[other] != c
-                && Area(points[_previous[other]], points[other], points[_next[other]]) <= 0
                 && Area(a, b, points[other]) >= 0 && Area(b, c, points[other]) >= 0 && Area(c, a, points[other]) >= 0)
             {
                 return false;

@@ -6,7 +6,7 @@ public static class AtomicFile
     /// <summary>Creates or replaces a file.</summary>
     /// <param name="path">Where to; a symbolic link is followed, the permissions of a file that exists are kept.</param>
     /// <param name="write">Writes the contents. If it throws, what was there before stays as it was.</param>
-    /// <exception cref="IOException">The folder does not exist, or can't be written to.</exception>
+    /// <exception cref="IOException">The file can't be written. Its folder is made if there is none.</exception>
     public static void Write(string path, Action<Stream> write)
     {
         var target = new FileInfo(path) is { LinkTarget: not null } link
@@ -17,6 +17,7 @@ public static class AtomicFile
             throw new IOException($"{path} is a directory");
         }
 
+        Directory.CreateDirectory(Path.GetDirectoryName(target)!);
         var temporary = $"{target}.{Environment.ProcessId}-{Guid.NewGuid():N}.tmp";
         try
         {

@@ -1,0 +1,208 @@
+using System.Diagnostics;
+using System.Globalization;
+using FractalEngine.Parsing.Scenes;
+using FractalEngine.Render.Pictures;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.App;
+
+/// <summary>The window as its users meet it: driven with keys, mouse and resizes from outside, on the display that the tests run on.</summary>
+[Collection("GL")]
+public sealed class WindowTests : IDisposable
+{
+    private const string Scene = "# kept\nc (2, 1.5, -3) (0.3, 0.6, 0) 60\n# kept too\no \"cube.obj\" #\n";
+
+    private static readonly TimeSpan Patience = TimeSpan.FromSeconds(20);
+
+    private readonly TemporaryFolder _folder = new();
+
+    public WindowTests()
+    {
+        _folder.Write("cube.obj", Files.Cube);
+        _folder.Write("scene.sdo", Scene);
+    }
+
+    public void Dispose() => _folder.Dispose();
+
+    [SkippableFact]
+    public void Window_DrivenByKeysAndMouse_MovesSavesAndCloses()
+    {
+        using var window = Open("scene.sdo");
+        var start = window.Screenshot(1);
+        Assert.Equal((640, 480), (start.Width, start.Height));
+
+        window.Do("key 3");
+        var fromTheRight = window.Screenshot(2);
+        Assert.True(Difference(start, fromTheRight) > 0.01, "the key 3 changed nothing");
+
+        window.Do("mousemove --window {window} 300 240 mousedown 1 mousemove_relative 60 25 mousemove_relative 60 25 mouseup 1");
+        var orbited = window.Screenshot(3);
+        Assert.True(Difference(fromTheRight, orbited) > 0.01, "the drag changed nothing");
+
+        window.Do("click 4 click 4 click 4");
+        var zoomed = window.Screenshot(4);
+        Assert.True(Difference(orbited, zoomed) > 0.01, "the wheel changed nothing");
+
+        window.Do("keydown w sleep 0.3 keyup w");
+        Assert.True(Difference(zoomed, window.Screenshot(5)) > 0.01, "the key W changed nothing");
+
+        window.Do("windowsize {window} 400 300 sleep 0.5");
+        var resized = window.Screenshot(6);
+        Assert.Equal((400, 300), (resized.Width, resized.Height));
+
+        window.Do("key Return key 5");
+        Assert.True(Difference(resized, window.Screenshot(7)) > 0.01, "Enter and 5 changed nothing");
+
+        window.Do("key ctrl+s");
+        var text = WaitFor(() => File.ReadAllText(_folder["scene.sdo"]) is var now && now != Scene ? now : null);
+        var lines = text.Split('\n');
+        Assert.Equal(("# kept", "# kept too", "o \"cube.obj\" #", "projection orthographic"), (lines[0], lines[2], lines[3], lines[4]));
+        // Enter had led back to the camera of the file, so its line is as it was.
+        Assert.Equal(Scene.Split('\n')[1], lines[1]);
+        Assert.NotNull(SceneParser.Parse(new("scene.sdo", text)).Scene.Camera);
+
+        Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
+    [SkippableFact]
+    public void Window_WithNothingToDo_Sleeps()
+    {
+        using var window = Open("scene.sdo");
+        window.Screenshot(1);
+        // The message of the screenshot is shown for four seconds, then one more picture follows.
+        Thread.Sleep(TimeSpan.FromSeconds(5));
+        var before = window.ProcessorTime;
+        Thread.Sleep(TimeSpan.FromSeconds(2));
+        var share = (window.ProcessorTime - before).TotalSeconds / 2;
+        // A loop that draws or polls takes a core; waiting for events takes next to nothing. Between them is room for a noisy machine.
+        Assert.True(share < 0.15, $"an idle window took {share:P0} of a core");
+        Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
+    [SkippableFact]
+    public void Window_OnABadFile_ShowsTheErrorAndExitsWith1()
+    {
+        _folder.Write("bad.sdo", "o \"cube.obj\" (\n");
+        using var window = Open("bad.sdo");
+        Thread.Sleep(TimeSpan.FromSeconds(1));
+        Assert.Equal(1, window.CloseWith("key Escape"));
+        Assert.StartsWith("bad.sdo:1:", window.Error, StringComparison.Ordinal);
+    }
+
+    private DrivenWindow Open(string file)
+    {
+        Skip.If(string.IsNullOrEmpty(Environment.GetEnvironmentVariable("DISPLAY")), "there is no display");
+        Skip.IfNot(DrivenWindow.CanDrive, "xdotool is not installed");
+        return new(_folder.Path, file);
+    }
+
+    /// <summary>The share of pixels that differ visibly; 1 for pictures of different sizes.</summary>
+    private static double Difference(PixelImage image1, PixelImage image2)
+    {
+        if ((image1.Width, image1.Height) != (image2.Width, image2.Height))
+        {
+            return 1;
+        }
+
+        var differing = 0;
+        for (var i = 0; i < image1.Pixels.Length; i += 4)
+        {
+            differing += Enumerable.Range(i, 3).Any(k => Math.Abs(image1.Pixels[k] - image2.Pixels[k]) > 8) ? 1 : 0;
+        }
+
+        return differing / (image1.Pixels.Length / 4.0);
+    }
+
+    private static T WaitFor<T>(Func<T?> get)
+        where T : class
+    {
+        for (var clock = Stopwatch.StartNew(); clock.Elapsed < Patience; Thread.Sleep(50))
+        {
+            if (get() is { } value)
+            {
+                return value;
+            }
+        }
+
+        throw new TimeoutException($"nothing came within {Patience}");
+    }
+
+    /// <summary>A running program, and xdotool to press its keys.</summary>
+    private sealed class DrivenWindow : IDisposable
+    {
+        private readonly Process _process;
+        private readonly Task<string> _error;
+        private readonly string _folder;
+        private readonly string _name;
+        private readonly string _window;
+
+        public DrivenWindow(string folder, string file)
+        {
+            (_folder, _name) = (folder, Path.GetFileNameWithoutExtension(file));
+            _process = AppProcess.Start(folder, new() { ["FRACTALENGINE_NO_WINDOW"] = null }, "view", file, "--resolution", "640x480");
+            _error = _process.StandardError.ReadToEndAsync();
+            _window = WaitFor(() => _process.HasExited
+                ? throw new InvalidOperationException($"the program ended with {_process.ExitCode}: {Error}")
+                : Tool($"search --name {file}.*FractalEngine").Split('\n', StringSplitOptions.RemoveEmptyEntries).LastOrDefault());
+            Do("windowfocus --sync {window}");
+        }
+
+        public static bool CanDrive => (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator)
+            .Any(folder => File.Exists(Path.Combine(folder, "xdotool")));
+
+        public string Error => _error.GetAwaiter().GetResult();
+
+        public TimeSpan ProcessorTime
+        {
+            get
+            {
+                _process.Refresh();
+                return _process.TotalProcessorTime;
+            }
+        }
+
+        public void Do(string commands) => Tool(commands.Replace("{window}", _window, StringComparison.Ordinal));
+
+        /// <summary>Takes a screenshot, which the program numbers, and waits for it: everything before has been handled by then.</summary>
+        public PixelImage Screenshot(int number)
+        {
+            var path = Path.Combine(_folder, "out", string.Create(CultureInfo.InvariantCulture, $"{_name}-{number:D3}.png"));
+            return WaitFor(() =>
+            {
+                if (!File.Exists(path))
+                {
+                    // A key pressed while the file is still loading saves nothing: it is pressed again until it does.
+                    Do("key F12 sleep 0.5");
+                    return null;
+                }
+
+                return ImageFile.Load(path);
+            });
+        }
+
+        public int CloseWith(string commands)
+        {
+            Do(commands);
+            Assert.True(_process.WaitForExit(Patience), "the window did not close");
+            return _process.ExitCode;
+        }
+
+        public void Dispose()
+        {
+            if (!_process.HasExited)
+            {
+                _process.Kill(entireProcessTree: true);
+            }
+
+            _process.Dispose();
+        }
+
+        private static string Tool(string commands)
+        {
+            using var tool = Process.Start(new ProcessStartInfo("xdotool", commands) { RedirectStandardOutput = true, RedirectStandardError = true })!;
+            var output = tool.StandardOutput.ReadToEnd();
+            tool.WaitForExit();
+            return output;
+        }
+    }
+}

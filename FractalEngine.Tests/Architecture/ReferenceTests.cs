@@ -1,0 +1,69 @@
+using System.Reflection;
+using System.Xml.Linq;
+using FractalEngine.Core.Maths;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.Tests.Architecture;
+
+/// <summary>App ──► Render ──► Core ◄── Parsing ◄── App: who may know whom.</summary>
+public class ReferenceTests
+{
+    private static readonly string Root = Above(AppContext.BaseDirectory).First(folder => File.Exists(Path.Combine(folder, "FractalEngine.sln")));
+
+    [Fact]
+    public void Core_RefersToTheFrameworkOnly()
+    {
+        Assert.All(Names(typeof(Vector).Assembly), name => Assert.StartsWith("System.", name, StringComparison.Ordinal));
+        Assert.Equal(([], []), (Projects("Core"), Packages("Core")));
+    }
+
+    [Fact]
+    public void Parsing_RefersToCoreAndTheFrameworkOnly()
+    {
+        Assert.All(Names(typeof(SourceText).Assembly), name => Assert.Matches(@"^(System\..*|FractalEngine\.Core)$", name));
+        Assert.Equal(["Core"], Projects("Parsing"));
+        Assert.Empty(Packages("Parsing"));
+    }
+
+    [Fact]
+    public void Render_RefersToCoreAndNotToParsing() => Assert.Equal(["Core"], Projects("Render"));
+
+    [Theory]
+    [InlineData("App")]
+    [InlineData("Benchmarks")]
+    [InlineData("Core")]
+    [InlineData("Parsing")]
+    public void OpenTK_IsKnownToRenderOnly(string project) =>
+        Assert.DoesNotContain(Packages(project), package => package.StartsWith("OpenTK", StringComparison.OrdinalIgnoreCase));
+
+    [Fact]
+    public void Benchmarks_ReferToNothingThatNeedsAWindow() => Assert.All(Projects("Benchmarks"), project => Assert.Contains(project, new[] { "Core", "Parsing" }));
+
+    [Fact]
+    public void Core_HasNoStaticStateThatCanChange() => Assert.Empty(
+        from type in typeof(Vector).Assembly.GetTypes()
+        where !type.Name.Contains('<', StringComparison.Ordinal)
+        from field in type.GetFields(BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic)
+        where !field.IsInitOnly && !field.IsLiteral && !field.Name.Contains('<', StringComparison.Ordinal)
+        select $"{type}.{field.Name}");
+
+    private static IEnumerable<string> Names(Assembly assembly) => assembly.GetReferencedAssemblies().Select(name => name.Name!);
+
+    private static XDocument Project(string name) => XDocument.Load(Path.Combine(Root, $"FractalEngine.{name}", $"FractalEngine.{name}.csproj"));
+
+    private static string[] Packages(string name) => [.. Includes(name, "PackageReference")];
+
+    private static string[] Projects(string name) =>
+        [.. Includes(name, "ProjectReference").Select(path => Path.GetFileNameWithoutExtension(path.Replace('\\', '/')).Replace("FractalEngine.", "", StringComparison.Ordinal))];
+
+    private static IEnumerable<string> Includes(string name, string element) =>
+        Project(name).Descendants(element).Select(reference => (string?)reference.Attribute("Include")).OfType<string>();
+
+    private static IEnumerable<string> Above(string folder)
+    {
+        for (DirectoryInfo? above = new(folder); above is not null; above = above.Parent)
+        {
+            yield return above.FullName;
+        }
+    }
+}

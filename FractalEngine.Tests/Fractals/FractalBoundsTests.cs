@@ -1,0 +1,98 @@
+using System.Diagnostics;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Fractals;
+
+public class FractalBoundsTests
+{
+    public static TheoryData<Composition> Compositions { get; } = [Composition.Affine, Composition.Componentwise];
+
+    [Fact]
+    public void Bounds_OfAnyFractal_AreThoseOfItsExpandedVertices() => Seeded.Run(300, random =>
+    {
+        var fractal = RandomFractals.Draw(random);
+        AssertNear(BruteForce(fractal), fractal.Bounds, 1e-9);
+    });
+
+    [Fact]
+    public void Bounds_OfAnyComponentwiseFractal_AreThoseOfItsExpandedVertices() => Seeded.Run(300, random =>
+    {
+        var fractal = RandomFractals.Draw(random, Composition.Componentwise);
+        AssertNear(BruteForce(fractal), fractal.Bounds, 1e-9);
+    });
+
+    [Fact]
+    public void Bounds_OfAFractalThatGrows_AreThoseOfItsExpandedVertices() => Seeded.Run(100, random =>
+    {
+        var fractal = Samples.Repeated(3, random.Transformation(0.8, 3), random.Transformation(0.8, 3), random.Transformation(0.8, 3));
+        AssertNear(BruteForce(fractal), fractal.Bounds, 1e-9);
+    });
+
+    [Theory]
+    [MemberData(nameof(Compositions))]
+    public void Bounds_OfAppendixBAtDepthTwo_AreThoseOfItsExpandedVertices(Composition composition) =>
+        AssertNear(BruteForce(Samples.AppendixBAt(2, composition)), Samples.AppendixBAt(2, composition).Bounds, 1e-9);
+
+    [Fact]
+    public void Bounds_OfTheInfiniteAppendixB_AreFiniteAndHoldEveryDepth()
+    {
+        var file = Samples.ParseFractal(Samples.AppendixB.Replace("<$>. z 6", "<$>. z", StringComparison.Ordinal));
+        var infinite = new Fractal(file.Description, Samples.Triangle);
+        Assert.True(infinite.Description.IsInfinite);
+        Assert.True(infinite.Bounds.Minimum.IsFinite() && infinite.Bounds.Maximum.IsFinite(), infinite.Bounds.ToString());
+        AssertHolds(infinite.Bounds, BruteForce(infinite.WithDepth(2)));
+    }
+
+    [Fact]
+    public void Bounds_OfAnInfiniteSierpinski_AreTheWholeTetrahedrons()
+    {
+        // Copies of half the size in the corners: the limit has the same corners as the base.
+        var mesh = new Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], [0, 1, 2, 0, 1, 3]);
+        var infinite = new Fractal(Samples.Repeated(
+            null, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(0.5, 0, 0, 0.5), Samples.MoveAndScale(0, 0.5, 0, 0.5), Samples.MoveAndScale(0, 0, 0.5, 0.5)).Description, mesh);
+        AssertNear(new(Vector.Zero, Vector.One), infinite.Bounds, 1e-9);
+    }
+
+    [Fact]
+    public void Bounds_OfTheInfinite_AreTheLimitOfFiniteDepths() => Seeded.Run(50, random =>
+    {
+        // Factors up to 0.7, so at depth 60 nothing is left that could be seen: 0.7⁶⁰ is 5e-10.
+        var maps = Enumerable.Range(0, 3).Select(_ => random.Transformation()).ToArray();
+        AssertNear(Samples.Repeated(60, maps).Bounds, Samples.Repeated(null, maps).Bounds, 1e-8);
+    });
+
+    [Theory]
+    [InlineData(1_000)]
+    [InlineData(1_000_000)]
+    public void Bounds_AtAnyDepth_TakeNoLongerThanTwoSeconds(int depth)
+    {
+        var start = Stopwatch.StartNew();
+        Assert.True(Samples.Repeated(depth, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(3, 0, 0, 0.5)).Bounds.Maximum.IsFinite());
+        Assert.True(start.ElapsedMilliseconds < 2000, $"{start.ElapsedMilliseconds} ms");
+    }
+
+    [Fact]
+    public void Bounds_OfAppendixBAtFullDepth_HoldThoseOfDepthTwo()
+    {
+        // The identity is among its maps, so deeper ones hold all instances of the shallower.
+        AssertHolds(Samples.AppendixBAt(6).Bounds, Samples.AppendixBAt(2).Bounds);
+    }
+
+    [Fact]
+    public void Bounds_OfAnEmptyMesh_AreEmpty() =>
+        Assert.True(new Fractal(Samples.Repeated(3, Samples.Move(1, 0, 0)).Description, Mesh.Empty).Bounds.IsEmpty);
+
+    private static BoundingBox BruteForce(Fractal fractal) =>
+        Naive.Box(Naive.Chains(fractal.Description).SelectMany(map => Naive.Vertices(fractal.BaseMesh).Select(v => Naive.Apply(map, v))));
+
+    private static void AssertHolds(BoundingBox outer, BoundingBox inner) => AssertNear(outer, BoundingBox.Union(outer, inner), 1e-9);
+
+    private static void AssertNear(BoundingBox expected, BoundingBox actual, double ofSize)
+    {
+        Near.Equal(expected.Minimum, actual.Minimum, ofSize * expected.Diagonal);
+        Near.Equal(expected.Maximum, actual.Maximum, ofSize * expected.Diagonal);
+    }
+}

@@ -1,0 +1,80 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Geometry;
+
+public class MeshTests
+{
+    [Fact]
+    public void Mesh_OfFlatArrays_HasItsVerticesAndFaces()
+    {
+        var mesh = new Mesh([1, 2, 3, 4, 5, 6, 7, 8, 10], [2, 0, 1]);
+        Assert.Equal((3, 1), (mesh.VertexCount, mesh.FaceCount));
+        Assert.Equal(new(4, 5, 6), mesh.Vertex(1));
+        Assert.Equal((new(7, 8, 10), new(1, 2, 3), new(4, 5, 6)), mesh.Face(0));
+    }
+
+    [Fact]
+    public void Mesh_OfTwoThirdsOfAVertex_IsRefused() => Assert.Throws<ArgumentException>(() => new Mesh([1, 2], []));
+
+    [Fact]
+    public void Mesh_OfTwoThirdsOfAFace_IsRefused() => Assert.Throws<ArgumentException>(() => new Mesh([1, 2, 3], [0, 0]));
+
+    [Theory]
+    [InlineData(-1)]
+    [InlineData(1)]
+    [InlineData(int.MaxValue)]
+    public void Mesh_WithAVertexNumberOutOfRange_IsRefused(int number) => Assert.Throws<ArgumentException>(() => new Mesh([1, 2, 3], [0, 0, number]));
+
+    [Theory]
+    [InlineData(-2)]
+    [InlineData(1)]
+    public void WithTextureCoordinates_OutOfRange_IsRefused(int number) =>
+        Assert.Throws<ArgumentException>(() => Samples.Triangle.WithTextureCoordinates([0, 0], [0, 0, number]));
+
+    [Theory]
+    [InlineData(-2)]
+    [InlineData(1)]
+    public void WithNormals_OutOfRange_IsRefused(int number) =>
+        Assert.Throws<ArgumentException>(() => Samples.Triangle.WithNormals([0, 0, 1], [0, 0, number]));
+
+    [Fact]
+    public void WithNormals_OfAnotherNumberOfFaces_IsRefused() =>
+        Assert.Throws<ArgumentException>(() => Samples.Triangle.WithNormals([0, 0, 1], [0, 0, 0, 0, 0, 0]));
+
+    [Fact]
+    public void Bounds_HoldUnusedVerticesToo() => Assert.Equal(
+        new BoundingBox(new(-5, 0, 0), new(1, 1, 9)), new Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0, -5, 0, 9], [0, 1, 2]).Bounds);
+
+    [Fact]
+    public void Empty_HasNothingAndAnEmptyBox()
+    {
+        Assert.Equal((0, 0), (Mesh.Empty.VertexCount, Mesh.Empty.FaceCount));
+        Assert.True(Mesh.Empty.Bounds.IsEmpty);
+        Assert.Equal(0, Mesh.Empty.Radius(AffineMap.Identity));
+    }
+
+    [Fact]
+    public void Radius_UnderTheIdentity_IsTheFarthestVertexFromTheOrigin() => Assert.Equal(3, Samples.Tetrahedron.Radius(AffineMap.Identity));
+
+    [Fact]
+    public void Radius_UnderAnyMap_IsThePapersMaximum() => Seeded.Run(100, random =>
+    {
+        var map = random.Transformation().ToAffineMap();
+        var expected = Naive.Vertices(Samples.Tetrahedron).Max(v => ((map * v) - map.Translation).Length());
+        // Positions up to 3 are added and taken away again.
+        Near.Equal(expected, Samples.Tetrahedron.Radius(map), 1e-14);
+    });
+
+    [Fact]
+    public void Radius_OfAMovedMesh_IsThatOfTheUnmoved() => Assert.Equal(3, Samples.Tetrahedron.Radius(AffineMap.Translate(new(1e9, -1e9, 1e9))));
+
+    [Fact]
+    public void Transform_AppliesTheFunctionToEveryVertexAndKeepsTheFaces()
+    {
+        var moved = Samples.Tetrahedron.Transform(v => v + new Vector(1, 2, 3));
+        Assert.Equal(Naive.Vertices(Samples.Tetrahedron).Select(v => v + new Vector(1, 2, 3)), Naive.Vertices(moved));
+        Assert.Equal(Samples.Tetrahedron.Faces, moved.Faces);
+    }
+}

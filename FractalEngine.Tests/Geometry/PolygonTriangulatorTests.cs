@@ -1,0 +1,137 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Geometry;
+
+public class PolygonTriangulatorTests
+{
+    public static TheoryData<string, double[]> Concave { get; } = new()
+    {
+        { "arrow", [0, 0, 4, 2, 0, 4, 1, 2] },
+        { "L", [0, 0, 3, 0, 3, 1, 1, 1, 1, 3, 0, 3] },
+        { "comb", [0, 0, 7, 0, 7, 3, 6, 3, 6, 1, 5, 1, 5, 3, 4, 3, 4, 1, 3, 1, 3, 3, 2, 3, 2, 1, 1, 1, 1, 3, 0, 3] },
+        { "spiral", [0, 0, 10, 0, 10, 10, 2, 10, 2, 4, 6, 4, 6, 6, 4, 6, 4, 8, 8, 8, 8, 2, 0, 2] },
+        { "corner on an edge's line", [0, 0, 2, 0, 2, 1, 3, 1, 3, 0, 5, 0, 5, 3, 0, 3] },
+        { "collinear corners", [0, 0, 1, 0, 2, 0, 3, 0, 3, 3, 2, 3, 2, 1, 1, 1, 1, 3, 0, 3] },
+    };
+
+    public static TheoryData<string, double[]> Degenerate { get; } = new()
+    {
+        { "one point four times", [1, 1, 1, 1, 1, 1, 1, 1] },
+        { "on one line", [0, 0, 1, 0, 2, 0, 3, 0, 4, 0] },
+        { "there and back", [0, 0, 1, 0, 2, 0, 1, 0] },
+        { "bow tie", [0, 0, 1, 1, 1, 0, 0, 1] },
+        { "pentagram", [0, 3, 2, -3, -3, 1, 3, 1, -2, -3] },
+        { "repeated corners", [0, 0, 0, 0, 1, 0, 1, 0, 1, 1, 1, 1, 0, 1, 0, 1] },
+        { "a spike", [0, 0, 2, 0, 2, 1, 5, 1, 2, 1, 0, 1] },
+        { "a bridge to a hole", [0, 0, 4, 0, 4, 4, 0, 4, 0, 0, 1, 1, 1, 3, 3, 3, 3, 1, 1, 1] },
+        { "a huge and a tiny corner", [0, 0, 1e150, 0, 1e150, 1e150, 1e-150, 1e-150, 0, 1] },
+        { "no numbers", [0, 0, double.NaN, 0, 1, 1, 0, 1] },
+    };
+
+    [Fact]
+    public void Triangulate_ATriangle_GivesItself() => Assert.Equal([0, 1, 2], Triangulate([Vector.Zero, Vector.I, Vector.J]).SelectMany(t => t).Order());
+
+    [Theory]
+    [MemberData(nameof(Concave))]
+    public void Triangulate_AConcavePolygon_CoversItAndNothingElse(string name, double[] coordinates)
+    {
+        Assert.NotNull(name);
+        for (var seed = 1; seed <= 20; seed++)
+        {
+            Seeded.RunOne(seed, random => AssertCovered(random, Pairs(coordinates), seed % 2 == 0));
+        }
+    }
+
+    [Fact]
+    public void Triangulate_ARandomStar_CoversItAndNothingElse() => Seeded.Run(300, random =>
+    {
+        var count = random.Next(3, 40);
+        var angles = Enumerable.Range(0, count).Select(i => (i + random.Between(0.05, 0.95)) * 2 * Math.PI / count);
+        AssertCovered(random, [.. angles.Select(angle => random.Between(0.2, 3) switch { var r => (r * Math.Cos(angle), r * Math.Sin(angle)) })], random.Next(2) == 0);
+    });
+
+    [Fact]
+    public void Triangulate_ARandomBand_CoversItAndNothingElse() => Seeded.Run(100, random =>
+    {
+        // A zigzag road of constant height: concave, and not a star.
+        var middle = Enumerable.Range(0, random.Next(2, 20)).Select(i => (X: (double)i, Y: random.Between(-5, 5))).ToArray();
+        AssertCovered(random, [.. middle.Select(p => (p.X, p.Y)), .. middle.Reverse().Select(p => (p.X, p.Y + 0.5))], random.Next(2) == 0);
+    });
+
+    [Theory]
+    [MemberData(nameof(Degenerate))]
+    public void Triangulate_AnImproperPolygon_GivesTwoTrianglesLessThanCornersOverThem(string name, double[] coordinates)
+    {
+        Assert.NotNull(name);
+        var triangles = Triangulate([.. Pairs(coordinates).Select(p => new Vector(p.X, p.Y, 0))]);
+        Assert.Equal((coordinates.Length / 2) - 2, triangles.Count);
+        Assert.All(triangles.SelectMany(t => t), corner => Assert.InRange(corner, 0, (coordinates.Length / 2) - 1));
+    }
+
+    [Fact]
+    public void Triangulate_RandomCrossingPolygonsInSpace_GivesTwoTrianglesLessThanCorners() => Seeded.Run(300, random =>
+    {
+        var corners = Enumerable.Range(0, random.Next(3, 30)).Select(_ => random.Next(4) == 0 ? Vector.Zero : random.Vector()).ToArray();
+        Assert.Equal(corners.Length - 2, Triangulate(corners).Count);
+    });
+
+    [Fact]
+    public void Triangulate_ALargeCircle_TakesNoLongerThanASecond()
+    {
+        var circle = Enumerable.Range(0, 20_000).Select(i => i * 2 * Math.PI / 20_000).Select(a => new Vector(Math.Cos(a), Math.Sin(a), 0)).ToArray();
+        var start = System.Diagnostics.Stopwatch.StartNew();
+        Assert.Equal(19_998, Triangulate(circle).Count);
+        // It takes milliseconds; the limit leaves room for a busy machine.
+        Assert.True(start.ElapsedMilliseconds < 2000, $"{start.ElapsedMilliseconds} ms");
+    }
+
+    [Fact]
+    public void Triangulate_IntoAListInUse_Appends()
+    {
+        List<int> triangles = [7];
+        new PolygonTriangulator().Triangulate([Vector.Zero, Vector.I, Vector.J], triangles);
+        Assert.Equal(4, triangles.Count);
+        Assert.Equal(7, triangles[0]);
+    }
+
+    private static void AssertCovered(Random random, (double X, double Y)[] flat, bool clockwise)
+    {
+        (double X, double Y)[] polygon = clockwise ? [.. flat.Reverse()] : flat;
+        var (axes, origin) = (random.Degrees().LocalAxesFromDegrees(), random.Vector(10));
+        var triangles = Triangulate([.. polygon.Select(p => origin + (axes * new Vector(p.X, p.Y, 0)))]);
+        Assert.Equal(polygon.Length - 2, triangles.Count);
+        var area = Enumerable.Range(0, polygon.Length).Sum(i => Cross(polygon[i], polygon[(i + 1) % polygon.Length])) / 2;
+        var parts = triangles.Select(t => (Area: Area(polygon, t), Centre: Centre(polygon, t))).ToList();
+        // Areas up to a hundred, some dozens of roundings.
+        Near.Equal(area, parts.Sum(part => part.Area), 1e-12);
+        Assert.All(parts, part =>
+        {
+            Assert.True(part.Area * Math.Sign(area) >= -1e-12, "a triangle is wound against the polygon");
+            // A triangle without area, which collinear corners need, may have its centre on the border.
+            Assert.True(Math.Abs(part.Area) < 1e-9 || IsInside(polygon, part.Centre), "a triangle lies outside");
+        });
+    }
+
+    private static List<int[]> Triangulate(Vector[] corners)
+    {
+        List<int> triangles = [];
+        new PolygonTriangulator().Triangulate(corners, triangles);
+        return [.. triangles.Chunk(3)];
+    }
+
+    private static (double X, double Y)[] Pairs(double[] coordinates) => [.. coordinates.Chunk(2).Select(pair => (pair[0], pair[1]))];
+
+    private static double Cross((double X, double Y) a, (double X, double Y) b) => (a.X * b.Y) - (a.Y * b.X);
+
+    private static double Area((double X, double Y)[] polygon, int[] t) =>
+        (Cross(polygon[t[0]], polygon[t[1]]) + Cross(polygon[t[1]], polygon[t[2]]) + Cross(polygon[t[2]], polygon[t[0]])) / 2;
+
+    private static (double X, double Y) Centre((double X, double Y)[] polygon, int[] t) => (t.Average(i => polygon[i].X), t.Average(i => polygon[i].Y));
+
+    // A ray to the right crosses the border an odd number of times.
+    private static bool IsInside((double X, double Y)[] polygon, (double X, double Y) p) => Enumerable.Range(0, polygon.Length)
+        .Select(i => (A: polygon[i], B: polygon[(i + 1) % polygon.Length]))
+        .Count(edge => edge.A.Y > p.Y != edge.B.Y > p.Y && p.X < edge.A.X + ((p.Y - edge.A.Y) / (edge.B.Y - edge.A.Y) * (edge.B.X - edge.A.X))) % 2 == 1;
+}

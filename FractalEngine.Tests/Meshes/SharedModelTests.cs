@@ -1,0 +1,47 @@
+using FractalEngine.Parsing;
+using FractalEngine.Parsing.Meshes;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Meshes;
+
+/// <summary>Files as other programs write them; the numbers of vertices and triangles were counted by an independent script.</summary>
+public class SharedModelTests
+{
+    // Sound but for normals that the files name and do not have.
+    private static readonly string[] WithoutNormals = ["tinyobjloader/smoothing-group-two-squares.obj", "tinyobjloader/catmark_torus_creases0.obj"];
+
+    // Wrong on purpose: references to nothing, no numbers. One proper message is as good as a mesh.
+    private static readonly string[] NastyWords = ["invalid", "nan", "zero", "failure", "leading-spaces"];
+
+    [SkippableFact]
+    public void Parse_OfEveryRealFile_GivesItsVerticesAndTriangles()
+    {
+        Skip.If(SharedModels.Folder is null, "there is no folder of real models beside the checkout");
+        Assert.All(SharedModels.Table().Where(row => !WithoutNormals.Contains(row.File)), row =>
+        {
+            try
+            {
+                var mesh = Parse(row.File).Mesh;
+                Assert.Equal((row.File, row.Vertices, row.Triangles), (row.File, mesh.VertexCount, mesh.FaceCount));
+            }
+            catch (SourceException error) when (NastyWords.Any(word => row.File.Contains(word, StringComparison.Ordinal)))
+            {
+                Assert.Matches(@"^[^\n]*:[1-9]\d*:[1-9]\d*: error: \S", error.Message);
+            }
+        });
+    }
+
+    [SkippableFact]
+    public void Parse_OfTheLargestFile_TakesNoLongerThanFiveSeconds()
+    {
+        Skip.If(SharedModels.Folder is null, "there is no folder of real models beside the checkout");
+        var start = System.Diagnostics.Stopwatch.StartNew();
+        Assert.Equal(70_000, Parse("meshes/nefertiti-lowres.obj").Mesh.FaceCount);
+        // It takes a tenth of a second; the limit leaves room for a busy machine.
+        Assert.True(start.ElapsedMilliseconds < 5000, $"{start.ElapsedMilliseconds} ms");
+    }
+
+    private static ObjFile Parse(string file) =>
+        ObjParser.Parse(SourceText.Read(Path.Combine(SharedModels.Folder!, file), file, ParsingLimits.ObjBytes, acceptLatin1: true));
+}

@@ -1,0 +1,125 @@
+using System.Text;
+using FractalEngine.Parsing.Scenes;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Scenes;
+
+/// <summary>Whole messages: these tests are the specification of what a user reads.</summary>
+public class SceneParserErrorTests
+{
+    private static SceneFile Parse(string text) => SceneParser.Parse(new("test.sdo", text));
+
+    private static void Fails(string text, string expected) => Errors.Are(expected, () => Parse(text));
+
+    private static void FailsAt(string line, int column, string message) => Fails(
+        line, $"test.sdo:1:{column}: error: {message}\n  {line}\n  {new string(' ', column - 1)}^");
+
+    [Fact]
+    public void File_WithoutAnything_SaysSo() => Fails("", "test.sdo:1:1: error: the scene declares nothing: it has no camera, object or light");
+
+    [Fact]
+    public void File_OfComments_SaysSo() => Fails("# nothing\n\n", """
+        test.sdo:1:1: error: the scene declares nothing: it has no camera, object or light
+          # nothing
+          ^
+        """);
+
+    [Fact]
+    public void Keyword_Unknown_ListsTheKnownOnes() => FailsAt(
+        "x \"a.obj\" #", 1,
+        "unexpected 'x', expected 'c', 'o', 'p', 'projection', 'aspect', 'clip', 'background', 'light', 'gravity' or 'player'");
+
+    [Theory]
+    [InlineData("c (1, 2, 3) (4, 5, 6)", 22, "unexpected end of file, expected a number")]
+    [InlineData("c (1, 2) (4, 5, 6) 60", 8, "unexpected ')', expected ','")]
+    [InlineData("c 1 2 3", 3, "unexpected '1', expected '#' or '('")]
+    [InlineData("c (1, 2, 3) (4, 5, 6) 0", 23, "the angle of view must lie between 0 and 180 degrees")]
+    [InlineData("c (1, 2, 3) (4, 5, 6) 180", 23, "the angle of view must lie between 0 and 180 degrees")]
+    [InlineData("c (1, 1e400, 3) # 60", 7, "the number 1e400 is beyond the range of a double")]
+    [InlineData("c (1, nan, 3) # 60", 7, "unexpected 'nan', expected a number")]
+    [InlineData("o \"a.obj\"", 10, "unexpected end of file, expected '(' or '#'")]
+    [InlineData("o \"a.obj\" (#, #)", 16, "unexpected ')', expected ','")]
+    [InlineData("o a.obj #", 3, "unexpected 'a', expected a file name in quotes")]
+    [InlineData("o \"a.png\" #", 3, "expected the name of a .obj or .fdo file")]
+    [InlineData("o \"a.obj #", 11, "unexpected end of file, expected '\"'")]
+    [InlineData("o \"a.obj\" (#, #, (1, 0, 1))", 18, "the scale (1, 0, 1) is singular: each factor must lie between 1e-100 and 1e100 in size")]
+    [InlineData("p \"a.obj\" #", 12, "unexpected end of file, expected a number")]
+    [InlineData("p \"a.obj\" # 1.5", 13, "the coefficient of restitution must lie between 0 and 1")]
+    [InlineData("p \"a.obj\" # -0.5", 13, "the coefficient of restitution must lie between 0 and 1")]
+    [InlineData("p \"a.obj\" # 1 mass 0", 20, "the mass must be positive")]
+    [InlineData("projection fisheye", 12, "unexpected 'fisheye', expected 'perspective' or 'orthographic'")]
+    [InlineData("projection orthographic 0", 25, "the visible height must be positive")]
+    [InlineData("aspect 0", 8, "the aspect ratio must lie between 1:100 and 100:1")]
+    [InlineData("aspect 16:0", 8, "the aspect ratio must lie between 1:100 and 100:1")]
+    [InlineData("clip 10 1", 6, "the clip planes must satisfy 0 < near < far")]
+    [InlineData("clip 0 1", 6, "the clip planes must satisfy 0 < near < far")]
+    [InlineData("background (1, 2, 3)", 12, "the components of a colour must lie between 0 and 1")]
+    [InlineData("light laser (1, 1, 1)", 7, "unexpected 'laser', expected 'ambient', 'directional', 'point' or 'spot'")]
+    [InlineData("light directional (0, 0, 0) (1, 1, 1)", 19, "a direction must not be (0, 0, 0)")]
+    [InlineData("light ambient (1, 1, 1) -1", 25, "the intensity of a light must not be negative")]
+    [InlineData("light point (0, 0, 0) (1, 1, 1) 1 0", 35, "the range of a light must be positive")]
+    [InlineData("light spot (0, 0, 0) (0, 0, 1) 180 (1, 1, 1) 1 1", 32, "the angle of the cone must lie between 0 and 180 degrees")]
+    [InlineData("player (0, 0, 0) 1 1", 18, "the player's radius must be positive, and the height at least twice as much")]
+    public void Line_ThatIsWrong_PointsAtTheFault(string line, int column, string message) => FailsAt(line, column, message);
+
+    [Theory]
+    [InlineData("c # # 60 70", 10)]
+    [InlineData("c # # 60 # comment", 10)]
+    [InlineData("o \"a.obj\" # 5", 13)]
+    [InlineData("o \"a.obj\" # mass 5", 13)]
+    [InlineData("o \"a.obj\" # colour", 19)]
+    [InlineData("o \"a.obj\" # name x", 18)]
+    [InlineData("p \"a.obj\" # 1 collider sphere", 24)]
+    [InlineData("p \"a.obj\" # 1 velocity 3", 24)]
+    [InlineData("gravity -9.8", 9)]
+    [InlineData("c (1,,2,3) # 60", 6)]
+    [InlineData("C # # 60", 1)]
+    [InlineData("o \"a.obj\" ((0,5, 0,5, 0,5), #, #)", 19)]
+    public void Line_WithSomethingUnexpected_PointsAtIt(string line, int column)
+    {
+        var error = Errors.Thrown(() => Parse(line)).Diagnostic;
+        Assert.Equal((1, column), (error.Line, error.Column));
+        Assert.StartsWith("unexpected ", error.Message, StringComparison.Ordinal);
+    }
+
+    [Theory]
+    [InlineData("c # # 60")]
+    [InlineData("projection perspective")]
+    [InlineData("aspect 1")]
+    [InlineData("clip 1 2")]
+    [InlineData("background (0, 0, 0)")]
+    [InlineData("gravity #")]
+    [InlineData("player (0, 0, 0) 1 2")]
+    public void Declaration_OfWhatThereIsOnlyOneOf_IsRefusedTwice(string line) =>
+        Fails($"{line}\n# again\n{line}\n", $"test.sdo:3:1: error: '{line.Split(' ')[0]}' is declared twice, first in line 1\n  {line}\n  ^");
+
+    [Fact]
+    public void Error_WithCommaDecimalsUnderAGermanCulture_IsTheSameEverywhere() => Assert.Equal(
+        Errors.Of(() => Parse("c (1,5, 2,5, 3,5) # 60")), InCulture.Get("de-DE", () => Errors.Of(() => Parse("c (1,5, 2,5, 3,5) # 60"))));
+
+    [Fact]
+    public void Parse_OfAnyText_EndsInAResultOrOneProperError() => Seeded.Run(3000, random =>
+    {
+        var text = new StringBuilder(Samples.AppendixA + "\nlight spot (1, 2, 3) (0, -1, 0) 40 (0, 1, 0) 2, 30\np \"b.fdo\" # 1 mass 2 name \"x\"\naspect 16:9");
+        for (var change = random.Next(1, 6); change > 0; change--)
+        {
+            const string characters = "\0\t\n\r \"#(),-.0159:acelmops§\uD83D";
+            var place = random.Next(text.Length);
+            _ = random.Next(2) switch
+            {
+                0 => text.Remove(place, Math.Min(random.Next(1, 20), text.Length - place)),
+                _ => text.Insert(place, characters[random.Next(characters.Length)]),
+            };
+        }
+
+        try
+        {
+            Assert.NotEmpty(Parse(text.ToString()).Lines);
+        }
+        catch (SourceException error)
+        {
+            Assert.Matches(@"^test\.sdo:[1-9]\d*:[1-9]\d*: error: \S", error.Message);
+        }
+    });
+}

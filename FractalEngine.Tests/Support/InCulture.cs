@@ -1,0 +1,24 @@
+using System.Globalization;
+
+namespace FractalEngine.Tests.Support;
+
+/// <summary>Runs code as on the machine of a user from elsewhere.</summary>
+internal static class InCulture
+{
+    /// <summary>Comma decimals; dotless i; other digits, signs and calendar.</summary>
+    public static TheoryData<string> Names { get; } = ["de-DE", "tr-TR", "ar-SA"];
+
+    public static T Get<T>(string name, Func<T> get)
+    {
+        var before = CultureInfo.CurrentCulture;
+        CultureInfo.CurrentCulture = new(name);
+        try
+        {
+            return get();
+        }
+        finally
+        {
+            CultureInfo.CurrentCulture = before;
+        }
+    }
+}
