@@ -53,7 +53,13 @@ internal sealed class LevelBounds
                     kept.Add(below);
                 }
 
-                if (IsSettled(before, below) || !below.Sphere.Centre.IsFinite() || !double.IsFinite(below.Sphere.Radius))
+                if (!below.IsFinite())
+                {
+                    // Beyond a double: all that is known of the levels above is that they are no smaller.
+                    return new([Unknown], false);
+                }
+
+                if (IsSettled(before, below))
                 {
                     // The rounds left have the same bounds, so only as many of them are listed as are ever looked at.
                     settled = true;
@@ -100,6 +106,9 @@ internal sealed class LevelBounds
     /// <summary>A ball and a box around the same thing.</summary>
     internal readonly record struct Bound(BoundingSphere Sphere, BoundingBox Box)
     {
+        /// <summary>False beyond the range of a double.</summary>
+        public bool IsFinite() => Sphere.Centre.IsFinite() && double.IsFinite(Sphere.Radius) && Box.Size.IsFinite();
+
         public static Bound Of(Mesh mesh)
         {
             var (centre, radius) = (mesh.Bounds.Centre, 0.0);

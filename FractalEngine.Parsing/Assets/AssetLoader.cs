@@ -124,7 +124,7 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
         var ownBytes = _storageBytes - before;
         var (baseFull, baseName) = Resolve(file.Source, file.BaseFileOffset, full, file.Description.BaseFile);
         var fractal = FractalGenerator.Create(Adapt(file), _ => ReadMesh(baseFull, baseName).Mesh);
-        if (!fractal.Bounds.IsEmpty && !fractal.Bounds.Size.IsFinite())
+        if (fractal.Bounds != BoundingBox.Empty && !fractal.Bounds.Size.IsFinite())
         {
             throw file.Source.Error(file.ResultOffset, fractal.Description.IsInfinite
                 ? "the infinite fractal has no bounds: its transformations don't shrink"
