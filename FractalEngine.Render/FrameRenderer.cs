@@ -57,7 +57,6 @@ public sealed class FrameRenderer : IDisposable
         GL.Enable(EnableCap.FramebufferSrgb);
         GL.Enable(EnableCap.DepthTest);
         GL.DepthFunc(DepthFunction.Less);
-        GL.Disable(EnableCap.CullFace);
         GL.FrontFace(FrontFaceDirection.Cw);
         var aspect = view.ShownAspect(width, height);
         var bounds = LinesPass.BoundsWith(scene.Bounds, settings);

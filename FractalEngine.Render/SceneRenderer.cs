@@ -17,6 +17,7 @@ public sealed class SceneRenderer : IDisposable
     private readonly Dictionary<DrawableModel, ModelBuffers> _models = [];
     private readonly ObjectBlock[] _blocks;
     private readonly AffineMap[] _maps;
+    private readonly BoundingBox[] _boxes;
     private BoundingBox? _bounds;
 
     /// <summary>Uploads a scene. On the context's thread.</summary>
@@ -26,6 +27,7 @@ public sealed class SceneRenderer : IDisposable
         context.MakeCurrent();
         (Scene, Context) = (scene, context);
         _maps = [.. scene.Objects.Select(item => item.Map)];
+        _boxes = [.. scene.Source.Objects.Select(placed => placed.Bounds)];
         _pass = new(context.Resources);
         _lights = new(context.Resources, scene.Source.Scene.Lights, scene.Source.Bounds);
         _blocks = [.. scene.Objects.Select(item => new ObjectBlock(context.Resources, item.Name))];
@@ -47,9 +49,7 @@ public sealed class SceneRenderer : IDisposable
     public DrawableScene Scene { get; }
 
     /// <summary>A box that holds all objects where they are now, world space.</summary>
-    public BoundingBox Bounds => _bounds ??= Scene.Objects
-        .Select((item, index) => item.Map == _maps[index] ? Scene.Source.Objects[index].Bounds : item.Model.Bounds.Transform(_maps[index]))
-        .Aggregate(BoundingBox.Empty, BoundingBox.Union);
+    public BoundingBox Bounds => _bounds ??= _boxes.Aggregate(BoundingBox.Empty, BoundingBox.Union);
 
     internal RenderContext Context { get; }
 
@@ -65,6 +65,7 @@ public sealed class SceneRenderer : IDisposable
         if (_maps[index] != map)
         {
             _maps[index] = map;
+            _boxes[index] = Scene.Objects[index].Model.Bounds.Transform(map);
             _bounds = null;
         }
     }
@@ -96,10 +97,18 @@ public sealed class SceneRenderer : IDisposable
             var item = Scene.Objects[i];
             var map = _maps[i];
             var shifted = new AffineMap(map.Linear, map * item.Model.Origin);
+            MeshPass.LeaveOut(wireframe ? null : HiddenSide(i, view, bounds));
             _blocks[i].Bind(MeshPass.ObjectBinding, shifted, item.Colour, view.Camera.Position);
             _models[item.Model].Draw();
         }
 
         MeshPass.End();
+    }
+
+    /// <summary>The side of an object's triangles that certainly is not seen: true for the front, null where both may be.</summary>
+    private bool? HiddenSide(int index, View view, BoundingBox bounds)
+    {
+        var sign = Scene.Objects[index].Model.SolidSign * Math.Sign(_maps[index].Linear.Determinant());
+        return sign != 0 && view.IsBeyondNearPlane(_boxes[index], bounds) ? sign < 0 : null;
     }
 }

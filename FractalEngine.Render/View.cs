@@ -94,9 +94,7 @@ public sealed record View(Camera Camera, Projection Projection)
             return (0.1, 1000);
         }
 
-        var middle = Camera.Map(bounds.Centre).Z;
-        var axes = Camera.LocalAxesInverse.Absolute();
-        var reach = 0.5 * Vector.Dot(new(axes.V1.Z, axes.V2.Z, axes.V3.Z), bounds.Size);
+        var (middle, reach) = DepthsOf(bounds);
         var margin = (0.01 * reach) + (1e-6 * Math.Abs(middle));
         var far = middle + reach + margin;
         if (far <= 0)
@@ -109,8 +107,19 @@ public sealed record View(Camera Camera, Projection Projection)
         return Projection == Projection.Perspective ? (Math.Max(near, NearToFar * far), far) : (Math.Max(near, 0), far);
     }
 
+    /// <summary>True when no part of a box is nearer than the near plane: then it is seen from outside, and whole.</summary>
+    internal bool IsBeyondNearPlane(BoundingBox box, BoundingBox bounds) =>
+        DepthsOf(box) is var (middle, reach) && middle - reach > ClipPlanes(bounds).Near;
+
     /// <summary>Width divided by height of what is shown, exact where it was asked for.</summary>
     internal double ShownAspect(int width, int height) => Aspect ?? ((double)width / height);
+
+    /// <summary>The depth of a box's middle, and how far it reaches from there to both sides.</summary>
+    private (double Middle, double Reach) DepthsOf(BoundingBox box)
+    {
+        var axes = Camera.LocalAxesInverse.Absolute();
+        return (Camera.Map(box.Centre).Z, 0.5 * Vector.Dot(new(axes.V1.Z, axes.V2.Z, axes.V3.Z), box.Size));
+    }
 
     /// <summary>What perspective shows at the depth of the middle of things; their size where that lies behind the camera.</summary>
     private static double DefaultHeight(Camera camera, BoundingBox bounds) => camera.Map(bounds.Centre).Z switch

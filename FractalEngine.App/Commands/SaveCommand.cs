@@ -28,6 +28,11 @@ internal static class SaveCommand
     /// <summary>Writes a scene, which may have changed since it was loaded; file names are made relative to its new place.</summary>
     public static void Save(LoadedFile file, Core.Scenes.Scene scene, string output)
     {
+        if (scene.Objects.Any(declared => declared.File.IndexOfAny(['"', '\n', '\r']) >= 0))
+        {
+            throw new UsageException("a scene can't name a file that has a quote or a line break in its name");
+        }
+
         var moved = SceneRelocation.Relocate(scene, file.Path, Path.GetFullPath(output));
         AtomicFile.Write(output, stream => stream.Write(Encoding.UTF8.GetBytes(SceneWriter.Write(moved, file.SceneFile))));
         var folder = AssetFolder.Of(Path.GetFullPath(output));

@@ -31,6 +31,8 @@ public sealed record FractalDescription(
     };
 
     /// <summary>The same fractal moved as a whole: one more level above all others.</summary>
-    public FractalDescription Under(Transformation placement) =>
-        this with { Steps = Steps.Insert(0, TransformationSet.Of(placement)) };
+    /// <exception cref="InvalidOperationException">The composition is componentwise: an object's own matrix is affine in both.</exception>
+    public FractalDescription Under(Transformation placement) => Composition == Composition.Affine
+        ? this with { Steps = Steps.Insert(0, TransformationSet.Of(placement)) }
+        : throw new InvalidOperationException("a placement is no level of a fractal that is composed componentwise");
 }

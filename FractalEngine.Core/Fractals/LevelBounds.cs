@@ -96,7 +96,7 @@ internal sealed class LevelBounds
         Math.Abs(before.Sphere.Radius - now.Sphere.Radius),
         Math.Max(
             (before.Box.Minimum - now.Box.Minimum).MaximumComponent(),
-            (before.Box.Maximum - now.Box.Maximum).MaximumComponent())) <= 1e-15 * now.Box.Diagonal;
+            (before.Box.Maximum - now.Box.Maximum).MaximumComponent())) <= 1e-15 * now.Box.Size.MaximumComponent();
 
     private static bool SendsAxesToAxes(Matrix linear) =>
         IsAlongAnAxis(linear.V1) && IsAlongAnAxis(linear.V2) && IsAlongAnAxis(linear.V3);
@@ -107,7 +107,7 @@ internal sealed class LevelBounds
     internal readonly record struct Bound(BoundingSphere Sphere, BoundingBox Box)
     {
         /// <summary>False beyond the range of a double.</summary>
-        public bool IsFinite() => Sphere.Centre.IsFinite() && double.IsFinite(Sphere.Radius) && Box.Size.IsFinite();
+        public bool IsFinite() => Box.Size.IsFinite() && Box.Minimum.IsFinite();
 
         public static Bound Of(Mesh mesh)
         {

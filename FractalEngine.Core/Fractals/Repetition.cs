@@ -46,7 +46,8 @@ public sealed class Repetition : FractalStep
     /// <remarks>Exact at any size: a million rounds of 25 maps give a number of 1.4 million digits in about a second.</remarks>
     public override BigInteger? InstanceCount => (Count, FractalSteps.InstanceCount(Body)!.Value) switch
     {
-        (_, var perRound) when perRound.IsZero || perRound.IsOne => Count == 0 ? BigInteger.One : perRound,
+        (0, _) => BigInteger.One,
+        (_, var perRound) when perRound.IsZero => perRound,
         (null, _) => null,
         ({ } count, var perRound) => BigInteger.Pow(perRound, count),
     };

@@ -23,7 +23,11 @@ public readonly record struct BoundingBox(Vector Minimum, Vector Maximum)
     public Vector Size => IsEmpty ? Vector.Zero : Maximum - Minimum;
 
     /// <summary>The length of the diagonal.</summary>
-    public double Diagonal => Size.Length();
+    public double Diagonal => Size.MaximumComponent() switch
+    {
+        > 0 and < double.PositiveInfinity and var largest => largest * (Size / largest).Length(),
+        var largest => largest,
+    };
 
     /// <summary>The smallest box that holds both.</summary>
     public static BoundingBox Union(BoundingBox box1, BoundingBox box2) =>

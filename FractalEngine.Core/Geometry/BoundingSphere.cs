@@ -16,7 +16,8 @@ public readonly record struct BoundingSphere(Vector Centre, double Radius)
         RowSum(m.V1, m.V2, m.V3), Math.Max(RowSum(m.V2, m.V3, m.V1), RowSum(m.V3, m.V1, m.V2))));
 
     /// <summary>A ball around the image of this ball.</summary>
-    public BoundingSphere Transform(AffineMap map) => new(map * Centre, LengtheningBound(map.Linear) * Radius);
+    public BoundingSphere Transform(AffineMap map) =>
+        new(map * Centre, Radius == 0 ? 0 : LengtheningBound(map.Linear) * Radius);
 
     /// <summary>Centre and radius, invariant culture.</summary>
     public override string ToString() => string.Create(CultureInfo.InvariantCulture, $"{Centre} ± {Radius:R}");

@@ -67,15 +67,23 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
     public Matrix Transpose() => new(new(V1.X, V2.X, V3.X), new(V1.Y, V2.Y, V3.Y), new(V1.Z, V2.Z, V3.Z));
 
     /// <summary>The signed volume that a unit cube takes: <c>Dot(V1, Cross(V2, V3))</c>.</summary>
-    public double Determinant() => Vector.Dot(V1, Vector.Cross(V2, V3));
+    public double Determinant() => Vector.Dot(V1, AccurateCross(V2, V3));
 
-    /// <summary>The matrix that undoes this one.</summary>
-    /// <exception cref="SingularMatrixException">The determinant is zero, or so small that its inverse is not finite.</exception>
-    /// <remarks>The relative error grows with the condition number: about 1e-16 times its square root to its first power.</remarks>
-    public Matrix Inverse() => MaximumEntry() switch
+    /// <summary>The matrix that undoes this one: the transposed cofactors divided by the determinant.</summary>
+    /// <exception cref="SingularMatrixException">The determinant is zero, or an entry of the inverse is beyond the range of a double.</exception>
+    /// <remarks>The relative error is about 1e-16 times the condition number.</remarks>
+    public Matrix Inverse() => (PowerOfTwo(V1), PowerOfTwo(V2), PowerOfTwo(V3)) switch
     {
-        // Scaling the entries to about 1 first keeps products of three of them from under- or overflowing.
-        > 0 and < double.PositiveInfinity and var largest => (this / largest).ScaledInverse(this) / largest,
+        // Dividing each column by a power of two near its largest entry is exact, and keeps products of three entries from
+        // under- or overflowing.
+        ({ } size1, { } size2, { } size3) => (new Matrix(V1 / size1, V2 / size2, V3 / size3).ScaledInverse(this).Transpose() switch
+        {
+            var rows => new Matrix(rows.V1 / size1, rows.V2 / size2, rows.V3 / size3).Transpose(),
+        }) switch
+        {
+            var inverse when inverse.IsFinite() => inverse,
+            _ => throw new SingularMatrixException(this),
+        },
         _ => throw new SingularMatrixException(this),
     };
 
@@ -83,7 +91,7 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
     /// The cofactor matrix: it sends the normal <c>Cross(a, b)</c> of two edges to that of their images, for every
     /// matrix, singular ones too.
     /// </summary>
-    public Matrix Cofactors() => new(Vector.Cross(V2, V3), Vector.Cross(V3, V1), Vector.Cross(V1, V2));
+    public Matrix Cofactors() => new(AccurateCross(V2, V3), AccurateCross(V3, V1), AccurateCross(V1, V2));
 
     /// <summary>The largest absolute entry.</summary>
     public double MaximumEntry() =>
@@ -145,10 +153,27 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
     private Matrix ScaledInverse(Matrix unscaled) => Determinant() switch
     {
         0.0 => throw new SingularMatrixException(unscaled),
-        var determinant => (Cofactors().Transpose() / determinant) switch
-        {
-            var inverse when inverse.IsFinite() => inverse,
-            _ => throw new SingularMatrixException(unscaled),
-        },
+        var determinant => Cofactors().Transpose() / determinant,
+    };
+
+    /// <summary>The power of two next below the largest entry; null for a zero or infinite vector.</summary>
+    private static double? PowerOfTwo(Vector v) => v.MaximumComponent() switch
+    {
+        > 0 and < double.PositiveInfinity and var largest => Math.ScaleB(1, Math.Max(Math.ILogB(largest), -1021)),
+        _ => null,
+    };
+
+    /// <summary>The vector product with each component right to an ulp or two, however much its two products cancel.</summary>
+    private static Vector AccurateCross(Vector v1, Vector v2) => new(
+        DifferenceOfProducts(v1.Y, v2.Z, v1.Z, v2.Y),
+        DifferenceOfProducts(v1.Z, v2.X, v1.X, v2.Z),
+        DifferenceOfProducts(v1.X, v2.Y, v1.Y, v2.X));
+
+    /// <summary>a·b − c·d by Kahan's method: the rounding of c·d is found by a fused multiply-add and made up for.</summary>
+    private static double DifferenceOfProducts(double a, double b, double c, double d) => (c * d) switch
+    {
+        var product when double.IsFinite(product) =>
+            Math.FusedMultiplyAdd(a, b, -product) - Math.FusedMultiplyAdd(c, d, -product),
+        var product => (a * b) - product,
     };
 }

@@ -80,12 +80,11 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
     {
         var file = SceneParser.Parse(Read(full, name, ParsingLimits.DescriptionBytes));
         var placed = ImmutableArray.CreateBuilder<PlacedModel>();
-        for (var index = 0; index < file.Scene.Objects.Length; index++)
+        foreach (var (declared, offset) in file.Scene.Objects.Zip(file.FileOffsets))
         {
-            var declared = file.Scene.Objects[index];
             try
             {
-                placed.Add(new(declared, LoadReferenced(file.Source, file.FileOffset(index), full, declared.File)));
+                placed.Add(new(declared, LoadReferenced(file.Source, offset, full, declared.File)));
             }
             catch (SourceException exception)
             {

@@ -229,10 +229,11 @@ public sealed partial class FractalParser : Parser
             return false;
         }
 
-        value = Find(cursor, name);
+        // The line may still turn out to be another kind of declaration, so names are looked up only once its syntax fits.
         ParseBlanks(rest, out var depthPlace);
         if (IsAtEndOfLine(depthPlace))
         {
+            value = Find(cursor, name);
             return true;
         }
 
@@ -246,7 +247,7 @@ public sealed partial class FractalParser : Parser
             return Fail(depthPlace, "the end of the line");
         }
 
-        value = value is not DeclaredRecursive recursive ? throw Error(depthPlace, $"'{name}' is no recursive, so it has no depth")
+        value = Find(cursor, name) is not DeclaredRecursive recursive ? throw Error(depthPlace, $"'{name}' is no recursive, so it has no depth")
             : depth > FractalLimits.Depth
                 ? throw Error(depthPlace, $"the depth is more than the limit of {FractalLimits.Depth}", isLimit: true)
                 : recursive.Flatten(depth);

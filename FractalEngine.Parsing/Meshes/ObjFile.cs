@@ -6,5 +6,5 @@ namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>What an OBJ file holds, and what was passed over in it.</summary>
 /// <param name="Mesh">Its geometry.</param>
-/// <param name="Warnings">At most one.</param>
+/// <param name="Warnings">At most one about unknown keywords, and one about missing normals or texture coordinates.</param>
 public sealed record ObjFile(Mesh Mesh, ImmutableArray<Diagnostic> Warnings);

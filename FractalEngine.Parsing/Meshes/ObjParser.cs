@@ -20,6 +20,8 @@ public sealed class ObjParser : Parser
     private bool _hasDeclaration;
     private int _unknownLines;
     private Cursor? _firstUnknown;
+    private int _missingNumbers;
+    private (Cursor Place, string What)? _firstMissing;
 
     private ObjParser(SourceText source)
         : base(source)
@@ -62,6 +64,7 @@ public sealed class ObjParser : Parser
             }
         }
 
+        progress?.Report(1);
         if (!_hasDeclaration)
         {
             throw Error(Source.Start, "the file declares nothing: it has no vertex, face, group or material");
@@ -70,14 +73,23 @@ public sealed class ObjParser : Parser
         return new(_mesh.Build(), Warnings());
     }
 
-    private ImmutableArray<Diagnostic> Warnings() => _firstUnknown is not { } place ? [] :
-    [
-        Source.Diagnose(
-            place.Offset,
-            _unknownLines == 1 ? $"unknown keyword {Describe(place)} skipped"
-                : $"unknown keyword {Describe(place)} skipped ({_unknownLines} lines with unknown keywords in all)",
-            DiagnosticSeverity.Warning),
-    ];
+    private ImmutableArray<Diagnostic> Warnings()
+    {
+        var warnings = ImmutableArray.CreateBuilder<Diagnostic>();
+        if (_firstUnknown is { } unknown)
+        {
+            var all = _unknownLines == 1 ? "" : $" ({_unknownLines} lines with unknown keywords in all)";
+            warnings.Add(Source.Diagnose(unknown.Offset, $"unknown keyword {Describe(unknown)} skipped{all}", DiagnosticSeverity.Warning));
+        }
+
+        if (_firstMissing is var (place, what))
+        {
+            var all = _missingNumbers == 1 ? "" : $" ({_missingNumbers} such corners in all)";
+            warnings.Add(Source.Diagnose(place.Offset, $"{what}: the corner goes without{all}", DiagnosticSeverity.Warning));
+        }
+
+        return warnings.ToImmutable();
+    }
 
     private bool ParseLine(Cursor cursor, out Cursor rest)
     {
@@ -234,7 +246,7 @@ public sealed class ObjParser : Parser
     {
         var (texture, normal) = (ObjCorner.None, ObjCorner.None);
         corner = default;
-        if (!ParseIndex(cursor, "vertex", _mesh.PositionCount, out var position, out rest))
+        if (!ParseIndex(cursor, "vertex", _mesh.PositionCount, isRequired: true, out var position, out rest))
         {
             return false;
         }
@@ -242,12 +254,12 @@ public sealed class ObjParser : Parser
         if (rest.Current == '/')
         {
             rest = rest.Advance(1);
-            if (rest.Current != '/' && !ParseIndex(rest, "texture coordinate", _mesh.TextureCoordinateCount, out texture, out rest))
+            if (rest.Current != '/' && !ParseIndex(rest, "texture coordinate", _mesh.TextureCoordinateCount, isRequired: false, out texture, out rest))
             {
                 return false;
             }
 
-            if (rest.Current == '/' && !ParseIndex(rest.Advance(1), "normal", _mesh.NormalCount, out normal, out rest))
+            if (rest.Current == '/' && !ParseIndex(rest.Advance(1), "normal", _mesh.NormalCount, isRequired: false, out normal, out rest))
             {
                 return false;
             }
@@ -258,7 +270,7 @@ public sealed class ObjParser : Parser
     }
 
     /// <summary>A number of an element from 1, or back from the last one as −1; the result counts from 0.</summary>
-    private bool ParseIndex(Cursor cursor, string element, int count, out int index, out Cursor rest)
+    private bool ParseIndex(Cursor cursor, string element, int count, bool isRequired, out int index, out Cursor rest)
     {
         var backwards = cursor.Current == '-';
         if (!ParseInteger(backwards ? cursor.Advance(1) : cursor, $"a {element} number", out var number, out rest))
@@ -268,11 +280,29 @@ public sealed class ObjParser : Parser
         }
 
         index = backwards ? count - number : number - 1;
-        return number == 0 ? throw Error(cursor, $"{element} number 0: numbers start at 1")
-            : index >= 0 && index < count ? true
-            : throw Error(cursor, backwards
-                ? $"{element} -{number} of {count} so far: it is before the first"
-                : $"{element} {number} of {count} so far: it is beyond the last");
+        if (number == 0)
+        {
+            throw Error(cursor, $"{element} number 0: numbers start at 1");
+        }
+
+        if (index >= 0 && index < count)
+        {
+            return true;
+        }
+
+        var message = backwards
+            ? $"{element} -{number} of {count} so far: it is before the first"
+            : $"{element} {number} of {count} so far: it is beyond the last";
+        if (isRequired)
+        {
+            throw Error(cursor, message);
+        }
+
+        // A face needs no normals or texture coordinates, and some programs write the numbers of ones that they left out.
+        _firstMissing ??= (cursor, message);
+        _missingNumbers++;
+        index = ObjCorner.None;
+        return true;
     }
 
     private bool ParseSmoothingGroup(Cursor cursor, out Cursor rest)

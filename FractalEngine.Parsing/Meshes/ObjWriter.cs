@@ -67,11 +67,24 @@ public sealed class ObjWriter
     private static string Name(PlacedModel placed) =>
         placed.Declaration.Name ?? Path.GetFileNameWithoutExtension(placed.Declaration.File);
 
-    private static ImmutableArray<AffineMap> Instances(Model model, long faceLimit) => model switch
+    private static ImmutableArray<AffineMap> Instances(Model model, long faceLimit)
     {
-        FractalModel { Fractal: var fractal } => FractalGenerator.Expand(fractal, faceLimit / Math.Max(1, fractal.BaseMesh.FaceCount)),
-        _ => [AffineMap.Identity],
-    };
+        if (model is not FractalModel { Fractal: var fractal })
+        {
+            return [AffineMap.Identity];
+        }
+
+        try
+        {
+            return FractalGenerator.Expand(fractal, faceLimit / Math.Max(1, fractal.BaseMesh.FaceCount));
+        }
+        catch (FractalLimitException exception)
+        {
+            throw new FractalLimitException(
+                string.Create(CultureInfo.InvariantCulture, $"{Path.GetFileName(model.Path)} has more faces than the limit of {faceLimit}: {exception.Message}"),
+                exception);
+        }
+    }
 
     private void WriteObject(AffineMap placement, Mesh mesh, ImmutableArray<AffineMap> instances)
     {

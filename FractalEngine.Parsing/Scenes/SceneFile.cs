@@ -10,7 +10,7 @@ namespace FractalEngine.Parsing.Scenes;
 /// <param name="Lines">All lines in order.</param>
 public sealed record SceneFile(SourceText Source, Scene Scene, ImmutableArray<SceneLine> Lines)
 {
-    /// <summary>Where the file name of an object stands in the text, for messages about that file.</summary>
-    public int FileOffset(int objectIndex) =>
-        Lines.First(line => line.Kind == SceneDeclarationKind.SceneObject && line.Index == objectIndex).FileOffset;
+    /// <summary>Where the file names of the objects stand in the text, in the order of the objects; for messages about those files.</summary>
+    public IEnumerable<int> FileOffsets =>
+        Lines.Where(line => line.Kind == SceneDeclarationKind.SceneObject).Select(line => line.FileOffset);
 }

@@ -24,7 +24,11 @@ public sealed partial class SceneParser
 
     private bool ParseLightKind(Cursor cursor, string kind, out Cursor rest) => ParseKeyword(cursor, kind, out rest);
 
-    private bool AddLight(Light light) => Declare(_scene with { Lights = _scene.Lights.Add(light) });
+    private bool AddLight(Light light)
+    {
+        _lights.Add(light);
+        return true;
+    }
 
     private bool ParseDirection(Cursor cursor, out Vector direction, out Cursor rest)
     {

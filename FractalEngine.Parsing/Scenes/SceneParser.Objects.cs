@@ -23,7 +23,8 @@ public sealed partial class SceneParser
         {
         }
 
-        return Declare(_scene with { Objects = _scene.Objects.Add(declared) });
+        _objects.Add(declared);
+        return true;
     }
 
     private bool ParsePhysicsObject(Cursor cursor, out Cursor rest)
@@ -40,7 +41,8 @@ public sealed partial class SceneParser
         {
         }
 
-        return Declare(_scene with { Objects = _scene.Objects.Add(declared) });
+        _objects.Add(declared);
+        return true;
     }
 
     /// <summary>A file name in quotes; its ending says what the file holds.</summary>

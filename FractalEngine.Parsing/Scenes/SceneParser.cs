@@ -9,6 +9,8 @@ namespace FractalEngine.Parsing.Scenes;
 public sealed partial class SceneParser : SceneValueParser
 {
     private readonly Dictionary<SceneDeclarationKind, int> _declared = [];
+    private readonly List<Light> _lights = [];
+    private readonly List<SceneObject> _objects = [];
     private Scene _scene = new();
     private int _fileOffset;
 
@@ -39,14 +41,14 @@ public sealed partial class SceneParser : SceneValueParser
         }
 
         return lines.Any(line => line.Kind is not null)
-            ? new(Source, _scene, lines.ToImmutable())
+            ? new(Source, _scene with { Lights = [.. _lights], Objects = [.. _objects] }, lines.ToImmutable())
             : throw Error(Source.Start, "the scene declares nothing: it has no camera, object or light");
     }
 
     private int IndexOfLast(SceneDeclarationKind kind) => kind switch
     {
-        SceneDeclarationKind.Light => _scene.Lights.Length - 1,
-        SceneDeclarationKind.SceneObject => _scene.Objects.Length - 1,
+        SceneDeclarationKind.Light => _lights.Count - 1,
+        SceneDeclarationKind.SceneObject => _objects.Count - 1,
         _ => 0,
     };
 

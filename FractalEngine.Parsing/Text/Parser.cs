@@ -212,14 +212,17 @@ public abstract class Parser
             return Fail(rest, "the end of the line");
         }
 
-        rest = rest.Advance(rest.Current switch
-        {
-            '\r' when rest.Peek(1) == '\n' => 2,
-            '\r' or '\n' => 1,
-            _ => 0,
-        });
+        rest = SkipLineBreak(rest);
         return true;
     }
+
+    /// <summary>Passes over a line break of any system, if one stands here.</summary>
+    private static Cursor SkipLineBreak(Cursor cursor) => cursor.Advance(cursor.Current switch
+    {
+        '\r' when cursor.Peek(1) == '\n' => 2,
+        '\r' or '\n' => 1,
+        _ => 0,
+    });
 
     /// <summary>True before a line break and behind the last character.</summary>
     protected static bool IsAtEndOfLine(Cursor cursor) => cursor.IsAtEnd || cursor.Current is '\n' or '\r';
@@ -227,8 +230,8 @@ public abstract class Parser
     /// <summary>The start of the next line.</summary>
     protected static Cursor SkipLine(Cursor cursor)
     {
-        var length = cursor.Rest.IndexOf('\n');
-        return cursor.Advance(length < 0 ? cursor.Rest.Length : length + 1);
+        var length = cursor.Rest.IndexOfAny('\n', '\r');
+        return length < 0 ? cursor.Advance(cursor.Rest.Length) : SkipLineBreak(cursor.Advance(length));
     }
 
     /// <summary>What stands at a place, for a message: a word, a character, or the end.</summary>

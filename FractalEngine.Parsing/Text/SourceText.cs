@@ -68,12 +68,20 @@ public sealed class SourceText
     public Diagnostic Diagnose(int offset, string message, DiagnosticSeverity severity = DiagnosticSeverity.Error)
     {
         offset = Math.Min(offset, Text.Length);
-        var before = Text.AsSpan(0, offset);
-        var lineStart = before.LastIndexOf('\n') + 1;
+        var (line, lineStart) = (1, 0);
+        for (var i = 0; i < offset; i++)
+        {
+            // A line ends with \n, \r\n or, on old systems, \r alone.
+            if (Text[i] == '\n' || (Text[i] == '\r' && !(i + 1 < Text.Length && Text[i + 1] == '\n')))
+            {
+                (line, lineStart) = (line + 1, i + 1);
+            }
+        }
+
         var length = Text.AsSpan(lineStart).IndexOfAny('\n', '\r');
         return new(
             FileName,
-            1 + before.Count('\n'),
+            line,
             1 + offset - lineStart,
             severity,
             message,

@@ -15,4 +15,14 @@ internal static class GlShim
         GL.PolygonMode(TriangleFace.FrontAndBack, mode);
 #endif
     }
+
+    /// <summary>Leaves out the triangles of one side: of the front, or of the back.</summary>
+    public static void SetCulledSide(bool front)
+    {
+#if OPENTK_DEBIAN
+        GL.CullFace(front ? CullFaceMode.Front : CullFaceMode.Back);
+#else
+        GL.CullFace(front ? TriangleFace.Front : TriangleFace.Back);
+#endif
+    }
 }

@@ -49,8 +49,27 @@ internal sealed class MeshPass : IDisposable
         GlShim.SetWireframe(wireframe);
     }
 
-    /// <summary>Leaves filled triangles for whoever draws next.</summary>
-    public static void End() => GlShim.SetWireframe(false);
+    /// <summary>Chooses which side of the triangles is not drawn.</summary>
+    /// <param name="front">True for the front, false for the back; null to draw both.</param>
+    public static void LeaveOut(bool? front)
+    {
+        if (front is { } side)
+        {
+            GL.Enable(EnableCap.CullFace);
+            GlShim.SetCulledSide(side);
+        }
+        else
+        {
+            GL.Disable(EnableCap.CullFace);
+        }
+    }
+
+    /// <summary>Leaves filled triangles with both sides for whoever draws next.</summary>
+    public static void End()
+    {
+        LeaveOut(null);
+        GlShim.SetWireframe(false);
+    }
 
     /// <inheritdoc/>
     public void Dispose() => _program.Dispose();

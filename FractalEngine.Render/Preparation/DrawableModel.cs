@@ -36,6 +36,12 @@ public sealed class DrawableModel
     /// <summary>Maps from the mesh to the model, by rows, [<see cref="InstanceCount"/> × 12].</summary>
     public ReadOnlyMemory<float> Instances { get; }
 
+    /// <summary>
+    /// 1 where the model consists of solids wound outwards and −1 where inwards, so that from outside only one side of their faces is
+    /// ever seen; 0 where that is not known.
+    /// </summary>
+    internal int SolidSign { get; init; }
+
     /// <summary>How many copies of the mesh one draw call makes.</summary>
     public int InstanceCount => Instances.Length / InstanceFloats;
 

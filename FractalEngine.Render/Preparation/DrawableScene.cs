@@ -11,6 +11,9 @@ namespace FractalEngine.Render.Preparation;
 /// </summary>
 public sealed class DrawableScene
 {
+    // With fewer copies, leaving out what is not seen saves less than finding out that it is not.
+    private const int CheckedInstances = 100;
+
     private DrawableScene(
         LoadedScene source, ImmutableArray<DrawableModel> models, ImmutableArray<DrawableObject> objects, ImmutableArray<string> notices) =>
         (Source, Models, Objects, Notices) = (source, models, objects, notices);
@@ -90,7 +93,25 @@ public sealed class DrawableScene
 
         var (origin, meshOrigin) = (MiddleOf(model.Bounds), MiddleOf(mesh.Bounds));
         var (vertices, indices) = DrawableMeshBuilder.Build(mesh, meshOrigin, settings.CreaseAngle);
-        return new(name, origin, model.Bounds, vertices, indices, Rows(maps, meshOrigin, origin));
+        return new(name, origin, model.Bounds, vertices, indices, Rows(maps, meshOrigin, origin))
+        {
+            SolidSign = maps.Length >= CheckedInstances && CommonSign(maps) is var sign and not 0 && ClosedSurface.IsSolid(mesh) ? sign : 0,
+        };
+    }
+
+    /// <summary>The sign that the determinants of all maps have; 0 when they differ or one is flat.</summary>
+    private static int CommonSign(ImmutableArray<AffineMap> maps)
+    {
+        var sign = Math.Sign(maps[0].Linear.Determinant());
+        foreach (ref readonly var map in maps.AsSpan())
+        {
+            if (Math.Sign(map.Linear.Determinant()) != sign)
+            {
+                return 0;
+            }
+        }
+
+        return sign;
     }
 
     /// <summary>The origin where there is no middle: an unbounded fractal has none.</summary>

@@ -20,6 +20,15 @@ internal static class GlfwKeys
         | (modifiers.HasFlag(OpenTK.Windowing.GraphicsLibraryFramework.KeyModifiers.Control) ? KeyModifiers.Control : 0)
         | (modifiers.HasFlag(OpenTK.Windowing.GraphicsLibraryFramework.KeyModifiers.Alt) ? KeyModifiers.Alt : 0);
 
+    /// <summary>What a modifier key modifies; nothing for any other key.</summary>
+    public static KeyModifiers ModifierOf(Key key) => key switch
+    {
+        Key.LeftShift or Key.RightShift => KeyModifiers.Shift,
+        Key.LeftControl or Key.RightControl => KeyModifiers.Control,
+        Key.LeftAlt or Key.RightAlt => KeyModifiers.Alt,
+        _ => KeyModifiers.None,
+    };
+
     private static Key KeyOf(char character) => char.ToLowerInvariant(character) switch
     {
         >= 'a' and <= 'z' and var letter => Key.A + (letter - 'a'),

@@ -26,10 +26,8 @@ internal sealed class PlatformWindow : IPlatformWindow
         window.Minimized += minimized => _pending.Add(new VisibilityChanged(!minimized.IsMinimized));
         window.FocusedChanged += LoseFocus;
         window.FileDrop += dropped => _pending.AddRange(dropped.FileNames.Select(file => new FileDropped(file)));
-        window.KeyDown += key => _pending.Add(
-            new KeyPressed(GlfwKeys.KeyOf(key.Key, key.ScanCode), _modifiers = GlfwKeys.ModifiersOf(key.Modifiers), key.IsRepeat));
-        window.KeyUp += key => _pending.Add(
-            new KeyReleased(GlfwKeys.KeyOf(key.Key, key.ScanCode), _modifiers = GlfwKeys.ModifiersOf(key.Modifiers)));
+        window.KeyDown += key => AddKey(key, isDown: true);
+        window.KeyUp += key => AddKey(key, isDown: false);
         window.MouseDown += button => AddButton(button, isDown: true);
         window.MouseUp += button => AddButton(button, isDown: false);
         window.MouseMove += AddMove;
@@ -149,6 +147,15 @@ internal sealed class PlatformWindow : IPlatformWindow
             _modifiers = KeyModifiers.None;
             _pending.Add(new FocusLost());
         }
+    }
+
+    private void AddKey(KeyboardKeyEventArgs pressed, bool isDown)
+    {
+        var key = GlfwKeys.KeyOf(pressed.Key, pressed.ScanCode);
+        // On X11 the state is that before the stroke: a modifier key's own stroke is not in it yet.
+        var own = GlfwKeys.ModifierOf(key);
+        _modifiers = (GlfwKeys.ModifiersOf(pressed.Modifiers) & ~own) | (isDown ? own : KeyModifiers.None);
+        _pending.Add(isDown ? new KeyPressed(key, _modifiers, pressed.IsRepeat) : new KeyReleased(key, _modifiers));
     }
 
     private void AddMove(MouseMoveEventArgs move)

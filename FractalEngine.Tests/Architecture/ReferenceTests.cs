@@ -26,7 +26,15 @@ public class ReferenceTests
     }
 
     [Fact]
-    public void Render_RefersToCoreAndNotToParsing() => Assert.Equal(["Core"], Projects("Render"));
+    public void Render_RefersToCoreAndNotToParsing()
+    {
+        Assert.Equal(["Core"], Projects("Render"));
+        Assert.DoesNotContain("FractalEngine.Parsing", Names(Assembly.Load("FractalEngine.Render")));
+    }
+
+    [Fact]
+    public void App_DoesNotReachThroughRenderToOpenTK() => Assert.DoesNotContain(
+        Names(Assembly.Load("FractalEngine.App")), name => name.StartsWith("OpenTK", StringComparison.OrdinalIgnoreCase));
 
     [Theory]
     [InlineData("App")]

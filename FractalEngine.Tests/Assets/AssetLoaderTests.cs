@@ -207,10 +207,10 @@ public sealed class AssetLoaderTests : IDisposable
     }
 
     [Fact]
-    public void Load_OfAnInfiniteFractalThatGrows_IsRefused()
+    public void Load_OfAnInfiniteFractalThatDoesNotShrink_IsRefused()
     {
         _folder.Write("b.obj", Triangle);
-        _folder.Write("f.fdo", "v 2 2 2\nt.a. (#, #, a)\nx. \"b.obj\"\nz<x>. [t.1] x\n<$>. z");
+        _folder.Write("f.fdo", "v 1 0 0\nt.a. (a, #, #)\nx. \"b.obj\"\nz<x>. [#, t.1] x\n<$>. z");
         Assert.Contains("f.fdo:5:1: error: the infinite fractal has no bounds", Fails("f.fdo"), StringComparison.Ordinal);
     }
 
@@ -227,4 +227,12 @@ public sealed class AssetLoaderTests : IDisposable
     [Fact]
     public void Load_OfVerticesOnly_IsAnEmptyMesh() =>
         Assert.Equal(0, AssetLoader.Load(_folder.Write("a.obj", "v 1 2 3\n")).Scene.Objects[0].Model.FaceCount);
+
+    [Fact]
+    public void Load_OfAnInfiniteFractalThatGrows_IsRefused()
+    {
+        _folder.Write("b.obj", Triangle);
+        _folder.Write("f.fdo", "v 2 2 2\nv 1 0 0\nt.a.b. (b, #, a)\nx. \"b.obj\"\nz<x>. [#, t.1.2] x\n<$>. z");
+        Assert.Contains("f.fdo:6:1: error: the infinite fractal has no bounds", Fails("f.fdo"), StringComparison.Ordinal);
+    }
 }

@@ -53,10 +53,25 @@ public sealed class AtomicFileTests : IDisposable
     }
 
     [Fact]
-    public void Write_ToAMissingFolderOrADirectory_IsAnIOError()
+    public void Write_OverADirectory_IsAnIOError()
     {
-        Assert.ThrowsAny<IOException>(() => AtomicFile.Write(_folder["no/such/a"], _ => { }));
         Assert.ThrowsAny<IOException>(() => AtomicFile.Write(_folder.Path, _ => { }));
+        Assert.True(Directory.Exists(_folder.Path));
+    }
+
+    [Fact]
+    public void Write_IntoAMissingFolder_MakesIt()
+    {
+        AtomicFile.Write(_folder["new/folder/a"], stream => stream.Write("new"u8));
+        Assert.Equal("new", File.ReadAllText(_folder["new/folder/a"]));
+    }
+
+    [Fact]
+    public void Write_BelowAFile_IsAnIOError()
+    {
+        _folder.Write("a", "old");
+        Assert.ThrowsAny<IOException>(() => AtomicFile.Write(_folder["a/b"], _ => { }));
+        Assert.Equal("old", File.ReadAllText(_folder["a"]));
     }
 
     [SkippableFact]

@@ -95,4 +95,19 @@ public class FractalBoundsTests
         Near.Equal(expected.Minimum, actual.Minimum, ofSize * expected.Diagonal);
         Near.Equal(expected.Maximum, actual.Maximum, ofSize * expected.Diagonal);
     }
+
+    [Fact]
+    public void Bounds_OfMapsBeyondADouble_AreNotFiniteAndNotWrong()
+    {
+        var bounds = Samples.Repeated(2000, Samples.MoveAndScale(1, 0, 0, 2), Samples.MoveAndScale(-1, 0, 0, 2)).Bounds;
+        Assert.False(bounds.Minimum.IsFinite() && bounds.Maximum.IsFinite(), bounds.ToString());
+    }
+
+    [Fact]
+    public void Bounds_OfAFractalThatGrowsAlmostToADoublesLimit_AreThoseOfItsCorners()
+    {
+        // Along x the farthest corner of depth n is 1 + 2·(that of depth n − 1), and it starts at 2.
+        var expected = Enumerable.Range(0, 600).Aggregate(2.0, (x, _) => 1 + (2 * x));
+        Near.Equal(1, Samples.Repeated(600, Samples.MoveAndScale(1, 0, 0, 2), Samples.MoveAndScale(-1, 0, 0, 2)).Bounds.Maximum.X / expected, 1e-9);
+    }
 }

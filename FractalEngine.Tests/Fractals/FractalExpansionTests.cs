@@ -122,6 +122,14 @@ public class FractalExpansionTests
             new(Samples.Repeated(100, Samples.Move(1, 0, 0), Samples.Move(0, 1, 0), Samples.Move(0, 0, 1)).Description with { Composition = Composition.Componentwise }, Samples.Triangle), 6000).Length);
 
     [Fact]
+    public void ComponentwiseSums_AreEachOnceAndWithinTheBudget()
+    {
+        var fractal = Samples.AppendixBAt(6, Composition.Componentwise);
+        Assert.Equal(19_600, FractalGenerator.ComponentwiseSums(fractal, 19_600).Distinct().Count());
+        Assert.Contains("19599", Assert.Throws<FractalLimitException>(() => FractalGenerator.ComponentwiseSums(fractal, 19_599)).Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
     public void Under_APlacement_MovesEveryInstance() => Seeded.Run(50, random =>
     {
         var (fractal, placement) = (RandomFractals.Draw(random), random.Transformation());

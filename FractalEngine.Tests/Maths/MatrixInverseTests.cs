@@ -74,4 +74,22 @@ public class MatrixInverseTests
     [Fact]
     public void Inverse_OfASingularMap_SaysSingular() => Assert.Throws<SingularMatrixException>(
         () => new Transformation(Vector.One, Vector.Zero, new(1, 0, 1)).ToAffineMap().Inverse());
+
+    [Fact]
+    public void Inverse_OfConditionTenToTheTwelve_IsOffByNoMoreThanThatTimesAnUlp() => Seeded.Run(200, random =>
+    {
+        var (left, right) = (random.Orthogonal(), random.Orthogonal());
+        var matrix = left * Matrix.Diagonal(new(1, 1e-6, 1e-12)) * right;
+        var expected = right.Transpose() * Matrix.Diagonal(new(1, 1e6, 1e12)) * left.Transpose();
+        // Rounding the entries of the matrix alone changes its inverse by 1e12 × 1e-16 of itself; a hundred times that is allowed.
+        Near.Equal(expected, matrix.Inverse(), 1e-2 * 1e12);
+    });
+
+    [Fact]
+    public void Inverse_OfTheMostUnevenScaleThatFilesMayHave_IsTheReciprocalScale()
+    {
+        // Each factor lies within the limits that files are held to, and so does each reciprocal.
+        var inverse = Matrix.Diagonal(new(1e100, 1e-100, 1e-100)).Inverse();
+        Near.Equal(Vector.One, new Vector(1e100 * inverse.V1.X, 1e-100 * inverse.V2.Y, 1e-100 * inverse.V3.Z), 1e-15);
+    }
 }

@@ -38,7 +38,8 @@ public sealed class MeshCountHeaderTests : IDisposable
         MeshCountHeader.Update(path, 7);
         var (bytes, time) = (File.ReadAllBytes(path), File.GetLastWriteTimeUtc(path));
         Assert.False(MeshCountHeader.Update(path, 7));
-        Assert.Equal((bytes, time), (File.ReadAllBytes(path), File.GetLastWriteTimeUtc(path)));
+        Assert.Equal(bytes, File.ReadAllBytes(path));
+        Assert.Equal(time, File.GetLastWriteTimeUtc(path));
     }
 
     [Fact]

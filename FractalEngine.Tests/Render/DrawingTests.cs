@@ -29,6 +29,34 @@ public sealed class DrawingTests
     }
 
     [SkippableTheory]
+    [InlineData(1)]
+    [InlineData(-1)]
+    public void Solid_HiddenSidesLeftOut_LooksTheSame(double mirror)
+    {
+        var solid = RenderScenes.Menger(2);
+        // The same with a face inside the cubes that nobody sees: no longer a closed surface, so both sides are drawn.
+        var cube = RenderScenes.Cube(1);
+        var open = new FractalModel("open.fdo", 1, new Fractal(
+            solid.Fractal.Description,
+            new Mesh([.. cube.Positions, 0, 0, 0, 0.1, 0, 0, 0, 0.1, 0], [.. cube.Faces, 8, 9, 10])));
+        var placement = Transformation.Identity with { Scale = new(mirror, 1, 1) };
+        var view = new View(Aside, Projection.Perspective);
+        var (solidScene, openScene) = (
+            RenderScenes.Scene(new Scene(), (solid, placement, null)), RenderScenes.Scene(new Scene(), (open, placement, null)));
+        Assert.Equal(1, DrawableScene.Prepare(solidScene, new()).Models[0].SolidSign);
+        Assert.Equal(0, DrawableScene.Prepare(openScene, new()).Models[0].SolidSign);
+        // Where cubes touch, faces of both lie at the same depth along edges, and the first one drawn wins a sample.
+        var (mean, share) = RenderScenes.Difference(
+            RenderScenes.Draw(openScene, view, 400, 300), RenderScenes.Draw(solidScene, view, 400, 300));
+        Assert.True(mean < 0.01 && share < 0.0005, $"mean difference {mean}, share of different pixels {share}");
+
+        // From within a cube its inner sides are seen, whatever it is made of.
+        var inside = new View(Camera.Default with { Position = new(0.9, 0.9, 0.9) }, Projection.Perspective);
+        Assert.Equal(
+            RenderScenes.Draw(openScene, inside).Pixels, RenderScenes.Draw(solidScene, inside).Pixels);
+    }
+
+    [SkippableTheory]
     [InlineData(false)]
     [InlineData(true)]
     public void Depth_NearerObject_HidesTheFartherInEitherOrder(bool nearFirst)

@@ -13,10 +13,10 @@ public sealed class RenderWindowTests
         using var window = Open();
         Drain(window);
         var (clock, before) = (Stopwatch.StartNew(), Process.GetCurrentProcess().TotalProcessorTime);
-        Assert.Empty(window.WaitEvents(TimeSpan.FromSeconds(0.5)));
-        Assert.InRange(clock.Elapsed.TotalSeconds, 0.4, 5);
-        // A loop that polls would take all of the half second.
-        Assert.InRange((Process.GetCurrentProcess().TotalProcessorTime - before).TotalSeconds, 0, 0.25);
+        Assert.Empty(window.WaitEvents(TimeSpan.FromSeconds(1.5)));
+        Assert.InRange(clock.Elapsed.TotalSeconds, 1.4, 10);
+        // A loop that polls would take all of the time; the compiler and the test host work beside us now and then.
+        Assert.InRange((Process.GetCurrentProcess().TotalProcessorTime - before).TotalSeconds, 0, 0.8);
     }
 
     [SkippableFact]

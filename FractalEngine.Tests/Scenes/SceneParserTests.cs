@@ -156,7 +156,7 @@ public class SceneParserTests
     public void FileOffset_PointsAtTheName()
     {
         var file = SceneParser.Parse(new("test.sdo", Samples.AppendixA));
-        Assert.StartsWith("\"SampleAsset2.obj\"", file.Source.Text[file.FileOffset(1)..], StringComparison.Ordinal);
+        Assert.StartsWith("\"SampleAsset2.obj\"", file.Source.Text[file.FileOffsets.ElementAt(1)..], StringComparison.Ordinal);
     }
 
     [Fact]
@@ -165,4 +165,16 @@ public class SceneParserTests
         var text = Samples.AppendixA.ReplaceLineEndings("\r\n") + "\n\n# end";
         Assert.Equal(text, string.Concat(SceneParser.Parse(new("test.sdo", text)).Lines.Select(line => line.Text)));
     }
+
+    [Fact]
+    public void Parse_OfAHundredThousandObjects_TakesNoLongerThanTwoSeconds()
+    {
+        var text = string.Concat(Enumerable.Range(0, 100_000).Select(i => $"o \"a.obj\" (({i}, 0, 0), #, #)\n"));
+        var start = System.Diagnostics.Stopwatch.StartNew();
+        Assert.Equal(100_000, Parse(text).Objects.Length);
+        Assert.True(start.ElapsedMilliseconds < 2000, $"{start.ElapsedMilliseconds} ms");
+    }
+
+    [Fact]
+    public void Comment_BeforeACarriageReturnAlone_EndsThere() => Assert.Single(Parse("# comment\ro \"a.obj\" #\r").Objects);
 }

@@ -59,4 +59,11 @@ public class DiagnosticTests
         var diagnostic = new SourceText("f", "one\r\n\r\nthree").Diagnose(offset, "m");
         Assert.Equal((line, column, sourceLine), (diagnostic.Line, diagnostic.Column, diagnostic.SourceLine ?? ""));
     }
+
+    [Fact]
+    public void Diagnose_WithCarriageReturnsAlone_CountsLines()
+    {
+        var diagnostic = new SourceText("f", "one\rtwo\rthree").Diagnose(9, "m");
+        Assert.Equal((3, 2, "three"), (diagnostic.Line, diagnostic.Column, diagnostic.SourceLine));
+    }
 }
