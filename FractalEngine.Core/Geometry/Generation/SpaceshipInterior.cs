@@ -109,7 +109,7 @@ internal sealed class SpaceshipInterior
         switch (side)
         {
             case Side.Floor:
-                _panels.AddFloor(frame, area, random);
+                _panels.AddFloor(frame, area);
                 break;
             case Side.Ceiling:
                 _panels.AddCeiling(frame, area, random);

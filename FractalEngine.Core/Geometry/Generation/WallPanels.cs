@@ -20,7 +20,7 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
     });
 
     /// <summary>Two rows of plates with a tread of studs, and a drain along the middle.</summary>
-    public void AddFloor(WallFrame frame, WallArea area, SplitMix64 random)
+    public void AddFloor(WallFrame frame, WallArea area)
     {
         var half = 0.5 * area.Width;
         foreach (var part in area.Cells(2, 3))
@@ -43,7 +43,6 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
         }
 
         Grille(frame, new(area.X0 + half - 0.05, area.Y0, area.X0 + half + 0.05, area.Y1), 8);
-        _ = random;
     }
 
     /// <summary>A long light between panels.</summary>
