@@ -14,7 +14,8 @@ internal static class CommandLine
     /// <returns>The exit code.</returns>
     public static int Run(string[] args)
     {
-        var result = Root().Parse(args);
+        var root = Root();
+        var result = root.Parse(WithCommand(root, args));
         if (result.Errors.Count > 0)
         {
             foreach (var message in result.Errors.Select(error => error.Message).Distinct())
@@ -39,9 +40,16 @@ internal static class CommandLine
             root.Add(command);
         }
 
-        ViewCommand.AddTo(root);
         return root;
     }
+
+    /// <summary>Without the name of a command, <c>view</c> is meant. Asking for help or the version is about the program as a whole.</summary>
+    private static string[] WithCommand(RootCommand root, string[] args) => args switch
+    {
+        [var first, ..] when root.Subcommands.Any(command => command.Name == first) => args,
+        ["-h" or "--help" or "-?" or "--version", ..] => args,
+        _ => ["view", .. args],
+    };
 
     private static int Invoke(ParseResult result)
     {

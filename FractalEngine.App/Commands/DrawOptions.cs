@@ -26,7 +26,7 @@ internal sealed class DrawOptions
     };
 
     private readonly Option<Projection?> _projection = SharedOptions.Projection();
-    private readonly Option<(int Width, int Height)> _resolution = SharedOptions.Resolution();
+    private readonly Option<(int Width, int Height)?> _resolution = SharedOptions.Resolution();
 
     public void AddTo(Command command)
     {
@@ -36,7 +36,7 @@ internal sealed class DrawOptions
         }
     }
 
-    public (int Width, int Height) Resolution(ParseResult result) => result.GetValue(_resolution);
+    public (int Width, int Height) Resolution(ParseResult result) => result.GetValue(_resolution) ?? (1280, 720);
 
     public Projection? Projection(ParseResult result) => result.GetValue(_projection);
 

@@ -101,11 +101,10 @@ internal sealed class SharedOptions
     };
 
     /// <summary>The size of a picture or window in pixels.</summary>
-    public static Option<(int Width, int Height)> Resolution() => new("--resolution")
+    public static Option<(int Width, int Height)?> Resolution() => new("--resolution")
     {
-        Description = "Width and height in pixels.",
+        Description = "Width and height in pixels; 1280x720 unless stated.",
         HelpName = "WIDTHxHEIGHT",
-        DefaultValueFactory = _ => (1280, 720),
         CustomParser = result =>
         {
             if (result.Tokens is [{ Value: var token }] && token.Split('x') is [var width, var height]
@@ -116,7 +115,7 @@ internal sealed class SharedOptions
             }
 
             result.AddError("expected a size such as 1280x720, each side from 1 to 32768");
-            return default;
+            return null;
         },
     };
 }

@@ -16,22 +16,16 @@ internal static class ViewCommand
 
     public static Command Create()
     {
-        var command = new Command("view", "Open a window on a file, or on the gallery.");
-        AddTo(command);
-        return command;
-    }
-
-    /// <summary>Gives a command the argument, the options and the action of viewing.</summary>
-    public static void AddTo(Command command)
-    {
         var shared = new SharedOptions();
         var draw = new DrawOptions();
         shared.File.Arity = ArgumentArity.ZeroOrOne;
+        var command = new Command("view", "Open a window on a file, or on the gallery. This is what happens without a command, too.");
         shared.AddTo(command);
         draw.AddTo(command);
         command.SetAction(result => Run(
             result.GetValue(shared.File) ?? FindGallery(), shared.LoadOptions(result),
             draw.Resolution(result), draw.Projection(result), draw.Settings(result)));
+        return command;
     }
 
     private static int Run(string path, LoadOptions options, (int Width, int Height) size, Projection? projection, RenderSettings settings)

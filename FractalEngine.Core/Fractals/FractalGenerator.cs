@@ -64,27 +64,35 @@ public static class FractalGenerator
             throw new FractalLimitException("an infinite fractal can't be composed componentwise: its positions don't shrink");
         }
 
+        budget = Math.Min(budget, FractalLimits.ComponentwiseSums);
         Transformation[] sums = [Transformation.Identity];
         for (var level = 0L; level < levels; level++)
         {
-            var set = fractal.LevelAt(level).Transformations;
-            if (set is not [{ IsIdentity: true }])
-            {
-                if ((long)sums.Length * set.Length > Math.Max(budget, 1) * 64)
-                {
-                    throw TooManySums(budget);
-                }
-
-                sums = DistinctMaps.Of(ConcatenatePair(sums, set.AsSpan(), Transformation.ComposeComponentwise));
-            }
-
-            if (sums.Length > budget)
-            {
-                throw TooManySums(budget);
-            }
+            sums = Sums(sums, fractal.LevelAt(level).Transformations, budget);
         }
 
         return System.Runtime.InteropServices.ImmutableCollectionsMarshal.AsImmutableArray(sums);
+    }
+
+    /// <summary>Adds one level, a transformation at a time, so that there are never many more sums in memory than distinct ones.</summary>
+    private static Transformation[] Sums(Transformation[] sums, ImmutableArray<Transformation> set, long budget)
+    {
+        if (set is [{ IsIdentity: true }])
+        {
+            return sums;
+        }
+
+        Transformation[] added = [];
+        foreach (var transformation in set)
+        {
+            added = DistinctMaps.Of([.. added, .. ConcatenatePair(sums, [transformation], Transformation.ComposeComponentwise)]);
+            if (added.Length > budget)
+            {
+                throw new FractalLimitException($"componentwise composition of the fractal has more than {budget} distinct sums");
+            }
+        }
+
+        return added;
     }
 
     /// <summary>The paper's concatPair: [m1·m2 | ∀ m1 ∈ set1, ∀ m2 ∈ set2], in that order.</summary>
@@ -102,9 +110,6 @@ public static class FractalGenerator
 
         return pairs;
     }
-
-    private static FractalLimitException TooManySums(long budget) =>
-        new($"componentwise composition of the fractal has more than {budget} distinct sums");
 
     private static string Text(Fractal fractal) => fractal.InstanceCount switch
     {

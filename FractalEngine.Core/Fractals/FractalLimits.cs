@@ -30,6 +30,6 @@ public static class FractalLimits
     /// <summary>The most chains that are enumerated only to count the distinct ones among them.</summary>
     public const int EnumeratedInstances = 500_000;
 
-    /// <summary>The most distinct sums that componentwise composition is carried out for.</summary>
-    public const int ComponentwiseSums = 4_000_000;
+    /// <summary>The most distinct sums that componentwise composition is carried out for: about 100 MB.</summary>
+    public const int ComponentwiseSums = 1_000_000;
 }
