@@ -44,6 +44,11 @@ internal static class Consoles
         {
             var field = block.Within(0.02);
             mesh.Plate(top, field, 0.008, 0.006);
+            if (detail < WallPanels.PlainBelow)
+            {
+                continue;
+            }
+
             var raised = top.Moved(0, 0, 0.008);
             foreach (var key in field.Within(0.015).Cells(Math.Max(2, (int)(field.Width / size)), Math.Max(2, (int)(field.Height / size))))
             {

@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Geometry.Generation;
 internal sealed class SpaceshipInterior
 {
     /// <summary>What the corridor has with no details at all.</summary>
-    public const int SmallestFaceCount = 8_000;
+    public const int SmallestFaceCount = 16_000;
 
     private const int Bays = 12;
     private const double BayLength = 2;
@@ -25,10 +25,11 @@ internal sealed class SpaceshipInterior
     private readonly MeshBuilder _mesh = new();
     private readonly WallPanels _panels;
     private readonly double _detail;
+    private readonly bool _isPlain;
 
     private SpaceshipInterior(ulong seed, double detail)
     {
-        (_random, _detail) = (new(seed), detail);
+        (_random, _detail, _isPlain) = (new(seed), detail, detail < WallPanels.PlainBelow);
         _panels = new(_mesh, detail);
     }
 
@@ -108,7 +109,7 @@ internal sealed class SpaceshipInterior
         switch (side)
         {
             case Side.Floor:
-                _panels.AddFloor(frame, area, random);
+                _panels.AddFloor(frame, area);
                 break;
             case Side.Ceiling:
                 _panels.AddCeiling(frame, area, random);
@@ -132,7 +133,7 @@ internal sealed class SpaceshipInterior
             var height = side == Side.Floor ? 0.025 : 0.13;
             _mesh.Plate(frame, new(-0.01, 0, width + 0.01, RibWidth), height, 0.03);
             _mesh.Plate(frame.Moved(0, 0, height), new(0.12, 0.07, width - 0.12, RibWidth - 0.07), 0.02, 0.01);
-            var bolts = _detail < 0.02 ? 0 : 2 + (int)Math.Min(6, 2 * Math.Sqrt(_detail));
+            var bolts = _isPlain ? 0 : 2 + (int)Math.Min(6, 2 * Math.Sqrt(_detail));
             for (var bolt = 0; bolt < bolts && side != Side.Floor; bolt++)
             {
                 var x = 0.08 + ((width - 0.16) * bolt / (bolts - 1));
@@ -173,13 +174,20 @@ internal sealed class SpaceshipInterior
                 points.Add(new(x - (Math.Sign(x) * off), y - (Math.Sign(y - 1.4) * off), (bay + along) * BayLength));
             }
 
-            var collar = new Vector(x, y, (bay * BayLength) + (RibWidth / 2));
-            double[] steps = [1, 1.45, 1.45, 1];
-            _mesh.Tube([collar, collar + (0.005 * Vector.K), collar + (0.05 * Vector.K), collar + (0.055 * Vector.K)], i => steps[i] * radius, sides);
+            if (!_isPlain)
+            {
+                AddCollar(new(x, y, (bay * BayLength) + (RibWidth / 2)), radius, sides);
+            }
         }
 
         points.Add(new(x, y, Length));
         _mesh.Tube(points, _ => radius, sides);
+    }
+
+    private void AddCollar(Vector start, double radius, int sides)
+    {
+        double[] steps = [1, 1.45, 1.45, 1];
+        _mesh.Tube([start, start + (0.005 * Vector.K), start + (0.05 * Vector.K), start + (0.055 * Vector.K)], i => steps[i] * radius, sides);
     }
 
     /// <summary>A cable that hangs from rib to rib under the ceiling.</summary>
@@ -209,7 +217,7 @@ internal sealed class SpaceshipInterior
         }
 
         _mesh.Plate(middle, new(-0.12, -0.12, 0.12, 0.12), 0.13, 0.05);
-        for (var bolt = 0; bolt < 24; bolt++)
+        for (var bolt = 0; bolt < 24 && !_isPlain; bolt++)
         {
             var (s, c) = Math.SinCos(2 * Math.PI * bolt / 24);
             _mesh.Bolt(middle, 0.91 * c, 0.91 * s, 0.025);

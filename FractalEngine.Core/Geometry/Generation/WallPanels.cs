@@ -5,6 +5,9 @@ namespace FractalEngine.Core.Geometry.Generation;
 /// <param name="detail">About proportional to the number of faces; 0 gives one plate an area.</param>
 internal sealed class WallPanels(MeshBuilder mesh, double detail)
 {
+    /// <summary>The detail below which plates stay bare.</summary>
+    public const double PlainBelow = 0.02;
+
     private const double Gap = 0.008;
     private const double Bevel = 0.012;
 
@@ -17,13 +20,18 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
     });
 
     /// <summary>Two rows of plates with a tread of studs, and a drain along the middle.</summary>
-    public void AddFloor(WallFrame frame, WallArea area, SplitMix64 random)
+    public void AddFloor(WallFrame frame, WallArea area)
     {
         var half = 0.5 * area.Width;
         foreach (var part in area.Cells(2, 3))
         {
             var plate = part.X0 < area.X0 + (0.5 * half) ? part with { X1 = part.X1 - 0.06 } : part with { X0 = part.X0 + 0.06 };
             mesh.Plate(frame, plate.Within(Gap), 0.01, Bevel);
+            if (detail < PlainBelow)
+            {
+                continue;
+            }
+
             foreach (var (stud, index) in plate.Within(0.05).Cells(Count(3, 14), Count(3, 12)).Select((cell, index) => (cell, index)))
             {
                 // Studs lie across each other by turns, as on chequer plate.
@@ -35,7 +43,6 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
         }
 
         Grille(frame, new(area.X0 + half - 0.05, area.Y0, area.X0 + half + 0.05, area.Y1), 8);
-        _ = random;
     }
 
     /// <summary>A long light between panels.</summary>
@@ -54,7 +61,7 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
 
     private void Fit(WallFrame frame, WallArea area, SplitMix64 random)
     {
-        if (detail < 0.02 || Math.Min(area.Width, area.Height) < 0.03)
+        if (detail < PlainBelow || Math.Min(area.Width, area.Height) < 0.03)
         {
             return;
         }
