@@ -36,7 +36,7 @@ public static class FractalBounds
 
         var (maximum, minimum) = (whole.Box.Maximum, whole.Box.Minimum);
         return new(
-            new(-Farthest(fractal, bounds, -Vector.I, -minimum.X), -Farthest(fractal, bounds, -Vector.J, -minimum.Y), -Farthest(fractal, bounds, -Vector.K, -minimum.Z)),
+            new(0 - Farthest(fractal, bounds, -Vector.I, -minimum.X), 0 - Farthest(fractal, bounds, -Vector.J, -minimum.Y), 0 - Farthest(fractal, bounds, -Vector.K, -minimum.Z)),
             new(Farthest(fractal, bounds, Vector.I, maximum.X), Farthest(fractal, bounds, Vector.J, maximum.Y), Farthest(fractal, bounds, Vector.K, maximum.Z)));
     }
 
