@@ -12,7 +12,7 @@ internal static class GenerateCommand
 {
     public static Command Create()
     {
-        var name = new Argument<string>("NAME") { Description = $"What to make: {Names()}." };
+        var name = new Argument<string>("NAME") { Description = Descriptions() };
         var output = SharedOptions.Output(".obj", "The mesh to write.");
         var seed = new Option<ulong?>("--seed")
         {
@@ -26,7 +26,7 @@ internal static class GenerateCommand
             HelpName = "N",
             CustomParser = SharedOptions.ParseInteger(1, MeshGenerators.LargestFaceCount),
         };
-        var command = new Command("generate", $"Make a mesh. {Descriptions()}") { name, output, seed, faces };
+        var command = new Command("generate", "Make a mesh by program, such as stand-ins for the paper's regular models.") { name, output, seed, faces };
         command.SetAction(result => Run(
             result.GetRequiredValue(name), result.GetRequiredValue(output), result.GetValue(seed) ?? 0, (int?)result.GetValue(faces)));
         return command;

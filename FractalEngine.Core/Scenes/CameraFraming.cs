@@ -28,11 +28,27 @@ public static class CameraFraming
     /// <param name="aspect">Width divided by height of the picture.</param>
     public static Camera Frame(Camera camera, BoundingBox box, double aspect)
     {
-        var radius = Math.Max(0.5 * box.Diagonal, 1e-9 * (1 + box.Centre.MaximumComponent()));
-        var half = Math.Atan(camera.HalfHeightAtUnitDepth * Math.Min(1, aspect));
-        var distance = Margin * radius / Math.Sin(half);
-        return camera with { Position = box.Centre - (distance * camera.LocalAxes.V3) };
+        if (box.IsEmpty)
+        {
+            box = new(Vector.Zero, Vector.Zero);
+        }
+
+        var half = camera.HalfHeightAtUnitDepth;
+        // A point at (right, up, forward) from the box's centre is in view from a distance d before it when
+        // |right| ≤ aspect·half·(d + forward) and |up| ≤ half·(d + forward).
+        var distance = Corners(box).Max(corner => (camera.LocalAxesInverse * (corner - box.Centre)) switch
+        {
+            var (right, up, forward) => (Math.Max(Math.Abs(right) / aspect, Math.Abs(up)) / half) - forward,
+        });
+        var smallest = Math.Max(0.5 * box.Diagonal, 1e-9 * (1 + box.Centre.MaximumComponent()));
+        return camera with { Position = box.Centre - (Margin * Math.Max(distance, smallest) * camera.LocalAxes.V3) };
     }
+
+    private static IEnumerable<Vector> Corners(BoundingBox box) =>
+        from x in (double[])[box.Minimum.X, box.Maximum.X]
+        from y in (double[])[box.Minimum.Y, box.Maximum.Y]
+        from z in (double[])[box.Minimum.Z, box.Maximum.Z]
+        select new Vector(x, y, z);
 
     /// <summary>The camera of a scene that names none.</summary>
     public static Camera Default(BoundingBox box, double aspect) =>

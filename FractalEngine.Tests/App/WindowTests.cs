@@ -39,7 +39,7 @@ public sealed class WindowTests : IDisposable
         var orbited = window.Screenshot(3);
         Assert.True(Difference(fromTheRight, orbited) > 0.01, "the drag changed nothing");
 
-        window.Do("click 4 click 4 click 4");
+        window.Do("click 5 click 5 click 5");
         var zoomed = window.Screenshot(4);
         Assert.True(Difference(orbited, zoomed) > 0.01, "the wheel changed nothing");
 
