@@ -1,0 +1,49 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Collision;
+
+/// <summary>
+/// Finds the point of a shape nearest to a position (paper §4.4.2–4.4.3). Immutable: any number of threads may ask at once, each with a
+/// record of its own. Queries allocate nothing.
+/// </summary>
+public abstract class Collider
+{
+    /// <summary>False for colliders that may miss the nearest point.</summary>
+    public abstract bool IsExact { get; }
+
+    /// <summary>Bytes that the collider keeps beside the mesh or the fractal it was made from.</summary>
+    public abstract long StorageBytes { get; }
+
+    /// <summary>Finds the nearest point.</summary>
+    /// <param name="position">In the shape's frame, scene units, finite.</param>
+    /// <param name="within">Nothing farther away is looked at; may be infinite.</param>
+    /// <param name="record">Receives the costs and the instance.</param>
+    /// <param name="closest">The answer, if there is one.</param>
+    /// <param name="epsilon">
+    /// How much farther than the nearest the answer may be: at most by the factor 1 + ε. Colliders that are not faster for it answer exactly.
+    /// </param>
+    /// <returns>False when nothing lies within the distance.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the distance or ε is negative or NaN.</exception>
+    public bool TryFindClosest(Vector position, double within, QueryRecord record, out ClosestPoint closest, double epsilon = 0)
+    {
+        if (!position.IsFinite())
+        {
+            throw new ArgumentOutOfRangeException(nameof(position), position, "expected finite coordinates");
+        }
+
+        if (!(within >= 0))
+        {
+            throw new ArgumentOutOfRangeException(nameof(within), within, "expected no negative number");
+        }
+
+        if (!(epsilon >= 0))
+        {
+            throw new ArgumentOutOfRangeException(nameof(epsilon), epsilon, "expected no negative number");
+        }
+
+        return Find(position, within, epsilon, record, out closest);
+    }
+
+    /// <summary>The query itself, its arguments checked.</summary>
+    private protected abstract bool Find(Vector position, double within, double epsilon, QueryRecord record, out ClosestPoint closest);
+}

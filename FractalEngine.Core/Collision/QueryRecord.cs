@@ -1,0 +1,31 @@
+using System.Runtime.InteropServices;
+
+namespace FractalEngine.Core.Collision;
+
+/// <summary>
+/// What a query cost, and which instance it found. The caller makes one, passes it to as many queries as it likes, one thread at a time,
+/// and reads it in between: there are no counters that anybody else could see.
+/// </summary>
+public sealed class QueryRecord
+{
+    private readonly List<int> _path = new(64);
+
+    /// <summary>How many faces were looked at: the paper's collision cost (§5.2.3). Added up until <see cref="Reset"/>.</summary>
+    public long FaceTests { get; set; }
+
+    /// <summary>How many bounding volumes were looked at. Added up until <see cref="Reset"/>.</summary>
+    public long BoundTests { get; set; }
+
+    /// <summary>
+    /// The instance that the last query found: for each level, the outermost first, the number of the transformation in its set. Empty for a
+    /// mesh. Shorter than the fractal's depth where deeper levels are below the precision of the answer.
+    /// </summary>
+    public ReadOnlySpan<int> InstancePath => CollectionsMarshal.AsSpan(_path);
+
+    /// <summary>Sets the counters to zero.</summary>
+    public void Reset() => (FaceTests, BoundTests) = (0, 0);
+
+    internal void ClearPath() => _path.Clear();
+
+    internal void AppendToPath(int number) => _path.Add(number);
+}
