@@ -9,6 +9,8 @@ namespace FractalEngine.Core.Collision;
 public sealed class QueryRecord
 {
     private readonly List<int> _path = new(64);
+    private int[] _trail = [];
+    private int[] _bestTrail = [];
 
     /// <summary>How many faces were looked at: the paper's collision cost (§5.2.3). Added up until <see cref="Reset"/>.</summary>
     public long FaceTests { get; set; }
@@ -24,6 +26,12 @@ public sealed class QueryRecord
 
     /// <summary>Sets the counters to zero.</summary>
     public void Reset() => (FaceTests, BoundTests) = (0, 0);
+
+    /// <summary>Room for the way of a search; kept for the next one.</summary>
+    internal Span<int> Trail(int length) => _trail.Length >= length ? _trail : _trail = new int[length];
+
+    /// <summary>Room for the way to the best so far; kept for the next one.</summary>
+    internal Span<int> BestTrail(int length) => _bestTrail.Length >= length ? _bestTrail : _bestTrail = new int[length];
 
     internal void ClearPath() => _path.Clear();
 

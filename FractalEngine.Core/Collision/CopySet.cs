@@ -1,0 +1,48 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Collision;
+
+/// <summary>The maps of a set together with what a search needs of them, kept once however many levels have the set.</summary>
+internal sealed class CopySet
+{
+    /// <summary>For a set.</summary>
+    public CopySet(TransformationSet set)
+    {
+        Maps = [.. set.Maps];
+        Inverses = [.. Maps.Select(map => map.Inverse())];
+        ScaleSquared = [.. Maps.Select(map => map.Linear.V1.LengthSquared())];
+        IdentityIndex = Array.IndexOf(Maps, AffineMap.Identity);
+        AreSimilar = Maps.All(map => IsSimilar(map.Linear));
+    }
+
+    /// <summary>The set of the identity alone.</summary>
+    public static CopySet Identity { get; } = new(new([Transformation.Identity]));
+
+    /// <summary>In the order of the set.</summary>
+    public AffineMap[] Maps { get; }
+
+    /// <summary>Of the maps.</summary>
+    public AffineMap[] Inverses { get; }
+
+    /// <summary>Squares of the factors by which the maps lengthen, where they are similarities.</summary>
+    public double[] ScaleSquared { get; }
+
+    /// <summary>The first place of the identity in the set, or −1.</summary>
+    public int IdentityIndex { get; }
+
+    /// <summary>True when all maps are multiples of rotations and mirrors.</summary>
+    public bool AreSimilar { get; }
+
+    /// <summary>Bytes of the arrays.</summary>
+    public long StorageBytes => Maps.Length * ((24 * sizeof(double)) + sizeof(double));
+
+    private static bool IsSimilar(Matrix m)
+    {
+        var square = m.V1.LengthSquared();
+        var tolerance = 1e-13 * square;
+        return Math.Abs(m.V2.LengthSquared() - square) <= tolerance && Math.Abs(m.V3.LengthSquared() - square) <= tolerance
+            && Math.Abs(Vector.Dot(m.V1, m.V2)) <= tolerance && Math.Abs(Vector.Dot(m.V1, m.V3)) <= tolerance
+            && Math.Abs(Vector.Dot(m.V2, m.V3)) <= tolerance;
+    }
+}

@@ -1,0 +1,217 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Collision;
+
+/// <summary>The exact fractal collider against brute force over the expanded instances.</summary>
+public class ExactFractalColliderTests
+{
+    // A distance is that of a point rounded to the last places of coordinates of the fractal's size, over a chain of a few maps.
+    private const double Tolerance = 1e-12;
+
+    [Fact]
+    public void Find_OnRandomFractals_EqualsBruteForce() => Seeded.Run(400, random =>
+    {
+        var fractal = RandomFractals.Draw(random);
+        var collider = new ExactFractalCollider(fractal);
+        var oracle = new SimpleCollider(Flatten(fractal));
+        for (var query = 0; query < 12; query++)
+        {
+            Check(collider, oracle, fractal, Position(random, fractal));
+        }
+    });
+
+    [Theory]
+    [InlineData(1)]
+    [InlineData(2)]
+    [InlineData(3)]
+    public void Find_OnAppendixB_EqualsBruteForce(int depth)
+    {
+        var fractal = Samples.AppendixBAt(depth);
+        var (collider, oracle) = (new ExactFractalCollider(fractal), new SimpleCollider(Flatten(fractal)));
+        Seeded.Run(60, random => Check(collider, oracle, fractal, Position(random, fractal)));
+    }
+
+    [Fact]
+    public void Find_OfEveryVertex_IsAtDistanceZero() => Seeded.Run(40, random =>
+    {
+        var fractal = RandomFractals.Draw(random);
+        var collider = new ExactFractalCollider(fractal);
+        var (record, size) = (new QueryRecord(), fractal.Bounds.Diagonal);
+        foreach (var map in FractalGenerator.Expand(fractal, 10_000).Take(20))
+        {
+            Assert.True(collider.TryFindClosest(map * fractal.BaseMesh.Vertex(0), double.PositiveInfinity, record, out var closest));
+            Assert.True(closest.Distance <= Tolerance * size, $"distance {closest.Distance} of a vertex");
+            Assert.True(closest.Normal.IsFinite());
+        }
+    });
+
+    [Fact]
+    public void Find_Within_FindsWhatIsThereAndNothingElse() => Seeded.Run(200, random =>
+    {
+        var fractal = RandomFractals.Draw(random);
+        var collider = new ExactFractalCollider(fractal);
+        var record = new QueryRecord();
+        var position = Position(random, fractal);
+        if (!collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest) || closest.Distance == 0)
+        {
+            return;
+        }
+
+        Assert.True(collider.TryFindClosest(position, closest.Distance * 1.0001, record, out var again));
+        Assert.Equal(closest.Distance, again.Distance, Tolerance * fractal.Bounds.Diagonal);
+        Assert.False(collider.TryFindClosest(position, closest.Distance * 0.9999, record, out _));
+    });
+
+    [Fact]
+    public void Find_WithEpsilon_IsWithinTheFactor() => Seeded.Run(200, random =>
+    {
+        var fractal = RandomFractals.Draw(random);
+        var collider = new ExactFractalCollider(fractal);
+        var record = new QueryRecord();
+        var position = Position(random, fractal);
+        if (collider.TryFindClosest(position, double.PositiveInfinity, record, out var exact))
+        {
+            Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, record, out var near, 0.25));
+            Assert.InRange(near.Distance, exact.Distance - (Tolerance * fractal.Bounds.Diagonal), (1.25 * exact.Distance) + (Tolerance * fractal.Bounds.Diagonal));
+        }
+    });
+
+    [Fact]
+    public void Find_NamesTheInstanceThatItFound() => Seeded.Run(200, random =>
+    {
+        var fractal = RandomFractals.Draw(random);
+        var record = new QueryRecord();
+        var position = Position(random, fractal);
+        if (!new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var closest))
+        {
+            return;
+        }
+
+        Assert.Equal(fractal.LevelCount, record.InstancePath.Length);
+        var map = AffineMap.Identity;
+        for (var level = 0; level < record.InstancePath.Length; level++)
+        {
+            map *= fractal.LevelAt(level).Maps[record.InstancePath[level]];
+        }
+
+        var (a, b, c) = fractal.BaseMesh.Face(closest.Face);
+        var point = FaceKernel.ClosestPoint(position, map * a, map * b, map * c);
+        Assert.Equal(closest.Distance, Math.Sqrt(point.DistanceSquared), Tolerance * fractal.Bounds.Diagonal);
+    });
+
+    [Theory]
+    [InlineData(20)]
+    [InlineData(60)]
+    [InlineData(1_000)]
+    [InlineData(1_000_000)]
+    [InlineData(null)]
+    public void Find_AtAnyDepth_AgreesWithAShallowerSponge(int? depth)
+    {
+        // Depth 8 is within 3⁻⁸ of every deeper one; the difference of the distances can't be more.
+        var (deep, shallow) = (new ExactFractalCollider(Sponge(depth)), new ExactFractalCollider(Sponge(8)));
+        var record = new QueryRecord();
+        Seeded.Run(200, random =>
+        {
+            var position = new Vector(Draw(random), Draw(random), Draw(random));
+            Assert.True(deep.TryFindClosest(position, double.PositiveInfinity, record, out var fine));
+            Assert.True(shallow.TryFindClosest(position, double.PositiveInfinity, record, out var coarse));
+            Assert.Equal(coarse.Distance, fine.Distance, 2 * Math.Pow(3, -8));
+            Assert.True(fine.Point.IsFinite() && fine.Normal.IsFinite());
+        });
+        Assert.True(deep.StorageBytes < 64 * 1024, $"{deep.StorageBytes} bytes");
+
+        static double Draw(Random random) => 1.4 * (random.NextDouble() - 0.5);
+    }
+
+    [Fact]
+    public void Find_AllocatesNothing()
+    {
+        var collider = new ExactFractalCollider(Sponge(6));
+        var record = new QueryRecord();
+        collider.TryFindClosest(new(0.1, 0.2, 0.3), double.PositiveInfinity, record, out _);
+        var before = GC.GetAllocatedBytesForCurrentThread();
+        for (var i = 0; i < 100; i++)
+        {
+            collider.TryFindClosest(new(0.01 * i, 0.2, 0.3), double.PositiveInfinity, record, out _);
+        }
+
+        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
+    }
+
+    [Fact]
+    public void Find_OnTheEmptyFractal_FindsNothing()
+    {
+        Fractal[] empty = [new(new("base.obj", [new TransformationSet([])]), Samples.Tetrahedron), new(new("base.obj", []), Mesh.Empty)];
+        Assert.All(empty, fractal => Assert.False(new ExactFractalCollider(fractal).TryFindClosest(Vector.Zero, double.PositiveInfinity, new(), out _)));
+    }
+
+    [Fact]
+    public void Create_OfAFractalBeyondADouble_NamesTheLevel()
+    {
+        var growing = Samples.Repeated(3000, new Transformation(Vector.I, Vector.Zero, 2 * Vector.One), Transformation.Identity);
+        Assert.Contains("levels above its base", Assert.Throws<FractalLimitException>(() => new ExactFractalCollider(growing)).Message, StringComparison.Ordinal);
+    }
+
+    private static Fractal Sponge(int? depth)
+    {
+        var places = from x in Enumerable.Range(-1, 3)
+                     from y in Enumerable.Range(-1, 3)
+                     from z in Enumerable.Range(-1, 3)
+                     where Math.Abs(x) + Math.Abs(y) + Math.Abs(z) > 1
+                     select Samples.MoveAndScale(x / 3.0, y / 3.0, z / 3.0, 1 / 3.0);
+        return new(new("cube.obj", [new Repetition([new TransformationSet([.. places])], depth)]), Samples.ParseObj(Files.Cube).Mesh);
+    }
+
+    /// <summary>Anywhere around the fractal, near its surface, or exactly on it.</summary>
+    private static Vector Position(Random random, Fractal fractal)
+    {
+        var box = fractal.Bounds;
+        var anywhere = box.IsEmpty ? Vector.Zero : box.Centre + (box.Size + (0.01 * Vector.One)).Stretch(1.5 * new Vector(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5));
+        if (random.Next(3) == 0 || fractal.InstanceCount == 0)
+        {
+            return anywhere;
+        }
+
+        var instances = FractalGenerator.Expand(fractal, 100_000);
+        var (a, b, c) = fractal.BaseMesh.Face(random.Next(fractal.BaseMesh.FaceCount));
+        var onSurface = instances[random.Next(instances.Length)] * ((0.2 * a) + (0.3 * b) + (0.5 * c));
+        return random.Next(2) == 0 ? onSurface : onSurface + (0.001 * (anywhere - onSurface));
+    }
+
+    private static void Check(Collider collider, Collider oracle, Fractal fractal, Vector position)
+    {
+        var record = new QueryRecord();
+        var found = collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest);
+        Assert.Equal(oracle.TryFindClosest(position, double.PositiveInfinity, new(), out var expected), found);
+        if (found)
+        {
+            var size = Math.Max(fractal.Bounds.Diagonal, position.MaximumComponent());
+            Assert.True(Math.Abs(closest.Distance - expected.Distance) <= Tolerance * size, $"{closest.Distance} instead of {expected.Distance} from {position}");
+            Assert.Equal(closest.Distance, (closest.Point - position).Length(), Tolerance * size);
+            Assert.Equal(1, closest.Normal.Length(), 1e-12);
+        }
+    }
+
+    private static Mesh Flatten(Fractal fractal)
+    {
+        var (positions, faces) = (ImmutableArray.CreateBuilder<double>(), ImmutableArray.CreateBuilder<int>());
+        foreach (var map in FractalGenerator.Expand(fractal, 1_000_000))
+        {
+            var first = positions.Count / 3;
+            for (var vertex = 0; vertex < fractal.BaseMesh.VertexCount; vertex++)
+            {
+                var (x, y, z) = map * fractal.BaseMesh.Vertex(vertex);
+                positions.AddRange(x, y, z);
+            }
+
+            faces.AddRange(fractal.BaseMesh.Faces.Select(vertex => first + vertex));
+        }
+
+        return new(positions.ToImmutable(), faces.ToImmutable());
+    }
+}
