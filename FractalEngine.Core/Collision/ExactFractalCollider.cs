@@ -26,6 +26,7 @@ public sealed class ExactFractalCollider : Collider
     private readonly Fractal _fractal;
     private readonly SubFractalTable _table;
     private readonly FaceHierarchy _base;
+    private readonly ConvexHullBound? _hull;
     private readonly double _precisionSquared;
 
     /// <summary>Prepares a fractal in affine composition for queries.</summary>
@@ -40,6 +41,7 @@ public sealed class ExactFractalCollider : Collider
         }
 
         (_fractal, _table, _base) = (fractal, SubFractalTable.Of(fractal), new(fractal.BaseMesh));
+        _hull = _table.AreSimilar ? ConvexHullBound.Of(fractal.BaseMesh, [.. _table.Maps]) : null;
         _precisionSquared = Precision * Precision * _table.At(_table.Levels).RadiusSquared;
     }
 
@@ -132,12 +134,28 @@ public sealed class ExactFractalCollider : Collider
             var innerScale = scaleSquared * copy.Set.ScaleSquared[copy.Index];
             // The sub-fractal's own box is tighter than the one around its image, where the map turns.
             search.BoundTests++;
-            if (DistanceSquared(inner.Box.Minimum, inner.Box.Maximum, local) * innerScale * search.BoundFactor < search.BestSquared)
+            if (DistanceSquared(inner.Box.Minimum, inner.Box.Maximum, local) * innerScale * search.BoundFactor < search.BestSquared
+                && (below == 0 || !IsBeyondHull(local, search.BestSquared / (innerScale * search.BoundFactor), ref search)))
             {
                 search.Trail[depth] = nearest;
                 VisitSimilar(inner, below, local, innerScale, depth + 1, ref search);
             }
         }
+    }
+
+    /// <summary>True when all of a sub-fractal is farther than the best so far, because the solid that holds it is.</summary>
+    private bool IsBeyondHull(Vector position, double bestSquared, ref Search search)
+    {
+        if (_hull is null || _hull.Contains(position))
+        {
+            return false;
+        }
+
+        var (face, reach) = (-1, Math.Sqrt(bestSquared) + _hull.Margin);
+        bestSquared = reach * reach;
+        // Outside a convex solid the nearest point is on its faces.
+        _base.Search(position, ref bestSquared, ref face, 1, ref search.BoundTests, ref search.BoundTests);
+        return face < 0;
     }
 
     /// <summary>Search for any maps: the boxes are taken into the frame of the whole.</summary>

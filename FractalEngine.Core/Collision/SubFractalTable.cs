@@ -44,6 +44,9 @@ internal sealed class SubFractalTable
     /// <summary>True when all maps are multiples of rotations and mirrors, so that distances scale with them.</summary>
     public bool AreSimilar { get; private set; }
 
+    /// <summary>The maps of all levels.</summary>
+    public IEnumerable<AffineMap> Maps => _sets.Values.SelectMany(set => set.Maps);
+
     /// <summary>Bytes of all that is kept.</summary>
     public long StorageBytes => _states.Sum(state => state.StorageBytes) + _sets.Values.Sum(set => set.StorageBytes);
 
