@@ -13,7 +13,7 @@ internal sealed class CopySet
         Inverses = [.. Maps.Select(map => map.Inverse())];
         ScaleSquared = [.. Maps.Select(map => map.Linear.V1.LengthSquared())];
         IdentityIndex = Array.IndexOf(Maps, AffineMap.Identity);
-        AreSimilar = Maps.All(map => IsSimilar(map.Linear));
+        AreSimilar = Maps.All(map => Similarity.IsSimilar(map.Linear));
     }
 
     /// <summary>The set of the identity alone.</summary>
@@ -36,13 +36,4 @@ internal sealed class CopySet
 
     /// <summary>Bytes of the arrays.</summary>
     public long StorageBytes => Maps.Length * ((24 * sizeof(double)) + sizeof(double));
-
-    private static bool IsSimilar(Matrix m)
-    {
-        var square = m.V1.LengthSquared();
-        var tolerance = 1e-13 * square;
-        return Math.Abs(m.V2.LengthSquared() - square) <= tolerance && Math.Abs(m.V3.LengthSquared() - square) <= tolerance
-            && Math.Abs(Vector.Dot(m.V1, m.V2)) <= tolerance && Math.Abs(Vector.Dot(m.V1, m.V3)) <= tolerance
-            && Math.Abs(Vector.Dot(m.V2, m.V3)) <= tolerance;
-    }
 }

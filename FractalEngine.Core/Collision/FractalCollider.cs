@@ -40,7 +40,8 @@ public sealed class FractalCollider : Collider
                 : (Concatenate([step]), 1));
         }
 
-        _base = Flatten(fractal.BaseMesh, Concatenate(steps[levels..]));
+        var inner = Concatenate(steps[levels..]);
+        _base = inner is [var only] && only == AffineMap.Identity ? fractal.BaseMesh : FractalGenerator.Flatten(fractal.BaseMesh, [.. inner]);
         _hasNoLevels = _levels.All(level => level.Rounds == 0);
     }
 
@@ -124,23 +125,5 @@ public sealed class FractalCollider : Collider
         }
 
         return maps;
-    }
-
-    private static Mesh Flatten(Mesh mesh, AffineMap[] maps)
-    {
-        if (maps is [var only] && only == AffineMap.Identity)
-        {
-            return mesh;
-        }
-
-        var (positions, faces) = (ImmutableArray.CreateBuilder<double>(), ImmutableArray.CreateBuilder<int>());
-        foreach (var map in maps)
-        {
-            var first = positions.Count / 3;
-            positions.AddRange(mesh.Transform(vertex => map * vertex).Positions);
-            faces.AddRange(mesh.Faces.Select(vertex => first + vertex));
-        }
-
-        return new(positions.ToImmutable(), faces.ToImmutable());
     }
 }

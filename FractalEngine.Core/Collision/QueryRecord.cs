@@ -9,6 +9,7 @@ namespace FractalEngine.Core.Collision;
 public sealed class QueryRecord
 {
     private readonly List<int> _path = new(64);
+    private readonly List<int> _keptPath = new(64);
     private int[] _trail = [];
     private int[] _bestTrail = [];
 
@@ -32,6 +33,21 @@ public sealed class QueryRecord
 
     /// <summary>Room for the way to the best so far; kept for the next one.</summary>
     internal Span<int> BestTrail(int length) => _bestTrail.Length >= length ? _bestTrail : _bestTrail = new int[length];
+
+    /// <summary>Keeps the present path while other objects are asked.</summary>
+    internal void KeepPath()
+    {
+        _keptPath.Clear();
+        _keptPath.AddRange(InstancePath);
+    }
+
+    /// <summary>Makes the path that was kept the present one again.</summary>
+    internal void RestorePath()
+    {
+        _path.Clear();
+        _path.AddRange(CollectionsMarshal.AsSpan(_keptPath));
+        _keptPath.Clear();
+    }
 
     internal void ClearPath() => _path.Clear();
 

@@ -52,6 +52,39 @@ public static class FractalGenerator
         return System.Runtime.InteropServices.ImmutableCollectionsMarshal.AsImmutableArray(instances);
     }
 
+    /// <summary>The fractal as one mesh of all its faces, for who can't do with less.</summary>
+    /// <param name="fractal">Finite.</param>
+    /// <param name="faceLimit">The most faces allowed.</param>
+    /// <exception cref="FractalLimitException">The fractal has more faces.</exception>
+    /// <remarks>Mirrored instances are inside out, as their maps make them: the normal of a face is that of its image.</remarks>
+    public static Mesh Flatten(Fractal fractal, long faceLimit) =>
+        Flatten(fractal.BaseMesh, Expand(fractal, faceLimit / Math.Max(1, fractal.BaseMesh.FaceCount)));
+
+    /// <summary>Copies of a mesh as one mesh.</summary>
+    public static Mesh Flatten(Mesh mesh, ImmutableArray<AffineMap> instances)
+    {
+        var (positions, faces) = (new double[instances.Length * mesh.Positions.Length], new int[instances.Length * mesh.Faces.Length]);
+        var (nextPosition, nextFace) = (0, 0);
+        for (var instance = 0; instance < instances.Length; instance++)
+        {
+            for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
+            {
+                var (x, y, z) = instances[instance] * mesh.Vertex(vertex);
+                (positions[nextPosition], positions[nextPosition + 1], positions[nextPosition + 2]) = (x, y, z);
+                nextPosition += 3;
+            }
+
+            foreach (var vertex in mesh.Faces)
+            {
+                faces[nextFace++] = (instance * mesh.VertexCount) + vertex;
+            }
+        }
+
+        return new(
+            System.Runtime.InteropServices.ImmutableCollectionsMarshal.AsImmutableArray(positions),
+            System.Runtime.InteropServices.ImmutableCollectionsMarshal.AsImmutableArray(faces));
+    }
+
     /// <summary>
     /// The distinct sums of componentwise composition. Since it commutes, their number grows like a power of the
     /// depth only.

@@ -1,4 +1,3 @@
-using System.Collections.Immutable;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
@@ -18,7 +17,7 @@ public class ExactFractalColliderTests
     {
         var fractal = RandomFractals.Draw(random);
         var collider = new ExactFractalCollider(fractal);
-        var oracle = new SimpleCollider(Flatten(fractal));
+        var oracle = new SimpleCollider(FractalGenerator.Flatten(fractal, 10_000_000));
         for (var query = 0; query < 12; query++)
         {
             Check(collider, oracle, fractal, Position(random, fractal));
@@ -32,7 +31,7 @@ public class ExactFractalColliderTests
     public void Find_OnAppendixB_EqualsBruteForce(int depth)
     {
         var fractal = Samples.AppendixBAt(depth);
-        var (collider, oracle) = (new ExactFractalCollider(fractal), new SimpleCollider(Flatten(fractal)));
+        var (collider, oracle) = (new ExactFractalCollider(fractal), new SimpleCollider(FractalGenerator.Flatten(fractal, 10_000_000)));
         Seeded.Run(60, random => Check(collider, oracle, fractal, Position(random, fractal)));
     }
 
@@ -195,23 +194,5 @@ public class ExactFractalColliderTests
             Assert.Equal(closest.Distance, (closest.Point - position).Length(), Tolerance * size);
             Assert.Equal(1, closest.Normal.Length(), 1e-12);
         }
-    }
-
-    private static Mesh Flatten(Fractal fractal)
-    {
-        var (positions, faces) = (ImmutableArray.CreateBuilder<double>(), ImmutableArray.CreateBuilder<int>());
-        foreach (var map in FractalGenerator.Expand(fractal, 1_000_000))
-        {
-            var first = positions.Count / 3;
-            for (var vertex = 0; vertex < fractal.BaseMesh.VertexCount; vertex++)
-            {
-                var (x, y, z) = map * fractal.BaseMesh.Vertex(vertex);
-                positions.AddRange(x, y, z);
-            }
-
-            faces.AddRange(fractal.BaseMesh.Faces.Select(vertex => first + vertex));
-        }
-
-        return new(positions.ToImmutable(), faces.ToImmutable());
     }
 }
