@@ -79,7 +79,7 @@ internal sealed class FaceHierarchy
         {
             for (var leaf = 0; leaf < _quartets.Length; leaf++)
             {
-                Look(_quartets[leaf].SquaredDistances(position), leaf, ref nearestSquared, ref nearestFace);
+                Look(FaceQuartet.SquaredDistances(in _quartets[leaf], in position), leaf, ref nearestSquared, ref nearestFace);
             }
 
             faceTests += _mesh.FaceCount;
@@ -138,6 +138,7 @@ internal sealed class FaceHierarchy
         var (aboveX, aboveY, aboveZ) = (Vector256.Create(above[0]), Vector256.Create(above[1]), Vector256.Create(above[2]));
         // The bound's bits above the child's number: bounds are not negative, so the entries sort like the bounds.
         Span<ulong> stack = stackalloc ulong[_stackSize];
+        Span<uint> lanes = stackalloc uint[FaceHierarchyBuilder.Width];
         var (size, node, nodes) = (0, 0, 0);
         while (true)
         {
@@ -153,14 +154,14 @@ internal sealed class FaceHierarchy
                 var nearer = Vector256.LessThan(bounds, Vector256.Create(limit)).ExtractMostSignificantBits();
                 if (nearer != 0)
                 {
-                    var bits = bounds.AsUInt32();
+                    bounds.AsUInt32().CopyTo(lanes);
                     ref var child = ref _children[node * FaceHierarchyBuilder.Width];
                     var bottom = size;
                     do
                     {
                         var lane = System.Numerics.BitOperations.TrailingZeroCount(nearer);
                         nearer &= nearer - 1;
-                        var entry = ((ulong)bits.GetElement(lane) << 32) | (uint)Unsafe.Add(ref child, lane);
+                        var entry = ((ulong)lanes[lane] << 32) | (uint)Unsafe.Add(ref child, lane);
                         var place = size++;
                         // Nearest on top.
                         for (; place > bottom && stack[place - 1] < entry; place--)
@@ -233,13 +234,14 @@ internal sealed class FaceHierarchy
         }
     }
 
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private bool LookAtLeaf(ref Query query, int child)
     {
         var number = (uint)~child;
         var leaf = (int)(number / FaceHierarchyBuilder.LeafFaces);
         query.FaceTests += (number % FaceHierarchyBuilder.LeafFaces) + 1;
-        var squared = _quartets.Length > 0 ? _quartets[leaf].SquaredDistances(query.Position) : Quartet(_leaves[leaf]).SquaredDistances(query.Position);
+        var squared = _quartets.Length > 0
+            ? FaceQuartet.SquaredDistances(in _quartets[leaf], in query.Position)
+            : FaceQuartet.SquaredDistances(in _leaves[leaf], _mesh.Positions.AsSpan(), in query.Position);
         return Look(squared, leaf, ref query.NearestSquared, ref query.NearestFace);
     }
 
@@ -251,26 +253,26 @@ internal sealed class FaceHierarchy
             return false;
         }
 
+        Choose(squared, in _leaves[leaf], ref nearestSquared, ref nearestFace);
+        return true;
+    }
+
+    private static void Choose(Vector256<double> squared, ref readonly HierarchyLeaf leaf, ref double nearestSquared, ref int nearestFace)
+    {
         for (var i = 0; i < FaceHierarchyBuilder.LeafFaces; i++)
         {
             if (squared[i] < nearestSquared)
             {
-                (nearestSquared, nearestFace) = (squared[i], _leaves[leaf].Face[i]);
+                (nearestSquared, nearestFace) = (squared[i], leaf.Face[i]);
             }
         }
-
-        return true;
     }
 
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private FaceQuartet Quartet(HierarchyLeaf leaf)
+    private FaceQuartet Quartet(HierarchyLeaf leaf) => _mesh.Positions.AsSpan() switch
     {
-        var positions = _mesh.Positions.AsSpan();
-        return new(
-            VectorQuartet.Gather(positions, leaf.A[0], leaf.A[1], leaf.A[2], leaf.A[3]),
-            VectorQuartet.Gather(positions, leaf.B[0], leaf.B[1], leaf.B[2], leaf.B[3]),
-            VectorQuartet.Gather(positions, leaf.C[0], leaf.C[1], leaf.C[2], leaf.C[3]));
-    }
+        var positions => new(
+            VectorQuartet.Gather(positions, leaf.A), VectorQuartet.Gather(positions, leaf.B), VectorQuartet.Gather(positions, leaf.C)),
+    };
 
     /// <summary>Rounded to single precision, to nearest.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

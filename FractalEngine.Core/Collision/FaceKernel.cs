@@ -41,6 +41,14 @@ public static class FaceKernel
     public static Vector UnitNormal(Vector a, Vector b, Vector c)
     {
         var (ab, ac, bc) = (b - a, c - a, c - b);
+        var plain = Vector.Cross(ab, ac);
+        var squared = plain.LengthSquared();
+        // Where neither the product nor its square left the range of a double.
+        if (squared is > 1e-280 and < 1e280)
+        {
+            return plain / Math.Sqrt(squared);
+        }
+
         var longest = Math.Max(ab.MaximumComponent(), Math.Max(ac.MaximumComponent(), bc.MaximumComponent()));
         if (!(longest > 0))
         {

@@ -12,12 +12,15 @@ internal readonly record struct VectorQuartet(Vector256<double> X, Vector256<dou
     public static VectorQuartet All(Vector vector) =>
         new(Vector256.Create(vector.X), Vector256.Create(vector.Y), Vector256.Create(vector.Z));
 
+    /// <summary>One of the four.</summary>
+    public Vector this[int i] => new(X[i], Y[i], Z[i]);
+
     /// <summary>Four vertices of an array of coordinates, [vertices × 3].</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static VectorQuartet Gather(ReadOnlySpan<double> positions, int vertex0, int vertex1, int vertex2, int vertex3)
+    public static VectorQuartet Gather(ReadOnlySpan<double> positions, Vector128<int> vertices)
     {
-        ReadOnlySpan<double> v0 = positions.Slice(3 * vertex0, 3), v1 = positions.Slice(3 * vertex1, 3);
-        ReadOnlySpan<double> v2 = positions.Slice(3 * vertex2, 3), v3 = positions.Slice(3 * vertex3, 3);
+        ReadOnlySpan<double> v0 = positions.Slice(3 * vertices[0], 3), v1 = positions.Slice(3 * vertices[1], 3);
+        ReadOnlySpan<double> v2 = positions.Slice(3 * vertices[2], 3), v3 = positions.Slice(3 * vertices[3], 3);
         return new(
             Vector256.Create(v0[0], v1[0], v2[0], v3[0]),
             Vector256.Create(v0[1], v1[1], v2[1], v3[1]),
