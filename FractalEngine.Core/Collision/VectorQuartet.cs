@@ -1,0 +1,57 @@
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Collision;
+
+/// <summary>Four vectors side by side, with the operators of <see cref="Vector"/> in the same order, so that they round alike.</summary>
+internal readonly record struct VectorQuartet(Vector256<double> X, Vector256<double> Y, Vector256<double> Z)
+{
+    /// <summary>The same vector four times.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static VectorQuartet All(Vector vector) =>
+        new(Vector256.Create(vector.X), Vector256.Create(vector.Y), Vector256.Create(vector.Z));
+
+    /// <summary>One of the four.</summary>
+    public Vector this[int i] => new(X[i], Y[i], Z[i]);
+
+    /// <summary>Four vertices of an array of coordinates, [vertices × 3].</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static VectorQuartet Gather(ReadOnlySpan<double> positions, Vector128<int> vertices)
+    {
+        ReadOnlySpan<double> v0 = positions.Slice(3 * vertices[0], 3), v1 = positions.Slice(3 * vertices[1], 3);
+        ReadOnlySpan<double> v2 = positions.Slice(3 * vertices[2], 3), v3 = positions.Slice(3 * vertices[3], 3);
+        return new(
+            Vector256.Create(v0[0], v1[0], v2[0], v3[0]),
+            Vector256.Create(v0[1], v1[1], v2[1], v3[1]),
+            Vector256.Create(v0[2], v1[2], v2[2], v3[2]));
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static VectorQuartet operator -(VectorQuartet v1, VectorQuartet v2) => new(v1.X - v2.X, v1.Y - v2.Y, v1.Z - v2.Z);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static VectorQuartet operator +(VectorQuartet v1, VectorQuartet v2) => new(v1.X + v2.X, v1.Y + v2.Y, v1.Z + v2.Z);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static VectorQuartet operator *(Vector256<double> factors, VectorQuartet v) => new(factors * v.X, factors * v.Y, factors * v.Z);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector256<double> Dot(VectorQuartet v1, VectorQuartet v2) => (v1.X * v2.X) + (v1.Y * v2.Y) + (v1.Z * v2.Z);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static VectorQuartet Cross(VectorQuartet v1, VectorQuartet v2) => new(
+        (v1.Y * v2.Z) - (v1.Z * v2.Y),
+        (v1.Z * v2.X) - (v1.X * v2.Z),
+        (v1.X * v2.Y) - (v1.Y * v2.X));
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Vector256<double> LengthSquared() => Dot(this, this);
+
+    /// <summary>The first vector where the mask is set, else the second.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static VectorQuartet Select(Vector256<double> mask, VectorQuartet v1, VectorQuartet v2) => new(
+        Vector256.ConditionalSelect(mask, v1.X, v2.X),
+        Vector256.ConditionalSelect(mask, v1.Y, v2.Y),
+        Vector256.ConditionalSelect(mask, v1.Z, v2.Z));
+}
