@@ -12,8 +12,8 @@ app=("$root/FractalEngine.App/bin/$configuration/net10.0/FractalEngine.App")
 # Pictures need OpenGL, and OpenGL needs a display. Without one, a virtual one serves for pictures; a window on
 # it would be seen by nobody, so the program is told to draw that into a file.
 if [ -z "${DISPLAY:-}" ] && command -v xvfb-run >/dev/null; then
-    case " $* " in
-        *" info "* | *" count "* | *" export "* | *" check "* | *" save "* | *" generate "* | *" query "* | *" --help "* | *" -h "* | *" --version "*) ;;
+    case "${1:-}" in
+        info | count | export | check | save | generate | query | --help | -h | '-?' | --version) ;;
         *) FRACTALENGINE_NO_WINDOW=1 exec xvfb-run -a -s '-screen 0 1280x720x24 -noreset' "${app[@]}" "$@" ;;
     esac
 fi

@@ -15,7 +15,7 @@ internal static class CommandLine
     public static int Run(string[] args)
     {
         var root = Root();
-        var result = root.Parse(WithCommand(root, args));
+        var result = root.Parse(args.Contains("--version") ? ["--version"] : WithCommand(root, args));
         if (result.Errors.Count > 0)
         {
             foreach (var message in result.Errors.Select(error => error.Message).Distinct())
@@ -43,11 +43,11 @@ internal static class CommandLine
         return root;
     }
 
-    /// <summary>Without the name of a command, <c>view</c> is meant. Asking for help or the version is about the program as a whole.</summary>
+    /// <summary>Without the name of a command, <c>view</c> is meant. Asking for help without one is about the program as a whole.</summary>
     private static string[] WithCommand(RootCommand root, string[] args) => args switch
     {
         [var first, ..] when root.Subcommands.Any(command => command.Name == first) => args,
-        ["-h" or "--help" or "-?" or "--version", ..] => args,
+        ["-h" or "--help" or "-?", ..] => args,
         _ => ["view", .. args],
     };
 

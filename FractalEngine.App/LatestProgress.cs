@@ -7,7 +7,7 @@ namespace FractalEngine.App;
 internal sealed class LatestProgress : IProgress<LoadProgress>, IProgress<PreparationProgress>
 {
     private readonly Lock _lock = new();
-    private (string Text, double Fraction) _latest = ("loading", 0);
+    private (string Text, double Fraction) _latest = ("", 0);
 
     /// <summary>What is being done, and the fraction of it that is done.</summary>
     public (string Text, double Fraction) Latest

@@ -42,7 +42,7 @@ internal static class Loading
             do
             {
                 var (file, fraction) = progress.Latest;
-                bar.Description = Markup.Escape(file);
+                bar.Description = Markup.Escape($"loading {file}".TrimEnd());
                 bar.Value = fraction;
             }
             while (Task.WaitAny([load], TimeSpan.FromMilliseconds(50)) < 0);

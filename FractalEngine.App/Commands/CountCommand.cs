@@ -9,7 +9,7 @@ internal static class CountCommand
 {
     public static Command Create()
     {
-        var file = new Argument<string>("FILE") { Description = "A mesh (.obj)." };
+        var file = SharedOptions.FileArgument("A mesh (.obj).");
         var command = new Command("count", "Write the number of faces into the head of a mesh file: '# Mesh count: N'.") { file };
         command.SetAction(result => Run(result.GetRequiredValue(file)));
         return command;

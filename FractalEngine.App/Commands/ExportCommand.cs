@@ -17,7 +17,7 @@ internal static class ExportCommand
         {
             Description = "The depth of the recursion, whatever the fractal's file says.",
             HelpName = "N",
-            CustomParser = SharedOptions.ParseInteger(0, FractalLimits.Depth),
+            CustomParser = SharedOptions.ParseInteger(0, int.MaxValue),
         };
         var limit = new Option<long?>("--limit")
         {
@@ -35,7 +35,17 @@ internal static class ExportCommand
 
     private static int Run(string path, LoadOptions options, string output, long limit)
     {
+        if (options.Depth > FractalLimits.Depth)
+        {
+            throw new FractalLimitException($"--depth is more than the limit of {FractalLimits.Depth}");
+        }
+
         var file = Loading.Load(path, options);
+        if (file.Scene.Models.Select(model => model.Path).Append(file.Path).Contains(Path.GetFullPath(output)))
+        {
+            throw new UsageException($"{output} is one of the files to export: it is not overwritten");
+        }
+
         if (options.Depth is not null && !file.Scene.Models.Any(model => model is FractalModel { Fractal.Description.HasDepth: true }))
         {
             throw new UsageException($"{path} has no recursive fractal, so --depth has nothing to change");

@@ -13,7 +13,7 @@ internal static class SaveCommand
         var shared = new SharedOptions();
         var output = SharedOptions.Output(".sdo", "The scene to write.");
         var command = new Command("save", "Load a scene and write it back; a mesh or fractal becomes a scene of one object.") { output };
-        shared.AddTo(command);
+        shared.AddTo(command, composes: false);
         command.SetAction(result => Run(result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetRequiredValue(output)));
         return command;
     }
@@ -28,12 +28,12 @@ internal static class SaveCommand
     /// <summary>Writes a scene, which may have changed since it was loaded; file names are made relative to its new place.</summary>
     public static void Save(LoadedFile file, Core.Scenes.Scene scene, string output)
     {
-        if (scene.Objects.Any(declared => declared.File.IndexOfAny(['"', '\n', '\r']) >= 0))
+        var moved = SceneRelocation.Relocate(scene, file.Path, Path.GetFullPath(output));
+        if (moved.Objects.Any(declared => declared.File.IndexOfAny(['"', '\n', '\r']) >= 0))
         {
-            throw new UsageException("a scene can't name a file that has a quote or a line break in its name");
+            throw new UsageException("a scene can't name a file that has a quote or a line break in its path");
         }
 
-        var moved = SceneRelocation.Relocate(scene, file.Path, Path.GetFullPath(output));
         AtomicFile.Write(output, stream => stream.Write(Encoding.UTF8.GetBytes(SceneWriter.Write(moved, file.SceneFile))));
         var folder = AssetFolder.Of(Path.GetFullPath(output));
         if (file.Scene.Models.Any(model => !folder.Contains(model.Path)))

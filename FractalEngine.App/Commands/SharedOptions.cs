@@ -11,7 +11,7 @@ namespace FractalEngine.App.Commands;
 internal sealed class SharedOptions
 {
     /// <summary>The file that a command works on.</summary>
-    public Argument<string> File { get; } = new("FILE") { Description = "A mesh (.obj), a fractal (.fdo) or a scene (.sdo)." };
+    public Argument<string> File { get; } = FileArgument("A mesh (.obj), a fractal (.fdo) or a scene (.sdo).");
 
     /// <summary>Lifts the restriction of <see cref="AssetFolder"/>.</summary>
     public Option<bool> AllowOutside { get; } = new("--allow-outside")
@@ -29,18 +29,39 @@ internal sealed class SharedOptions
     };
 
     /// <summary>Adds what every command that loads a file has.</summary>
-    public void AddTo(Command command)
+    /// <param name="command">The command.</param>
+    /// <param name="composes">Whether it matters to the command how fractals are composed.</param>
+    public void AddTo(Command command, bool composes = true)
     {
         command.Add(File);
         command.Add(AllowOutside);
-        command.Add(Composition);
+        if (composes)
+        {
+            command.Add(Composition);
+        }
     }
+
+    /// <summary>A file to read. What looks like an option is no file: <c>./-x.obj</c> names one that does.</summary>
+    public static Argument<string> FileArgument(string description) => new("FILE")
+    {
+        Description = description,
+        Validators =
+        {
+            result =>
+            {
+                if (result.Tokens is [{ Value: var path }] && (path.Length == 0 || path[0] == '-'))
+                {
+                    result.AddError(path.Length == 0 ? "the name of the file is empty" : $"unknown option '{path}'");
+                }
+            },
+        },
+    };
 
     /// <summary>How to load the file.</summary>
     public LoadOptions LoadOptions(ParseResult result) => new()
     {
         AllowOutside = result.GetValue(AllowOutside),
-        Composition = result.GetValue(Composition),
+        Composition = result.CommandResult.Command.Options.Contains(Composition) ? result.GetValue(Composition) : null,
     };
 
     /// <summary>Where a command writes to.</summary>
@@ -73,7 +94,7 @@ internal sealed class SharedOptions
             }
         }
 
-        result.AddError($"expected one of: {string.Join(", ", words.Select(item => item.Word))}");
+        result.AddError($"{NameOf(result)}: expected one of {string.Join(", ", words.Select(item => item.Word))}");
         return null;
     }
 
@@ -87,9 +108,11 @@ internal sealed class SharedOptions
             return number;
         }
 
-        result.AddError($"expected a whole number from {smallest} to {largest}");
+        result.AddError($"{NameOf(result)}: expected a whole number from {smallest} to {largest}");
         return null;
     };
+
+    private static string NameOf(ArgumentResult result) => result.Parent is OptionResult option ? option.Option.Name : result.Argument.Name;
 
     /// <summary>The projection of a picture.</summary>
     public static Option<Projection?> Projection() => new("--projection")
@@ -108,13 +131,13 @@ internal sealed class SharedOptions
         CustomParser = result =>
         {
             if (result.Tokens is [{ Value: var token }] && token.Split('x') is [var width, var height]
-                && int.TryParse(width, NumberStyles.None, CultureInfo.InvariantCulture, out var w) && w is > 0 and <= 32768
-                && int.TryParse(height, NumberStyles.None, CultureInfo.InvariantCulture, out var h) && h is > 0 and <= 32768)
+                && int.TryParse(width, NumberStyles.None, CultureInfo.InvariantCulture, out var w) && w is > 0 and <= 1_000_000
+                && int.TryParse(height, NumberStyles.None, CultureInfo.InvariantCulture, out var h) && h is > 0 and <= 1_000_000)
             {
                 return (w, h);
             }
 
-            result.AddError("expected a size such as 1280x720, each side from 1 to 32768");
+            result.AddError($"{NameOf(result)}: expected a size such as 1280x720");
             return null;
         },
     };

@@ -19,6 +19,9 @@ internal sealed class CameraControls
     // Of the scene's size a second: a scene is crossed in about three seconds.
     private const double SizesPerSecond = 0.35;
 
+    // A key that is only tapped, and may be up again before time is told, moves as far as one that is held so long.
+    private static readonly TimeSpan Tap = TimeSpan.FromSeconds(0.05);
+
     private readonly HashSet<Key> _held = [];
     private readonly double _size;
     private readonly BoundingBox _bounds;
@@ -69,6 +72,11 @@ internal sealed class CameraControls
                 _modifiers = pressed.Modifiers;
                 _held.Add(pressed.Key);
                 Press(pressed, aspect);
+                if (!pressed.IsRepeat)
+                {
+                    Advance(Tap);
+                }
+
                 break;
             case KeyReleased released:
                 _modifiers = released.Modifiers;

@@ -1,5 +1,5 @@
-using System.Globalization;
 using System.Numerics;
+using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Ui;
@@ -53,7 +53,7 @@ internal sealed class WindowOverlay
         .. Error is { } error
             ? [new OverlayPanel(OverlayAnchor.Centre, [.. error.Split('\n').Select(line => new OverlayLine(line, null, OverlayTone.Warning))])]
             : _description is { } description ? [description] : Array.Empty<OverlayPanel>(),
-        .. Progress is { } progress ? [OverlayPanel.OfProgress($"loading {progress.Text}", progress.Fraction)] : Array.Empty<OverlayPanel>(),
+        .. Progress is { } progress ? [OverlayPanel.OfProgress($"loading {progress.Text}".TrimEnd(), progress.Fraction)] : Array.Empty<OverlayPanel>(),
         .. _message is { } message ? [message] : Array.Empty<OverlayPanel>(),
     ];
 
@@ -63,7 +63,7 @@ internal sealed class WindowOverlay
         var faces = file.Scene.Objects.Aggregate((BigInteger?)BigInteger.Zero, (sum, placed) => sum + placed.Model.FaceCount);
         _description = new(OverlayAnchor.BottomLeft,
         [
-            new($"{Path.GetFileName(file.Path)} · {Count(faces)} faces · H: keys", null, OverlayTone.Dim),
+            new($"{Path.GetFileName(file.Path)} · {DecimalText.Approximate(faces)} faces · H: keys", null, OverlayTone.Dim),
             .. drawable.Notices.Select(notice => new OverlayLine(notice, null, OverlayTone.Accent)),
         ]);
     }
@@ -87,11 +87,4 @@ internal sealed class WindowOverlay
         (_message, NextExpiry) = (null, null);
         return true;
     }
-
-    private static string Count(BigInteger? faces) => faces switch
-    {
-        null => "infinitely many",
-        { } count when count < 1_000_000_000_000_000 => count.ToString("N0", CultureInfo.InvariantCulture),
-        { } count => string.Create(CultureInfo.InvariantCulture, $"about 10^{Math.Round(BigInteger.Log10(count)):F0}"),
-    };
 }

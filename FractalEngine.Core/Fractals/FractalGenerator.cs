@@ -33,7 +33,7 @@ public static class FractalGenerator
 
         if (!FractalSteps.HasAtMost(fractal.Description.Steps, budget) || fractal.Description.IsInfinite)
         {
-            throw new FractalLimitException($"the fractal has {Text(fractal)} instances, more than the limit of {budget}");
+            throw new FractalLimitException($"the fractal has {DecimalText.Approximate(fractal.InstanceCount)} instances, more than the limit of {DecimalText.Approximate(budget)}");
         }
 
         var distinct = DistinctInstances.AreProvedDistinct(fractal);
@@ -143,11 +143,4 @@ public static class FractalGenerator
 
         return pairs;
     }
-
-    private static string Text(Fractal fractal) => fractal.InstanceCount switch
-    {
-        null => "infinitely many",
-        var count when count < 1_000_000_000_000 => count.Value.ToString(System.Globalization.CultureInfo.InvariantCulture),
-        var count => $"about 10^{(long)System.Numerics.BigInteger.Log10(count.Value)}",
-    };
 }

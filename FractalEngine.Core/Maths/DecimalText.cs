@@ -34,6 +34,15 @@ public static class DecimalText
         return new string(digits).TrimStart('0');
     }
 
+    /// <summary>A number for people: with separators, or as a power of ten once it is longer than a line.</summary>
+    /// <param name="number">Null for infinitely many.</param>
+    public static string Approximate(BigInteger? number) => number switch
+    {
+        null => "infinitely many",
+        { } count when count < 1_000_000_000_000_000 => count.ToString("N0", CultureInfo.InvariantCulture),
+        { } count => string.Create(CultureInfo.InvariantCulture, $"about 10^{Math.Round(BigInteger.Log10(count)):F0}"),
+    };
+
     /// <param name="number">Has at most as many digits as there is room for.</param>
     /// <param name="powers">10 to the power of 512, 1024, 2048, ….</param>
     /// <param name="digits">Filled from the right, with zeros in front.</param>

@@ -33,6 +33,11 @@ public static class AtomicFile
 
             File.Move(temporary, target, overwrite: true);
         }
+        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
+        {
+            // The neighbour is nobody's business.
+            throw new IOException($"{path} can't be written: {exception.Message.Replace(temporary, target, StringComparison.Ordinal)}", exception);
+        }
         finally
         {
             File.Delete(temporary);

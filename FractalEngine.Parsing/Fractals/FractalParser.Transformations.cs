@@ -97,7 +97,7 @@ public sealed partial class FractalParser
         }
 
         vector = number >= 1 && number <= _vectors.Count ? _vectors[number - 1]
-            : throw Error(cursor, $"vector {number} of {_vectors.Count}: {(number == 0 ? "vectors are numbered from 1" : "it is not declared above")}");
+            : throw Error(cursor, $"vector {Written(cursor, rest)} of {_vectors.Count}: {(number == 0 ? "vectors are numbered from 1" : "it is not declared above")}");
         return true;
     }
 

@@ -290,9 +290,10 @@ public sealed class ObjParser : Parser
             return true;
         }
 
+        var written = Written(cursor, rest);
         var message = backwards
-            ? $"{element} -{number} of {count} so far: it is before the first"
-            : $"{element} {number} of {count} so far: it is beyond the last";
+            ? $"{element} {written} of {count} so far: it is before the first"
+            : $"{element} {written} of {count} so far: it is beyond the last";
         if (isRequired)
         {
             throw Error(cursor, message);

@@ -148,6 +148,9 @@ public abstract class Parser
         return true;
     }
 
+    /// <summary>What stands between two places, for a message.</summary>
+    protected static string Written(Cursor start, Cursor end) => Shorten(start.Rest[..(end.Offset - start.Offset)]);
+
     /// <summary>Text between double quotes, on one line.</summary>
     protected bool ParseString(Cursor cursor, string expected, out string value, out Cursor rest)
     {

@@ -101,13 +101,20 @@ public sealed class SourceText
                 throw new SourceException(fileName, "this is a directory, expected a file");
             }
 
+            if (new FileInfo(path) is { Exists: true, Length: 0 } && IsPipe(path))
+            {
+                throw new SourceException(fileName, "this is a pipe or a device, expected a file");
+            }
+
             using var stream = new FileStream(path, FileMode.Open, FileAccess.Read, FileShare.Read, bufferSize: 0, FileOptions.SequentialScan);
             if (stream.CanSeek && stream.Length > byteLimit)
             {
                 throw new SourceException(fileName, $"the file has {stream.Length} bytes, more than the limit of {byteLimit}", isLimit: true);
             }
 
-            return stream.CanSeek && stream.Length > 0 ? ReadAll(stream) : ReadUpTo(stream, fileName, byteLimit);
+            return stream.Length == 0 && stream.ReadByte() >= 0
+                ? throw new SourceException(fileName, "this is a pipe or a device, expected a file")
+                : ReadAll(stream);
         }
         catch (Exception exception) when (exception is FileNotFoundException or DirectoryNotFoundException)
         {
@@ -119,28 +126,29 @@ public sealed class SourceText
         }
     }
 
+    /// <summary>
+    /// Pipes say that they are empty, and opening one for reading waits for a writer, perhaps for ever. Opening it for both does not wait, and
+    /// does an empty file no harm.
+    /// </summary>
+    private static bool IsPipe(string path)
+    {
+        try
+        {
+            using var stream = new FileStream(path, FileMode.Open, FileAccess.ReadWrite, FileShare.ReadWrite, bufferSize: 0);
+            return !stream.CanSeek;
+        }
+        catch (UnauthorizedAccessException)
+        {
+            // A file that may only be read; opening it says more.
+            return false;
+        }
+    }
+
     private static byte[] ReadAll(FileStream stream)
     {
         var bytes = new byte[stream.Length];
         stream.ReadExactly(bytes);
         return bytes;
-    }
-
-    /// <summary>Pipes and devices have no length: they are read until they end or the limit is reached.</summary>
-    private static byte[] ReadUpTo(FileStream stream, string fileName, long byteLimit)
-    {
-        using var bytes = new MemoryStream();
-        var buffer = new byte[65536];
-        for (var read = stream.Read(buffer); read > 0; read = stream.Read(buffer))
-        {
-            bytes.Write(buffer, 0, read);
-            if (bytes.Length > byteLimit)
-            {
-                throw new SourceException(fileName, $"the file has more bytes than the limit of {byteLimit}", isLimit: true);
-            }
-        }
-
-        return bytes.ToArray();
     }
 
     private static SourceException Binary(ReadOnlySpan<byte> bytes, int position, string fileName, string message)

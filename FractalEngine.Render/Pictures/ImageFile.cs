@@ -22,7 +22,7 @@ public static class ImageFile
         }
         catch (Exception exception) when (exception is DllNotFoundException or EntryPointNotFoundException)
         {
-            throw new IOException($"{path} cannot be written: {Advice}", exception);
+            throw new IOException($"{path} can't be written: {Advice}", exception);
         }
         finally
         {
@@ -44,7 +44,7 @@ public static class ImageFile
         }
         catch (Exception exception) when (exception is DllNotFoundException or EntryPointNotFoundException)
         {
-            throw new IOException($"{path} cannot be read: {Advice}", exception);
+            throw new IOException($"{path} can't be read: {Advice}", exception);
         }
     }
 
@@ -55,14 +55,14 @@ public static class ImageFile
             var surface = SdlImage.CreateSurfaceFrom((IntPtr)pixels, image.Width, image.Height, 32, 4 * image.Width, SdlImage.Rgba);
             if (surface == IntPtr.Zero)
             {
-                throw new IOException($"{path} cannot be written: {SdlImage.ErrorText()}");
+                throw new IOException($"{path} can't be written: {SdlImage.ErrorText().Replace(temporary, path, StringComparison.Ordinal)}");
             }
 
             try
             {
                 if (SdlImage.SavePng(surface, temporary) != 0)
                 {
-                    throw new IOException($"{path} cannot be written: {SdlImage.ErrorText()}");
+                    throw new IOException($"{path} can't be written: {SdlImage.ErrorText().Replace(temporary, path, StringComparison.Ordinal)}");
                 }
             }
             finally
@@ -77,14 +77,14 @@ public static class ImageFile
         var loaded = SdlImage.Load(path);
         if (loaded == IntPtr.Zero)
         {
-            throw new IOException($"{path} cannot be read: {SdlImage.ErrorText()}");
+            throw new IOException($"{path} can't be read: {SdlImage.ErrorText()}");
         }
 
         var surface = SdlImage.ConvertSurface(loaded, SdlImage.Rgba, 0);
         SdlImage.FreeSurface(loaded);
         if (surface == IntPtr.Zero)
         {
-            throw new IOException($"{path} cannot be read: {SdlImage.ErrorText()}");
+            throw new IOException($"{path} can't be read: {SdlImage.ErrorText()}");
         }
 
         try

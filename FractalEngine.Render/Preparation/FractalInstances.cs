@@ -1,6 +1,4 @@
 using System.Collections.Immutable;
-using System.Globalization;
-using System.Numerics;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 
@@ -57,7 +55,7 @@ internal sealed record FractalInstances(ImmutableArray<AffineMap> Maps, string? 
     }
 
     private static string NoticeOf(string name, Fractal fractal, Fractal within, long budget) =>
-        $"{name}: {Text(fractal.InstanceCount)} instances are more than the budget of {Text(budget)}: drawn at {Depth(fractal, within)}";
+        $"{name}: {DecimalText.Approximate(fractal.InstanceCount)} instances are more than the budget of {DecimalText.Approximate(budget)}: drawn at {Depth(fractal, within)}";
 
     /// <summary>In rounds where one repetition was cut short, else in levels.</summary>
     private static string Depth(Fractal fractal, Fractal within)
@@ -68,17 +66,10 @@ internal sealed record FractalInstances(ImmutableArray<AffineMap> Maps, string? 
             var changed = Enumerable.Range(0, before.Length).Where(i => !ReferenceEquals(before[i], after[i])).ToArray();
             if (changed is [var only] && (before[only], after[only]) is (Repetition { Count: var whole }, Repetition { Count: var part }))
             {
-                return $"depth {Text(part)} of {Text(whole)}";
+                return $"depth {DecimalText.Approximate(part)} of {DecimalText.Approximate(whole)}";
             }
         }
 
-        return $"{Text(within.LevelCount)} of {Text(fractal.LevelCount)} levels";
+        return $"{DecimalText.Approximate(within.LevelCount)} of {DecimalText.Approximate(fractal.LevelCount)} levels";
     }
-
-    private static string Text(BigInteger? number) => number switch
-    {
-        null => "infinitely many",
-        { } count when count < 1_000_000_000_000_000 => count.ToString("N0", CultureInfo.InvariantCulture),
-        { } count => string.Create(CultureInfo.InvariantCulture, $"about 10^{Math.Round(BigInteger.Log10(count)):F0}"),
-    };
 }

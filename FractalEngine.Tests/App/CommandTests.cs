@@ -102,6 +102,18 @@ public sealed class CommandTests : IDisposable
     }
 
     [Fact]
+    public void Export_BeyondTheDeepest_ExitsWith3() =>
+        Assert.Equal(3, Run("export", "row.fdo", "--output", "flat.obj", "--depth", "1000001").ExitCode);
+
+    [SkippableFact]
+    public void Check_OfAPipe_DoesNotWait()
+    {
+        Skip.If(OperatingSystem.IsWindows(), "there are no such files");
+        System.Diagnostics.Process.Start("mkfifo", _folder["pipe.obj"]).WaitForExit();
+        Assert.Equal(new AppResult(1, "", "pipe.obj:1:1: error: this is a pipe or a device, expected a file\n"), Run("check", "pipe.obj"));
+    }
+
+    [Fact]
     public void Export_OfInfiniteFractal_ExitsWith3()
     {
         _folder.Write("infinite.fdo", Files.Row(""));
@@ -147,6 +159,10 @@ public sealed class CommandTests : IDisposable
     [InlineData("frobnicate", "x.obj")]
     [InlineData("info")]
     [InlineData("info", "cube.obj", "--nonsense")]
+    [InlineData("info", "")]
+    [InlineData("--nonsense")]
+    [InlineData("info", "--nonsense", "cube.obj")]
+    [InlineData("export", "cube.obj", "--output", "cube.obj")]
     [InlineData("export", "cube.obj")]
     [InlineData("export", "cube.obj", "--output", "flat.png")]
     [InlineData("export", "row.fdo", "--output", "flat.obj", "--depth", "-1")]
@@ -203,6 +219,7 @@ public sealed class CommandTests : IDisposable
     [InlineData("--help")]
     [InlineData("--version")]
     [InlineData("render", "--help")]
+    [InlineData("render", "--version")]
     public void Help_ExitsWith0(params string[] arguments)
     {
         var (exitCode, output, error) = Run(arguments);

@@ -43,7 +43,7 @@ public sealed class WindowTests : IDisposable
         var zoomed = window.Screenshot(4);
         Assert.True(Difference(orbited, zoomed) > 0.01, "the wheel changed nothing");
 
-        window.Do("keydown w sleep 0.3 keyup w");
+        window.Do("key w key w");
         Assert.True(Difference(zoomed, window.Screenshot(5)) > 0.01, "the key W changed nothing");
 
         window.Do("windowsize {window} 400 300 sleep 0.5");
