@@ -34,16 +34,20 @@ internal sealed class FaceHierarchyBuilder
     private readonly FaceBounds[] _faces;
     private readonly HierarchyLayout _top = new();
 
-    private FaceHierarchyBuilder(FaceBounds[] faces) => _faces = faces;
+    private readonly ParallelOptions _parallel;
+
+    private FaceHierarchyBuilder(FaceBounds[] faces, int? threads) =>
+        (_faces, _parallel) = (faces, new() { MaxDegreeOfParallelism = threads ?? -1 });
 
     /// <summary>Builds the tree.</summary>
     /// <param name="mesh">With at least one face.</param>
     /// <param name="origin">Of the boxes' coordinates.</param>
     /// <param name="scale">By which coordinates are multiplied after that, so that they lie from about −1 to 1.</param>
-    public static HierarchyLayout Build(Mesh mesh, Vector origin, double scale)
+    /// <param name="threads">At most so many; null for one a core.</param>
+    public static HierarchyLayout Build(Mesh mesh, Vector origin, double scale, int? threads = null)
     {
         var faces = GC.AllocateUninitializedArray<FaceBounds>(mesh.FaceCount);
-        var builder = new FaceHierarchyBuilder(faces);
+        var builder = new FaceHierarchyBuilder(faces, threads);
         var root = builder.Measure(mesh, origin, scale);
         builder.BuildTop(mesh, root);
         return builder._top;
@@ -336,7 +340,7 @@ internal sealed class FaceHierarchyBuilder
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static float Cost(BuildBox box, int count) => count == 0 ? 0 : box.HalfArea * ((count + LeafFaces - 1) / LeafFaces);
 
-    private static void For(int count, Action<int> body)
+    private void For(int count, Action<int> body)
     {
         if (count == 1)
         {
@@ -344,7 +348,7 @@ internal sealed class FaceHierarchyBuilder
         }
         else
         {
-            Parallel.For(0, count, body);
+            Parallel.For(0, count, _parallel, body);
         }
     }
 }

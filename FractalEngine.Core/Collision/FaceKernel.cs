@@ -35,35 +35,45 @@ public static class FaceKernel
     }
 
     /// <summary>
-    /// The unit normal by the winding, <c>Cross(b − a, c − a)</c>. A face without area has none: then the result is perpendicular to
-    /// its longest edge where it has one, else straight up. Never NaN.
+    /// The unit normal by the winding, <c>Cross(b − a, c − a)</c>. A face without area, or with so little that rounding hides its
+    /// direction (a sine of 1e-14), has none: then the result is perpendicular to its longest edge where it has one, else straight up.
+    /// Never NaN.
     /// </summary>
     public static Vector UnitNormal(Vector a, Vector b, Vector c)
     {
-        var (ab, ac, bc) = (b - a, c - a, c - b);
-        var plain = Vector.Cross(ab, ac);
-        var squared = plain.LengthSquared();
-        // Where neither the product nor its square left the range of a double.
-        if (squared is > 1e-280 and < 1e280)
-        {
-            return plain / Math.Sqrt(squared);
-        }
+        var (ab, ac) = (b - a, c - a);
+        var normal = Vector.Cross(ab, ac);
+        var squared = normal.LengthSquared();
+        // Where the square did not leave the range of a double, and rounding moves the normal by no more than 1e-10.
+        return squared is > 1e-280 and < 1e280 && squared > ThinSineSquared * ThinSineSquared * (ab.LengthSquared() * ac.LengthSquared())
+            ? normal / Math.Sqrt(squared)
+            : UnitNormalOfThin(ab, ac, c - b);
+    }
 
-        var longest = Math.Max(ab.MaximumComponent(), Math.Max(ac.MaximumComponent(), bc.MaximumComponent()));
+    private static Vector UnitNormalOfThin(Vector ab, Vector ac, Vector bc)
+    {
+        var (lengthAB, lengthAC, lengthBC) = (ab.MaximumComponent(), ac.MaximumComponent(), bc.MaximumComponent());
+        var longest = Math.Max(lengthAB, Math.Max(lengthAC, lengthBC));
         if (!(longest > 0))
         {
             return Vector.J;
         }
 
-        var normal = Vector.Cross(ab / longest, ac / longest);
-        if (normal.MaximumComponent() > 0)
-        {
-            return normal.UnitVector();
-        }
-
-        var edge = (ab.MaximumComponent() >= longest ? ab : ac.MaximumComponent() >= longest ? ac : bc) / longest;
+        // By a power of two, so that edges of one direction keep it exactly; in two steps, since the factor may be too large for one.
+        var exponent = -Math.ILogB(longest);
+        var (scale1, scale2) = (Math.ScaleB(1, exponent / 2), Math.ScaleB(1, exponent - (exponent / 2)));
+        var edge = scale1 * (scale2 * (lengthAB >= longest ? ab : lengthAC >= longest ? ac : bc));
+        edge = edge.UnitVector();
+        // The shorter two edges round least, relative to what they span: every pair has the same product.
+        var normal = lengthAB >= longest ? Vector.Cross(ac * scale1 * scale2, bc * scale1 * scale2)
+            : lengthAC >= longest ? Vector.Cross(ab * scale1 * scale2, bc * scale1 * scale2)
+            : Vector.Cross(ab * scale1 * scale2, ac * scale1 * scale2);
+        normal -= Vector.Dot(normal, edge) * edge;
         var (x, y, z) = edge.Absolute();
-        return Vector.Cross(edge, x <= y && x <= z ? Vector.I : y <= z ? Vector.J : Vector.K).UnitVector();
+        var shorter = scale1 * scale2 * Math.Min(lengthAB, Math.Min(lengthAC, lengthBC));
+        return normal.MaximumComponent() > 1e-14 * shorter
+            ? normal.UnitVector()
+            : Vector.Cross(edge, x <= y && x <= z ? Vector.I : y <= z ? Vector.J : Vector.K).UnitVector();
     }
 
     /// <summary>Sets the point where the perpendicular from the position meets the plane, if that is inside the triangle.</summary>
@@ -77,10 +87,14 @@ public static class FaceKernel
         var thin = !(normalSquared > ThinSineSquared * (ab.LengthSquared() * (a - c).LengthSquared()));
         if (thin)
         {
-            // The same again from the foot, where the error is smaller by as much as the first step was wrong.
-            var rest = position - (a + (weightB * ab) + (weightC * ac));
-            weightC += Vector.Dot(Vector.Cross(ab, rest), normal) / normalSquared;
-            weightB += Vector.Dot(Vector.Cross(rest, ac), normal) / normalSquared;
+            // The same again from the foot, where the error is smaller by as much as the step before was wrong. Three times, since
+            // a face too thin for that is so narrow that its edges are near enough.
+            for (var step = 0; step < 3; step++)
+            {
+                var rest = position - (a + (weightB * ab) + (weightC * ac));
+                weightC += Vector.Dot(Vector.Cross(ab, rest), normal) / normalSquared;
+                weightB += Vector.Dot(Vector.Cross(rest, ac), normal) / normalSquared;
+            }
         }
 
         var weightA = 1 - weightB - weightC;

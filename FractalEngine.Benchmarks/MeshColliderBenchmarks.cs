@@ -1,0 +1,80 @@
+using BenchmarkDotNet.Attributes;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Generation;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Benchmarks;
+
+/// <summary>
+/// How much faster than looking at every face are the colliders of meshes? One operation is one query, for positions spread over the
+/// box or near the surface (within 1 % of the diagonal).
+/// </summary>
+[MemoryDiagnoser]
+public class MeshColliderBenchmarks
+{
+    // The simple collider is asked for fewer, since it takes a millisecond each.
+    private const int Queries = 8192;
+    private const int SimpleQueries = 32;
+
+    private readonly QueryRecord _record = new();
+    private Vector[] _positions = null!;
+    private SimpleCollider _simple = null!;
+    private BoundingBoxCollider _boxes = null!;
+    private HierarchyCollider _hierarchy = null!;
+
+    public enum Place
+    {
+        Uniform,
+        Near,
+    }
+
+    [Params("terrain", "tree-stump")]
+    public string Mesh { get; set; } = "";
+
+    [Params(Place.Uniform, Place.Near)]
+    public Place Positions { get; set; }
+
+    [GlobalSetup]
+    public void SetUp()
+    {
+        var mesh = MeshGenerators.Create(Mesh, 1, 50_000);
+        var random = new Random(1);
+        _positions = [.. Enumerable.Range(0, Queries).Select(_ => Positions == Place.Uniform ? Uniform(random, mesh) : Near(random, mesh))];
+        (_simple, _boxes, _hierarchy) = (new(mesh), new(mesh), new(mesh));
+    }
+
+    [Benchmark(Baseline = true, OperationsPerInvoke = SimpleQueries)]
+    public double Simple() => Sum(_simple, SimpleQueries);
+
+    [Benchmark(OperationsPerInvoke = Queries)]
+    public double BoundingBox() => Sum(_boxes, Queries);
+
+    [Benchmark(OperationsPerInvoke = Queries)]
+    public double Hierarchy() => Sum(_hierarchy, Queries);
+
+    /// <summary>Anywhere in the mesh's box.</summary>
+    internal static Vector Uniform(Random random, Mesh mesh) =>
+        mesh.Bounds.Minimum + mesh.Bounds.Size.Stretch(new(random.NextDouble(), random.NextDouble(), random.NextDouble()));
+
+    /// <summary>Up to 1 % of the diagonal along each axis from a random point of a random face.</summary>
+    internal static Vector Near(Random random, Mesh mesh)
+    {
+        var (a, b, c) = mesh.Face(random.Next(mesh.FaceCount));
+        var (u, v) = (random.NextDouble(), random.NextDouble());
+        (u, v) = u + v > 1 ? (1 - u, 1 - v) : (u, v);
+        Vector offset = new(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5);
+        return a + (u * (b - a)) + (v * (c - a)) + (0.02 * mesh.Bounds.Diagonal * offset);
+    }
+
+    private double Sum(Collider collider, int queries)
+    {
+        var sum = 0.0;
+        foreach (var position in _positions.AsSpan(0, queries))
+        {
+            sum += collider.TryFindClosest(position, double.PositiveInfinity, _record, out var closest) ? closest.Distance : 0;
+        }
+
+        return sum;
+    }
+}

@@ -1,0 +1,123 @@
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Generation;
+using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Collision;
+
+public class BoundingBoxColliderTests
+{
+    public static TheoryData<string> Meshes => CollisionMeshes.Names;
+
+    // Figures 17 and 18.
+    [Theory]
+    [InlineData(277_654, 1736)]
+    [InlineData(237_664, 1714)]
+    [InlineData(168_070, 1666)]
+    [InlineData(1_176_490, 1936)]
+    [InlineData(38_400_000, 2419)]
+    public void CostOfLevel_TimesThePapersDepth_IsThePapersCost(int faces, int cost)
+    {
+        Assert.Equal(cost, Math.Round(BoundingBoxCollider.CostOfLevel * 3 * Math.Log(faces, 8)));
+        // Whole levels: within half a level.
+        Assert.InRange(BoundingBoxCollider.CostOfLevel * BoundingBoxCollider.DefaultDepth(faces), cost - 48, cost + 48);
+    }
+
+    [Theory]
+    [MemberData(nameof(Meshes))]
+    public void TryFindClosest_OnAnyMesh_FindsAFaceNoNearerThanTheNearest(string name)
+    {
+        var mesh = CollisionMeshes.All[name]();
+        var (simple, boxes, record) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh), new QueryRecord());
+        Seeded.Run(100, random =>
+        {
+            var position = CollisionMeshes.Position(random, mesh);
+            Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, record, out var nearest));
+            Assert.True(boxes.TryFindClosest(position, double.PositiveInfinity, record, out var closest));
+            Assert.True(closest.Distance >= nearest.Distance);
+            Assert.Equal(nearest.Distance <= closest.Distance, boxes.TryFindClosest(position, closest.Distance, record, out _));
+        });
+        Assert.False(boxes.IsExact);
+    }
+
+    [Fact]
+    public void TryFindClosest_OfDepthZero_IsExact()
+    {
+        var mesh = CollisionMeshes.Soup(1, 50, 0.5);
+        var (simple, boxes, record) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh, depth: 0), new QueryRecord());
+        Seeded.Run(100, random =>
+        {
+            var position = CollisionMeshes.Position(random, mesh);
+            simple.TryFindClosest(position, double.PositiveInfinity, record, out var nearest);
+            boxes.TryFindClosest(position, double.PositiveInfinity, record, out var closest);
+            Assert.Equal(nearest, closest);
+        });
+        record.Reset();
+        boxes.TryFindClosest(Vector.Zero, 1, record, out _);
+        Assert.Equal((50, 0), (record.FaceTests, record.BoundTests));
+    }
+
+    [Fact]
+    public void TryFindClosest_CountsTwelveFacesForEachOfEightBoxesALevelAndTheLeaf()
+    {
+        var record = new QueryRecord();
+        var boxes = new BoundingBoxCollider(MeshGenerators.Create("icosphere", 1, 1280));
+        Assert.Equal(10, boxes.Depth);
+        boxes.TryFindClosest(2 * Vector.One, double.PositiveInfinity, record, out _);
+        // One face in the leaf, as no two of the sphere's have one centre.
+        Assert.Equal((8 * 12 * 10) + 1, record.FaceTests);
+        Assert.InRange(record.BoundTests, 4, 8 * 10);
+    }
+
+    [Fact]
+    public void TryFindClosest_MayMissTheNearestFace()
+    {
+        var mesh = MeshGenerators.Create("terrain", 1, 5000);
+        var (simple, boxes, record) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh), new QueryRecord());
+        var wrong = 0;
+        Seeded.Run(200, random =>
+        {
+            var position = CollisionMeshes.Position(random, mesh);
+            simple.TryFindClosest(position, double.PositiveInfinity, record, out var nearest);
+            boxes.TryFindClosest(position, double.PositiveInfinity, record, out var closest);
+            wrong += closest.Distance > nearest.Distance + 1e-9 ? 1 : 0;
+        });
+        // This is what the paper's way gives, and why it is labelled so.
+        Assert.InRange(wrong, 20, 200);
+    }
+
+    [Fact]
+    public void TryFindClosest_WhereTheBoxOfThePositionIsEmpty_GoesOnToTheNearestThatIsNot()
+    {
+        // Two faces in opposite corners; six of eight boxes are empty.
+        var mesh = new Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0, 9, 9, 9, 10, 9, 9, 9, 10, 9], [0, 1, 2, 3, 4, 5]);
+        var boxes = new BoundingBoxCollider(mesh, depth: 3);
+        Assert.True(boxes.TryFindClosest(new(9, 0, 0), double.PositiveInfinity, new(), out var closest));
+        Assert.Equal(0, closest.Face);
+    }
+
+    [Fact]
+    public void TryFindClosest_OnTheEmptyMesh_FindsNothing() =>
+        Assert.False(new BoundingBoxCollider(Mesh.Empty).TryFindClosest(Vector.One, double.PositiveInfinity, new(), out _));
+
+    [Theory]
+    [InlineData(-1)]
+    [InlineData(65)]
+    public void Constructor_OfADepthOutOfRange_Throws(int depth) =>
+        Assert.Throws<ArgumentOutOfRangeException>(nameof(depth), () => new BoundingBoxCollider(Mesh.Empty, depth));
+
+    [Fact]
+    public void TryFindClosest_AllocatesNothing()
+    {
+        var (boxes, record) = (new BoundingBoxCollider(CollisionMeshes.Soup(1, 500, 0.1)), new QueryRecord());
+        boxes.TryFindClosest(Vector.One, double.PositiveInfinity, record, out _);
+        var before = GC.GetAllocatedBytesForCurrentThread();
+        for (var i = 0; i < 100; i++)
+        {
+            boxes.TryFindClosest(new(i / 50.0, 0.3, 0.2), double.PositiveInfinity, record, out _);
+        }
+
+        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
+    }
+}

@@ -1,0 +1,137 @@
+using System.Globalization;
+using System.Runtime.Intrinsics;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Collision;
+
+public class FaceKernelTests
+{
+    // Of the largest coordinate, as promised.
+    private const double Tolerance = 1e-12;
+
+    [Fact]
+    public void ClosestPoint_OfNastyFaces_IsAsFarAsInExactArithmetic() => CompareWithOracle(200, 1000);
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void ClosestPoint_OfManyNastyFaces_IsAsFarAsInExactArithmetic() => CompareWithOracle(3000, 1000);
+
+    [Fact]
+    public void ClosestPoint_OfNastyFaces_HasConsistentParts() => Seeded.Run(200, random =>
+    {
+        for (var i = 0; i < 1000; i++)
+        {
+            var face = NastyFace.Random(random);
+            var (position, a, b, c) = face;
+            var point = FaceKernel.ClosestPoint(position, a, b, c);
+            var (weightA, weightB, weightC) = point.Barycentrics;
+            Assert.True(weightA >= 0 && weightB >= 0 && weightC >= 0, $"{face}: {point}");
+            // Three numbers below 1, rounded once each.
+            Near.Equal(1, weightA + weightB + weightC, 4e-16);
+            Near.Equal(point.Point, (weightA * a) + (weightB * b) + (weightC * c), Tolerance * face.Magnitude);
+            Near.Equal((position - point.Point).Length(), Math.Sqrt(point.DistanceSquared), Tolerance * face.Magnitude);
+            Assert.True(IsOn(point.Feature, point.Barycentrics), $"{face}: {point}");
+        }
+    });
+
+    [Fact]
+    public void UnitNormal_OfNastyFaces_HasLengthOneAndIsPerpendicular() => Seeded.Run(50, random =>
+    {
+        for (var i = 0; i < 1000; i++)
+        {
+            var (_, a, b, c) = NastyFace.Random(random);
+            var normal = FaceKernel.UnitNormal(a, b, c);
+            Near.Equal(1, normal.Length(), 1e-15);
+            var (ab, ac, bc) = (b - a, c - a, c - b);
+            var longest = new[] { ab, ac, bc }.MaxBy(edge => edge.MaximumComponent());
+            if (longest.MaximumComponent() > 0)
+            {
+                // The sine from which on a face counts as thin is 1e-6.
+                Near.Equal(0, Vector.Dot(normal, longest / longest.MaximumComponent()), 1e-9);
+            }
+        }
+    });
+
+    [Fact]
+    public void UnitNormal_FollowsTheWinding()
+    {
+        Assert.Equal(Vector.K, FaceKernel.UnitNormal(Vector.Zero, Vector.I, Vector.J));
+        Assert.Equal(-Vector.K, FaceKernel.UnitNormal(Vector.Zero, Vector.J, Vector.I));
+        Assert.Equal(Vector.K, FaceKernel.UnitNormal(Vector.Zero, 1e-90 * Vector.I, 1e-90 * Vector.J));
+        Assert.Equal(Vector.J, FaceKernel.UnitNormal(Vector.One, Vector.One, Vector.One));
+    }
+
+    [Fact]
+    public void ClosestPoint_OfAPointOnTheFace_IsThatPointAtDistanceZero() => Seeded.Run(20_000, random =>
+    {
+        // Whole numbers and quarters of them: all products are exact.
+        Vector Whole() => new(4 * random.Next(-100, 101), 4 * random.Next(-100, 101), 4 * random.Next(-100, 101));
+        var (a, b, c) = (Whole(), Whole(), Whole());
+        var quarters = random.Next(5);
+        var (weightB, weightC) = (quarters / 4.0, random.Next(5 - quarters) / 4.0);
+        var position = a + (weightB * (b - a)) + (weightC * (c - a));
+        var point = FaceKernel.ClosestPoint(position, a, b, c);
+        Assert.Equal(0, point.DistanceSquared);
+        Near.Equal(position, point.Point, 1e-12 * 400);
+    });
+
+    [Theory]
+    [InlineData(-1, -1, 0, FaceFeature.CornerA)]
+    [InlineData(9, -1, 0, FaceFeature.CornerB)]
+    [InlineData(-1, 9, 1, FaceFeature.CornerC)]
+    [InlineData(2, -1, 1, FaceFeature.EdgeAB)]
+    [InlineData(3, 3, 1, FaceFeature.EdgeBC)]
+    [InlineData(-1, 2, 1, FaceFeature.EdgeCA)]
+    [InlineData(1, 1, 1, FaceFeature.Interior)]
+    public void ClosestPoint_NamesTheFeature(double x, double y, double z, FaceFeature feature) =>
+        Assert.Equal(feature, FaceKernel.ClosestPoint(new(x, y, z), Vector.Zero, 4 * Vector.I, 4 * Vector.J).Feature);
+
+    [Fact]
+    public void SquaredDistances_OfFourFaces_EqualTheKernelsBitForBit() => Seeded.Run(100, random =>
+    {
+        for (var i = 0; i < 500; i++)
+        {
+            var faces = Enumerable.Range(0, 4).Select(_ => NastyFace.Random(random)).ToArray();
+            var quartet = new FaceQuartet(Four(faces, face => face.A), Four(faces, face => face.B), Four(faces, face => face.C));
+            var position = faces[random.Next(4)].Position;
+            var squared = FaceQuartet.SquaredDistances(in quartet, in position);
+            for (var lane = 0; lane < 4; lane++)
+            {
+                var (_, a, b, c) = faces[lane];
+                var expected = FaceKernel.ClosestPoint(position, a, b, c).DistanceSquared;
+                Assert.True(squared[lane] == expected, string.Create(CultureInfo.InvariantCulture, $"{faces[lane]} from {position}: {squared[lane]:R}, not {expected:R}"));
+            }
+        }
+    });
+
+    private static VectorQuartet Four(NastyFace[] faces, Func<NastyFace, Vector> corner) => new(
+        Vector256.Create([.. faces.Select(face => corner(face).X)]),
+        Vector256.Create([.. faces.Select(face => corner(face).Y)]),
+        Vector256.Create([.. faces.Select(face => corner(face).Z)]));
+
+    private static bool IsOn(FaceFeature feature, Vector weights) => feature switch
+    {
+        FaceFeature.CornerA => weights == Vector.I,
+        FaceFeature.CornerB => weights == Vector.J,
+        FaceFeature.CornerC => weights == Vector.K,
+        FaceFeature.EdgeAB => weights.Z == 0,
+        FaceFeature.EdgeBC => weights.X == 0,
+        FaceFeature.EdgeCA => weights.Y == 0,
+        _ => true,
+    };
+
+    private static void CompareWithOracle(int seeds, int cases) => Seeded.Run(seeds, random =>
+    {
+        for (var i = 0; i < cases; i++)
+        {
+            var face = NastyFace.Random(random);
+            var (position, a, b, c) = face;
+            var distance = Math.Sqrt(FaceKernel.ClosestPoint(position, a, b, c).DistanceSquared);
+            var exact = FaceOracle.Distance(position, a, b, c);
+            Assert.True(Math.Abs(distance - exact) <= Tolerance * face.Magnitude, string.Create(
+                CultureInfo.InvariantCulture, $"{face}: {distance:R}, exactly {exact:R}, off by {(distance - exact) / face.Magnitude:R} of the size"));
+        }
+    });
+}

@@ -1,0 +1,81 @@
+using System.Numerics;
+using Vector = FractalEngine.Core.Maths.Vector;
+
+namespace FractalEngine.Tests.Collision;
+
+/// <summary>
+/// The distance of a position from a triangle in exact arithmetic: coordinates are integers times a common power of two, distances are
+/// fractions of integers, and only the last square root rounds. It shares nothing with the engine's kernel.
+/// </summary>
+internal static class FaceOracle
+{
+    public static double Distance(Vector position, Vector a, Vector b, Vector c)
+    {
+        var exponent = new[] { position, a, b, c }.SelectMany(v => new[] { v.X, v.Y, v.Z }).Where(x => x != 0)
+            .Select(x => Math.ILogB(x) - 52).DefaultIfEmpty(0).Min();
+        var (p, p1, p2, p3) = (Point.Of(position, exponent), Point.Of(a, exponent), Point.Of(b, exponent), Point.Of(c, exponent));
+        var nearest = Fraction.Smaller(ToSegment(p, p1, p2), Fraction.Smaller(ToSegment(p, p2, p3), ToSegment(p, p3, p1)));
+        var (ab, ac, ap) = (p2 - p1, p3 - p1, p - p1);
+        var normal = Point.Cross(ab, ac);
+        var square = Point.Dot(normal, normal);
+        var (weightB, weightC) = (Point.Dot(Point.Cross(ap, ac), normal), Point.Dot(Point.Cross(ab, ap), normal));
+        if (!square.IsZero && weightB.Sign >= 0 && weightC.Sign >= 0 && weightB + weightC <= square)
+        {
+            nearest = Fraction.Smaller(nearest, new(BigInteger.Pow(Point.Dot(ap, normal), 2), square));
+        }
+
+        return nearest.SquareRoot(exponent);
+    }
+
+    private static Fraction ToSegment(Point p, Point start, Point end)
+    {
+        var (along, from) = (end - start, p - start);
+        var (square, dot) = (Point.Dot(along, along), Point.Dot(along, from));
+        return dot.Sign <= 0 ? new(Point.Dot(from, from), 1)
+            : dot >= square ? new(Point.Dot(p - end, p - end), 1)
+            : new((Point.Dot(from, from) * square) - (dot * dot), square);
+    }
+
+    private readonly record struct Fraction(BigInteger Numerator, BigInteger Denominator)
+    {
+        public static Fraction Smaller(Fraction f1, Fraction f2) => f1.Numerator * f2.Denominator <= f2.Numerator * f1.Denominator ? f1 : f2;
+
+        /// <summary>Times a power of two.</summary>
+        public double SquareRoot(int exponent)
+        {
+            if (Numerator.IsZero)
+            {
+                return 0;
+            }
+
+            // An even shift that leaves 120 bits: the cut-off rest is far below a double's last place.
+            var shift = (120 - (int)(Numerator.GetBitLength() - Denominator.GetBitLength())) & ~1;
+            var quotient = shift >= 0 ? (Numerator << shift) / Denominator : Numerator / (Denominator << -shift);
+            return Math.ScaleB(Math.Sqrt((double)quotient), exponent - (shift / 2));
+        }
+    }
+
+    private readonly record struct Point(BigInteger X, BigInteger Y, BigInteger Z)
+    {
+        public static Point Of(Vector v, int exponent) => new(Integer(v.X, exponent), Integer(v.Y, exponent), Integer(v.Z, exponent));
+
+        public static Point operator -(Point p1, Point p2) => new(p1.X - p2.X, p1.Y - p2.Y, p1.Z - p2.Z);
+
+        public static BigInteger Dot(Point p1, Point p2) => (p1.X * p2.X) + (p1.Y * p2.Y) + (p1.Z * p2.Z);
+
+        public static Point Cross(Point p1, Point p2) =>
+            new((p1.Y * p2.Z) - (p1.Z * p2.Y), (p1.Z * p2.X) - (p1.X * p2.Z), (p1.X * p2.Y) - (p1.Y * p2.X));
+
+        private static BigInteger Integer(double x, int exponent)
+        {
+            if (x == 0)
+            {
+                return 0;
+            }
+
+            // 53 bits before the point, so that the number is whole.
+            var own = Math.ILogB(x) - 52;
+            return new BigInteger(Math.ScaleB(x, -own)) << (own - exponent);
+        }
+    }
+}

@@ -1,0 +1,213 @@
+using System.Globalization;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Generation;
+using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Collision;
+
+public class HierarchyColliderTests
+{
+    public static TheoryData<string> Meshes => CollisionMeshes.Names;
+
+    [Theory]
+    [MemberData(nameof(Meshes))]
+    public void TryFindClosest_OnAnyMesh_EqualsTheSimpleCollider(string name) => Compare(CollisionMeshes.All[name](), 400);
+
+    [Theory]
+    [Trait("Category", "Soak")]
+    [MemberData(nameof(Meshes))]
+    public void TryFindClosest_OnAnyMeshManyTimes_EqualsTheSimpleCollider(string name) => Compare(CollisionMeshes.All[name](), 40_000);
+
+    [SkippableTheory]
+    [InlineData("meshes/spot.obj")]
+    [InlineData("meshes/mountain.obj")]
+    [InlineData("meshes/nefertiti-lowres.obj")]
+    public void TryFindClosest_OnScans_EqualsTheSimpleCollider(string file)
+    {
+        var mesh = CollisionMeshes.Scan(file);
+        Skip.If(mesh is null, "there is no folder of real models beside the checkout");
+        Compare(mesh, 60);
+    }
+
+    [Theory]
+    [MemberData(nameof(Meshes))]
+    public void TryFindClosest_WithinARadius_FindsWhatIsNotFarther(string name)
+    {
+        var mesh = CollisionMeshes.All[name]();
+        var (simple, hierarchy, record) = (new SimpleCollider(mesh), new HierarchyCollider(mesh), new QueryRecord());
+        Seeded.Run(40, random =>
+        {
+            var position = CollisionMeshes.Position(random, mesh);
+            Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, record, out var nearest));
+            foreach (var within in new[] { 0, Math.BitDecrement(nearest.Distance), nearest.Distance, Math.BitIncrement(nearest.Distance), 2 * nearest.Distance })
+            {
+                if (within >= 0)
+                {
+                    var isFound = hierarchy.TryFindClosest(position, within, record, out var closest);
+                    Assert.Equal((within, nearest.Distance <= within), (within, isFound));
+                    Assert.True(!isFound || closest.Distance == nearest.Distance);
+                }
+            }
+        });
+    }
+
+    [Theory]
+    [MemberData(nameof(Meshes))]
+    public void TryFindClosest_WithEpsilon_IsNoFartherThanItSays(string name)
+    {
+        var mesh = CollisionMeshes.All[name]();
+        var (simple, hierarchy, record) = (new SimpleCollider(mesh), new HierarchyCollider(mesh), new QueryRecord());
+        Seeded.Run(60, random =>
+        {
+            var position = CollisionMeshes.Position(random, mesh);
+            var epsilon = random.Next(4) switch { 0 => 1e-6, 1 => 0.01, 2 => 1, _ => double.PositiveInfinity };
+            Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, record, out var nearest));
+            Assert.True(hierarchy.TryFindClosest(position, double.PositiveInfinity, record, out var closest, epsilon));
+            Assert.True(closest.Distance >= nearest.Distance);
+            Assert.True(closest.Distance <= ((1 + epsilon) * nearest.Distance) || nearest.Distance == 0 || double.IsInfinity(epsilon), $"{closest.Distance}, exactly {nearest.Distance}, ε {epsilon}");
+        });
+    }
+
+    [Fact]
+    public void TryFindClosest_WithEpsilon_CostsLess()
+    {
+        var mesh = MeshGenerators.Create("terrain", 1, 20_000);
+        var (exact, rough) = (new QueryRecord(), new QueryRecord());
+        var hierarchy = new HierarchyCollider(mesh);
+        Seeded.Run(200, random =>
+        {
+            var position = mesh.Bounds.Centre + (mesh.Bounds.Diagonal * NastyFace.Cube(random));
+            hierarchy.TryFindClosest(position, double.PositiveInfinity, exact, out _);
+            hierarchy.TryFindClosest(position, double.PositiveInfinity, rough, out _, 0.1);
+        });
+        Assert.True(rough.FaceTests < exact.FaceTests, $"{rough.FaceTests} instead of {exact.FaceTests} faces");
+    }
+
+    [Fact]
+    public void TryFindClosest_OnALargeMesh_LooksAtFewFaces()
+    {
+        var mesh = MeshGenerators.Create("icosphere", 1, 20_480);
+        var record = new QueryRecord();
+        var hierarchy = new HierarchyCollider(mesh);
+        Seeded.Run(200, random => hierarchy.TryFindClosest(1.05 * NastyFace.Cube(random).UnitVector(), double.PositiveInfinity, record, out _));
+        Assert.InRange(record.FaceTests, 200, 200 * 60);
+    }
+
+    [Fact]
+    public void TryFindClosest_OnTheEmptyMesh_FindsNothing()
+    {
+        var hierarchy = new HierarchyCollider(Mesh.Empty);
+        Assert.False(hierarchy.TryFindClosest(Vector.One, double.PositiveInfinity, new(), out _));
+        Assert.Equal(0, hierarchy.StorageBytes);
+    }
+
+    [Fact]
+    public void TryFindClosest_OfBadArguments_Throws()
+    {
+        var hierarchy = new HierarchyCollider(CollisionMeshes.Soup(1, 10, 1));
+        foreach (var bad in new[] { double.NaN, double.PositiveInfinity, double.NegativeInfinity })
+        {
+            Assert.Throws<ArgumentOutOfRangeException>(() => hierarchy.TryFindClosest(new(0, bad, 0), 1, new(), out _));
+        }
+
+        foreach (var bad in new[] { double.NaN, -1, double.NegativeInfinity })
+        {
+            Assert.Throws<ArgumentOutOfRangeException>(() => hierarchy.TryFindClosest(Vector.Zero, bad, new(), out _));
+            Assert.Throws<ArgumentOutOfRangeException>(() => hierarchy.TryFindClosest(Vector.Zero, 1, new(), out _, bad));
+        }
+    }
+
+    [Theory]
+    [InlineData(8)]
+    [InlineData(40)]
+    [InlineData(2000)]
+    public void TryFindClosest_AllocatesNothing(int faces)
+    {
+        var mesh = CollisionMeshes.Soup(1, faces, 0.1);
+        var (hierarchy, record, random) = (new HierarchyCollider(mesh), new QueryRecord(), new Random(1));
+        var positions = Enumerable.Range(0, 200).Select(_ => CollisionMeshes.Position(random, mesh)).ToArray();
+        var sum = AskAll();
+        var before = GC.GetAllocatedBytesForCurrentThread();
+        sum -= AskAll();
+        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
+        Assert.Equal(0, sum);
+
+        double AskAll()
+        {
+            var distances = 0.0;
+            foreach (var position in positions)
+            {
+                hierarchy.TryFindClosest(position, double.PositiveInfinity, record, out var closest);
+                distances += closest.Distance;
+            }
+
+            return distances;
+        }
+    }
+
+    [Theory]
+    [InlineData(2000)]
+    [InlineData(200_000)]
+    public void StorageBytes_OfLargeMeshes_IsBelow64AFace(int faces)
+    {
+        var mesh = MeshGenerators.Create("terrain", 1, faces);
+        Assert.InRange(new HierarchyCollider(mesh).StorageBytes, 4L * mesh.FaceCount, 64L * mesh.FaceCount);
+    }
+
+    [Fact]
+    public void Build_OnAnyNumberOfThreads_GivesTheSameTree()
+    {
+        var mesh = MeshGenerators.Create("tree-stump", 1, 120_000);
+        var expected = FaceHierarchyBuilder.Build(mesh, Vector.Zero, 1, threads: 1);
+        foreach (var threads in new[] { 2, 3, 16 })
+        {
+            var actual = FaceHierarchyBuilder.Build(mesh, Vector.Zero, 1, threads);
+            Assert.Equal(expected.Children, actual.Children);
+            Assert.Equal(expected.Boxes, actual.Boxes);
+            Assert.Equal(expected.Leaves, actual.Leaves);
+        }
+    }
+
+    [Theory]
+    [MemberData(nameof(Meshes))]
+    public void Build_OfAnyMesh_HasEachFaceOnceAndFewLevels(string name)
+    {
+        var mesh = CollisionMeshes.All[name]();
+        var layout = FaceHierarchyBuilder.Build(mesh, mesh.Bounds.Centre, 1 / Math.Max(1e-100, mesh.Bounds.Diagonal), threads: 2);
+        var faces = new List<int>();
+        Assert.InRange(Visit(0), 1, 40);
+        Assert.Equal(Enumerable.Range(0, mesh.FaceCount), faces.Order());
+
+        int Visit(int node) => layout.Children.Slice(8 * node, 8).Where(child => child != HierarchyLayout.NoChild).Max(child =>
+        {
+            if (child >= 0)
+            {
+                return 1 + Visit(child);
+            }
+
+            for (var i = 0; i <= (~child % 4); i++)
+            {
+                faces.Add(layout.Leaves[~child / 4].Face[i]);
+            }
+
+            return 1;
+        });
+    }
+
+    private static void Compare(Mesh mesh, int queries)
+    {
+        var (simple, hierarchy, record) = (new SimpleCollider(mesh), new HierarchyCollider(mesh), new QueryRecord());
+        Seeded.Run(queries, random =>
+        {
+            var position = CollisionMeshes.Position(random, mesh);
+            Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, record, out var expected));
+            Assert.True(hierarchy.TryFindClosest(position, double.PositiveInfinity, record, out var actual));
+            // The same kernel on the same face, so the same bits; of faces equally near any will do.
+            Assert.True(expected.Distance == actual.Distance, string.Create(
+                CultureInfo.InvariantCulture, $"{position}: {actual.Distance:R} at face {actual.Face}, not {expected.Distance:R} at face {expected.Face}"));
+            Assert.Equal(actual.Distance, (position - actual.Point).Length(), 1e-12 * (position.MaximumComponent() + mesh.Bounds.Diagonal));
+        });
+    }
+}

@@ -1,0 +1,64 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Tests.Collision;
+
+/// <summary>A triangle and a position, of all the sorts that break closest-point code.</summary>
+internal readonly record struct NastyFace(Vector Position, Vector A, Vector B, Vector C)
+{
+    /// <summary>What errors are measured against: the largest coordinate.</summary>
+    public double Magnitude => Math.Max(Math.Max(Position.MaximumComponent(), A.MaximumComponent()), Math.Max(B.MaximumComponent(), C.MaximumComponent()));
+
+    public static NastyFace Random(Random random)
+    {
+        var (a, b, c) = Corners(random);
+        var position = Place(random, a, b, c);
+        // A power of ten from 1e-30 to 1e30, and now and then a place far from the origin.
+        var scale = random.Next(2) == 0 ? 1 : Math.Pow(10, random.Next(-30, 31));
+        var offset = random.Next(4) == 0 ? Math.Pow(10, random.Next(0, 9)) * Cube(random) : Vector.Zero;
+        return new(scale * (position + offset), scale * (a + offset), scale * (b + offset), scale * (c + offset));
+    }
+
+    public static Vector Cube(Random random) => new((2 * random.NextDouble()) - 1, (2 * random.NextDouble()) - 1, (2 * random.NextDouble()) - 1);
+
+    private static (Vector A, Vector B, Vector C) Corners(Random random)
+    {
+        var (a, b, c) = (Cube(random), Cube(random), Cube(random));
+        var small = Math.Pow(10, -random.Next(0, 18));
+        (a, b, c) = random.Next(10) switch
+        {
+            0 => (a, b, b + (small * c)),
+            1 => (a, b, a + (random.NextDouble() * (b - a)) + (small * c)),
+            2 => (a, b, a + (random.Next(-4, 5) / 4.0 * (b - a))),
+            3 => (a, a, c),
+            4 => (a, a, a),
+            5 => (Whole(a), Whole(b), Whole(c)),
+            6 => (Whole(a), Whole(a) + Whole(b), Whole(a) + (random.Next(-3, 4) * Whole(b))),
+            7 => (a.Stretch(new(1, 0, 1)), b.Stretch(new(1, 0, 1)), c.Stretch(new(1, 0, 1))),
+            _ => (a, b, c),
+        };
+        return random.Next(3) switch { 0 => (a, b, c), 1 => (b, c, a), _ => (c, a, b) };
+    }
+
+    private static Vector Place(Random random, Vector a, Vector b, Vector c)
+    {
+        var (u, v) = (random.NextDouble(), random.NextDouble());
+        (u, v) = u + v > 1 ? (1 - u, 1 - v) : (u, v);
+        var inside = a + (u * (b - a)) + (v * (c - a));
+        var normal = Vector.Cross(b - a, c - a);
+        return random.Next(10) switch
+        {
+            0 => a,
+            1 => b,
+            2 => c,
+            3 => a + (u * (b - a)),
+            4 => inside,
+            5 => inside + (Math.Pow(10, random.Next(-16, 2)) * normal),
+            6 => a + (((4 * u) - 2) * (b - a)) + (((4 * v) - 2) * (c - a)),
+            7 => Math.Pow(10, random.Next(0, 9)) * Cube(random),
+            8 => inside + (Math.Pow(10, random.Next(-16, 2)) * Cube(random)),
+            _ => 2 * Cube(random),
+        };
+    }
+
+    private static Vector Whole(Vector v) => new(Math.Round(8 * v.X), Math.Round(8 * v.Y), Math.Round(8 * v.Z));
+}
