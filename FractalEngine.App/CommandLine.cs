@@ -35,7 +35,7 @@ internal static class CommandLine
         var root = new RootCommand("FractalEngine draws fractals of any size, and regular models beside them.");
         foreach (var command in (Command[])[
             ViewCommand.Create(), RenderCommand.Create(), InfoCommand.Create(), CountCommand.Create(), ExportCommand.Create(),
-            CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create()])
+            CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create(), QueryCommand.Create()])
         {
             root.Add(command);
         }

@@ -1,0 +1,58 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+
+namespace FractalEngine.Core.Collision;
+
+/// <summary>Makes the collider of a kind for a model, where the kind fits it.</summary>
+public static class ColliderFactory
+{
+    /// <summary>The most faces of an expanded fractal that the colliders of meshes are made for.</summary>
+    public const long ExpandedFaces = 20_000_000;
+
+    /// <summary>The collider for a model in its own frame.</summary>
+    /// <exception cref="ColliderMismatchException">The kind does not fit the model; the message says which kinds do.</exception>
+    /// <exception cref="FractalLimitException">The fractal is too large for this kind.</exception>
+    public static Collider Create(Model model, ColliderKind kind) => model switch
+    {
+        FractalModel { Fractal: var fractal } => Create(fractal, kind),
+        _ => Create(model.Mesh, kind),
+    };
+
+    /// <summary>The collider for an object in world space, whatever its matrix.</summary>
+    /// <exception cref="ColliderMismatchException">The kind does not fit the model.</exception>
+    /// <exception cref="FractalLimitException">The fractal is too large for this kind.</exception>
+    public static Collider Create(PlacedModel placed, ColliderKind kind) => placed.Model switch
+    {
+        FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } =>
+            Create(new Fractal(fractal.Description.Under(placed.Declaration.Placement), fractal.BaseMesh), kind),
+        FractalModel { Fractal: var fractal } => CreateExpanded(fractal, placed.Map, kind),
+        _ => Create(FractalGenerator.Flatten(placed.Model.Mesh, [placed.Map]), kind),
+    };
+
+    private static Collider Create(Fractal fractal, ColliderKind kind) => (kind, fractal.Description.Composition) switch
+    {
+        (ColliderKind.Exact, Composition.Affine) => new ExactFractalCollider(fractal),
+        (ColliderKind.Fractal, Composition.Affine) => new FractalCollider(fractal),
+        _ => CreateExpanded(fractal, AffineMap.Identity, kind),
+    };
+
+    private static Collider CreateExpanded(Fractal fractal, AffineMap placement, ColliderKind kind)
+    {
+        if (kind == ColliderKind.Fractal)
+        {
+            throw new ColliderMismatchException("the collider 'fractal' descends by affine maps, which componentwise composition has not: expected exact, hierarchy, bounding-box or simple");
+        }
+
+        var instances = FractalGenerator.Expand(fractal, ExpandedFaces / Math.Max(1, fractal.BaseMesh.FaceCount));
+        return Create(FractalGenerator.Flatten(fractal.BaseMesh, [.. instances.Select(instance => placement * instance)]), kind);
+    }
+
+    private static Collider Create(Geometry.Mesh mesh, ColliderKind kind) => kind switch
+    {
+        ColliderKind.Exact or ColliderKind.Hierarchy => new HierarchyCollider(mesh),
+        ColliderKind.BoundingBox => new BoundingBoxCollider(mesh),
+        ColliderKind.Simple => new SimpleCollider(mesh),
+        _ => throw new ColliderMismatchException("the collider 'fractal' needs a fractal, and this is a mesh: expected exact, hierarchy, bounding-box or simple"),
+    };
+}

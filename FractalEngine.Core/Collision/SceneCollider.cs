@@ -1,0 +1,98 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+
+namespace FractalEngine.Core.Collision;
+
+/// <summary>
+/// Queries on all objects of a scene, in world space. The collider of a file is built when it is first asked for, once for all objects that show the
+/// file; an object's own matrix is taken into account by each query, so that objects move for nothing.
+/// </summary>
+/// <remarks>
+/// A matrix with a non-uniform scale does not keep distances in proportion: such an object has a collider of its own, for the place where the
+/// scene has it.
+/// </remarks>
+public sealed class SceneCollider
+{
+    private readonly ImmutableArray<Item> _items;
+
+    /// <summary>For a scene. Builds nothing yet.</summary>
+    /// <param name="scene">With its files loaded.</param>
+    /// <param name="kind">The collider of every object that it fits, see <see cref="ColliderFactory"/>.</param>
+    public SceneCollider(LoadedScene scene, ColliderKind kind = ColliderKind.Exact)
+    {
+        var shared = scene.Models.ToDictionary(model => model, model => new Lazy<Collider>(() => ColliderFactory.Create(model, kind)));
+        _items = [.. scene.Objects.Select(placed => Similarity.TryMake(placed.Map, out var similarity)
+            ? new Item(shared[placed.Model], similarity, placed.Bounds)
+            : new Item(new(() => ColliderFactory.Create(placed, kind)), Similarity.Identity, placed.Bounds))];
+    }
+
+    /// <summary>Bytes of the colliders built so far, each once.</summary>
+    public long StorageBytes => _items.Select(item => item.Collider).Distinct().Where(collider => collider.IsValueCreated).Sum(collider => collider.Value.StorageBytes);
+
+    /// <summary>Builds all colliders now instead of at their first query.</summary>
+    public void Build()
+    {
+        foreach (var item in _items)
+        {
+            _ = item.Collider.Value;
+        }
+    }
+
+    /// <summary>Finds the nearest point of all objects.</summary>
+    /// <param name="position">World space, finite.</param>
+    /// <param name="within">Nothing farther away is looked at; may be infinite.</param>
+    /// <param name="record">Receives the costs and the instance.</param>
+    /// <param name="closest">The answer in world space, if there is one.</param>
+    /// <param name="objectIndex">The number of the object in the scene, −1 for none.</param>
+    /// <param name="except">An object that is not looked at, such as the one that asks; −1 for none.</param>
+    /// <param name="epsilon">See <see cref="Collider.TryFindClosest"/>.</param>
+    /// <returns>False when nothing lies within the distance.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the distance or ε is negative or NaN.</exception>
+    public bool TryFindClosest(
+        Vector position, double within, QueryRecord record, out ClosestPoint closest, out int objectIndex, int except = -1, double epsilon = 0)
+    {
+        (closest, objectIndex) = (default, -1);
+        Span<double> bounds = _items.Length <= 256 ? stackalloc double[_items.Length] : new double[_items.Length];
+        for (var i = 0; i < _items.Length; i++)
+        {
+            bounds[i] = i == except ? double.PositiveInfinity : Distance(_items[i].Bounds, position);
+        }
+
+        record.BoundTests += _items.Length;
+        for (var left = _items.Length; left > 0; left--)
+        {
+            var nearest = 0;
+            for (var i = 1; i < bounds.Length; i++)
+            {
+                nearest = bounds[i] < bounds[nearest] ? i : nearest;
+            }
+
+            if (!(bounds[nearest] * (1 + epsilon) <= within) || double.IsPositiveInfinity(bounds[nearest]))
+            {
+                break;
+            }
+
+            bounds[nearest] = double.PositiveInfinity;
+            var (collider, similarity, _) = _items[nearest];
+            if (collider.Value.TryFindClosest(similarity.ToLocal(position), within / similarity.Scale, record, out var local, epsilon))
+            {
+                var found = similarity.ToWorld(local);
+                if (objectIndex < 0 || found.Distance < closest.Distance)
+                {
+                    (closest, objectIndex, within) = (found, nearest, Math.Min(within, found.Distance));
+                    record.KeepPath();
+                }
+            }
+        }
+
+        record.RestorePath();
+        return objectIndex >= 0;
+    }
+
+    private static double Distance(BoundingBox box, Vector position) => box.IsEmpty ? double.PositiveInfinity
+        : Vector.Max(Vector.Max(box.Minimum - position, position - box.Maximum), Vector.Zero).Length();
+
+    private sealed record Item(Lazy<Collider> Collider, Similarity Similarity, BoundingBox Bounds);
+}
