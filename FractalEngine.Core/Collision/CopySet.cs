@@ -8,8 +8,14 @@ internal sealed class CopySet
 {
     /// <summary>For a set.</summary>
     public CopySet(TransformationSet set)
+        : this([.. set.Maps])
     {
-        Maps = [.. set.Maps];
+    }
+
+    /// <summary>For maps.</summary>
+    public CopySet(AffineMap[] maps)
+    {
+        Maps = maps;
         Inverses = [.. Maps.Select(map => map.Inverse())];
         ScaleSquared = [.. Maps.Select(map => map.Linear.V1.LengthSquared())];
         IdentityIndex = Array.IndexOf(Maps, AffineMap.Identity);
@@ -17,7 +23,7 @@ internal sealed class CopySet
     }
 
     /// <summary>The set of the identity alone.</summary>
-    public static CopySet Identity { get; } = new(new([Transformation.Identity]));
+    public static CopySet Identity { get; } = new([AffineMap.Identity]);
 
     /// <summary>In the order of the set.</summary>
     public AffineMap[] Maps { get; }

@@ -11,11 +11,12 @@ namespace FractalEngine.Core.Collision;
 /// </summary>
 /// <remarks>
 /// A round of a recursion is one level, its sets concatenated; sets below the last recursion belong to the base object. So a query costs exactly
-/// b·t face tests a level, b·t·d in all, and d·t·b memory only for the base: O(b + t).
+/// b·t face tests a level, b·t·d in all; it keeps t maps and the base object.
 /// </remarks>
 public sealed class FractalCollider : Collider
 {
-    private readonly List<(AffineMap[] Maps, int Rounds)> _levels = [];
+    private readonly List<(CopySet Set, int Rounds)> _levels = [];
+    private readonly bool _isSimilar;
     private readonly Mesh _base;
     private readonly bool _hasNoLevels;
 
@@ -36,12 +37,13 @@ public sealed class FractalCollider : Collider
         foreach (var step in steps[..levels])
         {
             _levels.Add(step is Repetition repetition
-                ? (Concatenate(repetition.Body), repetition.Count ?? int.MaxValue)
-                : (Concatenate([step]), 1));
+                ? (new(Concatenate(repetition.Body)), repetition.Count ?? int.MaxValue)
+                : (new(Concatenate([step])), 1));
         }
 
         var inner = Concatenate(steps[levels..]);
         _base = inner is [var only] && only == AffineMap.Identity ? fractal.BaseMesh : FractalGenerator.Flatten(fractal.BaseMesh, [.. inner]);
+        _isSimilar = _levels.All(level => level.Set.AreSimilar);
         _hasNoLevels = _levels.All(level => level.Rounds == 0);
     }
 
@@ -50,27 +52,30 @@ public sealed class FractalCollider : Collider
 
     /// <inheritdoc/>
     public override long StorageBytes =>
-        _levels.Sum(level => 12L * sizeof(double) * level.Maps.Length) + (sizeof(double) * (long)_base.Positions.Length) + (sizeof(int) * (long)_base.Faces.Length);
+        _levels.Sum(level => level.Set.StorageBytes) + (sizeof(double) * (long)_base.Positions.Length) + (sizeof(int) * (long)_base.Faces.Length);
 
     /// <inheritdoc/>
     private protected override bool Find(Vector position, double within, double epsilon, QueryRecord record, out ClosestPoint closest)
     {
         record.ClearPath();
-        var (map, face) = (AffineMap.Identity, -1);
+        var (map, local, face) = (AffineMap.Identity, position, -1);
         if (_hasNoLevels)
         {
-            NearestFace(position, map, double.PositiveInfinity, record, out face);
+            NearestFace(position, map, 1, double.PositiveInfinity, record, out face);
         }
 
-        foreach (var (maps, rounds) in _levels)
+        foreach (var (set, rounds) in _levels)
         {
             // A copy that is smaller than the last place of a coordinate has no parts that could be told apart.
             for (var round = 0; round < rounds && !(round > 0 && BoundingSphere.LengtheningBound(map.Linear) < 1e-15); round++)
             {
                 var (nearest, nearestCopy) = (double.PositiveInfinity, -1);
-                for (var copy = 0; copy < maps.Length; copy++)
+                for (var copy = 0; copy < set.Maps.Length; copy++)
                 {
-                    var squared = NearestFace(position, map * maps[copy], nearest, record, out var nearestFace);
+                    // Where distances scale, the position goes into the copy's frame; else the base goes into the position's.
+                    var squared = _isSimilar
+                        ? NearestFace(set.Inverses[copy] * local, AffineMap.Identity, set.ScaleSquared[copy], nearest, record, out var nearestFace)
+                        : NearestFace(position, map * set.Maps[copy], 1, nearest, record, out nearestFace);
                     if (nearestFace >= 0)
                     {
                         (nearest, nearestCopy, face) = (squared, copy, nearestFace);
@@ -83,7 +88,8 @@ public sealed class FractalCollider : Collider
                     return false;
                 }
 
-                map *= maps[nearestCopy];
+                map *= set.Maps[nearestCopy];
+                local = _isSimilar ? set.Inverses[nearestCopy] * local : local;
                 record.AppendToPath(nearestCopy);
             }
         }
@@ -92,14 +98,23 @@ public sealed class FractalCollider : Collider
         return face >= 0 && closest.Distance <= within;
     }
 
-    private double NearestFace(Vector position, AffineMap map, double nearest, QueryRecord record, out int nearestFace)
+    /// <summary>Looks at all faces of the base.</summary>
+    /// <param name="position">Anywhere.</param>
+    /// <param name="map">From the base's frame to that of the position.</param>
+    /// <param name="scaleSquared">What squared distances are multiplied by.</param>
+    /// <param name="nearest">The nearest so far, squared.</param>
+    /// <param name="record">Counts the faces.</param>
+    /// <param name="nearestFace">The nearest face, −1 if none is nearer than before.</param>
+    private double NearestFace(Vector position, AffineMap map, double scaleSquared, double nearest, QueryRecord record, out int nearestFace)
     {
         nearestFace = -1;
         record.FaceTests += _base.FaceCount;
+        var isIdentity = map == AffineMap.Identity;
         for (var face = 0; face < _base.FaceCount; face++)
         {
             var (a, b, c) = _base.Face(face);
-            var squared = FaceKernel.ClosestPoint(position, map * a, map * b, map * c).DistanceSquared;
+            (a, b, c) = isIdentity ? (a, b, c) : (map * a, map * b, map * c);
+            var squared = scaleSquared * FaceKernel.ClosestPoint(position, a, b, c).DistanceSquared;
             if (squared < nearest)
             {
                 (nearest, nearestFace) = (squared, face);

@@ -34,7 +34,10 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
     /// <summary>A position of the world in the local frame.</summary>
     public Vector ToLocal(Vector position) => ReferenceEquals(this, Identity) ? position : Inverse * position;
 
-    /// <summary>An answer found in the local frame, in the world. A mirror turns the winding, so the normal's side is kept by the cofactors.</summary>
+    /// <summary>
+    /// An answer found in the local frame, in the world. The normal goes with the cofactors, as the product of two edges does: by the winding
+    /// of the face's image, which a mirror turns.
+    /// </summary>
     public ClosestPoint ToWorld(ClosestPoint local)
     {
         if (ReferenceEquals(this, Identity))

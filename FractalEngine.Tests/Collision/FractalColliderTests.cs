@@ -1,0 +1,71 @@
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Collision;
+
+/// <summary>The paper's descent: its exact costs, and how it errs.</summary>
+public class FractalColliderTests
+{
+    [Theory]
+    // The paper's worked example (§5.2.3), and models 3 to 5 of its Figure 17. For model 3 it prints 420, which is not its own b·t·d.
+    [InlineData(10, 50, 4, 2_000)]
+    [InlineData(10, 7, 5, 350)]
+    [InlineData(10, 49, 3, 1_470)]
+    [InlineData(12, 20, 5, 1_200)]
+    public void Find_CostsExactlyBaseTimesTransformationsTimesDepth(int faces, int transformations, int depth, long cost)
+    {
+        var set = Enumerable.Range(0, transformations).Select(i => Samples.MoveAndScale(i, 0.5 * i, 0, 0.3));
+        var fractal = new Fractal(new("base.obj", [new Repetition([new TransformationSet([.. set])], depth)]), Fan(faces));
+        var record = new QueryRecord();
+        Assert.True(new FractalCollider(fractal).TryFindClosest(new(1, 2, 3), double.PositiveInfinity, record, out _));
+        Assert.Equal((cost, depth), (record.FaceTests, record.InstancePath.Length));
+        Assert.Equal(cost, (long)faces * transformations * depth);
+    }
+
+    [Fact]
+    public void Find_WithTwoSetsInABody_ConcatenatesThem()
+    {
+        // Appendix B: 5·5 transformations a level.
+        var record = new QueryRecord();
+        Assert.True(new FractalCollider(Samples.AppendixBAt(6)).TryFindClosest(new(1, 2, 3), double.PositiveInfinity, record, out _));
+        Assert.Equal(1 * 25 * 6, record.FaceTests);
+    }
+
+    [Fact]
+    public void Find_IsNeverNearerThanExactSearch() => Seeded.Run(200, random =>
+    {
+        var fractal = RandomFractals.Draw(random);
+        var position = random.Vector(4);
+        var record = new QueryRecord();
+        if (new FractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var greedy))
+        {
+            Assert.True(new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var exact));
+            Assert.True(exact.Distance <= greedy.Distance + (1e-12 * fractal.Bounds.Diagonal), $"{exact.Distance} and {greedy.Distance}");
+        }
+    });
+
+    [Fact]
+    public void Find_WhereTheNearerCopyHasTheFartherParts_Errs()
+    {
+        // From (2.6, 0, 0) the copy at 0 ends at 1 and that at 4 begins at 4, so the latter is nearer; but the parts of the first reach on to
+        // the right at the next level.
+        var fractal = new Fractal(new("base.obj",
+        [
+            new TransformationSet([Transformation.Identity, Samples.Move(4, 0, 0)]),
+            new TransformationSet([Samples.Move(1.5, 0, 0), Samples.Move(9, 9, 9)]),
+        ]), Samples.Triangle);
+        var record = new QueryRecord();
+        var position = new Vector(2.6, 0, 0);
+        new FractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var greedy);
+        new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var exact);
+        Assert.Equal(0.1, exact.Distance, 1e-12);
+        Assert.True(greedy.Distance > 1, $"{greedy.Distance}");
+    }
+
+    private static Mesh Fan(int faces) => new(
+        [0, 0, 0, .. Enumerable.Range(0, faces + 1).SelectMany(i => new[] { Math.Cos(0.3 * i), Math.Sin(0.3 * i), 0.1 * i })],
+        [.. Enumerable.Range(1, faces).SelectMany(i => new[] { 0, i, i + 1 })]);
+}
