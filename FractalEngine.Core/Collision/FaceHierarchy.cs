@@ -79,7 +79,7 @@ internal sealed class FaceHierarchy
         {
             for (var leaf = 0; leaf < _quartets.Length; leaf++)
             {
-                Look(FaceQuartet.SquaredDistances(in _quartets[leaf], in position), leaf, ref nearestSquared, ref nearestFace);
+                Look(FaceQuartet.SquaredDistances(in _quartets[leaf], in position, nearestSquared), leaf, ref nearestSquared, ref nearestFace);
             }
 
             faceTests += _mesh.FaceCount;
@@ -240,7 +240,7 @@ internal sealed class FaceHierarchy
         var leaf = (int)(number / FaceHierarchyBuilder.LeafFaces);
         query.FaceTests += (number % FaceHierarchyBuilder.LeafFaces) + 1;
         var squared = _quartets.Length > 0
-            ? FaceQuartet.SquaredDistances(in _quartets[leaf], in query.Position)
+            ? FaceQuartet.SquaredDistances(in _quartets[leaf], in query.Position, query.NearestSquared)
             : FaceQuartet.SquaredDistances(in _leaves[leaf], _mesh.Positions.AsSpan(), in query.Position);
         return Look(squared, leaf, ref query.NearestSquared, ref query.NearestFace);
     }

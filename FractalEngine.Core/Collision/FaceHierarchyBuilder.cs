@@ -59,32 +59,37 @@ internal sealed class FaceHierarchyBuilder
         For(parts.Length, part =>
         {
             var start = part * SubtreeFaces;
-            var count = Math.Min(SubtreeFaces, _faces.Length - start);
-            var positions = mesh.Positions.AsSpan();
-            var corners = mesh.Faces.AsSpan();
-            var (shift, factor) = (Vector256.Create(origin.X, origin.Y, origin.Z, 0), Vector256.Create(scale));
-            var (box, centres) = (BuildBox.Empty, BuildBox.Empty);
-            for (var face = start; face < start + count; face++)
-            {
-                var a = Load(positions, corners[3 * face]);
-                var b = Load(positions, corners[(3 * face) + 1]);
-                var c = Load(positions, corners[(3 * face) + 2]);
-                var minimum = Vector256.MinNative(Vector256.MinNative(a, b), c);
-                var maximum = Vector256.MaxNative(Vector256.MaxNative(a, b), c);
-                var bounds = new FaceBounds(
-                    Downwards((minimum - shift) * factor).AsInt32().WithElement(3, face).AsSingle(), Upwards((maximum - shift) * factor));
-                _faces[face] = bounds;
-                box = box.Including(bounds.Minimum, bounds.Maximum);
-                centres = centres.Including(bounds.Centre2, bounds.Centre2);
-            }
-
-            parts[part] = new(start, count, box, centres);
+            parts[part] = Measure(mesh, origin, scale, start, Math.Min(SubtreeFaces, _faces.Length - start));
         });
         return parts.Aggregate((range1, range2) => new(
             0,
             range1.Count + range2.Count,
             range1.Box.Including(range2.Box.Minimum, range2.Box.Maximum),
             range1.Centres.Including(range2.Centres.Minimum, range2.Centres.Maximum)));
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+    private FaceRange Measure(Mesh mesh, Vector origin, double scale, int start, int count)
+    {
+        var positions = mesh.Positions.AsSpan();
+        var corners = mesh.Faces.AsSpan();
+        var (shift, factor) = (Vector256.Create(origin.X, origin.Y, origin.Z, 0), Vector256.Create(scale));
+        var (box, centres) = (BuildBox.Empty, BuildBox.Empty);
+        for (var face = start; face < start + count; face++)
+        {
+            var a = Load(positions, corners[3 * face]);
+            var b = Load(positions, corners[(3 * face) + 1]);
+            var c = Load(positions, corners[(3 * face) + 2]);
+            var minimum = Vector256.MinNative(Vector256.MinNative(a, b), c);
+            var maximum = Vector256.MaxNative(Vector256.MaxNative(a, b), c);
+            var bounds = new FaceBounds(
+                Downwards((minimum - shift) * factor).AsInt32().WithElement(3, face).AsSingle(), Upwards((maximum - shift) * factor));
+            _faces[face] = bounds;
+            box = box.Including(bounds.Minimum, bounds.Maximum);
+            centres = centres.Including(bounds.Centre2, bounds.Centre2);
+        }
+
+        return new(start, count, box, centres);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -213,6 +218,8 @@ internal sealed class FaceHierarchyBuilder
         return largest;
     }
 
+    // A mesh is built once, often before the tiers of the compiler have warmed up.
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private (FaceRange Left, FaceRange Right) Split(FaceRange range, int depth)
     {
         if (depth >= HeuristicLevels || !TryFindPlane(range, out var axis, out var bin, out var binning))
@@ -280,6 +287,7 @@ internal sealed class FaceHierarchyBuilder
     }
 
     /// <summary>The plane between two bins with the least expected cost.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private bool TryFindPlane(FaceRange range, out int bestAxis, out int bestBin, out Binning binning)
     {
         var bins = range.Count >= 64 ? Bins : Bins / 2;

@@ -96,7 +96,7 @@ public class FaceKernelTests
             var faces = Enumerable.Range(0, 4).Select(_ => NastyFace.Random(random)).ToArray();
             var quartet = new FaceQuartet(Four(faces, face => face.A), Four(faces, face => face.B), Four(faces, face => face.C));
             var position = faces[random.Next(4)].Position;
-            var squared = FaceQuartet.SquaredDistances(in quartet, in position);
+            var squared = FaceQuartet.SquaredDistances(in quartet, in position, double.PositiveInfinity);
             for (var lane = 0; lane < 4; lane++)
             {
                 var (_, a, b, c) = faces[lane];
