@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
@@ -26,12 +27,24 @@ public static class FaceKernel
     /// <summary>The point of the triangle abc nearest to a position. Cost: about 100 flops, no allocation.</summary>
     public static FacePoint ClosestPoint(Vector position, Vector a, Vector b, Vector c)
     {
-        var nearest = OnEdge(position, a, b, 0);
-        var other = OnEdge(position, b, c, 1);
-        nearest = other.DistanceSquared < nearest.DistanceSquared ? other : nearest;
-        other = OnEdge(position, c, a, 2);
-        nearest = other.DistanceSquared < nearest.DistanceSquared ? other : nearest;
-        return TryInterior(position, a, b, c, out var interior) && interior.DistanceSquared <= nearest.DistanceSquared ? interior : nearest;
+        // Parts of an answer are chosen and put together in the end: to copy whole answers takes longer than to compute them.
+        var (squared, t, point) = OnEdge(position, a, b);
+        var edge = 0;
+        var (squaredBC, tBC, pointBC) = OnEdge(position, b, c);
+        if (squaredBC < squared)
+        {
+            (squared, t, point, edge) = (squaredBC, tBC, pointBC, 1);
+        }
+
+        var (squaredCA, tCA, pointCA) = OnEdge(position, c, a);
+        if (squaredCA < squared)
+        {
+            (squared, t, point, edge) = (squaredCA, tCA, pointCA, 2);
+        }
+
+        return TryInterior(position, a, b, c, out var foot, out var height, out var weights) && height <= squared
+            ? new(foot, height, weights, FaceFeature.Interior)
+            : new(point, squared, Weights(edge, t), FeatureOf(edge, t));
     }
 
     /// <summary>
@@ -77,7 +90,9 @@ public static class FaceKernel
     }
 
     /// <summary>Sets the point where the perpendicular from the position meets the plane, if that is inside the triangle.</summary>
-    private static bool TryInterior(Vector position, Vector a, Vector b, Vector c, out FacePoint point)
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static bool TryInterior(
+        Vector position, Vector a, Vector b, Vector c, out Vector foot, out double heightSquared, out Vector weights)
     {
         var (ab, ac, ap) = (b - a, c - a, position - a);
         var normal = Vector.Cross(ab, ac);
@@ -98,32 +113,29 @@ public static class FaceKernel
         }
 
         var weightA = 1 - weightB - weightC;
-        // False for NaN too, which a face without area gives.
-        if (!(weightA >= 0 && weightB >= 0 && weightC >= 0))
-        {
-            point = default;
-            return false;
-        }
-
-        var foot = a + (weightB * ab) + (weightC * ac);
+        weights = new(weightA, weightB, weightC);
+        foot = a + (weightB * ab) + (weightC * ac);
         // The foot is rounded to the coordinates' last place; the height above the plane is not. But a thin face's normal may point
         // anywhere: there the distance to a point of the face can't be too small.
         var height = Vector.Dot(ap, normal);
-        var squared = thin ? (position - foot).LengthSquared() : height * height / normalSquared;
-        point = new(foot, squared, new(weightA, weightB, weightC), FaceFeature.Interior);
-        return true;
+        heightSquared = thin ? (position - foot).LengthSquared() : height * height / normalSquared;
+        // False for NaN too, which a face without area gives.
+        return weightA >= 0 && weightB >= 0 && weightC >= 0;
     }
 
-    private static FacePoint OnEdge(Vector position, Vector start, Vector end, int edge)
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static (double DistanceSquared, double T, Vector Point) OnEdge(Vector position, Vector start, Vector end)
     {
         var (along, from) = (end - start, position - start);
         var lengthSquared = along.LengthSquared();
         // An edge without length has one point, its start.
-        var t = lengthSquared > 0 ? Math.Clamp(Vector.Dot(from, along) / lengthSquared, 0, 1) : 0;
+        var t = lengthSquared > 0 ? Vector.Dot(from, along) / lengthSquared : 0;
+        t = t <= 0 ? 0 : t >= 1 ? 1 : t;
         var point = t == 1 ? end : start + (t * along);
-        return new(point, (position - point).LengthSquared(), Weights(edge, t), FeatureOf(edge, t));
+        return ((position - point).LengthSquared(), t, point);
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static Vector Weights(int edge, double t) => edge switch
     {
         0 => new(1 - t, t, 0),
@@ -131,6 +143,7 @@ public static class FaceKernel
         _ => new(t, 0, 1 - t),
     };
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static FaceFeature FeatureOf(int edge, double t) => t switch
     {
         0 => FaceFeature.CornerA + edge,

@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Geometry;
@@ -84,11 +85,13 @@ public sealed class Mesh
 
     /// <summary>The position of a vertex.</summary>
     /// <param name="vertex">From 0.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Vector Vertex(int vertex) =>
         new(Positions[3 * vertex], Positions[(3 * vertex) + 1], Positions[(3 * vertex) + 2]);
 
     /// <summary>The three corners of a face.</summary>
     /// <param name="face">From 0.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public (Vector A, Vector B, Vector C) Face(int face) =>
         (Vertex(Faces[3 * face]), Vertex(Faces[(3 * face) + 1]), Vertex(Faces[(3 * face) + 2]));
 

@@ -1,10 +1,12 @@
 using System.Globalization;
+using System.Runtime.CompilerServices;
 
 namespace FractalEngine.Core.Maths;
 
 /// <summary>
 /// Three real components: a position, a direction or a triple of angles or factors (paper §4.1.2).
-/// Immutable; every operation is pure and costs a handful of flops.
+/// Immutable; every operation is pure and costs a handful of flops. Those of inner loops are always inlined, as a call passes its
+/// vectors through memory.
 /// </summary>
 /// <param name="X">Right, in scene units where it is a length.</param>
 /// <param name="Y">Up.</param>
@@ -27,27 +29,35 @@ public readonly record struct Vector(double X, double Y, double Z)
     public static Vector K => new(0, 0, 1);
 
     /// <summary>Componentwise sum.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector operator +(Vector v1, Vector v2) => new(v1.X + v2.X, v1.Y + v2.Y, v1.Z + v2.Z);
 
     /// <summary>Componentwise difference.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector operator -(Vector v1, Vector v2) => new(v1.X - v2.X, v1.Y - v2.Y, v1.Z - v2.Z);
 
     /// <summary>The opposite vector.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector operator -(Vector v) => new(-v.X, -v.Y, -v.Z);
 
     /// <summary>The vector scaled by a number.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector operator *(double factor, Vector v) => new(factor * v.X, factor * v.Y, factor * v.Z);
 
     /// <summary>The vector scaled by a number.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector operator *(Vector v, double factor) => factor * v;
 
     /// <summary>The vector divided by a number.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector operator /(Vector v, double divisor) => new(v.X / divisor, v.Y / divisor, v.Z / divisor);
 
     /// <summary>Scalar product.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static double Dot(Vector v1, Vector v2) => (v1.X * v2.X) + (v1.Y * v2.Y) + (v1.Z * v2.Z);
 
     /// <summary>Vector product; <c>Cross(I, J) = K</c>.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector Cross(Vector v1, Vector v2) => new(
         (v1.Y * v2.Z) - (v1.Z * v2.Y),
         (v1.Z * v2.X) - (v1.X * v2.Z),
@@ -71,6 +81,7 @@ public readonly record struct Vector(double X, double Y, double Z)
     public double Length() => Math.Sqrt(LengthSquared());
 
     /// <summary>Square of the Euclidean length.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public double LengthSquared() => Dot(this, this);
 
     /// <summary>The largest absolute component.</summary>
