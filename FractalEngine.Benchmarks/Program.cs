@@ -1,3 +1,10 @@
 using BenchmarkDotNet.Running;
+using FractalEngine.Benchmarks;
+
+if (args is ["table", ..])
+{
+    return TableCommand.Run(args.AsSpan(1));
+}
 
 BenchmarkSwitcher.FromAssembly(typeof(Program).Assembly).Run(args);
+return 0;
