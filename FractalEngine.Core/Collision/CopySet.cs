@@ -1,4 +1,5 @@
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
@@ -6,6 +7,8 @@ namespace FractalEngine.Core.Collision;
 /// <summary>The maps of a set together with what a search needs of them, kept once however many levels have the set.</summary>
 internal sealed class CopySet
 {
+    private const double Rounding = 1e-15;
+
     /// <summary>For a set.</summary>
     public CopySet(TransformationSet set)
         : this([.. set.Maps])
@@ -19,6 +22,7 @@ internal sealed class CopySet
         Inverses = [.. Maps.Select(map => map.Inverse())];
         ScaleSquared = [.. Maps.Select(map => map.Linear.V1.LengthSquared())];
         IdentityIndex = Array.IndexOf(Maps, AffineMap.Identity);
+        Lengthening = [.. Maps.Select(map => BoundingSphere.LengtheningBound(map.Linear) * (1 + Rounding))];
         AreSimilar = Maps.All(map => Similarity.IsSimilar(map.Linear));
     }
 
@@ -34,6 +38,9 @@ internal sealed class CopySet
     /// <summary>Squares of the factors by which the maps lengthen, where they are similarities.</summary>
     public double[] ScaleSquared { get; }
 
+    /// <summary>At most by these factors do the maps lengthen anything.</summary>
+    public double[] Lengthening { get; }
+
     /// <summary>The first place of the identity in the set, or −1.</summary>
     public int IdentityIndex { get; }
 
@@ -41,5 +48,5 @@ internal sealed class CopySet
     public bool AreSimilar { get; }
 
     /// <summary>Bytes of the arrays.</summary>
-    public long StorageBytes => Maps.Length * ((24 * sizeof(double)) + sizeof(double));
+    public long StorageBytes => Maps.Length * 26 * sizeof(double);
 }

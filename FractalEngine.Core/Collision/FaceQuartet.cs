@@ -40,6 +40,21 @@ internal readonly struct FaceQuartet
         return Compute(in position, a, b, c, Shape.Of(a, b, c), null);
     }
 
+    /// <summary>The same for the images of four faces of a mesh.</summary>
+    /// <param name="leaf">Numbers of their corners.</param>
+    /// <param name="positions">Of the mesh's vertices, [vertices × 3].</param>
+    /// <param name="position">In the frame of the images.</param>
+    /// <param name="map">From the mesh's frame.</param>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public static Vector256<double> SquaredDistances(
+        ref readonly HierarchyLeaf leaf, ReadOnlySpan<double> positions, ref readonly Vector position, ref readonly AffineMap map)
+    {
+        var a = VectorQuartet.Gather(positions, leaf.A).Transform(in map);
+        var b = VectorQuartet.Gather(positions, leaf.B).Transform(in map);
+        var c = VectorQuartet.Gather(positions, leaf.C).Transform(in map);
+        return Compute(in position, a, b, c, Shape.Of(a, b, c), null);
+    }
+
     /// <summary>Normals, not of length 1, squares of lengths, and a mask of the faces that are thin.</summary>
     private readonly record struct Shape(
         VectorQuartet Normal, Vector256<double> NormalSquared, Vector256<double> AB, Vector256<double> BC, Vector256<double> CA)

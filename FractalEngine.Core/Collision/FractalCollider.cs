@@ -18,6 +18,7 @@ public sealed class FractalCollider : Collider
     private readonly List<(CopySet Set, int Rounds)> _levels = [];
     private readonly bool _isSimilar;
     private readonly Mesh _base;
+    private readonly FaceHierarchy _faces;
     private readonly bool _hasNoLevels;
 
     /// <summary>Prepares a fractal in affine composition.</summary>
@@ -43,6 +44,7 @@ public sealed class FractalCollider : Collider
 
         var inner = Concatenate(steps[levels..]);
         _base = inner is [var only] && only == AffineMap.Identity ? fractal.BaseMesh : FractalGenerator.Flatten(fractal.BaseMesh, [.. inner]);
+        _faces = new(_base);
         _isSimilar = _levels.All(level => level.Set.AreSimilar);
         _hasNoLevels = _levels.All(level => level.Rounds == 0);
     }
@@ -52,16 +54,18 @@ public sealed class FractalCollider : Collider
 
     /// <inheritdoc/>
     public override long StorageBytes =>
-        _levels.Sum(level => level.Set.StorageBytes) + (sizeof(double) * (long)_base.Positions.Length) + (sizeof(int) * (long)_base.Faces.Length);
+        _levels.Sum(level => level.Set.StorageBytes) + (sizeof(double) * (long)_base.Positions.Length) + (sizeof(int) * (long)_base.Faces.Length) + _faces.StorageBytes;
 
     /// <inheritdoc/>
     private protected override bool Find(Vector position, double within, double epsilon, QueryRecord record, out ClosestPoint closest)
     {
         record.ClearPath();
         var (map, local, face) = (AffineMap.Identity, position, -1);
+        var faceTests = 0L;
         if (_hasNoLevels)
         {
-            NearestFace(position, map, 1, double.PositiveInfinity, record, out face);
+            var squared = double.PositiveInfinity;
+            _faces.LookAtAll(position, ref squared, ref face, ref faceTests);
         }
 
         foreach (var (set, rounds) in _levels)
@@ -69,59 +73,51 @@ public sealed class FractalCollider : Collider
             // A copy that is smaller than the last place of a coordinate has no parts that could be told apart.
             for (var round = 0; round < rounds && !(round > 0 && BoundingSphere.LengtheningBound(map.Linear) < 1e-15); round++)
             {
-                var (nearest, nearestCopy) = (double.PositiveInfinity, -1);
-                for (var copy = 0; copy < set.Maps.Length; copy++)
+                var copy = NearestCopy(set, position, local, map, ref face, ref faceTests);
+                if (copy < 0)
                 {
-                    // Where distances scale, the position goes into the copy's frame; else the base goes into the position's.
-                    var squared = _isSimilar
-                        ? NearestFace(set.Inverses[copy] * local, AffineMap.Identity, set.ScaleSquared[copy], nearest, record, out var nearestFace)
-                        : NearestFace(position, map * set.Maps[copy], 1, nearest, record, out nearestFace);
-                    if (nearestFace >= 0)
-                    {
-                        (nearest, nearestCopy, face) = (squared, copy, nearestFace);
-                    }
-                }
-
-                if (nearestCopy < 0)
-                {
+                    record.FaceTests += faceTests;
                     closest = default;
                     return false;
                 }
 
-                map *= set.Maps[nearestCopy];
-                local = _isSimilar ? set.Inverses[nearestCopy] * local : local;
-                record.AppendToPath(nearestCopy);
+                map *= set.Maps[copy];
+                local = _isSimilar ? set.Inverses[copy] * local : local;
+                record.AppendToPath(copy);
             }
         }
 
+        record.FaceTests += faceTests;
         closest = face < 0 ? default : FaceAnswer.Of(_base, face, map, position);
         return face >= 0 && closest.Distance <= within;
     }
 
-    /// <summary>Looks at all faces of the base.</summary>
-    /// <param name="position">Anywhere.</param>
-    /// <param name="map">From the base's frame to that of the position.</param>
-    /// <param name="scaleSquared">What squared distances are multiplied by.</param>
-    /// <param name="nearest">The nearest so far, squared.</param>
-    /// <param name="record">Counts the faces.</param>
-    /// <param name="nearestFace">The nearest face, −1 if none is nearer than before.</param>
-    private double NearestFace(Vector position, AffineMap map, double scaleSquared, double nearest, QueryRecord record, out int nearestFace)
+    /// <summary>Looks at all faces of the base under each map of a set, and says under which the nearest is; −1 where there are no faces.</summary>
+    private int NearestCopy(CopySet set, Vector position, Vector local, in AffineMap map, ref int face, ref long faceTests)
     {
-        nearestFace = -1;
-        record.FaceTests += _base.FaceCount;
-        var isIdentity = map == AffineMap.Identity;
-        for (var face = 0; face < _base.FaceCount; face++)
+        var (nearest, nearestCopy) = (double.PositiveInfinity, -1);
+        for (var copy = 0; copy < set.Maps.Length; copy++)
         {
-            var (a, b, c) = _base.Face(face);
-            (a, b, c) = isIdentity ? (a, b, c) : (map * a, map * b, map * c);
-            var squared = scaleSquared * FaceKernel.ClosestPoint(position, a, b, c).DistanceSquared;
-            if (squared < nearest)
+            var nearestFace = -1;
+            // Where distances scale, the position goes into the copy's frame; else the base goes into the position's.
+            if (_isSimilar)
             {
-                (nearest, nearestFace) = (squared, face);
+                var squared = nearest / set.ScaleSquared[copy];
+                _faces.LookAtAll(set.Inverses[copy] * local, ref squared, ref nearestFace, ref faceTests);
+                nearest = nearestFace < 0 ? nearest : squared * set.ScaleSquared[copy];
+            }
+            else
+            {
+                _faces.LookAtAllImages(position, map * set.Maps[copy], ref nearest, ref nearestFace, ref faceTests);
+            }
+
+            if (nearestFace >= 0)
+            {
+                (nearestCopy, face) = (copy, nearestFace);
             }
         }
 
-        return nearest;
+        return nearestCopy;
     }
 
     /// <summary>All maps of some steps, one after the other, as one set.</summary>

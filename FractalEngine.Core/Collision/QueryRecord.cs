@@ -12,6 +12,7 @@ public sealed class QueryRecord
     private readonly List<int> _keptPath = new(64);
     private int[] _trail = [];
     private int[] _bestTrail = [];
+    private double[] _scratch = [];
 
     /// <summary>How many faces were looked at: the paper's collision cost (§5.2.3). Added up until <see cref="Reset"/>.</summary>
     public long FaceTests { get; set; }
@@ -33,6 +34,9 @@ public sealed class QueryRecord
 
     /// <summary>Room for the way to the best so far; kept for the next one.</summary>
     internal Span<int> BestTrail(int length) => _bestTrail.Length >= length ? _bestTrail : _bestTrail = new int[length];
+
+    /// <summary>Room for numbers of a search; kept for the next one.</summary>
+    internal Span<double> Scratch(int length) => _scratch.Length >= length ? _scratch : _scratch = new double[length];
 
     /// <summary>Keeps the present path while other objects are asked.</summary>
     internal void KeepPath()

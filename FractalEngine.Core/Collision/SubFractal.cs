@@ -1,4 +1,5 @@
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
 
@@ -8,26 +9,35 @@ internal sealed class SubFractal
     /// <summary>Numbers of boxes are rounded up to a multiple of this, with boxes that are infinitely far away.</summary>
     public const int Lanes = 4;
 
+    /// <summary>Numbers kept for each copy: a box.</summary>
+    private const int Rows = 6;
+
+    private static readonly BoundingBox Nowhere = new(double.PositiveInfinity * Vector.One, double.PositiveInfinity * Vector.One);
+
     /// <summary>For a level.</summary>
     /// <param name="set">The set of the level; null for the base.</param>
     /// <param name="copies">The copies it makes.</param>
-    /// <param name="boxes">A box around each copy, in this frame.</param>
-    /// <param name="box">A box around everything.</param>
-    /// <param name="emitsBase">Whether the base mesh stands here beside the copies.</param>
-    public SubFractal(CopySet? set, Copy[] copies, ReadOnlySpan<BoundingBox> boxes, BoundingBox box, bool emitsBase)
+    /// <param name="boxes">Around the copies, in this frame.</param>
+    /// <param name="outline">Of everything.</param>
+    /// <param name="baseBox">Of the base mesh.</param>
+    /// <param name="hull">Of everything, if that is a bound better than the box.</param>
+    public SubFractal(CopySet? set, Copy[] copies, ReadOnlySpan<BoundingBox> boxes, Outline outline, BoundingBox baseBox, HullBound? hull)
     {
-        (Set, Copies, Box, EmitsBase) = (set, copies, box, emitsBase);
+        (Set, Copies, Box, Hull) = (set, copies, outline.Box, hull);
         Padded = (copies.Length + Lanes - 1) / Lanes * Lanes;
-        Bounds = new double[6 * Padded];
+        Bounds = new double[Rows * Padded];
         Array.Fill(Bounds, double.PositiveInfinity);
         for (var i = 0; i < boxes.Length; i++)
         {
-            var ((x0, y0, z0), (x1, y1, z1)) = (boxes[i].Minimum, boxes[i].Maximum);
-            (Bounds[i], Bounds[Padded + i], Bounds[(2 * Padded) + i]) = (x0, y0, z0);
-            (Bounds[(3 * Padded) + i], Bounds[(4 * Padded) + i], Bounds[(5 * Padded) + i]) = (x1, y1, z1);
+            var ((x0, y0, z0), (x1, y1, z1)) = boxes[i].IsEmpty ? Nowhere : boxes[i];
+            ReadOnlySpan<double> rows = [x0, y0, z0, x1, y1, z1];
+            for (var row = 0; row < Rows; row++)
+            {
+                Bounds[(row * Padded) + i] = rows[row];
+            }
         }
 
-        RadiusSquared = 0.25 * box.Size.LengthSquared();
+        RadiusSquared = 0.25 * BoundingBox.Union(Box, baseBox).Size.LengthSquared();
     }
 
     /// <summary>The set of this level; null for the base.</summary>
@@ -39,23 +49,18 @@ internal sealed class SubFractal
     /// <summary>The number of boxes, padding included.</summary>
     public int Padded { get; }
 
-    /// <summary>The copies' boxes, [6 × <see cref="Padded"/>]: smallest x, y, z, then largest x, y, z.</summary>
+    /// <summary>Around the copies, [6 × <see cref="Padded"/>]: smallest x, y, z, then largest x, y, z.</summary>
     public double[] Bounds { get; }
 
     /// <summary>Around everything, in this frame.</summary>
     public BoundingBox Box { get; }
 
-    /// <summary>Square of half the box's diagonal.</summary>
+    /// <summary>Around everything; null where it is no better than the box.</summary>
+    public HullBound? Hull { get; }
+
+    /// <summary>Square of half the diagonal of a box around this and the base mesh.</summary>
     public double RadiusSquared { get; }
 
-    /// <summary>Whether the base mesh stands here beside the copies.</summary>
-    public bool EmitsBase { get; }
-
     /// <summary>Bytes of the arrays.</summary>
-    public long StorageBytes => (sizeof(double) * Bounds.Length) + (Copies.Length * 16) + 120;
-
-    /// <summary>The box around one copy.</summary>
-    public BoundingBox BoxOf(int copy) => new(
-        new(Bounds[copy], Bounds[Padded + copy], Bounds[(2 * Padded) + copy]),
-        new(Bounds[(3 * Padded) + copy], Bounds[(4 * Padded) + copy], Bounds[(5 * Padded) + copy]));
+    public long StorageBytes => (sizeof(double) * Bounds.Length) + (Copies.Length * 24) + (Hull?.StorageBytes ?? 0) + 160;
 }

@@ -7,6 +7,9 @@ namespace FractalEngine.Core.Collision;
 /// <summary>Four vectors side by side, with the operators of <see cref="Vector"/> in the same order, so that they round alike.</summary>
 internal readonly record struct VectorQuartet(Vector256<double> X, Vector256<double> Y, Vector256<double> Z)
 {
+    /// <summary>Four times the origin.</summary>
+    public static VectorQuartet Zero => default;
+
     /// <summary>The same vector four times.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static VectorQuartet All(Vector vector) =>
@@ -45,8 +48,34 @@ internal readonly record struct VectorQuartet(Vector256<double> X, Vector256<dou
         (v1.Z * v2.X) - (v1.X * v2.Z),
         (v1.X * v2.Y) - (v1.Y * v2.X));
 
+    /// <summary>The images under a map, rounded as by <see cref="AffineMap"/>.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public VectorQuartet Transform(ref readonly AffineMap map) =>
+        ((X * All(map.Linear.V1)) + (Y * All(map.Linear.V2)) + (Z * All(map.Linear.V3))) + All(map.Translation);
+
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Vector256<double> LengthSquared() => Dot(this, this);
+
+    /// <summary>All components' absolute values.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public VectorQuartet Absolute() => new(Vector256.Abs(X), Vector256.Abs(Y), Vector256.Abs(Z));
+
+    /// <summary>Four vectors from three rows of an array.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static VectorQuartet Load(ref double rows, int first, int rowLength) => new(
+        Vector256.LoadUnsafe(ref rows, (nuint)first),
+        Vector256.LoadUnsafe(ref rows, (nuint)(first + rowLength)),
+        Vector256.LoadUnsafe(ref rows, (nuint)(first + (2 * rowLength))));
+
+    /// <summary>The larger of all components; what it makes of a NaN depends on the machine.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static VectorQuartet MaxNative(VectorQuartet v1, VectorQuartet v2) =>
+        new(Vector256.MaxNative(v1.X, v2.X), Vector256.MaxNative(v1.Y, v2.Y), Vector256.MaxNative(v1.Z, v2.Z));
+
+    /// <summary>The larger of all components; a NaN in the first is kept.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static VectorQuartet Max(VectorQuartet v1, VectorQuartet v2) =>
+        new(Vector256.Max(v1.X, v2.X), Vector256.Max(v1.Y, v2.Y), Vector256.Max(v1.Z, v2.Z));
 
     /// <summary>The first vector where the mask is set, else the second.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -1,0 +1,159 @@
+using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
+using System.Runtime.Intrinsics;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Collision;
+
+/// <summary>A search on the levels of a fractal as it goes on: what it has found so far, what that excludes, and its costs.</summary>
+internal ref struct FractalSearch
+{
+    /// <summary>Each level takes one frame of the stack; fractals whose levels hardly shrink reach the precision after more than fit.</summary>
+    public const int Deepest = 2000;
+
+    // Copies at the same distance, such as 0, are looked at in the order of their centres.
+    public const double CentreWeight = 1e-4;
+
+    // More than what coordinates round by along a chain of maps, as a part of the largest of them.
+    private const double Rounding = 4e-15;
+
+    private readonly QueryRecord _record;
+    private readonly Span<int> _trail;
+    private readonly Span<int> _bestTrail;
+    private readonly double _tolerance;
+    private Span<double> _scratch;
+
+    /// <summary>Begins a search.</summary>
+    /// <param name="within">Nothing farther away is looked for.</param>
+    /// <param name="epsilon">Answers may be farther than the nearest by 1 + ε.</param>
+    /// <param name="magnitude">Of coordinates.</param>
+    /// <param name="record">Lends memory.</param>
+    public FractalSearch(double within, double epsilon, double magnitude, QueryRecord record)
+    {
+        _record = record;
+        _trail = record.Trail(Deepest + 1);
+        _bestTrail = record.BestTrail(Deepest + 1);
+        _scratch = record.Scratch(1);
+        // One ulp more, so that a face at exactly the distance is found.
+        NearestSquared = within < double.PositiveInfinity ? Math.BitIncrement(within * within) : double.PositiveInfinity;
+        (Limit, BoundFactor, _tolerance, Face) = (NearestSquared, (1 + epsilon) * (1 + epsilon), Rounding * magnitude, -1);
+    }
+
+    /// <summary>Squared distance of the nearest face so far, or of the limit that was asked for.</summary>
+    public double NearestSquared { get; private set; }
+
+    /// <summary>Squared bounds from here on can't matter: a little less than the nearest so far.</summary>
+    public double Limit { get; private set; }
+
+    /// <summary>Squared bounds are multiplied by this before they are compared: (1 + ε)².</summary>
+    public double BoundFactor { get; }
+
+    /// <summary>The nearest face of the base, −1 for none.</summary>
+    public int Face { get; private set; }
+
+    /// <summary>How many copies lead to it.</summary>
+    public int FaceDepth { get; private set; }
+
+    public long FaceTests;
+    public long BoundTests;
+
+    /// <summary>The copies that lead to the nearest face.</summary>
+    public readonly ReadOnlySpan<int> FaceTrail => _bestTrail[..FaceDepth];
+
+    /// <summary>True for squared bounds, in the frame of the whole, of what can't be nearer.</summary>
+    public readonly bool Excludes(double boundSquared) => !(boundSquared * BoundFactor < Limit);
+
+    /// <summary>Remembers the copy that is gone into.</summary>
+    public readonly void Enter(int depth, int copy) => _trail[depth] = copy;
+
+    /// <summary>A face that is nearer than all before.</summary>
+    /// <param name="squared">Its squared distance in the frame of the whole.</param>
+    /// <param name="face">Of the base.</param>
+    /// <param name="depth">How many copies lead to it.</param>
+    public void Improve(double squared, int face, int depth)
+    {
+        (NearestSquared, Face, FaceDepth) = (squared, face, depth);
+        _trail[..depth].CopyTo(_bestTrail);
+        // Distances that differ by no more than they round by are the same: without this, positions far from small copies would look at all of them.
+        var distance = Math.Max(0, Math.Sqrt(squared) - _tolerance);
+        Limit = distance * distance;
+    }
+
+    /// <summary>Numbers for the copies of a sub-fractal: bounds, keys to order them by, and flags.</summary>
+    /// <param name="offset">Where the memory of the levels above ends.</param>
+    /// <param name="count">Of each.</param>
+    public Span<double> Numbers(int offset, int count)
+    {
+        if (_scratch.Length < offset + (3 * count))
+        {
+            // What the levels above use stays where it is.
+            _scratch = _record.Scratch(2 * (offset + (3 * count)));
+        }
+
+        return _scratch.Slice(offset, 3 * count);
+    }
+
+    /// <summary>A bound that has become larger.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void Raise(ref double bound, ref double key, double larger)
+    {
+        if (larger > bound)
+        {
+            key += larger - bound;
+            bound = larger;
+        }
+    }
+
+    /// <summary>The squared distance of a position from a box.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static double DistanceSquared(in BoundingBox box, in Vector position)
+    {
+        var x = Math.Max(Math.Max(box.Minimum.X - position.X, position.X - box.Maximum.X), 0);
+        var y = Math.Max(Math.Max(box.Minimum.Y - position.Y, position.Y - box.Maximum.Y), 0);
+        var z = Math.Max(Math.Max(box.Minimum.Z - position.Z, position.Z - box.Maximum.Z), 0);
+        return (x * x) + (y * y) + (z * z);
+    }
+
+    /// <summary>Takes all copies out of the running that can't matter.</summary>
+    /// <param name="numbers">As from <see cref="Numbers"/>: bounds, then keys.</param>
+    /// <param name="padded">Of each.</param>
+    /// <param name="limit">Bounds from here on can't matter.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void Exclude(Span<double> numbers, int padded, double limit)
+    {
+        ref var number = ref MemoryMarshal.GetReference(numbers);
+        var limits = Vector256.Create(limit);
+        for (var i = 0; i < padded; i += SubFractal.Lanes)
+        {
+            var key = Vector256.LoadUnsafe(ref number, (nuint)(padded + i));
+            Vector256.ConditionalSelect(
+                Vector256.LessThan(Vector256.LoadUnsafe(ref number, (nuint)i), limits), key, Vector256.Create(double.PositiveInfinity)).StoreUnsafe(ref number, (nuint)(padded + i));
+        }
+    }
+
+    /// <summary>The place of the smallest number, −1 where all are infinite.</summary>
+    /// <param name="numbers">A multiple of four of them.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static int IndexOfSmallest(ReadOnlySpan<double> numbers)
+    {
+        ref var number = ref MemoryMarshal.GetReference(numbers);
+        var (smallest, index) = (Vector256.Create(double.PositiveInfinity), Vector256.Create(-1L));
+        var lanes = Vector256.Create(0L, 1, 2, 3);
+        for (var i = 0; i < numbers.Length; i += SubFractal.Lanes)
+        {
+            var next = Vector256.LoadUnsafe(ref number, (nuint)i);
+            var isSmaller = Vector256.LessThan(next, smallest);
+            smallest = Vector256.ConditionalSelect(isSmaller, next, smallest);
+            index = Vector256.ConditionalSelect(isSmaller.AsInt64(), lanes + Vector256.Create((long)i), index);
+        }
+
+        var (best, place) = (smallest[0], index[0]);
+        for (var lane = 1; lane < SubFractal.Lanes; lane++)
+        {
+            (best, place) = smallest[lane] < best ? (smallest[lane], index[lane]) : (best, place);
+        }
+
+        return (int)place;
+    }
+}

@@ -1,0 +1,338 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Geometry;
+
+/// <summary>
+/// The convex hull of some points, or, where it has too many corners, that of the most important ones. Flat sets, segments and
+/// single points have hulls as well.
+/// </summary>
+/// <remarks>
+/// Quickhull (Barber, Dobkin and Huhdanpaa 1996): begin with a tetrahedron, then add the point farthest above some facet, and replace
+/// the facets that it sees by those between it and their horizon.
+/// </remarks>
+internal sealed class ConvexHull
+{
+    // Of the size of the set. Nearer points count as on a facet, and facets that differ by less are one plane.
+    private const double Coplanar = 1e-12;
+    private const double SamePlane = 1e-9;
+
+    private readonly ImmutableArray<(Vector A, Vector B, Vector C)> _facets;
+
+    private ConvexHull(
+        ImmutableArray<Vector> vertices, ImmutableArray<HullPlane> planes, double missed, ImmutableArray<(Vector A, Vector B, Vector C)> facets) =>
+        (Vertices, Planes, Missed, _facets) = (vertices, planes, missed, facets);
+
+    /// <summary>Its corners, some of the points.</summary>
+    public ImmutableArray<Vector> Vertices { get; }
+
+    /// <summary>The planes of its facets, by falling area: all of the hull lies below each. None for a segment or a point.</summary>
+    public ImmutableArray<HullPlane> Planes { get; }
+
+    /// <summary>How far out of the hull of <see cref="Vertices"/> points may lie.</summary>
+    public double Missed { get; }
+
+    /// <summary>The hull of some points.</summary>
+    /// <param name="points">Finite; at least one.</param>
+    /// <param name="mostVertices">At least 4. Beyond, points near the hull are left outside.</param>
+    public static ConvexHull Of(ReadOnlySpan<Vector> points, int mostVertices)
+    {
+        var size = points.ToArray().Aggregate(BoundingBox.Empty, (box, point) => box.Including(point)).Diagonal;
+        var (i0, i1) = FarthestPair(points);
+        var along = (points[i1] - points[i0]).UnitVector();
+        var i2 = Farthest(points, points[i0], (point, origin) => Vector.Cross(along, point - origin).Length(), out var width);
+        if (!(width > Coplanar * size))
+        {
+            return new([points[i0], points[i1]], [], width, [(points[i0], points[i1], points[i1])]);
+        }
+
+        var normal = FaceKernel.UnitNormal(points[i0], points[i1], points[i2]);
+        var i3 = Farthest(points, points[i0], (point, origin) => Math.Abs(Vector.Dot(normal, point - origin)), out var height);
+        return height > Coplanar * size
+            ? new QuickHull(points.ToArray(), Coplanar * size).Solid(i0, i1, i2, i3, mostVertices)
+            : FlatHull(points, along, normal, height, mostVertices);
+    }
+
+    /// <summary>The largest product of a direction with a corner.</summary>
+    public double Support(Vector direction)
+    {
+        var most = double.NegativeInfinity;
+        foreach (var vertex in Vertices)
+        {
+            most = Math.Max(most, Vector.Dot(direction, vertex));
+        }
+
+        return most;
+    }
+
+    /// <summary>At most this far is a point from the hull: 0 inside.</summary>
+    public double DistanceBound(Vector point)
+    {
+        if (Planes.Length > 0 && Planes.All(plane => Vector.Dot(plane.Normal, point) <= plane.Offset))
+        {
+            return 0;
+        }
+
+        var squared = double.PositiveInfinity;
+        foreach (var (a, b, c) in _facets)
+        {
+            squared = Math.Min(squared, FaceKernel.ClosestPoint(point, a, b, c).DistanceSquared);
+        }
+
+        return Math.Sqrt(squared);
+    }
+
+    private static (int First, int Second) FarthestPair(ReadOnlySpan<Vector> points)
+    {
+        Span<int> extremes = stackalloc int[6];
+        for (var i = 1; i < points.Length; i++)
+        {
+            for (var axis = 0; axis < 3; axis++)
+            {
+                var coordinate = Coordinate(points[i], axis);
+                extremes[axis] = coordinate < Coordinate(points[extremes[axis]], axis) ? i : extremes[axis];
+                extremes[3 + axis] = coordinate > Coordinate(points[extremes[3 + axis]], axis) ? i : extremes[3 + axis];
+            }
+        }
+
+        var (first, second, most) = (0, 0, 0.0);
+        foreach (var i in extremes)
+        {
+            foreach (var j in extremes)
+            {
+                var squared = (points[i] - points[j]).LengthSquared();
+                (first, second, most) = squared > most ? (i, j, squared) : (first, second, most);
+            }
+        }
+
+        return (first, second);
+    }
+
+    private static int Farthest(ReadOnlySpan<Vector> points, Vector origin, Func<Vector, Vector, double> measure, out double most)
+    {
+        var farthest = 0;
+        most = 0;
+        for (var i = 0; i < points.Length; i++)
+        {
+            var distance = measure(points[i], origin);
+            (farthest, most) = distance > most ? (i, distance) : (farthest, most);
+        }
+
+        return farthest;
+    }
+
+    private static double Coordinate(Vector v, int axis) => axis switch { 0 => v.X, 1 => v.Y, _ => v.Z };
+
+    /// <summary>The hull of points of one plane, by their extremes in evenly spread directions.</summary>
+    private static ConvexHull FlatHull(ReadOnlySpan<Vector> points, Vector along, Vector normal, double height, int mostVertices)
+    {
+        var across = Vector.Cross(normal, along);
+        var corners = new List<Vector>();
+        for (var i = 0; i < mostVertices; i++)
+        {
+            var (sine, cosine) = Math.SinCos(2 * Math.PI * i / mostVertices);
+            var direction = (cosine * along) + (sine * across);
+            var most = double.NegativeInfinity;
+            var corner = points[0];
+            foreach (var point in points)
+            {
+                var reach = Vector.Dot(direction, point);
+                (corner, most) = reach > most ? (point, reach) : (corner, most);
+            }
+
+            if (corners.Count == 0 || (corners[^1] != corner && corners[0] != corner))
+            {
+                corners.Add(corner);
+            }
+        }
+
+        var missed = height;
+        var planes = new List<HullPlane>();
+        for (var i = 0; i < corners.Count; i++)
+        {
+            var (start, end) = (corners[i], corners[(i + 1) % corners.Count]);
+            var outwards = Vector.Cross(end - start, normal).UnitVector();
+            planes.Add(new(outwards, Vector.Dot(outwards, start), 0));
+            foreach (var point in points)
+            {
+                if (Vector.Dot(outwards, point - start) > 0)
+                {
+                    missed = Math.Max(missed, Math.Sqrt(FaceKernel.ClosestPoint(point, start, end, end).DistanceSquared));
+                }
+            }
+        }
+
+        var level = Vector.Dot(normal, points[0]);
+        var hull = new ConvexHull([.. corners], [new(normal, level, 1), new(-normal, -level, 1), .. planes], missed, [.. Enumerable.Range(1, Math.Max(1, corners.Count - 2)).Select(i => (corners[0], corners[i % corners.Count], corners[(i + 1) % corners.Count]))]);
+        return hull.WithOffsets();
+    }
+
+    /// <summary>The same hull, with no corner above its planes by rounding.</summary>
+    private ConvexHull WithOffsets() =>
+        new(Vertices, [.. Planes.Select(plane => plane with { Offset = Math.Max(plane.Offset, Support(plane.Normal)) })], Missed, _facets);
+
+    /// <summary>The work on a set of points that is not flat.</summary>
+    private sealed class QuickHull(Vector[] points, double tolerance)
+    {
+        private readonly int[] _next = new int[points.Length];
+        private readonly List<Facet> _facets = [];
+        private readonly List<int> _vertices = [];
+        private double _missed;
+
+        public ConvexHull Solid(int i0, int i1, int i2, int i3, int mostVertices)
+        {
+            if (Vector.Dot(FaceKernel.UnitNormal(points[i0], points[i1], points[i2]), points[i3] - points[i0]) > 0)
+            {
+                (i1, i2) = (i2, i1);
+            }
+
+            _vertices.AddRange([i0, i1, i2, i3]);
+            _facets.AddRange([Make(i0, i1, i2), Make(i0, i3, i1), Make(i1, i3, i2), Make(i2, i3, i0)]);
+            for (var point = 0; point < points.Length; point++)
+            {
+                Assign(point, 0);
+            }
+
+            while (_vertices.Count < mostVertices && _facets.MaxBy(facet => facet.FarthestHeight) is { First: >= 0 } highest)
+            {
+                Add(highest.Farthest);
+            }
+
+            foreach (var facet in _facets)
+            {
+                for (var point = facet.First; point >= 0; point = _next[point])
+                {
+                    Miss(point, facet);
+                }
+            }
+
+            return new ConvexHull(
+                [.. _vertices.Select(vertex => points[vertex])],
+                [.. Planes()],
+                _missed,
+                [.. _facets.Select(facet => (points[facet.A], points[facet.B], points[facet.C]))]).WithOffsets();
+        }
+
+        private void Add(int apex)
+        {
+            var removed = new List<Facet>();
+            var edges = new HashSet<(int, int)>();
+            foreach (var facet in _facets)
+            {
+                if (Vector.Dot(facet.Normal, points[apex]) - facet.Offset > tolerance)
+                {
+                    removed.Add(facet);
+                    edges.UnionWith([(facet.A, facet.B), (facet.B, facet.C), (facet.C, facet.A)]);
+                }
+            }
+
+            _facets.RemoveAll(removed.Contains);
+            var firstNew = _facets.Count;
+            foreach (var (start, end) in edges)
+            {
+                if (!edges.Contains((end, start)))
+                {
+                    _facets.Add(Make(start, end, apex));
+                }
+            }
+
+            _vertices.Add(apex);
+            foreach (var facet in removed)
+            {
+                for (int point = facet.First, next; point >= 0; point = next)
+                {
+                    next = _next[point];
+                    Assign(point, firstNew);
+                }
+            }
+        }
+
+        private Facet Make(int a, int b, int c)
+        {
+            var normal = FaceKernel.UnitNormal(points[a], points[b], points[c]);
+            return new(a, b, c, normal, Vector.Dot(normal, points[a]));
+        }
+
+        /// <summary>Gives a point to the facet that it is farthest above, if it is above any.</summary>
+        private void Assign(int point, int firstFacet)
+        {
+            Facet? highest = null;
+            var most = 0.0;
+            for (var i = firstFacet; i < _facets.Count; i++)
+            {
+                var height = Vector.Dot(_facets[i].Normal, points[point]) - _facets[i].Offset;
+                (highest, most) = height > most ? (_facets[i], height) : (highest, most);
+            }
+
+            if (highest is null || point == highest.A || point == highest.B || point == highest.C)
+            {
+                return;
+            }
+
+            if (most <= tolerance)
+            {
+                Miss(point, highest);
+                return;
+            }
+
+            _next[point] = highest.First;
+            highest.First = point;
+            if (most > highest.FarthestHeight)
+            {
+                (highest.Farthest, highest.FarthestHeight) = (point, most);
+            }
+        }
+
+        private void Miss(int point, Facet facet) => _missed = Math.Max(
+            _missed, Math.Sqrt(FaceKernel.ClosestPoint(points[point], points[facet.A], points[facet.B], points[facet.C]).DistanceSquared));
+
+        private IEnumerable<HullPlane> Planes()
+        {
+            var planes = new List<HullPlane>();
+            foreach (var facet in _facets)
+            {
+                var area = Vector.Cross(points[facet.B] - points[facet.A], points[facet.C] - points[facet.A]).Length();
+                var same = planes.FindIndex(plane => (plane.Normal - facet.Normal).MaximumComponent() < SamePlane);
+                if (same < 0)
+                {
+                    planes.Add(new(facet.Normal, facet.Offset, area));
+                }
+                else
+                {
+                    // Of parallel facets the larger one has the better normal.
+                    var (plane, larger) = (planes[same], planes[same].Area >= area);
+                    planes[same] = new(larger ? plane.Normal : facet.Normal, Math.Max(plane.Offset, facet.Offset), plane.Area + area);
+                }
+            }
+
+            return planes.OrderByDescending(plane => plane.Area);
+        }
+    }
+
+    private sealed class Facet(int a, int b, int c, Vector normal, double offset)
+    {
+        public int A { get; } = a;
+
+        public int B { get; } = b;
+
+        public int C { get; } = c;
+
+        public Vector Normal { get; } = normal;
+
+        public double Offset { get; } = offset;
+
+        /// <summary>The first point above it; the others follow.</summary>
+        public int First { get; set; } = -1;
+
+        public int Farthest { get; set; } = -1;
+
+        public double FarthestHeight { get; set; } = double.NegativeInfinity;
+    }
+}
+
+/// <summary>A plane that a hull lies below: normal · point ≤ offset.</summary>
+/// <param name="Normal">Of length 1.</param>
+/// <param name="Offset">From the origin, along the normal.</param>
+/// <param name="Area">Twice the area of the hull's facets in it.</param>
+internal readonly record struct HullPlane(Vector Normal, double Offset, double Area);
