@@ -31,57 +31,38 @@ internal sealed class AffineSearch(SubFractalTable table, FaceHierarchy faces, d
             return;
         }
 
-        var numbers = search.Numbers(offset, padded);
-        var keys = numbers.Slice(padded, padded);
-        ImageDistances.Measure(state.Bounds, padded, in position, in map, numbers);
+        var length = CopyQueue.Rows * padded;
+        var queue = new CopyQueue(search.Numbers(offset, length));
+        ImageDistances.Fill(queue, state, in position, in map);
         search.BoundTests += count;
         var limit = search.Limit / search.BoundFactor;
-        FractalSearch.Exclude(numbers, padded, limit);
-        while (true)
+        while (queue.TryPeek(limit, out var nearest))
         {
-            var nearest = FractalSearch.IndexOfSmallest(keys);
-            if (nearest < 0)
-            {
-                return;
-            }
-
             var copy = state.Copies[nearest];
             var below = copy.LevelsLeft(levels);
             var inner = table.At(below);
             var innerMap = map * copy.Map;
             var innerInverse = copy.Inverse * inverse;
-            if (numbers[(2 * padded) + nearest] == 0)
+            if (!queue.IsRefined(nearest))
             {
-                numbers[(2 * padded) + nearest] = 1;
+                var own = inner.Box.Transform(innerMap).DistanceSquared(position);
                 search.BoundTests++;
-                var own = FractalSearch.DistanceSquared(inner.Box.Transform(innerMap), position);
-                                if (own < limit && inner.Hull is { } hull)
+                if (own < limit && inner.Hull is { } hull)
                 {
-                    search.BoundTests++;
                     own = Math.Max(own, hull.ImageDistanceSquared(in position, in innerMap, in innerInverse, limit));
+                    search.BoundTests++;
                 }
 
-                if (!(own < limit))
-                {
-                    keys[nearest] = double.PositiveInfinity;
-                    continue;
-                }
-
-                FractalSearch.Raise(ref numbers[nearest], ref keys[nearest], own);
-                if (FractalSearch.IndexOfSmallest(keys) != nearest)
+                if (queue.Refine(nearest, own) && (!queue.TryPeek(limit, out var next) || next != nearest))
                 {
                     continue;
                 }
             }
 
-            keys[nearest] = double.PositiveInfinity;
+            queue.Remove(nearest);
             search.Enter(depth, nearest);
-            Visit(inner, below, in position, in innerMap, in innerInverse, depth + 1, offset + (3 * padded), ref search);
-            if (search.Limit < limit * search.BoundFactor)
-            {
-                limit = search.Limit / search.BoundFactor;
-                FractalSearch.Exclude(numbers, padded, limit);
-            }
+            Visit(inner, below, in position, in innerMap, in innerInverse, depth + 1, offset + length, ref search);
+            limit = search.Limit / search.BoundFactor;
         }
     }
 

@@ -59,11 +59,11 @@ public sealed class ExactFractalCollider : Collider
         var magnitude = Math.Max(position.MaximumComponent(), Math.Max(box.Minimum.MaximumComponent(), box.Maximum.MaximumComponent()));
         var search = new FractalSearch(within, epsilon, magnitude, record);
         search.BoundTests++;
-        if (!search.Excludes(FractalSearch.DistanceSquared(box, position)))
+        if (!search.Excludes(box.DistanceSquared(position)))
         {
             if (_table.AreSimilar)
             {
-                _similar.Visit(_table.Root, _table.Levels, position, 1, 0, 0, ref search);
+                _similar.Run(position, ref search);
             }
             else
             {

@@ -62,6 +62,9 @@ internal sealed class FaceHierarchy
         _stackSize = ((FaceHierarchyBuilder.Width - 1) * Depth(0)) + 1;
     }
 
+    /// <summary>Of the mesh.</summary>
+    public int FaceCount => _mesh.FaceCount;
+
     /// <summary>Bytes kept beside the mesh.</summary>
     public long StorageBytes => (_boxes.Length * 32L) + (_children.Length * 4L) + (_leaves.Length * 64L) + (_quartets.Length * (long)Unsafe.SizeOf<FaceQuartet>());
 

@@ -1,8 +1,3 @@
-using System.Runtime.CompilerServices;
-using System.Runtime.InteropServices;
-using System.Runtime.Intrinsics;
-using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
 
@@ -11,9 +6,6 @@ internal ref struct FractalSearch
 {
     /// <summary>Each level takes one frame of the stack; fractals whose levels hardly shrink reach the precision after more than fit.</summary>
     public const int Deepest = 2000;
-
-    // Copies at the same distance, such as 0, are looked at in the order of their centres.
-    public const double CentreWeight = 1e-4;
 
     // More than what coordinates round by along a chain of maps, as a part of the largest of them.
     private const double Rounding = 4e-15;
@@ -80,80 +72,17 @@ internal ref struct FractalSearch
         Limit = distance * distance;
     }
 
-    /// <summary>Numbers for the copies of a sub-fractal: bounds, keys to order them by, and flags.</summary>
+    /// <summary>Room for the numbers of a sub-fractal's copies, see <see cref="CopyQueue"/>.</summary>
     /// <param name="offset">Where the memory of the levels above ends.</param>
-    /// <param name="count">Of each.</param>
-    public Span<double> Numbers(int offset, int count)
+    /// <param name="length">How many.</param>
+    public Span<double> Numbers(int offset, int length)
     {
-        if (_scratch.Length < offset + (3 * count))
+        if (_scratch.Length < offset + length)
         {
             // What the levels above use stays where it is.
-            _scratch = _record.Scratch(2 * (offset + (3 * count)));
+            _scratch = _record.Scratch(2 * (offset + length));
         }
 
-        return _scratch.Slice(offset, 3 * count);
-    }
-
-    /// <summary>A bound that has become larger.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void Raise(ref double bound, ref double key, double larger)
-    {
-        if (larger > bound)
-        {
-            key += larger - bound;
-            bound = larger;
-        }
-    }
-
-    /// <summary>The squared distance of a position from a box.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static double DistanceSquared(in BoundingBox box, in Vector position)
-    {
-        var x = Math.Max(Math.Max(box.Minimum.X - position.X, position.X - box.Maximum.X), 0);
-        var y = Math.Max(Math.Max(box.Minimum.Y - position.Y, position.Y - box.Maximum.Y), 0);
-        var z = Math.Max(Math.Max(box.Minimum.Z - position.Z, position.Z - box.Maximum.Z), 0);
-        return (x * x) + (y * y) + (z * z);
-    }
-
-    /// <summary>Takes all copies out of the running that can't matter.</summary>
-    /// <param name="numbers">As from <see cref="Numbers"/>: bounds, then keys.</param>
-    /// <param name="padded">Of each.</param>
-    /// <param name="limit">Bounds from here on can't matter.</param>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static void Exclude(Span<double> numbers, int padded, double limit)
-    {
-        ref var number = ref MemoryMarshal.GetReference(numbers);
-        var limits = Vector256.Create(limit);
-        for (var i = 0; i < padded; i += SubFractal.Lanes)
-        {
-            var key = Vector256.LoadUnsafe(ref number, (nuint)(padded + i));
-            Vector256.ConditionalSelect(
-                Vector256.LessThan(Vector256.LoadUnsafe(ref number, (nuint)i), limits), key, Vector256.Create(double.PositiveInfinity)).StoreUnsafe(ref number, (nuint)(padded + i));
-        }
-    }
-
-    /// <summary>The place of the smallest number, −1 where all are infinite.</summary>
-    /// <param name="numbers">A multiple of four of them.</param>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static int IndexOfSmallest(ReadOnlySpan<double> numbers)
-    {
-        ref var number = ref MemoryMarshal.GetReference(numbers);
-        var (smallest, index) = (Vector256.Create(double.PositiveInfinity), Vector256.Create(-1L));
-        var lanes = Vector256.Create(0L, 1, 2, 3);
-        for (var i = 0; i < numbers.Length; i += SubFractal.Lanes)
-        {
-            var next = Vector256.LoadUnsafe(ref number, (nuint)i);
-            var isSmaller = Vector256.LessThan(next, smallest);
-            smallest = Vector256.ConditionalSelect(isSmaller, next, smallest);
-            index = Vector256.ConditionalSelect(isSmaller.AsInt64(), lanes + Vector256.Create((long)i), index);
-        }
-
-        var (best, place) = (smallest[0], index[0]);
-        for (var lane = 1; lane < SubFractal.Lanes; lane++)
-        {
-            (best, place) = smallest[lane] < best ? (smallest[lane], index[lane]) : (best, place);
-        }
-
-        return (int)place;
+        return _scratch.Slice(offset, length);
     }
 }

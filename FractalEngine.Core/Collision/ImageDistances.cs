@@ -8,30 +8,22 @@ namespace FractalEngine.Core.Collision;
 /// <summary>Distances to the images of boxes under any map, four at a time: to the boxes around the images.</summary>
 internal static class ImageDistances
 {
-    /// <summary>The squared distances of boxes, then keys to order them by, then zeros.</summary>
-    /// <param name="rows">As in <see cref="SubFractal.Bounds"/>.</param>
-    /// <param name="padded">The length of a row.</param>
+    /// <summary>Queues the copies of a sub-fractal by the distances of boxes around their images.</summary>
+    /// <param name="queue">Of the copies.</param>
+    /// <param name="state">The sub-fractal.</param>
     /// <param name="position">In the frame of the images.</param>
-    /// <param name="map">To the frame of the images.</param>
-    /// <param name="results">[3 × padded].</param>
-    public static void Measure(double[] rows, int padded, in Vector position, in AffineMap map, Span<double> results)
+    /// <param name="map">From the sub-fractal's frame to that of the images.</param>
+    public static void Fill(CopyQueue queue, SubFractal state, in Vector position, in AffineMap map)
     {
-        ref var row = ref MemoryMarshal.GetArrayDataReference(rows);
-        ref var result = ref MemoryMarshal.GetReference(results);
+        var padded = state.Padded;
+        ref var row = ref MemoryMarshal.GetArrayDataReference(state.Bounds);
         var offset = VectorQuartet.All(position - map.Translation);
         var (v1, v2, v3) = (VectorQuartet.All(map.Linear.V1), VectorQuartet.All(map.Linear.V2), VectorQuartet.All(map.Linear.V3));
-        var (half, weight) = (Vector256.Create(0.5), Vector256.Create(FractalSearch.CentreWeight));
         for (var i = 0; i < padded; i += SubFractal.Lanes)
         {
-            var (minimum, maximum) = (VectorQuartet.Load(ref row, i, padded), VectorQuartet.Load(ref row, (3 * padded) + i, padded));
-            var (centre, halfSize) = (half * (minimum + maximum), half * (maximum - minimum));
+            var (centre, halfSize) = (VectorQuartet.Load(ref row, i, padded), VectorQuartet.Load(ref row, (3 * padded) + i, padded));
             var away = offset - ((centre.X * v1) + (centre.Y * v2) + (centre.Z * v3));
-            var squared = Beyond(away, halfSize, v1, v2, v3);
-            // What stands for no box has NaN as its centre, and must be farther than anything.
-            squared = Vector256.ConditionalSelect(Vector256.Equals(squared, squared), squared, Vector256.Create(double.PositiveInfinity));
-            squared.StoreUnsafe(ref result, (nuint)i);
-            (squared + (weight * away.LengthSquared())).StoreUnsafe(ref result, (nuint)(padded + i));
-            Vector256<double>.Zero.StoreUnsafe(ref result, (nuint)((2 * padded) + i));
+            queue.Set(Beyond(away, halfSize, v1, v2, v3), away.LengthSquared(), i);
         }
     }
 

@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Maths;
@@ -10,6 +11,14 @@ namespace FractalEngine.Core.Collision;
 /// </summary>
 internal sealed class SimilarSearch(SubFractalTable table, FaceHierarchy faces, double precisionSquared)
 {
+    // To look at all of them costs no more than to look at their hull.
+    private const int FewFaces = 8;
+
+    private static readonly double Far = 1;
+    /// <summary>Looks at the whole fractal.</summary>
+    public void Run(Vector position, ref FractalSearch search) =>
+        Visit(table.Root, table.Levels, Vector256.Create(position.X, position.Y, position.Z, 0), 1, 0, 0, ref search);
+
     /// <summary>Looks at a sub-fractal.</summary>
     /// <param name="state">The sub-fractal.</param>
     /// <param name="levels">The levels it has left.</param>
@@ -18,7 +27,7 @@ internal sealed class SimilarSearch(SubFractalTable table, FaceHierarchy faces, 
     /// <param name="depth">How many copies lead to it.</param>
     /// <param name="offset">Of free memory.</param>
     /// <param name="search">What is found so far.</param>
-    public void Visit(SubFractal state, long levels, in Vector position, double scaleSquared, int depth, int offset, ref FractalSearch search)
+    private void Visit(SubFractal state, long levels, Vector256<double> position, double scaleSquared, int depth, int offset, ref FractalSearch search)
     {
         if (levels == 0 || state.RadiusSquared * scaleSquared <= precisionSquared || depth >= FractalSearch.Deepest)
         {
@@ -26,92 +35,95 @@ internal sealed class SimilarSearch(SubFractalTable table, FaceHierarchy faces, 
             return;
         }
 
-        var (count, padded) = (state.Copies.Length, state.Padded);
-        if (count == 0)
+        var (copies, length) = (state.Copies, CopyQueue.Rows * state.Padded);
+        var queue = new CopyQueue(search.Numbers(offset, length));
+        Fill(queue, state, position);
+        search.BoundTests += copies.Length;
+        if (state.Shifts is { } shifts)
         {
-            return;
+            var direction = position - state.Centre;
+            var squared = Vector256.Dot(direction, direction);
+            if (squared > state.RadiusSquared)
+            {
+                shifts.RaiseByReach(direction, squared, position, queue);
+                search.BoundTests += copies.Length;
+            }
+
+            if (squared < Far * state.RadiusSquared)
+            {
+                shifts.RaiseByFacets(position, queue);
+                search.BoundTests += copies.Length;
+            }
         }
 
-        var numbers = search.Numbers(offset, padded);
-        MeasureAll(state.Bounds, padded, position, numbers);
-        search.BoundTests += count;
-        var keys = numbers.Slice(padded, padded);
         var limit = search.Limit / (scaleSquared * search.BoundFactor);
-        FractalSearch.Exclude(numbers, padded, limit);
-        while (true)
+        while (queue.TryPeek(limit, out var nearest))
         {
-            var nearest = FractalSearch.IndexOfSmallest(keys);
-            if (nearest < 0)
-            {
-                return;
-            }
-
-            var copy = state.Copies[nearest];
+            var copy = copies[nearest];
             var below = copy.LevelsLeft(levels);
             var inner = table.At(below);
-            var local = copy.Inverse * position;
-            var factor = copy.ScaleSquared;
-            if (numbers[(2 * padded) + nearest] == 0)
+            var local = copy.ToLocal(position);
+            if (!queue.IsRefined(nearest) && (below > 0 || faces.FaceCount > FewFaces))
             {
                 // The sub-fractal's own bounds are tighter than the box around its image. Only those that seem nearest are asked for.
-                numbers[(2 * padded) + nearest] = 1;
-                search.BoundTests++;
-                var own = FractalSearch.DistanceSquared(inner.Box, local);
-                var enough = limit / factor;
-                if (own < enough && inner.Hull is { } hull)
-                {
-                    search.BoundTests++;
-                    own = Math.Max(own, hull.DistanceSquared(local, enough));
-                }
-
-                if (!(own < enough))
-                {
-                    keys[nearest] = double.PositiveInfinity;
-                    continue;
-                }
-
-                FractalSearch.Raise(ref numbers[nearest], ref keys[nearest], own * factor);
-                if (FractalSearch.IndexOfSmallest(keys) != nearest)
+                var own = Bound(state, inner, local, limit / copy.ScaleSquared, ref search) * copy.ScaleSquared;
+                if (queue.Refine(nearest, own) && (!queue.TryPeek(limit, out var next) || next != nearest))
                 {
                     continue;
                 }
             }
 
-            keys[nearest] = double.PositiveInfinity;
+            queue.Remove(nearest);
             search.Enter(depth, nearest);
-            Visit(inner, below, local, scaleSquared * factor, depth + 1, offset + (3 * padded), ref search);
-            if (search.Limit < limit * scaleSquared * search.BoundFactor)
-            {
-                limit = search.Limit / (scaleSquared * search.BoundFactor);
-                FractalSearch.Exclude(numbers, padded, limit);
-            }
+            Visit(inner, below, local, scaleSquared * copy.ScaleSquared, depth + 1, offset + length, ref search);
+            limit = search.Limit / (scaleSquared * search.BoundFactor);
         }
     }
 
-    private void LookAtFaces(Vector position, double scaleSquared, int depth, ref FractalSearch search)
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private void LookAtFaces(Vector256<double> position, double scaleSquared, int depth, ref FractalSearch search)
     {
         var (best, face) = (search.NearestSquared / scaleSquared, -1);
-        faces.Search(position, ref best, ref face, search.BoundFactor, ref search.FaceTests, ref search.BoundTests);
+        faces.Search(
+            new(position[0], position[1], position[2]), ref best, ref face, search.BoundFactor, ref search.FaceTests, ref search.BoundTests);
         if (face >= 0)
         {
             search.Improve(best * scaleSquared, face, depth);
         }
     }
 
-    /// <summary>The squared distances of boxes, then keys to order them by, then zeros.</summary>
-    private static void MeasureAll(double[] rows, int padded, in Vector position, Span<double> results)
+    /// <summary>A sub-fractal's own bound.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static double Bound(SubFractal state, SubFractal inner, Vector256<double> local, double enough, ref FractalSearch search)
     {
-        ref var row = ref MemoryMarshal.GetArrayDataReference(rows);
-        ref var result = ref MemoryMarshal.GetReference(results);
-        var (p, half, weight) = (VectorQuartet.All(position), Vector256.Create(0.5), Vector256.Create(FractalSearch.CentreWeight));
+        var bound = 0.0;
+        if (state.AreTurned)
+        {
+            // Where a map turns nothing, the box around the image is that of the sub-fractal.
+            bound = inner.DistanceSquared(local);
+            search.BoundTests++;
+        }
+
+        if (bound < enough && inner.Hull is { } hull)
+        {
+            bound = Math.Max(bound, hull.DistanceSquared(local, enough));
+            search.BoundTests++;
+        }
+
+        return bound;
+    }
+
+    private static void Fill(CopyQueue queue, SubFractal state, Vector256<double> position)
+    {
+        var padded = state.Padded;
+        ref var row = ref MemoryMarshal.GetArrayDataReference(state.Bounds);
+        var (x, y, z) = (Vector256.Create(position[0]), Vector256.Create(position[1]), Vector256.Create(position[2]));
+        VectorQuartet p = new(x, y, z);
         for (var i = 0; i < padded; i += SubFractal.Lanes)
         {
-            var (toMinimum, toMaximum) = (VectorQuartet.Load(ref row, i, padded) - p, p - VectorQuartet.Load(ref row, (3 * padded) + i, padded));
-            var squared = VectorQuartet.MaxNative(VectorQuartet.MaxNative(toMinimum, toMaximum), VectorQuartet.Zero).LengthSquared();
-            squared.StoreUnsafe(ref result, (nuint)i);
-            var toCentre = half * (toMinimum - toMaximum);
-            (squared + (weight * toCentre.LengthSquared())).StoreUnsafe(ref result, (nuint)(padded + i));
-            Vector256<double>.Zero.StoreUnsafe(ref result, (nuint)((2 * padded) + i));
+            var away = (p - VectorQuartet.Load(ref row, i, padded)).Absolute();
+            var outside = VectorQuartet.MaxNative(away - VectorQuartet.Load(ref row, (3 * padded) + i, padded), VectorQuartet.Zero);
+            queue.Set(outside.LengthSquared(), away.LengthSquared(), i);
         }
     }
 }

@@ -20,8 +20,8 @@ internal sealed class SubFractalBuilder
     private const double Widening = 10;
     private const double Rounding = 1e-14;
 
-    // To look at all faces of the base costs no more than to look at its hull.
-    private const int FewestFacesForHull = 9;
+    // A hull that fills its box bounds no better than the box.
+    private const double MostOfBox = 0.95;
 
     private readonly Fractal _fractal;
     private readonly Dictionary<TransformationSet, CopySet> _sets = [];
@@ -35,8 +35,7 @@ internal sealed class SubFractalBuilder
     {
         _fractal = fractal;
         var outline = Outline.Of(fractal.BaseMesh);
-        var hasHull = outline.Hull is not null && fractal.BaseMesh.FaceCount >= FewestFacesForHull;
-        Append(1, new Made(new(null, [], [], outline, outline.Box, hasHull ? HullOf(outline) : null), outline, []));
+        Append(1, new Made(new(null, [], [], outline, outline.Box, HullOf(outline), null), outline, []));
     }
 
     public IReadOnlyList<SubFractal> States => _states;
@@ -279,10 +278,18 @@ internal sealed class SubFractalBuilder
         return Outline.With(box, corners, filled.Max(part => part.Step.Lengthening * part.Below.Margin));
     }
 
-    private SubFractal StateOf(CopySet set, Copy[] copies, IEnumerable<Outline> below, Outline outline) =>
-        new(set, copies, [.. copies.Zip(below, (copy, part) => part.Image(copy.Map, copy.Lengthening))], outline, _outlines[0].Box, HullOf(outline));
+    private SubFractal StateOf(CopySet set, Copy[] copies, IEnumerable<Outline> below, Outline outline)
+    {
+        Outline[] parts = [.. below];
+        var boxes = copies.Zip(parts, (copy, part) => part.Image(copy.Map, copy.Lengthening)).ToArray();
+        return new(set, copies, boxes, outline, _outlines[0].Box, HullOf(outline), parts.Length > 0 ? HullOf(parts[0]) : null);
+    }
 
-    private static HullBound? HullOf(Outline outline) => outline.Hull is null ? null : new(outline.Hull, outline.Box.Centre, outline.Margin, withAxes: true);
+    private static HullBound? HullOf(Outline outline)
+    {
+        var (x, y, z) = outline.Box.Size;
+        return outline.Hull is null || outline.Hull.Volume() > MostOfBox * x * y * z ? null : new(outline.Hull, outline.Box, outline.Margin, withAxes: true);
+    }
 
     private readonly record struct Made(SubFractal State, Outline Outline, CopyStep[] Steps);
 }

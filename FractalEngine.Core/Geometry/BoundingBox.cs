@@ -36,6 +36,10 @@ public readonly record struct BoundingBox(Vector Minimum, Vector Maximum)
     /// <summary>The smallest box that holds this one and a point.</summary>
     public BoundingBox Including(Vector point) => new(Vector.Min(Minimum, point), Vector.Max(Maximum, point));
 
+    /// <summary>The squared distance of a position: 0 inside, infinite for the empty box.</summary>
+    public double DistanceSquared(Vector position) => IsEmpty ? double.PositiveInfinity
+        : Vector.Max(Vector.Max(Minimum - position, position - Maximum), Vector.Zero).LengthSquared();
+
     /// <summary>The smallest axis-aligned box around the image of this box; larger than the image of what it holds where the map turns.</summary>
     public BoundingBox Transform(AffineMap map) => IsEmpty ? this : (map * Centre, map.Linear.Absolute() * (0.5 * Size)) switch
     {

@@ -54,6 +54,9 @@ internal sealed class ConvexHull
             : FlatHull(points, along, normal, height, mostVertices);
     }
 
+    /// <summary>Cubic scene units; 0 where it is flat.</summary>
+    public double Volume() => _facets.Sum(facet => Vector.Dot(facet.A - Vertices[0], Vector.Cross(facet.B - Vertices[0], facet.C - Vertices[0]))) / 6;
+
     /// <summary>The largest product of a direction with a corner.</summary>
     public double Support(Vector direction)
     {
