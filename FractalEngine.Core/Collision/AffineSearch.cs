@@ -1,4 +1,5 @@
-using FractalEngine.Core.Geometry;
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
@@ -6,50 +7,50 @@ namespace FractalEngine.Core.Collision;
 /// <summary>Search for any maps: bounds are taken into the frame of the whole, since distances there are not those of the copies' frames.</summary>
 internal sealed class AffineSearch(SubFractalTable table, FaceHierarchy faces, double precisionSquared)
 {
+    /// <summary>Looks at the whole fractal.</summary>
+    /// <param name="position">In the frame of the query.</param>
+    /// <param name="map">From the fractal's frame to that of the query.</param>
+    /// <param name="search">What is found so far.</param>
+    public void Run(Vector position, AffineMap map, ref FractalSearch search) =>
+        Visit(table.Root, table.Levels, AffineLanes.Of(position), new(map), new(map.Inverse()), 0, 0, ref search);
+
     /// <summary>Looks at a sub-fractal.</summary>
     /// <param name="state">The sub-fractal.</param>
     /// <param name="levels">The levels it has left.</param>
-    /// <param name="position">In the frame of the whole.</param>
-    /// <param name="map">From the sub-fractal's frame to that of the whole.</param>
+    /// <param name="position">In the frame of the query: x, y, z, 0.</param>
+    /// <param name="map">From the sub-fractal's frame to that of the query.</param>
     /// <param name="inverse">Back.</param>
     /// <param name="depth">How many copies lead to it.</param>
     /// <param name="offset">Of free memory.</param>
     /// <param name="search">What is found so far.</param>
-    public void Visit(
-        SubFractal state, long levels, in Vector position, in AffineMap map, in AffineMap inverse, int depth, int offset, ref FractalSearch search)
+    private void Visit(
+        SubFractal state, long levels, Vector256<double> position, in AffineLanes map, in AffineLanes inverse, int depth, int offset, ref FractalSearch search)
     {
-        var lengthening = BoundingSphere.LengtheningBound(map.Linear);
-        if (levels == 0 || state.RadiusSquared * lengthening * lengthening <= precisionSquared || depth >= FractalSearch.Deepest)
+        if (levels == 0 || state.RadiusSquared * map.LengtheningSquared() <= precisionSquared || depth >= FractalSearch.Deepest)
         {
-            LookAtFaces(position, map, depth, ref search);
+            LookAtFaces(position, in map, depth, ref search);
             return;
         }
 
-        var (count, padded) = (state.Copies.Length, state.Padded);
-        if (count == 0)
-        {
-            return;
-        }
-
-        var length = CopyQueue.Rows * padded;
+        var (copies, length) = (state.Copies, CopyQueue.Rows * state.Padded);
         var queue = new CopyQueue(search.Numbers(offset, length));
-        ImageDistances.Fill(queue, state, in position, in map);
-        search.BoundTests += count;
+        ImageDistances.Fill(queue, state, position, in map);
+        search.BoundTests += copies.Length;
         var limit = search.Limit / search.BoundFactor;
         while (queue.TryPeek(limit, out var nearest))
         {
-            var copy = state.Copies[nearest];
+            var copy = copies[nearest];
             var below = copy.LevelsLeft(levels);
             var inner = table.At(below);
-            var innerMap = map * copy.Map;
-            var innerInverse = copy.Inverse * inverse;
+            var innerMap = AffineLanes.Compose(in map, in copy.Lanes);
+            var innerInverse = AffineLanes.Compose(in copy.InverseLanes, in inverse);
             if (!queue.IsRefined(nearest))
             {
-                var own = inner.Box.Transform(innerMap).DistanceSquared(position);
+                var own = inner.ImageDistanceSquared(position, in innerMap);
                 search.BoundTests++;
                 if (own < limit && inner.Hull is { } hull)
                 {
-                    own = Math.Max(own, hull.ImageDistanceSquared(in position, in innerMap, in innerInverse, limit));
+                    own = Math.Max(own, hull.ImageDistanceSquared(position, in innerMap, in innerInverse, limit));
                     search.BoundTests++;
                 }
 
@@ -61,15 +62,16 @@ internal sealed class AffineSearch(SubFractalTable table, FaceHierarchy faces, d
 
             queue.Remove(nearest);
             search.Enter(depth, nearest);
-            Visit(inner, below, in position, in innerMap, in innerInverse, depth + 1, offset + length, ref search);
+            Visit(inner, below, position, in innerMap, in innerInverse, depth + 1, offset + length, ref search);
             limit = search.Limit / search.BoundFactor;
         }
     }
 
-    private void LookAtFaces(Vector position, in AffineMap map, int depth, ref FractalSearch search)
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private void LookAtFaces(Vector256<double> position, in AffineLanes map, int depth, ref FractalSearch search)
     {
         var (best, face) = (search.NearestSquared, -1);
-        faces.SearchImage(position, in map, ref best, ref face, search.BoundFactor, ref search.FaceTests, ref search.BoundTests);
+        faces.SearchImage(AffineLanes.ToVector(position), map.ToMap(), ref best, ref face, search.BoundFactor, ref search.FaceTests, ref search.BoundTests);
         if (face >= 0)
         {
             search.Improve(best, face, depth);

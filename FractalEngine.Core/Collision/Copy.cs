@@ -1,5 +1,3 @@
-using System.Runtime.CompilerServices;
-using System.Runtime.Intrinsics;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
@@ -7,29 +5,26 @@ namespace FractalEngine.Core.Collision;
 /// <summary>A copy that a sub-fractal makes of one further down, by one map after another. Shared by all sub-fractals that make it alike.</summary>
 internal sealed class Copy
 {
-    private readonly AffineMap _inverse;
-    private readonly Vector256<double> _inverse1;
-    private readonly Vector256<double> _inverse2;
-    private readonly Vector256<double> _inverse3;
-    private readonly Vector256<double> _inverseTranslation;
+    private readonly AffineLanes _lanes;
+    private readonly AffineLanes _inverseLanes;
 
     /// <summary>By steps, at least one.</summary>
     public Copy(CopyStep[] steps)
     {
         Steps = steps;
-        (Map, _inverse, ScaleSquared, Lengthening) = (AffineMap.Identity, AffineMap.Identity, 1, 1);
+        var inverse = AffineMap.Identity;
+        (Map, ScaleSquared, Lengthening) = (AffineMap.Identity, 1, 1);
         foreach (var (set, index, down) in steps)
         {
             Map *= set.Maps[index];
-            _inverse = set.Inverses[index] * _inverse;
+            inverse = set.Inverses[index] * inverse;
             ScaleSquared *= set.ScaleSquared[index];
             Lengthening *= set.Lengthening[index];
             // Levels that are left say so, whatever was above; else levels that it goes down add up.
             Down = down < 0 ? down : Down < 0 ? ~(~Down - down) : Down + down;
         }
 
-        (_inverse1, _inverse2) = (Lanes(_inverse.Linear.V1), Lanes(_inverse.Linear.V2));
-        (_inverse3, _inverseTranslation) = (Lanes(_inverse.Linear.V3), Lanes(_inverse.Translation));
+        (_lanes, _inverseLanes) = (new(Map), new(inverse));
     }
 
     /// <summary>The maps, the outermost first.</summary>
@@ -38,8 +33,11 @@ internal sealed class Copy
     /// <summary>From the copy's frame to that of the level.</summary>
     public AffineMap Map { get; }
 
+    /// <summary>The same.</summary>
+    public ref readonly AffineLanes Lanes => ref _lanes;
+
     /// <summary>Back.</summary>
-    public ref readonly AffineMap Inverse => ref _inverse;
+    public ref readonly AffineLanes InverseLanes => ref _inverseLanes;
 
     /// <summary>Square of the factor by which the map lengthens, where it is a similarity.</summary>
     public double ScaleSquared { get; }
@@ -50,18 +48,11 @@ internal sealed class Copy
     /// <summary>As in <see cref="CopyStep"/>.</summary>
     public long Down { get; }
 
-    /// <summary>A position of the level's frame in the copy's: x, y, z, 0.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public Vector256<double> ToLocal(Vector256<double> position) =>
-        ((position[0] * _inverse1) + (position[1] * _inverse2) + (position[2] * _inverse3)) + _inverseTranslation;
-
     /// <summary>The levels left in the copy, for a sub-fractal that has so many.</summary>
     public long LevelsLeft(long levels) => Down < 0 ? ~Down : levels - Down;
 
     /// <summary>Bytes of the numbers.</summary>
-    public long StorageBytes => (43 * sizeof(double)) + (24 * Steps.Length) + 40;
-
-    private static Vector256<double> Lanes(Vector v) => Vector256.Create(v.X, v.Y, v.Z, 0);
+    public long StorageBytes => (46 * sizeof(double)) + (24 * Steps.Length) + 40;
 }
 
 /// <summary>One map of a <see cref="Copy"/>.</summary>

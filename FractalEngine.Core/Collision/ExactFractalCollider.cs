@@ -67,7 +67,7 @@ public sealed class ExactFractalCollider : Collider
             }
             else
             {
-                _affine.Visit(_table.Root, _table.Levels, position, AffineMap.Identity, AffineMap.Identity, 0, 0, ref search);
+                _affine.Run(position, AffineMap.Identity, ref search);
             }
         }
 

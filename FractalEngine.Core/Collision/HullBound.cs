@@ -2,7 +2,6 @@ using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
 
@@ -28,8 +27,7 @@ internal sealed class HullBound
     private readonly int _planeCount;
     private readonly int _vertexCount;
     private readonly Vector256<double>[] _corners = [];
-    private readonly Vector _centre;
-    private readonly Vector256<double> _centre4;
+    private readonly Vector256<double> _centre;
     private readonly double _farSquared;
     private readonly double _margin;
 
@@ -41,8 +39,7 @@ internal sealed class HullBound
     public HullBound(ConvexHull hull, BoundingBox box, double margin, bool withAxes)
     {
         var planes = hull.Planes.Where(plane => withAxes || plane.Normal.MaximumComponent() < AlongAxis).Take(MostPlanes).ToArray();
-        (_centre, _farSquared, _margin) = (box.Centre, Far * Far * 0.25 * box.Size.LengthSquared(), margin);
-        _centre4 = Vector256.Create(_centre.X, _centre.Y, _centre.Z, 0);
+        (_centre, _farSquared, _margin) = (AffineLanes.Of(box.Centre), Far * Far * 0.25 * box.Size.LengthSquared(), margin);
         Planes = [.. planes.Select(plane => plane with { Offset = plane.Offset + margin })];
         (_planeCount, _vertexCount) = (Padded(planes.Length), Padded(hull.Vertices.Length));
         (_planes, _vertices) = (new double[4 * _planeCount], new double[3 * _vertexCount]);
@@ -77,7 +74,7 @@ internal sealed class HullBound
     /// <param name="enough">A bound so large is as good as any larger one.</param>
     public double DistanceSquared(Vector256<double> position, double enough)
     {
-        var direction = position - _centre4;
+        var direction = position - _centre;
         var squared = Vector256.Dot(direction, direction);
         var bound = 0.0;
         if (squared < _farSquared)
@@ -114,8 +111,7 @@ internal sealed class HullBound
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private double Beyond(Vector256<double> direction, double squared, Vector256<double> position, double support)
     {
-        // The sum of the components is no less than the length that the margin is to be multiplied by.
-        var reach = Vector256.Dot(direction, position) - support - (_margin * Vector256.Sum(Vector256.Abs(direction)));
+        var reach = Vector256.Dot(direction, position) - support - (_margin * Math.Sqrt(squared));
         return reach > 0 ? reach * reach / squared : 0;
     }
 
@@ -134,32 +130,31 @@ internal sealed class HullBound
     }
 
     /// <summary>At most the squared distance of a position from the image of the solid under any map.</summary>
-    /// <param name="position">In the frame of the image.</param>
+    /// <param name="position">In the frame of the image: x, y, z, 0.</param>
     /// <param name="map">From the solid's frame to that of the image.</param>
     /// <param name="inverse">Its inverse, which need not be accurate: it only says where to look.</param>
     /// <param name="enough">A bound so large is as good as any larger one.</param>
-    public double ImageDistanceSquared(in Vector position, in AffineMap map, in AffineMap inverse, double enough)
+    public double ImageDistanceSquared(Vector256<double> position, in AffineLanes map, in AffineLanes inverse, double enough)
     {
-        var margin = _margin * BoundingSphere.LengtheningBound(map.Linear);
-        var bound = BeyondImage(position - (map * _centre), in position, in map, margin);
-        return bound < enough && _planeCount > 0
-            ? Math.Max(bound, BeyondImage(FarthestPlane(inverse * position, in inverse), in position, in map, margin))
-            : bound;
+        var bound = BeyondImage(position - map.Apply(_centre), position, in map);
+        if (bound < enough && _planeCount > 0)
+        {
+            var local = inverse.Apply(position);
+            var fromCentre = local - _centre;
+            bound = Vector256.Dot(fromCentre, fromCentre) < 10 * _farSquared
+                ? Math.Max(bound, BeyondImage(FarthestPlane(local, in inverse), position, in map))
+                : bound;
+        }
+
+        return bound;
     }
 
     /// <summary>The squared distance by which a position lies beyond the image in some direction, 0 if it does not.</summary>
-    private double BeyondImage(Vector direction, in Vector position, in AffineMap map, double margin)
+    private double BeyondImage(Vector256<double> direction, Vector256<double> position, in AffineLanes map)
     {
-        var pulledBack = Vector256.Create(
-            Vector.Dot(map.Linear.V1, direction), Vector.Dot(map.Linear.V2, direction), Vector.Dot(map.Linear.V3, direction), 0);
-        var reach = Vector.Dot(direction, position - map.Translation) - Support(pulledBack);
-        if (!(reach > 0))
-        {
-            return 0;
-        }
-
-        reach = (reach / direction.Length()) - margin;
-        return reach > 0 ? reach * reach : 0;
+        var pulledBack = map.PullBack(direction);
+        var reach = Vector256.Dot(direction, position - map.Translation) - Support(pulledBack) - (_margin * Length(pulledBack));
+        return reach > 0 ? reach * reach / Vector256.Dot(direction, direction) : 0;
     }
 
     /// <summary>The largest height of a position above a plane; negative inside.</summary>
@@ -178,29 +173,34 @@ internal sealed class HullBound
     }
 
     /// <summary>The normal, in the frame of an image, of the plane that a position seems to be farthest above there.</summary>
-    private Vector FarthestPlane(Vector local, in AffineMap inverse)
+    private Vector256<double> FarthestPlane(Vector256<double> local, in AffineLanes inverse)
     {
         var count = _planeCount;
         ref var planes = ref MemoryMarshal.GetArrayDataReference(_planes);
-        var (x, y, z) = (Vector256.Create(local.X), Vector256.Create(local.Y), Vector256.Create(local.Z));
-        var (v1, v2, v3) = inverse.Linear;
-        var (best, index) = (double.NegativeInfinity, 0);
+        var p = VectorQuartet.All(local);
+        var (v1, v2, v3) = (VectorQuartet.All(inverse.V1), VectorQuartet.All(inverse.V2), VectorQuartet.All(inverse.V3));
+        var (most, index) = (Vector256.Create(double.NegativeInfinity), Vector256<long>.Zero);
+        var (lanes, step) = (Vector256.Create(0L, 1, 2, 3), Vector256.Create((long)Lanes));
         for (var i = 0; i < count; i += Lanes)
         {
-            var height = Product(ref planes, i, count, x, y, z) - Vector256.LoadUnsafe(ref planes, (nuint)((3 * count) + i));
-            var nx = Product(ref planes, i, count, Vector256.Create(v1.X), Vector256.Create(v1.Y), Vector256.Create(v1.Z));
-            var ny = Product(ref planes, i, count, Vector256.Create(v2.X), Vector256.Create(v2.Y), Vector256.Create(v2.Z));
-            var nz = Product(ref planes, i, count, Vector256.Create(v3.X), Vector256.Create(v3.Y), Vector256.Create(v3.Z));
-            // Signs are kept: a negative height never wins over a positive one.
-            var squared = height * Vector256.Abs(height) / ((nx * nx) + (ny * ny) + (nz * nz));
-            for (var lane = 0; lane < Lanes; lane++)
-            {
-                (best, index) = squared[lane] > best ? (squared[lane], i + lane) : (best, index);
-            }
+            var normal = VectorQuartet.Load(ref planes, i, count);
+            var height = VectorQuartet.Dot(normal, p) - Vector256.LoadUnsafe(ref planes, (nuint)((3 * count) + i));
+            VectorQuartet image = new(VectorQuartet.Dot(normal, v1), VectorQuartet.Dot(normal, v2), VectorQuartet.Dot(normal, v3));
+            // With its sign, so that a position below a plane is never higher than one above another.
+            var squared = height * Vector256.Abs(height) / image.LengthSquared();
+            var isHigher = Vector256.GreaterThan(squared, most);
+            most = Vector256.ConditionalSelect(isHigher, squared, most);
+            index = Vector256.ConditionalSelect(isHigher.AsInt64(), lanes, index);
+            lanes += step;
         }
 
-        Vector normal = new(_planes[index], _planes[count + index], _planes[(2 * count) + index]);
-        return new(Vector.Dot(v1, normal), Vector.Dot(v2, normal), Vector.Dot(v3, normal));
+        var (best, plane) = (most[0], index[0]);
+        for (var lane = 1; lane < Lanes; lane++)
+        {
+            (best, plane) = most[lane] > best ? (most[lane], index[lane]) : (best, plane);
+        }
+
+        return inverse.PullBack(Vector256.Create(_planes[plane], _planes[count + plane], _planes[(2 * count) + plane], 0));
     }
 
     /// <summary>How far the solid reaches in a direction.</summary>
@@ -234,6 +234,8 @@ internal sealed class HullBound
         var pair = Vector128.MaxNative(v.GetLower(), v.GetUpper());
         return Math.Max(pair[0], pair[1]);
     }
+
+    private static double Length(Vector256<double> v) => Math.Sqrt(Vector256.Dot(v, v));
 
     private static int Padded(int count) => (count + Lanes - 1) / Lanes * Lanes;
 }

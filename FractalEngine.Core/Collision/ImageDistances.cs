@@ -1,7 +1,6 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
-using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
 
@@ -11,14 +10,14 @@ internal static class ImageDistances
     /// <summary>Queues the copies of a sub-fractal by the distances of boxes around their images.</summary>
     /// <param name="queue">Of the copies.</param>
     /// <param name="state">The sub-fractal.</param>
-    /// <param name="position">In the frame of the images.</param>
+    /// <param name="position">In the frame of the images: x, y, z, 0.</param>
     /// <param name="map">From the sub-fractal's frame to that of the images.</param>
-    public static void Fill(CopyQueue queue, SubFractal state, in Vector position, in AffineMap map)
+    public static void Fill(CopyQueue queue, SubFractal state, Vector256<double> position, in AffineLanes map)
     {
         var padded = state.Padded;
         ref var row = ref MemoryMarshal.GetArrayDataReference(state.Bounds);
         var offset = VectorQuartet.All(position - map.Translation);
-        var (v1, v2, v3) = (VectorQuartet.All(map.Linear.V1), VectorQuartet.All(map.Linear.V2), VectorQuartet.All(map.Linear.V3));
+        var (v1, v2, v3) = (VectorQuartet.All(map.V1), VectorQuartet.All(map.V2), VectorQuartet.All(map.V3));
         for (var i = 0; i < padded; i += SubFractal.Lanes)
         {
             var (centre, halfSize) = (VectorQuartet.Load(ref row, i, padded), VectorQuartet.Load(ref row, (3 * padded) + i, padded));

@@ -15,6 +15,8 @@ internal sealed record Outline(BoundingBox Box, ConvexHull? Hull, double Margin)
     // More corners bound closer and take longer; this many leave about a hundredth of the size.
     private const int MostVertices = 48;
 
+    private const double LargestSize = 1e100;
+
     /// <summary>Of nothing.</summary>
     public static Outline Empty { get; } = new(BoundingBox.Empty, null, 0);
 
@@ -35,7 +37,8 @@ internal sealed record Outline(BoundingBox Box, ConvexHull? Hull, double Margin)
     /// <param name="margin">How far the parts reach out of their hulls.</param>
     public static Outline With(BoundingBox box, Vector[]? corners, double margin)
     {
-        if (corners is null || corners.Length == 0 || !corners.All(corner => corner.IsFinite()))
+        // Beyond this, squares of coordinates leave the range of a double, and with them the hull.
+        if (corners is null || corners.Length == 0 || !(box.Diagonal < LargestSize) || !(RoundingOf(box) < LargestSize))
         {
             return new(box, null, 0);
         }

@@ -17,7 +17,7 @@ internal sealed class SimilarSearch(SubFractalTable table, FaceHierarchy faces, 
     private static readonly double Far = 1;
     /// <summary>Looks at the whole fractal.</summary>
     public void Run(Vector position, ref FractalSearch search) =>
-        Visit(table.Root, table.Levels, Vector256.Create(position.X, position.Y, position.Z, 0), 1, 0, 0, ref search);
+        Visit(table.Root, table.Levels, AffineLanes.Of(position), 1, 0, 0, ref search);
 
     /// <summary>Looks at a sub-fractal.</summary>
     /// <param name="state">The sub-fractal.</param>
@@ -62,7 +62,7 @@ internal sealed class SimilarSearch(SubFractalTable table, FaceHierarchy faces, 
             var copy = copies[nearest];
             var below = copy.LevelsLeft(levels);
             var inner = table.At(below);
-            var local = copy.ToLocal(position);
+            var local = copy.InverseLanes.Apply(position);
             if (!queue.IsRefined(nearest) && (below > 0 || faces.FaceCount > FewFaces))
             {
                 // The sub-fractal's own bounds are tighter than the box around its image. Only those that seem nearest are asked for.
@@ -85,7 +85,7 @@ internal sealed class SimilarSearch(SubFractalTable table, FaceHierarchy faces, 
     {
         var (best, face) = (search.NearestSquared / scaleSquared, -1);
         faces.Search(
-            new(position[0], position[1], position[2]), ref best, ref face, search.BoundFactor, ref search.FaceTests, ref search.BoundTests);
+            AffineLanes.ToVector(position), ref best, ref face, search.BoundFactor, ref search.FaceTests, ref search.BoundTests);
         if (face >= 0)
         {
             search.Improve(best * scaleSquared, face, depth);

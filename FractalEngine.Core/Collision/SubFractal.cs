@@ -28,8 +28,8 @@ internal sealed class SubFractal
     /// <param name="solid">The hull of what the first copy is of.</param>
     public SubFractal(CopySet? set, Copy[] copies, ReadOnlySpan<BoundingBox> boxes, Outline outline, BoundingBox baseBox, HullBound? hull, HullBound? solid)
     {
-        (Set, Copies, Box, Centre, Hull) = (set, copies, outline.Box, Lanes4(outline.Box.Centre), hull);
-        _halfSize = Lanes4(0.5 * outline.Box.Size);
+        (Set, Copies, Box, Centre, Hull) = (set, copies, outline.Box, AffineLanes.Of(outline.Box.Centre), hull);
+        _halfSize = AffineLanes.Of(0.5 * outline.Box.Size);
         Padded = (copies.Length + Lanes - 1) / Lanes * Lanes;
         Bounds = new double[Rows * Padded];
         for (var i = 0; i < Padded; i++)
@@ -87,8 +87,14 @@ internal sealed class SubFractal
         return Vector256.Dot(outside, outside);
     }
 
+    /// <summary>The squared distance of a position from a box around the image of the box.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public double ImageDistanceSquared(Vector256<double> position, in AffineLanes map)
+    {
+        var outside = Vector256.MaxNative(Vector256.Abs(position - map.Apply(Centre)) - map.HalfSizeOf(_halfSize), Vector256<double>.Zero);
+        return Vector256.Dot(outside, outside);
+    }
+
     /// <summary>Bytes of the arrays.</summary>
     public long StorageBytes => (sizeof(double) * Bounds.Length) + (Shifts?.StorageBytes ?? 0) + (Copies.Length * 24) + (Hull?.StorageBytes ?? 0) + 160;
-
-    private static Vector256<double> Lanes4(Vector v) => Vector256.Create(v.X, v.Y, v.Z, 0);
 }

@@ -137,12 +137,13 @@ internal sealed class SubFractalBuilder
 
         var level = Levels + 1;
         var steps = CopyFactory.StepsAt(level, floor, period, copySet, below => At(below).Set!);
-        var outline = OutlineOf(steps.Select(step => (step, OutlineAt(step.LevelsLeft(level)))).ToArray());
-        if (!outline.Box.IsEmpty && !(outline.Box.Minimum.IsFinite() && outline.Box.Size.IsFinite()))
+        var parts = steps.Select(step => (Step: step, Below: OutlineAt(step.LevelsLeft(level)))).Where(part => !part.Below.Box.IsEmpty).ToArray();
+        if (parts.Select(part => part.Below.Image(part.Step.Map, part.Step.Lengthening)).Any(box => !(box.Minimum.IsFinite() && box.Size.IsFinite())))
         {
             throw new FractalLimitException($"the bounds of the fractal are beyond the range of a double {level} levels above its base");
         }
 
+        var outline = OutlineOf(parts);
         var copies = _copies.Open(level, steps, StepsAt);
         Append(1, new Made(StateOf(copySet, copies, copies.Select(copy => OutlineAt(copy.LevelsLeft(level))), outline), outline, steps));
     }
@@ -262,20 +263,19 @@ internal sealed class SubFractalBuilder
     private static double Change(BoundingBox box1, BoundingBox box2) => box1 == box2 ? 0
         : Math.Max((box1.Minimum - box2.Minimum).MaximumComponent(), (box1.Maximum - box2.Maximum).MaximumComponent()) / box1.Diagonal;
 
-    /// <summary>The outline of what some steps lead to.</summary>
+    /// <summary>The outline of what some steps lead to, none of it empty.</summary>
     private static Outline OutlineOf((CopyStep Step, Outline Below)[] parts)
     {
-        var filled = parts.Where(part => !part.Below.Box.IsEmpty).ToArray();
-        if (filled.Length == 0)
+        if (parts.Length == 0)
         {
             return Outline.Empty;
         }
 
-        var box = filled.Aggregate(BoundingBox.Empty, (sum, part) => BoundingBox.Union(sum, part.Below.Image(part.Step.Map, part.Step.Lengthening)));
-        var corners = filled.All(part => part.Below.Hull is not null)
-            ? filled.SelectMany(part => part.Below.Hull!.Vertices.Select(vertex => part.Step.Map * vertex)).ToArray()
+        var box = parts.Aggregate(BoundingBox.Empty, (sum, part) => BoundingBox.Union(sum, part.Below.Image(part.Step.Map, part.Step.Lengthening)));
+        var corners = parts.All(part => part.Below.Hull is not null)
+            ? parts.SelectMany(part => part.Below.Hull!.Vertices.Select(vertex => part.Step.Map * vertex)).ToArray()
             : null;
-        return Outline.With(box, corners, filled.Max(part => part.Step.Lengthening * part.Below.Margin));
+        return Outline.With(box, corners, parts.Max(part => part.Step.Lengthening * part.Below.Margin));
     }
 
     private SubFractal StateOf(CopySet set, Copy[] copies, IEnumerable<Outline> below, Outline outline)

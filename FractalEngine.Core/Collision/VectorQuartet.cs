@@ -15,6 +15,11 @@ internal readonly record struct VectorQuartet(Vector256<double> X, Vector256<dou
     public static VectorQuartet All(Vector vector) =>
         new(Vector256.Create(vector.X), Vector256.Create(vector.Y), Vector256.Create(vector.Z));
 
+    /// <summary>The same vector, x, y, z, 0, four times.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static VectorQuartet All(Vector256<double> vector) =>
+        new(Vector256.Create(vector[0]), Vector256.Create(vector[1]), Vector256.Create(vector[2]));
+
     /// <summary>One of the four.</summary>
     public Vector this[int i] => new(X[i], Y[i], Z[i]);
 

@@ -1,8 +1,8 @@
 using System.Collections.Immutable;
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Geometry;
+namespace FractalEngine.Core.Collision;
 
 /// <summary>
 /// The convex hull of some points, or, where it has too many corners, that of the most important ones. Flat sets, segments and
