@@ -63,6 +63,7 @@ internal sealed class ColliderTable(int queries, int rounds, TextWriter output)
         var size = fractal.Bounds.Diagonal;
         var distances = colliders.Select(entry => Distances(entry.Collider, positions, within)).ToArray();
         var costs = colliders.Select(entry => Cost(entry.Collider, positions, within)).ToArray();
+        // Once for the compiler, which needs some thousand calls to do its best.
         Times(colliders, positions, within);
         var times = Times(colliders, positions, within);
         // The first is the hierarchy, if there is one, else the last is.

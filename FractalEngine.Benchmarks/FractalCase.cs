@@ -1,3 +1,4 @@
+using System.Globalization;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -21,6 +22,13 @@ internal sealed record FractalCase(string Name, Fractal Fractal)
         Directory.GetFiles(Path.Combine(Assets, "fractals"), "*.fdo").Select(file => Path.GetFileNameWithoutExtension(file)).Order(StringComparer.Ordinal).Concat(Written);
 
     private static string Assets { get; } = FindAssets();
+
+    /// <summary>A fractal by its name, or its name and depth: <c>tree</c> or <c>tree:20</c>.</summary>
+    public static FractalCase Parse(string text) => text.Split(':') switch
+    {
+        [var name, var depth] => Load(name, int.Parse(depth, CultureInfo.InvariantCulture)),
+        _ => Load(text),
+    };
 
     /// <summary>A fractal by its name.</summary>
     /// <param name="name">One of <see cref="Names"/>.</param>

@@ -2,7 +2,6 @@ using BenchmarkDotNet.Attributes;
 using BenchmarkDotNet.Configs;
 using BenchmarkDotNet.Jobs;
 using FractalEngine.Core.Collision;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Generation;
 using FractalEngine.Core.Maths;
 
@@ -43,7 +42,7 @@ public class MeshColliderBenchmarks
     {
         var mesh = MeshGenerators.Create(Mesh, 1, 50_000);
         var random = new Random(1);
-        _positions = [.. Enumerable.Range(0, Queries).Select(_ => Positions == Place.Uniform ? Uniform(random, mesh) : Near(random, mesh))];
+        _positions = [.. Enumerable.Range(0, Queries).Select(_ => Positions == Place.Uniform ? QueryPositions.Uniform(random, mesh.Bounds) : QueryPositions.Near(random, mesh))];
         (_simple, _boxes, _hierarchy) = (new(mesh), new(mesh), new(mesh));
     }
 
@@ -55,20 +54,6 @@ public class MeshColliderBenchmarks
 
     [Benchmark(OperationsPerInvoke = Queries)]
     public double Hierarchy() => Sum(_hierarchy, Queries);
-
-    /// <summary>Anywhere in the mesh's box.</summary>
-    internal static Vector Uniform(Random random, Mesh mesh) =>
-        mesh.Bounds.Minimum + mesh.Bounds.Size.Stretch(new(random.NextDouble(), random.NextDouble(), random.NextDouble()));
-
-    /// <summary>Up to 1 % of the diagonal along each axis from a random point of a random face.</summary>
-    internal static Vector Near(Random random, Mesh mesh)
-    {
-        var (a, b, c) = mesh.Face(random.Next(mesh.FaceCount));
-        var (u, v) = (random.NextDouble(), random.NextDouble());
-        (u, v) = u + v > 1 ? (1 - u, 1 - v) : (u, v);
-        Vector offset = new(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5);
-        return a + (u * (b - a)) + (v * (c - a)) + (0.02 * mesh.Bounds.Diagonal * offset);
-    }
 
     private double Sum(Collider collider, int queries)
     {

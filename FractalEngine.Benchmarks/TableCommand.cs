@@ -38,7 +38,7 @@ internal static class TableCommand
             }
         }
 
-        new ColliderTable(queries, rounds, Console.Out).Write((names.Count > 0 ? names : [.. Default]).Select(Load));
+        new ColliderTable(queries, rounds, Console.Out).Write((names.Count > 0 ? names : [.. Default]).Select(FractalCase.Parse));
         return 0;
     }
 
@@ -47,12 +47,6 @@ internal static class TableCommand
         [var name] => FractalCase.Names.Contains(name),
         [var name, var depth] => FractalCase.Names.Contains(name) && TryCount(depth, out _),
         _ => false,
-    };
-
-    private static FractalCase Load(string text) => text.Split(':') switch
-    {
-        [var name, var depth] => FractalCase.Load(name, int.Parse(depth, CultureInfo.InvariantCulture)),
-        _ => FractalCase.Load(text),
     };
 
     private static bool TryCount(string text, out int count) =>

@@ -1,4 +1,3 @@
-using System.Collections.Immutable;
 using System.CommandLine;
 using System.Diagnostics;
 using System.Globalization;
@@ -72,9 +71,10 @@ internal static class QueryCommand
         var collider = Build(file, kind);
         var buildTime = clock.Elapsed;
         clock.Restart();
-        var (text, record) = Ask(collider, points, within, epsilon, json);
+        var (answers, record) = (new BatchAnswer[points.Length], new QueryRecord());
+        BatchQuery.FindClosest(collider, points.AsMemory(), answers, record, within, epsilon);
         Report(file, collider, points.Length, record, buildTime, clock.Elapsed);
-        Console.Out.Write(text);
+        Console.Out.Write(Text(answers, json));
         return ExitCode.Done;
     }
 
@@ -92,22 +92,18 @@ internal static class QueryCommand
         }
     }
 
-    private static (StringBuilder Text, QueryRecord Record) Ask(
-        SceneCollider collider, ImmutableArray<Vector> points, double within, double epsilon, bool json)
+    private static StringBuilder Text(BatchAnswer[] answers, bool json)
     {
-        var (text, record) = (new StringBuilder(), new QueryRecord());
-        text.Append(json ? "[" : "");
-        for (var i = 0; i < points.Length; i++)
+        var text = new StringBuilder(json ? "[" : "");
+        for (var i = 0; i < answers.Length; i++)
         {
-            var before = record.FaceTests;
-            var found = collider.TryFindClosest(points[i], within, record, out var closest, out _, epsilon: epsilon);
+            var (isFound, closest, faceTests, _) = answers[i];
             text.Append(json && i > 0 ? ",\n" : "");
-            text.Append(found ? Text(closest, record.FaceTests - before, json) : json ? "null" : "none");
+            text.Append(isFound ? Text(closest, faceTests, json) : json ? "null" : "none");
             text.Append(json ? "" : "\n");
         }
 
-        text.Append(json ? "]\n" : "");
-        return (text, record);
+        return text.Append(json ? "]\n" : "");
     }
 
     private static void Report(LoadedFile file, SceneCollider collider, int count, QueryRecord record, TimeSpan buildTime, TimeSpan queryTime)

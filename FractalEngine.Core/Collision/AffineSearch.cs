@@ -5,14 +5,19 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision;
 
 /// <summary>Search for any maps: bounds are taken into the frame of the whole, since distances there are not those of the copies' frames.</summary>
-internal sealed class AffineSearch(SubFractalTable table, FaceHierarchy faces, double precisionSquared)
+internal sealed class AffineSearch(SubFractalTable table, FaceHierarchy faces)
 {
     /// <summary>Looks at the whole fractal.</summary>
     /// <param name="position">In the frame of the query.</param>
     /// <param name="map">From the fractal's frame to that of the query.</param>
     /// <param name="search">What is found so far.</param>
-    public void Run(Vector position, AffineMap map, ref FractalSearch search) =>
-        Visit(table.Root, table.Levels, AffineLanes.Of(position), new(map), new(map.Inverse()), 0, 0, ref search);
+    public void Run(Vector position, AffineMap map, ref FractalSearch search)
+    {
+        AffineLanes lanes = new(map);
+        search.PrecisionSquared =
+            ExactFractalCollider.Precision * ExactFractalCollider.Precision * table.Root.RadiusSquared * lanes.LengtheningSquared();
+        Visit(table.Root, table.Levels, AffineLanes.Of(position), in lanes, new(map.Inverse()), 0, 0, ref search);
+    }
 
     /// <summary>Looks at a sub-fractal.</summary>
     /// <param name="state">The sub-fractal.</param>
@@ -26,7 +31,7 @@ internal sealed class AffineSearch(SubFractalTable table, FaceHierarchy faces, d
     private void Visit(
         SubFractal state, long levels, Vector256<double> position, in AffineLanes map, in AffineLanes inverse, int depth, int offset, ref FractalSearch search)
     {
-        if (levels == 0 || state.RadiusSquared * map.LengtheningSquared() <= precisionSquared || depth >= FractalSearch.Deepest)
+        if (levels == 0 || state.RadiusSquared * map.LengtheningSquared() <= search.PrecisionSquared || depth >= FractalSearch.Deepest)
         {
             LookAtFaces(position, in map, depth, ref search);
             return;

@@ -2,7 +2,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
 
-/// <summary>Asks a collider for many positions at once, on all cores.</summary>
+/// <summary>Asks a collider or a scene for many positions at once, on all cores.</summary>
 public static class BatchQuery
 {
     // Enough for a thread to be worth waking: from some microseconds to some milliseconds.
@@ -26,7 +26,35 @@ public static class BatchQuery
         QueryRecord record,
         double within = double.PositiveInfinity,
         double epsilon = 0,
-        int? threads = null)
+        int? threads = null) => FindClosest(
+            (Vector position, QueryRecord own, out ClosestPoint closest) => collider.TryFindClosest(position, within, own, out closest, epsilon),
+            positions, answers, record, within, epsilon, threads);
+
+    /// <summary>Finds the nearest point of a scene for each position.</summary>
+    /// <param name="scene">All objects are looked at.</param>
+    /// <param name="positions">World space, finite.</param>
+    /// <param name="answers">As many as positions; receives the answers in the same order.</param>
+    /// <param name="record">Receives the sum of the costs. Its instance path is emptied.</param>
+    /// <param name="within">As in <see cref="Collider.TryFindClosest"/>.</param>
+    /// <param name="epsilon">As in <see cref="Collider.TryFindClosest"/>.</param>
+    /// <param name="threads">At most so many; null for one a core.</param>
+    /// <exception cref="ArgumentException">There are fewer or more answers than positions.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">A position is not finite, a distance or ε is negative or NaN, or there are no threads.</exception>
+    public static void FindClosest(
+        SceneCollider scene,
+        ReadOnlyMemory<Vector> positions,
+        Memory<BatchAnswer> answers,
+        QueryRecord record,
+        double within = double.PositiveInfinity,
+        double epsilon = 0,
+        int? threads = null) => FindClosest(
+            (Vector position, QueryRecord own, out ClosestPoint closest) => scene.TryFindClosest(position, within, own, out closest, out _, epsilon: epsilon),
+            positions, answers, record, within, epsilon, threads);
+
+    private delegate bool Query(Vector position, QueryRecord record, out ClosestPoint closest);
+
+    private static void FindClosest(
+        Query query, ReadOnlyMemory<Vector> positions, Memory<BatchAnswer> answers, QueryRecord record, double within, double epsilon, int? threads)
     {
         Check(positions.Span, answers.Length, within, epsilon, threads);
         record.ClearPath();
@@ -41,7 +69,7 @@ public static class BatchQuery
             {
                 var first = task * PositionsOfTask;
                 var count = Math.Min(PositionsOfTask, positions.Length - first);
-                Answer(collider, positions.Span.Slice(first, count), answers.Span.Slice(first, count), own, within, epsilon);
+                Answer(query, positions.Span.Slice(first, count), answers.Span.Slice(first, count), own);
                 return own;
             },
             own =>
@@ -86,13 +114,12 @@ public static class BatchQuery
         }
     }
 
-    private static void Answer(
-        Collider collider, ReadOnlySpan<Vector> positions, Span<BatchAnswer> answers, QueryRecord record, double within, double epsilon)
+    private static void Answer(Query query, ReadOnlySpan<Vector> positions, Span<BatchAnswer> answers, QueryRecord record)
     {
         for (var i = 0; i < positions.Length; i++)
         {
             var (faceTests, boundTests) = (record.FaceTests, record.BoundTests);
-            var isFound = collider.TryFindClosest(positions[i], within, record, out var closest, epsilon);
+            var isFound = query(positions[i], record, out var closest);
             answers[i] = new(isFound, closest, record.FaceTests - faceTests, record.BoundTests - boundTests);
         }
     }

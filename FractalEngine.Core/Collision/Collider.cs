@@ -26,6 +26,26 @@ public abstract class Collider
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the distance or ε is negative or NaN.</exception>
     public bool TryFindClosest(Vector position, double within, QueryRecord record, out ClosestPoint closest, double epsilon = 0)
     {
+        Check(position, within, epsilon);
+        return Find(position, within, epsilon, record, out closest);
+    }
+
+    /// <summary>True when <see cref="FindImage"/> works.</summary>
+    internal virtual bool FindsImages => false;
+
+    /// <summary>Finds the nearest point of the shape's image under any map, which costs more than in the shape's own frame.</summary>
+    /// <param name="position">In the frame of the image, finite.</param>
+    /// <param name="map">From the shape's frame to that of the image; not singular.</param>
+    /// <param name="within">As in <see cref="TryFindClosest"/>.</param>
+    /// <param name="epsilon">As in <see cref="TryFindClosest"/>.</param>
+    /// <param name="record">Receives the costs and the instance.</param>
+    /// <param name="closest">The answer in the frame of the image, if there is one.</param>
+    internal virtual bool FindImage(Vector position, AffineMap map, double within, double epsilon, QueryRecord record, out ClosestPoint closest) =>
+        throw new NotSupportedException($"{GetType().Name} finds points in the shape's own frame only");
+
+    /// <summary>Throws when a query's arguments are not allowed.</summary>
+    internal static void Check(Vector position, double within, double epsilon)
+    {
         if (!position.IsFinite())
         {
             throw new ArgumentOutOfRangeException(nameof(position), position, "expected finite coordinates");
@@ -40,8 +60,6 @@ public abstract class Collider
         {
             throw new ArgumentOutOfRangeException(nameof(epsilon), epsilon, "expected no negative number");
         }
-
-        return Find(position, within, epsilon, record, out closest);
     }
 
     /// <summary>The query itself, its arguments checked.</summary>

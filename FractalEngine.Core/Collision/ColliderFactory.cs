@@ -10,6 +10,9 @@ public static class ColliderFactory
     /// <summary>The most faces of an expanded fractal that the colliders of meshes are made for.</summary>
     public const long ExpandedFaces = 20_000_000;
 
+    /// <summary>True for kinds whose colliders serve objects with any matrix, see <see cref="Collider.FindImage"/>.</summary>
+    internal static bool FindsImages(ColliderKind kind) => kind is ColliderKind.Exact or ColliderKind.Hierarchy or ColliderKind.Simple;
+
     /// <summary>The collider for a model in its own frame.</summary>
     /// <exception cref="ColliderMismatchException">The kind does not fit the model; the message says which kinds do.</exception>
     /// <exception cref="FractalLimitException">The fractal is too large for this kind.</exception>

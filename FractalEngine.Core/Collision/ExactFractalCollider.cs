@@ -35,8 +35,7 @@ public sealed class ExactFractalCollider : Collider
         }
 
         (_fractal, _table, _base) = (fractal, SubFractalTable.Of(fractal), new(fractal.BaseMesh));
-        var precisionSquared = Precision * Precision * _table.Root.RadiusSquared;
-        (_similar, _affine) = (new(_table, _base, precisionSquared), new(_table, _base, precisionSquared));
+        (_similar, _affine) = (new(_table, _base), new(_table, _base));
     }
 
     /// <inheritdoc/>
@@ -46,28 +45,39 @@ public sealed class ExactFractalCollider : Collider
     public override long StorageBytes => _table.StorageBytes + _base.StorageBytes;
 
     /// <inheritdoc/>
-    private protected override bool Find(Vector position, double within, double epsilon, QueryRecord record, out ClosestPoint closest)
+    internal override bool FindsImages => true;
+
+    /// <inheritdoc/>
+    internal override bool FindImage(Vector position, AffineMap map, double within, double epsilon, QueryRecord record, out ClosestPoint closest) =>
+        Find(position, map, isSimilar: false, within, epsilon, record, out closest);
+
+    /// <inheritdoc/>
+    private protected override bool Find(Vector position, double within, double epsilon, QueryRecord record, out ClosestPoint closest) =>
+        Find(position, AffineMap.Identity, _table.AreSimilar, within, epsilon, record, out closest);
+
+    private bool Find(
+        Vector position, in AffineMap map, bool isSimilar, double within, double epsilon, QueryRecord record, out ClosestPoint closest)
     {
         record.ClearPath();
         closest = default;
-        var box = _table.Root.Box;
-        if (_fractal.BaseMesh.FaceCount == 0 || box.IsEmpty)
+        if (_fractal.BaseMesh.FaceCount == 0 || _table.Root.Box.IsEmpty)
         {
             return false;
         }
 
+        var box = isSimilar ? _table.Root.Box : _table.Root.Box.Transform(map);
         var magnitude = Math.Max(position.MaximumComponent(), Math.Max(box.Minimum.MaximumComponent(), box.Maximum.MaximumComponent()));
         var search = new FractalSearch(within, epsilon, magnitude, record);
         search.BoundTests++;
         if (!search.Excludes(box.DistanceSquared(position)))
         {
-            if (_table.AreSimilar)
+            if (isSimilar)
             {
                 _similar.Run(position, ref search);
             }
             else
             {
-                _affine.Run(position, AffineMap.Identity, ref search);
+                _affine.Run(position, map, ref search);
             }
         }
 
@@ -78,7 +88,7 @@ public sealed class ExactFractalCollider : Collider
             return false;
         }
 
-        closest = FaceAnswer.Of(_fractal.BaseMesh, search.Face, Follow(search.FaceTrail, record), position);
+        closest = FaceAnswer.Of(_fractal.BaseMesh, search.Face, map * Follow(search.FaceTrail, record), position);
         return closest.Distance <= within;
     }
 

@@ -38,6 +38,9 @@ internal ref struct FractalSearch
     /// <summary>Squared bounds from here on can't matter: a little less than the nearest so far.</summary>
     public double Limit { get; private set; }
 
+    /// <summary>Square of half the size, in the frame of the whole, of what is answered by the base mesh in its place.</summary>
+    public double PrecisionSquared { get; set; }
+
     /// <summary>Squared bounds are multiplied by this before they are compared: (1 + ε)².</summary>
     public double BoundFactor { get; }
 

@@ -10,8 +10,8 @@ namespace FractalEngine.Core.Collision;
 /// file; an object's own matrix is taken into account by each query, so that objects move for nothing.
 /// </summary>
 /// <remarks>
-/// A matrix with a non-uniform scale does not keep distances in proportion: such an object has a collider of its own, for the place where the
-/// scene has it.
+/// A matrix with a non-uniform scale does not keep distances in proportion: then the search itself takes it into account, which costs some
+/// times more. The colliders that only approximate can't: there such an object has one of its own, for the place where the scene has it.
 /// </remarks>
 public sealed class SceneCollider
 {
@@ -24,8 +24,10 @@ public sealed class SceneCollider
     {
         var shared = scene.Models.ToDictionary(model => model, model => new Lazy<Collider>(() => ColliderFactory.Create(model, kind)));
         _items = [.. scene.Objects.Select(placed => Similarity.TryMake(placed.Map, out var similarity)
-            ? new Item(shared[placed.Model], similarity, placed.Bounds)
-            : new Item(new(() => ColliderFactory.Create(placed, kind)), Similarity.Identity, placed.Bounds))];
+            ? new Item(shared[placed.Model], similarity, null, placed.Bounds)
+            : ColliderFactory.FindsImages(kind)
+                ? new Item(shared[placed.Model], Similarity.Identity, placed.Map, placed.Bounds)
+                : new Item(new(() => ColliderFactory.Create(placed, kind)), Similarity.Identity, null, placed.Bounds))];
     }
 
     /// <summary>Bytes of the colliders built so far, each once.</summary>
@@ -53,11 +55,12 @@ public sealed class SceneCollider
     public bool TryFindClosest(
         Vector position, double within, QueryRecord record, out ClosestPoint closest, out int objectIndex, int except = -1, double epsilon = 0)
     {
+        Collider.Check(position, within, epsilon);
         (closest, objectIndex) = (default, -1);
         Span<double> bounds = _items.Length <= 256 ? stackalloc double[_items.Length] : new double[_items.Length];
         for (var i = 0; i < _items.Length; i++)
         {
-            bounds[i] = i == except ? double.PositiveInfinity : Distance(_items[i].Bounds, position);
+            bounds[i] = i == except ? double.PositiveInfinity : Math.Sqrt(_items[i].Bounds.DistanceSquared(position));
         }
 
         record.BoundTests += _items.Length;
@@ -75,15 +78,10 @@ public sealed class SceneCollider
             }
 
             bounds[nearest] = double.PositiveInfinity;
-            var (collider, similarity, _) = _items[nearest];
-            if (collider.Value.TryFindClosest(similarity.ToLocal(position), within / similarity.Scale, record, out var local, epsilon))
+            if (_items[nearest].TryFind(position, within, record, out var found, epsilon) && (objectIndex < 0 || found.Distance < closest.Distance))
             {
-                var found = similarity.ToWorld(local);
-                if (objectIndex < 0 || found.Distance < closest.Distance)
-                {
-                    (closest, objectIndex, within) = (found, nearest, Math.Min(within, found.Distance));
-                    record.KeepPath();
-                }
+                (closest, objectIndex, within) = (found, nearest, Math.Min(within, found.Distance));
+                record.KeepPath();
             }
         }
 
@@ -91,8 +89,23 @@ public sealed class SceneCollider
         return objectIndex >= 0;
     }
 
-    private static double Distance(BoundingBox box, Vector position) => box.IsEmpty ? double.PositiveInfinity
-        : Vector.Max(Vector.Max(box.Minimum - position, position - box.Maximum), Vector.Zero).Length();
+    /// <summary>An object.</summary>
+    /// <param name="Collider">In the frame of its model.</param>
+    /// <param name="Similarity">From that frame to world space.</param>
+    /// <param name="Skewing">Instead of the similarity, where the object's matrix is none.</param>
+    /// <param name="Bounds">In world space.</param>
+    private sealed record Item(Lazy<Collider> Collider, Similarity Similarity, AffineMap? Skewing, BoundingBox Bounds)
+    {
+        public bool TryFind(Vector position, double within, QueryRecord record, out ClosestPoint found, double epsilon)
+        {
+            if (Skewing is { } map)
+            {
+                return Collider.Value.FindImage(position, map, within, epsilon, record, out found);
+            }
 
-    private sealed record Item(Lazy<Collider> Collider, Similarity Similarity, BoundingBox Bounds);
+            var isFound = Collider.Value.TryFindClosest(Similarity.ToLocal(position), within / Similarity.Scale, record, out var local, epsilon);
+            found = isFound ? Similarity.ToWorld(local) : default;
+            return isFound;
+        }
+    }
 }

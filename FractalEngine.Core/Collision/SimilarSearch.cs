@@ -9,15 +9,17 @@ namespace FractalEngine.Core.Collision;
 /// Search where all maps keep distances in proportion: the position is taken into the frame of each sub-fractal, and distances there are multiplied
 /// by the scale.
 /// </summary>
-internal sealed class SimilarSearch(SubFractalTable table, FaceHierarchy faces, double precisionSquared)
+internal sealed class SimilarSearch(SubFractalTable table, FaceHierarchy faces)
 {
     // To look at all of them costs no more than to look at their hull.
     private const int FewFaces = 8;
 
-    private static readonly double Far = 1;
     /// <summary>Looks at the whole fractal.</summary>
-    public void Run(Vector position, ref FractalSearch search) =>
+    public void Run(Vector position, ref FractalSearch search)
+    {
+        search.PrecisionSquared = ExactFractalCollider.Precision * ExactFractalCollider.Precision * table.Root.RadiusSquared;
         Visit(table.Root, table.Levels, AffineLanes.Of(position), 1, 0, 0, ref search);
+    }
 
     /// <summary>Looks at a sub-fractal.</summary>
     /// <param name="state">The sub-fractal.</param>
@@ -29,7 +31,7 @@ internal sealed class SimilarSearch(SubFractalTable table, FaceHierarchy faces, 
     /// <param name="search">What is found so far.</param>
     private void Visit(SubFractal state, long levels, Vector256<double> position, double scaleSquared, int depth, int offset, ref FractalSearch search)
     {
-        if (levels == 0 || state.RadiusSquared * scaleSquared <= precisionSquared || depth >= FractalSearch.Deepest)
+        if (levels == 0 || state.RadiusSquared * scaleSquared <= search.PrecisionSquared || depth >= FractalSearch.Deepest)
         {
             LookAtFaces(position, scaleSquared, depth, ref search);
             return;
@@ -46,14 +48,13 @@ internal sealed class SimilarSearch(SubFractalTable table, FaceHierarchy faces, 
             if (squared > state.RadiusSquared)
             {
                 shifts.RaiseByReach(direction, squared, position, queue);
-                search.BoundTests += copies.Length;
             }
-
-            if (squared < Far * state.RadiusSquared)
+            else
             {
                 shifts.RaiseByFacets(position, queue);
-                search.BoundTests += copies.Length;
             }
+
+            search.BoundTests += copies.Length;
         }
 
         var limit = search.Limit / (scaleSquared * search.BoundFactor);

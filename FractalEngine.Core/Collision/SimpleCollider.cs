@@ -13,6 +13,26 @@ public sealed class SimpleCollider(Mesh mesh) : Collider
     public override long StorageBytes => 0;
 
     /// <inheritdoc/>
+    internal override bool FindsImages => true;
+
+    /// <inheritdoc/>
+    internal override bool FindImage(Vector position, AffineMap map, double within, double epsilon, QueryRecord record, out ClosestPoint closest)
+    {
+        record.ClearPath();
+        record.FaceTests += mesh.FaceCount;
+        var (nearest, nearestFace) = (double.PositiveInfinity, -1);
+        for (var face = 0; face < mesh.FaceCount; face++)
+        {
+            var (a, b, c) = mesh.Face(face);
+            var squared = FaceKernel.ClosestPoint(position, map * a, map * b, map * c).DistanceSquared;
+            (nearest, nearestFace) = squared < nearest ? (squared, face) : (nearest, nearestFace);
+        }
+
+        closest = nearestFace < 0 ? default : FaceAnswer.Of(mesh, nearestFace, map, position);
+        return nearestFace >= 0 && closest.Distance <= within;
+    }
+
+    /// <inheritdoc/>
     private protected override bool Find(Vector position, double within, double epsilon, QueryRecord record, out ClosestPoint closest)
     {
         record.ClearPath();
