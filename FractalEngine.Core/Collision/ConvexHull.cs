@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -38,8 +39,19 @@ internal sealed class ConvexHull
     /// <param name="mostVertices">At least 4. Beyond, points near the hull are left outside.</param>
     public static ConvexHull Of(ReadOnlySpan<Vector> points, int mostVertices)
     {
-        var size = points.ToArray().Aggregate(BoundingBox.Empty, (box, point) => box.Including(point)).Diagonal;
+        var box = BoundingBox.Empty;
+        foreach (var point in points)
+        {
+            box = box.Including(point);
+        }
+
+        var size = box.Diagonal;
         var (i0, i1) = FarthestPair(points);
+        if (points[i0] == points[i1])
+        {
+            return new([points[i0]], [], 0, [(points[i0], points[i0], points[i0])]);
+        }
+
         var along = (points[i1] - points[i0]).UnitVector();
         var i2 = Farthest(points, points[i0], (point, origin) => Vector.Cross(along, point - origin).Length(), out var width);
         if (!(width > Coplanar * size))
@@ -54,10 +66,23 @@ internal sealed class ConvexHull
             : FlatHull(points, along, normal, height, mostVertices);
     }
 
+    /// <summary>The hull's image under a map, which is the hull of the images. Misses as much as this times the factor by which the map lengthens.</summary>
+    public ConvexHull Image(AffineMap map)
+    {
+        // Normals go with the cofactors; a mirror turns them inside out.
+        var (normals, outwards) = (map.Linear.Cofactors(), map.Linear.Determinant() < 0 ? -1 : 1);
+        return new ConvexHull(
+            [.. Vertices.Select(vertex => map * vertex)],
+            [.. Planes.Select(plane => plane with { Normal = outwards * (normals * plane.Normal).UnitVector(), Offset = double.NegativeInfinity })],
+            0,
+            [.. _facets.Select(facet => (map * facet.A, map * facet.B, map * facet.C))]).WithOffsets();
+    }
+
     /// <summary>Cubic scene units; 0 where it is flat.</summary>
-    public double Volume() => _facets.Sum(facet => Vector.Dot(facet.A - Vertices[0], Vector.Cross(facet.B - Vertices[0], facet.C - Vertices[0]))) / 6;
+    public double Volume() => Math.Abs(_facets.Sum(facet => Vector.Dot(facet.A - Vertices[0], Vector.Cross(facet.B - Vertices[0], facet.C - Vertices[0])))) / 6;
 
     /// <summary>The largest product of a direction with a corner.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     public double Support(Vector direction)
     {
         var most = double.NegativeInfinity;
@@ -86,6 +111,7 @@ internal sealed class ConvexHull
         return Math.Sqrt(squared);
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private static (int First, int Second) FarthestPair(ReadOnlySpan<Vector> points)
     {
         Span<int> extremes = stackalloc int[6];
@@ -217,6 +243,7 @@ internal sealed class ConvexHull
                 [.. _facets.Select(facet => (points[facet.A], points[facet.B], points[facet.C]))]).WithOffsets();
         }
 
+        [MethodImpl(MethodImplOptions.AggressiveOptimization)]
         private void Add(int apex)
         {
             var removed = new List<Facet>();
@@ -258,6 +285,7 @@ internal sealed class ConvexHull
         }
 
         /// <summary>Gives a point to the facet that it is farthest above, if it is above any.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveOptimization)]
         private void Assign(int point, int firstFacet)
         {
             Facet? highest = null;
@@ -290,14 +318,20 @@ internal sealed class ConvexHull
         private void Miss(int point, Facet facet) => _missed = Math.Max(
             _missed, Math.Sqrt(FaceKernel.ClosestPoint(points[point], points[facet.A], points[facet.B], points[facet.C]).DistanceSquared));
 
+        [MethodImpl(MethodImplOptions.AggressiveOptimization)]
         private IEnumerable<HullPlane> Planes()
         {
             var planes = new List<HullPlane>();
             foreach (var facet in _facets)
             {
                 var area = Vector.Cross(points[facet.B] - points[facet.A], points[facet.C] - points[facet.A]).Length();
-                var same = planes.FindIndex(plane => (plane.Normal - facet.Normal).MaximumComponent() < SamePlane);
-                if (same < 0)
+                var same = 0;
+                while (same < planes.Count && !((planes[same].Normal - facet.Normal).MaximumComponent() < SamePlane))
+                {
+                    same++;
+                }
+
+                if (same == planes.Count)
                 {
                     planes.Add(new(facet.Normal, facet.Offset, area));
                 }

@@ -12,11 +12,11 @@ internal sealed class Copy
     public Copy(CopyStep[] steps)
     {
         Steps = steps;
-        var inverse = AffineMap.Identity;
-        (Map, ScaleSquared, Lengthening) = (AffineMap.Identity, 1, 1);
+        var (map, inverse) = (AffineMap.Identity, AffineMap.Identity);
+        (ScaleSquared, Lengthening) = (1, 1);
         foreach (var (set, index, down) in steps)
         {
-            Map *= set.Maps[index];
+            map *= set.Maps[index];
             inverse = set.Inverses[index] * inverse;
             ScaleSquared *= set.ScaleSquared[index];
             Lengthening *= set.Lengthening[index];
@@ -24,14 +24,14 @@ internal sealed class Copy
             Down = down < 0 ? down : Down < 0 ? ~(~Down - down) : Down + down;
         }
 
-        (_lanes, _inverseLanes) = (new(Map), new(inverse));
+        (_lanes, _inverseLanes) = (new(map), new(inverse));
     }
 
     /// <summary>The maps, the outermost first.</summary>
     public CopyStep[] Steps { get; }
 
     /// <summary>From the copy's frame to that of the level.</summary>
-    public AffineMap Map { get; }
+    public AffineMap Map => _lanes.ToMap();
 
     /// <summary>The same.</summary>
     public ref readonly AffineLanes Lanes => ref _lanes;
@@ -52,7 +52,7 @@ internal sealed class Copy
     public long LevelsLeft(long levels) => Down < 0 ? ~Down : levels - Down;
 
     /// <summary>Bytes of the numbers.</summary>
-    public long StorageBytes => (46 * sizeof(double)) + (24 * Steps.Length) + 40;
+    public long StorageBytes => (35 * sizeof(double)) + (24 * Steps.Length) + 40;
 }
 
 /// <summary>One map of a <see cref="Copy"/>.</summary>

@@ -10,14 +10,13 @@ internal sealed class CopyFactory
     // A sub-fractal is opened over several levels at once, as long as its copies are no more than these: to look at some
     // more boxes, four at a time, costs less than to go down one level after another.
     private const int MostTogether = 32;
+    private const int MostToBeEven = 48;
+
 
     /// <summary>Copies are of sub-fractals at most so many rounds further down.</summary>
     public const int MostLevelsTogether = 16;
 
     private readonly Dictionary<CopyStep[], Copy> _copies = new(new SequenceComparer());
-
-    /// <summary>All copies made so far.</summary>
-    public IReadOnlyCollection<Copy> Copies => _copies.Values;
 
     /// <summary>
     /// The steps of a level: its own maps, then, where its identity lets it be passed over, those that the next levels of the same
@@ -56,28 +55,40 @@ internal sealed class CopyFactory
         }
     }
 
-    /// <summary>The copies of a level: its steps, and the steps of what they lead to as long as they are few.</summary>
+    /// <summary>The copies of a level: its steps, followed by the steps of what they lead to, as long as they are few.</summary>
     /// <param name="level">Levels left.</param>
     /// <param name="steps">Of the level.</param>
     /// <param name="stepsAt">Of the levels below; none of the base.</param>
     public Copy[] Open(long level, CopyStep[] steps, Func<long, CopyStep[]> stepsAt)
     {
         List<(CopyStep[] Steps, long Below)> chains = [.. steps.Select(step => ((CopyStep[])[step], step.LevelsLeft(level)))];
+        var (best, isBestEven) = (chains, IsEven(chains));
         for (var opened = 1; opened < MostLevelsTogether; opened++)
         {
-            var next = chains.Select(chain => chain.Below == 0 ? null : stepsAt(chain.Below)).ToArray();
-            if (next.All(more => more is null) || next.Sum(more => more?.Length ?? 1) > MostTogether)
+            // The largest first, so that all come to be of the same level, and few levels are ever looked at.
+            var top = chains.Select(chain => chain.Below).DefaultIfEmpty().Max();
+            var next = top == 0 ? [] : stepsAt(top);
+            if (top == 0 || chains.Sum(chain => chain.Below == top ? next.Length : 1) > MostToBeEven)
             {
                 break;
             }
 
-            chains = [.. chains.Zip(next).SelectMany(pair => pair.Second is null
-                ? [pair.First]
-                : pair.Second.Select(step => ((CopyStep[])[.. pair.First.Steps, step], step.LevelsLeft(pair.First.Below))))];
+            chains = [.. chains.SelectMany(chain => chain.Below < top
+                ? [chain]
+                : next.Select(step => ((CopyStep[])[.. chain.Steps, step], step.LevelsLeft(top))))];
+            var isEven = IsEven(chains);
+            if (chains.Count <= MostTogether ? isEven || !isBestEven : isEven && !isBestEven)
+            {
+                (best, isBestEven) = (chains, isEven);
+            }
         }
 
-        return [.. chains.Select(chain => CopyOf(chain.Steps))];
+        return [.. best.Select(chain => CopyOf(chain.Steps))];
     }
+
+    /// <summary>True when all that is not the base is of the same level.</summary>
+    private static bool IsEven(List<(CopyStep[] Steps, long Below)> chains) =>
+        chains.Where(chain => chain.Below > 0).Select(chain => chain.Below).Distinct().Count() <= 1;
 
     private static void AddSteps(List<CopyStep> steps, HashSet<AffineMap> offered, CopySet set, long down)
     {

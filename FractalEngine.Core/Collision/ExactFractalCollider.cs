@@ -113,7 +113,7 @@ public sealed class ExactFractalCollider : Collider
                 // Levels that are passed over take their identity.
                 for (var level = levels; level > (isIdentity ? below : below + 1); level--)
                 {
-                    record.AppendToPath(_table.At(level).Set!.IdentityIndex);
+                    record.AppendToPath(_table.SetAt(level)!.IdentityIndex);
                 }
 
                 if (!isIdentity)

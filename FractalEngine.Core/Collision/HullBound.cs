@@ -14,7 +14,7 @@ internal sealed class HullBound
     private const int Lanes = 4;
 
     // More save hardly any sub-fractals and cost time; the largest facets are kept.
-    private const int MostPlanes = 32;
+    private const int MostPlanes = 16;
     private const int FewVertices = 2 * Lanes;
 
     // In half sizes: from there on a facet's plane says hardly more than how far the solid reaches.

@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -44,13 +45,23 @@ internal sealed record Outline(BoundingBox Box, ConvexHull? Hull, double Margin)
         }
 
         var hull = ConvexHull.Of(corners, MostVertices);
-        margin += hull.Missed + RoundingOf(box);
-        return new(Shared(box, BoxOf(hull, margin)), hull, margin);
+        return new Outline(box, hull, margin + hull.Missed + RoundingOf(box)).Tightened();
     }
+
+    /// <summary>Of one part's image.</summary>
+    /// <param name="part">In its own frame.</param>
+    /// <param name="map">Of the frame.</param>
+    /// <param name="lengthening">The most by which the map lengthens.</param>
+    public static Outline With(Outline part, AffineMap map, double lengthening) => part.Image(map, lengthening) switch
+    {
+        var box when part.Hull is null => new(box, null, 0),
+        var box => new Outline(box, part.Hull.Image(map), (part.Margin * lengthening) + RoundingOf(box)).Tightened(),
+    };
 
     /// <summary>The outline's image under a map: a box around it.</summary>
     /// <param name="map">Of the frame.</param>
     /// <param name="lengthening">The most by which the map lengthens.</param>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     public BoundingBox Image(AffineMap map, double lengthening)
     {
         var image = Box.Transform(map);
@@ -59,7 +70,12 @@ internal sealed record Outline(BoundingBox Box, ConvexHull? Hull, double Margin)
             return image;
         }
 
-        var box = Hull.Vertices.Aggregate(BoundingBox.Empty, (sum, vertex) => sum.Including(map * vertex));
+        var box = BoundingBox.Empty;
+        foreach (var vertex in Hull.Vertices)
+        {
+            box = box.Including(map * vertex);
+        }
+
         return Shared(image, Widened(box, (Margin * lengthening) + RoundingOf(image)));
     }
 
@@ -68,8 +84,9 @@ internal sealed record Outline(BoundingBox Box, ConvexHull? Hull, double Margin)
 
     private static double RoundingOf(BoundingBox box) => Rounding * Math.Max(box.Minimum.MaximumComponent(), box.Maximum.MaximumComponent());
 
-    private static BoundingBox BoxOf(ConvexHull hull, double margin) =>
-        Widened(hull.Vertices.Aggregate(BoundingBox.Empty, (sum, vertex) => sum.Including(vertex)), margin);
+    /// <summary>With a box that is no larger than that of the hull.</summary>
+    private Outline Tightened() =>
+        this with { Box = Shared(Box, Widened(Hull!.Vertices.Aggregate(BoundingBox.Empty, (sum, vertex) => sum.Including(vertex)), Margin)) };
 
     private static BoundingBox Shared(BoundingBox box1, BoundingBox box2) => new(Vector.Max(box1.Minimum, box2.Minimum), Vector.Min(box1.Maximum, box2.Maximum));
 }

@@ -14,12 +14,6 @@ internal sealed class SubFractalBuilder
     // More mean that the bounds grow or shrink too slowly to settle.
     private const int MostStates = 4000;
 
-    // Bounds settle when a round changes them by less than this part of their size. They are then widened by ten times as much as they
-    // changed, and it is verified that what is widened holds everything at any depth.
-    private const double Settled = 1e-7;
-    private const double Widening = 10;
-    private const double Rounding = 1e-14;
-
     // A hull that fills its box bounds no better than the box.
     private const double MostOfBox = 0.95;
 
@@ -43,8 +37,6 @@ internal sealed class SubFractalBuilder
     public IReadOnlyList<StateRegion> Regions => _regions;
 
     public IEnumerable<CopySet> Sets => _sets.Values;
-
-    public IReadOnlyCollection<Copy> Copies => _copies.Copies;
 
     /// <summary>Of what has been added.</summary>
     public long Levels { get; private set; } = -1;
@@ -154,121 +146,45 @@ internal sealed class SubFractalBuilder
     /// <param name="left">How many levels are left; null for infinitely many.</param>
     private bool TryRepeat(long floor, int period, long? left)
     {
-        var (top, first) = (Levels, Levels - period + 1);
-        var change = 0.0;
-        for (var level = first; level <= top; level++)
-        {
-            change = Math.Max(change, Change(OutlineAt(level).Box, OutlineAt(level - period).Box));
-        }
-
-        if (!(change <= Settled))
+        var round = new SettledRound(Levels, period, OutlineAt, StepsAt);
+        if (!round.IsLikely())
         {
             return false;
         }
 
         // In rounds so far up that their copies are of levels in rounds like the last one, and in those between, the copies must be the same.
-        long Seen(long level) => level <= top ? level : first + ((level - first) % period);
         Copy[] CopiesAt(long level) => _copies.Open(
             level,
-            CopyFactory.StepsAt(level, floor, period, At(Seen(level)).Set!, below => At(Seen(below)).Set!),
-            below => StepsAt(Seen(below)));
-        var above = top + 1 + (CopyFactory.MostLevelsTogether * period);
-        var copies = Enumerable.Range(0, period).Select(i => CopiesAt(above + i)).ToArray();
-        for (var level = top + 1; level < above; level++)
+            CopyFactory.StepsAt(level, floor, period, At(round.Like(level)).Set!, below => At(round.Like(below)).Set!),
+            below => StepsAt(round.Like(below)));
+        var copies = Enumerable.Range(0, period).Select(i => CopiesAt(round.Above + i)).ToArray();
+        for (var level = Levels + 1; level < round.Above; level++)
         {
-            if (!CopiesAt(level).SequenceEqual(copies[(level - top - 1) % period]))
+            if (!CopiesAt(level).SequenceEqual(copies[round.PlaceOf(level)]))
             {
                 return false;
             }
         }
 
-        // The assumption: the last round, widened. If all that a round above is made of is held by the widened one, provided that what is below is,
-        // then, by induction, so it is at every depth.
-        int InRound(long level) => level < first ? -1 : (int)((level - first) % period);
-        var widening = Math.Max(Widening * change, Rounding);
-        var assumed = Enumerable.Range(0, period).Select(i => OutlineAt(first + i))
-            .Select(outline => outline with { Box = Outline.Widened(outline.Box, widening * outline.Box.Diagonal) }).ToArray();
-        assumed = WithMargins(assumed, InRound, above);
-        var round = new Made[period];
-        for (var i = 0; i < period; i++)
+        if (round.TryHold(copies) is not { } outlines)
         {
-            Outline Below(long level) => InRound(level) is >= 0 and var j ? assumed[j] : OutlineAt(level);
-            var steps = StepsAt(first + i);
-            if (!steps.Select(step => Below(step.LevelsLeft(above + i)).Image(step.Map, step.Lengthening)).Append(OutlineAt(first + i).Box).All(box => Contains(assumed[i].Box, box)))
-            {
-                return false;
-            }
-
-            round[i] = new(StateOf(At(first + i).Set!, copies[i], copies[i].Select(copy => Below(copy.LevelsLeft(above + i))), assumed[i]), assumed[i], steps);
+            return false;
         }
 
         // No search goes down 10¹² levels.
-        Append(left ?? (period << 20) * (1L << 20), round);
+        Append(left ?? (period << 20) * (1L << 20), [.. outlines.Select((outline, i) => new Made(
+            StateOf(At(round.First + i).Set!, copies[i], copies[i].Select(copy => round.Below(outlines, copy.LevelsLeft(round.Above + i))), outline),
+            outline,
+            StepsAt(round.First + i)))]);
         return true;
     }
-
-    /// <summary>Margins by which the hulls hold the rounds above as well; no hulls where there are none.</summary>
-    private Outline[] WithMargins(Outline[] assumed, Func<long, int> inRound, long above)
-    {
-        const int most = 300;
-        if (assumed.Any(outline => outline.Hull is null))
-        {
-            return [.. assumed.Select(outline => outline with { Hull = null, Margin = 0 })];
-        }
-
-        // A margin holds if it is no less than what corners miss by, and a copy's margin on top of that.
-        var margins = assumed.Select(outline => outline.Margin).ToArray();
-        var missed = new double[assumed.Length];
-        for (var attempt = 0; attempt < most; attempt++)
-        {
-            var holds = true;
-            for (var i = 0; i < assumed.Length; i++)
-            {
-                var needed = margins[i];
-                foreach (var step in StepsAt(Levels - assumed.Length + 1 + i))
-                {
-                    var below = step.LevelsLeft(above + i);
-                    var j = inRound(below);
-                    var outline = j >= 0 ? assumed[j] : OutlineAt(below);
-                    if (outline.Hull is null)
-                    {
-                        continue;
-                    }
-
-                    if (attempt == 0)
-                    {
-                        missed[i] = Math.Max(missed[i], outline.Hull.Vertices.Max(vertex => assumed[i].Hull!.DistanceBound(step.Map * vertex)));
-                    }
-
-                    needed = Math.Max(needed, missed[i] + (step.Lengthening * (j >= 0 ? margins[j] : outline.Margin)));
-                }
-
-                holds &= needed <= margins[i];
-                // A little more than needed, so that it ends.
-                margins[i] = needed > margins[i] ? needed * (1 + Settled) : margins[i];
-            }
-
-            if (holds)
-            {
-                return [.. assumed.Select((outline, i) => outline with { Margin = margins[i] })];
-            }
-        }
-
-        return [.. assumed.Select(outline => outline with { Hull = null, Margin = 0 })];
-    }
-
-    private static bool Contains(BoundingBox outer, BoundingBox inner) => BoundingBox.Union(outer, inner) == outer;
-
-    /// <summary>By which part of its size a box changes.</summary>
-    private static double Change(BoundingBox box1, BoundingBox box2) => box1 == box2 ? 0
-        : Math.Max((box1.Minimum - box2.Minimum).MaximumComponent(), (box1.Maximum - box2.Maximum).MaximumComponent()) / box1.Diagonal;
 
     /// <summary>The outline of what some steps lead to, none of it empty.</summary>
     private static Outline OutlineOf((CopyStep Step, Outline Below)[] parts)
     {
-        if (parts.Length == 0)
+        if (parts is [] or [_])
         {
-            return Outline.Empty;
+            return parts is [var only] ? Outline.With(only.Below, only.Step.Map, only.Step.Lengthening) : Outline.Empty;
         }
 
         var box = parts.Aggregate(BoundingBox.Empty, (sum, part) => BoundingBox.Union(sum, part.Below.Image(part.Step.Map, part.Step.Lengthening)));
