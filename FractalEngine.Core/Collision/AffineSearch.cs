@@ -42,7 +42,8 @@ internal sealed class AffineSearch(SubFractalTable table, FaceHierarchy faces)
         ImageDistances.Fill(queue, state, position, in map);
         search.BoundTests += copies.Length;
         var limit = search.Limit / search.BoundFactor;
-        while (queue.TryPeek(limit, out var nearest))
+        var isFound = queue.TryPeek(limit, out var nearest);
+        while (isFound)
         {
             var copy = copies[nearest];
             var below = copy.LevelsLeft(levels);
@@ -59,9 +60,14 @@ internal sealed class AffineSearch(SubFractalTable table, FaceHierarchy faces)
                     search.BoundTests++;
                 }
 
-                if (queue.Refine(nearest, own) && (!queue.TryPeek(limit, out var next) || next != nearest))
+                if (queue.Refine(nearest, own))
                 {
-                    continue;
+                    isFound = queue.TryPeek(limit, out var next);
+                    if (!isFound || next != nearest)
+                    {
+                        nearest = next;
+                        continue;
+                    }
                 }
             }
 
@@ -69,6 +75,7 @@ internal sealed class AffineSearch(SubFractalTable table, FaceHierarchy faces)
             search.Enter(depth, nearest);
             Visit(inner, below, position, in innerMap, in innerInverse, depth + 1, offset + length, ref search);
             limit = search.Limit / search.BoundFactor;
+            isFound = queue.TryPeek(limit, out nearest);
         }
     }
 

@@ -15,6 +15,7 @@ internal sealed class HullBound
 
     // More save hardly any sub-fractals and cost time; the largest facets are kept.
     private const int MostPlanes = 16;
+    private const int MostPlanesWithAxes = 32;
     private const int FewVertices = 2 * Lanes;
 
     // In half sizes: from there on a facet's plane says hardly more than how far the solid reaches.
@@ -35,10 +36,10 @@ internal sealed class HullBound
     /// <param name="hull">May be flat.</param>
     /// <param name="box">Around the hull.</param>
     /// <param name="margin">Not negative.</param>
-    /// <param name="withAxes">False where the planes of an axis-parallel box are looked at elsewhere.</param>
+    /// <param name="withAxes">False where the planes of an axis-parallel box are looked at elsewhere. Skewed maps need them, and more of the others.</param>
     public HullBound(ConvexHull hull, BoundingBox box, double margin, bool withAxes)
     {
-        var planes = hull.Planes.Where(plane => withAxes || plane.Normal.MaximumComponent() < AlongAxis).Take(MostPlanes).ToArray();
+        var planes = hull.Planes.Where(plane => withAxes || plane.Normal.MaximumComponent() < AlongAxis).Take(withAxes ? MostPlanesWithAxes : MostPlanes).ToArray();
         (_centre, _farSquared, _margin) = (AffineLanes.Of(box.Centre), Far * Far * 0.25 * box.Size.LengthSquared(), margin);
         Planes = [.. planes.Select(plane => plane with { Offset = plane.Offset + margin })];
         (_planeCount, _vertexCount) = (Padded(planes.Length), Padded(hull.Vertices.Length));

@@ -58,7 +58,8 @@ internal sealed class SimilarSearch(SubFractalTable table, FaceHierarchy faces)
         }
 
         var limit = search.Limit / (scaleSquared * search.BoundFactor);
-        while (queue.TryPeek(limit, out var nearest))
+        var isFound = queue.TryPeek(limit, out var nearest);
+        while (isFound)
         {
             var copy = copies[nearest];
             var below = copy.LevelsLeft(levels);
@@ -68,9 +69,14 @@ internal sealed class SimilarSearch(SubFractalTable table, FaceHierarchy faces)
             {
                 // The sub-fractal's own bounds are tighter than the box around its image. Only those that seem nearest are asked for.
                 var own = Bound(state, inner, local, limit / copy.ScaleSquared, ref search) * copy.ScaleSquared;
-                if (queue.Refine(nearest, own) && (!queue.TryPeek(limit, out var next) || next != nearest))
+                if (queue.Refine(nearest, own))
                 {
-                    continue;
+                    isFound = queue.TryPeek(limit, out var next);
+                    if (!isFound || next != nearest)
+                    {
+                        nearest = next;
+                        continue;
+                    }
                 }
             }
 
@@ -78,6 +84,7 @@ internal sealed class SimilarSearch(SubFractalTable table, FaceHierarchy faces)
             search.Enter(depth, nearest);
             Visit(inner, below, local, scaleSquared * copy.ScaleSquared, depth + 1, offset + length, ref search);
             limit = search.Limit / (scaleSquared * search.BoundFactor);
+            isFound = queue.TryPeek(limit, out nearest);
         }
     }
 

@@ -28,6 +28,7 @@ internal sealed class SubFractalBuilder
     public SubFractalBuilder(Fractal fractal)
     {
         _fractal = fractal;
+        AreSimilar = fractal.Description.Steps.All(IsSimilar);
         var outline = Outline.Of(fractal.BaseMesh);
         Append(1, new Made(new(null, [], [], outline, outline.Box, HullOf(outline), null), outline, []));
     }
@@ -36,7 +37,8 @@ internal sealed class SubFractalBuilder
 
     public IReadOnlyList<StateRegion> Regions => _regions;
 
-    public IEnumerable<CopySet> Sets => _sets.Values;
+    /// <summary>True when all maps are multiples of rotations and mirrors.</summary>
+    public bool AreSimilar { get; }
 
     /// <summary>Of what has been added.</summary>
     public long Levels { get; private set; } = -1;
@@ -49,6 +51,13 @@ internal sealed class SubFractalBuilder
             Add(step);
         }
     }
+
+    private static bool IsSimilar(FractalStep step) => step switch
+    {
+        Repetition repetition => repetition.Body.All(IsSimilar),
+        TransformationSet set => set.Maps.All(map => Similarity.IsSimilar(map.Linear)),
+        _ => throw new ArgumentException($"{step.GetType().Name} is no step of a fractal", nameof(step)),
+    };
 
     private int Find(long levels) => StateRegion.Find(CollectionsMarshal.AsSpan(_regions), levels);
 
@@ -201,10 +210,10 @@ internal sealed class SubFractalBuilder
         return new(set, copies, boxes, outline, _outlines[0].Box, HullOf(outline), parts.Length > 0 ? HullOf(parts[0]) : null);
     }
 
-    private static HullBound? HullOf(Outline outline)
+    private HullBound? HullOf(Outline outline)
     {
         var (x, y, z) = outline.Box.Size;
-        return outline.Hull is null || outline.Hull.Volume() > MostOfBox * x * y * z ? null : new(outline.Hull, outline.Box, outline.Margin, withAxes: true);
+        return outline.Hull is null || outline.Hull.Volume() > MostOfBox * x * y * z ? null : new(outline.Hull, outline.Box, outline.Margin, withAxes: !AreSimilar);
     }
 
     private readonly record struct Made(SubFractal State, Outline Outline, CopyStep[] Steps);

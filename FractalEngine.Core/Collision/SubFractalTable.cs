@@ -19,7 +19,7 @@ internal sealed class SubFractalTable
         // Levels that are only passed on the way to others, several at once, are never looked at.
         _states = [.. builder.States.Select((state, i) => isReached[i] ? state : null)];
         _sets = [.. builder.States.Select(state => state.Set)];
-        AreSimilar = builder.Sets.All(set => set.AreSimilar);
+        AreSimilar = builder.AreSimilar;
         Root = At(Levels);
     }
 
