@@ -77,38 +77,37 @@ internal sealed class SettledRound(long top, int period, Func<long, Outline> out
     private bool HoldsCopies(Outline[] outlines, int place)
     {
         var outer = outlines[place].Box;
-        return stepsAt(First + place).Select(step => Below(outlines, step.LevelsLeft(Above + place)).Image(step.Map, step.Lengthening))
-            .All(box => BoundingBox.Union(outer, box) == outer);
+        return stepsAt(First + place).Select(step => Part.Of(step, Above + place, level => stepsAt(Like(level))))
+            .Select(part => Below(outlines, part.Level).Image(part.Map, part.Lengthening)).All(box => BoundingBox.Union(outer, box) == outer);
     }
 
     /// <summary>Gives the hulls margins by which they hold the rounds above as well; takes the hulls away where there are none.</summary>
     private Outline[] WithMargins(Outline[] outlines, HashSet<long>[] held)
     {
-        var steps = Enumerable.Range(0, period)
-            .SelectMany(i => stepsAt(First + i).Select(step => (Place: i, Step: step, Level: step.LevelsLeft(Above + i)))).ToArray();
-        var below = steps.Where(item => item.Level < First).Select(item => item.Level).Concat(held.SelectMany(levels => levels)).Select(outlineAt);
+        var parts = Enumerable.Range(0, period)
+            .SelectMany(i => stepsAt(First + i).Select(step => (Place: i, Part: Part.Of(step, Above + i, level => stepsAt(Like(level)))))).ToArray();
+        var below = parts.Where(item => item.Part.Level < First).Select(item => item.Part.Level).Concat(held.SelectMany(levels => levels)).Select(outlineAt);
         if (outlines.Any(outline => outline.Hull is null) || below.Any(outline => outline.Hull is null && !outline.Box.IsEmpty))
         {
             return WithoutHulls(outlines);
         }
 
-        // A margin holds if it is no less than what corners miss by, and a copy's margin on top of that.
+        // A margin holds if it is no less than what corners miss by, and a part's margin on top of that.
         var margins = held.Select((levels, i) => levels.Select(outlineAt).Where(outline => outline.Hull is not null)
             .Max(outline => outline.Margin + Miss(outlines[i], outline.Hull!.Vertices))).ToArray();
-        var parts = steps.Where(item => Below(outlines, item.Level).Hull is not null).Select(item => (
-            item.Place,
-            item.Level,
-            item.Step.Lengthening,
-            Missed: Miss(outlines[item.Place], Below(outlines, item.Level).Hull!.Vertices.Select(vertex => item.Step.Map * vertex)))).ToArray();
+        var missed = parts.Select(item => Below(outlines, item.Part.Level).Hull is { } hull
+            ? Miss(outlines[item.Place], hull.Vertices.Select(vertex => item.Part.Map * vertex))
+            : double.NegativeInfinity).ToArray();
         for (var attempt = 0; attempt < MostAttempts; attempt++)
         {
             var holds = true;
-            foreach (var (place, level, lengthening, missed) in parts)
+            for (var i = 0; i < parts.Length; i++)
             {
-                var needed = missed + (lengthening * (level < First ? outlineAt(level).Margin : margins[PlaceOf(level)]));
+                var (place, part) = parts[i];
+                var needed = missed[i] + (part.Lengthening * (part.Level < First ? outlineAt(part.Level).Margin : margins[PlaceOf(part.Level)]));
                 holds &= needed <= margins[place];
                 // A little more than needed, so that it ends.
-                margins[place] = needed > margins[place] ? needed * (1 + Settled) : margins[place];
+                margins[place] = Math.Max(margins[place], needed * (1 + Settled));
             }
 
             if (holds)

@@ -138,8 +138,8 @@ internal sealed class SubFractalBuilder
 
         var level = Levels + 1;
         var steps = CopyFactory.StepsAt(level, floor, period, copySet, below => At(below).Set!);
-        var parts = steps.Select(step => (Step: step, Below: OutlineAt(step.LevelsLeft(level)))).Where(part => !part.Below.Box.IsEmpty).ToArray();
-        if (parts.Select(part => part.Below.Image(part.Step.Map, part.Step.Lengthening)).Any(box => !(box.Minimum.IsFinite() && box.Size.IsFinite())))
+        var parts = steps.Select(step => Part.Of(step, level, StepsAt)).Where(part => !OutlineAt(part.Level).Box.IsEmpty).ToArray();
+        if (parts.Any(part => !(OutlineAt(part.Level).Image(part.Map, part.Lengthening) is var box && box.Minimum.IsFinite() && box.Size.IsFinite())))
         {
             throw new FractalLimitException($"the bounds of the fractal are beyond the range of a double {level} levels above its base");
         }
@@ -188,19 +188,20 @@ internal sealed class SubFractalBuilder
         return true;
     }
 
-    /// <summary>The outline of what some steps lead to, none of it empty.</summary>
-    private static Outline OutlineOf((CopyStep Step, Outline Below)[] parts)
+    /// <summary>The outline of some parts, none of them empty.</summary>
+    private Outline OutlineOf(Part[] parts)
     {
         if (parts is [] or [_])
         {
-            return parts is [var only] ? Outline.With(only.Below, only.Step.Map, only.Step.Lengthening) : Outline.Empty;
+            return parts is [var only] ? Outline.With(OutlineAt(only.Level), only.Map, only.Lengthening) : Outline.Empty;
         }
 
-        var box = parts.Aggregate(BoundingBox.Empty, (sum, part) => BoundingBox.Union(sum, part.Below.Image(part.Step.Map, part.Step.Lengthening)));
-        var corners = parts.All(part => part.Below.Hull is not null)
-            ? parts.SelectMany(part => part.Below.Hull!.Vertices.Select(vertex => part.Step.Map * vertex)).ToArray()
+        var outlines = parts.Select(part => OutlineAt(part.Level)).ToArray();
+        var box = parts.Zip(outlines, (part, outline) => outline.Image(part.Map, part.Lengthening)).Aggregate(BoundingBox.Union);
+        var corners = outlines.All(outline => outline.Hull is not null)
+            ? parts.Zip(outlines).SelectMany(pair => pair.Second.Hull!.Vertices.Select(vertex => pair.First.Map * vertex)).ToArray()
             : null;
-        return Outline.With(box, corners, parts.Max(part => part.Step.Lengthening * part.Below.Margin));
+        return Outline.With(box, corners, parts.Zip(outlines, (part, outline) => part.Lengthening * outline.Margin).Max());
     }
 
     private SubFractal StateOf(CopySet set, Copy[] copies, IEnumerable<Outline> below, Outline outline)
