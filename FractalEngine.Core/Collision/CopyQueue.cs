@@ -6,7 +6,7 @@ namespace FractalEngine.Core.Collision;
 
 /// <summary>
 /// The copies of a sub-fractal in the order in which they are looked at: for each a lower bound of its squared distance, and a key, which
-/// is the bound plus a little for what is at the same distance. Bounds are first rough, and refined only for copies whose turn it is.
+/// is the bound, or orders copies whose bound is 0. Bounds are first rough, and refined only for copies whose turn it is.
 /// </summary>
 /// <param name="numbers">[3 × padded]: bounds, keys, and 1 for what is refined.</param>
 internal readonly ref struct CopyQueue(Span<double> numbers)
@@ -14,8 +14,10 @@ internal readonly ref struct CopyQueue(Span<double> numbers)
     /// <summary>Numbers for each copy.</summary>
     public const int Rows = 3;
 
-    // Copies at the same distance, such as 0, are looked at in the order of their centres.
+    // Copies around the position have no distance; they are looked at in the order of their centres. For copies apart from it that only decides
+    // between equal bounds: far away, small copies differ by so little.
     private const double CentreWeight = 1e-4;
+    private const double Apart = 1e-8;
 
     private readonly Span<double> _numbers = numbers;
     private readonly int _count = numbers.Length / Rows;
@@ -29,7 +31,9 @@ internal readonly ref struct CopyQueue(Span<double> numbers)
     {
         ref var number = ref MemoryMarshal.GetReference(_numbers);
         bounds.StoreUnsafe(ref number, (nuint)first);
-        (bounds + (Vector256.Create(CentreWeight) * centres)).StoreUnsafe(ref number, (nuint)(_count + first));
+        var weights = Vector256.ConditionalSelect(
+            Vector256.GreaterThan(bounds, Vector256<double>.Zero), Vector256.Create(CentreWeight * Apart), Vector256.Create(CentreWeight));
+        (bounds + (weights * centres)).StoreUnsafe(ref number, (nuint)(_count + first));
         Vector256<double>.Zero.StoreUnsafe(ref number, (nuint)((2 * _count) + first));
     }
 
@@ -41,8 +45,11 @@ internal readonly ref struct CopyQueue(Span<double> numbers)
         var before = Vector256.LoadUnsafe(ref number, (nuint)first);
         var bounds = Vector256.MaxNative(before, larger);
         bounds.StoreUnsafe(ref number, (nuint)first);
-        // NaN where there is no copy; that is never compared.
-        (Vector256.LoadUnsafe(ref number, (nuint)(_count + first)) + (bounds - before)).StoreUnsafe(ref number, (nuint)(_count + first));
+        var keys = Vector256.LoadUnsafe(ref number, (nuint)(_count + first));
+        // What was around the position and is no longer has the weight of what is apart. NaN where there is no copy; that is never compared.
+        var wasApart = Vector256.GreaterThan(before, Vector256<double>.Zero) | Vector256.Equals(bounds, before);
+        keys *= Vector256.ConditionalSelect(wasApart, Vector256<double>.One, Vector256.Create(Apart));
+        (keys + (bounds - before)).StoreUnsafe(ref number, (nuint)(_count + first));
     }
 
     /// <summary>The copy with the smallest key of those whose bound is below a limit.</summary>
@@ -102,7 +109,8 @@ internal readonly ref struct CopyQueue(Span<double> numbers)
             return false;
         }
 
-        _numbers[_count + copy] += bound - before;
+        ref var key = ref _numbers[_count + copy];
+        key = (before > 0 ? key : key * Apart) + (bound - before);
         before = bound;
         return true;
     }
