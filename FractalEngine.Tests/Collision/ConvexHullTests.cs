@@ -1,0 +1,89 @@
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Collision;
+
+/// <summary>Convex hulls of any points hold them.</summary>
+public class ConvexHullTests
+{
+    // Of the largest coordinate: some hundred of its last places.
+    private const double Rounding = 1e-13;
+
+    public static TheoryData<string> Names => [.. PointClouds.All.Keys];
+
+    [Theory]
+    [MemberData(nameof(Names))]
+    public void Of_AnyPoints_HoldsThemButForWhatItMissed(string name) => Seeded.Run(60, random =>
+    {
+        var points = PointClouds.Draw(name, random);
+        var hull = ConvexHull.Of(points, random.Next(4, 60));
+        var rounding = Rounding * PointClouds.SizeOf(points);
+        Assert.True(hull.Missed >= 0);
+        Assert.All(hull.Vertices, vertex => Assert.Contains(vertex, points));
+        foreach (var point in points)
+        {
+            var distance = hull.DistanceBound(point);
+            Assert.True(distance <= hull.Missed + rounding, FormattableString.Invariant($"{point} lies {distance} out of the hull, which says {hull.Missed}"));
+            foreach (var plane in hull.Planes)
+            {
+                // Beyond a plane by no more than beyond the hull.
+                var height = Vector.Dot(plane.Normal, point) - plane.Offset;
+                Assert.True(height <= hull.Missed + rounding, FormattableString.Invariant($"{point} lies {height} above a plane, {hull.Missed} is missed"));
+            }
+        }
+    });
+
+    [Theory]
+    [MemberData(nameof(Names))]
+    public void Of_AnyPoints_HasNoCornerAboveAPlane(string name) => Seeded.Run(60, random =>
+    {
+        var hull = ConvexHull.Of(PointClouds.Draw(name, random), random.Next(4, 60));
+        foreach (var plane in hull.Planes)
+        {
+            Assert.Equal(1, plane.Normal.Length(), 1e-12);
+            Assert.All(hull.Vertices, vertex => Assert.True(Vector.Dot(plane.Normal, vertex) <= plane.Offset, $"{vertex} is above {plane}"));
+            Assert.True(hull.Support(plane.Normal) <= plane.Offset);
+        }
+    });
+
+    [Fact]
+    public void Of_FewPoints_MissesNothing() => Seeded.Run(100, random =>
+    {
+        var points = Enumerable.Range(0, 30).Select(_ => random.Vector()).ToArray();
+        Assert.InRange(ConvexHull.Of(points, 60).Missed, 0, 1e-11);
+    });
+
+    [Fact]
+    public void Of_ACubeOfPoints_IsTheCube()
+    {
+        var points = PointClouds.All["grid"](new(1));
+        var hull = ConvexHull.Of(points, 48);
+        Assert.Equal((8, 6, 0), (hull.Vertices.Length, hull.Planes.Length, hull.Missed));
+        Assert.Equal(64, hull.Volume(), 1e-12 * 64);
+    }
+
+    [Fact]
+    public void Of_ATurnedCube_HasItsVolume() => Seeded.Run(40, random =>
+    {
+        var hull = ConvexHull.Of(PointClouds.All["turned grid"](random), 48);
+        // Points in the sides may be corners by rounding, and flat facets may lean.
+        Assert.Equal(64, hull.Volume(), 1e-9);
+    });
+
+    [Fact]
+    public void Volume_IsThatOfTheSumOfTetrahedra() => Seeded.Run(40, random =>
+    {
+        var points = Enumerable.Range(0, 4).Select(_ => random.Vector()).ToArray();
+        var volume = Math.Abs(Vector.Dot(points[1] - points[0], Vector.Cross(points[2] - points[0], points[3] - points[0]))) / 6;
+        Assert.Equal(volume, ConvexHull.Of(points, 4).Volume(), 1e-12);
+    });
+
+    [Fact]
+    public void Volume_OfABall_IsNearThatOfTheSphere()
+    {
+        var random = new Random(1);
+        var hull = ConvexHull.Of(Enumerable.Range(0, 3000).Select(_ => random.Direction()).ToArray(), 400);
+        Assert.InRange(hull.Volume(), 0.95 * 4 / 3 * Math.PI, 4 / 3.0 * Math.PI);
+    }
+}

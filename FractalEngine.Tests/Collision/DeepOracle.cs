@@ -1,0 +1,146 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Tests.Collision;
+
+/// <summary>
+/// The nearest distance on a fractal of one recursion, at any depth, by means that share nothing with the colliders: a round is one set of chained maps,
+/// one ball holds the fractal at every depth, and balls of copies are looked at in the order of their distances.
+/// </summary>
+internal sealed class DeepOracle
+{
+    // Of the fractal's size: what is smaller is a point.
+    private const double Smallest = 1e-14;
+
+    private readonly AffineMap[] _outer;
+    private readonly (AffineMap Map, double Ratio)[] _round;
+    private readonly bool _hasIdentity;
+    private readonly (Vector A, Vector B, Vector C)[] _base;
+    private readonly Vector _centre;
+    private readonly double _radius;
+    private readonly long _rounds;
+
+    public DeepOracle(Fractal fractal)
+    {
+        var steps = fractal.Description.Steps;
+        var recursion = steps.OfType<Repetition>().Single();
+        var place = steps.IndexOf(recursion);
+        _outer = [.. Chains(steps[..place]).Select(chain => chain.Map)];
+        var round = Chains(recursion.Body);
+        _hasIdentity = round.Any(chain => chain.Map == AffineMap.Identity);
+        _round = [.. round.Where(chain => chain.Map != AffineMap.Identity).Distinct()];
+        _rounds = recursion.Count ?? long.MaxValue;
+        var mesh = fractal.BaseMesh;
+        _base = [.. from chain in Chains(steps[(place + 1)..])
+                    from face in Enumerable.Range(0, mesh.FaceCount)
+                    let corners = mesh.Face(face)
+                    select (chain.Map * corners.A, chain.Map * corners.B, chain.Map * corners.C)];
+        // A ball that each map sends into itself; a tenth more for balls that are far from shrinking much.
+        _centre = FixedPoint(_round.MinBy(chain => chain.Ratio).Map);
+        _radius = Math.Max(
+            _base.Max(face => Math.Max((face.A - _centre).Length(), Math.Max((face.B - _centre).Length(), (face.C - _centre).Length()))),
+            _round.Max(chain => ((chain.Map * _centre) - _centre).Length() / (1 - chain.Ratio))) * (1 + 1e-9);
+    }
+
+    /// <summary>By branch and bound; null where more nodes would be looked at than the limit.</summary>
+    public double? Nearest(Vector position, int limit)
+    {
+        var queue = new PriorityQueue<Node, double>();
+        foreach (var map in _outer)
+        {
+            Enqueue(new(map, LengthOf(map), 0));
+        }
+
+        for (var looked = 0; queue.TryDequeue(out var node, out var distance); looked++)
+        {
+            if (node.Round < 0)
+            {
+                return distance;
+            }
+
+            if (looked > limit)
+            {
+                return null;
+            }
+
+            if (_hasIdentity || IsLast(node))
+            {
+                // No ball any more: the distance itself.
+                queue.Enqueue(node with { Round = -1 }, NearestOfBase(position, node.Map));
+            }
+
+            if (!IsLast(node))
+            {
+                foreach (var child in Below(node))
+                {
+                    Enqueue(child);
+                }
+            }
+        }
+
+        return null;
+
+        void Enqueue(Node node) => queue.Enqueue(node, Math.Max(0, (position - (node.Map * _centre)).Length() - (node.Ratio * _radius * (1 + 1e-12))));
+    }
+
+    /// <summary>The nearest of what is found by going down into the copies whose balls' centres are nearest, so many at each round.</summary>
+    public double NearestOfBeam(Vector position, int width)
+    {
+        var nearest = double.PositiveInfinity;
+        List<Node> beam = [.. _outer.Select(map => new Node(map, LengthOf(map), 0))];
+        while (beam.Count > 0)
+        {
+            foreach (var node in beam.Where(node => _hasIdentity || IsLast(node)))
+            {
+                nearest = Math.Min(nearest, NearestOfBase(position, node.Map));
+            }
+
+            beam = [.. beam.Where(node => !IsLast(node)).SelectMany(Below)
+                .OrderBy(node => (position - (node.Map * _centre)).LengthSquared()).Take(width)];
+        }
+
+        return nearest;
+    }
+
+    private bool IsLast(Node node) => node.Round >= _rounds || node.Ratio * _radius < Smallest * _radius;
+
+    private IEnumerable<Node> Below(Node node) => _round.Select(chain => chain.Map * node switch { _ => AffineMap.Identity } is var _
+        ? new Node(node.Map * chain.Map, Math.Min(node.Ratio * chain.Ratio, LengthOf(node.Map * chain.Map)), node.Round + 1)
+        : default);
+
+    private double NearestOfBase(Vector position, AffineMap map) =>
+        Math.Sqrt(_base.Min(face => FaceKernel.ClosestPoint(position, map * face.A, map * face.B, map * face.C).DistanceSquared));
+
+    /// <summary>All maps of some steps, each with a factor by which it lengthens at most: a transformation stretches along axes, then turns.</summary>
+    private static (AffineMap Map, double Ratio)[] Chains(ImmutableArray<FractalStep> steps)
+    {
+        (AffineMap Map, double Ratio)[] chains = [(AffineMap.Identity, 1)];
+        for (var level = 0L; level < steps.Sum(step => step.LevelCount!.Value); level++)
+        {
+            var set = FractalSteps.LevelAt(steps, level);
+            chains = [.. chains.SelectMany(chain => set.Maps.Zip(set.Transformations, (map, transformation) =>
+                (chain.Map * map, Math.Min(chain.Ratio * transformation.Scale.MaximumComponent(), LengthOf(chain.Map * map)))))];
+        }
+
+        return chains;
+    }
+
+    /// <summary>The root of the sum of squares of the entries.</summary>
+    private static double LengthOf(AffineMap map) =>
+        Math.Sqrt(map.Linear.V1.LengthSquared() + map.Linear.V2.LengthSquared() + map.Linear.V3.LengthSquared());
+
+    private static Vector FixedPoint(AffineMap map)
+    {
+        var point = Vector.Zero;
+        for (var i = 0; i < 1000; i++)
+        {
+            point = map * point;
+        }
+
+        return point;
+    }
+
+    private readonly record struct Node(AffineMap Map, double Ratio, long Round);
+}

@@ -1,0 +1,86 @@
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Collision;
+
+/// <summary>Fractals that break what a search may silently take for granted, against every face.</summary>
+public class ExactFractalAttackTests
+{
+    public static TheoryData<string> Names => [.. AttackFractals.All.Keys];
+
+    [Theory]
+    [MemberData(nameof(Names))]
+    public void Find_OnAnUnusualFractal_EqualsEveryFace(string name)
+    {
+        var fractal = AttackFractals.All[name]();
+        var (probe, oracle, record) = (new FractalProbe(name, fractal), FractalProbe.BruteForce(fractal), new QueryRecord());
+        Seeded.Run(150, random =>
+        {
+            var position = FractalPositions.Draw(random, fractal);
+            Assert.True(oracle.TryFindClosest(position, double.PositiveInfinity, record, out var expected));
+            var closest = probe.Check(position, record, expected.Distance);
+            probe.CheckWithin(position, record, closest.Distance);
+        });
+    }
+
+    [Theory]
+    [MemberData(nameof(Names))]
+    public void Find_WithEpsilon_IsWithinTheFactor(string name)
+    {
+        var fractal = AttackFractals.All[name]();
+        var (probe, record) = (new FractalProbe(name, fractal), new QueryRecord());
+        Seeded.Run(60, random =>
+        {
+            var position = FractalPositions.Draw(random, fractal);
+            var tolerance = FractalProbe.Tolerance * FractalPositions.SizeOf(fractal, position);
+            Assert.True(probe.Exact.TryFindClosest(position, double.PositiveInfinity, record, out var exact));
+            foreach (var epsilon in new[] { 0.01, 0.5, 3 })
+            {
+                var found = probe.Exact.TryFindClosest(position, double.PositiveInfinity, record, out var near, epsilon);
+                probe.Require(found && near.Distance <= ((1 + epsilon) * exact.Distance) + tolerance, position, $"ε = {epsilon} gives {near.Distance:R}, not {exact.Distance:R}");
+                probe.Require(near.Distance >= exact.Distance - tolerance, position, $"ε = {epsilon} gives {near.Distance:R}, though the nearest is {exact.Distance:R}");
+            }
+        });
+    }
+
+    [Theory]
+    [MemberData(nameof(Names))]
+    public void Find_WithinAlmostTheDistance_FindsWhatIsThere(string name)
+    {
+        var fractal = AttackFractals.All[name]();
+        var (probe, record) = (new FractalProbe(name, fractal), new QueryRecord());
+        Seeded.Run(60, random =>
+        {
+            var position = FractalPositions.Draw(random, fractal);
+            Assert.True(probe.Exact.TryFindClosest(position, double.PositiveInfinity, record, out var closest));
+            probe.CheckWithin(position, record, closest.Distance);
+            // Exactly the distance: rounding may go either way, but what is found is within it.
+            probe.Require(!probe.Exact.TryFindClosest(position, closest.Distance, record, out var again) || again.Distance <= closest.Distance, position, $"{again.Distance:R} within {closest.Distance:R}");
+        });
+    }
+
+    /// <summary>Threads of a pool may have little stack.</summary>
+    [Theory]
+    [InlineData(0)]
+    [InlineData(1)]
+    public void Find_OnASmallStack_EndsOnAFractalThatHardlyShrinks(int others)
+    {
+        Transformation[] maps = [new(Vector.Zero, new(0, 10, 0), 0.985 * Vector.One), others == 0 ? Transformation.Identity : Samples.MoveAndScale(5, 1, 0, 0.05)];
+        Assert.Null(OnASmallStack(Samples.Repeated(null, maps)));
+    }
+
+    /// <summary>What queries throw on a thread of 256 KB.</summary>
+    internal static Exception? OnASmallStack(Fractal fractal)
+    {
+        var (collider, failure) = (new ExactFractalCollider(fractal), default(Exception));
+        var thread = new Thread(
+            () => failure = Record.Exception(() => Seeded.Run(50, random => Assert.True(
+                collider.TryFindClosest(random.Next(2) == 0 ? Vector.Zero : random.Vector(5), double.PositiveInfinity, new(), out _)))),
+            maxStackSize: 262_144);
+        thread.Start();
+        thread.Join();
+        return failure;
+    }
+}

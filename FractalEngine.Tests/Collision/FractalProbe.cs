@@ -1,0 +1,104 @@
+using System.Globalization;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Support;
+using Xunit.Sdk;
+
+namespace FractalEngine.Tests.Collision;
+
+/// <summary>Checks what the exact collider answers about a fractal against what another way of finding it says. Any number of threads may.</summary>
+/// <param name="name">For failures: the fractal and its depth.</param>
+/// <param name="fractal">In affine composition.</param>
+internal sealed class FractalProbe(string name, Fractal fractal)
+{
+    // Distances are those of points rounded to the last places of coordinates, over a chain of some maps.
+    public const double Tolerance = 1e-12;
+
+    // Where a point lies is known less well than its distance; the base's nearest point may move along a thin face.
+    private const double PointTolerance = 1e-9;
+
+    public Fractal Fractal { get; } = fractal;
+
+    public ExactFractalCollider Exact { get; } = new(fractal);
+
+    /// <summary>Every face.</summary>
+    public static Collider BruteForce(Fractal fractal, long limit = 10_000_000) => new SimpleCollider(FractalGenerator.Flatten(fractal, limit));
+
+    /// <summary>Queries a position and fails unless all of the answer is right.</summary>
+    /// <param name="position">Finite.</param>
+    /// <param name="record">Of the thread.</param>
+    /// <param name="expected">The nearest distance.</param>
+    public ClosestPoint Check(Vector position, QueryRecord record, double expected)
+    {
+        var size = FractalPositions.SizeOf(Fractal, position);
+        var found = Exact.TryFindClosest(position, double.PositiveInfinity, record, out var closest);
+        Require(found, position, "nothing found");
+        Require(Math.Abs(closest.Distance - expected) <= Tolerance * size, position, $"distance {closest.Distance:R}, not {expected:R}, of size {size}");
+        CheckAnswer(position, record, closest);
+        return closest;
+    }
+
+    /// <summary>Fails unless the point, the normal, the weights and the instance of an answer belong together.</summary>
+    public void CheckAnswer(Vector position, QueryRecord record, ClosestPoint closest)
+    {
+        var size = FractalPositions.SizeOf(Fractal, position);
+        Require(Math.Abs((closest.Point - position).Length() - closest.Distance) <= PointTolerance * size, position, $"point {closest.Point} is not at distance {closest.Distance:R}");
+        Require(Math.Abs(closest.Normal.Length() - 1) <= 1e-12, position, $"normal {closest.Normal}");
+        var map = InstanceOf(position, record);
+        var (a, b, c) = Fractal.BaseMesh.Face(closest.Face);
+        var (weightA, weightB, weightC) = closest.Barycentrics;
+        var isWeight = Math.Min(weightA, Math.Min(weightB, weightC)) >= 0 && Math.Abs(weightA + weightB + weightC - 1) <= 1e-12;
+        Require(isWeight, position, $"weights {closest.Barycentrics}");
+        (a, b, c) = (map * a, map * b, map * c);
+        var point = (weightA * a) + (weightB * b) + (weightC * c);
+        Require(Near.Difference(point, closest.Point) <= Tolerance * size, position, $"weights give {point} on instance {Path(record)}, not {closest.Point}");
+        // A thin face's normal is less certain, but by much less than this.
+        var (ab, ac) = (b - a, c - a);
+        var isFlat = Math.Abs(Vector.Dot(closest.Normal, ab)) <= 1e-6 * ab.Length() && Math.Abs(Vector.Dot(closest.Normal, ac)) <= 1e-6 * ac.Length();
+        Require(isFlat || ab.Length() + ac.Length() < Tolerance * size, position, $"normal {closest.Normal} is not that of the face");
+    }
+
+    /// <summary>
+    /// Asks again with little more than the distance that is known to be right. A bound that is too large by far less than copies are apart leaves the
+    /// nearest copy out here, while else it mostly changes no more than the order of copies.
+    /// </summary>
+    public void CheckWithin(Vector position, QueryRecord record, double distance)
+    {
+        var size = FractalPositions.SizeOf(Fractal, position);
+        var within = distance + (Tolerance * size);
+        Require(Exact.TryFindClosest(position, within, record, out var closest), position, $"nothing within {within:R}, though it is at {distance:R}");
+        Require(Math.Abs(closest.Distance - distance) <= Tolerance * size, position, $"distance {closest.Distance:R} within {within:R}, not {distance:R}");
+        var below = distance - (Tolerance * size);
+        Require(below < 0 || !Exact.TryFindClosest(position, below, record, out closest), position, $"found at {closest.Distance:R} within {below:R}");
+    }
+
+    public void Require(bool holds, Vector position, FormattableString message)
+    {
+        if (!holds)
+        {
+            throw new XunitException(string.Create(CultureInfo.InvariantCulture, $"{name}, position new({position.X:R}, {position.Y:R}, {position.Z:R}): {message.ToString(CultureInfo.InvariantCulture)}"));
+        }
+    }
+
+    private void Require(bool holds, Vector position, string message) => Require(holds, position, (FormattableString)$"{message}");
+
+    private AffineMap InstanceOf(Vector position, QueryRecord record)
+    {
+        var map = AffineMap.Identity;
+        for (var level = 0; level < record.InstancePath.Length; level++)
+        {
+            map *= Fractal.LevelAt(level).Maps[record.InstancePath[level]];
+        }
+
+        // It may end early where what is left is below the precision, and else go on with identities only.
+        var isSmall = BoundingSphere.LengtheningBound(map.Linear) * Fractal.BaseMesh.Bounds.Diagonal <= 1e-14 * Fractal.Bounds.Diagonal;
+        var rest = record.InstancePath.Length;
+        var hasIdentities = Fractal.LevelCount is not { } count || Enumerable.Range(rest, (int)Math.Min(100, count - rest)).All(level => Fractal.LevelAt(level).Maps.Contains(AffineMap.Identity));
+        Require(isSmall || rest == Fractal.LevelCount || (Fractal.LevelCount is null or > 2000 && hasIdentities), position, $"the path ends at {Path(record)}");
+        return map;
+    }
+
+    private static string Path(QueryRecord record) => $"[{string.Join(", ", record.InstancePath.ToArray())}]";
+}

@@ -1,0 +1,139 @@
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Collision;
+
+/// <summary>Hulls as bounds of distances: never more than the distance of any point that they hold.</summary>
+public class HullBoundTests
+{
+    private const double Relative = 1e-12;
+
+    // Of the largest coordinate that occurs: some last places.
+    private const double Rounding = 1e-14;
+
+    public static TheoryData<string> Names => [.. PointClouds.All.Keys];
+
+    [Theory]
+    [MemberData(nameof(Names))]
+    public void DistanceSquared_OfAnyPosition_IsNoMoreThanThatOfThePoints(string name) => Seeded.Run(60, random =>
+    {
+        var points = PointClouds.Draw(name, random);
+        var bound = BoundOf(points, random);
+        for (var query = 0; query < 30; query++)
+        {
+            var position = Position(random, points);
+            var enough = random.Next(3) == 0 ? Math.Pow(PointClouds.SizeOf(points), 2) * random.NextDouble() : double.PositiveInfinity;
+            Check(bound.DistanceSquared(AffineLanes.Of(position), enough), position, points, position.MaximumComponent());
+        }
+    });
+
+    [Theory]
+    [MemberData(nameof(Names))]
+    public void ImageDistanceSquared_UnderAnyMap_IsNoMoreThanThatOfTheImages(string name) => Seeded.Run(60, random =>
+    {
+        var points = PointClouds.Draw(name, random);
+        var (bound, size) = (BoundOf(points, random), PointClouds.SizeOf(points));
+        for (var query = 0; query < 30; query++)
+        {
+            var map = Map(random, size);
+            var images = points.Select(point => map * point).ToArray();
+            var position = Position(random, images);
+            var actual = bound.ImageDistanceSquared(AffineLanes.Of(position), new(map), new(map.Inverse()), double.PositiveInfinity);
+            Check(actual, position, images, Math.Max(position.MaximumComponent(), size * map.Linear.MaximumEntry()));
+        }
+    });
+
+    [Fact]
+    public void DistanceSquared_InFrontOfAFacet_IsExact() => Seeded.Run(60, random =>
+    {
+        var points = Enumerable.Range(0, random.Next(4, 12)).Select(_ => random.Vector()).ToArray();
+        var hull = ConvexHull.Of(points, 48);
+        var bound = new HullBound(hull, Box(points), 0, withAxes: true);
+        foreach (var plane in hull.Planes)
+        {
+            var corners = hull.Vertices.OrderByDescending(vertex => Vector.Dot(plane.Normal, vertex)).Take(3).ToArray();
+            var height = random.Between(0.01, 0.5);
+            var position = ((corners[0] + corners[1] + corners[2]) / 3) + (height * plane.Normal);
+            Assert.Equal(height, Math.Sqrt(bound.DistanceSquared(AffineLanes.Of(position), double.PositiveInfinity)), 1e-9);
+        }
+    });
+
+    [Fact]
+    public void DistanceSquared_FarAway_IsAlmostExact() => Seeded.Run(60, random =>
+    {
+        var points = Enumerable.Range(0, random.Next(4, 40)).Select(_ => random.Vector()).ToArray();
+        var bound = BoundOf(points, random, margin: 0);
+        var position = 1000 * random.Direction();
+        var nearest = points.Min(point => (position - point).Length());
+        // Seen from so far, the corner that reaches farthest is off the line from the centre by at most 2, so nearer by 2²/2000.
+        Assert.InRange(Math.Sqrt(bound.DistanceSquared(AffineLanes.Of(position), double.PositiveInfinity)), nearest - 0.01, nearest + 1e-9);
+    });
+
+    [Fact]
+    public void DistanceSquared_FarFromASolidOfFewCorners_IsExactAtTheCorner() => Seeded.Run(60, random =>
+    {
+        Vector[] points = [Vector.Zero, Vector.I, Vector.J, Vector.K];
+        var bound = BoundOf(points, random, margin: 0);
+        // Where no other direction could be nearer: the corner's own cone.
+        var position = -random.Between(1, 50) * random.Direction().Absolute();
+        Assert.Equal(position.Length(), Math.Sqrt(bound.DistanceSquared(AffineLanes.Of(position), double.PositiveInfinity)), 1e-12 * position.Length());
+    });
+
+    [Fact]
+    public void DistanceSquared_WithAMargin_IsLessByNoMoreThanThat() => Seeded.Run(60, random =>
+    {
+        var points = Enumerable.Range(0, 20).Select(_ => random.Vector()).ToArray();
+        var hull = ConvexHull.Of(points, 48);
+        var (exact, wide) = (new HullBound(hull, Box(points), 0, true), new HullBound(hull, Box(points), 0.1, true));
+        var position = AffineLanes.Of(random.Vector(4));
+        var difference = Math.Sqrt(exact.DistanceSquared(position, double.PositiveInfinity)) - Math.Sqrt(wide.DistanceSquared(position, double.PositiveInfinity));
+        Assert.InRange(difference, -1e-12, 0.1 + 1e-12);
+    });
+
+    private static void Check(double bound, Vector position, Vector[] points, double magnitude)
+    {
+        var nearest = points.Min(point => (position - point).Length());
+        Assert.True(bound >= 0, $"{bound}");
+        Assert.True(
+            Math.Sqrt(bound) <= (nearest * (1 + Relative)) + (Rounding * magnitude),
+            FormattableString.Invariant($"from {position}: a bound of {Math.Sqrt(bound):R}, though a point is at {nearest:R}"));
+    }
+
+    private static HullBound BoundOf(Vector[] points, Random random, double? margin = null)
+    {
+        var hull = ConvexHull.Of(points, margin == 0 ? 60 : random.Next(4, 60));
+        // As outlines have it: what the hull misses, and rounding.
+        return new(hull, Box(points), margin ?? (hull.Missed + (2e-15 * PointClouds.SizeOf(points))), random.Next(2) == 0 || margin == 0);
+    }
+
+    private static BoundingBox Box(Vector[] points) => points.Aggregate(BoundingBox.Empty, (box, point) => box.Including(point));
+
+    private static Vector Position(Random random, Vector[] points)
+    {
+        var (size, point, other) = (PointClouds.SizeOf(points), points[random.Next(points.Length)], points[random.Next(points.Length)]);
+        return random.Next(6) switch
+        {
+            0 => point,
+            1 => point + (0.5 * (other - point)),
+            2 => point + (Math.Pow(10, random.Between(-12, 0)) * size * random.Direction()),
+            3 => point + (random.Between(0, 3) * (point - other)),
+            4 => Math.Pow(10, random.Between(0, 6)) * size * random.Direction(),
+            _ => random.Vector(2 * size),
+        };
+    }
+
+    /// <summary>Similar, skewed, mirrored or nearly singular.</summary>
+    private static AffineMap Map(Random random, double size)
+    {
+        var scale = random.Next(4) switch
+        {
+            0 => random.Between(0.1, 3) * Vector.One,
+            1 => new(random.Between(-2, -0.1), random.Between(0.1, 2), random.Between(0.1, 2)),
+            2 => new(1, random.Between(1e-8, 1e-6), random.Between(0.1, 2)),
+            _ => new(random.Between(0.1, 2), random.Between(0.1, 2), random.Between(0.1, 2)),
+        };
+        return new(random.Orthogonal() * Matrix.Diagonal(scale) * random.Orthogonal(), random.Vector(size));
+    }
+}
