@@ -12,9 +12,10 @@ namespace FractalEngine.Core.Collision;
 /// <param name="stepsAt">Of all levels up to the top.</param>
 internal sealed class SettledRound(long top, int period, Func<long, Outline> outlineAt, Func<long, CopyStep[]> stepsAt)
 {
-    // Bounds settle when a round changes them by less than this part of their size. They are then widened by ten times as much as they
-    // changed, or by what rounding may change.
+    // Bounds settle when a round changes them by less than this part of their size, or of the margin by which they are too large anyway. They are
+    // then widened by ten times as much as they changed, or by what rounding may change.
     private const double Settled = 1e-7;
+    private const double SettledOfMargin = 0.05;
     private const double Widening = 10;
     private const double Rounding = 1e-14;
 
@@ -27,7 +28,7 @@ internal sealed class SettledRound(long top, int period, Func<long, Outline> out
     public long Above { get; } = top + 1 + (CopyFactory.MostLevelsTogether * (long)period);
 
     /// <summary>False where the bounds of the last two rounds differ too much.</summary>
-    public bool IsLikely() => Difference() <= Settled;
+    public bool IsLikely() => Difference() <= Threshold();
 
     /// <summary>The place of a level in its round, 0 the lowest.</summary>
     public int PlaceOf(long level) => (int)((((level - First) % period) + period) % period);
@@ -52,7 +53,7 @@ internal sealed class SettledRound(long top, int period, Func<long, Outline> out
             }
         }
 
-        if (!held.Select((levels, i) => levels.Max(level => Change(outlineAt(level).Box, outlineAt(First + i).Box))).All(change => change <= Settled))
+        if (!held.Select((levels, i) => levels.Max(level => Change(outlineAt(level).Box, outlineAt(First + i).Box))).All(change => change <= Threshold()))
         {
             return null;
         }
@@ -71,6 +72,9 @@ internal sealed class SettledRound(long top, int period, Func<long, Outline> out
         : Math.Max((box1.Minimum - box2.Minimum).MaximumComponent(), (box1.Maximum - box2.Maximum).MaximumComponent()) / box1.Diagonal;
 
     private static Outline[] WithoutHulls(Outline[] outlines) => [.. outlines.Select(outline => outline with { Hull = null, Margin = 0 })];
+
+    private double Threshold() => Math.Max(
+        Settled, SettledOfMargin * Enumerable.Range(0, period).Select(i => outlineAt(First + i)).Min(outline => outline.Margin / outline.Box.Diagonal));
 
     private double Difference() => Enumerable.Range(0, period).Max(i => Change(outlineAt(First + i).Box, outlineAt(First + i - period).Box));
 

@@ -95,12 +95,18 @@ internal sealed class SubFractalBuilder
         var isFlat = repetition.Body.All(inner => inner is TransformationSet);
         var floor = Levels;
         var period = isFlat ? repetition.Body.Length : int.MaxValue;
+        // Two rounds are written out in any case: copies may pass over a round of levels, and must meet the same sets there.
+        var attempt = 2;
         for (var round = 0; round < (repetition.Count ?? int.MaxValue); round++)
         {
-            // Two rounds are written out in any case: copies may pass over a round of levels, and must meet the same sets there.
-            if (round >= 2 && isFlat && TryRepeat(floor, repetition.Body.Length, (repetition.Count - round) * repetition.LevelsPerRound))
+            if (isFlat && round >= attempt)
             {
-                return;
+                if (TryRepeat(floor, repetition.Body.Length, (repetition.Count - round) * repetition.LevelsPerRound))
+                {
+                    return;
+                }
+
+                attempt = round + 1 + (round / 8);
             }
 
             foreach (var inner in repetition.Body.Reverse())

@@ -52,23 +52,20 @@ internal sealed class SubFractalTable
     /// <summary>The set on top of the sub-fractal with so many levels left, which may be one that is never looked at; null for the base.</summary>
     public CopySet? SetAt(long levels) => _sets[StateRegion.Find(_regions, levels)];
 
-    /// <summary>Which states a search can come to.</summary>
+    /// <summary>Which states a search can come to: it goes no deeper than <see cref="FractalSearch.Deepest"/> copies.</summary>
     private bool[] Reached(IReadOnlyList<SubFractal> states)
     {
         var isReached = new bool[states.Count];
-        var open = new Stack<int>([StateRegion.Find(_regions, Levels)]);
-        while (open.TryPop(out var state))
+        var (seen, next) = (new HashSet<long>(), new HashSet<long> { Levels });
+        for (var depth = 0; depth <= FractalSearch.Deepest && next.Count > 0; depth++)
         {
-            if (isReached[state])
+            var levels = next.Where(seen.Add).ToArray();
+            next.Clear();
+            foreach (var level in levels)
             {
-                continue;
-            }
-
-            isReached[state] = true;
-            var region = _regions.Last(region => region.State <= state);
-            foreach (var below in states[state].Copies.Select(copy => copy.Down).Distinct().SelectMany(down => region.Below(state, down)))
-            {
-                open.Push(StateRegion.Find(_regions, below));
+                var state = StateRegion.Find(_regions, level);
+                isReached[state] = true;
+                next.UnionWith(states[state].Copies.Select(copy => copy.LevelsLeft(level)));
             }
         }
 
@@ -83,30 +80,6 @@ internal sealed class SubFractalTable
 /// <param name="Period">After so many levels the states are the same again.</param>
 internal readonly record struct StateRegion(long First, long Count, int State, int Period)
 {
-    /// <summary>Levels to which copies lead from those that have a state: one of each kind.</summary>
-    /// <param name="state">Its number.</param>
-    /// <param name="down">As in <see cref="CopyStep"/>.</param>
-    public IEnumerable<long> Below(int state, long down)
-    {
-        if (down < 0)
-        {
-            return [~down];
-        }
-
-        // Where states repeat, the first levels lead out of the region, and all above them to the same state in it.
-        var levels = new List<long>();
-        for (var level = First + state - State; level < First + Count; level += Period)
-        {
-            levels.Add(level - down);
-            if (level - down >= First)
-            {
-                break;
-            }
-        }
-
-        return levels;
-    }
-
     /// <summary>The number of a level's state.</summary>
     public static int Find(ReadOnlySpan<StateRegion> regions, long levels)
     {
