@@ -16,7 +16,6 @@ internal sealed class DeepOracle
 
     private readonly AffineMap[] _outer;
     private readonly (AffineMap Map, double Ratio)[] _round;
-    private readonly bool _hasIdentity;
     private readonly (Vector A, Vector B, Vector C)[] _base;
     private readonly Vector _centre;
     private readonly double _radius;
@@ -29,7 +28,7 @@ internal sealed class DeepOracle
         var place = steps.IndexOf(recursion);
         _outer = [.. Chains(steps[..place]).Select(chain => chain.Map)];
         var round = Chains(recursion.Body);
-        _hasIdentity = round.Any(chain => chain.Map == AffineMap.Identity);
+        HasIdentity = round.Any(chain => chain.Map == AffineMap.Identity);
         _round = [.. round.Where(chain => chain.Map != AffineMap.Identity).Distinct()];
         _rounds = recursion.Count ?? long.MaxValue;
         var mesh = fractal.BaseMesh;
@@ -37,38 +36,44 @@ internal sealed class DeepOracle
                     from face in Enumerable.Range(0, mesh.FaceCount)
                     let corners = mesh.Face(face)
                     select (chain.Map * corners.A, chain.Map * corners.B, chain.Map * corners.C)];
-        // A ball that each map sends into itself; a tenth more for balls that are far from shrinking much.
+        // A ball that each map sends into itself.
         _centre = FixedPoint(_round.MinBy(chain => chain.Ratio).Map);
         _radius = Math.Max(
             _base.Max(face => Math.Max((face.A - _centre).Length(), Math.Max((face.B - _centre).Length(), (face.C - _centre).Length()))),
             _round.Max(chain => ((chain.Map * _centre) - _centre).Length() / (1 - chain.Ratio))) * (1 + 1e-9);
     }
 
-    /// <summary>By branch and bound; null where more nodes would be looked at than the limit.</summary>
-    public double? Nearest(Vector position, int limit)
+    /// <summary>True where a fractal holds all shallower ones.</summary>
+    public bool HasIdentity { get; }
+
+    /// <summary>By branch and bound.</summary>
+    /// <param name="position">Finite.</param>
+    /// <param name="limit">With more balls than these the answer is null.</param>
+    /// <param name="within">The answer where nothing is nearer: what is no nearer is not looked at.</param>
+    public double? Nearest(Vector position, int limit, double within = double.PositiveInfinity)
     {
-        var queue = new PriorityQueue<Node, double>();
+        var (queue, made) = (new PriorityQueue<Node, double>(), 0);
         foreach (var map in _outer)
         {
             Enqueue(new(map, LengthOf(map), 0));
         }
 
-        for (var looked = 0; queue.TryDequeue(out var node, out var distance); looked++)
+        while (queue.TryDequeue(out var node, out var distance))
         {
             if (node.Round < 0)
             {
                 return distance;
             }
 
-            if (looked > limit)
+            if (made > limit)
             {
                 return null;
             }
 
-            if (_hasIdentity || IsLast(node))
+            if (HasIdentity || IsLast(node))
             {
                 // No ball any more: the distance itself.
-                queue.Enqueue(node with { Round = -1 }, NearestOfBase(position, node.Map));
+                Add(node with { Round = -1 }, NearestOfBase(position, node.Map));
             }
 
             if (!IsLast(node))
@@ -80,9 +85,18 @@ internal sealed class DeepOracle
             }
         }
 
-        return null;
+        return within;
 
-        void Enqueue(Node node) => queue.Enqueue(node, Math.Max(0, (position - (node.Map * _centre)).Length() - (node.Ratio * _radius * (1 + 1e-12))));
+        void Enqueue(Node node) => Add(node, Math.Max(0, (position - (node.Map * _centre)).Length() - (node.Ratio * _radius * (1 + 1e-12))));
+
+        void Add(Node node, double distance)
+        {
+            if (distance < within)
+            {
+                made++;
+                queue.Enqueue(node, distance);
+            }
+        }
     }
 
     /// <summary>The nearest of what is found by going down into the copies whose balls' centres are nearest, so many at each round.</summary>
@@ -92,7 +106,7 @@ internal sealed class DeepOracle
         List<Node> beam = [.. _outer.Select(map => new Node(map, LengthOf(map), 0))];
         while (beam.Count > 0)
         {
-            foreach (var node in beam.Where(node => _hasIdentity || IsLast(node)))
+            foreach (var node in beam.Where(node => HasIdentity || IsLast(node)))
             {
                 nearest = Math.Min(nearest, NearestOfBase(position, node.Map));
             }
@@ -106,9 +120,10 @@ internal sealed class DeepOracle
 
     private bool IsLast(Node node) => node.Round >= _rounds || node.Ratio * _radius < Smallest * _radius;
 
-    private IEnumerable<Node> Below(Node node) => _round.Select(chain => chain.Map * node switch { _ => AffineMap.Identity } is var _
-        ? new Node(node.Map * chain.Map, Math.Min(node.Ratio * chain.Ratio, LengthOf(node.Map * chain.Map)), node.Round + 1)
-        : default);
+    private IEnumerable<Node> Below(Node node) => _round.Select(chain => (node.Map * chain.Map) switch
+    {
+        var map => new Node(map, Math.Min(node.Ratio * chain.Ratio, LengthOf(map)), node.Round + 1),
+    });
 
     private double NearestOfBase(Vector position, AffineMap map) =>
         Math.Sqrt(_base.Min(face => FaceKernel.ClosestPoint(position, map * face.A, map * face.B, map * face.C).DistanceSquared));

@@ -93,7 +93,7 @@ internal sealed class FractalProbe(string name, Fractal fractal)
         }
 
         // It may end early where what is left is below the precision, and else go on with identities only.
-        var isSmall = BoundingSphere.LengtheningBound(map.Linear) * Fractal.BaseMesh.Bounds.Diagonal <= 1e-14 * Fractal.Bounds.Diagonal;
+        var isSmall = BoundingSphere.LengtheningBound(map.Linear) * Fractal.BaseMesh.Bounds.Diagonal <= Tolerance * Fractal.Bounds.Diagonal;
         var rest = record.InstancePath.Length;
         var hasIdentities = Fractal.LevelCount is not { } count || Enumerable.Range(rest, (int)Math.Min(100, count - rest)).All(level => Fractal.LevelAt(level).Maps.Contains(AffineMap.Identity));
         Require(isSmall || rest == Fractal.LevelCount || (Fractal.LevelCount is null or > 2000 && hasIdentities), position, $"the path ends at {Path(record)}");
