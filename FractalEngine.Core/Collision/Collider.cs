@@ -43,6 +43,11 @@ public abstract class Collider
     internal virtual bool FindImage(Vector position, AffineMap map, double within, double epsilon, QueryRecord record, out ClosestPoint closest) =>
         throw new NotSupportedException($"{GetType().Name} finds points in the shape's own frame only");
 
+    /// <summary>
+    /// True when a search that found nothing must be repeated without ε: measured against the limit itself, ε leaves out what is a little nearer.
+    /// </summary>
+    private protected static bool NeedsExactness(double within, double epsilon) => epsilon > 0 && double.IsFinite(within);
+
     /// <summary>Throws when a query's arguments are not allowed.</summary>
     internal static void Check(Vector position, double within, double epsilon)
     {

@@ -85,7 +85,7 @@ public sealed class ExactFractalCollider : Collider
         record.BoundTests += search.BoundTests;
         if (search.Face < 0)
         {
-            return false;
+            return NeedsExactness(within, epsilon) && Find(position, in map, isSimilar, within, 0, record, out closest);
         }
 
         closest = FaceAnswer.Of(_fractal.BaseMesh, search.Face, map * Follow(search.FaceTrail, record), position);

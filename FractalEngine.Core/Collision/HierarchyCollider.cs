@@ -26,6 +26,11 @@ public sealed class HierarchyCollider(Mesh mesh) : Collider
     {
         var (nearestSquared, nearestFace, faceTests, boundTests) = (Limit(within), -1, 0L, 0L);
         _hierarchy.SearchImage(position, in map, ref nearestSquared, ref nearestFace, (1 + epsilon) * (1 + epsilon), ref faceTests, ref boundTests);
+        if (nearestFace < 0 && NeedsExactness(within, epsilon))
+        {
+            _hierarchy.SearchImage(position, in map, ref nearestSquared, ref nearestFace, 1, ref faceTests, ref boundTests);
+        }
+
         Count(record, faceTests, boundTests);
         closest = nearestFace < 0 ? default : FaceAnswer.Of(mesh, nearestFace, map, position);
         return nearestFace >= 0 && closest.Distance <= within;
@@ -36,6 +41,11 @@ public sealed class HierarchyCollider(Mesh mesh) : Collider
     {
         var (nearestSquared, nearestFace, faceTests, boundTests) = (Limit(within), -1, 0L, 0L);
         _hierarchy.Search(position, ref nearestSquared, ref nearestFace, (1 + epsilon) * (1 + epsilon), ref faceTests, ref boundTests);
+        if (nearestFace < 0 && NeedsExactness(within, epsilon))
+        {
+            _hierarchy.Search(position, ref nearestSquared, ref nearestFace, 1, ref faceTests, ref boundTests);
+        }
+
         Count(record, faceTests, boundTests);
         if (nearestFace < 0)
         {

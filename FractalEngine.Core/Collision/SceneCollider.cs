@@ -72,7 +72,7 @@ public sealed class SceneCollider
                 nearest = bounds[i] < bounds[nearest] ? i : nearest;
             }
 
-            if (!(bounds[nearest] * (1 + epsilon) <= within) || double.IsPositiveInfinity(bounds[nearest]))
+            if (!(bounds[nearest] * (objectIndex < 0 ? 1 : 1 + epsilon) <= within) || double.IsPositiveInfinity(bounds[nearest]))
             {
                 break;
             }

@@ -10,7 +10,10 @@ namespace FractalEngine.Core.Collision;
 /// <param name="period">Its number of levels.</param>
 /// <param name="outlineAt">Of all levels up to the top.</param>
 /// <param name="stepsAt">Of all levels up to the top.</param>
-internal sealed class SettledRound(long top, int period, Func<long, Outline> outlineAt, Func<long, CopyStep[]> stepsAt)
+/// <param name="patience">
+/// From 1 upwards: what may change, as a multiple of the usual. Which corners a hull keeps may change a little from round to round without end.
+/// </param>
+internal sealed class SettledRound(long top, int period, Func<long, Outline> outlineAt, Func<long, CopyStep[]> stepsAt, double patience)
 {
     // Bounds settle when a round changes them by less than this part of their size, or of the margin by which they are too large anyway. They are
     // then widened by ten times as much as they changed, or by what rounding may change.
@@ -18,6 +21,10 @@ internal sealed class SettledRound(long top, int period, Func<long, Outline> out
     private const double SettledOfMargin = 0.05;
     private const double Widening = 10;
     private const double Rounding = 1e-14;
+
+    // Where margins had to grow, boxes may need more.
+    private const double WideningStep = 8;
+    private const double MostWidening = 0.2;
 
     private const int MostAttempts = 300;
 
@@ -58,10 +65,17 @@ internal sealed class SettledRound(long top, int period, Func<long, Outline> out
             return null;
         }
 
-        var widening = Math.Max(Widening * Difference(), Rounding);
-        var outlines = WithMargins(
-            [.. held.Select((levels, i) => outlineAt(First + i) with { Box = Widened(levels.Select(level => outlineAt(level).Box), widening) })], held);
-        return Enumerable.Range(0, period).All(i => HoldsCopies(outlines, i)) ? outlines : null;
+        var hulls = WithMargins([.. Enumerable.Range(0, period).Select(i => outlineAt(First + i))], held);
+        for (var widening = Math.Max(Widening * Difference(), Rounding); widening < MostWidening; widening *= WideningStep)
+        {
+            Outline[] outlines = [.. hulls.Select((outline, i) => outline with { Box = Widened(held[i].Select(level => outlineAt(level).Box), widening) })];
+            if (Enumerable.Range(0, period).All(i => HoldsCopies(outlines, i)))
+            {
+                return outlines;
+            }
+        }
+
+        return null;
     }
 
     private static BoundingBox Widened(IEnumerable<BoundingBox> boxes, double part) =>
@@ -74,7 +88,7 @@ internal sealed class SettledRound(long top, int period, Func<long, Outline> out
     private static Outline[] WithoutHulls(Outline[] outlines) => [.. outlines.Select(outline => outline with { Hull = null, Margin = 0 })];
 
     private double Threshold() => Math.Max(
-        Settled, SettledOfMargin * Enumerable.Range(0, period).Select(i => outlineAt(First + i)).Min(outline => outline.Margin / outline.Box.Diagonal));
+        Settled, Math.Min(1, patience * SettledOfMargin) * Enumerable.Range(0, period).Select(i => outlineAt(First + i)).Min(outline => outline.Margin / outline.Box.Diagonal));
 
     private double Difference() => Enumerable.Range(0, period).Max(i => Change(outlineAt(First + i).Box, outlineAt(First + i - period).Box));
 

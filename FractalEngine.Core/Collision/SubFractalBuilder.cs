@@ -101,7 +101,7 @@ internal sealed class SubFractalBuilder
         {
             if (isFlat && round >= attempt)
             {
-                if (TryRepeat(floor, repetition.Body.Length, (repetition.Count - round) * repetition.LevelsPerRound))
+                if (TryRepeat(floor, repetition.Body.Length, (repetition.Count - round) * repetition.LevelsPerRound, Math.Max(1, 0.125 * round)))
                 {
                     return;
                 }
@@ -159,9 +159,10 @@ internal sealed class SubFractalBuilder
     /// <param name="floor">The levels below the repetition.</param>
     /// <param name="period">Levels of a round.</param>
     /// <param name="left">How many levels are left; null for infinitely many.</param>
-    private bool TryRepeat(long floor, int period, long? left)
+    /// <param name="patience">See <see cref="SettledRound"/>.</param>
+    private bool TryRepeat(long floor, int period, long? left, double patience)
     {
-        var round = new SettledRound(Levels, period, OutlineAt, StepsAt);
+        var round = new SettledRound(Levels, period, OutlineAt, StepsAt, patience);
         if (!round.IsLikely())
         {
             return false;
