@@ -26,6 +26,7 @@ public sealed class ExactFractalCollider : Collider
     /// <summary>Prepares a fractal in affine composition for queries.</summary>
     /// <exception cref="FractalLimitException">The bounds of some level are beyond a double, or don't settle; the message names it.</exception>
     /// <exception cref="ArgumentException">The fractal is composed componentwise.</exception>
+    /// <exception cref="SingularMatrixException">A map flattens what it maps, as a scale of 0 does; fractal files with one are refused.</exception>
     /// <remarks>Cost: microseconds to milliseconds, whatever the depth.</remarks>
     public ExactFractalCollider(Fractal fractal)
     {

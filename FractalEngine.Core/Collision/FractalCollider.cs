@@ -23,6 +23,7 @@ public sealed class FractalCollider : Collider
 
     /// <summary>Prepares a fractal in affine composition.</summary>
     /// <exception cref="ArgumentException">The fractal is composed componentwise.</exception>
+    /// <exception cref="SingularMatrixException">A map flattens what it maps, as a scale of 0 does; fractal files with one are refused.</exception>
     /// <exception cref="FractalLimitException">A round, or the base object, has more than a million instances of its own.</exception>
     public FractalCollider(Fractal fractal)
     {

@@ -1,4 +1,3 @@
-
 namespace FractalEngine.Core.Collision;
 
 /// <summary>A search on the levels of a fractal as it goes on: what it has found so far, what that excludes, and its costs.</summary>
