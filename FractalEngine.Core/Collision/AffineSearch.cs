@@ -15,7 +15,7 @@ internal sealed class AffineSearch(SubFractalTable table, FaceHierarchy faces)
     {
         AffineLanes lanes = new(map);
         search.PrecisionSquared =
-            ExactFractalCollider.Precision * ExactFractalCollider.Precision * table.Root.RadiusSquared * lanes.LengtheningSquared();
+            ExactFractalCollider.Precision * ExactFractalCollider.Precision * table.RadiusSquared * lanes.LengtheningSquared();
         Visit(table.Root, table.Levels, AffineLanes.Of(position), in lanes, new(map.Inverse()), 0, 0, ref search);
     }
 
@@ -31,9 +31,14 @@ internal sealed class AffineSearch(SubFractalTable table, FaceHierarchy faces)
     private void Visit(
         SubFractal state, long levels, Vector256<double> position, in AffineLanes map, in AffineLanes inverse, int depth, int offset, ref FractalSearch search)
     {
-        if (levels == 0 || state.RadiusSquared * map.LengtheningSquared() <= search.PrecisionSquared || depth >= FractalSearch.Deepest)
+        if (levels == 0 || state.RadiusSquared * map.LengtheningSquared() <= search.PrecisionSquared)
         {
             LookAtFaces(position, in map, depth, ref search);
+            return;
+        }
+
+        if (!search.MayGoOn(depth))
+        {
             return;
         }
 

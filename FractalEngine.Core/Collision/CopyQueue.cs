@@ -90,6 +90,12 @@ internal readonly ref struct CopyQueue(Span<double> numbers)
         }
     }
 
+    /// <summary>The bound of a copy so far.</summary>
+    public double BoundOf(int copy) => _numbers[copy];
+
+    /// <summary>The key of a copy so far.</summary>
+    public double KeyOf(int copy) => _numbers[_count + copy];
+
     /// <summary>Whether the copy has the best bound there is.</summary>
     public bool IsRefined(int copy) => _numbers[(2 * _count) + copy] != 0;
 

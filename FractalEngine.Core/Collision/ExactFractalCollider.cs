@@ -22,6 +22,7 @@ public sealed class ExactFractalCollider : Collider
     private readonly FaceHierarchy _base;
     private readonly SimilarSearch _similar;
     private readonly AffineSearch _affine;
+    private readonly BestFirstSearch _bestFirst;
 
     /// <summary>Prepares a fractal in affine composition for queries.</summary>
     /// <exception cref="FractalLimitException">The bounds of some level are beyond a double, or don't settle; the message names it.</exception>
@@ -36,7 +37,7 @@ public sealed class ExactFractalCollider : Collider
         }
 
         (_fractal, _table, _base) = (fractal, SubFractalTable.Of(fractal), new(fractal.BaseMesh));
-        (_similar, _affine) = (new(_table, _base), new(_table, _base));
+        (_similar, _affine, _bestFirst) = (new(_table, _base), new(_table, _base), new(_table, _base));
     }
 
     /// <inheritdoc/>
@@ -79,6 +80,12 @@ public sealed class ExactFractalCollider : Collider
             else
             {
                 _affine.Run(position, map, ref search);
+            }
+
+            if (search.HasGivenUp)
+            {
+                search.Resume();
+                _bestFirst.Run(position, in map, ref search);
             }
         }
 

@@ -13,6 +13,7 @@ public sealed class QueryRecord
     private int[] _trail = [];
     private int[] _bestTrail = [];
     private double[] _scratch = [];
+    private OpenCopies? _openCopies;
 
     /// <summary>How many faces were looked at: the paper's collision cost (§5.2.3). Added up until <see cref="Reset"/>.</summary>
     public long FaceTests { get; set; }
@@ -29,11 +30,14 @@ public sealed class QueryRecord
     /// <summary>Sets the counters to zero.</summary>
     public void Reset() => (FaceTests, BoundTests) = (0, 0);
 
-    /// <summary>Room for the way of a search; kept for the next one.</summary>
-    internal Span<int> Trail(int length) => _trail.Length >= length ? _trail : _trail = new int[length];
+    /// <summary>Room for the way of a search; kept for the next one, and what is there stays.</summary>
+    internal Span<int> Trail(int length) => Grown(ref _trail, length);
 
-    /// <summary>Room for the way to the best so far; kept for the next one.</summary>
-    internal Span<int> BestTrail(int length) => _bestTrail.Length >= length ? _bestTrail : _bestTrail = new int[length];
+    /// <summary>Room for the way to the best so far.</summary>
+    internal Span<int> BestTrail(int length) => Grown(ref _bestTrail, length);
+
+    /// <summary>Of searches that take long; made by the first.</summary>
+    internal OpenCopies OpenCopies => _openCopies ??= new();
 
     /// <summary>Room for numbers of a search; kept for the next one.</summary>
     internal Span<double> Scratch(int length) => _scratch.Length >= length ? _scratch : _scratch = new double[length];
@@ -56,4 +60,14 @@ public sealed class QueryRecord
     internal void ClearPath() => _path.Clear();
 
     internal void AppendToPath(int number) => _path.Add(number);
+
+    private static int[] Grown(ref int[] numbers, int length)
+    {
+        if (numbers.Length < length)
+        {
+            Array.Resize(ref numbers, length);
+        }
+
+        return numbers;
+    }
 }

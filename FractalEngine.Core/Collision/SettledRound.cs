@@ -79,11 +79,17 @@ internal sealed class SettledRound(long top, int period, Func<long, Outline> out
     }
 
     private static BoundingBox Widened(IEnumerable<BoundingBox> boxes, double part) =>
-        boxes.Aggregate(BoundingBox.Union) switch { var box => Outline.Widened(box, part * box.Diagonal) };
+        boxes.Aggregate(BoundingBox.Union) switch { var box => Outline.Widened(box, (part * box.Diagonal) + (Rounding * Magnitude(box))) };
 
-    /// <summary>By which part of its size a box changes.</summary>
-    private static double Change(BoundingBox box1, BoundingBox box2) => box1 == box2 ? 0
-        : Math.Max((box1.Minimum - box2.Minimum).MaximumComponent(), (box1.Maximum - box2.Maximum).MaximumComponent()) / box1.Diagonal;
+    /// <summary>By which part of its size a box changes, rounding left out: what shrinks to a point does no more.</summary>
+    private static double Change(BoundingBox box1, BoundingBox box2)
+    {
+        var change = Math.Max((box1.Minimum - box2.Minimum).MaximumComponent(), (box1.Maximum - box2.Maximum).MaximumComponent());
+        return box1 == box2 || change <= Rounding * Magnitude(box1) ? 0 : change / box1.Diagonal;
+    }
+
+    private static double Magnitude(BoundingBox box) =>
+        box.IsEmpty ? 0 : Math.Max(box.Minimum.MaximumComponent(), box.Maximum.MaximumComponent());
 
     private static Outline[] WithoutHulls(Outline[] outlines) => [.. outlines.Select(outline => outline with { Hull = null, Margin = 0 })];
 

@@ -17,7 +17,7 @@ internal sealed class SimilarSearch(SubFractalTable table, FaceHierarchy faces)
     /// <summary>Looks at the whole fractal.</summary>
     public void Run(Vector position, ref FractalSearch search)
     {
-        search.PrecisionSquared = ExactFractalCollider.Precision * ExactFractalCollider.Precision * table.Root.RadiusSquared;
+        search.PrecisionSquared = ExactFractalCollider.Precision * ExactFractalCollider.Precision * table.RadiusSquared;
         Visit(table.Root, table.Levels, AffineLanes.Of(position), 1, 0, 0, ref search);
     }
 
@@ -31,9 +31,14 @@ internal sealed class SimilarSearch(SubFractalTable table, FaceHierarchy faces)
     /// <param name="search">What is found so far.</param>
     private void Visit(SubFractal state, long levels, Vector256<double> position, double scaleSquared, int depth, int offset, ref FractalSearch search)
     {
-        if (levels == 0 || state.RadiusSquared * scaleSquared <= search.PrecisionSquared || depth >= FractalSearch.Deepest)
+        if (levels == 0 || state.RadiusSquared * scaleSquared <= search.PrecisionSquared)
         {
             LookAtFaces(position, scaleSquared, depth, ref search);
+            return;
+        }
+
+        if (!search.MayGoOn(depth))
+        {
             return;
         }
 

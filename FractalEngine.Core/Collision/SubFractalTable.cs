@@ -21,6 +21,7 @@ internal sealed class SubFractalTable
         _sets = [.. builder.States.Select(state => state.Set)];
         AreSimilar = builder.AreSimilar;
         Root = At(Levels);
+        RadiusSquared = 0.25 * Root.Box.Size.LengthSquared();
     }
 
     /// <summary>The levels of the whole fractal; a huge number where they are infinitely many.</summary>
@@ -28,6 +29,9 @@ internal sealed class SubFractalTable
 
     /// <summary>The whole fractal.</summary>
     public SubFractal Root { get; }
+
+    /// <summary>Square of half the diagonal of the whole fractal's box.</summary>
+    public double RadiusSquared { get; }
 
     /// <summary>True when all maps are multiples of rotations and mirrors, so that distances scale with them.</summary>
     public bool AreSimilar { get; }
@@ -52,13 +56,20 @@ internal sealed class SubFractalTable
     /// <summary>The set on top of the sub-fractal with so many levels left, which may be one that is never looked at; null for the base.</summary>
     public CopySet? SetAt(long levels) => _sets[StateRegion.Find(_regions, levels)];
 
-    /// <summary>Which states a search can come to: it goes no deeper than <see cref="FractalSearch.Deepest"/> copies.</summary>
+    /// <summary>Which states a search can come to; all, where finding that out would take long.</summary>
     private bool[] Reached(IReadOnlyList<SubFractal> states)
     {
+        const int longest = 256;
         var isReached = new bool[states.Count];
         var (seen, next) = (new HashSet<long>(), new HashSet<long> { Levels });
-        for (var depth = 0; depth <= FractalSearch.Deepest && next.Count > 0; depth++)
+        for (var copies = 0; next.Count > 0; copies++)
         {
+            if (copies == longest)
+            {
+                Array.Fill(isReached, true);
+                break;
+            }
+
             var levels = next.Where(seen.Add).ToArray();
             next.Clear();
             foreach (var level in levels)

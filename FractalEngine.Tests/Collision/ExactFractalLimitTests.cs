@@ -63,6 +63,59 @@ public class ExactFractalLimitTests
         }
     }
 
+    /// <summary>The precision is part of the fractal's size, not of its base's.</summary>
+    [Theory]
+    [InlineData(1e3)]
+    [InlineData(1e6)]
+    [InlineData(1e9)]
+    public void Find_OnABaseMuchLargerThanTheFractal_IsExactForTheFractal(double larger)
+    {
+        var mesh = Samples.Tetrahedron.Transform(v => larger * v);
+        var fractal = new Fractal(Samples.Repeated(9, Samples.MoveAndScale(0, 0, 0, 0.002), Samples.MoveAndScale(1, 0, 0, 0.002), Samples.MoveAndScale(0, 1, 0, 0.002)).Description, mesh);
+        var (probe, oracle, record) = (new FractalProbe($"a base {larger} times larger", fractal), FractalProbe.BruteForce(fractal), new QueryRecord());
+        Seeded.Run(200, random =>
+        {
+            var position = FractalPositions.Draw(random, fractal);
+            Assert.True(oracle.TryFindClosest(position, double.PositiveInfinity, record, out var expected));
+            probe.Check(position, record, expected.Distance);
+        });
+    }
+
+    /// <summary>Six maps are too many to open two levels at once; one of them hardly shrinks, and its chain leads to the position.</summary>
+    [Theory]
+    [InlineData(0.985, 1500)]
+    [InlineData(0.99, 2500)]
+    [InlineData(0.995, 3500)]
+    public void Find_AtTheEndOfALongChain_GoesAllTheWay(double ratio, int depth)
+    {
+        var maps = Enumerable.Range(0, 5).Select(i => Samples.MoveAndScale(10, i, 0, 0.01)).Prepend(Samples.MoveAndScale(0, 0, 0, ratio)).ToArray();
+        // Away from the fixed point, so that each level comes nearer to it.
+        var fractal = new Fractal(Samples.Repeated(depth, maps).Description, Samples.Triangle.Transform(v => v + Vector.One));
+        var (probe, record) = (new FractalProbe($"ratio {ratio} at depth {depth}", fractal), new QueryRecord());
+        var (a, b, c) = fractal.BaseMesh.Face(0);
+        var expected = Math.Pow(ratio, depth) * Math.Sqrt(FaceKernel.ClosestPoint(Vector.Zero, a, b, c).DistanceSquared);
+        probe.Check(Vector.Zero, record, expected);
+    }
+
+    [Fact]
+    public void Find_OnTheInfiniteFractalOfOneMap_IsItsFixedPoint()
+    {
+        foreach (var ratio in new[] { 0.3, 0.5, 0.9 })
+        {
+            var fractal = Samples.Repeated(null, Samples.MoveAndScale(1, 0, 0, ratio));
+            Assert.True(new ExactFractalCollider(fractal).TryFindClosest(Vector.Zero, double.PositiveInfinity, new(), out var closest));
+            Assert.Equal(1 / (1 - ratio), closest.Distance, 1e-11);
+        }
+    }
+
+    /// <summary>As in fractal files, a scale of 0 is refused (decision 3).</summary>
+    [Fact]
+    public void Create_WithAMapThatFlattens_IsRefused()
+    {
+        var fractal = Samples.Repeated(2, new(Vector.I, Vector.Zero, new(0.5, 0, 0.5)), Samples.MoveAndScale(0, 1, 0, 0.5));
+        Assert.Contains("determinant", Assert.Throws<SingularMatrixException>(() => new ExactFractalCollider(fractal)).Message, StringComparison.Ordinal);
+    }
+
     [Fact]
     public void Find_OnABaseOfOnePoint_EqualsEveryFace() => Seeded.Run(40, random =>
     {
@@ -95,5 +148,16 @@ public class ExactFractalLimitTests
     {
         var maps = Enumerable.Range(1, 6).Select(i => Samples.MoveAndScale(5, i, 0, 0.05)).Prepend(new(Vector.Zero, new(0, 10, 0), 0.985 * Vector.One));
         Assert.InRange(new ExactFractalCollider(Samples.Repeated(null, [.. maps])).StorageBytes, 1, 1_000_000);
+    }
+
+    /// <summary>Six maps are too many to open two levels at once: a frame of the stack for each level.</summary>
+    [Theory]
+    [InlineData(0)]
+    [InlineData(0.05)]
+    public void Find_OnASmallStackInAFractalOfManyLevels_Ends(double narrower)
+    {
+        Transformation first = new(Vector.Zero, new(0, 10, 0), 0.985 * new Vector(1, 1, 1 - narrower));
+        var maps = Enumerable.Range(1, 6).Select(i => Samples.MoveAndScale(5, i, 0, 0.05)).Prepend(first);
+        Assert.Null(ExactFractalAttackTests.OnASmallStack(Samples.Repeated(3000, [.. maps])));
     }
 }
