@@ -1,5 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Render.Gl;
+using FractalEngine.Render.Windowing;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
@@ -21,12 +22,12 @@ internal sealed class MeshPass : IDisposable
     private bool? _lastWireframe;
 
     /// <summary>Builds the program.</summary>
-    public MeshPass(GlResources resources)
+    public MeshPass(RenderContext context)
     {
-        _program = ShaderProgram.Load(resources, "mesh");
+        _program = ShaderProgram.Load(context.Resources, "mesh");
         _program.BindBlock("ObjectBlock", ObjectBinding);
         _program.BindBlock("LightBlock", LightBinding);
-        _view = new(_program);
+        _view = new(_program, context.HasReversedDepth);
         _flatColour = _program.Uniform("flatColour");
     }
 
