@@ -60,7 +60,7 @@ public sealed class FrameRenderer : IDisposable
         GL.FrontFace(FrontFaceDirection.Cw);
         var aspect = view.ShownAspect(width, height);
         var bounds = LinesPass.BoundsWith(scene.Bounds, settings);
-        scene.Draw(view, aspect, bounds, settings.Wireframe);
+        scene.Draw(view, aspect, bounds, settings);
         _lines.Draw(view, aspect, scene.Bounds, settings);
         GL.Disable(EnableCap.DepthTest);
     }

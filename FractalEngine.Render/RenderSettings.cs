@@ -18,6 +18,9 @@ public sealed record RenderSettings
     /// <summary>Samples a pixel; 0 switches multisampling off. More than the driver has means as many as it has.</summary>
     public int Samples { get; init; } = 4;
 
+    /// <summary>Where the lights act.</summary>
+    public Shading Shading { get; init; }
+
     /// <summary>Draws the edges of the triangles only.</summary>
     public bool Wireframe { get; init; }
 

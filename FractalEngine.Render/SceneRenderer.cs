@@ -7,13 +7,15 @@ using FractalEngine.Render.Windowing;
 namespace FractalEngine.Render;
 
 /// <summary>
-/// A prepared scene on the GPU. Uploaded once; each object is one instanced draw call, whether it shows a mesh or a fractal. Objects can
-/// move: then only their own matrix is uploaded again.
+/// A prepared scene on the GPU. Uploaded once; each object is one instanced draw call for each of its materials, whether it shows a mesh or a
+/// fractal. Objects can move: then only their own matrix is uploaded again.
 /// </summary>
 public sealed class SceneRenderer : IDisposable
 {
     private readonly MeshPass _pass;
     private readonly LightBlock _lights;
+    private readonly TransparentOrder _transparent;
+    private readonly TextureSet _textures;
     private readonly Dictionary<DrawableModel, ModelBuffers> _models = [];
     private readonly ObjectBlock[] _blocks;
     private readonly AffineMap[] _maps;
@@ -31,8 +33,11 @@ public sealed class SceneRenderer : IDisposable
         _pass = new(context.Resources);
         _lights = new(context.Resources, scene.Source.Scene.Lights, scene.Source.Bounds);
         _blocks = [.. scene.Objects.Select(item => new ObjectBlock(context.Resources, item.Name))];
+        _transparent = new([.. Enumerable.Range(0, scene.Objects.Length).Where(i => scene.Objects[i].Model.HasTransparentParts)]);
+        _textures = new();
         try
         {
+            _textures.Upload(context.Resources, scene.Textures);
             foreach (var model in scene.Models)
             {
                 _models.Add(model, new(context.Resources, model));
@@ -83,26 +88,79 @@ public sealed class SceneRenderer : IDisposable
             block.Dispose();
         }
 
+        _textures.Dispose();
         _lights.Dispose();
         _pass.Dispose();
     }
 
     /// <summary>Draws into the bound framebuffer's viewport.</summary>
-    internal void Draw(View view, double aspect, BoundingBox bounds, bool wireframe)
+    internal void Draw(View view, double aspect, BoundingBox bounds, RenderSettings settings)
     {
-        _pass.Begin(view, aspect, bounds, wireframe);
+        _pass.Begin(view, aspect, bounds, settings.Wireframe, settings.Shading);
         _lights.Bind(MeshPass.LightBinding, view.Camera.Position);
         for (var i = 0; i < _blocks.Length; i++)
         {
-            var item = Scene.Objects[i];
-            var map = _maps[i];
-            var shifted = new AffineMap(map.Linear, map * item.Model.Origin);
-            MeshPass.LeaveOut(wireframe ? null : HiddenSide(i, view, bounds));
-            _blocks[i].Bind(MeshPass.ObjectBinding, shifted, item.Colour, view.Camera.Position);
-            _models[item.Model].Draw();
+            MeshPass.LeaveOut(settings.Wireframe ? null : HiddenSide(i, view, bounds));
+            BindBlock(i, view);
+            if (settings.Wireframe)
+            {
+                _pass.Use(null, Colour.White);
+                _models[Scene.Objects[i].Model].Draw();
+            }
+            else
+            {
+                DrawBatches(i, areTransparent: false);
+            }
+        }
+
+        if (!settings.Wireframe)
+        {
+            DrawTransparent(view);
         }
 
         MeshPass.End();
+    }
+
+    private void BindBlock(int index, View view)
+    {
+        var (item, map) = (Scene.Objects[index], _maps[index]);
+        var shifted = new AffineMap(map.Linear, map * item.Model.Origin);
+        _blocks[index].Bind(MeshPass.ObjectBinding, shifted, item.Colour, view.Camera.Position);
+    }
+
+    /// <summary>Draws those materials of an object that are opaque, or those that are not.</summary>
+    private void DrawBatches(int index, bool areTransparent)
+    {
+        var item = Scene.Objects[index];
+        foreach (ref readonly var batch in item.Model.Batches.AsSpan())
+        {
+            if (batch.IsTransparent == areTransparent)
+            {
+                _textures.Bind(batch.Material);
+                _pass.Use(batch.Material, item.Tint);
+                _models[item.Model].Draw(batch);
+            }
+        }
+    }
+
+    /// <summary>
+    /// Draws what is transparent, the farthest object first, and of each object first the sides that look away: then the colours of a convex
+    /// one mix in the right order. Triangles of one side and instances of a fractal are not sorted.
+    /// </summary>
+    private void DrawTransparent(View view)
+    {
+        MeshPass.BeginTransparent();
+        foreach (var index in _transparent.FarToNear(view.Camera, _boxes))
+        {
+            BindBlock(index, view);
+            var looksAway = _maps[index].Linear.Determinant() >= 0;
+            MeshPass.LeaveOut(looksAway);
+            DrawBatches(index, areTransparent: true);
+            MeshPass.LeaveOut(!looksAway);
+            DrawBatches(index, areTransparent: true);
+        }
+
+        MeshPass.EndTransparent();
     }
 
     /// <summary>The side of an object's triangles that certainly is not seen: true for the front, null where both may be.</summary>

@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -32,6 +33,15 @@ public sealed class DrawableModel
 
     /// <summary>Vertex numbers, [triangles × 3].</summary>
     public ReadOnlyMemory<uint> Indices { get; }
+
+    /// <summary>(u, v) of each vertex, v upwards, [vertices × 2]; empty where no material has a picture.</summary>
+    public ReadOnlyMemory<float> TextureCoordinates { get; init; }
+
+    /// <summary>Together they cover all indices.</summary>
+    public ImmutableArray<DrawableBatch> Batches { get; init; } = [];
+
+    /// <summary>Whether any part is drawn after the opaque ones, and blended.</summary>
+    public bool HasTransparentParts => Batches.Any(static batch => batch.IsTransparent);
 
     /// <summary>Maps from the mesh to the model, by rows, [<see cref="InstanceCount"/> × 12].</summary>
     public ReadOnlyMemory<float> Instances { get; }

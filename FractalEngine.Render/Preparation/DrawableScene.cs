@@ -27,6 +27,9 @@ public sealed class DrawableScene
     /// <summary>In the order of the scene's objects.</summary>
     public ImmutableArray<DrawableObject> Objects { get; }
 
+    /// <summary>The pictures of all materials, each once.</summary>
+    public ImmutableArray<DrawableTexture> Textures { get; private init; } = [];
+
     /// <summary>Sentences for the user about what is not drawn in full.</summary>
     public ImmutableArray<string> Notices { get; }
 
@@ -51,13 +54,14 @@ public sealed class DrawableScene
     {
         var models = new Dictionary<Model, DrawableModel>(ReferenceEqualityComparer.Instance);
         var notices = ImmutableArray.CreateBuilder<string>();
+        var textures = new TextureCache(notices);
         var sources = scene.Models.ToArray();
         foreach (var model in sources)
         {
             cancellation.ThrowIfCancellationRequested();
             var name = Path.GetFileName(model.Path);
             progress?.Report(new(name, (double)models.Count / sources.Length));
-            models.Add(model, PrepareModel(name, model, settings, notices));
+            models.Add(model, PrepareModel(name, model, settings, textures, notices));
             progress?.Report(new(name, (double)models.Count / sources.Length));
         }
 
@@ -68,12 +72,18 @@ public sealed class DrawableScene
                 placed.Declaration.Name ?? models[placed.Model].Name,
                 models[placed.Model],
                 placed.Map,
-                placed.Declaration.Colour ?? ObjectPalette.ColourOf(index)))],
-            notices.ToImmutable());
+                placed.Declaration.Colour ?? ObjectPalette.ColourOf(index))
+            {
+                Tint = placed.Declaration.Colour ?? Colour.White,
+            })],
+            notices.ToImmutable())
+        {
+            Textures = [.. textures.Textures],
+        };
     }
 
     private static DrawableModel PrepareModel(
-        string name, Model model, RenderSettings settings, ImmutableArray<string>.Builder notices)
+        string name, Model model, RenderSettings settings, TextureCache textures, ImmutableArray<string>.Builder notices)
     {
         var mesh = model.Mesh;
         var maps = ImmutableArray.Create(AffineMap.Identity);
@@ -92,10 +102,15 @@ public sealed class DrawableScene
         }
 
         var (origin, meshOrigin) = (MiddleOf(model.Bounds), MiddleOf(mesh.Bounds));
-        var (vertices, indices) = DrawableMeshBuilder.Build(mesh, meshOrigin, settings.CreaseAngle);
+        var batches = FaceBatches.Of(model, textures);
+        var (vertices, textureCoordinates, indices) = DrawableMeshBuilder.Build(mesh, meshOrigin, settings.CreaseAngle, batches);
+        // What is transparent lets the inner sides of a solid be seen.
+        var isSolid = maps.Length >= CheckedInstances && !batches.Batches.Any(static batch => batch.IsTransparent);
         return new(name, origin, model.Bounds, vertices, indices, Rows(maps, meshOrigin, origin))
         {
-            SolidSign = maps.Length >= CheckedInstances && CommonSign(maps) is var sign and not 0 && ClosedSurface.IsSolid(mesh) ? sign : 0,
+            TextureCoordinates = textureCoordinates,
+            Batches = batches.Batches,
+            SolidSign = isSolid && CommonSign(maps) is var sign and not 0 && ClosedSurface.IsSolid(mesh) ? sign : 0,
         };
     }
 
