@@ -6,5 +6,10 @@ if (args is ["table", ..])
     return TableCommand.Run(args.AsSpan(1));
 }
 
+if (args is ["frames", ..])
+{
+    return FramesCommand.Run(args.AsSpan(1));
+}
+
 BenchmarkSwitcher.FromAssembly(typeof(Program).Assembly).Run(args);
 return 0;

@@ -60,9 +60,16 @@ public sealed class FrameRenderer : IDisposable
         GL.FrontFace(FrontFaceDirection.Cw);
         var aspect = view.ShownAspect(width, height);
         var bounds = LinesPass.BoundsWith(scene.Bounds, settings);
-        scene.Draw(view, aspect, bounds, settings.Wireframe);
+        scene.Draw(view, (shownWidth, shownHeight), aspect, bounds, settings);
         _lines.Draw(view, aspect, scene.Bounds, settings);
         GL.Disable(EnableCap.DepthTest);
+    }
+
+    /// <summary>Waits until everything has been drawn, for who measures time.</summary>
+    public void Finish()
+    {
+        _context.MakeCurrent();
+        GL.Finish();
     }
 
     /// <summary>Shows what was drawn last in a window.</summary>

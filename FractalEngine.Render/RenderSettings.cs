@@ -1,3 +1,4 @@
+using FractalEngine.Core.Detail;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 
@@ -6,10 +7,13 @@ namespace FractalEngine.Render;
 /// <summary>How a scene is prepared and drawn, apart from what the scene itself says.</summary>
 public sealed record RenderSettings
 {
-    /// <summary>The most instances of one fractal that are drawn; deeper fractals are drawn at a smaller depth, with a notice.</summary>
+    /// <summary>What is left out of a picture because it would not be seen; null to draw every instance of every fractal in every picture.</summary>
+    public DetailSettings? Detail { get; init; } = new();
+
+    /// <summary>Without <see cref="Detail"/>, the most instances of one fractal that are drawn; deeper fractals are drawn at a smaller depth, with a notice.</summary>
     public int InstanceBudget { get; init; } = FractalLimits.DrawnInstances;
 
-    /// <summary>The most triangles of one fractal that are drawn: limits instances of large meshes further.</summary>
+    /// <summary>Without <see cref="Detail"/>, the most triangles of one fractal that are drawn: limits instances of large meshes further.</summary>
     public long TriangleBudget { get; init; } = 200_000_000;
 
     /// <summary>Where faces meet at a larger angle, generated normals make an edge. Degrees.</summary>
@@ -17,6 +21,9 @@ public sealed record RenderSettings
 
     /// <summary>Samples a pixel; 0 switches multisampling off. More than the driver has means as many as it has.</summary>
     public int Samples { get; init; } = 4;
+
+    /// <summary>Where the lights act.</summary>
+    public Shading Shading { get; init; }
 
     /// <summary>Draws the edges of the triangles only.</summary>
     public bool Wireframe { get; init; }

@@ -7,17 +7,20 @@ using FractalEngine.Render.Windowing;
 namespace FractalEngine.Render;
 
 /// <summary>
-/// A prepared scene on the GPU. Uploaded once; each object is one instanced draw call, whether it shows a mesh or a fractal. Objects can
-/// move: then only their own matrix is uploaded again.
+/// A prepared scene on the GPU. Uploaded once; each object is one instanced draw call for each of its materials, whether it shows a mesh or a
+/// fractal. Objects can move: then only their own matrix is uploaded again.
 /// </summary>
 public sealed class SceneRenderer : IDisposable
 {
     private readonly MeshPass _pass;
     private readonly LightBlock _lights;
+    private readonly TransparentOrder _transparent;
+    private readonly TextureSet _textures;
     private readonly Dictionary<DrawableModel, ModelBuffers> _models = [];
     private readonly ObjectBlock[] _blocks;
     private readonly AffineMap[] _maps;
     private readonly BoundingBox[] _boxes;
+    private readonly SceneDetail? _detail;
     private BoundingBox? _bounds;
 
     /// <summary>Uploads a scene. On the context's thread.</summary>
@@ -31,12 +34,17 @@ public sealed class SceneRenderer : IDisposable
         _pass = new(context);
         _lights = new(context.Resources, scene.Source.Scene.Lights, scene.Source.Bounds);
         _blocks = [.. scene.Objects.Select(item => new ObjectBlock(context.Resources, item.Name))];
+        _transparent = new([.. Enumerable.Range(0, scene.Objects.Length).Where(i => scene.Objects[i].Model.HasTransparentParts)]);
+        _textures = new();
         try
         {
+            _textures.Upload(context.Resources, scene.Textures);
             foreach (var model in scene.Models)
             {
                 _models.Add(model, new(context.Resources, model));
             }
+
+            _detail = new(context.Resources, scene, _models);
         }
         catch
         {
@@ -51,7 +59,13 @@ public sealed class SceneRenderer : IDisposable
     /// <summary>A box that holds all objects where they are now, world space.</summary>
     public BoundingBox Bounds => _bounds ??= _boxes.Aggregate(BoundingBox.Empty, BoundingBox.Union);
 
+    /// <summary>What the last picture took, where instances are chosen (<see cref="RenderSettings.Detail"/>).</summary>
+    public FrameStatistics Statistics => new(Detail.InstanceCount, Detail.TriangleCount, Detail.Cost, Detail.PixelSize, Detail.Choices, Detail.UploadedBytes);
+
     internal RenderContext Context { get; }
+
+    /// <summary>The instances that were chosen for the last picture, and what that took.</summary>
+    internal SceneDetail Detail => _detail!;
 
     /// <summary>Where an object is now.</summary>
     /// <param name="index">Its place in the scene, from 0.</param>
@@ -66,13 +80,27 @@ public sealed class SceneRenderer : IDisposable
         {
             _maps[index] = map;
             _boxes[index] = Scene.Objects[index].Model.Bounds.Transform(map);
+            Detail.Move(index, map);
             _bounds = null;
         }
+    }
+
+    /// <summary>Chooses the instances that a picture needs, without drawing it. On the context's thread.</summary>
+    /// <param name="view">Camera and projection.</param>
+    /// <param name="width">Of the picture, pixels.</param>
+    /// <param name="height">Of the picture, pixels.</param>
+    /// <param name="settings">What is left out.</param>
+    public void Choose(View view, int width, int height, RenderSettings settings)
+    {
+        Context.MakeCurrent();
+        var (_, _, shownWidth, shownHeight) = view.Viewport(width, height);
+        Choose(view, (shownWidth, shownHeight), view.ShownAspect(width, height), LinesPass.BoundsWith(Bounds, settings), settings);
     }
 
     /// <inheritdoc/>
     public void Dispose()
     {
+        _detail?.Dispose();
         foreach (var buffers in _models.Values)
         {
             buffers.Dispose();
@@ -83,32 +111,116 @@ public sealed class SceneRenderer : IDisposable
             block.Dispose();
         }
 
+        _textures.Dispose();
         _lights.Dispose();
         _pass.Dispose();
     }
 
     /// <summary>Draws into the bound framebuffer's viewport.</summary>
-    internal void Draw(View view, double aspect, BoundingBox bounds, bool wireframe)
+    internal void Draw(View view, (int Width, int Height) size, double aspect, BoundingBox bounds, RenderSettings settings)
     {
-        _pass.Begin(view, aspect, bounds, wireframe);
+        Choose(view, size, aspect, bounds, settings);
+        _pass.Begin(view, aspect, bounds, settings.Wireframe, settings.Shading);
         _lights.Bind(MeshPass.LightBinding, view.Camera.Position);
         for (var i = 0; i < _blocks.Length; i++)
         {
-            var item = Scene.Objects[i];
-            var map = _maps[i];
-            var shifted = new AffineMap(map.Linear, map * item.Model.Origin);
-            MeshPass.LeaveOut(wireframe ? null : HiddenSide(i, view, bounds));
-            _blocks[i].Bind(MeshPass.ObjectBinding, shifted, item.Colour, view.Camera.Position);
-            _models[item.Model].Draw();
+            MeshPass.LeaveOut(settings.Wireframe ? null : HiddenSide(i, view, bounds));
+            BindBlock(i, view);
+            if (settings.Wireframe)
+            {
+                _pass.Use(null, Colour.White);
+                DrawInstances(i, _models[Scene.Objects[i].Model].Everything);
+            }
+            else
+            {
+                DrawBatches(i, areTransparent: false);
+            }
+        }
+
+        if (!settings.Wireframe)
+        {
+            DrawTransparent(view);
         }
 
         MeshPass.End();
     }
 
+    private void Choose(View view, (int Width, int Height) size, double aspect, BoundingBox bounds, RenderSettings settings)
+    {
+        if (settings.Detail is { } detail)
+        {
+            Detail.Update(
+                SceneDetail.ViewOf(view, size.Width, size.Height, aspect, view.ClipPlanes(bounds)),
+                detail with { HasSamples = settings.Samples > 1, SkipsHidden = detail.SkipsHidden && !settings.Wireframe });
+        }
+    }
+
+    private void BindBlock(int index, View view)
+    {
+        var (item, map) = (Scene.Objects[index], _maps[index]);
+        // Chosen instances are in world axes about the camera already.
+        var shifted = Detail.Has(index) ? AffineMap.Translate(view.Camera.Position) : new AffineMap(map.Linear, map * item.Model.Origin);
+        _blocks[index].Bind(MeshPass.ObjectBinding, shifted, item.Colour, view.Camera.Position);
+    }
+
+    private void DrawInstances(int index, DrawableBatch batch)
+    {
+        if (Detail.Has(index))
+        {
+            Detail.Draw(index, batch);
+        }
+        else
+        {
+            _models[Scene.Objects[index].Model].Draw(batch);
+        }
+    }
+
+    /// <summary>Draws those materials of an object that are opaque, or those that are not.</summary>
+    private void DrawBatches(int index, bool areTransparent)
+    {
+        var item = Scene.Objects[index];
+        foreach (ref readonly var batch in item.Model.Batches.AsSpan())
+        {
+            if (batch.IsTransparent == areTransparent)
+            {
+                _textures.Bind(batch.Material);
+                _pass.Use(batch.Material, item.Tint);
+                DrawInstances(index, batch);
+            }
+        }
+    }
+
+    /// <summary>
+    /// Draws what is transparent, the farthest object first, and of each object first the sides that look away: then the colours of a convex
+    /// one mix in the right order. Triangles of one side and instances of a fractal are not sorted.
+    /// </summary>
+    private void DrawTransparent(View view)
+    {
+        MeshPass.BeginTransparent();
+        foreach (var index in _transparent.FarToNear(view.Camera, _boxes))
+        {
+            BindBlock(index, view);
+            var looksAway = _maps[index].Linear.Determinant() >= 0;
+            MeshPass.LeaveOut(looksAway);
+            DrawBatches(index, areTransparent: true);
+            MeshPass.LeaveOut(!looksAway);
+            DrawBatches(index, areTransparent: true);
+        }
+
+        MeshPass.EndTransparent();
+    }
+
     /// <summary>The side of an object's triangles that certainly is not seen: true for the front, null where both may be.</summary>
     private bool? HiddenSide(int index, View view, BoundingBox bounds)
     {
-        var sign = Scene.Objects[index].Model.SolidSign * Math.Sign(_maps[index].Linear.Determinant());
+        var mirror = Math.Sign(_maps[index].Linear.Determinant());
+        if (Detail.Has(index))
+        {
+            var chosen = Detail.SolidSign(index) * mirror;
+            return chosen == 0 ? null : chosen < 0;
+        }
+
+        var sign = Scene.Objects[index].Model.SolidSign * mirror;
         return sign != 0 && view.IsBeyondNearPlane(_boxes[index], bounds) ? sign < 0 : null;
     }
 }

@@ -25,12 +25,19 @@ internal sealed class DrawOptions
         CustomParser = SharedOptions.ParseInteger(0, 32),
     };
 
+    private readonly Option<Shading?> _shading = new("--shading")
+    {
+        Description = "Where the lights act: at the vertices, or at every pixel; vertex unless stated.",
+        HelpName = "vertex|pixel",
+        CustomParser = result => SharedOptions.ParseWord(result, ("vertex", Shading.PerVertex), ("pixel", Shading.PerPixel)),
+    };
+
     private readonly Option<Projection?> _projection = SharedOptions.Projection();
     private readonly Option<(int Width, int Height)?> _resolution = SharedOptions.Resolution();
 
     public void AddTo(Command command)
     {
-        foreach (var option in (Option[])[_resolution, _projection, _wireframe, _grid, _instances, _samples])
+        foreach (var option in (Option[])[_resolution, _projection, _shading, _wireframe, _grid, _instances, _samples])
         {
             command.Add(option);
         }
@@ -52,6 +59,7 @@ internal sealed class DrawOptions
         {
             InstanceBudget = (int)(result.GetValue(_instances) ?? settings.InstanceBudget),
             Samples = (int)(result.GetValue(_samples) ?? settings.Samples),
+            Shading = result.GetValue(_shading) ?? settings.Shading,
         };
     }
 }

@@ -210,6 +210,11 @@ internal sealed class SceneWindow : IDisposable
                 _settings = _settings with { Wireframe = !_settings.Wireframe };
                 _isDrawingStale = true;
                 break;
+            case Key.L:
+                _settings = _settings with { Shading = _settings.Shading == Shading.PerVertex ? Shading.PerPixel : Shading.PerVertex };
+                _overlay.Say(_settings.Shading == Shading.PerPixel ? "light at every pixel" : "light at the vertices", _clock.Elapsed);
+                _isDrawingStale = true;
+                break;
             case Key.F12 when _document is { } document:
                 TrySay(() => SaveScreenshot(document));
                 break;

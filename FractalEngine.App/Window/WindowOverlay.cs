@@ -25,6 +25,7 @@ internal sealed class WindowOverlay
         ("5", "perspective, orthographic"),
         ("Enter", "back to the start"),
         ("G X", "grid, wireframe"),
+        ("L", "light at vertices, at pixels"),
         ("F12", "screenshot"),
         ("Ctrl+S", "save scene and camera"),
         ("H", "these keys"),

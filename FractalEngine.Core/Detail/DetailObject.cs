@@ -7,4 +7,5 @@ namespace FractalEngine.Core.Detail;
 /// <param name="Map">From the frame of the fractal to world space.</param>
 /// <param name="Origin">The point of the base mesh that drawn vertices are relative to.</param>
 /// <param name="SolidSign">1 where the base mesh is a solid wound outwards, −1 inwards, so that its back is never seen; 0 where that is not known.</param>
-public sealed record DetailObject(DetailTable Table, AffineMap Map, Vector Origin, int SolidSign);
+/// <param name="IsOpaque">Whether it hides what lies behind.</param>
+public sealed record DetailObject(DetailTable Table, AffineMap Map, Vector Origin, int SolidSign, bool IsOpaque = true);

@@ -58,6 +58,9 @@ internal sealed class StripSearch
     /// <summary>What it took.</summary>
     public DetailCost Cost => _cost;
 
+    /// <summary>True when the near plane cuts through an instance of the object that was added last.</summary>
+    public bool IsCut { get; private set; }
+
     /// <summary>True when there was more than the budget.</summary>
     public bool IsOverBudget { get; private set; }
 
@@ -83,7 +86,7 @@ internal sealed class StripSearch
     /// <param name="mesh">Its base mesh.</param>
     public void Add(DetailObject item, BaseMesh mesh)
     {
-        (_object, _mesh, _origin, _top) = (item, mesh, AffineLanes.Of(item.Origin), 0);
+        (_object, _mesh, _origin, _top, IsCut) = (item, mesh, AffineLanes.Of(item.Origin), 0, false);
         if (_screenX.Length < mesh.Padded)
         {
             (_screenX, _screenY, _nearness) = (new float[mesh.Padded], new float[mesh.Padded], new float[mesh.Padded]);
@@ -322,9 +325,10 @@ internal sealed class StripSearch
 
         if (zLow < _view.Near)
         {
-            // Projected from as near as anything of it can be seen.
+            // Projected from as near as anything of it can be; what lies behind the camera, from as far as it is.
             var largest = 2 * Math.Max(half[0] * _scaleX, half[1] * _scaleY);
-            return new() { IsOutside = _settings.SkipsOutside && IsBesides(centre, half), Size = _view.IsPerspective ? largest / _view.Near : largest, Right = -1 };
+            var depth = Math.Max(_view.Near, -zHigh);
+            return new() { IsOutside = _settings.SkipsOutside && IsBesides(centre, half), Size = _view.IsPerspective ? largest / depth : largest, Right = -1 };
         }
 
         var (nearest, farthest) = _view.IsPerspective ? (1 / zLow, 1 / zHigh) : (1.0, 1.0);
@@ -386,12 +390,13 @@ internal sealed class StripSearch
             placed = AffineLanes.Compose(in map, in standIn);
         }
 
-        if (_settings.SkipsHidden && footprint.IsWhole && _mesh.Faces.Length > 0 && !Covers(in placed) && !_settings.HasSamples)
+        if (_settings.SkipsHidden && footprint.IsWhole && _object.IsOpaque && _mesh.Faces.Length > 0 && !Covers(in placed) && !_settings.HasSamples)
         {
             _cost.Uncovering++;
             return;
         }
 
+        IsCut |= !footprint.IsWhole;
         var rows = footprint.IsShared || !footprint.IsWhole ? Shared : Rows;
         var inWorld = AffineLanes.Compose(in _toWorld, in placed);
         rows.Add(in inWorld, _origin, path);

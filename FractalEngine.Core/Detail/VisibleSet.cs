@@ -21,6 +21,7 @@ public sealed class VisibleSet
     private int[] _ends = [];
     private int[] _sharedEnds = [];
     private int[] _mergedEnds = [];
+    private bool[] _isCut = [];
     private IReadOnlyList<DetailObject> _objects = [];
     private DetailSettings _settings = new();
     private DetailView _view;
@@ -111,6 +112,21 @@ public sealed class VisibleSet
         return count;
     }
 
+    /// <summary>True when the near plane cuts through an instance of an object: then the inner side of a solid may be seen.</summary>
+    public bool IsCut(int item)
+    {
+        var place = Array.IndexOf(_order, item, 0, _objects.Count);
+        for (var index = 0; index < Strips; index++)
+        {
+            if (_isCut[(index * _objects.Count) + place])
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
     private bool IsOverBudget()
     {
         foreach (var strip in _strips)
@@ -135,7 +151,7 @@ public sealed class VisibleSet
 
         if (_ends.Length < Strips * count)
         {
-            (_ends, _sharedEnds, _mergedEnds) = (new int[Strips * count], new int[Strips * count], new int[count]);
+            (_ends, _sharedEnds, _mergedEnds, _isCut) = (new int[Strips * count], new int[Strips * count], new int[count], new bool[Strips * count]);
         }
 
         for (var i = 0; i < count; i++)
@@ -162,6 +178,7 @@ public sealed class VisibleSet
             strip.Add(item, _meshes[item.Table]);
             _ends[(index * count) + place] = strip.Rows.Count;
             _sharedEnds[(index * count) + place] = strip.Shared.Count;
+            _isCut[(index * count) + place] = strip.IsCut;
         }
     }
 

@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using System.Numerics;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
@@ -17,6 +18,11 @@ public abstract class Model
 
     /// <summary>The mesh that is drawn: once for a mesh, once for each instance of a fractal.</summary>
     public abstract Mesh Mesh { get; }
+
+    /// <summary>
+    /// The materials that the mesh's groups name, by their names; those that no file declares are missing. Pictures are named in full and exist.
+    /// </summary>
+    public ImmutableDictionary<string, Material> Materials { get; init; } = ImmutableDictionary<string, Material>.Empty;
 
     /// <summary>1 for a mesh; null for infinitely many.</summary>
     public abstract BigInteger? InstanceCount { get; }

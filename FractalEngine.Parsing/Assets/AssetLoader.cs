@@ -17,12 +17,13 @@ namespace FractalEngine.Parsing.Assets;
 /// <param name="progress">Told how far each large file has come.</param>
 public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? progress = null)
 {
-    private readonly Dictionary<string, (Mesh Mesh, long Bytes)> _meshes = [];
+    private readonly Dictionary<string, (Mesh Mesh, ImmutableDictionary<string, Material> Materials, long Bytes)> _meshes = [];
     private readonly Dictionary<string, Model> _models = [];
     private readonly List<Diagnostic> _warnings = [];
     private readonly List<Diagnostic> _errors = [];
-    private long _storageBytes;
-    private AssetFolder? _folder;
+    private long _textBytes;
+    private FileReferences? _references;
+    private MaterialLoader? _materials;
 
     /// <summary>Loads a file.</summary>
     /// <param name="path">Ends in .obj, .fdo or .sdo.</param>
@@ -52,10 +53,13 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
         return [.. loader._errors, .. loader._warnings];
     }
 
+    private long StorageBytes => _textBytes + _materials!.StorageBytes;
+
     private LoadedFile LoadFile(string path)
     {
         var full = Path.GetFullPath(path);
-        _folder = AssetFolder.Of(full);
+        _references = new(AssetFolder.Of(full), options.AllowOutside);
+        _materials = new(_references, _warnings);
         return Path.GetExtension(path).ToUpperInvariant() switch
         {
             ".SDO" => LoadScene(full, path),
@@ -74,7 +78,7 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
     }
 
     private LoadedFile Finish(string full, FileKind kind, LoadedScene scene, SceneFile? sceneFile) =>
-        new(full, kind, scene, sceneFile, _storageBytes, [.. _warnings]);
+        new(full, kind, scene, sceneFile, StorageBytes, [.. _warnings]);
 
     private LoadedFile LoadScene(string full, string name)
     {
@@ -101,7 +105,7 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
 
     private Model LoadReferenced(SourceText source, int offset, string referrer, string file)
     {
-        var (full, name) = Resolve(source, offset, referrer, file);
+        var (full, name) = _references!.Resolve(source, offset, referrer, file);
         if (_models.TryGetValue(full, out var known))
         {
             return known;
@@ -112,16 +116,16 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
 
     private MeshModel LoadMesh(string full, string name)
     {
-        var (mesh, bytes) = ReadMesh(full, name);
-        return new(full, bytes, mesh);
+        var (mesh, materials, bytes) = ReadMesh(full, name);
+        return new(full, bytes, mesh) { Materials = materials };
     }
 
     private FractalModel LoadFractal(string full, string name)
     {
-        var before = _storageBytes;
+        var before = StorageBytes;
         var file = FractalParser.Parse(Read(full, name, ParsingLimits.DescriptionBytes));
-        var ownBytes = _storageBytes - before;
-        var (baseFull, baseName) = Resolve(file.Source, file.BaseFileOffset, full, file.Description.BaseFile);
+        var ownBytes = StorageBytes - before;
+        var (baseFull, baseName) = _references!.Resolve(file.Source, file.BaseFileOffset, full, file.Description.BaseFile);
         var fractal = FractalGenerator.Create(Adapt(file), _ => ReadMesh(baseFull, baseName).Mesh);
         if (fractal.Bounds != BoundingBox.Empty && !fractal.Bounds.Size.IsFinite())
         {
@@ -130,7 +134,7 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
                 : "the fractal grows beyond the range of a double");
         }
 
-        return new(full, ownBytes + _meshes[baseFull].Bytes, fractal);
+        return new(full, ownBytes + _meshes[baseFull].Bytes, fractal) { Materials = _meshes[baseFull].Materials };
     }
 
     /// <summary>What the file says, changed as the options ask.</summary>
@@ -147,42 +151,26 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
             : description;
     }
 
-    private (Mesh Mesh, long Bytes) ReadMesh(string full, string name)
+    private (Mesh Mesh, ImmutableDictionary<string, Material> Materials, long Bytes) ReadMesh(string full, string name)
     {
         if (_meshes.TryGetValue(full, out var known))
         {
             return known;
         }
 
-        var before = _storageBytes;
+        var before = StorageBytes;
         var source = Read(full, name, ParsingLimits.ObjBytes, acceptLatin1: true);
         var file = ObjParser.Parse(source, progress is null ? null : new FileProgress(name, progress));
         _warnings.AddRange(file.Warnings);
-        return _meshes[full] = (file.Mesh, _storageBytes - before);
+        var materials = _materials!.Load(file, source, full);
+        return _meshes[full] = (file.Mesh, materials, StorageBytes - before);
     }
 
     private SourceText Read(string full, string name, long byteLimit, bool acceptLatin1 = false)
     {
         var source = SourceText.Read(full, name, byteLimit, acceptLatin1);
-        _storageBytes += new FileInfo(full) is { Exists: true } info ? info.Length : 0;
+        _textBytes += new FileInfo(full) is { Exists: true } info ? info.Length : 0;
         return source;
-    }
-
-    /// <summary>The full path of a file named in another one, and what messages call it.</summary>
-    private (string Full, string Name) Resolve(SourceText source, int offset, string referrer, string file)
-    {
-        var full = Path.GetFullPath(Path.Combine(Path.GetDirectoryName(referrer)!, file));
-        if (!options.AllowOutside && !_folder!.Contains(full))
-        {
-            throw source.Error(offset, $"\"{file}\" lies outside the folder of the file that was opened: allow that with --allow-outside");
-        }
-
-        if (!File.Exists(full))
-        {
-            throw source.Error(offset, Directory.Exists(full) ? $"\"{file}\" is a directory, expected a file" : $"the file \"{file}\" is not found");
-        }
-
-        return (full, Path.IsPathRooted(source.FileName) ? full : Path.GetRelativePath(Directory.GetCurrentDirectory(), full));
     }
 
     private sealed class FileProgress(string file, IProgress<LoadProgress> progress) : IProgress<double>

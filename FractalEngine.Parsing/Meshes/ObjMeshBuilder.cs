@@ -16,6 +16,7 @@ internal sealed class ObjMeshBuilder
     private readonly List<int> _normalFaces = [];
     private readonly List<MeshGroup> _groups = [];
     private readonly List<string> _materialLibraries = [];
+    private readonly HashSet<string> _knownLibraries = [];
     private readonly PolygonTriangulator _triangulator = new();
     private readonly List<int> _triangles = [];
     private readonly List<Vector> _polygon = [];
@@ -48,12 +49,16 @@ internal sealed class ObjMeshBuilder
         set => ChangeNames(_names with { Smoothing = value });
     }
 
-    public void AddMaterialLibrary(string file)
+    /// <summary>Returns false where the file was named before, or has no name.</summary>
+    public bool AddMaterialLibrary(string file)
     {
-        if (file.Length > 0 && !_materialLibraries.Contains(file))
+        if (file.Length == 0 || !_knownLibraries.Add(file))
         {
-            _materialLibraries.Add(file);
+            return false;
         }
+
+        _materialLibraries.Add(file);
+        return true;
     }
 
     public void AddPosition(Vector position) => Add(_positions, position);

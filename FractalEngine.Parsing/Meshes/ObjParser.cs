@@ -17,6 +17,8 @@ public sealed class ObjParser : Parser
 
     private readonly ObjMeshBuilder _mesh = new();
     private readonly List<ObjCorner> _corners = [];
+    private readonly List<int> _libraryOffsets = [];
+    private readonly Dictionary<string, int> _materialOffsets = [];
     private bool _hasDeclaration;
     private int _unknownLines;
     private Cursor? _firstUnknown;
@@ -70,7 +72,11 @@ public sealed class ObjParser : Parser
             throw Error(Source.Start, "the file declares nothing: it has no vertex, face, group or material");
         }
 
-        return new(_mesh.Build(), Warnings());
+        return new(_mesh.Build(), Warnings())
+        {
+            MaterialLibraryOffsets = [.. _libraryOffsets],
+            MaterialOffsets = _materialOffsets.ToImmutableDictionary(),
+        };
     }
 
     private ImmutableArray<Diagnostic> Warnings()
@@ -121,8 +127,8 @@ public sealed class ObjParser : Parser
         {
             "o" => ParseNames(rest, out var name, out rest) && Declare(() => _mesh.ObjectName = name),
             "g" => ParseNames(rest, out var name, out rest) && Declare(() => _mesh.GroupName = name),
-            "usemtl" => ParseNames(rest, out var name, out rest) && Declare(() => _mesh.Material = name),
-            "mtllib" => ParseNames(rest, out var name, out rest) && Declare(() => _mesh.AddMaterialLibrary(name)),
+            "usemtl" => ParseMaterial(rest, out rest) && Declare(),
+            "mtllib" => ParseMaterialLibrary(rest, out rest) && Declare(),
             "s" => ParseSmoothingGroup(rest, out rest) && Declare(),
             "l" or "p" => ParseNames(rest, out _, out rest) && Declare(),
             // A keyword with nothing behind it stands here because the branches above want a blank.
@@ -130,6 +136,35 @@ public sealed class ObjParser : Parser
             "f" => ParseFace(start, out rest),
             _ => SkipUnknown(start, out rest),
         };
+    }
+
+    private bool ParseMaterial(Cursor cursor, out Cursor rest)
+    {
+        ParseBlanks(cursor, out var start);
+        if (!ParseNames(start, out var name, out rest))
+        {
+            return false;
+        }
+
+        _materialOffsets.TryAdd(name, start.Offset);
+        _mesh.Material = name;
+        return true;
+    }
+
+    private bool ParseMaterialLibrary(Cursor cursor, out Cursor rest)
+    {
+        ParseBlanks(cursor, out var start);
+        if (!ParseNames(start, out var file, out rest))
+        {
+            return false;
+        }
+
+        if (_mesh.AddMaterialLibrary(file))
+        {
+            _libraryOffsets.Add(start.Offset);
+        }
+
+        return true;
     }
 
     private bool Declare(Action? effect = null)

@@ -46,6 +46,42 @@ internal sealed class GlBuffer : GlObject
         }
     }
 
+    /// <summary>Makes room for new contents; a driver that still draws the old ones keeps them. Grows by half more than is needed.</summary>
+    /// <param name="bytes">That will be written.</param>
+    /// <exception cref="GlException">The memory does not suffice.</exception>
+    public void Discard(int bytes)
+    {
+        Bind();
+        if (bytes > _size)
+        {
+            _size = bytes + (bytes / 2);
+        }
+
+        GL.BufferData(_target, _size, IntPtr.Zero, BufferUsageHint.StreamDraw);
+        Resources.ThrowOnError($"{this} of {_size} bytes");
+    }
+
+    /// <summary>Writes a part.</summary>
+    /// <param name="data">Floats.</param>
+    /// <param name="offset">Bytes before it.</param>
+    /// <returns>Its length in bytes.</returns>
+    public int Write(ReadOnlySpan<float> data, int offset)
+    {
+        Bind();
+        unsafe
+        {
+            fixed (float* start = data)
+            {
+                if (data.Length > 0)
+                {
+                    GL.BufferSubData(_target, offset, data.Length * sizeof(float), (nint)start);
+                }
+            }
+        }
+
+        return data.Length * sizeof(float);
+    }
+
     /// <inheritdoc/>
     protected override void Delete() => GL.DeleteBuffer(_name);
 }

@@ -28,8 +28,11 @@ internal sealed class ShaderProgram : GlObject
     }
 
     /// <summary>Builds the embedded files <c>Shaders/name.vert</c> and <c>Shaders/name.frag</c>.</summary>
-    public static ShaderProgram Load(GlResources resources, string name) =>
-        new(resources, Read($"{name}.vert"), Read($"{name}.frag"));
+    /// <param name="resources">Of the current context.</param>
+    /// <param name="name">Of both files.</param>
+    /// <param name="symbols">Defined in both.</param>
+    public static ShaderProgram Load(GlResources resources, string name, params IReadOnlyList<string> symbols) =>
+        new(resources, Read($"{name}.vert", symbols), Read($"{name}.frag", symbols));
 
     /// <summary>Makes this the current program.</summary>
     public void Use() => GL.UseProgram(_name);
@@ -53,7 +56,7 @@ internal sealed class ShaderProgram : GlObject
     /// <inheritdoc/>
     protected override void Delete() => GL.DeleteProgram(_name);
 
-    private static (string File, string Text) Read(string file) => (file, EmbeddedFile.ReadText($"Shaders/{file}"));
+    private static (string File, string Text) Read(string file, IReadOnlyList<string> symbols) => (file, ShaderSource.Read(file, symbols));
 
     private void Build((string File, string Text) vertex, (string File, string Text) fragment)
     {

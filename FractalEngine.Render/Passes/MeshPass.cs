@@ -1,53 +1,68 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Render.Gl;
+using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Windowing;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
 
-/// <summary>The program that draws lit, instanced triangles.</summary>
-internal sealed class MeshPass : IDisposable
+/// <summary>Draws lit, instanced triangles: chooses the program that a material needs, and says how it looks.</summary>
+internal sealed class MeshPass(RenderContext context) : IDisposable
 {
-    /// <summary>Where the program expects the object's block.</summary>
+    /// <summary>Where the programs expect the object's block.</summary>
     public const int ObjectBinding = 0;
 
-    /// <summary>Where the program expects the lights.</summary>
+    /// <summary>Where the programs expect the lights.</summary>
     public const int LightBinding = 1;
 
     private static readonly Colour WireColour = new(0.80, 0.83, 0.87);
 
-    private readonly ShaderProgram _program;
-    private readonly ViewUniforms _view;
-    private readonly int _flatColour;
-    private bool? _lastWireframe;
+    // By features; each is built when it is needed first.
+    private readonly MeshProgram?[] _programs = new MeshProgram?[8];
 
-    /// <summary>Builds the program.</summary>
-    public MeshPass(RenderContext context)
-    {
-        _program = ShaderProgram.Load(context.Resources, "mesh");
-        _program.BindBlock("ObjectBlock", ObjectBinding);
-        _program.BindBlock("LightBlock", LightBinding);
-        _view = new(_program, context.HasReversedDepth);
-        _flatColour = _program.Uniform("flatColour");
-    }
+    // Those whose view is up to date in the frame that is being drawn.
+    private readonly bool[] _isReady = new bool[8];
+    private (View View, double Aspect, BoundingBox Bounds, bool Wireframe, Shading Shading)? _frame;
+    private MeshProgram? _current;
 
-    /// <summary>Makes the program current and brings its uniforms up to date.</summary>
+    /// <summary>Begins a frame.</summary>
     /// <param name="view">Camera and projection.</param>
     /// <param name="aspect">Width divided by height of the viewport.</param>
     /// <param name="bounds">Of everything there is.</param>
     /// <param name="wireframe">Light grey lines instead of lit surfaces.</param>
-    public void Begin(View view, double aspect, BoundingBox bounds, bool wireframe)
+    /// <param name="shading">Where the lights act.</param>
+    public void Begin(View view, double aspect, BoundingBox bounds, bool wireframe, Shading shading)
     {
-        _program.Use();
-        _view.Set(view, aspect, bounds);
-        if (_lastWireframe != wireframe)
+        _frame = (view, aspect, bounds, wireframe, shading);
+        _current = null;
+        Array.Clear(_isReady);
+        GlShim.SetWireframe(wireframe);
+    }
+
+    /// <summary>Makes the program for a material current, and brings its uniforms up to date.</summary>
+    /// <param name="material">Null for the object's own colour.</param>
+    /// <param name="tint">Multiplies the material's colour, sRGB.</param>
+    /// <exception cref="InvalidOperationException">No frame was begun.</exception>
+    /// <exception cref="GlException">The driver refuses the program.</exception>
+    public void Use(DrawableMaterial? material, Colour tint)
+    {
+        var (view, aspect, bounds, wireframe, shading) = _frame ?? throw new InvalidOperationException("no frame was begun");
+        var features = wireframe ? MeshFeatures.None : FeaturesOf(material, shading);
+        var program = _programs[(int)features] ??= new(context, features);
+        if (_current != program)
         {
-            var (red, green, blue) = WireColour.ToLinear();
-            GL.Uniform4(_flatColour, (float)red, (float)green, (float)blue, wireframe ? 1 : 0);
-            _lastWireframe = wireframe;
+            program.Use();
+            _current = program;
         }
 
-        GlShim.SetWireframe(wireframe);
+        if (!_isReady[(int)features])
+        {
+            program.View.Set(view, aspect, bounds);
+            program.SetWireframe(wireframe, WireColour);
+            _isReady[(int)features] = true;
+        }
+
+        program.SetMaterial(material, tint);
     }
 
     /// <summary>Chooses which side of the triangles is not drawn.</summary>
@@ -65,6 +80,21 @@ internal sealed class MeshPass : IDisposable
         }
     }
 
+    /// <summary>From here on what is drawn mixes with what is there, and hides nothing. Colours come multiplied by their opacity.</summary>
+    public static void BeginTransparent()
+    {
+        GL.Enable(EnableCap.Blend);
+        GL.BlendFuncSeparate(BlendingFactorSrc.One, BlendingFactorDest.OneMinusSrcAlpha, BlendingFactorSrc.Zero, BlendingFactorDest.One);
+        GL.DepthMask(false);
+    }
+
+    /// <summary>From here on what is drawn hides what lies behind.</summary>
+    public static void EndTransparent()
+    {
+        GL.DepthMask(true);
+        GL.Disable(EnableCap.Blend);
+    }
+
     /// <summary>Leaves filled triangles with both sides for whoever draws next.</summary>
     public static void End()
     {
@@ -73,5 +103,16 @@ internal sealed class MeshPass : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose() => _program.Dispose();
+    public void Dispose()
+    {
+        foreach (var program in _programs)
+        {
+            program?.Dispose();
+        }
+    }
+
+    private static MeshFeatures FeaturesOf(DrawableMaterial? material, Shading shading) =>
+        (shading == Shading.PerPixel ? MeshFeatures.PerPixel : 0)
+        | (material?.Texture is not null ? MeshFeatures.Textured : 0)
+        | (material?.Material.IsGlossy == true ? MeshFeatures.Glossy : 0);
 }

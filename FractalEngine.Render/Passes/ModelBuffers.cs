@@ -10,10 +10,12 @@ internal sealed class ModelBuffers : IDisposable
     private const int Position = 0;
     private const int Normal = 1;
     private const int InstanceRows = 2;
+    private const int TexturePosition = 6;
 
     private readonly GlBuffer _vertices;
     private readonly GlBuffer _indices;
     private readonly GlBuffer _instances;
+    private readonly GlBuffer? _textureCoordinates;
     private readonly VertexArray _array;
     private readonly int _indexCount;
     private readonly int _instanceCount;
@@ -27,6 +29,11 @@ internal sealed class ModelBuffers : IDisposable
         _vertices = new(resources, $"vertices of {model.Name}", BufferTarget.ArrayBuffer);
         _indices = new(resources, $"indices of {model.Name}", BufferTarget.ElementArrayBuffer);
         _instances = new(resources, $"instances of {model.Name}", BufferTarget.ArrayBuffer);
+        if (!model.TextureCoordinates.IsEmpty)
+        {
+            _textureCoordinates = new(resources, $"texture coordinates of {model.Name}", BufferTarget.ArrayBuffer);
+        }
+
         try
         {
             Upload(model);
@@ -38,14 +45,17 @@ internal sealed class ModelBuffers : IDisposable
         }
     }
 
-    /// <summary>Draws all instances in one call.</summary>
-    public void Draw()
+    /// <summary>The whole mesh.</summary>
+    public DrawableBatch Everything => new(0, _indexCount, null);
+
+    /// <summary>Draws the triangles of one material of all instances in one call.</summary>
+    public void Draw(DrawableBatch batch)
     {
-        if (_instanceCount > 0 && _indexCount > 0)
+        if (_instanceCount > 0 && batch.IndexCount > 0)
         {
             _array.Bind();
             GL.DrawElementsInstanced(
-                PrimitiveType.Triangles, _indexCount, DrawElementsType.UnsignedInt, IntPtr.Zero, _instanceCount);
+                PrimitiveType.Triangles, batch.IndexCount, DrawElementsType.UnsignedInt, (nint)batch.FirstIndex * sizeof(uint), _instanceCount);
         }
     }
 
@@ -56,6 +66,27 @@ internal sealed class ModelBuffers : IDisposable
         _vertices.Dispose();
         _indices.Dispose();
         _instances.Dispose();
+        _textureCoordinates?.Dispose();
+    }
+
+    /// <summary>Lets another vertex array show the same mesh with instances of its own.</summary>
+    public void Attach(VertexArray array, GlBuffer instances)
+    {
+        array.Bind();
+        _indices.Bind();
+        array.Attribute(_vertices, Position, 3, DrawableModel.VertexFloats, 0);
+        array.Attribute(_vertices, Normal, 3, DrawableModel.VertexFloats, 3);
+        if (_textureCoordinates is not null)
+        {
+            array.Attribute(_textureCoordinates, TexturePosition, 2, 2, 0);
+        }
+
+        for (var row = 0; row < 3; row++)
+        {
+            array.Attribute(instances, InstanceRows + row, 4, DrawableModel.InstanceFloats, 4 * row, divisor: 1);
+        }
+
+        VertexArray.Unbind();
     }
 
     private void Upload(DrawableModel model)
@@ -64,13 +95,7 @@ internal sealed class ModelBuffers : IDisposable
         _vertices.Upload(model.Vertices.Span, BufferUsageHint.StaticDraw);
         _indices.Upload(model.Indices.Span, BufferUsageHint.StaticDraw);
         _instances.Upload(model.Instances.Span, BufferUsageHint.StaticDraw);
-        _array.Attribute(_vertices, Position, 3, DrawableModel.VertexFloats, 0);
-        _array.Attribute(_vertices, Normal, 3, DrawableModel.VertexFloats, 3);
-        for (var row = 0; row < 3; row++)
-        {
-            _array.Attribute(_instances, InstanceRows + row, 4, DrawableModel.InstanceFloats, 4 * row, divisor: 1);
-        }
-
-        VertexArray.Unbind();
+        _textureCoordinates?.Upload(model.TextureCoordinates.Span, BufferUsageHint.StaticDraw);
+        Attach(_array, _instances);
     }
 }

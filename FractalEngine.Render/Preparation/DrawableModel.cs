@@ -1,3 +1,5 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Detail;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -33,6 +35,15 @@ public sealed class DrawableModel
     /// <summary>Vertex numbers, [triangles × 3].</summary>
     public ReadOnlyMemory<uint> Indices { get; }
 
+    /// <summary>(u, v) of each vertex, v upwards, [vertices × 2]; empty where no material has a picture.</summary>
+    public ReadOnlyMemory<float> TextureCoordinates { get; init; }
+
+    /// <summary>Together they cover all indices.</summary>
+    public ImmutableArray<DrawableBatch> Batches { get; init; } = [];
+
+    /// <summary>Whether any part is drawn after the opaque ones, and blended.</summary>
+    public bool HasTransparentParts => Batches.Any(static batch => batch.IsTransparent);
+
     /// <summary>Maps from the mesh to the model, by rows, [<see cref="InstanceCount"/> × 12].</summary>
     public ReadOnlyMemory<float> Instances { get; }
 
@@ -42,7 +53,18 @@ public sealed class DrawableModel
     /// </summary>
     internal int SolidSign { get; init; }
 
-    /// <summary>How many copies of the mesh one draw call makes.</summary>
+    /// <summary>
+    /// The levels from which the instances are chosen for each picture; null where all instances are there from the beginning.
+    /// </summary>
+    public DetailTable? Detail { get; init; }
+
+    /// <summary>The point of the mesh's frame that the vertices are relative to.</summary>
+    internal Vector MeshOrigin { get; init; }
+
+    /// <summary>As <see cref="SolidSign"/>, of the mesh alone.</summary>
+    internal int MeshSolidSign { get; init; }
+
+    /// <summary>How many copies of the mesh one draw call makes; none where that depends on the picture.</summary>
     public int InstanceCount => Instances.Length / InstanceFloats;
 
     /// <summary>Triangles of all instances together.</summary>

@@ -7,5 +7,9 @@ namespace FractalEngine.Render.Preparation;
 /// <param name="Name">For labels.</param>
 /// <param name="Model">Shared with the other objects of the same file.</param>
 /// <param name="Map">From the model's frame to world space (the paper's m), where the object stands at first.</param>
-/// <param name="Colour">sRGB.</param>
-public sealed record DrawableObject(string Name, DrawableModel Model, AffineMap Map, Colour Colour);
+/// <param name="Colour">Of faces without a material, sRGB.</param>
+public sealed record DrawableObject(string Name, DrawableModel Model, AffineMap Map, Colour Colour)
+{
+    /// <summary>What the colours of materials are multiplied by, sRGB: the colour that the scene declares, white where it declares none.</summary>
+    public Colour Tint { get; init; } = Colour.White;
+}

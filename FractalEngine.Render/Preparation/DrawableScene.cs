@@ -1,4 +1,6 @@
 using System.Collections.Immutable;
+using FractalEngine.Core.Detail;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -13,6 +15,7 @@ public sealed class DrawableScene
 {
     // With fewer copies, leaving out what is not seen saves less than finding out that it is not.
     private const int CheckedInstances = 100;
+    private const int CheckedFaces = 256;
 
     private DrawableScene(
         LoadedScene source, ImmutableArray<DrawableModel> models, ImmutableArray<DrawableObject> objects, ImmutableArray<string> notices) =>
@@ -26,6 +29,9 @@ public sealed class DrawableScene
 
     /// <summary>In the order of the scene's objects.</summary>
     public ImmutableArray<DrawableObject> Objects { get; }
+
+    /// <summary>The pictures of all materials, each once.</summary>
+    public ImmutableArray<DrawableTexture> Textures { get; private init; } = [];
 
     /// <summary>Sentences for the user about what is not drawn in full.</summary>
     public ImmutableArray<string> Notices { get; }
@@ -51,13 +57,14 @@ public sealed class DrawableScene
     {
         var models = new Dictionary<Model, DrawableModel>(ReferenceEqualityComparer.Instance);
         var notices = ImmutableArray.CreateBuilder<string>();
+        var textures = new TextureCache(notices);
         var sources = scene.Models.ToArray();
         foreach (var model in sources)
         {
             cancellation.ThrowIfCancellationRequested();
             var name = Path.GetFileName(model.Path);
             progress?.Report(new(name, (double)models.Count / sources.Length));
-            models.Add(model, PrepareModel(name, model, settings, notices));
+            models.Add(model, PrepareModel(name, model, settings, textures, notices));
             progress?.Report(new(name, (double)models.Count / sources.Length));
         }
 
@@ -68,16 +75,28 @@ public sealed class DrawableScene
                 placed.Declaration.Name ?? models[placed.Model].Name,
                 models[placed.Model],
                 placed.Map,
-                placed.Declaration.Colour ?? ObjectPalette.ColourOf(index)))],
-            notices.ToImmutable());
+                placed.Declaration.Colour ?? ObjectPalette.ColourOf(index))
+            {
+                Tint = placed.Declaration.Colour ?? Colour.White,
+            })],
+            notices.ToImmutable())
+        {
+            Textures = [.. textures.Textures],
+        };
     }
 
     private static DrawableModel PrepareModel(
-        string name, Model model, RenderSettings settings, ImmutableArray<string>.Builder notices)
+        string name, Model model, RenderSettings settings, TextureCache textures, ImmutableArray<string>.Builder notices)
     {
         var mesh = model.Mesh;
+        if (mesh.FaceCount == 0)
+        {
+            return new(name, Vector.Zero, BoundingBox.Empty, [], [], []);
+        }
+
+        var detail = settings.Detail is null ? null : TableOf(name, model, notices);
         var maps = ImmutableArray.Create(AffineMap.Identity);
-        if (model is FractalModel { Fractal: var fractal })
+        if (detail is null && model is FractalModel { Fractal: var fractal })
         {
             (maps, var notice) = FractalInstances.Of(name, fractal, settings);
             if (notice is not null)
@@ -86,18 +105,47 @@ public sealed class DrawableScene
             }
         }
 
-        if (mesh.FaceCount == 0)
-        {
-            return new(name, Vector.Zero, BoundingBox.Empty, [], [], []);
-        }
-
         var (origin, meshOrigin) = (MiddleOf(model.Bounds), MiddleOf(mesh.Bounds));
-        var (vertices, indices) = DrawableMeshBuilder.Build(mesh, meshOrigin, settings.CreaseAngle);
-        return new(name, origin, model.Bounds, vertices, indices, Rows(maps, meshOrigin, origin))
+        var batches = FaceBatches.Of(model, textures);
+        var (vertices, textureCoordinates, indices) = DrawableMeshBuilder.Build(mesh, meshOrigin, settings.CreaseAngle, batches);
+        // What is transparent lets the inner sides of a solid be seen.
+        var isWorthIt = detail is not null ? model is FractalModel || mesh.FaceCount <= CheckedFaces : maps.Length >= CheckedInstances;
+        var meshSign = isWorthIt && !batches.Batches.Any(static batch => batch.IsTransparent) && ClosedSurface.IsSolid(mesh) ? 1 : 0;
+        var commonSign = detail is null ? CommonSign(maps) : CommonSign(model);
+        return new(name, origin, model.Bounds, vertices, indices, detail is null ? Rows(maps, meshOrigin, origin) : [])
         {
-            SolidSign = maps.Length >= CheckedInstances && CommonSign(maps) is var sign and not 0 && ClosedSurface.IsSolid(mesh) ? sign : 0,
+            Detail = detail,
+            MeshOrigin = meshOrigin,
+            TextureCoordinates = textureCoordinates,
+            Batches = batches.Batches,
+            MeshSolidSign = meshSign,
+            SolidSign = meshSign * commonSign,
         };
     }
+
+    /// <summary>The levels that instances are chosen from; null where they have no bounds, so that instances must be written out.</summary>
+    private static DetailTable? TableOf(string name, Model model, ImmutableArray<string>.Builder notices)
+    {
+        try
+        {
+            return model is FractalModel { Fractal: var fractal } ? DetailTable.Of(fractal) : DetailTable.Of(model.Mesh);
+        }
+        catch (FractalLimitException exception)
+        {
+            notices.Add($"{name}: {exception.Message}");
+            return null;
+        }
+    }
+
+    /// <summary>The sign that the determinants of all instances' maps have; 0 where it differs or depends on the depth.</summary>
+    private static int CommonSign(Model model) => model is not FractalModel { Fractal.Description.Steps: var steps } || steps.All(IsNeverMirrored) ? 1 : 0;
+
+    private static bool IsNeverMirrored(FractalStep step) => step switch
+    {
+        Repetition repetition => repetition.Body.All(IsNeverMirrored),
+        TransformationSet set => set.Maps.All(map => map.Linear.Determinant() > 0),
+        _ => false,
+    };
 
     /// <summary>The sign that the determinants of all maps have; 0 when they differ or one is flat.</summary>
     private static int CommonSign(ImmutableArray<AffineMap> maps)

@@ -1,12 +1,66 @@
 #version 330 core
 // The colour of the side that is seen. A front face is wound clockwise on the screen: the world is left-handed.
+// PER_PIXEL, TEXTURED and GLOSSY are defined where they apply.
 
+#include "material.glsl"
+#ifdef PER_PIXEL
+#include "lighting.glsl"
+
+uniform vec3 cameraAxes[3]; // right, up and forward: the rows of the inverse axes
+uniform vec4 depthScale;    // z = x*depth + y, w = z*depth + w
+
+in vec3 pixelPlace;
+in vec3 pixelNormal;
+in vec3 pixelColour;
+#else
 in vec3 frontColour;
 in vec3 backColour;
+#ifdef GLOSSY
+in vec3 frontHighlight;
+in vec3 backHighlight;
+#endif
+#endif
+#ifdef TEXTURED
+in vec2 picturePosition;
 
-out vec4 fragment;
+uniform sampler2D picture;
+#endif
+
+out vec4 fragment;          // multiplied by its opacity
 
 void main()
 {
-    fragment = vec4(gl_FrontFacing ? frontColour : backColour, 1.0);
+    vec3 highlights = vec3(0.0);
+#ifdef PER_PIXEL
+    vec3 n = direction(gl_FrontFacing ? pixelNormal : -pixelNormal);
+    vec3 light = material[2].rgb * mix(groundColour.rgb, skyColour.rgb, 0.5 + 0.5 * n.y);
+    for (int i = 0; i < lightCount.x; i++)
+    {
+        vec3 toLight;
+        vec3 arrived = arriving(lights[i], pixelPlace, toLight);
+        float cosine = dot(n, toLight);
+        light += max(cosine, 0.0) * arrived;
+#ifdef GLOSSY
+        vec3 toEye = towardsEye(pixelPlace, cameraAxes[2], depthScale);
+        highlights += max(sign(cosine), 0.0) * highlight(n, toLight, toEye, material[1].w) * arrived * material[1].rgb;
+#endif
+    }
+
+    vec3 colour = pixelColour * light;
+#else
+    vec3 colour = gl_FrontFacing ? frontColour : backColour;
+#ifdef GLOSSY
+    highlights = gl_FrontFacing ? frontHighlight : backHighlight;
+#endif
+#endif
+
+    float opacity = material[0].w;
+#ifdef TEXTURED
+    // A hole in the picture is a hole in the surface, its highlight included; clear glass has one all the same.
+    vec4 texel = texture(picture, picturePosition);
+    colour *= texel.rgb;
+    opacity *= texel.a;
+    highlights *= texel.a;
+#endif
+    fragment = vec4(colour * opacity + highlights, opacity);
 }

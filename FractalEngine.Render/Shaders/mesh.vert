@@ -1,11 +1,15 @@
 #version 330 core
-// One vertex of one instance: to the screen by map(v) = axes^-1 * (v - position), lit by all lights on both of its sides.
+// One vertex of one instance: to the screen by map(v) = axes^-1 * (v - position), lit by all lights on both of its sides, unless each pixel is.
+// PER_PIXEL, TEXTURED and GLOSSY are defined where they apply.
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 instanceRow0;
 layout(location = 3) in vec4 instanceRow1;
 layout(location = 4) in vec4 instanceRow2;
+#ifdef TEXTURED
+layout(location = 6) in vec2 texturePosition;
+#endif
 
 layout(std140) uniform ObjectBlock
 {
@@ -15,67 +19,29 @@ layout(std140) uniform ObjectBlock
     vec4 colour;         // linear light
 };
 
-const int maximumLights = 16;
-
-struct Light
-{
-    vec4 colour;         // linear light times intensity; w: 0 directional, 1 point, 2 spot
-    vec4 position;       // relative to the camera, or the unit direction towards the light; w: range
-    vec4 axis;           // unit direction of the cone; w: cosine of the angle where the edge begins
-    vec4 edge;           // x: cosine of the angle where the edge ends
-};
-
-layout(std140) uniform LightBlock
-{
-    vec4 skyColour;      // ambient light from above
-    vec4 groundColour;   // ambient light from below
-    ivec4 lightCount;
-    Light lights[maximumLights];
-};
+#include "material.glsl"
+#include "lighting.glsl"
 
 uniform vec3 cameraAxes[3]; // right, up and forward: the rows of the inverse axes
 uniform vec2 viewScale;     // 1 / (half height * aspect), 1 / half height
 uniform vec4 depthScale;    // z = x*depth + y, w = z*depth + w
 uniform vec4 flatColour;     // linear light; w: how much of it replaces the lit colour
 
+#ifdef PER_PIXEL
+out vec3 pixelPlace;        // relative to the camera
+out vec3 pixelNormal;
+out vec3 pixelColour;       // linear light, before any light falls on it
+#else
 out vec3 frontColour;
 out vec3 backColour;
-
-// A normal may be tiny: its square could underflow. Zero stays zero, never NaN.
-vec3 direction(vec3 v)
-{
-    float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
-    return largest > 0.0 ? normalize(v / largest) : vec3(0.0);
-}
-
-// How much of a light with a place arrives: as the square of the distance, 1 at a tenth of the range, 0 from the range on.
-float falloff(float distance, float range)
-{
-    float d = max(distance / range, 1e-4);
-    float window = clamp(1.0 - d * d * d * d, 0.0, 1.0);
-    return 0.01 / (d * d) * window * window / (0.9999 * 0.9999);
-}
-
-void addLight(Light light, vec3 place, vec3 n, inout vec3 front, inout vec3 back)
-{
-    vec3 toLight = light.position.xyz;
-    float strength = 1.0;
-    if (light.colour.w > 0.5)
-    {
-        vec3 difference = toLight - place;
-        float distance = length(difference);
-        toLight = difference / max(distance, 1e-30);
-        strength = falloff(distance, light.position.w);
-        if (light.colour.w > 1.5)
-        {
-            strength *= smoothstep(light.edge.x, light.axis.w, -dot(toLight, light.axis.xyz));
-        }
-    }
-
-    float cosine = dot(n, toLight);
-    front += max(cosine, 0.0) * strength * light.colour.rgb;
-    back += max(-cosine, 0.0) * strength * light.colour.rgb;
-}
+#ifdef GLOSSY
+out vec3 frontHighlight;
+out vec3 backHighlight;
+#endif
+#endif
+#ifdef TEXTURED
+out vec2 picturePosition;
+#endif
 
 void main()
 {
@@ -94,14 +60,42 @@ void main()
     vec3 n = direction(cross(c1, c2) * normal.x + cross(c2, c0) * normal.y + cross(c0, c1) * normal.z);
     n = direction(cofactors[0].xyz * n.x + cofactors[1].xyz * n.y + cofactors[2].xyz * n.z);
 
+    vec3 surface = mix(colour.rgb, material[0].rgb, material[2].w);
+#ifdef TEXTURED
+    // Pictures are stored from the top, texture coordinates count from the bottom.
+    vec2 inPicture = texturePosition * material[3].xy + material[3].zw;
+    picturePosition = vec2(inPicture.x, 1.0 - inPicture.y);
+#endif
+
+#ifdef PER_PIXEL
+    pixelPlace = place;
+    pixelNormal = n;
+    pixelColour = surface;
+#else
     float upwards = 0.5 + 0.5 * n.y;
-    vec3 front = mix(groundColour.rgb, skyColour.rgb, upwards);
-    vec3 back = mix(skyColour.rgb, groundColour.rgb, upwards);
+    vec3 front = material[2].rgb * mix(groundColour.rgb, skyColour.rgb, upwards);
+    vec3 back = material[2].rgb * mix(skyColour.rgb, groundColour.rgb, upwards);
+#ifdef GLOSSY
+    vec3 toEye = towardsEye(place, cameraAxes[2], depthScale);
+    frontHighlight = vec3(0.0);
+    backHighlight = vec3(0.0);
+#endif
     for (int i = 0; i < lightCount.x; i++)
     {
-        addLight(lights[i], place, n, front, back);
+        vec3 toLight;
+        vec3 light = arriving(lights[i], place, toLight);
+        float cosine = dot(n, toLight);
+        front += max(cosine, 0.0) * light;
+        back += max(-cosine, 0.0) * light;
+#ifdef GLOSSY
+        float side = sign(cosine);
+        vec3 returned = highlight(side * n, toLight, toEye, material[1].w) * light * material[1].rgb;
+        frontHighlight += max(side, 0.0) * returned;
+        backHighlight += max(-side, 0.0) * returned;
+#endif
     }
 
-    frontColour = mix(colour.rgb * front, flatColour.rgb, flatColour.a);
-    backColour = mix(colour.rgb * back, flatColour.rgb, flatColour.a);
+    frontColour = mix(surface * front, flatColour.rgb, flatColour.a);
+    backColour = mix(surface * back, flatColour.rgb, flatColour.a);
+#endif
 }

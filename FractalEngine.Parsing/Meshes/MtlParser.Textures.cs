@@ -1,0 +1,110 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.Parsing.Meshes;
+
+/// <content>The statement <c>map_Kd</c>: options, each with its arguments, then the name of a file.</content>
+public sealed partial class MtlParser
+{
+    private bool ParseTexture(Cursor statement, Cursor cursor)
+    {
+        var texture = new MaterialTexture("");
+        var rest = cursor;
+        while (rest.Current == '-')
+        {
+            if (!ParseOption(rest, ref texture, out rest))
+            {
+                return false;
+            }
+
+            ParseBlanks(rest, out rest);
+        }
+
+        // Windows takes both slashes, all others take this one only.
+        var file = NameAt(rest, out _).Replace('\\', '/');
+        if (file.Length == 0)
+        {
+            return Fail(rest, "a file name");
+        }
+
+        return Change(statement, material =>
+        {
+            // Of materials with the same name the first stays, see Finish.
+            if (!_materials.ContainsKey(material.Name))
+            {
+                _textureOffsets[material.Name] = rest.Offset;
+            }
+
+            return material with { Texture = texture with { Path = file } };
+        });
+    }
+
+    private bool ParseOption(Cursor cursor, ref MaterialTexture texture, out Cursor rest)
+    {
+        rest = cursor;
+        var length = cursor.Rest.IndexOfAny(" \t\r\n");
+        var option = (length < 0 ? cursor.Rest : cursor.Rest[..length]).ToString();
+        ParseBlanks(cursor.Advance(option.Length), out var arguments);
+        switch (option)
+        {
+            case "-clamp":
+                var isParsed = ParseSwitch(arguments, out var isOn, out rest);
+                texture = texture with { IsClamped = isOn };
+                return isParsed;
+            case "-blendu" or "-blendv" or "-cc":
+                return ParseSwitch(arguments, out _, out rest);
+            case "-s":
+                var scaled = ParseUpToThree(arguments, Vector.One, out var scale, out rest);
+                texture = texture with { Scale = (scale.X, scale.Y) };
+                return scaled;
+            case "-o":
+                var moved = ParseUpToThree(arguments, Vector.Zero, out var offset, out rest);
+                texture = texture with { Offset = (offset.X, offset.Y) };
+                return moved;
+            case "-t":
+                return ParseUpToThree(arguments, Vector.Zero, out _, out rest);
+            case "-bm" or "-boost" or "-texres":
+                return ParseNumber(arguments, out _, out rest);
+            case "-mm":
+                return ParseNumber(arguments, out _, out rest) && ParseBlanks(rest, out rest) && ParseNumber(rest, out _, out rest);
+            case "-imfchan" or "-type" or "-colorspace":
+                return ParseName(arguments, "a word", out _, out rest);
+            default:
+                return Fail(cursor, "an option of a texture or a file name");
+        }
+    }
+
+    private bool ParseSwitch(Cursor cursor, out bool isOn, out Cursor rest)
+    {
+        isOn = ParseWord(cursor, "on", out rest);
+        return isOn || ParseWord(cursor, "off", out rest);
+    }
+
+    /// <summary>One to three numbers; those that are left out keep their usual value. A word that only begins with digits is a file's name.</summary>
+    private bool ParseUpToThree(Cursor cursor, Vector usual, out Vector numbers, out Cursor rest)
+    {
+        numbers = usual;
+        if (!ParseNumber(cursor, out var x, out rest))
+        {
+            return false;
+        }
+
+        var (_, y, z) = usual;
+        _ = ParseFurther(rest, ref y, out rest) && ParseFurther(rest, ref z, out rest);
+        numbers = new(x, y, z);
+        return true;
+    }
+
+    private bool ParseFurther(Cursor cursor, ref double number, out Cursor rest)
+    {
+        rest = cursor;
+        ParseBlanks(cursor, out var start);
+        if (!NumberReader.TryRead(start.Rest, out _, out var length) || start.Peek(length) is not (' ' or '\t'))
+        {
+            return false;
+        }
+
+        return ParseNumber(start, out number, out rest);
+    }
+}

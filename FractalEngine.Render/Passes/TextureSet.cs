@@ -1,0 +1,38 @@
+using FractalEngine.Render.Gl;
+using FractalEngine.Render.Preparation;
+
+namespace FractalEngine.Render.Passes;
+
+/// <summary>The pictures of a scene on the GPU, each once.</summary>
+internal sealed class TextureSet : IDisposable
+{
+    private readonly Dictionary<DrawableTexture, PictureTexture> _textures = new(ReferenceEqualityComparer.Instance);
+
+    /// <summary>Uploads pictures.</summary>
+    /// <exception cref="GlException">One is beyond the driver, or the memory does not suffice. Those before it stay until all are disposed.</exception>
+    public void Upload(GlResources resources, IEnumerable<DrawableTexture> textures)
+    {
+        foreach (var texture in textures)
+        {
+            _textures.Add(texture, new(resources, texture.Name, texture.Image));
+        }
+    }
+
+    /// <summary>Binds the picture of a material, if it has one.</summary>
+    public void Bind(DrawableMaterial? material)
+    {
+        if (material?.Texture is { } texture)
+        {
+            _textures[texture].Bind(material.Material.Texture is { IsClamped: true });
+        }
+    }
+
+    /// <inheritdoc/>
+    public void Dispose()
+    {
+        foreach (var texture in _textures.Values)
+        {
+            texture.Dispose();
+        }
+    }
+}

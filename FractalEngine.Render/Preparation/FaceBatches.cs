@@ -1,0 +1,93 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Scenes;
+
+namespace FractalEngine.Render.Preparation;
+
+/// <summary>The faces of a model sorted by material: a batch for each, in the order in which the materials appear.</summary>
+internal sealed class FaceBatches
+{
+    private readonly int[]? _order;
+
+    private FaceBatches(ImmutableArray<DrawableBatch> batches, int[]? order) => (Batches, _order) = (batches, order);
+
+    /// <summary>One for each material; none is empty.</summary>
+    public ImmutableArray<DrawableBatch> Batches { get; }
+
+    /// <summary>Whether any face shows a picture.</summary>
+    public bool HasTextures => Batches.Any(static batch => batch.Material is { Texture: not null });
+
+    /// <summary>The face that is drawn at a place.</summary>
+    /// <param name="place">From 0.</param>
+    public int FaceAt(int place) => _order is null ? place : _order[place];
+
+    /// <summary>Sorts the faces; those of one material keep their order.</summary>
+    /// <param name="model">With its materials.</param>
+    /// <param name="textures">Has or decodes their pictures.</param>
+    public static FaceBatches Of(Model model, TextureCache textures)
+    {
+        var mesh = model.Mesh;
+        if (model.Materials.IsEmpty || mesh.Groups.IsEmpty)
+        {
+            return new([new(0, mesh.Faces.Length, null)], null);
+        }
+
+        var (materials, materialOfFace) = Assign(model, textures);
+        var starts = new int[materials.Count + 1];
+        foreach (var material in materialOfFace)
+        {
+            starts[material + 1]++;
+        }
+
+        for (var i = 1; i < starts.Length; i++)
+        {
+            starts[i] += starts[i - 1];
+        }
+
+        var batches = ImmutableArray.CreateBuilder<DrawableBatch>(materials.Count);
+        for (var i = 0; i < materials.Count; i++)
+        {
+            batches.Add(new(3 * starts[i], 3 * (starts[i + 1] - starts[i]), materials[i]));
+        }
+
+        var order = new int[mesh.FaceCount];
+        for (var face = 0; face < order.Length; face++)
+        {
+            order[starts[materialOfFace[face]]++] = face;
+        }
+
+        return new(batches.ToImmutable(), order);
+    }
+
+    /// <summary>The materials that occur, and for each face the number of its own among them.</summary>
+    private static (List<DrawableMaterial?> Materials, int[] MaterialOfFace) Assign(Model model, TextureCache textures)
+    {
+        var mesh = model.Mesh;
+        var materials = new List<DrawableMaterial?>();
+        var numbers = new Dictionary<(string? Name, bool HasPicture), int>();
+        var materialOfFace = new int[mesh.FaceCount];
+        foreach (var group in mesh.Groups)
+        {
+            var given = model.Materials.GetValueOrDefault(group.Material);
+            for (var face = group.FirstFace; face < group.FirstFace + group.FaceCount; face++)
+            {
+                // A face without texture coordinates has no place in a picture.
+                var material = given is { Texture: not null } && !HasTextureCoordinates(mesh, face) ? given with { Texture = null } : given;
+                var key = (material?.Name, material?.Texture is not null);
+                if (!numbers.TryGetValue(key, out var number))
+                {
+                    numbers[key] = number = materials.Count;
+                    materials.Add(material is null ? null : textures.Of(material));
+                }
+
+                materialOfFace[face] = number;
+            }
+        }
+
+        return (materials, materialOfFace);
+    }
+
+    private static bool HasTextureCoordinates(Mesh mesh, int face) =>
+        mesh.TextureFaces.Length > 0
+        && mesh.TextureFaces[3 * face] >= 0 && mesh.TextureFaces[(3 * face) + 1] >= 0 && mesh.TextureFaces[(3 * face) + 2] >= 0;
+}

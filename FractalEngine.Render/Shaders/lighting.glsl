@@ -1,0 +1,66 @@
+// The lights of a scene, and what of them arrives at a place.
+const int maximumLights = 16;
+
+struct Light
+{
+    vec4 colour;         // linear light times intensity; w: 0 directional, 1 point, 2 spot
+    vec4 position;       // relative to the camera, or the unit direction towards the light; w: range
+    vec4 axis;           // unit direction of the cone; w: cosine of the angle where the edge begins
+    vec4 edge;           // x: cosine of the angle where the edge ends
+};
+
+layout(std140) uniform LightBlock
+{
+    vec4 skyColour;      // ambient light from above
+    vec4 groundColour;   // ambient light from below
+    ivec4 lightCount;
+    Light lights[maximumLights];
+};
+
+// A normal may be tiny: its square could underflow. Zero stays zero, never NaN.
+vec3 direction(vec3 v)
+{
+    float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
+    return largest > 0.0 ? normalize(v / largest) : vec3(0.0);
+}
+
+// How much of a light with a place arrives: as the square of the distance, 1 at a tenth of the range, 0 from the range on.
+float falloff(float distance, float range)
+{
+    float d = max(distance / range, 1e-4);
+    float window = clamp(1.0 - d * d * d * d, 0.0, 1.0);
+    return 0.01 / (d * d) * window * window / (0.9999 * 0.9999);
+}
+
+// The light that arrives at a place, on a surface square to it, and the direction that it comes from.
+vec3 arriving(Light light, vec3 place, out vec3 toLight)
+{
+    toLight = light.position.xyz;
+    float strength = 1.0;
+    if (light.colour.w > 0.5)
+    {
+        vec3 difference = toLight - place;
+        float distance = length(difference);
+        toLight = difference / max(distance, 1e-30);
+        strength = falloff(distance, light.position.w);
+        if (light.colour.w > 1.5)
+        {
+            strength *= smoothstep(light.edge.x, light.axis.w, -dot(toLight, light.axis.xyz));
+        }
+    }
+
+    return strength * light.colour.rgb;
+}
+
+// The highlight of J. Blinn, "Models of light reflection for computer synthesized pictures", 1977: by the angle between the normal and the
+// direction halfway between light and eye.
+float highlight(vec3 n, vec3 toLight, vec3 toEye, float exponent)
+{
+    return pow(max(dot(n, direction(toLight + toEye)), 0.0), exponent);
+}
+
+// From a place towards the eye. The view is orthographic where depth does not divide.
+vec3 towardsEye(vec3 place, vec3 forward, vec4 depthScale)
+{
+    return depthScale.z != 0.0 ? direction(-place) : -forward;
+}
