@@ -30,7 +30,7 @@ public sealed class FrameRenderer : IDisposable
     {
         context.MakeCurrent();
         _context = context;
-        _lines = new(context.Resources);
+        _lines = new(context);
         _overlay = new(context.Resources);
     }
 
@@ -56,7 +56,7 @@ public sealed class FrameRenderer : IDisposable
 
         GL.Enable(EnableCap.FramebufferSrgb);
         GL.Enable(EnableCap.DepthTest);
-        GL.DepthFunc(DepthFunction.Less);
+        GL.DepthFunc(_context.HasReversedDepth ? DepthFunction.Greater : DepthFunction.Less);
         GL.FrontFace(FrontFaceDirection.Cw);
         var aspect = view.ShownAspect(width, height);
         var bounds = LinesPass.BoundsWith(scene.Bounds, settings);
@@ -94,11 +94,11 @@ public sealed class FrameRenderer : IDisposable
     }
 
     /// <summary>Fills the picture. The sRGB values are written as they are, so that the background is exact.</summary>
-    private static void Clear(Colour background, (int X, int Y, int Width, int Height) shown, (int Width, int Height) size)
+    private void Clear(Colour background, (int X, int Y, int Width, int Height) shown, (int Width, int Height) size)
     {
         GL.Disable(EnableCap.FramebufferSrgb);
         GL.DepthMask(true);
-        GL.ClearDepth(1.0);
+        GL.ClearDepth(_context.HasReversedDepth ? 0.0 : 1.0);
         if ((shown.Width, shown.Height) != size)
         {
             SetClearColour(Shaded(background));

@@ -30,7 +30,7 @@ public sealed class SceneRenderer : IDisposable
         (Scene, Context) = (scene, context);
         _maps = [.. scene.Objects.Select(item => item.Map)];
         _boxes = [.. scene.Source.Objects.Select(placed => placed.Bounds)];
-        _pass = new(context.Resources);
+        _pass = new(context);
         _lights = new(context.Resources, scene.Source.Scene.Lights, scene.Source.Bounds);
         _blocks = [.. scene.Objects.Select(item => new ObjectBlock(context.Resources, item.Name))];
         _transparent = new([.. Enumerable.Range(0, scene.Objects.Length).Where(i => scene.Objects[i].Model.HasTransparentParts)]);

@@ -63,9 +63,11 @@ internal sealed class SubFractalBuilder
 
     private SubFractal At(long levels) => _states[Find(levels)];
 
-    private Outline OutlineAt(long levels) => _outlines[Find(levels)];
+    /// <summary>What holds the sub-fractal with so many levels left.</summary>
+    public Outline OutlineAt(long levels) => _outlines[Find(levels)];
 
-    private CopyStep[] StepsAt(long levels) => _steps[Find(levels)];
+    /// <summary>The steps by which it is made of sub-fractals further down, see <see cref="CopyFactory.StepsAt"/>.</summary>
+    public CopyStep[] StepsAt(long levels) => _steps[Find(levels)];
 
     private void Append(long count, params ReadOnlySpan<Made> states)
     {

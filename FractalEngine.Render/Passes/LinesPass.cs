@@ -2,6 +2,7 @@ using System.Runtime.InteropServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Gl;
+using FractalEngine.Render.Windowing;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
@@ -23,13 +24,13 @@ internal sealed class LinesPass : IDisposable
     private (bool Grid, bool Axes, double Spacing, Vector Middle)? _last;
 
     /// <summary>Builds the program.</summary>
-    public LinesPass(GlResources resources)
+    public LinesPass(RenderContext context)
     {
-        _program = ShaderProgram.Load(resources, "lines");
-        _view = new(_program);
+        _program = ShaderProgram.Load(context.Resources, "lines");
+        _view = new(_program, context.HasReversedDepth);
         _offset = _program.Uniform("offset");
-        _lines = new(resources, "grid and axes", BufferTarget.ArrayBuffer);
-        _array = new(resources, "grid and axes");
+        _lines = new(context.Resources, "grid and axes", BufferTarget.ArrayBuffer);
+        _array = new(context.Resources, "grid and axes");
         _array.Attribute(_lines, 0, 3, Floats, 0);
         _array.Attribute(_lines, 1, 4, Floats, 3);
         VertexArray.Unbind();

@@ -1,12 +1,13 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Windowing;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
 
 /// <summary>Draws lit, instanced triangles: chooses the program that a material needs, and says how it looks.</summary>
-internal sealed class MeshPass(GlResources resources) : IDisposable
+internal sealed class MeshPass(RenderContext context) : IDisposable
 {
     /// <summary>Where the programs expect the object's block.</summary>
     public const int ObjectBinding = 0;
@@ -47,7 +48,7 @@ internal sealed class MeshPass(GlResources resources) : IDisposable
     {
         var (view, aspect, bounds, wireframe, shading) = _frame ?? throw new InvalidOperationException("no frame was begun");
         var features = wireframe ? MeshFeatures.None : FeaturesOf(material, shading);
-        var program = _programs[(int)features] ??= new(resources, features);
+        var program = _programs[(int)features] ??= new(context, features);
         if (_current != program)
         {
             program.Use();

@@ -1,6 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Windowing;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
@@ -14,7 +15,7 @@ internal sealed class MeshProgram : IDisposable
     private bool? _lastWireframe;
 
     /// <summary>Compiles and links it.</summary>
-    public MeshProgram(GlResources resources, MeshFeatures features)
+    public MeshProgram(RenderContext context, MeshFeatures features)
     {
         string[] symbols =
         [
@@ -22,10 +23,10 @@ internal sealed class MeshProgram : IDisposable
             .. features.HasFlag(MeshFeatures.Textured) ? ["TEXTURED"] : Array.Empty<string>(),
             .. features.HasFlag(MeshFeatures.Glossy) ? ["GLOSSY"] : Array.Empty<string>(),
         ];
-        _program = ShaderProgram.Load(resources, "mesh", symbols);
+        _program = ShaderProgram.Load(context.Resources, "mesh", symbols);
         _program.BindBlock("ObjectBlock", MeshPass.ObjectBinding);
         _program.BindBlock("LightBlock", MeshPass.LightBinding);
-        View = new(_program);
+        View = new(_program, context.HasReversedDepth);
         _flatColour = _program.Uniform("flatColour");
         _program.Use();
         GL.Uniform1(_program.Uniform("picture"), 0);

@@ -7,7 +7,7 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Passes;
 
 /// <summary>The camera as a shader sees it. Each uniform is set when it has changed, not per frame.</summary>
-internal sealed class ViewUniforms(ShaderProgram program)
+internal sealed class ViewUniforms(ShaderProgram program, bool isReversed)
 {
     private readonly int _cameraAxes = program.Uniform("cameraAxes");
     private readonly int _viewScale = program.Uniform("viewScale");
@@ -37,9 +37,11 @@ internal sealed class ViewUniforms(ShaderProgram program)
             GL.Uniform2(_viewScale, (float)scale.Item1, (float)scale.Item2);
         }
 
-        // Depth n goes to −1 and depth f to 1: before the division by w = depth in perspective, directly otherwise.
+        // Depth n goes to −1 and depth f to 1, or, reversed, n to 1 and f to 0: before the division by w = depth in perspective, directly otherwise.
         var (near, far) = view.ClipPlanes(bounds);
-        var depth = isPerspective
+        var depth = isReversed
+            ? isPerspective ? (-near / (far - near), far * near / (far - near), 1.0, 0.0) : (-1 / (far - near), far / (far - near), 0.0, 1.0)
+            : isPerspective
             ? ((far + near) / (far - near), -2 * far * near / (far - near), 1.0, 0.0)
             : (2 / (far - near), -(far + near) / (far - near), 0.0, 1.0);
         if (_lastDepth != depth)

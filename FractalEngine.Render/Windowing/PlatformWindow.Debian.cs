@@ -76,6 +76,14 @@ internal sealed class PlatformWindow : IPlatformWindow
         }
     }
 
+    public unsafe void UseDepthFromZero()
+    {
+        // OpenTK 1.1 ends at OpenGL 4.4 and does not know this one.
+        const uint lowerLeft = 0x8CA1;
+        const uint zeroToOne = 0x935F;
+        ((delegate* unmanaged[Stdcall]<uint, uint, void>)((IGraphicsContextInternal)_context).GetAddress("glClipControl"))(lowerLeft, zeroToOne);
+    }
+
     public void SwapBuffers() => _context.SwapBuffers();
 
     public void WaitEvents(TimeSpan timeout, List<WindowEvent> events)

@@ -98,6 +98,8 @@ internal sealed class PlatformWindow : IPlatformWindow
         }
     }
 
+    public void UseDepthFromZero() => GL.ClipControl(ClipOrigin.LowerLeft, ClipDepthMode.ZeroToOne);
+
     public void SwapBuffers() => _window.Context.SwapBuffers();
 
     public void WaitEvents(TimeSpan timeout, List<WindowEvent> events)

@@ -28,6 +28,12 @@ public abstract class RenderContext : IDisposable
             window.Dispose();
             throw new GraphicsUnavailableException($"OpenGL 3.3 is needed, but this system offers {DriverName}");
         }
+
+        HasReversedDepth = Version >= new Version(4, 5) || HasExtension("GL_ARB_clip_control");
+        if (HasReversedDepth)
+        {
+            window.UseDepthFromZero();
+        }
     }
 
     /// <summary>What the driver implements: at least 3.3.</summary>
@@ -45,9 +51,21 @@ public abstract class RenderContext : IDisposable
     /// <summary>The labels of the GL objects that are not disposed, sorted.</summary>
     public IReadOnlyList<string> LiveObjects => Resources.LiveObjects;
 
+    /// <summary>
+    /// True where depths run from 1 at the near plane to 0 at the far one: single precision, which is finest about 0, then tells apart depths that differ by
+    /// about 1e-7 of themselves, however far the planes are apart.
+    /// </summary>
+    internal bool HasReversedDepth { get; }
+
     internal GlResources Resources { get; }
 
     private protected IPlatformWindow Window { get; }
+
+    private static bool HasExtension(string name)
+    {
+        GL.GetInteger(GetPName.NumExtensions, out int count);
+        return Enumerable.Range(0, count).Any(i => GL.GetString(StringNameIndexed.Extensions, i) == name);
+    }
 
     /// <summary>Makes this the thread's current context, and deletes what was disposed on other threads meanwhile.</summary>
     public void MakeCurrent()

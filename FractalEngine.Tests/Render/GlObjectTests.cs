@@ -139,7 +139,7 @@ public sealed class GlObjectTests
         using var context = GlTests.Open();
         for (var features = 0; features < 8; features++)
         {
-            new MeshProgram(context.Resources, (MeshFeatures)features).Dispose();
+            new MeshProgram(context, (MeshFeatures)features).Dispose();
         }
 
         Assert.Empty(context.LiveObjects);
