@@ -8,7 +8,7 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
 
-/// <summary>The lights of a scene in a uniform buffer, laid out as <c>LightBlock</c> in mesh.vert (std140).</summary>
+/// <summary>The lights of a scene in a uniform buffer, laid out as <c>LightBlock</c> in lighting.glsl (std140).</summary>
 internal sealed class LightBlock : IDisposable
 {
     /// <summary>The most lights with a direction or a place; ambient ones are added up and don't count.</summary>

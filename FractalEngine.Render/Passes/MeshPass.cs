@@ -62,7 +62,8 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
             _isReady[(int)features] = true;
         }
 
-        program.SetMaterial(material, tint);
+        // The object's own colour is not tinted: objects of different tints then share what is set.
+        program.SetMaterial(material, material is null ? Colour.White : tint);
     }
 
     /// <summary>Chooses which side of the triangles is not drawn.</summary>

@@ -72,12 +72,11 @@ internal sealed class FaceBatches
             for (var face = group.FirstFace; face < group.FirstFace + group.FaceCount; face++)
             {
                 // A face without texture coordinates has no place in a picture.
-                var material = given is { Texture: not null } && !HasTextureCoordinates(mesh, face) ? given with { Texture = null } : given;
-                var key = (material?.Name, material?.Texture is not null);
-                if (!numbers.TryGetValue(key, out var number))
+                var hasPicture = given is { Texture: not null } && HasTextureCoordinates(mesh, face);
+                if (!numbers.TryGetValue((given?.Name, hasPicture), out var number))
                 {
-                    numbers[key] = number = materials.Count;
-                    materials.Add(material is null ? null : textures.Of(material));
+                    numbers[(given?.Name, hasPicture)] = number = materials.Count;
+                    materials.Add(given is null ? null : textures.Of(hasPicture ? given : given with { Texture = null }));
                 }
 
                 materialOfFace[face] = number;

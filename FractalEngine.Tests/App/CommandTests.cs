@@ -147,6 +147,15 @@ public sealed class CommandTests : IDisposable
     public void Check_OfAGoodFile_SaysOk() => Assert.Equal(new AppResult(0, $"row.fdo: ok{Environment.NewLine}", ""), Run("check", "row.fdo"));
 
     [Fact]
+    public void Check_OfAMeshWithoutItsMaterialFile_WarnsAndSaysOk()
+    {
+        _folder.Write("red.obj", "mtllib red.mtl\nusemtl red\n" + Files.Cube);
+        Assert.Equal(
+            new AppResult(0, $"red.obj: ok{Environment.NewLine}", "red.obj:1:8: warning: the file \"red.mtl\" is not found\n  mtllib red.mtl\n         ^\n"),
+            Run("check", "red.obj"));
+    }
+
+    [Fact]
     public void Check_OfABadBase_NamesTheLineThatNamesIt()
     {
         _folder.Write("bad.fdo", "x. \"nope.obj\"\n<$>. x\n");
@@ -171,6 +180,7 @@ public sealed class CommandTests : IDisposable
     [InlineData("export", "cube.obj", "--output", "row.fdo/flat.obj")]
     [InlineData("render", "cube.obj", "--output", "a.png", "--resolution", "0x10")]
     [InlineData("render", "cube.obj", "--output", "a.png", "--projection", "fisheye")]
+    [InlineData("render", "cube.obj", "--output", "a.png", "--shading", "flat")]
     public void WrongUsage_ExitsWith2AndOnlyTalksOnStderr(params string[] arguments)
     {
         var (exitCode, output, error) = Run(arguments);

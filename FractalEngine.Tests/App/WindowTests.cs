@@ -65,6 +65,19 @@ public sealed class WindowTests : IDisposable
     }
 
     [SkippableFact]
+    public void Window_KeyL_ShowsTheHighlightOfALargeFace()
+    {
+        _folder.Write("shiny.mtl", "newmtl shiny\nKd 0 0 0\nKs 1 1 1\nNs 30\n");
+        _folder.Write("shiny.obj", "mtllib shiny.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nusemtl shiny\nf 1 4 3 2\n");
+        _folder.Write("shiny.sdo", "c (0, 0, -3) (0, 0, 0) 50\nlight point (0, 0, -1) (1, 1, 1) 1 10\no \"shiny.obj\" #\n");
+        using var window = Open("shiny.sdo");
+        var atVertices = window.Screenshot(1);
+        window.Do("key l");
+        Assert.True(Difference(atVertices, window.Screenshot(2)) > 0.01, "the key L changed nothing");
+        Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
+    [SkippableFact]
     public void Window_WithNothingToDo_Sleeps()
     {
         using var window = Open("scene.sdo");

@@ -3,6 +3,7 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
 using FractalEngine.Render.Gl;
+using FractalEngine.Render.Passes;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Ui;
 using FractalEngine.Render.Windowing;
@@ -119,6 +120,29 @@ public sealed class GlObjectTests
         frame2.Draw(null, RenderScenes.FrontView, 4, 4, new() { Background = new(0, 1, 0) });
         Assert.Equal((255, 0, 0, 255), frame1.Capture()[1, 1]);
         Assert.Equal((0, 255, 0, 255), frame2.Capture()[1, 1]);
+    }
+
+    [Fact]
+    public void ShaderSource_WithSymbols_DefinesThemBehindTheVersionAndKeepsTheNumbersOfLines()
+    {
+        var lines = ShaderSource.Read("mesh.frag", ["TEXTURED", "GLOSSY"]).Split('\n');
+        Assert.Equal(["#version 330 core", "#define TEXTURED", "#define GLOSSY", "#line 2"], lines[..4]);
+        Assert.DoesNotContain(lines, line => line.StartsWith("#include", StringComparison.Ordinal));
+        var original = EmbeddedFile.ReadText("Shaders/mesh.frag").Split('\n');
+        var next = Array.FindLastIndex(lines, line => line.StartsWith("#line ", StringComparison.Ordinal));
+        Assert.Equal(original[(int.Parse(lines[next][6..], System.Globalization.CultureInfo.InvariantCulture) - 1)..], lines[(next + 1)..^1]);
+    }
+
+    [SkippableFact]
+    public void Programs_OfAllFeatures_Compile()
+    {
+        using var context = GlTests.Open();
+        for (var features = 0; features < 8; features++)
+        {
+            new MeshProgram(context, (MeshFeatures)features).Dispose();
+        }
+
+        Assert.Empty(context.LiveObjects);
     }
 
     [Fact]

@@ -2,8 +2,11 @@ using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Text;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Render;
 
@@ -84,6 +87,70 @@ public sealed class PreparationTests
         var (near, moved) = (Prepare(new(), RenderScenes.Model(RenderScenes.Cube(1))).Models[0], Prepare(new(), RenderScenes.Model(far)).Models[0]);
         Assert.Equal(near.Vertices.ToArray(), moved.Vertices.ToArray());
         Assert.Equal(new(1e9, 0, 0), moved.Origin);
+    }
+
+    [Fact]
+    public void Prepare_MeshWithoutMaterials_IsOneBatchWithoutTextureCoordinates()
+    {
+        var mesh = TexturedScenes.TexturedSquare(1).WithGroups([new(0, 1, "", "", "a", 0), new(1, 1, "", "", "b", 0)], []);
+        var model = Prepare(new(), RenderScenes.Model(mesh)).Models[0];
+        Assert.Equal(new DrawableBatch(0, 6, null), Assert.Single(model.Batches));
+        Assert.True(model.TextureCoordinates.IsEmpty);
+        Assert.Equal((4, 6), (model.Vertices.Length / DrawableModel.VertexFloats, model.Indices.Length));
+    }
+
+    [Fact]
+    public void Prepare_SeamInAPicture_MakesTwoVerticesOfOnePosition()
+    {
+        var mesh = RenderScenes.Square(1).WithTextureCoordinates([0, 0, 1, 0, 0, 1, 1, 1, 0.5, 0.5], [0, 2, 1, 4, 2, 3]);
+        using var scenes = new TexturedScenes();
+        var texture = scenes.Texture("a.png", 1, 1, (_, _) => (1, 2, 3, 255));
+        var model = Prepare(new(), TexturedScenes.Of(mesh, new("m") { Texture = texture })).Models[0];
+        Assert.Equal(5, model.Vertices.Length / DrawableModel.VertexFloats);
+        Assert.Equal([0f, 0, 0, 1, 1, 0, 0.5f, 0.5f, 1, 1], model.TextureCoordinates.ToArray());
+    }
+
+    [Theory]
+    [InlineData(1, 1)]
+    [InlineData(0.5, 0)]
+    public void Prepare_SolidOfGlass_KeepsItsInnerSides(double opacity, int sign)
+    {
+        var menger = RenderScenes.Menger(2);
+        var glass = new FractalModel("glass.fdo", 1, new Fractal(menger.Fractal.Description, TexturedScenes.Of(menger.Mesh, new("m")).Mesh))
+        {
+            Materials = TexturedScenes.Of(menger.Mesh, new("m") { Opacity = opacity }).Materials,
+        };
+        Assert.Equal(sign, Prepare(new(), glass).Models[0].SolidSign);
+    }
+
+    [SkippableFact]
+    public void Prepare_OfEveryRealFile_DrawsEachFaceOnce()
+    {
+        Skip.If(SharedModels.Folder is null, "there is no folder of real models beside the checkout");
+        foreach (var (file, _, triangles) in SharedModels.Table())
+        {
+            LoadedScene loaded;
+            try
+            {
+                loaded = AssetLoader.Load(Path.Combine(SharedModels.Folder!, file)).Scene;
+            }
+            catch (SourceException)
+            {
+                // Wrong on purpose; other tests look at what is said of such files.
+                continue;
+            }
+
+            var scene = DrawableScene.Prepare(loaded, new());
+            Assert.Empty(scene.Notices);
+            var (next, model) = (0, scene.Models[0]);
+            foreach (var batch in model.Batches)
+            {
+                Assert.Equal((file, next), (file, batch.FirstIndex));
+                next += batch.IndexCount;
+            }
+
+            Assert.Equal((file, 3 * triangles, 3 * triangles), (file, next, model.Indices.Length));
+        }
     }
 
     [Fact]

@@ -1,0 +1,364 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
+using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Preparation;
+
+namespace FractalEngine.Tests.Render;
+
+/// <summary>Materials on the screen: pictures, several of them on a mesh, highlights, transparency, both kinds of shading.</summary>
+[Collection(GlTests.Name)]
+public sealed class MaterialTests : IDisposable
+{
+    private static readonly (byte, byte, byte, byte)[] Quarters = [(200, 30, 40, 255), (50, 180, 60, 255), (70, 80, 210, 255), (230, 220, 90, 255)];
+
+    // The square of half size 1 fills a picture of 200 × 200 pixels from edge to edge.
+    private static readonly View Square = new(Camera.Default, Projection.Orthographic) { OrthographicHeight = 2 };
+
+    private readonly TexturedScenes _scenes = new();
+
+    public void Dispose() => _scenes.Dispose();
+
+    [SkippableTheory]
+    [InlineData(Shading.PerVertex)]
+    [InlineData(Shading.PerPixel)]
+    public void Texture_InFullLight_HasThePicturesColoursInTheirPlaces(Shading shading)
+    {
+        var image = Draw(Lit(Quartered()), shading);
+        // Among texels of one colour nothing is mixed in; one step is the rounding from sRGB to light and back.
+        AssertNear(Quarters[0], image[50, 50]);
+        AssertNear(Quarters[1], image[150, 50]);
+        AssertNear(Quarters[2], image[50, 150]);
+        AssertNear(Quarters[3], image[150, 150]);
+    }
+
+    [SkippableTheory]
+    [InlineData(false, 0)]
+    [InlineData(true, 1)]
+    public void Texture_BeyondItsEdges_RepeatsOrGoesOn(bool isClamped, int quarterBeyond)
+    {
+        // u runs from 0 to 2, v stays in the upper row: the picture, and then what follows it.
+        var texture = Quartered() with { Scale = (2, 0), Offset = (0, 0.75), IsClamped = isClamped };
+        var image = Draw(Lit(texture), Shading.PerVertex);
+        AssertNear(Quarters[0], image[25, 100]);
+        AssertNear(Quarters[1], image[75, 100]);
+        AssertNear(Quarters[quarterBeyond], image[125, 100]);
+        AssertNear(Quarters[1], image[175, 100]);
+    }
+
+    [SkippableFact]
+    public void Texture_Moved_StartsElsewhere()
+    {
+        var image = Draw(Lit(Quartered() with { Offset = (0.5, 0) }), Shading.PerVertex);
+        AssertNear(Quarters[1], image[50, 50]);
+        AssertNear(Quarters[0], image[150, 50]);
+    }
+
+    [SkippableFact]
+    public void Texture_FarAway_IsTheMeanOfItsLight()
+    {
+        var texture = _scenes.Texture("chess.png", 256, 256, (x, y) => (x + y) % 2 == 0 ? (byte.MaxValue, byte.MaxValue, byte.MaxValue, byte.MaxValue) : ((byte)0, (byte)0, (byte)0, byte.MaxValue));
+        var view = Square with { OrthographicHeight = 16 };
+        var image = RenderScenes.Draw(
+            RenderScenes.Scene(Full, (TexturedScenes.Square(1, new("m") { Texture = texture }), Transformation.Identity, null)), view, 200, 200,
+            new() { Samples = 0 });
+        for (var x = 90; x < 110; x++)
+        {
+            // Half of the light is 188 of 255; drivers that average the bytes would give 128, and one without mipmaps 0 or 255.
+            Assert.InRange(image[x, 97].Red, 185, 191);
+        }
+    }
+
+    [SkippableFact]
+    public void Texture_TimesDiffuseAndTint_MultipliesInLinearLight()
+    {
+        var texture = _scenes.Texture("even.png", 4, 4, (_, _) => (200, 200, 200, 255));
+        var model = TexturedScenes.Square(1, new("m") { Texture = texture, Diffuse = new(0.5, 1, 1) });
+        var image = RenderScenes.Draw(RenderScenes.Scene(Full, (model, Transformation.Identity, new Colour(1, 0.5, 1))), Square, 200, 200);
+        AssertLinear(Linear(200 / 255.0) * Linear(0.5), image[100, 100].Red);
+        AssertLinear(Linear(200 / 255.0) * Linear(0.5), image[100, 100].Green);
+        AssertLinear(Linear(200 / 255.0), image[100, 100].Blue);
+    }
+
+    [SkippableFact]
+    public void Texture_Undecodable_IsGreyWithANotice()
+    {
+        var texture = _scenes.Broken("broken.png");
+        var scene = RenderScenes.Scene(Full, (TexturedScenes.Square(1, new("m") { Texture = texture }), Transformation.Identity, null));
+        var notice = Assert.Single(DrawableScene.Prepare(scene, new()).Notices);
+        Assert.StartsWith($"{texture.Path}:1:1: warning: the picture can't be decoded, drawn grey: ", notice, StringComparison.Ordinal);
+        AssertNear((153, 153, 153, 255), RenderScenes.Draw(scene, Square, 200, 200)[100, 100]);
+    }
+
+    [Fact]
+    public void Texture_OfManyMaterialsAndObjects_IsDecodedOnce()
+    {
+        var texture = _scenes.Texture("a.png", 2, 2, (_, _) => (1, 2, 3, 255));
+        var scene = DrawableScene.Prepare(
+            RenderScenes.Scene(
+                Full,
+                (TexturedScenes.Square(1, new("a") { Texture = texture }), Transformation.Identity, null),
+                (TexturedScenes.Square(1, new("b") { Texture = texture with { IsClamped = true } }), Transformation.Identity, null)),
+            new());
+        Assert.Same(Assert.Single(scene.Textures), scene.Models[1].Batches[0].Material!.Texture);
+        Assert.Same(scene.Textures[0], scene.Models[0].Batches[0].Material!.Texture);
+    }
+
+    [SkippableFact]
+    public void Materials_OnOneMesh_AreEachOnTheirOwnFaces()
+    {
+        var texture = _scenes.Texture("blue.png", 1, 1, (_, _) => (20, 40, 200, 255));
+        // Two triangles of the square, then two above it without texture coordinates; materials take turns, one has none.
+        var mesh = new Mesh(
+            [-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0, -1, 3, 0, 1, 3, 0],
+            [0, 2, 1, 2, 4, 3, 1, 2, 3, 3, 4, 5])
+            .WithTextureCoordinates([0.5, 0.5], [0, 0, 0, -1, -1, -1, -1, -1, -1, -1, -1, -1])
+            .WithGroups([new(0, 1, "", "", "blue", 0), new(1, 1, "", "", "red", 0), new(2, 1, "", "", "blue", 0), new(3, 1, "", "", "unknown", 0)], []);
+        var model = new MeshModel("m.obj", 1, mesh)
+        {
+            Materials = ImmutableDictionary<string, Material>.Empty
+                .Add("blue", new("blue") { Texture = texture, Diffuse = new(1, 1, 0) })
+                .Add("red", new("red") { Diffuse = new(1, 0, 0) }),
+        };
+        var scene = RenderScenes.Scene(Full, (model, Transformation.Identity, null));
+        var drawable = DrawableScene.Prepare(scene, new()).Models[0];
+        Assert.Equal(12, drawable.Indices.Length);
+        Assert.Equal(
+            [(0, 3, "blue"), (3, 3, "red"), (6, 3, "blue"), (9, 3, null)],
+            drawable.Batches.Select(batch => (batch.FirstIndex, batch.IndexCount, batch.Material?.Material.Name)));
+
+        var image = RenderScenes.Draw(scene, Square with { OrthographicHeight = 8 }, 200, 200);
+        // At 25 pixels a unit; the y of a place counts from the middle upwards.
+        Assert.Equal(0, image[90, 110].Blue); // the picture's blue times none
+        AssertLinear(Linear(20 / 255.0), image[90, 110].Red);
+        AssertNear((255, 0, 0, 255), image[88, 60]);
+        AssertNear((255, 255, 0, 255), image[115, 85]); // of the same material, without a place in its picture
+        AssertNear(Bytes(ObjectPalette.ColourOf(0)), image[110, 35]);
+    }
+
+    [Fact]
+    public void Faces_OfInterleavedMaterials_AreOneBatchAMaterial()
+    {
+        var mesh = RenderScenes.Cube(1).WithGroups(
+            [.. Enumerable.Range(0, 12).Select(face => new MeshGroup(face, 1, "", "", face % 2 == 0 ? "even" : "odd", 0))], []);
+        var model = new MeshModel("m.obj", 1, mesh)
+        {
+            Materials = ImmutableDictionary<string, Material>.Empty.Add("even", new("even")).Add("odd", new("odd")),
+        };
+        var batches = DrawableScene.Prepare(RenderScenes.Scene(Full, (model, Transformation.Identity, null)), new()).Models[0].Batches;
+        Assert.Equal([(0, 18, "even"), (18, 18, "odd")], batches.Select(batch => (batch.FirstIndex, batch.IndexCount, batch.Material!.Material.Name)));
+    }
+
+    [SkippableTheory]
+    [InlineData(Shading.PerVertex)]
+    [InlineData(Shading.PerPixel)]
+    public void Ambient_Factor_ActsOnAmbientLightOnly(Shading shading)
+    {
+        var model = TexturedScenes.Square(1, new("m") { Ambient = new(0.5, 0, 1) });
+        var lights = new Scene { Lights = [new AmbientLight(Colour.White, 0.4), new DirectionalLight(Vector.K, Colour.White, 0.3)] };
+        var middle = RenderScenes.Draw(RenderScenes.Scene(lights, (model, Transformation.Identity, null)), Square, 200, 200, new() { Shading = shading })[100, 100];
+        AssertLinear(0.5, middle.Red);
+        AssertLinear(0.3, middle.Green);
+        AssertLinear(0.7, middle.Blue);
+    }
+
+    [SkippableTheory]
+    [InlineData(Shading.PerVertex, Projection.Perspective)]
+    [InlineData(Shading.PerPixel, Projection.Perspective)]
+    [InlineData(Shading.PerVertex, Projection.Orthographic)]
+    [InlineData(Shading.PerPixel, Projection.Orthographic)]
+    public void Highlight_AtAnAngle_HasBlinnsStrength(Shading shading, Projection projection)
+    {
+        // The light comes at 40° to the normal, the eye looks along it: the half vector lies at 20°.
+        var (sine, cosine) = Math.SinCos(40 * Math.PI / 180);
+        var model = TexturedScenes.Square(0.01, new("m") { Diffuse = Colour.Black, Specular = new(0.8, 0.4, 0), SpecularExponent = 10 });
+        var scene = new Scene { Lights = [new DirectionalLight(new(sine, 0, cosine), Colour.White, 1)] };
+        var view = new View(Camera.Default with { FieldOfView = 0.2 }, projection) { OrthographicHeight = 0.02 };
+        var middle = RenderScenes.Draw(
+            RenderScenes.Scene(scene, (model, Transformation.Identity, null)), view, 40, 40, new() { Shading = shading })[20, 20];
+        var expected = Math.Pow(Math.Cos(20 * Math.PI / 180), 10);
+        AssertLinear(0.8 * expected, middle.Red);
+        AssertLinear(0.4 * expected, middle.Green);
+        Assert.Equal(0, middle.Blue);
+    }
+
+    [SkippableFact]
+    public void Highlight_InTheMiddleOfALargeFace_IsSeenPerPixelOnly()
+    {
+        var model = TexturedScenes.Square(1, new("m") { Diffuse = Colour.Black, Specular = Colour.White, SpecularExponent = 60 });
+        var scene = RenderScenes.Scene(
+            new() { Lights = [new PointLight(new(0, 0, -0.5), Colour.White, 1, 5)] }, (model, Transformation.Identity, null));
+        var perPixel = RenderScenes.Draw(scene, Square, 200, 200, new() { Shading = Shading.PerPixel });
+        Assert.Equal((byte.MaxValue, (byte)0), (perPixel[100, 100].Red, perPixel[10, 10].Red));
+        Assert.Equal(0, RenderScenes.Draw(scene, Square, 200, 200)[100, 100].Red);
+    }
+
+    [SkippableFact]
+    public void Shading_OfAFlatFaceInParallelLight_IsTheSameAtVerticesAndPixels()
+    {
+        var scene = RenderScenes.Scene(
+            new() { Lights = [new AmbientLight(new(0.4, 0.5, 0.9), 0.3), new DirectionalLight(new(0.3, -0.5, 0.7), new(1, 0.8, 0.6), 0.8)] },
+            (TexturedScenes.Square(1, new("m") { Texture = Quartered(), Diffuse = new(0.9, 0.8, 0.7) }), new(Vector.Zero, new(20, 30, 10), new(1, 0.7, 1)), null));
+        var perVertex = RenderScenes.Draw(scene, RenderScenes.FrontView);
+        var perPixel = RenderScenes.Draw(scene, RenderScenes.FrontView, settings: new() { Shading = Shading.PerPixel });
+        // Interpolation and normalisation round otherwise.
+        Assert.All(perVertex.Pixels.Zip(perPixel.Pixels), pair => Assert.InRange(pair.First - pair.Second, -1, 1));
+        Assert.True(RenderScenes.CountOther(perPixel, perPixel[0, 0]) > 1000);
+    }
+
+    [SkippableTheory]
+    [InlineData(1, 1, 1)]
+    [InlineData(-1, 1, 1)]
+    [InlineData(1, -1, -1)]
+    public void Shading_OfAFinelyCutBall_IsTheSameAtVerticesAndPixels_AlsoSkewedAndMirrored(double x, double y, double z)
+    {
+        // Inner scale, turned, outer scale: a map that skews. The eye's side is the outer one whatever the map does.
+        var model = new FractalModel("ball.fdo", 1, new Core.Fractals.Fractal(
+            new("ball.obj", [new Core.Fractals.TransformationSet([new(Vector.Zero, new(30, 40, 20), new(x, 0.6 * y, z))])]), RenderScenes.Ball(48)));
+        var placement = new Transformation(Vector.Zero, new(10, 20, 70), new(1.2, 0.8, 1));
+        var scene = RenderScenes.Scene(new(), (model, placement, null));
+        var perVertex = RenderScenes.Draw(scene, RenderScenes.FrontView, 400, 300);
+        var perPixel = RenderScenes.Draw(scene, RenderScenes.FrontView, 400, 300, new() { Shading = Shading.PerPixel });
+        Assert.True(RenderScenes.Difference(perVertex, perPixel) is { Mean: < 0.3, Share: < 0.002 });
+
+        // The same surface with its vertices moved and its normals made anew has no map that could spoil them.
+        var moved = RenderScenes.Ball(48).Transform(vertex => placement.ToAffineMap() * (model.Fractal.LevelAt(0).Maps[0] * vertex));
+        var expected = RenderScenes.Draw(
+            RenderScenes.Scene(new(), (RenderScenes.Model(moved), Transformation.Identity, null)), RenderScenes.FrontView, 400, 300, new() { Shading = Shading.PerPixel });
+        Assert.True(RenderScenes.Difference(expected, perPixel) is { Mean: < 0.5, Share: < 0.005 } difference, $"{RenderScenes.Difference(expected, perPixel)}");
+    }
+
+    [SkippableTheory]
+    [InlineData(0, 1, 2)]
+    [InlineData(2, 1, 0)]
+    [InlineData(1, 2, 0)]
+    public void Transparent_InAnyOrderOfTheScene_MixesFromFarToNear(params int[] order)
+    {
+        (Model, Transformation, Colour?)[] objects =
+        [
+            (TexturedScenes.Square(1, new("red") { Diffuse = new(1, 0, 0), Opacity = 0.25 }, "near.obj"), RenderScenes.At(0, 0, -1), null),
+            (TexturedScenes.Square(1, new("green") { Diffuse = new(0, 1, 0), Opacity = 0.5 }, "middle.obj"), Transformation.Identity, null),
+            (TexturedScenes.Square(1, new("white"), "far.obj"), RenderScenes.At(0, 0, 1), null),
+        ];
+        var image = RenderScenes.Draw(RenderScenes.Scene(Full, [.. order.Select(i => objects[i])]), Square, 200, 200);
+        // White, half covered by green, of that a quarter by red.
+        AssertLinear((0.75 * 0.5) + 0.25, image[100, 100].Red);
+        AssertLinear(0.75, image[100, 100].Green);
+        AssertLinear(0.75 * 0.5, image[100, 100].Blue);
+        Assert.Equal(255, image[100, 100].Alpha);
+    }
+
+    [SkippableFact]
+    public void Transparent_Solid_ShowsItsFarSideThroughTheNearOne()
+    {
+        // Whichever way the faces are numbered and the object is mirrored: twice half covered.
+        foreach (var mirror in (double[])[1, -1])
+        {
+            var model = TexturedScenes.Of(RenderScenes.Cube(0.5), new("m") { Diffuse = Colour.Black, Opacity = 0.5 });
+            var scene = RenderScenes.Scene(
+                new() { Lights = [RenderScenes.FullLight], Background = Colour.White }, (model, Transformation.Identity with { Scale = new(1, 1, mirror) }, null));
+            AssertLinear(0.25, RenderScenes.Draw(scene, Square, 200, 200)[100, 100].Red);
+        }
+    }
+
+    [SkippableFact]
+    public void Transparent_BehindAnOpaqueOne_IsHidden()
+    {
+        var image = RenderScenes.Draw(
+            RenderScenes.Scene(
+                Full,
+                (TexturedScenes.Square(1, new("glass") { Diffuse = new(1, 0, 0), Opacity = 0.5 }), RenderScenes.At(0, 0, 1), null),
+                (TexturedScenes.Square(0.5, new("wall") { Diffuse = new(0, 0, 1) }), Transformation.Identity, null)),
+            Square, 200, 200);
+        AssertNear((0, 0, 255, 255), image[100, 100]);
+        AssertLinear(0.5, image[20, 20].Red);
+    }
+
+    [SkippableFact]
+    public void Transparent_PartsOfAPicture_LetThroughWhatIsBehind()
+    {
+        var texture = _scenes.Texture("holes.png", 16, 1, (x, _) => (255, 255, 255, x < 8 ? (byte)0 : (byte)255));
+        var image = RenderScenes.Draw(
+            RenderScenes.Scene(
+                new() { Lights = [RenderScenes.FullLight], Background = new(0, 0, 1) },
+                (TexturedScenes.Square(1, new("m") { Texture = texture, Specular = Colour.White }), Transformation.Identity, null)),
+            Square, 200, 200);
+        AssertNear((0, 0, 255, 255), image[50, 100]);
+        AssertNear((255, 255, 255, 255), image[150, 100]);
+    }
+
+    [SkippableFact]
+    public void Wireframe_OfMaterials_IsThatOfTheMeshAlone()
+    {
+        var ball = RenderScenes.Ball(6);
+        var settings = new RenderSettings { Wireframe = true, Shading = Shading.PerPixel };
+        var plain = RenderScenes.Draw(RenderScenes.Scene(Full, (RenderScenes.Model(ball), Transformation.Identity, null)), RenderScenes.FrontView, settings: settings);
+        var glass = TexturedScenes.Of(ball, new("m") { Opacity = 0.1, Specular = Colour.White });
+        Assert.Equal(plain.Pixels, RenderScenes.Draw(RenderScenes.Scene(Full, (glass, Transformation.Identity, null)), RenderScenes.FrontView, settings: settings).Pixels);
+    }
+
+    [SkippableFact]
+    public void Fractal_OfAMeshWithMaterials_LooksLikeItsCopies()
+    {
+        var texture = Quartered();
+        var square = TexturedScenes.Square(1, new("m") { Texture = texture });
+        var pair = new FractalModel("pair.fdo", 1, new Core.Fractals.Fractal(
+            new("square.obj", [new Core.Fractals.TransformationSet([Half(-0.5), Half(0.5)])]), square.Mesh))
+        {
+            Materials = square.Materials,
+        };
+        var instanced = RenderScenes.Draw(RenderScenes.Scene(Full, (pair, Transformation.Identity, null)), Square, 200, 200);
+        var placed = RenderScenes.Draw(RenderScenes.Scene(Full, (square, Half(-0.5), null), (square, Half(0.5), null)), Square, 200, 200);
+        Assert.Equal(placed.Pixels, instanced.Pixels);
+        AssertNear(Quarters[0], instanced[25, 75]);
+
+        static Transformation Half(double x) => new(new(x, 0, 0), Vector.Zero, new(0.5, 0.5, 0.5));
+    }
+
+    [SkippableTheory]
+    [InlineData(Shading.PerVertex)]
+    [InlineData(Shading.PerPixel)]
+    public void Draw_NothingChanged_AllocatesNothing(Shading shading)
+    {
+        using var context = GlTests.Open();
+        var glass = TexturedScenes.Of(RenderScenes.Ball(4), new("m") { Opacity = 0.5, Specular = Colour.White });
+        var textured = TexturedScenes.Square(1, new("t") { Texture = Quartered() });
+        var scene = RenderScenes.Scene(
+            new() { Lights = [new PointLight(new(0, 3, -3), Colour.White, 1, 30)] },
+            (glass, Transformation.Identity, null), (textured, Transformation.Identity, null), (glass, RenderScenes.At(1, 0, 0), Colour.Black));
+        using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, new()));
+        using var frame = new FrameRenderer(context);
+        var (view, settings) = (RenderScenes.FrontView, new RenderSettings { Shading = shading });
+        for (var warmUp = 0; warmUp < 3; warmUp++)
+        {
+            frame.Draw(renderer, view, 64, 64, settings);
+        }
+
+        var before = GC.GetAllocatedBytesForCurrentThread();
+        frame.Draw(renderer, view, 64, 64, settings);
+        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
+    }
+
+    private static Scene Full => new() { Lights = [RenderScenes.FullLight], Background = Colour.Black };
+
+    private MaterialTexture Quartered() => _scenes.Texture("quarters.png", 16, 16, (x, y) => Quarters[(2 * (y / 8)) + (x / 8)]);
+
+    private static LoadedScene Lit(MaterialTexture texture) =>
+        RenderScenes.Scene(Full, (TexturedScenes.Square(1, new("m") { Texture = texture }), Transformation.Identity, null));
+
+    private static PixelImage Draw(LoadedScene scene, Shading shading) => RenderScenes.Draw(scene, Square, 200, 200, new() { Shading = shading });
+
+    private static double Linear(double component) => new Colour(component, 0, 0).ToLinear().Red;
+
+    private static (byte, byte, byte, byte) Bytes(Colour colour) =>
+        ((byte)Math.Round(255 * colour.Red), (byte)Math.Round(255 * colour.Green), (byte)Math.Round(255 * colour.Blue), byte.MaxValue);
+
+    /// <summary>Within half a step of 8 bits where steps are largest, and what a driver's interpolation adds.</summary>
+    private static void AssertLinear(double expected, byte found) => Assert.InRange(Linear(found / 255.0), expected - 0.006, expected + 0.006);
+
+    private static void AssertNear((byte Red, byte Green, byte Blue, byte Alpha) expected, (byte Red, byte Green, byte Blue, byte Alpha) found) => Assert.True(
+        Math.Abs(expected.Red - found.Red) <= 1 && Math.Abs(expected.Green - found.Green) <= 1 && Math.Abs(expected.Blue - found.Blue) <= 1 && expected.Alpha == found.Alpha,
+        $"expected {expected}, found {found}");
+}

@@ -1,0 +1,52 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Pictures;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Render;
+
+/// <summary>Meshes with materials, and pictures for them in a folder of the test's own.</summary>
+internal sealed class TexturedScenes : IDisposable
+{
+    private readonly TemporaryFolder _folder = new();
+
+    public void Dispose() => _folder.Dispose();
+
+    /// <summary>Writes a picture and returns the texture that shows it.</summary>
+    public MaterialTexture Texture(string name, int width, int height, Func<int, int, (byte Red, byte Green, byte Blue, byte Alpha)> colourAt)
+    {
+        var pixels = new List<byte>();
+        for (var y = 0; y < height; y++)
+        {
+            for (var x = 0; x < width; x++)
+            {
+                var (red, green, blue, alpha) = colourAt(x, y);
+                pixels.AddRange([red, green, blue, alpha]);
+            }
+        }
+
+        ImageFile.SavePng(new(width, height, [.. pixels]), _folder[name]);
+        return new(_folder[name]);
+    }
+
+    /// <summary>A file that is no picture.</summary>
+    public MaterialTexture Broken(string name) => new(_folder.Write(name, "no picture"));
+
+    /// <summary>A square in the plane z = 0 that looks towards −z; the picture of its material fits it.</summary>
+    public static Model Square(double half, Material material, string file = "square.obj") =>
+        new MeshModel(file, 1, TexturedSquare(half).WithGroups([new(0, 2, "", "", material.Name, 0)], ["a.mtl"]))
+        {
+            Materials = ImmutableDictionary<string, Material>.Empty.Add(material.Name, material),
+        };
+
+    public static Mesh TexturedSquare(double half) =>
+        RenderScenes.Square(half).WithTextureCoordinates([0, 0, 1, 0, 0, 1, 1, 1], [0, 2, 1, 1, 2, 3]);
+
+    /// <summary>A mesh all of one material.</summary>
+    public static Model Of(Mesh mesh, Material material) =>
+        new MeshModel("mesh.obj", 1, mesh.WithGroups([new(0, mesh.FaceCount, "", "", material.Name, 0)], ["a.mtl"]))
+        {
+            Materials = ImmutableDictionary<string, Material>.Empty.Add(material.Name, material),
+        };
+}
