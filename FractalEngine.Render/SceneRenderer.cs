@@ -1,3 +1,4 @@
+using FractalEngine.Core.Detail;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Passes;
@@ -22,6 +23,7 @@ public sealed class SceneRenderer : IDisposable
     private readonly BoundingBox[] _boxes;
     private readonly SceneDetail? _detail;
     private BoundingBox? _bounds;
+    private (DetailSettings Source, DetailSettings Detail)? _adapted;
 
     /// <summary>Uploads a scene. On the context's thread.</summary>
     /// <exception cref="Gl.GlException">The GPU's memory does not suffice.</exception>
@@ -147,12 +149,19 @@ public sealed class SceneRenderer : IDisposable
 
     private void Choose(View view, (int Width, int Height) size, double aspect, BoundingBox bounds, RenderSettings settings)
     {
-        if (settings.Detail is { } detail)
+        if (settings.Detail is not { } detail)
         {
-            Detail.Update(
-                SceneDetail.ViewOf(view, size.Width, size.Height, aspect, view.ClipPlanes(bounds)),
-                detail with { HasSamples = settings.Samples > 1, SkipsHidden = detail.SkipsHidden && !settings.Wireframe });
+            return;
         }
+
+        // Through a wireframe one sees what is behind.
+        var (hasSamples, skipsHidden) = (settings.Samples > 1, detail.SkipsHidden && !settings.Wireframe);
+        if (_adapted is null || _adapted.Value.Source != detail || _adapted.Value.Detail.HasSamples != hasSamples || _adapted.Value.Detail.SkipsHidden != skipsHidden)
+        {
+            _adapted = (detail, detail with { HasSamples = hasSamples, SkipsHidden = skipsHidden });
+        }
+
+        Detail.Update(SceneDetail.ViewOf(view, size.Width, size.Height, aspect, view.ClipPlanes(bounds)), _adapted.Value.Detail);
     }
 
     private void BindBlock(int index, View view)

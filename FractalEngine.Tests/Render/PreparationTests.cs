@@ -15,7 +15,7 @@ public sealed class PreparationTests
     [Fact]
     public void Prepare_FractalBeyondTheBudget_IsDrawnLessDeepAndSaysSo()
     {
-        var scene = Prepare(new() { InstanceBudget = 10_000 }, RenderScenes.Menger(6));
+        var scene = Prepare(new() { Detail = null, InstanceBudget = 10_000 }, RenderScenes.Menger(6));
         Assert.Equal(8000, scene.Models[0].InstanceCount);
         Assert.Equal("menger.fdo: 64,000,000 instances are more than the budget of 10,000: drawn at depth 3 of 6", Assert.Single(scene.Notices));
     }
@@ -24,12 +24,12 @@ public sealed class PreparationTests
     [InlineData(20, "menger.fdo: about 10^26 instances are more than the budget of 8,000: drawn at depth 3 of 20")]
     [InlineData(null, "menger.fdo: infinitely many instances are more than the budget of 8,000: drawn at depth 3 of infinitely many")]
     public void Prepare_HugeOrInfiniteFractal_IsDrawnAtOnce(int? depth, string notice) =>
-        Assert.Equal(notice, Assert.Single(Prepare(new() { InstanceBudget = 8000 }, RenderScenes.Menger(depth)).Notices));
+        Assert.Equal(notice, Assert.Single(Prepare(new() { Detail = null, InstanceBudget = 8000 }, RenderScenes.Menger(depth)).Notices));
 
     [Fact]
     public void Prepare_FractalOfALargeMesh_KeepsTheTriangleBudget()
     {
-        var scene = Prepare(new() { TriangleBudget = 12 * 500 }, RenderScenes.Menger(3));
+        var scene = Prepare(new() { Detail = null, TriangleBudget = 12 * 500 }, RenderScenes.Menger(3));
         Assert.Equal(400, scene.Models[0].InstanceCount);
         Assert.Equal(4800, scene.TriangleCount);
         Assert.Single(scene.Notices);
@@ -39,7 +39,7 @@ public sealed class PreparationTests
     public void Prepare_ComponentwiseFractal_CountsDistinctSumsNotChains()
     {
         // 20^4 chains are beyond the budget, their distinct sums are not.
-        var scene = Prepare(new() { InstanceBudget = 5000 }, RenderScenes.Menger(4, Composition.Componentwise));
+        var scene = Prepare(new() { Detail = null, InstanceBudget = 5000 }, RenderScenes.Menger(4, Composition.Componentwise));
         Assert.Empty(scene.Notices);
         Assert.InRange(scene.Models[0].InstanceCount, 100, 5000);
     }
