@@ -40,8 +40,9 @@ public sealed class FrameRenderer : IDisposable
     /// <param name="width">Of the picture, pixels.</param>
     /// <param name="height">Of the picture, pixels.</param>
     /// <param name="settings">How it is drawn.</param>
+    /// <param name="next">The view that is likely to be drawn next: what it needs is chosen on other threads while this one is drawn. Null for none.</param>
     /// <exception cref="GlException">The picture is larger than the driver allows.</exception>
-    public void Draw(SceneRenderer? scene, View view, int width, int height, RenderSettings settings)
+    public void Draw(SceneRenderer? scene, View view, int width, int height, RenderSettings settings, View? next = null)
     {
         _context.MakeCurrent();
         var target = Target(width, height, Math.Clamp(settings.Samples, 0, _context.MaximumSamples));
@@ -60,8 +61,12 @@ public sealed class FrameRenderer : IDisposable
         GL.FrontFace(FrontFaceDirection.Cw);
         var aspect = view.ShownAspect(width, height);
         var bounds = LinesPass.BoundsWith(scene.Bounds, settings);
-        scene.Draw(view, (shownWidth, shownHeight), aspect, bounds, settings);
-        _lines.Draw(view, aspect, scene.Bounds, settings);
+        scene.Draw(view, (shownWidth, shownHeight), aspect, bounds, settings, next);
+        if (view.Zoom is null)
+        {
+            _lines.Draw(view, aspect, scene.Bounds, settings);
+        }
+
         GL.Disable(EnableCap.DepthTest);
     }
 

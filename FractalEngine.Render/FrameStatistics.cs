@@ -9,4 +9,5 @@ namespace FractalEngine.Render;
 /// <param name="PixelSize">Sub-fractals of fewer pixels were drawn as one copy: the setting, or more where the budget asked for it.</param>
 /// <param name="Choices">How often instances were chosen so far: not for pictures that need the same ones as the picture before.</param>
 /// <param name="UploadedBytes">Of instances moved to the GPU so far.</param>
-public readonly record struct FrameStatistics(int Instances, long Triangles, DetailCost Cost, double PixelSize, int Choices, long UploadedBytes);
+/// <param name="WaitedFor">How long the last choice kept the drawing thread waiting.</param>
+public readonly record struct FrameStatistics(int Instances, long Triangles, DetailCost Cost, double PixelSize, int Choices, long UploadedBytes, TimeSpan WaitedFor);

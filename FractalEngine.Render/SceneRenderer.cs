@@ -13,6 +13,9 @@ namespace FractalEngine.Render;
 /// </summary>
 public sealed class SceneRenderer : IDisposable
 {
+    // Natural logarithm. From deeper down lights with a place look the same.
+    private const double DeepestLight = 14;
+
     private readonly MeshPass _pass;
     private readonly LightBlock _lights;
     private readonly TransparentOrder _transparent;
@@ -62,7 +65,7 @@ public sealed class SceneRenderer : IDisposable
     public BoundingBox Bounds => _bounds ??= _boxes.Aggregate(BoundingBox.Empty, BoundingBox.Union);
 
     /// <summary>What the last picture took, where instances are chosen (<see cref="RenderSettings.Detail"/>).</summary>
-    public FrameStatistics Statistics => new(Detail.InstanceCount, Detail.TriangleCount, Detail.Cost, Detail.PixelSize, Detail.Choices, Detail.UploadedBytes);
+    public FrameStatistics Statistics => new(Detail.InstanceCount, Detail.TriangleCount, Detail.Cost, Detail.PixelSize, Detail.Choices, Detail.UploadedBytes, Detail.WaitedFor);
 
     internal RenderContext Context { get; }
 
@@ -119,11 +122,16 @@ public sealed class SceneRenderer : IDisposable
     }
 
     /// <summary>Draws into the bound framebuffer's viewport.</summary>
-    internal void Draw(View view, (int Width, int Height) size, double aspect, BoundingBox bounds, RenderSettings settings)
+    internal void Draw(View view, (int Width, int Height) size, double aspect, BoundingBox bounds, RenderSettings settings, View? next)
     {
         Choose(view, size, aspect, bounds, settings);
+        if (next is not null && Adapted(settings) is { } ahead)
+        {
+            Detail.Prepare(SceneDetail.ViewOf(next, size.Width, size.Height, aspect, next.ClipPlanes(bounds)), ahead, next.Zoom);
+        }
+
         _pass.Begin(view, aspect, bounds, settings.Wireframe, settings.Shading);
-        _lights.Bind(MeshPass.LightBinding, view.Camera.Position);
+        _lights.Bind(MeshPass.LightBinding, view.Camera.Position, view.Zoom is { } zoom ? Math.Exp(Math.Min(-zoom.LogUnit, DeepestLight)) : 1);
         for (var i = 0; i < _blocks.Length; i++)
         {
             MeshPass.LeaveOut(settings.Wireframe ? null : HiddenSide(i, view, bounds));
@@ -149,9 +157,18 @@ public sealed class SceneRenderer : IDisposable
 
     private void Choose(View view, (int Width, int Height) size, double aspect, BoundingBox bounds, RenderSettings settings)
     {
+        if (Adapted(settings) is { } detail)
+        {
+            Detail.Update(SceneDetail.ViewOf(view, size.Width, size.Height, aspect, view.ClipPlanes(bounds)), detail, view.Zoom);
+        }
+    }
+
+    /// <summary>What is left out, as far as the other settings allow it.</summary>
+    private DetailSettings? Adapted(RenderSettings settings)
+    {
         if (settings.Detail is not { } detail)
         {
-            return;
+            return null;
         }
 
         // Through a wireframe one sees what is behind.
@@ -161,7 +178,7 @@ public sealed class SceneRenderer : IDisposable
             _adapted = (detail, detail with { HasSamples = hasSamples, SkipsHidden = skipsHidden });
         }
 
-        Detail.Update(SceneDetail.ViewOf(view, size.Width, size.Height, aspect, view.ClipPlanes(bounds)), _adapted.Value.Detail);
+        return _adapted.Value.Detail;
     }
 
     private void BindBlock(int index, View view)

@@ -20,6 +20,9 @@ public sealed record View(Camera Camera, Projection Projection)
     /// <summary>Width divided by height of what is shown; null for the picture's own, else bars fill the rest.</summary>
     public double? Aspect { get; init; }
 
+    /// <summary>The object that the camera is deep in; null where world space tells where it is.</summary>
+    public ZoomedObject? Zoom { get; init; }
+
     /// <summary>The depths between which things are drawn; null to take them from the bounds of what there is.</summary>
     public (double Near, double Far)? Clip { get; init; }
 

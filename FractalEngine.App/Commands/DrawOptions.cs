@@ -1,4 +1,5 @@
 using System.CommandLine;
+using FractalEngine.Core.Detail;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
@@ -13,7 +14,7 @@ internal sealed class DrawOptions
 
     private readonly Option<long?> _instances = new("--instances")
     {
-        Description = $"The most instances of one fractal to draw; {FractalLimits.DrawnInstances} unless stated.",
+        Description = $"The most instances to draw; {new DetailSettings().InstanceBudget} unless stated ({FractalLimits.DrawnInstances} of one fractal with --detail 0).",
         HelpName = "N",
         CustomParser = SharedOptions.ParseInteger(1, 100_000_000),
     };
@@ -23,6 +24,13 @@ internal sealed class DrawOptions
         Description = "Samples a pixel against jagged edges; 4 unless stated.",
         HelpName = "N",
         CustomParser = SharedOptions.ParseInteger(0, 32),
+    };
+
+    private readonly Option<double?> _detail = new("--detail")
+    {
+        Description = "Sub-fractals that appear smaller are drawn as one copy of their base mesh: pixels, 1.5 unless stated; 0 draws every instance of every fractal.",
+        HelpName = "PIXELS",
+        CustomParser = SharedOptions.ParseNumber(0, 1000),
     };
 
     private readonly Option<Shading?> _shading = new("--shading")
@@ -37,7 +45,7 @@ internal sealed class DrawOptions
 
     public void AddTo(Command command)
     {
-        foreach (var option in (Option[])[_resolution, _projection, _shading, _wireframe, _grid, _instances, _samples])
+        foreach (var option in (Option[])[_resolution, _projection, _shading, _wireframe, _grid, _detail, _instances, _samples])
         {
             command.Add(option);
         }
@@ -55,8 +63,14 @@ internal sealed class DrawOptions
             Grid = result.GetValue(_grid),
             Axes = result.GetValue(_grid),
         };
+        var detail = settings.Detail! with
+        {
+            PixelSize = result.GetValue(_detail) ?? settings.Detail.PixelSize,
+            InstanceBudget = (int)(result.GetValue(_instances) ?? settings.Detail.InstanceBudget),
+        };
         return settings with
         {
+            Detail = detail.PixelSize > 0 ? detail : null,
             InstanceBudget = (int)(result.GetValue(_instances) ?? settings.InstanceBudget),
             Samples = (int)(result.GetValue(_samples) ?? settings.Samples),
             Shading = result.GetValue(_shading) ?? settings.Shading,

@@ -112,6 +112,20 @@ internal sealed class SharedOptions
         return null;
     };
 
+    /// <summary>A decimal number between two others.</summary>
+    public static Func<ArgumentResult, double?> ParseNumber(double smallest, double largest) => result =>
+    {
+        if (result.Tokens is [{ Value: var token }]
+            && double.TryParse(token, NumberStyles.Float, CultureInfo.InvariantCulture, out var number)
+            && number >= smallest && number <= largest)
+        {
+            return number;
+        }
+
+        result.AddError(string.Create(CultureInfo.InvariantCulture, $"{NameOf(result)}: expected a number from {smallest} to {largest}"));
+        return null;
+    };
+
     private static string NameOf(ArgumentResult result) => result.Parent is OptionResult option ? option.Option.Name : result.Argument.Name;
 
     /// <summary>The projection of a picture.</summary>

@@ -1,6 +1,8 @@
+using FractalEngine.Core.Detail;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.App.Window;
@@ -19,6 +21,16 @@ internal sealed class CameraControls
     // Of the scene's size a second: a scene is crossed in about three seconds.
     private const double SizesPerSecond = 0.35;
 
+    // Near a fractal the distance to it is halved about every second.
+    private const double DistancesPerSecond = 0.8;
+    private const double ZoomDistances = 2;
+
+    // Of the distance to what is nearest.
+    private const double NearestPart = 0.02;
+
+    // Sub-fractals around the one that the camera is in; 30 levels further out nothing is seen that is not seen nearer.
+    private const int Ancestors = 30;
+
     // A key that is only tapped, and may be up again before time is told, moves as far as one that is held so long.
     private static readonly TimeSpan Tap = TimeSpan.FromSeconds(0.05);
 
@@ -28,6 +40,8 @@ internal sealed class CameraControls
     private readonly Pose _initial;
     private MouseButton? _dragged;
     private KeyModifiers _modifiers;
+    private readonly FractalPlace? _fractal;
+    private FractalAddress? _address;
     private Pose _pose;
     private double _focusDistance;
 
@@ -36,16 +50,41 @@ internal sealed class CameraControls
     /// <param name="camera">Where to begin, and where Enter leads back to.</param>
     /// <param name="projection">Likewise.</param>
     /// <param name="orthographicHeight">Likewise; null where it follows the camera.</param>
-    public CameraControls(BoundingBox bounds, Camera camera, Projection projection, double? orthographicHeight)
+    /// <param name="fractal">A fractal that the camera can go into as deep as it likes; null for none.</param>
+    public CameraControls(BoundingBox bounds, Camera camera, Projection projection, double? orthographicHeight, FractalPlace? fractal = null)
     {
+        _fractal = fractal;
         _bounds = bounds.IsEmpty ? new(-Vector.One, Vector.One) : bounds;
         _size = Math.Max(_bounds.Diagonal, 1e-9 * (1 + _bounds.Centre.MaximumComponent()));
-        _pose = _initial = new(camera, projection, orthographicHeight);
+        _pose = _initial = new(camera, projection, orthographicHeight, 0);
         _focusDistance = DistanceToCentre(camera);
+        PlaceInFractal();
     }
 
     /// <summary>Where the scene is seen from now.</summary>
-    public Camera Camera => _pose.Camera;
+    public Camera Camera => _address is null ? _pose.Camera : _pose.Camera with { Position = _address.WorldPosition(_fractal!.Placement) };
+
+    /// <summary>How deep the camera is in the fractal: the levels that it has gone down.</summary>
+    public int Depth => _address?.Depth ?? 0;
+
+    /// <summary>By how much what is around the camera is enlarged: the decimal logarithm.</summary>
+    public double Enlargement => _address is null ? 0 : -_address.LogUnit / Math.Log(10);
+
+    /// <summary>A view as the camera sees it from deep in the fractal; the view itself from outside.</summary>
+    public View Deepened(View view)
+    {
+        if (_address is not { Depth: > 0 } || Projection != Projection.Perspective)
+        {
+            return view;
+        }
+
+        var roots = _address.Roots(Ancestors);
+        return view with
+        {
+            Zoom = new(_fractal!.Index, roots, _address.LogUnit),
+            Clip = (NearestPart * _address.NearestDistance(), 1.01 * _address.FarthestDistance(roots)),
+        };
+    }
 
     /// <summary>How.</summary>
     public Projection Projection => _pose.Projection;
@@ -57,7 +96,7 @@ internal sealed class CameraControls
     public bool IsMoving => !_modifiers.HasFlag(KeyModifiers.Control) && Direction() != Vector.Zero;
 
     /// <summary>The point that the camera turns about and zooms to: straight ahead, as far as the scene's centre was.</summary>
-    private Vector Focus => Camera.Position + (_focusDistance * Camera.LocalAxes.V3);
+    private Vector Focus => _pose.Camera.Position + (_focusDistance * _pose.Camera.LocalAxes.V3);
 
     /// <summary>Takes in an event.</summary>
     /// <param name="windowEvent">Any; those that mean nothing here are passed over.</param>
@@ -112,11 +151,24 @@ internal sealed class CameraControls
             return false;
         }
 
-        var speed = SizesPerSecond * _size
+        var speed = Speed()
             * (_modifiers.HasFlag(KeyModifiers.Shift) ? SpeedFactor : 1)
             / (_modifiers.HasFlag(KeyModifiers.Alt) ? SpeedFactor : 1);
-        Move(CameraNavigation.Move(Camera, time.TotalSeconds * speed * Direction().UnitVector()));
+        Move(CameraNavigation.Move(_pose.Camera, time.TotalSeconds * speed * Direction().UnitVector()));
         return true;
+    }
+
+    /// <summary>Units a second: by the size of the scene, and near a fractal by the distance to it.</summary>
+    private double Speed()
+    {
+        var speed = SizesPerSecond * _size;
+        if (_address is null)
+        {
+            return speed;
+        }
+
+        var near = DistancesPerSecond * _address.NearestDistance();
+        return _address.Depth == 0 ? Math.Min(speed, near) : near;
     }
 
     private Vector Direction() => new(
@@ -155,7 +207,8 @@ internal sealed class CameraControls
                 break;
             case Key.Enter or Key.KeypadEnter:
                 _pose = _initial;
-                _focusDistance = DistanceToCentre(Camera);
+                _focusDistance = DistanceToCentre(_pose.Camera);
+                PlaceInFractal();
                 break;
         }
     }
@@ -165,9 +218,9 @@ internal sealed class CameraControls
 
     private void Frame(Camera camera, double aspect)
     {
-        Move(CameraFraming.Frame(camera, _bounds, aspect));
-        _pose = _pose with { OrthographicHeight = null };
-        _focusDistance = DistanceToCentre(Camera);
+        _pose = _pose with { Camera = CameraFraming.Frame(camera, _bounds, aspect), OrthographicHeight = null };
+        _focusDistance = DistanceToCentre(_pose.Camera);
+        PlaceInFractal();
     }
 
     private void Drag(MouseButton button, double right, double down, double aspect)
@@ -177,26 +230,57 @@ internal sealed class CameraControls
         {
             // The point in focus follows the pointer: a pixel is as wide there as the picture shows it.
             var perPixel = TurnPerPixel * _focusDistance * Math.Min(1, aspect);
-            Move(CameraNavigation.Move(Camera, new(-perPixel * right, perPixel * down, 0)));
+            Move(CameraNavigation.Move(_pose.Camera, new(-perPixel * right, perPixel * down, 0)));
         }
         else if (button == MouseButton.Left)
         {
-            Move(CameraNavigation.Orbit(Camera, Focus, turn, climb));
+            Move(CameraNavigation.Orbit(_pose.Camera, Focus, turn, climb));
         }
         else
         {
-            Move(CameraNavigation.Turn(Camera, turn, climb));
+            Move(CameraNavigation.Turn(_pose.Camera, turn, climb));
         }
     }
 
     private void Zoom(double factor)
     {
-        Move(CameraNavigation.Zoom(Camera, Focus, factor));
+        if (_address is not null)
+        {
+            // Towards what is near, however small it is.
+            _focusDistance = Math.Min(_focusDistance, Math.Max(1, factor) * ZoomDistances * _address.NearestDistance());
+        }
+
+        Move(CameraNavigation.Zoom(_pose.Camera, Focus, factor));
         _focusDistance *= factor;
         _pose = _pose with { OrthographicHeight = factor * _pose.OrthographicHeight };
     }
 
-    private void Move(Camera camera) => _pose = _pose with { Camera = camera };
+    /// <summary>Moves the camera; deep in a fractal, positions are steps, in a unit that changes with the depth.</summary>
+    private void Move(Camera camera)
+    {
+        if (_address is null)
+        {
+            _pose = _pose with { Camera = camera };
+            return;
+        }
+
+        var unit = _address.LogUnit;
+        _address.Move(camera.Position);
+        _focusDistance *= Math.Exp(unit - _address.LogUnit);
+        _pose = _pose with { Camera = camera with { Position = Vector.Zero }, Steps = _pose.Steps + (camera.Position == Vector.Zero ? 0 : 1) };
+    }
+
+    /// <summary>Tells where the camera is relative to the fractal, where there is one.</summary>
+    private void PlaceInFractal()
+    {
+        if (_fractal is not null)
+        {
+            _address = new(_fractal.Table, _fractal.Placement, _pose.Camera.Position);
+            _address.Move(Vector.Zero);
+            _focusDistance *= Math.Exp(-_address.LogUnit);
+            _pose = _pose with { Camera = _pose.Camera with { Position = Vector.Zero }, Steps = _pose.Steps + 1 };
+        }
+    }
 
     private double DistanceToCentre(Camera camera) => camera.Map(_bounds.Centre).Z switch
     {
@@ -204,5 +288,5 @@ internal sealed class CameraControls
         _ => _size,
     };
 
-    private sealed record Pose(Camera Camera, Projection Projection, double? OrthographicHeight);
+    private sealed record Pose(Camera Camera, Projection Projection, double? OrthographicHeight, long Steps);
 }

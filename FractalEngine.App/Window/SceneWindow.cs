@@ -20,6 +20,8 @@ internal sealed class SceneWindow : IDisposable
     private static readonly TimeSpan FrameTime = TimeSpan.FromSeconds(1 / 60.0);
     private static readonly TimeSpan ProgressInterval = TimeSpan.FromSeconds(0.1);
 
+    private const double MovingPixelSize = 3;
+
     // A frame that took long must not make the camera jump.
     private static readonly TimeSpan LongestStep = TimeSpan.FromSeconds(0.1);
 
@@ -30,9 +32,12 @@ internal sealed class SceneWindow : IDisposable
     private readonly WindowOverlay _overlay = new();
     private readonly Stopwatch _clock = Stopwatch.StartNew();
     private RenderSettings _settings;
+    private RenderSettings? _moving;
     private BackgroundLoad _load;
     private Document? _document;
     private TimeSpan _advanced;
+    private View? _next;
+    private long _drawnFrames;
     private int _exitCode;
     private bool _isClosing;
     private bool _isVisible = true;
@@ -146,7 +151,7 @@ internal sealed class SceneWindow : IDisposable
         var scene = file.Scene.Scene;
         var view = View.Of(file.Scene, Aspect);
         var controls = new CameraControls(
-            file.Scene.Bounds, view.Camera, _projection ?? scene.Projection, scene.OrthographicHeight);
+            file.Scene.Bounds, view.Camera, _projection ?? scene.Projection, scene.OrthographicHeight, FractalIn(drawable));
         _document = new(file, new(_window, drawable), controls);
         foreach (var message in file.Warnings.Select(warning => warning.ToString()).Concat(drawable.Notices))
         {
@@ -156,6 +161,10 @@ internal sealed class SceneWindow : IDisposable
         _overlay.Describe(file, drawable);
         _isDrawingStale = true;
     }
+
+    /// <summary>The fractal, where it is all there is: the camera can then go into it as deep as it likes.</summary>
+    private static FractalPlace? FractalIn(DrawableScene drawable) =>
+        drawable.Source.Objects is [{ Model: FractalModel, Map: var map }] && drawable.Objects[0].Model.Detail is { } table ? new(0, table, map) : null;
 
     private void Handle(WindowEvent windowEvent)
     {
@@ -203,17 +212,24 @@ internal sealed class SceneWindow : IDisposable
                 _isWindowStale = true;
                 break;
             case Key.G:
+                _moving = null;
                 _settings = _settings with { Grid = !_settings.Grid, Axes = !_settings.Grid };
                 _isDrawingStale = true;
                 break;
             case Key.X:
+                _moving = null;
                 _settings = _settings with { Wireframe = !_settings.Wireframe };
                 _isDrawingStale = true;
                 break;
             case Key.L:
+                _moving = null;
                 _settings = _settings with { Shading = _settings.Shading == Shading.PerVertex ? Shading.PerPixel : Shading.PerVertex };
                 _overlay.Say(_settings.Shading == Shading.PerPixel ? "light at every pixel" : "light at the vertices", _clock.Elapsed);
                 _isDrawingStale = true;
+                break;
+            case Key.I:
+                _overlay.ShowsStatistics = !_overlay.ShowsStatistics;
+                _isWindowStale = true;
                 break;
             case Key.F12 when _document is { } document:
                 TrySay(() => SaveScreenshot(document));
@@ -232,6 +248,9 @@ internal sealed class SceneWindow : IDisposable
             _advanced = _clock.Elapsed;
             _isDrawingStale |= _document.Controls.Advance(time < LongestStep ? time : LongestStep);
         }
+
+        // What was drawn while moving was one picture behind.
+        _isDrawingStale |= _next is not null && _document?.Controls.IsMoving != true;
     }
 
     private void Refresh()
@@ -248,10 +267,34 @@ internal sealed class SceneWindow : IDisposable
     private void Draw()
     {
         var view = _document is { } document
-            ? View.Of(document.File.Scene with { Scene = document.SceneNow() }, Aspect)
+            ? document.Controls.Deepened(View.Of(document.File.Scene with { Scene = document.SceneNow() }, Aspect))
             : new(Camera.Default, Projection.Perspective);
-        _frame.Draw(_document?.Renderer, view, _window.Width, _window.Height, _settings);
+        var start = _clock.Elapsed;
+        if (_document?.Controls.IsMoving == true)
+        {
+            // One picture behind: while it is drawn, the next one's instances are chosen.
+            (var drawn, _next) = (_next ?? view, view);
+            _frame.Draw(_document.Renderer, drawn, _window.Width, _window.Height, Moving(), view);
+        }
+        else
+        {
+            _next = null;
+            _frame.Draw(_document?.Renderer, view, _window.Width, _window.Height, _settings);
+        }
+
+        _drawnFrames++;
+        if (_document is not null)
+        {
+            _overlay.Measure(_document.Renderer.Statistics, _settings.Detail, _clock.Elapsed - start, _drawnFrames, _document.Controls.Depth, _document.Controls.Enlargement);
+        }
     }
+
+    /// <summary>While the camera moves, edges may be jagged and small parts coarser; it is drawn again when it stands.</summary>
+    private RenderSettings Moving() => _moving ??= _settings with
+    {
+        Samples = 0,
+        Detail = _settings.Detail is { } detail ? detail with { PixelSize = Math.Max(detail.PixelSize, MovingPixelSize) } : null,
+    };
 
     private string SaveScreenshot(Document document)
     {

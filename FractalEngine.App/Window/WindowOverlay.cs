@@ -1,6 +1,9 @@
+using System.Globalization;
 using System.Numerics;
+using FractalEngine.Core.Detail;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Ui;
 
@@ -26,6 +29,7 @@ internal sealed class WindowOverlay
         ("Enter", "back to the start"),
         ("G X", "grid, wireframe"),
         ("L", "light at vertices, at pixels"),
+        ("I", "what a picture takes"),
         ("F12", "screenshot"),
         ("Ctrl+S", "save scene and camera"),
         ("H", "these keys"),
@@ -34,6 +38,8 @@ internal sealed class WindowOverlay
 
     private OverlayPanel? _description;
     private OverlayPanel? _message;
+    private OverlayPanel? _statistics;
+    private OverlayLine? _coarser;
 
     /// <summary>What is being loaded, and how far; null when nothing is.</summary>
     public (string Text, double Fraction)? Progress { get; set; }
@@ -44,6 +50,9 @@ internal sealed class WindowOverlay
     /// <summary>Whether the keys are listed.</summary>
     public bool ShowsKeys { get; set; }
 
+    /// <summary>Whether it is written what a picture takes.</summary>
+    public bool ShowsStatistics { get; set; }
+
     /// <summary>When a message will have been shown long enough; null when there is none.</summary>
     public TimeSpan? NextExpiry { get; private set; }
 
@@ -51,9 +60,10 @@ internal sealed class WindowOverlay
     public IReadOnlyList<OverlayPanel> Panels =>
     [
         .. ShowsKeys ? [Keys] : Array.Empty<OverlayPanel>(),
+        .. ShowsStatistics && _statistics is { } statistics ? [statistics] : Array.Empty<OverlayPanel>(),
         .. Error is { } error
             ? [new OverlayPanel(OverlayAnchor.Centre, [.. error.Split('\n').Select(line => new OverlayLine(line, null, OverlayTone.Warning))])]
-            : _description is { } description ? [description] : Array.Empty<OverlayPanel>(),
+            : _description is { } description ? [_coarser is { } coarser ? description with { Lines = description.Lines.Add(coarser) } : description] : Array.Empty<OverlayPanel>(),
         .. Progress is { } progress ? [OverlayPanel.OfProgress($"loading {progress.Text}".TrimEnd(), progress.Fraction)] : Array.Empty<OverlayPanel>(),
         .. _message is { } message ? [message] : Array.Empty<OverlayPanel>(),
     ];
@@ -67,6 +77,37 @@ internal sealed class WindowOverlay
             new($"{Path.GetFileName(file.Path)} · {DecimalText.Approximate(faces)} faces · H: keys", null, OverlayTone.Dim),
             .. drawable.Notices.Select(notice => new OverlayLine(notice, null, OverlayTone.Accent)),
         ]);
+    }
+
+    /// <summary>Tells what the last picture took.</summary>
+    /// <param name="statistics">Of its instances.</param>
+    /// <param name="detail">What was left out; null for nothing.</param>
+    /// <param name="time">How long it took to draw.</param>
+    /// <param name="pictures">How many were drawn so far.</param>
+    /// <param name="depth">Levels that the camera has gone down.</param>
+    /// <param name="enlargement">Decimal logarithm.</param>
+    public void Measure(FrameStatistics statistics, DetailSettings? detail, TimeSpan time, long pictures, int depth, double enlargement)
+    {
+        _coarser = detail is not null && statistics.PixelSize > detail.PixelSize
+            ? new(string.Create(CultureInfo.InvariantCulture, $"more than {detail.InstanceBudget:N0} instances: parts below {statistics.PixelSize:F1} pixels are drawn as one"), null, OverlayTone.Accent)
+            : null;
+        _statistics = OverlayPanel.OfTable(OverlayAnchor.BottomRight, "Last picture",
+        [
+            ("time", Text($"{time.TotalMilliseconds:F1} ms, {statistics.WaitedFor.TotalMilliseconds:F1} choosing")),
+            ("instances", Text($"{statistics.Instances:N0}")),
+            ("triangles", Text($"{statistics.Triangles:N0}")),
+            ("parts looked at", Text($"{statistics.Cost.Nodes:N0}")),
+            ("outside", Text($"{statistics.Cost.Outside:N0}")),
+            ("hidden", Text($"{statistics.Cost.Hidden:N0}")),
+            ("covering nothing", Text($"{statistics.Cost.Uncovering:N0}")),
+            ("drawn as one", Text($"{statistics.Cost.StandIns:N0}")),
+            ("pictures", Text($"{pictures:N0}")),
+            ("choices", Text($"{statistics.Choices:N0}")),
+            ("depth", Text($"{depth:N0}, enlarged 10^{enlargement:F1}")),
+            ("moved to GPU", Text($"{statistics.UploadedBytes / 1e6:F1} MB")),
+        ]);
+
+        static string Text(FormattableString text) => text.ToString(CultureInfo.InvariantCulture);
     }
 
     /// <summary>Shows a message for a few seconds.</summary>

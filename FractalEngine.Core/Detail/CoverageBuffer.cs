@@ -16,6 +16,10 @@ internal sealed class CoverageBuffer
     private float[] _nearness = [];
     private float[] _farthest = [];
     private bool[] _isStale = [];
+    private Vector256<float> _columnOffsets;
+    private (float Even, float Odd) _rowOffsets;
+    private float _least;
+    private float _most;
     private int _stride;
     private int _tiles;
 
@@ -32,8 +36,16 @@ internal sealed class CoverageBuffer
     /// <param name="left">The first column of the part.</param>
     /// <param name="right">One more than the last.</param>
     /// <param name="height">Of the picture.</param>
-    public void Clear(int left, int right, int height)
+    /// <param name="isStaggered">
+    /// True where pixels are quarters of pixels that have four samples: then their samples are where graphics hardware has them (the standard pattern of Direct3D 11, which
+    /// OpenGL's drivers follow), else in the middles.
+    /// </param>
+    public void Clear(int left, int right, int height, bool isStaggered)
     {
+        _rowOffsets = isStaggered ? new(0.25f, 0.75f) : new(0.5f, 0.5f);
+        _columnOffsets = Vector256.Create(isStaggered ? 0.75f : 0.5f, isStaggered ? 0.25f : 0.5f, 0, 0, 0, 0, 0, 0);
+        _columnOffsets = Vector256.Shuffle(_columnOffsets, Vector256.Create(0, 1, 0, 1, 0, 1, 0, 1));
+        (_least, _most) = isStaggered ? (0.25f, 0.75f) : (0.5f, 0.5f);
         (Left, Right, Height) = (left, right, height);
         _tiles = (right - left + Tile - 1) / Tile;
         // Rows of eight may begin at any column.
@@ -77,7 +89,7 @@ internal sealed class CoverageBuffer
     /// <returns>True when it is the nearest at some pixel's middle.</returns>
     public bool Draw(float ax, float ay, float an, float bx, float by, float bn, float cx, float cy, float cn)
     {
-        // Middles of pixels are at halves. What is far outside is cut off before it becomes an integer.
+        // What is far outside is cut off before it becomes an integer.
         var left = Math.Max(First(Math.Min(Math.Min(ax, bx), cx)), Left);
         var right = Math.Min(Last(Math.Max(Math.Max(ax, bx), cx)), Right - 1);
         var top = Math.Max(First(Math.Min(Math.Min(ay, by), cy)), 0);
@@ -105,14 +117,17 @@ internal sealed class CoverageBuffer
         ref var pixels = ref MemoryMarshal.GetArrayDataReference(_nearness);
         for (var x = left; x <= right; x += Tile)
         {
-            var dx = Vector256.Create(x + 0.5f - ax) + columns;
+            var dx = Vector256.Create(x - ax) + columns;
+            // Down even columns samples are elsewhere than down odd ones.
+            var offsets = (x & 1) == 0 ? _columnOffsets : Vector256.Shuffle(_columnOffsets, Vector256.Create(1, 0, 1, 0, 1, 0, 1, 0));
             var (weightB0, weightC0, near0) = (Vector256.Create(ub) * dx, Vector256.Create(uc) * dx, Vector256.Create(an) + (Vector256.Create(slopeX) * dx));
             var within = Vector256.LessThanOrEqual(columns, Vector256.Create((float)(right - x)));
             for (var y = top; y <= bottom; y++)
             {
-                var dy = Vector256.Create(y + 0.5f - ay);
-                var weightB = weightB0 + (Vector256.Create(vb) * dy);
-                var weightC = weightC0 + (Vector256.Create(vc) * dy);
+                var dy = Vector256.Create(y - ay) + offsets;
+                var ox = (y & 1) == 0 ? _rowOffsets.Even : _rowOffsets.Odd;
+                var weightB = weightB0 + (Vector256.Create(vb) * dy) + Vector256.Create(ub * ox);
+                var weightC = weightC0 + (Vector256.Create(vc) * dy) + Vector256.Create(uc * ox);
                 var isInside = Vector256.GreaterThanOrEqual(weightB, Vector256<float>.Zero) & Vector256.GreaterThanOrEqual(weightC, Vector256<float>.Zero)
                     & Vector256.LessThanOrEqual(weightB + weightC, Vector256<float>.One) & within;
                 if (isInside == Vector256<float>.Zero)
@@ -120,7 +135,7 @@ internal sealed class CoverageBuffer
                     continue;
                 }
 
-                var near = near0 + (Vector256.Create(slopeY) * dy);
+                var near = near0 + (Vector256.Create(slopeY) * dy) + Vector256.Create(slopeX * ox);
                 var place = (nuint)((y * _stride) + x - Left);
                 var before = Vector256.LoadUnsafe(ref pixels, place);
                 var wins = isInside & Vector256.GreaterThan(near, before);
@@ -141,10 +156,10 @@ internal sealed class CoverageBuffer
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static int First(float coordinate) => (int)MathF.Ceiling(Math.Max(coordinate, -1e6f) - 0.5f);
+    private int First(float coordinate) => (int)MathF.Ceiling(Math.Max(coordinate, -1e6f) - _most);
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static int Last(float coordinate) => (int)MathF.Floor(Math.Min(coordinate, 1e6f) - 0.5f);
+    private int Last(float coordinate) => (int)MathF.Floor(Math.Min(coordinate, 1e6f) - _least);
 
     private void MarkStale(int left, int top, int right, int bottom)
     {

@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Detail;
@@ -8,4 +9,11 @@ namespace FractalEngine.Core.Detail;
 /// <param name="Origin">The point of the base mesh that drawn vertices are relative to.</param>
 /// <param name="SolidSign">1 where the base mesh is a solid wound outwards, −1 inwards, so that its back is never seen; 0 where that is not known.</param>
 /// <param name="IsOpaque">Whether it hides what lies behind.</param>
-public sealed record DetailObject(DetailTable Table, AffineMap Map, Vector Origin, int SolidSign, bool IsOpaque = true);
+public sealed record DetailObject(DetailTable Table, AffineMap Map, Vector Origin, int SolidSign, bool IsOpaque = true)
+{
+    /// <summary>
+    /// What drawing begins with, in the place of the whole fractal under <see cref="Map"/>: for a camera that is told relative to a sub-fractal (<see cref="FractalAddress"/>). The
+    /// camera's position in the view is then not used.
+    /// </summary>
+    public ImmutableArray<DetailRoot>? Roots { get; init; }
+}

@@ -12,7 +12,7 @@ public sealed record DetailSettings
     /// <summary>Leaves out what is hidden behind nearer parts, and what covers no pixel.</summary>
     public bool SkipsHidden { get; init; } = true;
 
-    /// <summary>True where pixels have several samples: then what covers no pixel's middle may still cover a sample.</summary>
+    /// <summary>True where pixels have several samples: coverage is then kept for quarters of pixels.</summary>
     public bool HasSamples { get; init; }
 
     /// <summary>More instances in one picture are avoided by raising <see cref="PixelSize"/>.</summary>

@@ -16,13 +16,13 @@ internal sealed class StripSearch
     private const int Deepest = 1000;
     private const int FewChildren = 24;
     private const float SubPixel = 256;
+    private const int Finer = 2;
 
     // Left, right, top, bottom, nearness and depth of each copy.
     private const int EdgeRows = 6;
 
-    // Where the middles of pixels are, widened by what single precision rounds by.
-    private const float Middle = 0.5f + (1f / 256);
-    private const float NotMiddle = 0.5f - (1f / 256);
+    // Of a pixel: more than what single precision rounds by.
+    private const float Widened = 1f / 256;
 
     // A sub-fractal is drawn as it stands, too, when its copies would be smaller than this part of what counts as small.
     private const double FinestPart = 0.5;
@@ -41,6 +41,8 @@ internal sealed class StripSearch
     private BaseMesh _mesh = null!;
     private AffineLanes _toWorld;
     private Vector256<double> _origin;
+    private float _least;
+    private float _most;
     private double _pixelSize;
     private double _scaleX;
     private double _scaleY;
@@ -72,10 +74,14 @@ internal sealed class StripSearch
     /// <param name="right">One more than the last.</param>
     public void Begin(in DetailView view, DetailSettings settings, double pixelSize, int left, int right)
     {
-        (_view, _settings, _pixelSize, _cost, IsOverBudget) = (view, settings, pixelSize, default, false);
-        (_scaleX, _scaleY, _middleX, _middleY) = (view.PixelsPerUnitX, view.PixelsPerUnitY, 0.5 * view.Width, 0.5 * view.Height);
+        // From here on, pixels are those of the coverage: two by two where pixels have samples.
+        var finer = settings.HasSamples ? Finer : 1;
+        (_view, _settings, _pixelSize, _cost, IsOverBudget) = (view, settings, finer * pixelSize, default, false);
+        (_scaleX, _scaleY) = (finer * view.PixelsPerUnitX, finer * view.PixelsPerUnitY);
+        (_middleX, _middleY) = (finer * 0.5 * view.Width, finer * 0.5 * view.Height);
         _toWorld = new(new AffineMap(view.Axes, Vector.Zero));
-        _coverage.Clear(left, right, view.Height);
+        _coverage.Clear(finer * left, finer * right, finer * view.Height, settings.HasSamples);
+        (_least, _most) = settings.HasSamples ? (0.25f - Widened, 0.75f + Widened) : (0.5f - Widened, 0.5f + Widened);
         _mostNodes = 64L * settings.InstanceBudget;
         Rows.Clear();
         Shared.Clear();
@@ -93,19 +99,27 @@ internal sealed class StripSearch
         }
 
         var toView = _view.Axes.Inverse();
-        var map = new AffineMap(toView * item.Map.Linear, toView * (item.Map.Translation - _view.Position));
-        VisitRoot(item.Table, new AffineLanes(map));
+        if (item.Roots is not { } roots)
+        {
+            VisitRoot(item.Table.Levels, new AffineMap(toView * item.Map.Linear, toView * (item.Map.Translation - _view.Position)), 0);
+            return;
+        }
+
+        for (var i = 0; i < roots.Length; i++)
+        {
+            VisitRoot(roots[i].Levels, new AffineMap(toView * roots[i].Map.Linear, toView * roots[i].Map.Translation), (ulong)(i + 1) << 40);
+        }
     }
 
-    /// <summary>Looks at the whole object.</summary>
-    private void VisitRoot(DetailTable table, in AffineLanes map)
+    /// <summary>Looks at a part that drawing begins with.</summary>
+    private void VisitRoot(long levels, AffineMap toView, ulong path)
     {
-        var state = table.At(table.Levels);
+        var (state, map) = (_object.Table.At(levels), new AffineLanes(toView));
         if (!state.IsEmpty)
         {
             var footprint = FootprintOf(map.Apply(state.Centre), map.HalfSizeOf(state.HalfSize));
             _cost.Nodes++;
-            Visit(state, table.Levels, in map, 0, 0, in footprint);
+            Visit(state, levels, in map, 0, path, in footprint);
         }
     }
 
@@ -343,15 +357,14 @@ internal sealed class StripSearch
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private Footprint FootprintOf(float left, float right, float top, float bottom, float nearness)
     {
-        if (_settings.SkipsOutside && !(right >= _coverage.Left && left <= _coverage.Right && bottom >= 0 && top <= _view.Height))
+        if (_settings.SkipsOutside && !(right >= _coverage.Left && left <= _coverage.Right && bottom >= 0 && top <= _coverage.Height))
         {
             return Footprint.Outside;
         }
 
-        // The middles of pixels between the edges; where pixels have samples, all pixels that are touched and one more.
-        var (firstX, lastX, firstY, lastY) = _settings.HasSamples
-            ? (MathF.Floor(left) - 1, MathF.Floor(right) + 1, MathF.Floor(top) - 1, MathF.Floor(bottom) + 1)
-            : (MathF.Ceiling(left - Middle), MathF.Floor(right - NotMiddle), MathF.Ceiling(top - Middle), MathF.Floor(bottom - NotMiddle));
+        // Those whose samples may lie between the edges.
+        var (firstX, lastX) = (MathF.Ceiling(left - _most), MathF.Floor(right - _least));
+        var (firstY, lastY) = (MathF.Ceiling(top - _most), MathF.Floor(bottom - _least));
         return new()
         {
             IsWhole = true,
@@ -362,7 +375,7 @@ internal sealed class StripSearch
             Left = (int)Math.Max(firstX, _coverage.Left),
             Right = (int)Math.Min(lastX, _coverage.Right - 1),
             Top = (int)Math.Max(firstY, 0),
-            Bottom = (int)Math.Min(lastY, _view.Height - 1),
+            Bottom = (int)Math.Min(lastY, _coverage.Height - 1),
         };
     }
 
@@ -390,7 +403,7 @@ internal sealed class StripSearch
             placed = AffineLanes.Compose(in map, in standIn);
         }
 
-        if (_settings.SkipsHidden && footprint.IsWhole && _object.IsOpaque && _mesh.Faces.Length > 0 && !Covers(in placed) && !_settings.HasSamples)
+        if (_settings.SkipsHidden && footprint.IsWhole && _object.IsOpaque && _mesh.Faces.Length > 0 && !Covers(in placed))
         {
             _cost.Uncovering++;
             return;

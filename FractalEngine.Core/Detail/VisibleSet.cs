@@ -8,7 +8,7 @@ public sealed class VisibleSet
 {
     // A number that does not depend on the machine, so that neither does the result.
     private const int Strips = 8;
-    private const double LeastCoarsening = 1.3;
+    private const double LeastCoarsening = 1.5;
 
     private readonly StripSearch[] _strips = new StripSearch[Strips];
     private readonly Dictionary<DetailTable, BaseMesh> _meshes = [];

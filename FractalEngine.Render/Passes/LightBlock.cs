@@ -21,7 +21,7 @@ internal sealed class LightBlock : IDisposable
     private readonly bool _isDefault;
     private readonly GlBuffer _buffer;
     private readonly float[] _data = new float[HeaderFloats + (MaximumLights * LightFloats)];
-    private Vector? _lastCamera;
+    private (Vector, double)? _lastCamera;
 
     /// <summary>For the lights of a scene, or the default ones where it has none.</summary>
     /// <param name="resources">Of the current context.</param>
@@ -55,17 +55,18 @@ internal sealed class LightBlock : IDisposable
     /// <summary>Binds the block; uploads it only at first and, where a light has a place, when the camera has moved.</summary>
     /// <param name="bindingPoint">As the program connects it.</param>
     /// <param name="camera">World space: places are written relative to it.</param>
-    public void Bind(int bindingPoint, Vector camera)
+    /// <param name="unitsPerSceneUnit">1, or more where what is drawn is told in a smaller unit.</param>
+    public void Bind(int bindingPoint, Vector camera, double unitsPerSceneUnit)
     {
-        if (_lastCamera is null || (_lastCamera != camera && _lights.Any(static light => light is PointLight)))
+        if (_lastCamera is null || (_lastCamera != (camera, unitsPerSceneUnit) && _lights.Any(static light => light is PointLight)))
         {
             for (var i = 0; i < _lights.Length; i++)
             {
-                Write(_lights[i], camera, _data.AsSpan(HeaderFloats + (i * LightFloats), LightFloats));
+                Write(_lights[i], camera, unitsPerSceneUnit, _data.AsSpan(HeaderFloats + (i * LightFloats), LightFloats));
             }
 
             _buffer.Upload<float>(_data, BufferUsageHint.DynamicDraw);
-            _lastCamera = camera;
+            _lastCamera = (camera, unitsPerSceneUnit);
         }
 
         _buffer.BindTo(bindingPoint);
@@ -74,13 +75,13 @@ internal sealed class LightBlock : IDisposable
     /// <inheritdoc/>
     public void Dispose() => _buffer.Dispose();
 
-    private static void Write(Light light, Vector camera, Span<float> target)
+    private static void Write(Light light, Vector camera, double unitsPerSceneUnit, Span<float> target)
     {
         var (red, green, blue) = light.Colour.ToLinear();
         Write(light.Intensity * new Vector(red, green, blue), KindOf(light), target);
         if (light is PointLight point)
         {
-            Write(point.Position - camera, point.Range, target[4..]);
+            Write(unitsPerSceneUnit * (point.Position - camera), unitsPerSceneUnit * point.Range, target[4..]);
         }
         else if (light is DirectionalLight directional)
         {

@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using FractalEngine.Core.Detail;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -13,8 +14,11 @@ internal sealed class SceneDetail : IDisposable
     private readonly ChosenInstances?[] _instances;
     private readonly int[] _places;
     private readonly DetailObject[] _objects;
-    private readonly VisibleSet _chosen = new();
-    private (DetailView View, DetailSettings Settings)? _last;
+    private VisibleSet _chosen = new();
+    private VisibleSet _ahead = new();
+    private Task? _aheadTask;
+    private (DetailView View, DetailSettings Settings, ZoomedObject? Zoom)? _aheadKey;
+    private (DetailView View, DetailSettings Settings, ZoomedObject? Zoom)? _last;
 
     /// <summary>For the objects of a scene that have levels to choose from.</summary>
     public SceneDetail(GlResources resources, DrawableScene scene, IReadOnlyDictionary<DrawableModel, ModelBuffers> models)
@@ -64,6 +68,9 @@ internal sealed class SceneDetail : IDisposable
     /// <summary>Bytes of instances that were moved to the GPU so far.</summary>
     public long UploadedBytes => _instances.Sum(instances => instances?.UploadedBytes ?? 0);
 
+    /// <summary>How long the last picture waited for its choice.</summary>
+    public TimeSpan WaitedFor { get; private set; }
+
     /// <summary>How often a choice was made.</summary>
     public int Choices { get; private set; }
 
@@ -75,28 +82,55 @@ internal sealed class SceneDetail : IDisposable
     {
         if (Has(index))
         {
+            DropAhead();
             _objects[_places[index]] = _objects[_places[index]] with { Map = map };
             _last = null;
         }
     }
 
     /// <summary>Chooses anew, if anything has changed that could change the choice.</summary>
-    public void Update(in DetailView view, DetailSettings settings)
+    public void Update(in DetailView view, DetailSettings settings, ZoomedObject? zoom)
     {
-        if (_objects.Length == 0 || _last == (view, settings))
+        if (_objects.Length == 0 || _last == (view, settings, zoom))
         {
             return;
         }
 
         _last = null;
-        _chosen.Fill(in view, _objects, settings);
+        var watch = Stopwatch.StartNew();
+        if (_aheadKey == (view, settings, zoom))
+        {
+            _aheadTask!.GetAwaiter().GetResult();
+            (_chosen, _ahead, _aheadTask, _aheadKey) = (_ahead, _chosen, null, null);
+        }
+        else
+        {
+            DropAhead();
+            _chosen.Fill(in view, ObjectsOf(zoom), settings);
+        }
+
+        WaitedFor = watch.Elapsed;
         Choices++;
         for (var i = 0; i < _instances.Length; i++)
         {
             _instances[i]?.Upload(_chosen, _places[i]);
         }
 
-        _last = (view, settings);
+        _last = (view, settings, zoom);
+    }
+
+    /// <summary>Begins to choose, on other threads, for a picture that is likely to be asked for next.</summary>
+    public void Prepare(DetailView view, DetailSettings settings, ZoomedObject? zoom)
+    {
+        if (_objects.Length == 0 || _last == (view, settings, zoom) || _aheadKey == (view, settings, zoom))
+        {
+            return;
+        }
+
+        DropAhead();
+        _aheadKey = (view, settings, zoom);
+        var (target, objects) = (_ahead, ObjectsOf(zoom));
+        _aheadTask = Task.Run(() => target.Fill(in view, objects, settings));
     }
 
     /// <summary>Draws the triangles of one material of an object's instances.</summary>
@@ -124,9 +158,21 @@ internal sealed class SceneDetail : IDisposable
     /// <inheritdoc/>
     public void Dispose()
     {
+        DropAhead();
         foreach (var instances in _instances)
         {
             instances?.Dispose();
         }
+    }
+
+    /// <summary>The objects, of which only one is drawn where the camera is deep in it.</summary>
+    private DetailObject[] ObjectsOf(ZoomedObject? zoom) => zoom is null ? _objects
+        : [.. _objects.Select((item, place) => item with { Roots = place == _places[zoom.Index] ? zoom.Roots : [] })];
+
+    /// <summary>Waits for a choice that nobody asks for any more: its memory, and the objects, can then change.</summary>
+    private void DropAhead()
+    {
+        _aheadTask?.GetAwaiter().GetResult();
+        (_aheadTask, _aheadKey) = (null, null);
     }
 }
