@@ -40,7 +40,7 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
         var settings = new RenderSettings { Samples = samples };
         var (brute, truth, bruteTime) = Brute(item, context, frame, settings);
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(item.Scene, settings));
-        var detail = settings.Detail!;
+        var detail = settings.Detail! with { InstanceBudget = 20_000_000 };
         (string Name, DetailSettings Detail)[] variants =
         [
             ("detail", detail),

@@ -11,6 +11,8 @@ internal static class ViewCommand
 {
     private const string Gallery = "assets/scenes/gallery.sdo";
 
+    private const int DefaultTrail = 3;
+
     // Set by run.sh where it brings up a virtual display that nobody looks at.
     private const string NoWindowVariable = "FRACTALENGINE_NO_WINDOW";
 
@@ -22,17 +24,25 @@ internal static class ViewCommand
         var command = new Command("view", "Open a window on a file, or on the gallery. This is what happens without a command, too.");
         shared.AddTo(command);
         draw.AddTo(command);
+        var trail = new Option<long?>("--trail")
+        {
+            Description = $"The length of the queue with which key T follows the paper's way into a fractal; {DefaultTrail} unless stated.",
+            HelpName = "N",
+            CustomParser = SharedOptions.ParseInteger(1, 1000),
+        };
+        command.Add(trail);
         command.SetAction(result => Run(
             result.GetValue(shared.File) ?? FindGallery(), shared.LoadOptions(result),
-            draw.Resolution(result), draw.Projection(result), draw.Settings(result)));
+            draw.Resolution(result), draw.Projection(result), draw.Settings(result), (int)(result.GetValue(trail) ?? DefaultTrail)));
         return command;
     }
 
-    private static int Run(string path, LoadOptions options, (int Width, int Height) size, Projection? projection, RenderSettings settings)
+    private static int Run(
+        string path, LoadOptions options, (int Width, int Height) size, Projection? projection, RenderSettings settings, int trail)
     {
         if (Environment.GetEnvironmentVariable(NoWindowVariable) is not "1")
         {
-            return SceneWindow.Show(path, options, projection, settings, size);
+            return SceneWindow.Show(path, options, projection, settings, trail, size);
         }
 
         var output = Path.Combine("out", Path.GetFileNameWithoutExtension(path) + ".png");

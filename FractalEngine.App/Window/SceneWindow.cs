@@ -1,6 +1,7 @@
 using System.Diagnostics;
 using FractalEngine.App.Commands;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
@@ -21,12 +22,14 @@ internal sealed class SceneWindow : IDisposable
     private static readonly TimeSpan ProgressInterval = TimeSpan.FromSeconds(0.1);
 
     private const double MovingPixelSize = 3;
+    private const int MovingInstances = 150_000;
 
     // A frame that took long must not make the camera jump.
     private static readonly TimeSpan LongestStep = TimeSpan.FromSeconds(0.1);
 
     private readonly LoadOptions _options;
     private readonly Projection? _projection;
+    private readonly int _trailLength;
     private readonly RenderWindow _window;
     private readonly FrameRenderer _frame;
     private readonly WindowOverlay _overlay = new();
@@ -46,9 +49,9 @@ internal sealed class SceneWindow : IDisposable
     private bool _isDrawingStale = true;
     private bool _isWindowStale = true;
 
-    private SceneWindow(string path, LoadOptions options, Projection? projection, RenderSettings settings, (int Width, int Height) size)
+    private SceneWindow(string path, LoadOptions options, Projection? projection, RenderSettings settings, int trailLength, (int Width, int Height) size)
     {
-        (_options, _projection, _settings) = (options, projection, settings);
+        (_options, _projection, _settings, _trailLength) = (options, projection, settings, trailLength);
         _window = new("FractalEngine", size.Width, size.Height);
         _frame = new(_window);
         _load = StartLoading(path);
@@ -59,9 +62,9 @@ internal sealed class SceneWindow : IDisposable
     /// <summary>Opens a window on a file and returns when it is closed.</summary>
     /// <returns>The exit code: that of the load, since everything else succeeds or says so on the screen.</returns>
     /// <exception cref="GraphicsUnavailableException">There is no display, or no OpenGL.</exception>
-    public static int Show(string path, LoadOptions options, Projection? projection, RenderSettings settings, (int Width, int Height) size)
+    public static int Show(string path, LoadOptions options, Projection? projection, RenderSettings settings, int trailLength, (int Width, int Height) size)
     {
-        using var window = new SceneWindow(path, options, projection, settings, size);
+        using var window = new SceneWindow(path, options, projection, settings, trailLength, size);
         window.Run();
         return window._exitCode;
     }
@@ -152,7 +155,10 @@ internal sealed class SceneWindow : IDisposable
         var view = View.Of(file.Scene, Aspect);
         var controls = new CameraControls(
             file.Scene.Bounds, view.Camera, _projection ?? scene.Projection, scene.OrthographicHeight, FractalIn(drawable));
-        _document = new(file, new(_window, drawable), controls);
+        _document = new(file, new(_window, drawable), controls)
+        {
+            Trail = file.Scene.Objects is [{ Model: FractalModel { Fractal: var fractal } }] ? new(fractal, _trailLength) : null,
+        };
         foreach (var message in file.Warnings.Select(warning => warning.ToString()).Concat(drawable.Notices))
         {
             Console.Error.WriteLine(message);
@@ -227,6 +233,12 @@ internal sealed class SceneWindow : IDisposable
                 _overlay.Say(_settings.Shading == Shading.PerPixel ? "light at every pixel" : "light at the vertices", _clock.Elapsed);
                 _isDrawingStale = true;
                 break;
+            case Key.T when _document is { Trail: { } trail } document:
+                document.UsesTrail = !document.UsesTrail;
+                document.Renderer.Move(0, document.Placement);
+                _overlay.Say(document.UsesTrail ? $"m becomes m·t, with a trail of {trail.Length}" : "parts of the fractal are chosen from all its levels", _clock.Elapsed);
+                _isDrawingStale = true;
+                break;
             case Key.I:
                 _overlay.ShowsStatistics = !_overlay.ShowsStatistics;
                 _isWindowStale = true;
@@ -270,6 +282,12 @@ internal sealed class SceneWindow : IDisposable
             ? document.Controls.Deepened(View.Of(document.File.Scene with { Scene = document.SceneNow() }, Aspect))
             : new(Camera.Default, Projection.Perspective);
         var start = _clock.Elapsed;
+        if (_document is { UsesTrail: true, Trail: { } trail } shown)
+        {
+            shown.Renderer.Move(0, trail.Follow(shown.Placement, shown.Controls.Camera.Position));
+            view = View.Of(shown.File.Scene with { Scene = shown.SceneNow() }, Aspect);
+        }
+
         if (_document?.Controls.IsMoving == true)
         {
             // One picture behind: while it is drawn, the next one's instances are chosen.
@@ -293,7 +311,11 @@ internal sealed class SceneWindow : IDisposable
     private RenderSettings Moving() => _moving ??= _settings with
     {
         Samples = 0,
-        Detail = _settings.Detail is { } detail ? detail with { PixelSize = Math.Max(detail.PixelSize, MovingPixelSize) } : null,
+        Detail = _settings.Detail is { } detail ? detail with
+        {
+            PixelSize = Math.Max(detail.PixelSize, MovingPixelSize),
+            InstanceBudget = Math.Min(detail.InstanceBudget, MovingInstances),
+        } : null,
     };
 
     private string SaveScreenshot(Document document)
@@ -342,6 +364,15 @@ internal sealed class SceneWindow : IDisposable
     /// <summary>What the window shows.</summary>
     private sealed record Document(LoadedFile File, SceneRenderer Renderer, CameraControls Controls)
     {
+        /// <summary>Where the first object stands.</summary>
+        public AffineMap Placement => File.Scene.Objects[0].Map;
+
+        /// <summary>The paper's way into a fractal; null where there is not exactly one.</summary>
+        public FractalTrail? Trail { get; init; }
+
+        /// <summary>Whether it is taken.</summary>
+        public bool UsesTrail { get; set; }
+
         /// <summary>The scene as it would be saved: with the present camera and projection.</summary>
         public Scene SceneNow() => File.Scene.Scene with
         {

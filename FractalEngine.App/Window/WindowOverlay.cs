@@ -29,6 +29,7 @@ internal sealed class WindowOverlay
         ("Enter", "back to the start"),
         ("G X", "grid, wireframe"),
         ("L", "light at vertices, at pixels"),
+        ("T", "the paper's way into a fractal"),
         ("I", "what a picture takes"),
         ("F12", "screenshot"),
         ("Ctrl+S", "save scene and camera"),

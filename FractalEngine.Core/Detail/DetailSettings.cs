@@ -16,7 +16,7 @@ public sealed record DetailSettings
     public bool HasSamples { get; init; }
 
     /// <summary>More instances in one picture are avoided by raising <see cref="PixelSize"/>.</summary>
-    public int InstanceBudget { get; init; } = 1_000_000;
+    public int InstanceBudget { get; init; } = 500_000;
 
     /// <summary>The strips of a picture are worked on by so many threads; the result is the same for any number.</summary>
     public int Threads { get; init; } = Environment.ProcessorCount;

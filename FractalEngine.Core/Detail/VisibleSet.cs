@@ -8,7 +8,7 @@ public sealed class VisibleSet
 {
     // A number that does not depend on the machine, so that neither does the result.
     private const int Strips = 8;
-    private const double LeastCoarsening = 1.5;
+    private const double Coarsening = 1.5;
 
     private readonly StripSearch[] _strips = new StripSearch[Strips];
     private readonly Dictionary<DetailTable, BaseMesh> _meshes = [];
@@ -16,6 +16,7 @@ public sealed class VisibleSet
     private readonly HashSet<(int, ulong)> _seen = [];
     private readonly ParallelOptions _parallel = new();
     private readonly Action<int> _fillStrip;
+    private int _coarsening;
     private int[] _order = [];
     private double[] _keys = [];
     private int[] _ends = [];
@@ -58,31 +59,29 @@ public sealed class VisibleSet
     /// <param name="settings">What is left out.</param>
     public void Fill(in DetailView view, IReadOnlyList<DetailObject> objects, DetailSettings settings)
     {
-        (_view, _objects, _settings, PixelSize) = (view, objects, settings, settings.PixelSize);
+        (_view, _objects, _settings) = (view, objects, settings);
         _parallel.MaxDegreeOfParallelism = Math.Max(1, settings.Threads);
         Prepare();
-        while (true)
+        // Of a ladder of sizes the smallest that fits, looked for near the one of the picture before.
+        var step = Math.Max(0, _coarsening - 1);
+        var fits = TryFill(step);
+        while (fits && step > 0 && TryFill(step - 1))
         {
-            if (settings.Threads > 1)
-            {
-                Parallel.For(0, Strips, _parallel, _fillStrip);
-            }
-            else
-            {
-                for (var i = 0; i < Strips; i++)
-                {
-                    FillStrip(i);
-                }
-            }
-
-            Merge();
-            if (!IsOverBudget())
-            {
-                return;
-            }
-
-            PixelSize = Math.Max(PixelSize, 1) * LeastCoarsening;
+            step--;
         }
+
+        if (fits && step > 0)
+        {
+            // The smaller one did not fit, but is what there is now.
+            fits = TryFill(step);
+        }
+
+        while (!fits)
+        {
+            fits = TryFill(++step);
+        }
+
+        _coarsening = step;
     }
 
     /// <summary>The number of parts that an object's instances come in.</summary>
@@ -138,6 +137,27 @@ public sealed class VisibleSet
         }
 
         return InstanceCount > _settings.InstanceBudget;
+    }
+
+    /// <summary>Chooses with so many steps of coarsening.</summary>
+    /// <returns>False when there is more than the budget.</returns>
+    private bool TryFill(int step)
+    {
+        PixelSize = step == 0 ? _settings.PixelSize : Math.Max(_settings.PixelSize, 1) * Math.Pow(Coarsening, step);
+        if (_settings.Threads > 1)
+        {
+            Parallel.For(0, Strips, _parallel, _fillStrip);
+        }
+        else
+        {
+            for (var i = 0; i < Strips; i++)
+            {
+                FillStrip(i);
+            }
+        }
+
+        Merge();
+        return !IsOverBudget();
     }
 
     /// <summary>Sorts the objects, the nearest first, so that they hide those behind.</summary>
