@@ -46,6 +46,7 @@ internal sealed class StripSearch
     private double _scaleY;
     private double _middleX;
     private double _middleY;
+    private int _budget;
     private long _mostNodes;
     private DetailCost _cost;
 
@@ -68,15 +69,16 @@ internal sealed class StripSearch
     /// <param name="view">Of the whole picture.</param>
     /// <param name="settings">What is left out.</param>
     /// <param name="pixelSize">What counts as small.</param>
+    /// <param name="budget">More instances are not looked for.</param>
     /// <param name="left">First column of the strip.</param>
     /// <param name="right">One more than the last.</param>
-    public void Begin(in DetailView view, DetailSettings settings, double pixelSize, int left, int right)
+    public void Begin(in DetailView view, DetailSettings settings, double pixelSize, int budget, int left, int right)
     {
-        (_view, _settings, _pixelSize, _cost, IsOverBudget) = (view, settings, pixelSize, default, false);
+        (_view, _settings, _pixelSize, _budget, _cost, IsOverBudget) = (view, settings, pixelSize, budget, default, false);
         (_scaleX, _scaleY, _middleX, _middleY) = (view.PixelsPerUnitX, view.PixelsPerUnitY, 0.5 * view.Width, 0.5 * view.Height);
         _toWorld = new(new AffineMap(view.Axes, Vector.Zero));
         _coverage.Clear(left, right, view.Height);
-        _mostNodes = 64L * settings.InstanceBudget;
+        _mostNodes = 64L * budget;
         Rows.Clear();
         Shared.Clear();
     }
@@ -101,7 +103,8 @@ internal sealed class StripSearch
     private void VisitRoot(DetailTable table, in AffineLanes map)
     {
         var state = table.At(table.Levels);
-        if (!state.IsEmpty)
+        // Of a picture of less than eight columns some strips have none.
+        if (!state.IsEmpty && _coverage.Left < _coverage.Right)
         {
             var footprint = FootprintOf(map.Apply(state.Centre), map.HalfSizeOf(state.HalfSize));
             _cost.Nodes++;
@@ -131,7 +134,7 @@ internal sealed class StripSearch
         {
             Emit(state, in map, in footprint, path);
         }
-        else if (footprint.Size <= _pixelSize || footprint.Size * state.Ratio <= FinestPart * _pixelSize || depth >= Deepest)
+        else if (!(footprint.Size > _pixelSize) || footprint.Size * state.Ratio <= FinestPart * _pixelSize || depth >= Deepest)
         {
             _cost.StandIns++;
             Emit(state, in map, in footprint, path);
@@ -142,7 +145,7 @@ internal sealed class StripSearch
         }
     }
 
-    private bool IsOver() => IsOverBudget |= _cost.Nodes > _mostNodes || Rows.Count + Shared.Count > _settings.InstanceBudget;
+    private bool IsOver() => IsOverBudget |= _cost.Nodes > _mostNodes || Rows.Count + Shared.Count > _budget;
 
     private bool IsSeen(in Footprint footprint)
     {
@@ -358,7 +361,8 @@ internal sealed class StripSearch
             Size = Math.Max(right - left, bottom - top),
             Nearness = nearness,
             IsBetweenPixels = firstX > lastX || firstY > lastY,
-            IsShared = left < _coverage.Left || right > _coverage.Right,
+            // What ends on the border is found on both sides.
+            IsShared = !_settings.SkipsOutside || !(left > _coverage.Left && right < _coverage.Right),
             Left = (int)Math.Max(firstX, _coverage.Left),
             Right = (int)Math.Min(lastX, _coverage.Right - 1),
             Top = (int)Math.Max(firstY, 0),

@@ -25,6 +25,7 @@ public sealed class VisibleSet
     private IReadOnlyList<DetailObject> _objects = [];
     private DetailSettings _settings = new();
     private DetailView _view;
+    private int _budget;
 
     /// <summary>An empty set.</summary>
     public VisibleSet()
@@ -59,6 +60,8 @@ public sealed class VisibleSet
     public void Fill(in DetailView view, IReadOnlyList<DetailObject> objects, DetailSettings settings)
     {
         (_view, _objects, _settings, PixelSize) = (view, objects, settings, settings.PixelSize);
+        // However coarse, each object is one instance.
+        _budget = Math.Max(settings.InstanceBudget, objects.Count);
         _parallel.MaxDegreeOfParallelism = Math.Max(1, settings.Threads);
         Prepare();
         while (true)
@@ -137,7 +140,7 @@ public sealed class VisibleSet
             }
         }
 
-        return InstanceCount > _settings.InstanceBudget;
+        return InstanceCount > _budget;
     }
 
     /// <summary>Sorts the objects, the nearest first, so that they hide those behind.</summary>
@@ -171,7 +174,7 @@ public sealed class VisibleSet
     private void FillStrip(int index)
     {
         var (strip, count) = (_strips[index], _objects.Count);
-        strip.Begin(in _view, _settings, PixelSize, index * _view.Width / Strips, (index + 1) * _view.Width / Strips);
+        strip.Begin(in _view, _settings, PixelSize, _budget, index * _view.Width / Strips, (index + 1) * _view.Width / Strips);
         for (var place = 0; place < count; place++)
         {
             var item = _objects[_order[place]];
