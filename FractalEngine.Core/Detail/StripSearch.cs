@@ -239,7 +239,10 @@ internal sealed class StripSearch
         var (scaleX, scaleY) = (Vector256.Create((float)_scaleX), Vector256.Create((float)_scaleY));
         var (middleX, middleY) = (Vector256.Create((float)_middleX), Vector256.Create((float)_middleY));
         // What is nearer, compared with where its parent is, is looked at in double precision.
-        var sure = Vector256.Create((float)Math.Max(_view.Near, 1e-3 * Math.Sqrt(Vector256.Dot(middle, middle))));
+        var distance = Math.Sqrt(Vector256.Dot(middle, middle));
+        var sure = Vector256.Create((float)Math.Max(_view.Near, 1e-3 * distance));
+        // Squares of large and small coordinates leave the range of single precision.
+        var perDistance = Vector256.Create(distance > 0 ? (float)(1 / distance) : 1);
         ref var boxes = ref MemoryMarshal.GetArrayDataReference(state.Boxes);
         ref var edges = ref MemoryMarshal.GetArrayDataReference(_edges);
         ref var keys = ref MemoryMarshal.GetArrayDataReference(_keys);
@@ -260,7 +263,8 @@ internal sealed class StripSearch
             if (_view.IsPerspective)
             {
                 (nearest, farthest) = (Vector256<float>.One / zLow, Vector256<float>.One / zHigh);
-                (nearness, key) = (nearest, (x * x) + (y * y) + (z * z));
+                var (keyX, keyY, keyZ) = (x * perDistance, y * perDistance, z * perDistance);
+                (nearness, key) = (nearest, (keyX * keyX) + (keyY * keyY) + (keyZ * keyZ));
             }
 
             var (left, right, up, down) = (x - halfX, x + halfX, y + halfY, y - halfY);
