@@ -40,7 +40,7 @@ internal sealed class CoverageBuffer
     /// True where pixels are quarters of pixels that have four samples: then their samples are where graphics hardware has them (the standard pattern of Direct3D 11, which
     /// OpenGL's drivers follow), else in the middles.
     /// </param>
-    public void Clear(int left, int right, int height, bool isStaggered)
+    public void Clear(int left, int right, int height, bool isStaggered = false)
     {
         _rowOffsets = isStaggered ? new(0.25f, 0.75f) : new(0.5f, 0.5f);
         _columnOffsets = Vector256.Create(isStaggered ? 0.75f : 0.5f, isStaggered ? 0.25f : 0.5f, 0, 0, 0, 0, 0, 0);

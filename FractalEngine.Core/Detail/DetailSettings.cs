@@ -15,7 +15,7 @@ public sealed record DetailSettings
     /// <summary>True where pixels have several samples: coverage is then kept for quarters of pixels.</summary>
     public bool HasSamples { get; init; }
 
-    /// <summary>More instances in one picture are avoided by raising <see cref="PixelSize"/>.</summary>
+    /// <summary>More instances in one picture are avoided by raising <see cref="PixelSize"/>; each object has one at least.</summary>
     public int InstanceBudget { get; init; } = 500_000;
 
     /// <summary>The strips of a picture are worked on by so many threads; the result is the same for any number.</summary>

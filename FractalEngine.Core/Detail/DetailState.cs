@@ -14,8 +14,11 @@ internal sealed class DetailState
     /// <summary>Rows of a vector of boxes: x, y, z of the centres, then of half the sizes.</summary>
     public const int Rows = 6;
 
-    // More than what single precision rounds by.
+    // Of a copy's size: more than what single precision rounds by.
     private const double Rounding = 1e-6;
+
+    // Of its distance from the middle: half a unit in the last place.
+    private const double SinglePrecision = 6e-8;
 
     /// <summary>For a level.</summary>
     /// <param name="box">Holds everything, in this frame.</param>
@@ -38,8 +41,10 @@ internal sealed class DetailState
         {
             var (map, childBox, down, index) = children[i];
             (Maps[i], Downs[i], Indices[i]) = (new(map), down, index);
-            Write(childBox.Centre - box.Centre, i, 0);
-            Write((0.5 * childBox.Size) + (Rounding * (childBox.Diagonal + (Rounding * largest)) * Vector.One), i, 3);
+            var offset = childBox.Centre - box.Centre;
+            var rounding = (Rounding * (childBox.Diagonal + (Rounding * largest))) + (SinglePrecision * offset.MaximumComponent());
+            Write(offset, i, 0);
+            Write((0.5 * childBox.Size) + (rounding * Vector.One), i, 3);
             Ratio = Math.Max(Ratio, childBox.Diagonal / box.Diagonal);
         }
     }

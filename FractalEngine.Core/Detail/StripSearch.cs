@@ -48,6 +48,7 @@ internal sealed class StripSearch
     private double _scaleY;
     private double _middleX;
     private double _middleY;
+    private int _budget;
     private long _mostNodes;
     private DetailCost _cost;
 
@@ -70,19 +71,20 @@ internal sealed class StripSearch
     /// <param name="view">Of the whole picture.</param>
     /// <param name="settings">What is left out.</param>
     /// <param name="pixelSize">What counts as small.</param>
+    /// <param name="budget">More instances are not looked for.</param>
     /// <param name="left">First column of the strip.</param>
     /// <param name="right">One more than the last.</param>
-    public void Begin(in DetailView view, DetailSettings settings, double pixelSize, int left, int right)
+    public void Begin(in DetailView view, DetailSettings settings, double pixelSize, int budget, int left, int right)
     {
         // From here on, pixels are those of the coverage: two by two where pixels have samples.
         var finer = settings.HasSamples ? Finer : 1;
-        (_view, _settings, _pixelSize, _cost, IsOverBudget) = (view, settings, finer * pixelSize, default, false);
+        (_view, _settings, _pixelSize, _budget, _cost, IsOverBudget) = (view, settings, finer * pixelSize, budget, default, false);
         (_scaleX, _scaleY) = (finer * view.PixelsPerUnitX, finer * view.PixelsPerUnitY);
         (_middleX, _middleY) = (finer * 0.5 * view.Width, finer * 0.5 * view.Height);
         _toWorld = new(new AffineMap(view.Axes, Vector.Zero));
         _coverage.Clear(finer * left, finer * right, finer * view.Height, settings.HasSamples);
         (_least, _most) = settings.HasSamples ? (0.25f - Widened, 0.75f + Widened) : (0.5f - Widened, 0.5f + Widened);
-        _mostNodes = 64L * settings.InstanceBudget;
+        _mostNodes = 64L * budget;
         Rows.Clear();
         Shared.Clear();
     }
@@ -115,7 +117,8 @@ internal sealed class StripSearch
     private void VisitRoot(long levels, AffineMap toView, ulong path)
     {
         var (state, map) = (_object.Table.At(levels), new AffineLanes(toView));
-        if (!state.IsEmpty)
+        // Of a picture of less than eight columns some strips have none.
+        if (!state.IsEmpty && _coverage.Left < _coverage.Right)
         {
             var footprint = FootprintOf(map.Apply(state.Centre), map.HalfSizeOf(state.HalfSize));
             _cost.Nodes++;
@@ -145,7 +148,7 @@ internal sealed class StripSearch
         {
             Emit(state, in map, in footprint, path);
         }
-        else if (footprint.Size <= _pixelSize || footprint.Size * state.Ratio <= FinestPart * _pixelSize || depth >= Deepest)
+        else if (!(footprint.Size > _pixelSize) || footprint.Size * state.Ratio <= FinestPart * _pixelSize || depth >= Deepest)
         {
             _cost.StandIns++;
             Emit(state, in map, in footprint, path);
@@ -156,7 +159,7 @@ internal sealed class StripSearch
         }
     }
 
-    private bool IsOver() => IsOverBudget |= _cost.Nodes > _mostNodes || Rows.Count + Shared.Count > _settings.InstanceBudget;
+    private bool IsOver() => IsOverBudget |= _cost.Nodes > _mostNodes || Rows.Count + Shared.Count > _budget;
 
     private bool IsSeen(in Footprint footprint)
     {
@@ -250,7 +253,10 @@ internal sealed class StripSearch
         var (scaleX, scaleY) = (Vector256.Create((float)_scaleX), Vector256.Create((float)_scaleY));
         var (middleX, middleY) = (Vector256.Create((float)_middleX), Vector256.Create((float)_middleY));
         // What is nearer, compared with where its parent is, is looked at in double precision.
-        var sure = Vector256.Create((float)Math.Max(_view.Near, 1e-3 * Math.Sqrt(Vector256.Dot(middle, middle))));
+        var distance = Math.Sqrt(Vector256.Dot(middle, middle));
+        var sure = Vector256.Create((float)Math.Max(_view.Near, 1e-3 * distance));
+        // Squares of large and small coordinates leave the range of single precision.
+        var perDistance = Vector256.Create(distance > 0 ? (float)(1 / distance) : 1);
         ref var boxes = ref MemoryMarshal.GetArrayDataReference(state.Boxes);
         ref var edges = ref MemoryMarshal.GetArrayDataReference(_edges);
         ref var keys = ref MemoryMarshal.GetArrayDataReference(_keys);
@@ -271,7 +277,8 @@ internal sealed class StripSearch
             if (_view.IsPerspective)
             {
                 (nearest, farthest) = (Vector256<float>.One / zLow, Vector256<float>.One / zHigh);
-                (nearness, key) = (nearest, (x * x) + (y * y) + (z * z));
+                var (keyX, keyY, keyZ) = (x * perDistance, y * perDistance, z * perDistance);
+                (nearness, key) = (nearest, (keyX * keyX) + (keyY * keyY) + (keyZ * keyZ));
             }
 
             var (left, right, up, down) = (x - halfX, x + halfX, y + halfY, y - halfY);
@@ -371,7 +378,8 @@ internal sealed class StripSearch
             Size = Math.Max(right - left, bottom - top),
             Nearness = nearness,
             IsBetweenPixels = firstX > lastX || firstY > lastY,
-            IsShared = left < _coverage.Left || right > _coverage.Right,
+            // What ends on the border is found on both sides.
+            IsShared = !_settings.SkipsOutside || !(left > _coverage.Left && right < _coverage.Right),
             Left = (int)Math.Max(firstX, _coverage.Left),
             Right = (int)Math.Min(lastX, _coverage.Right - 1),
             Top = (int)Math.Max(firstY, 0),

@@ -26,6 +26,7 @@ public sealed class VisibleSet
     private IReadOnlyList<DetailObject> _objects = [];
     private DetailSettings _settings = new();
     private DetailView _view;
+    private int _budget;
 
     /// <summary>An empty set.</summary>
     public VisibleSet()
@@ -60,6 +61,14 @@ public sealed class VisibleSet
     public void Fill(in DetailView view, IReadOnlyList<DetailObject> objects, DetailSettings settings)
     {
         (_view, _objects, _settings) = (view, objects, settings);
+        // However coarse, each object is one instance, or one for each of its roots.
+        var least = 0;
+        for (var i = 0; i < objects.Count; i++)
+        {
+            least += objects[i].Roots?.Length ?? 1;
+        }
+
+        _budget = Math.Max(settings.InstanceBudget, least);
         _parallel.MaxDegreeOfParallelism = Math.Max(1, settings.Threads);
         Prepare();
         // Of a ladder of sizes the smallest that fits, looked for near the one of the picture before.
@@ -136,7 +145,7 @@ public sealed class VisibleSet
             }
         }
 
-        return InstanceCount > _settings.InstanceBudget;
+        return InstanceCount > _budget;
     }
 
     /// <summary>Chooses with so many steps of coarsening.</summary>
@@ -191,7 +200,7 @@ public sealed class VisibleSet
     private void FillStrip(int index)
     {
         var (strip, count) = (_strips[index], _objects.Count);
-        strip.Begin(in _view, _settings, PixelSize, index * _view.Width / Strips, (index + 1) * _view.Width / Strips);
+        strip.Begin(in _view, _settings, PixelSize, _budget, index * _view.Width / Strips, (index + 1) * _view.Width / Strips);
         for (var place = 0; place < count; place++)
         {
             var item = _objects[_order[place]];
