@@ -186,7 +186,7 @@ public sealed class SceneRenderer : IDisposable
         var (item, map) = (Scene.Objects[index], _maps[index]);
         // Chosen instances are in world axes about the camera already.
         var shifted = Detail.Has(index) ? AffineMap.Translate(view.Camera.Position) : new AffineMap(map.Linear, map * item.Model.Origin);
-        _blocks[index].Bind(MeshPass.ObjectBinding, shifted, item.Colour, view.Camera.Position);
+        _blocks[index].Bind(MeshPass.ObjectBinding, shifted, item.Colour, item.Gradient?.To ?? item.Colour, view.Camera.Position);
     }
 
     private void DrawInstances(int index, DrawableBatch batch)

@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Detail;
 
@@ -16,4 +17,7 @@ public sealed record DetailObject(DetailTable Table, AffineMap Map, Vector Origi
     /// camera's position in the view is then not used.
     /// </summary>
     public ImmutableArray<DetailRoot>? Roots { get; init; }
+
+    /// <summary>What the instances' colours differ by: each then has a number from 0 to 1.</summary>
+    public GradientKind Gradient { get; init; }
 }

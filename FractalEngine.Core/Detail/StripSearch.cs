@@ -3,6 +3,7 @@ using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Detail;
 
@@ -53,10 +54,10 @@ internal sealed class StripSearch
     private DetailCost _cost;
 
     /// <summary>The instances found: rows of 3×4 maps from the frame of the drawn mesh to world axes about the camera.</summary>
-    public InstanceRows Rows { get; } = new();
+    public InstanceRows Rows { get; } = new(hasPaths: false);
 
     /// <summary>Those that reach out of the strip, to which others may come as well, with what tells them apart.</summary>
-    public InstanceRows Shared { get; } = new();
+    public InstanceRows Shared { get; } = new(hasPaths: true);
 
     /// <summary>What it took.</summary>
     public DetailCost Cost => _cost;
@@ -103,18 +104,18 @@ internal sealed class StripSearch
         var toView = _view.Axes.Inverse();
         if (item.Roots is not { } roots)
         {
-            VisitRoot(item.Table.Levels, new AffineMap(toView * item.Map.Linear, toView * (item.Map.Translation - _view.Position)), 0);
+            VisitRoot(item.Table.Levels, new AffineMap(toView * item.Map.Linear, toView * (item.Map.Translation - _view.Position)), new(0, 0, 1));
             return;
         }
 
         for (var i = 0; i < roots.Length; i++)
         {
-            VisitRoot(roots[i].Levels, new AffineMap(toView * roots[i].Map.Linear, toView * roots[i].Map.Translation), (ulong)(i + 1) << 40);
+            VisitRoot(roots[i].Levels, new AffineMap(toView * roots[i].Map.Linear, toView * roots[i].Map.Translation), new((ulong)(i + 1) << 40, 0, 1));
         }
     }
 
     /// <summary>Looks at a part that drawing begins with.</summary>
-    private void VisitRoot(long levels, AffineMap toView, ulong path)
+    private void VisitRoot(long levels, AffineMap toView, Trail path)
     {
         var (state, map) = (_object.Table.At(levels), new AffineLanes(toView));
         // Of a picture of less than eight columns some strips have none.
@@ -127,7 +128,7 @@ internal sealed class StripSearch
     }
 
     /// <summary>Looks at a sub-fractal whose place in the picture is known.</summary>
-    private void Visit(DetailState state, long levels, in AffineLanes map, int depth, ulong path, in Footprint footprint)
+    private void Visit(DetailState state, long levels, in AffineLanes map, int depth, Trail path, in Footprint footprint)
     {
         if (!IsSeen(in footprint))
         {
@@ -137,7 +138,7 @@ internal sealed class StripSearch
         VisitSeen(state, levels, in map, depth, path, in footprint);
     }
 
-    private void VisitSeen(DetailState state, long levels, in AffineLanes map, int depth, ulong path, in Footprint footprint)
+    private void VisitSeen(DetailState state, long levels, in AffineLanes map, int depth, Trail path, in Footprint footprint)
     {
         if (IsOver())
         {
@@ -189,7 +190,7 @@ internal sealed class StripSearch
         return true;
     }
 
-    private void VisitChildren(DetailState state, long levels, in AffineLanes map, int depth, ulong path)
+    private void VisitChildren(DetailState state, long levels, in AffineLanes map, int depth, Trail path)
     {
         var (count, first) = (state.Maps.Length, _top);
         _top += (count + DetailState.Lanes - 1) / DetailState.Lanes * DetailState.Lanes;
@@ -226,7 +227,7 @@ internal sealed class StripSearch
                 childDepth++;
             }
 
-            var childPath = ((path ^ (ulong)(child + 1)) * 0x9E3779B97F4A7C15UL) + (ulong)depth;
+            var childPath = path.Then(child, depth, state.Indices[child], count, _object.Gradient);
             if (footprint.IsUnsure)
             {
                 footprint = FootprintOf(childMap.Apply(childState.Centre), childMap.HalfSizeOf(childState.HalfSize));
@@ -402,7 +403,7 @@ internal sealed class StripSearch
         ? (sign * x) + (slope * z) - halfX - (Math.Abs(slope) * halfZ) > 0
         : (sign * x) + slope - halfX > 0;
 
-    private void Emit(DetailState state, in AffineLanes map, in Footprint footprint, ulong path)
+    private void Emit(DetailState state, in AffineLanes map, in Footprint footprint, Trail path)
     {
         var placed = map;
         if (!state.IsStandInIdentity)
@@ -420,7 +421,11 @@ internal sealed class StripSearch
         IsCut |= !footprint.IsWhole;
         var rows = footprint.IsShared || !footprint.IsWhole ? Shared : Rows;
         var inWorld = AffineLanes.Compose(in _toWorld, in placed);
-        rows.Add(in inWorld, _origin, path);
+        rows.Add(in inWorld, _origin, path.Number);
+        if (_object.Gradient != GradientKind.None)
+        {
+            rows.SetTint(path.Tint(_object.Gradient, _object.Table.Levels));
+        }
     }
 
     /// <summary>Draws the base mesh. True when it is the nearest at the middle of some pixel.</summary>
@@ -487,6 +492,35 @@ internal sealed class StripSearch
 
     private static bool IsMirrored(Vector256<double> v1, Vector256<double> v2, Vector256<double> v3) =>
         (v1[0] * ((v2[1] * v3[2]) - (v2[2] * v3[1]))) + (v1[1] * ((v2[2] * v3[0]) - (v2[0] * v3[2]))) + (v1[2] * ((v2[0] * v3[1]) - (v2[1] * v3[0]))) < 0;
+
+    /// <summary>The way to a sub-fractal: what tells it apart from others, and what its colour follows from.</summary>
+    private readonly record struct Trail(ulong Number, float Value, float Weight)
+    {
+        private const int MostLevels = 12;
+
+        /// <summary>One copy further.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public Trail Then(int child, int depth, int index, int count, GradientKind gradient)
+        {
+            var number = ((Number ^ (ulong)(child + 1)) * 0x9E3779B97F4A7C15UL) + (ulong)depth;
+            return gradient == GradientKind.None || index < 0 ? this with { Number = number }
+                : gradient == GradientKind.Level ? new(number, Value + 1, Weight)
+                : new(number, Value + (0.5f * Weight * child / Math.Max(1, count - 1)), 0.5f * Weight);
+        }
+
+        /// <summary>From 0 to 1.</summary>
+        public float Tint(GradientKind gradient, long levels)
+        {
+            if (gradient == GradientKind.Path)
+            {
+                return Value;
+            }
+
+            var most = (float)Math.Clamp(levels, 1, MostLevels);
+            var turn = Value % (2 * most) / most;
+            return turn <= 1 ? turn : 2 - turn;
+        }
+    }
 
     /// <summary>Where something appears in the picture.</summary>
     private readonly struct Footprint

@@ -12,7 +12,7 @@ public sealed class VisibleSet
 
     private readonly StripSearch[] _strips = new StripSearch[Strips];
     private readonly Dictionary<DetailTable, BaseMesh> _meshes = [];
-    private readonly InstanceRows _shared = new();
+    private readonly InstanceRows _shared = new(hasPaths: false);
     private readonly HashSet<(int, ulong)> _seen = [];
     private readonly ParallelOptions _parallel = new();
     private readonly Action<int> _fillStrip;
@@ -101,11 +101,15 @@ public sealed class VisibleSet
     /// <param name="part">Less than <see cref="PartCount"/>.</param>
     public ReadOnlySpan<float> Part(int item, int part)
     {
-        var rows = part < Strips ? _strips[part].Rows : _shared;
-        var ends = part < Strips ? _ends.AsSpan(part * _objects.Count, _objects.Count) : _mergedEnds;
-        var place = Array.IndexOf(_order, item, 0, _objects.Count);
-        var start = place == 0 ? 0 : ends[place - 1];
-        return rows.Span[(start * InstanceRows.Floats)..(ends[place] * InstanceRows.Floats)];
+        var (start, end) = RangeOf(item, part);
+        return (part < Strips ? _strips[part].Rows : _shared).Span[(start * InstanceRows.Floats)..(end * InstanceRows.Floats)];
+    }
+
+    /// <summary>Numbers between two colours, one an instance of <see cref="Part"/>, of an object that has a gradient.</summary>
+    public ReadOnlySpan<float> Tints(int item, int part)
+    {
+        var (start, end) = RangeOf(item, part);
+        return (part < Strips ? _strips[part].Rows : _shared).Tints[start..end];
     }
 
     /// <summary>How many instances are drawn of an object.</summary>
@@ -118,6 +122,13 @@ public sealed class VisibleSet
         }
 
         return count;
+    }
+
+    private (int Start, int End) RangeOf(int item, int part)
+    {
+        var ends = part < Strips ? _ends.AsSpan(part * _objects.Count, _objects.Count) : _mergedEnds;
+        var place = Array.IndexOf(_order, item, 0, _objects.Count);
+        return (place == 0 ? 0 : ends[place - 1], ends[place]);
     }
 
     /// <summary>True when the near plane cuts through an instance of an object: then the inner side of a solid may be seen.</summary>

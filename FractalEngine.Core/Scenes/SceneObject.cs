@@ -13,4 +13,7 @@ public record SceneObject(string File, Transformation Placement)
 
     /// <summary>The object's colour; null for the default.</summary>
     public Colour? Colour { get; init; }
+
+    /// <summary>How the instances of a fractal differ in colour; null for not at all.</summary>
+    public Gradient? Gradient { get; init; }
 }

@@ -59,6 +59,7 @@ internal static class SceneFormatter
             declared is PhysicsObject { Restitution: var restitution } ? Text(restitution) : null,
             declared.Name is { } name ? $"name \"{name}\"" : null,
             declared.Colour is { } colour ? $"colour {colour}" : null,
+            declared.Gradient is { } gradient ? $"gradient {(gradient.By == GradientKind.Level ? "level" : "path")} {gradient.To}" : null,
             declared is PhysicsObject { Velocity: var velocity } && !AreSame(velocity, Vector.Zero) ? $"velocity {velocity}" : null,
             declared is PhysicsObject { Mass: not 1.0 and var mass } ? $"mass {Text(mass)}" : null,
             declared is PhysicsObject { Collider: not ColliderKind.Exact and var collider } ? $"collider {SceneParser.NameOf(collider)}" : null,

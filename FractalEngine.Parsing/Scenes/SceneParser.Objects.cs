@@ -81,6 +81,11 @@ public sealed partial class SceneParser
             success = ParseColour(next, out var colour, out next);
             declared = declared with { Colour = colour };
         }
+        else if (ParseKeyword(start, "gradient", out next))
+        {
+            success = ParseGradient(next, out var gradient, out next);
+            declared = declared with { Gradient = gradient };
+        }
         else if (declared is PhysicsObject body)
         {
             success = ParseBodyOption(start, ref body, out next);
@@ -88,6 +93,20 @@ public sealed partial class SceneParser
         }
 
         rest = success ? next : next.Offset > start.Offset ? throw SyntaxError() : cursor;
+        return success;
+    }
+
+    private bool ParseGradient(Cursor cursor, out Gradient gradient, out Cursor rest)
+    {
+        var kind = ParseKeyword(cursor, "level", out rest) ? GradientKind.Level : ParseKeyword(cursor, "path", out rest) ? GradientKind.Path : GradientKind.None;
+        gradient = new(kind, default);
+        if (kind == GradientKind.None)
+        {
+            return Fail(cursor, "'level' or 'path'");
+        }
+
+        var success = ParseColour(rest, out var colour, out rest);
+        gradient = gradient with { To = colour };
         return success;
     }
 

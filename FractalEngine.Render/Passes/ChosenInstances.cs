@@ -8,16 +8,25 @@ namespace FractalEngine.Render.Passes;
 /// <summary>The instances of one object that were chosen for a picture, on the GPU: a vertex array of their own over the buffers of the model.</summary>
 internal sealed class ChosenInstances : IDisposable
 {
+    private const int TintLocation = 5;
+
     private readonly GlBuffer _instances;
+    private readonly GlBuffer? _tints;
     private readonly VertexArray _array;
     private int _count;
 
     /// <summary>None yet.</summary>
-    public ChosenInstances(GlResources resources, string name, ModelBuffers model)
+    public ChosenInstances(GlResources resources, string name, ModelBuffers model, bool hasTints)
     {
         _instances = new(resources, $"chosen instances of {name}", BufferTarget.ArrayBuffer);
         _array = new(resources, $"chosen instances of {name}");
         model.Attach(_array, _instances);
+        if (hasTints)
+        {
+            _tints = new(resources, $"tints of {name}", BufferTarget.ArrayBuffer);
+            _array.Attribute(_tints, TintLocation, 1, 1, 0, divisor: 1);
+            VertexArray.Unbind();
+        }
     }
 
     /// <summary>Bytes that uploads have moved so far.</summary>
@@ -34,6 +43,19 @@ internal sealed class ChosenInstances : IDisposable
         for (var part = 0; part < VisibleSet.PartCount; part++)
         {
             offset += _instances.Write(chosen.Part(item, part), offset);
+        }
+
+        UploadedBytes += offset;
+        if (_tints is null)
+        {
+            return;
+        }
+
+        _tints.Discard(_count * sizeof(float));
+        offset = 0;
+        for (var part = 0; part < VisibleSet.PartCount; part++)
+        {
+            offset += _tints.Write(chosen.Tints(item, part), offset);
         }
 
         UploadedBytes += offset;
@@ -54,6 +76,7 @@ internal sealed class ChosenInstances : IDisposable
     public void Dispose()
     {
         _array.Dispose();
+        _tints?.Dispose();
         _instances.Dispose();
     }
 }

@@ -12,25 +12,28 @@ namespace FractalEngine.Render.Passes;
 internal sealed class ObjectBlock(GlResources resources, string name) : IDisposable
 {
     private readonly GlBuffer _buffer = new(resources, $"matrix of {name}", BufferTarget.UniformBuffer);
-    private readonly float[] _data = new float[32];
-    private (AffineMap Map, Colour Colour, Vector Camera)? _last;
+    private readonly float[] _data = new float[36];
+    private (AffineMap Map, Colour Colour, Colour Far, Vector Camera)? _last;
 
     /// <summary>Binds the block, uploading it first where object or camera have moved since the last time.</summary>
     /// <param name="bindingPoint">As the program connects it.</param>
     /// <param name="map">From the drawn model's shifted frame to world space.</param>
     /// <param name="colour">sRGB.</param>
+    /// <param name="far">The other end of a gradient, sRGB; the same colour where there is none.</param>
     /// <param name="camera">World space.</param>
-    public void Bind(int bindingPoint, AffineMap map, Colour colour, Vector camera)
+    public void Bind(int bindingPoint, AffineMap map, Colour colour, Colour far, Vector camera)
     {
-        if (_last != (map, colour, camera))
+        if (_last != (map, colour, far, camera))
         {
             Write(map.Linear, 0);
             Write(CofactorsOf(map.Linear), 12);
             Write(map.Translation - camera, 24);
             var (red, green, blue) = colour.ToLinear();
             Write(new Vector(red, green, blue), 28);
+            (red, green, blue) = far.ToLinear();
+            Write(new Vector(red, green, blue), 32);
             _buffer.Upload<float>(_data, BufferUsageHint.DynamicDraw);
-            _last = (map, colour, camera);
+            _last = (map, colour, far, camera);
         }
 
         _buffer.BindTo(bindingPoint);

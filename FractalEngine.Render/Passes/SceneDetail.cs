@@ -33,8 +33,11 @@ internal sealed class SceneDetail : IDisposable
             _places[i] = objects.Count;
             if (model.Detail is { } table)
             {
-                _instances[i] = new(resources, scene.Objects[i].Name, models[model]);
-                objects.Add(new(table, scene.Objects[i].Map, model.MeshOrigin, model.MeshSolidSign, !model.HasTransparentParts));
+                _instances[i] = new(resources, scene.Objects[i].Name, models[model], scene.Objects[i].Gradient is not null);
+                objects.Add(new(table, scene.Objects[i].Map, model.MeshOrigin, model.MeshSolidSign, !model.HasTransparentParts)
+                {
+                    Gradient = scene.Objects[i].Gradient?.By ?? GradientKind.None,
+                });
             }
         }
 

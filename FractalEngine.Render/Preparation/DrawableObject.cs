@@ -1,5 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Render.Preparation;
 
@@ -12,4 +13,7 @@ public sealed record DrawableObject(string Name, DrawableModel Model, AffineMap 
 {
     /// <summary>What the colours of materials are multiplied by, sRGB: the colour that the scene declares, white where it declares none.</summary>
     public Colour Tint { get; init; } = Colour.White;
+
+    /// <summary>How the instances of a fractal differ from <see cref="Colour"/>; null for not at all.</summary>
+    public Gradient? Gradient { get; init; }
 }

@@ -78,6 +78,7 @@ public sealed class DrawableScene
                 placed.Declaration.Colour ?? ObjectPalette.ColourOf(index))
             {
                 Tint = placed.Declaration.Colour ?? Colour.White,
+                Gradient = placed.Declaration.Gradient,
             })],
             notices.ToImmutable())
         {

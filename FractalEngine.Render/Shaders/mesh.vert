@@ -7,6 +7,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 instanceRow0;
 layout(location = 3) in vec4 instanceRow1;
 layout(location = 4) in vec4 instanceRow2;
+layout(location = 5) in float tint;  // from the object's colour to the other end of its gradient; 0 where there is none
 #ifdef TEXTURED
 layout(location = 6) in vec2 texturePosition;
 #endif
@@ -17,6 +18,7 @@ layout(std140) uniform ObjectBlock
     vec4 cofactors[3];   // columns of its cofactor matrix, scaled to entries of at most 1
     vec4 translation;    // relative to the camera
     vec4 colour;         // linear light
+    vec4 farColour;      // linear light, at the other end of the gradient
 };
 
 #include "material.glsl"
@@ -60,7 +62,7 @@ void main()
     vec3 n = direction(cross(c1, c2) * normal.x + cross(c2, c0) * normal.y + cross(c0, c1) * normal.z);
     n = direction(cofactors[0].xyz * n.x + cofactors[1].xyz * n.y + cofactors[2].xyz * n.z);
 
-    vec3 surface = mix(colour.rgb, material[0].rgb, material[2].w);
+    vec3 surface = mix(mix(colour.rgb, farColour.rgb, tint), material[0].rgb, material[2].w);
 #ifdef TEXTURED
     // Pictures are stored from the top, texture coordinates count from the bottom.
     vec2 inPicture = texturePosition * material[3].xy + material[3].zw;
