@@ -259,7 +259,7 @@ public class VisibleSetTests
             {
                 foreach (var isPerspective in (bool[])[false, true])
                 {
-                    var view = DetailViews.Look(new(0.1, 0.2, -3), Vector.Zero, isPerspective, width, height, halfHeight: 0.8);
+                    var view = DetailViews.Look(new(1.1, 0.9, -3), Vector.Zero, isPerspective, width, height, halfHeight: 0.4 * Math.Min(1, (double)height / width));
                     set.Fill(in view, [item], new() { HasSamples = hasSamples, Threads = 1 });
                     Assert.True(set.InstanceCount > 0, $"{width}×{height}: nothing was chosen");
                 }
