@@ -106,7 +106,7 @@ public class VisibleSetTests
     });
 
     [Fact]
-    public void Fill_OnAnyNumberOfThreadsAndAgain_GivesTheSameBits() => Seeded.Run(15, random =>
+    public void Fill_OnAnyNumberOfThreadsAndAgain_GivesTheSameBits() => Seeded.Run(8, random =>
     {
         var fractals = new[] { DetailViews.Menger(4), RandomFractal(random), AssetFractals.Load("tree", 6) };
         var objects = fractals.Select(fractal => DetailViews.Object(fractal, random.Transformation(0.5, 2).ToAffineMap(), random.Next(2))).ToArray();
