@@ -11,6 +11,9 @@ namespace FractalEngine.Core.Detail;
 /// </summary>
 public sealed class DetailTable
 {
+    // Of a box that holds another, beside which it is not counted that the other reaches out.
+    private const double Within = 1.001;
+
     private readonly DetailState[] _states;
     private readonly StateRegion[] _regions;
 
@@ -65,8 +68,13 @@ public sealed class DetailTable
                 child.Below.Image(child.Step.Map, child.Step.Lengthening),
                 child.Step.Down,
                 child.Step.Map == AffineMap.Identity ? -1 : child.Step.Index));
-        return new(builder.OutlineAt(level).Box, AffineMap.Identity, [.. children]);
+        var (baseBox, box) = (builder.OutlineAt(0).Box, builder.OutlineAt(level).Box);
+        return new(box, StandIn(baseBox, box), [.. children]);
     }
+
+    /// <summary>How the base mesh stands for what a box holds: as it is, where it lies within; else its maps have carried it away, and it is stretched to fill the box.</summary>
+    private static AffineMap StandIn(BoundingBox baseBox, BoundingBox box) =>
+        box.IsEmpty || BoundingBox.Union(box, baseBox).Diagonal <= Within * box.Diagonal ? AffineMap.Identity : InstanceTree.Between(baseBox, box);
 
     /// <summary>Sums have no levels: they are sorted into a tree of groups by their places.</summary>
     private static DetailTable OfSums(Fractal fractal)

@@ -30,6 +30,14 @@ internal sealed class InstanceTree
     /// <summary>The number of the state of all instances.</summary>
     public int Root { get; }
 
+    /// <summary>The map from one box to another; where the first is flat, the second's size is not reached.</summary>
+    public static AffineMap Between(BoundingBox from, BoundingBox to)
+    {
+        var ((x1, y1, z1), (x2, y2, z2)) = (from.Size, to.Size);
+        var scale = new Vector(x1 > 0 ? x2 / x1 : 1, y1 > 0 ? y2 / y1 : 1, z1 > 0 ? z2 / z1 : 1);
+        return new(Matrix.Diagonal(scale), to.Centre - from.Centre.Stretch(scale));
+    }
+
     private int Group(Span<int> instances)
     {
         var box = BoundingBox.Empty;
@@ -77,13 +85,5 @@ internal sealed class InstanceTree
             (Vector.Dot(axis, _boxes[instance1].Centre), instance1).CompareTo((Vector.Dot(axis, _boxes[instance2].Centre), instance2)));
         Split(instances[..(instances.Length / 2)], times - 1, children);
         Split(instances[(instances.Length / 2)..], times - 1, children);
-    }
-
-    /// <summary>The map from one box to another; where the first is flat, the second's size is not reached.</summary>
-    private static AffineMap Between(BoundingBox from, BoundingBox to)
-    {
-        var ((x1, y1, z1), (x2, y2, z2)) = (from.Size, to.Size);
-        var scale = new Vector(x1 > 0 ? x2 / x1 : 1, y1 > 0 ? y2 / y1 : 1, z1 > 0 ? z2 / z1 : 1);
-        return new(Matrix.Diagonal(scale), to.Centre - from.Centre.Stretch(scale));
     }
 }

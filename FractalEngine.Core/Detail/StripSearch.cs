@@ -28,6 +28,9 @@ internal sealed class StripSearch
     // A sub-fractal is drawn as it stands, too, when its copies would be smaller than this part of what counts as small.
     private const double FinestPart = 0.5;
 
+    // Not when it is itself more than so many times what counts as small: copies that are tiny beside what lies between them are no solid.
+    private const double Coarsest = 3;
+
     private readonly CoverageBuffer _coverage = new();
     private float[] _screenX = [];
     private float[] _screenY = [];
@@ -149,7 +152,7 @@ internal sealed class StripSearch
         {
             Emit(state, in map, in footprint, path);
         }
-        else if (!(footprint.Size > _pixelSize) || footprint.Size * state.Ratio <= FinestPart * _pixelSize || depth >= Deepest)
+        else if (!(footprint.Size > _pixelSize) || (footprint.Size <= Coarsest * _pixelSize && footprint.Size * state.Ratio <= FinestPart * _pixelSize) || depth >= Deepest)
         {
             _cost.StandIns++;
             Emit(state, in map, in footprint, path);

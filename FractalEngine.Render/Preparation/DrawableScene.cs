@@ -131,7 +131,7 @@ public sealed class DrawableScene
         {
             return model is FractalModel { Fractal: var fractal } ? DetailTable.Of(fractal) : DetailTable.Of(model.Mesh);
         }
-        catch (FractalLimitException exception)
+        catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
         {
             notices.Add($"{name}: {exception.Message}");
             return null;
