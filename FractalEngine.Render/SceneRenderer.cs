@@ -18,13 +18,13 @@ public sealed class SceneRenderer : IDisposable
 
     private readonly MeshPass _pass;
     private readonly LightBlock _lights;
-    private readonly TransparentOrder _transparent;
+    private TransparentOrder _transparent;
     private readonly TextureSet _textures;
     private readonly Dictionary<DrawableModel, ModelBuffers> _models = [];
     private readonly ObjectBlock[] _blocks;
     private readonly AffineMap[] _maps;
     private readonly BoundingBox[] _boxes;
-    private readonly SceneDetail? _detail;
+    private SceneDetail? _detail;
     private BoundingBox? _bounds;
     private (DetailSettings Source, DetailSettings Detail)? _adapted;
 
@@ -39,17 +39,10 @@ public sealed class SceneRenderer : IDisposable
         _pass = new(context);
         _lights = new(context.Resources, scene.Source.Scene.Lights, scene.Source.Bounds);
         _blocks = [.. scene.Objects.Select(item => new ObjectBlock(context.Resources, item.Name))];
-        _transparent = new([.. Enumerable.Range(0, scene.Objects.Length).Where(i => scene.Objects[i].Model.HasTransparentParts)]);
-        _textures = new();
+        (_transparent, _textures) = (new([]), new());
         try
         {
-            _textures.Upload(context.Resources, scene.Textures);
-            foreach (var model in scene.Models)
-            {
-                _models.Add(model, new(context.Resources, model));
-            }
-
-            _detail = new(context.Resources, scene, _models);
+            Upload();
         }
         catch
         {
@@ -59,7 +52,7 @@ public sealed class SceneRenderer : IDisposable
     }
 
     /// <summary>What is drawn.</summary>
-    public DrawableScene Scene { get; }
+    public DrawableScene Scene { get; private set; }
 
     /// <summary>A box that holds all objects where they are now, world space.</summary>
     public BoundingBox Bounds => _bounds ??= _boxes.Aggregate(BoundingBox.Empty, BoundingBox.Union);
@@ -71,6 +64,27 @@ public sealed class SceneRenderer : IDisposable
 
     /// <summary>The instances that were chosen for the last picture, and what that took.</summary>
     internal SceneDetail Detail => _detail!;
+
+    /// <summary>Takes over what has been prepared since: the same scene with other models. Objects stay where they are. On the context's thread.</summary>
+    /// <exception cref="Gl.GlException">The GPU's memory does not suffice.</exception>
+    public void Update(DrawableScene scene)
+    {
+        Context.MakeCurrent();
+        _detail?.Dispose();
+        _detail = null;
+        foreach (var model in _models.Keys.Except(scene.Models).ToArray())
+        {
+            _models[model].Dispose();
+            _models.Remove(model);
+        }
+
+        Scene = scene;
+        Upload();
+        for (var i = 0; i < _maps.Length; i++)
+        {
+            Detail.Move(i, _maps[i]);
+        }
+    }
 
     /// <summary>Where an object is now.</summary>
     /// <param name="index">Its place in the scene, from 0.</param>
@@ -153,6 +167,19 @@ public sealed class SceneRenderer : IDisposable
         }
 
         MeshPass.End();
+    }
+
+    /// <summary>Moves to the GPU what is not there yet.</summary>
+    private void Upload()
+    {
+        _transparent = new([.. Enumerable.Range(0, Scene.Objects.Length).Where(i => Scene.Objects[i].Model.HasTransparentParts)]);
+        _textures.Upload(Context.Resources, Scene.Textures);
+        foreach (var model in Scene.Models.Where(model => !_models.ContainsKey(model)))
+        {
+            _models.Add(model, new(Context.Resources, model));
+        }
+
+        _detail = new(Context.Resources, Scene, _models);
     }
 
     private void Choose(View view, (int Width, int Height) size, double aspect, BoundingBox bounds, RenderSettings settings)

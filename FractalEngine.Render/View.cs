@@ -110,6 +110,29 @@ public sealed record View(Camera Camera, Projection Projection)
         return Projection == Projection.Perspective ? (Math.Max(near, NearToFar * far), far) : (Math.Max(near, 0), far);
     }
 
+    /// <summary>False for a box that certainly lies outside the picture: behind the camera, or beyond one of the picture's edges.</summary>
+    /// <param name="box">World space; infinite ones are seen from everywhere.</param>
+    /// <param name="aspect">Width divided by height of the picture.</param>
+    public bool MaySee(BoundingBox box, double aspect)
+    {
+        if (box.IsEmpty || !box.Size.IsFinite())
+        {
+            return !box.IsEmpty;
+        }
+
+        var axes = Camera.LocalAxesInverse;
+        var (centre, half) = (Camera.Map(box.Centre), axes.Absolute() * (0.5 * box.Size));
+        var shown = Aspect ?? aspect;
+        if (Projection == Projection.Orthographic)
+        {
+            return centre.Z + half.Z > 0 && Math.Abs(centre.X) - half.X < 0.5 * OrthographicHeight * shown && Math.Abs(centre.Y) - half.Y < 0.5 * OrthographicHeight;
+        }
+
+        var slope = Camera.HalfHeightAtUnitDepth;
+        var depth = centre.Z + half.Z;
+        return depth > 0 && Math.Abs(centre.X) - half.X < slope * shown * depth && Math.Abs(centre.Y) - half.Y < slope * depth;
+    }
+
     /// <summary>True when no part of a box is nearer than the near plane: then it is seen from outside, and whole.</summary>
     internal bool IsBeyondNearPlane(BoundingBox box, BoundingBox bounds) =>
         DepthsOf(box) is var (middle, reach) && middle - reach > ClipPlanes(bounds).Near;

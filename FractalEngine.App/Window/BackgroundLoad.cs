@@ -8,19 +8,22 @@ namespace FractalEngine.App.Window;
 internal sealed class BackgroundLoad
 {
     private readonly LatestProgress _progress = new();
-    private readonly Task<(LoadedFile File, DrawableScene Drawable)> _task;
+    private readonly Task<(LoadedFile File, ScenePreparation Preparation)> _task;
 
     /// <summary>Starts at once.</summary>
     /// <param name="path">The file.</param>
     /// <param name="options">How to load it.</param>
     /// <param name="settings">How to prepare it.</param>
+    /// <param name="aspect">Width divided by height of the window: what is in sight at first is prepared.</param>
     /// <param name="completed">Called on the other thread when it is done, or has failed.</param>
-    public BackgroundLoad(string path, LoadOptions options, RenderSettings settings, Action completed)
+    public BackgroundLoad(string path, LoadOptions options, RenderSettings settings, double aspect, Action completed)
     {
         _task = Task.Run(() =>
         {
             var file = AssetLoader.Load(path, options, _progress);
-            return (file, DrawableScene.Prepare(file.Scene, settings, _progress));
+            var preparation = new ScenePreparation(file.Scene, settings);
+            preparation.PrepareInSight(View.Of(file.Scene, aspect), aspect, _progress);
+            return (file, preparation);
         });
         _task.ContinueWith(_ => completed(), TaskScheduler.Default);
     }
@@ -35,7 +38,7 @@ internal sealed class BackgroundLoad
     public (string Text, double Fraction) Progress => _progress.Latest;
 
     /// <summary>The result, or the exception that the load ended with.</summary>
-    public (LoadedFile File, DrawableScene Drawable) Take()
+    public (LoadedFile File, ScenePreparation Preparation) Take()
     {
         IsTaken = true;
         return _task.GetAwaiter().GetResult();

@@ -37,7 +37,9 @@ internal sealed class SceneWindow : IDisposable
     private RenderSettings _settings;
     private RenderSettings? _moving;
     private BackgroundLoad _load;
+    private readonly LatestProgress _preparingProgress = new();
     private Document? _document;
+    private Task? _preparing;
     private TimeSpan _advanced;
     private View? _next;
     private long _drawnFrames;
@@ -72,6 +74,7 @@ internal sealed class SceneWindow : IDisposable
     /// <inheritdoc/>
     public void Dispose()
     {
+        _preparing?.GetAwaiter().GetResult();
         _document?.Renderer.Dispose();
         _frame.Dispose();
         _window.Dispose();
@@ -87,6 +90,7 @@ internal sealed class SceneWindow : IDisposable
             }
 
             FinishLoading();
+            FinishPreparing();
             Advance();
             _isWindowStale |= _overlay.Expire(_clock.Elapsed);
             if (IsStale && _window.Width > 0 && _window.Height > 0 && !_isClosing)
@@ -102,6 +106,7 @@ internal sealed class SceneWindow : IDisposable
         IsStale ? TimeSpan.Zero
         : _document?.Controls.IsMoving == true ? Max(TimeSpan.Zero, FrameTime - (_clock.Elapsed - _advanced))
         : !_load.IsTaken ? ProgressInterval
+        : _preparing is not null ? ProgressInterval
         : _overlay.NextExpiry is { } expiry ? Max(TimeSpan.Zero, expiry - _clock.Elapsed)
         : Timeout.InfiniteTimeSpan;
 
@@ -110,7 +115,7 @@ internal sealed class SceneWindow : IDisposable
     private BackgroundLoad StartLoading(string path)
     {
         _window.Title = $"{Path.GetFileName(path)} - FractalEngine";
-        return new(path, _options, _settings, _window.Wake);
+        return new(path, _options, _settings, Aspect, _window.Wake);
     }
 
     private void FinishLoading()
@@ -130,8 +135,8 @@ internal sealed class SceneWindow : IDisposable
         (_overlay.Progress, _overlay.Error, _isWindowStale) = (null, null, true);
         try
         {
-            var (file, drawable) = _load.Take();
-            Open(file, drawable);
+            var (file, preparation) = _load.Take();
+            Open(file, preparation);
             _exitCode = ExitCode.Done;
         }
         catch (SourceException exception)
@@ -148,14 +153,62 @@ internal sealed class SceneWindow : IDisposable
         }
     }
 
-    private void Open(LoadedFile file, DrawableScene drawable)
+    /// <summary>Shows what has been prepared since it came in sight.</summary>
+    private void FinishPreparing()
     {
+        if (_preparing is null || _document is not { } document)
+        {
+            return;
+        }
+
+        if (!_preparing.IsCompleted)
+        {
+            _overlay.Progress = _preparingProgress.Latest;
+            _isWindowStale = true;
+            return;
+        }
+
+        _preparing.GetAwaiter().GetResult();
+        (_preparing, _overlay.Progress) = (null, null);
+        var (before, now) = (document.Renderer.Scene.Notices, document.Preparation.Scene.Notices);
+        document.Renderer.Update(document.Preparation.Scene);
+        foreach (var notice in now.Skip(before.Length))
+        {
+            Console.Error.WriteLine(notice);
+        }
+
+        _overlay.Describe(document.File, document.Preparation.Scene);
+        _isDrawingStale = true;
+    }
+
+    /// <summary>Begins to prepare what has come in sight.</summary>
+    private void PrepareInSight(Document document, View view)
+    {
+        if (_preparing is not null || document.Preparation.IsComplete || !document.Preparation.NeedsPreparation(view, Aspect))
+        {
+            return;
+        }
+
+        var (preparation, aspect) = (document.Preparation, Aspect);
+        _preparing = Task.Run(() =>
+        {
+            preparation.PrepareInSight(view, aspect, _preparingProgress);
+            _window.Wake();
+        });
+        _isWindowStale = true;
+    }
+
+    private void Open(LoadedFile file, ScenePreparation preparation)
+    {
+        var drawable = preparation.Scene;
+        _preparing?.GetAwaiter().GetResult();
+        _preparing = null;
         _document?.Renderer.Dispose();
         var scene = file.Scene.Scene;
         var view = View.Of(file.Scene, Aspect);
         var controls = new CameraControls(
             file.Scene.Bounds, view.Camera, _projection ?? scene.Projection, scene.OrthographicHeight, FractalIn(drawable));
-        _document = new(file, new(_window, drawable), controls)
+        _document = new(file, preparation, new(_window, drawable), controls)
         {
             Trail = file.Scene.Objects is [{ Model: FractalModel { Fractal: var fractal } }] ? new(fractal, _trailLength) : null,
         };
@@ -300,6 +353,11 @@ internal sealed class SceneWindow : IDisposable
             _frame.Draw(_document?.Renderer, view, _window.Width, _window.Height, _settings);
         }
 
+        if (_document is not null)
+        {
+            PrepareInSight(_document, view);
+        }
+
         _drawnFrames++;
         if (_document is not null)
         {
@@ -362,7 +420,7 @@ internal sealed class SceneWindow : IDisposable
     }
 
     /// <summary>What the window shows.</summary>
-    private sealed record Document(LoadedFile File, SceneRenderer Renderer, CameraControls Controls)
+    private sealed record Document(LoadedFile File, ScenePreparation Preparation, SceneRenderer Renderer, CameraControls Controls)
     {
         /// <summary>Where the first object stands.</summary>
         public AffineMap Placement => File.Scene.Objects[0].Map;

@@ -8,11 +8,11 @@ internal sealed class TextureSet : IDisposable
 {
     private readonly Dictionary<DrawableTexture, PictureTexture> _textures = new(ReferenceEqualityComparer.Instance);
 
-    /// <summary>Uploads pictures.</summary>
+    /// <summary>Uploads the pictures that are not there yet.</summary>
     /// <exception cref="GlException">One is beyond the driver, or the memory does not suffice. Those before it stay until all are disposed.</exception>
     public void Upload(GlResources resources, IEnumerable<DrawableTexture> textures)
     {
-        foreach (var texture in textures)
+        foreach (var texture in textures.Where(texture => !_textures.ContainsKey(texture)))
         {
             _textures.Add(texture, new(resources, texture.Name, texture.Image));
         }

@@ -64,6 +64,9 @@ public sealed class DrawableModel
     /// <summary>As <see cref="SolidSign"/>, of the mesh alone.</summary>
     internal int MeshSolidSign { get; init; }
 
+    /// <summary>True for a box that stands for a model which is not prepared yet.</summary>
+    public bool IsPlaceholder { get; init; }
+
     /// <summary>How many copies of the mesh one draw call makes; none where that depends on the picture.</summary>
     public int InstanceCount => Instances.Length / InstanceFloats;
 

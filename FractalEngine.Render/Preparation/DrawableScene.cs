@@ -55,22 +55,18 @@ public sealed class DrawableScene
         IProgress<PreparationProgress>? progress = null,
         CancellationToken cancellation = default)
     {
-        var models = new Dictionary<Model, DrawableModel>(ReferenceEqualityComparer.Instance);
-        var notices = ImmutableArray.CreateBuilder<string>();
-        var textures = new TextureCache(notices);
-        var sources = scene.Models.ToArray();
-        foreach (var model in sources)
-        {
-            cancellation.ThrowIfCancellationRequested();
-            var name = Path.GetFileName(model.Path);
-            progress?.Report(new(name, (double)models.Count / sources.Length));
-            models.Add(model, PrepareModel(name, model, settings, textures, notices));
-            progress?.Report(new(name, (double)models.Count / sources.Length));
-        }
+        var preparation = new ScenePreparation(scene, settings);
+        preparation.PrepareAll(progress, cancellation);
+        return preparation.Scene;
+    }
 
+    /// <summary>A scene whose models are boxes.</summary>
+    internal static DrawableScene Outline(LoadedScene scene)
+    {
+        var models = scene.Models.ToDictionary(model => model, Placeholder, ReferenceEqualityComparer.Instance as IEqualityComparer<Model>);
         return new(
             scene,
-            [.. sources.Select(model => models[model])],
+            [.. scene.Models.Select(model => models[model])],
             [.. scene.Objects.Select((placed, index) => new DrawableObject(
                 placed.Declaration.Name ?? models[placed.Model].Name,
                 models[placed.Model],
@@ -80,16 +76,24 @@ public sealed class DrawableScene
                 Tint = placed.Declaration.Colour ?? Colour.White,
                 Gradient = placed.Declaration.Gradient,
             })],
-            notices.ToImmutable())
-        {
-            Textures = [.. textures.Textures],
-        };
+            []);
     }
 
-    private static DrawableModel PrepareModel(
-        string name, Model model, RenderSettings settings, TextureCache textures, ImmutableArray<string>.Builder notices)
+    /// <summary>The scene with one of its models in the place of another.</summary>
+    internal DrawableScene With(DrawableModel before, DrawableModel now, ImmutableArray<DrawableTexture> textures, ImmutableArray<string> notices) => new(
+        Source,
+        [.. Models.Select(model => model == before ? now : model)],
+        [.. Objects.Select(item => item.Model == before ? item with { Model = now } : item)],
+        notices)
     {
-        var mesh = model.Mesh;
+        Textures = textures,
+    };
+
+    /// <summary>Prepares one model.</summary>
+    internal static DrawableModel PrepareModel(
+        Model model, RenderSettings settings, TextureCache textures, ImmutableArray<string>.Builder notices)
+    {
+        var (name, mesh) = (Path.GetFileName(model.Path), model.Mesh);
         if (mesh.FaceCount == 0)
         {
             return new(name, Vector.Zero, BoundingBox.Empty, [], [], []);
@@ -122,6 +126,29 @@ public sealed class DrawableScene
             MeshSolidSign = meshSign,
             SolidSign = meshSign * commonSign,
         };
+    }
+
+    /// <summary>The box that stands for a model until it is prepared.</summary>
+    private static DrawableModel Placeholder(Model model)
+    {
+        var (name, box) = (Path.GetFileName(model.Path), model.Bounds);
+        if (model.Mesh.FaceCount == 0 || box.IsEmpty || !box.Size.IsFinite())
+        {
+            return new(name, Vector.Zero, BoundingBox.Empty, [], [], []) { IsPlaceholder = true };
+        }
+
+        var mesh = BoxMesh(box);
+        var batches = FaceBatches.Of(mesh);
+        var (vertices, _, indices) = DrawableMeshBuilder.Build(mesh, box.Centre, 0, batches);
+        return new(name, box.Centre, box, vertices, indices, Rows([AffineMap.Identity], box.Centre, box.Centre)) { Batches = batches.Batches, IsPlaceholder = true };
+    }
+
+    private static Mesh BoxMesh(BoundingBox box)
+    {
+        var ((x1, y1, z1), (x2, y2, z2)) = (box.Minimum, box.Maximum);
+        return new(
+            [x1, y1, z1, x2, y1, z1, x1, y2, z1, x2, y2, z1, x1, y1, z2, x2, y1, z2, x1, y2, z2, x2, y2, z2],
+            [0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 4, 2, 4, 6, 2, 1, 3, 5, 3, 7, 5, 2, 6, 3, 3, 6, 7, 0, 1, 4, 1, 5, 4]);
     }
 
     /// <summary>The levels that instances are chosen from; null where they have no bounds, so that instances must be written out.</summary>

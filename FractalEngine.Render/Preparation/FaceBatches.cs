@@ -21,6 +21,9 @@ internal sealed class FaceBatches
     /// <param name="place">From 0.</param>
     public int FaceAt(int place) => _order is null ? place : _order[place];
 
+    /// <summary>All faces in one batch, without a material.</summary>
+    public static FaceBatches Of(Mesh mesh) => new([new(0, mesh.Faces.Length, null)], null);
+
     /// <summary>Sorts the faces; those of one material keep their order.</summary>
     /// <param name="model">With its materials.</param>
     /// <param name="textures">Has or decodes their pictures.</param>

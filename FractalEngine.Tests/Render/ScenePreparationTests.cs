@@ -1,0 +1,91 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
+using FractalEngine.Render.Preparation;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Render;
+
+[Collection(GlTests.Name)]
+public sealed class ScenePreparationTests
+{
+    // The camera is at (0, 0, −5) and looks along z: the first is before it, the second behind, and shown twice.
+    private static readonly Model Before = RenderScenes.Model(RenderScenes.Ball(8), "before.obj");
+    private static readonly Model Behind = RenderScenes.Model(RenderScenes.Ball(6), "behind.obj");
+    private static readonly LoadedScene Scene = RenderScenes.Scene(
+        new Scene(), (Before, Transformation.Identity, null), (Behind, RenderScenes.At(0, 0, -12), null), (Behind, RenderScenes.At(3, 0, -12), null));
+
+    private static readonly View Back = new(Camera.Default with { Rotation = new(0, Math.PI, 0) }, Projection.Perspective);
+
+    [Fact]
+    public void PrepareInSight_OfWhatIsBehindTheCamera_LeavesABox()
+    {
+        var preparation = new ScenePreparation(Scene, new());
+        Assert.True(preparation.NeedsPreparation(RenderScenes.FrontView, 1.5));
+        Assert.True(preparation.PrepareInSight(RenderScenes.FrontView, 1.5));
+        Assert.Equal([false, true], preparation.Scene.Models.Select(model => model.IsPlaceholder));
+        Assert.Equal(12, preparation.Scene.Models[1].Indices.Length / 3);
+        Assert.False(preparation.IsComplete);
+        Assert.False(preparation.NeedsPreparation(RenderScenes.FrontView, 1.5));
+        Assert.False(preparation.PrepareInSight(RenderScenes.FrontView, 1.5));
+    }
+
+    [Fact]
+    public void PrepareInSight_AfterTurningRound_PreparesEachFileOnce()
+    {
+        var preparation = new ScenePreparation(Scene, new());
+        preparation.PrepareInSight(RenderScenes.FrontView, 1.5);
+        var first = preparation.Scene.Models[0];
+        Assert.True(preparation.NeedsPreparation(Back, 1.5));
+        Assert.True(preparation.PrepareInSight(Back, 1.5));
+        Assert.True(preparation.IsComplete);
+        Assert.Same(first, preparation.Scene.Models[0]);
+        Assert.Same(preparation.Scene.Objects[1].Model, preparation.Scene.Objects[2].Model);
+        Assert.All(preparation.Scene.Models, model => Assert.False(model.IsPlaceholder));
+    }
+
+    [SkippableFact]
+    public void Update_WithWhatCameInSight_DrawsAsIfPreparedAtOnce()
+    {
+        using var context = GlTests.Open();
+        using var frame = new FrameRenderer(context);
+        var preparation = new ScenePreparation(Scene, new());
+        preparation.PrepareInSight(RenderScenes.FrontView, 1.5);
+        using var renderer = new SceneRenderer(context, preparation.Scene);
+        renderer.Move(1, AffineMap.Translate(new(-1, 1, -11)));
+        frame.Draw(renderer, Back, 150, 100, new());
+        var box = frame.Capture();
+
+        preparation.PrepareInSight(Back, 1.5);
+        renderer.Update(preparation.Scene);
+        frame.Draw(renderer, Back, 150, 100, new());
+        var late = frame.Capture();
+        using var atOnce = new SceneRenderer(context, DrawableScene.Prepare(Scene, new()));
+        atOnce.Move(1, AffineMap.Translate(new(-1, 1, -11)));
+        frame.Draw(atOnce, Back, 150, 100, new());
+        Assert.Equal(frame.Capture().Pixels, late.Pixels);
+        Assert.NotEqual(late.Pixels, box.Pixels);
+        // The box is about the ball, so it covers more.
+        var background = late[0, 0];
+        Assert.True(RenderScenes.CountOther(box, background) > RenderScenes.CountOther(late, background));
+        context.Resources.ThrowOnError("drawing");
+    }
+
+    [Theory]
+    [InlineData(Projection.Perspective)]
+    [InlineData(Projection.Orthographic)]
+    public void MaySee_OfBoxesThatReachIntoThePicture_IsTrue(Projection projection) => Seeded.Run(300, random =>
+    {
+        var view = new View(new(random.Vector(3), random.Vector(3), 20 + (100 * random.NextDouble())), projection) { OrthographicHeight = 1 + (5 * random.NextDouble()) };
+        var (corner1, corner2) = (random.Vector(8), random.Vector(8));
+        var box = Core.Geometry.BoundingBox.Empty.Including(corner1).Including(corner2);
+        for (var i = 0; i < 20; i++)
+        {
+            var point = box.Minimum + box.Size.Stretch(new(random.NextDouble(), random.NextDouble(), random.NextDouble()));
+            if (view.Project(point, 300, 200) is var (x, y, depth) && depth > 0 && x is > 0 and < 300 && y is > 0 and < 200)
+            {
+                Assert.True(view.MaySee(box, 1.5), $"{point} of {box}");
+            }
+        }
+    });
+}
