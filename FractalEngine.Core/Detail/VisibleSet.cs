@@ -26,6 +26,7 @@ public sealed class VisibleSet
     private DetailSettings _settings = new();
     private DetailView _view;
     private int _budget;
+    private volatile bool _isOverBudget;
 
     /// <summary>An empty set.</summary>
     public VisibleSet()
@@ -64,26 +65,8 @@ public sealed class VisibleSet
         _budget = Math.Max(settings.InstanceBudget, objects.Count);
         _parallel.MaxDegreeOfParallelism = Math.Max(1, settings.Threads);
         Prepare();
-        while (true)
+        while (!TryFill())
         {
-            if (settings.Threads > 1)
-            {
-                Parallel.For(0, Strips, _parallel, _fillStrip);
-            }
-            else
-            {
-                for (var i = 0; i < Strips; i++)
-                {
-                    FillStrip(i);
-                }
-            }
-
-            Merge();
-            if (!IsOverBudget())
-            {
-                return;
-            }
-
             PixelSize = Math.Max(PixelSize, 1) * LeastCoarsening;
         }
     }
@@ -130,17 +113,29 @@ public sealed class VisibleSet
         return false;
     }
 
-    private bool IsOverBudget()
+    /// <summary>False where the budget did not suffice; then what was found is of no use.</summary>
+    private bool TryFill()
     {
-        foreach (var strip in _strips)
+        _isOverBudget = false;
+        if (_settings.Threads > 1)
         {
-            if (strip.IsOverBudget)
+            Parallel.For(0, Strips, _parallel, _fillStrip);
+        }
+        else
+        {
+            for (var i = 0; i < Strips; i++)
             {
-                return true;
+                FillStrip(i);
             }
         }
 
-        return InstanceCount > _budget;
+        if (_isOverBudget)
+        {
+            return false;
+        }
+
+        Merge();
+        return InstanceCount <= _budget;
     }
 
     /// <summary>Sorts the objects, the nearest first, so that they hide those behind.</summary>
@@ -173,6 +168,12 @@ public sealed class VisibleSet
 
     private void FillStrip(int index)
     {
+        // One strip too many is enough to begin again.
+        if (_isOverBudget)
+        {
+            return;
+        }
+
         var (strip, count) = (_strips[index], _objects.Count);
         strip.Begin(in _view, _settings, PixelSize, _budget, index * _view.Width / Strips, (index + 1) * _view.Width / Strips);
         for (var place = 0; place < count; place++)
@@ -182,6 +183,11 @@ public sealed class VisibleSet
             _ends[(index * count) + place] = strip.Rows.Count;
             _sharedEnds[(index * count) + place] = strip.Shared.Count;
             _isCut[(index * count) + place] = strip.IsCut;
+        }
+
+        if (strip.IsOverBudget)
+        {
+            _isOverBudget = true;
         }
     }
 
