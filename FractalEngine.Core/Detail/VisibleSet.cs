@@ -27,6 +27,8 @@ public sealed class VisibleSet
     private DetailSettings _settings = new();
     private DetailView _view;
     private int _budget;
+    private volatile bool _isOverBudget;
+    private int _found;
 
     /// <summary>An empty set.</summary>
     public VisibleSet()
@@ -146,23 +148,11 @@ public sealed class VisibleSet
         return false;
     }
 
-    private bool IsOverBudget()
-    {
-        foreach (var strip in _strips)
-        {
-            if (strip.IsOverBudget)
-            {
-                return true;
-            }
-        }
-
-        return InstanceCount > _budget;
-    }
-
     /// <summary>Chooses with so many steps of coarsening.</summary>
     /// <returns>False when there is more than the budget.</returns>
     private bool TryFill(int step)
     {
+        (_isOverBudget, _found) = (false, 0);
         PixelSize = step == 0 ? _settings.PixelSize : Math.Max(_settings.PixelSize, 1) * Math.Pow(Coarsening, step);
         if (_settings.Threads > 1)
         {
@@ -176,8 +166,13 @@ public sealed class VisibleSet
             }
         }
 
+        if (_isOverBudget)
+        {
+            return false;
+        }
+
         Merge();
-        return !IsOverBudget();
+        return InstanceCount <= _budget;
     }
 
     /// <summary>Sorts the objects, the nearest first, so that they hide those behind.</summary>
@@ -210,6 +205,12 @@ public sealed class VisibleSet
 
     private void FillStrip(int index)
     {
+        // One strip too many is enough to begin again.
+        if (_isOverBudget)
+        {
+            return;
+        }
+
         var (strip, count) = (_strips[index], _objects.Count);
         strip.Begin(in _view, _settings, PixelSize, _budget, index * _view.Width / Strips, (index + 1) * _view.Width / Strips);
         for (var place = 0; place < count; place++)
@@ -219,6 +220,11 @@ public sealed class VisibleSet
             _ends[(index * count) + place] = strip.Rows.Count;
             _sharedEnds[(index * count) + place] = strip.Shared.Count;
             _isCut[(index * count) + place] = strip.IsCut;
+        }
+
+        if (Interlocked.Add(ref _found, strip.Rows.Count) > _budget || strip.IsOverBudget)
+        {
+            _isOverBudget = true;
         }
     }
 

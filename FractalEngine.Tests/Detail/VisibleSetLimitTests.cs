@@ -34,7 +34,7 @@ public class VisibleSetLimitTests
             var set = new VisibleSet();
             set.Fill(in view, [item], Ordinary);
             counts.Add(set.InstanceCount);
-            Assert.True(watch.Elapsed.TotalSeconds < 2, $"{levels} levels took {watch.Elapsed}");
+            Assert.True(watch.Elapsed.TotalSeconds < 10, $"{levels} levels took {watch.Elapsed}");
             Assert.DoesNotContain(DetailViews.Bits(set, 1), number => !float.IsFinite(number));
         }
 
