@@ -13,9 +13,10 @@ namespace FractalEngine.Benchmarks;
 internal sealed record FractalCase(string Name, Fractal Fractal)
 {
     /// <summary>
-    /// Beside those of the assets: three branches of 0.6, each leaning another way; and four maps of which none keeps shapes, like a fern's.
+    /// Beside those of the assets: three branches of 0.6, each leaning another way; four maps of which none keeps shapes, like a fern's; and a tree that
+    /// keeps its trunk at each level by the identity, so that most of its chains are the same instance.
     /// </summary>
-    private static readonly string[] Written = ["three-branches", "four-fronds"];
+    private static readonly string[] Written = ["three-branches", "four-fronds", "binary-tree"];
 
     /// <summary>The names there are.</summary>
     public static IEnumerable<string> Names =>
@@ -39,6 +40,7 @@ internal sealed record FractalCase(string Name, Fractal Fractal)
         {
             "three-branches" => new(ThreeBranches, Mesh("hexagonal-pyramid")),
             "four-fronds" => new(FourFronds, Mesh("hexagonal-pyramid")),
+            "binary-tree" => new(BinaryTree, Mesh("hexagonal-pyramid")),
             _ => ((FractalModel)Model("fractals", name + ".fdo")).Fractal,
         };
         return depth is { } count && fractal.Description.HasDepth
@@ -56,6 +58,11 @@ internal sealed record FractalCase(string Name, Fractal Fractal)
         new(new(0, 0.16, 0), new(10, 20, 52), new(0.3, 0.34, 0.25)),
         new(new(0, 0.05, 0), new(-10, -20, -49), new(-0.28, 0.37, 0.3)),
         new(new(0, 0, 0), new(0, 0, 0), new(0.05, 0.2, 0.05)));
+
+    private static FractalDescription BinaryTree { get; } = Repeated(
+        Transformation.Identity,
+        new(new(0, 0.7, 0), new(0, 70, 24), 0.76 * Vector.One),
+        new(new(0, 0.8, 0), new(0, -40, -31), 0.7 * Vector.One));
 
     private static FractalDescription Repeated(params Transformation[] maps) => new("base.obj", [new Repetition([new TransformationSet([.. maps])], 5)]);
 

@@ -47,8 +47,7 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
             ("- hidden", detail with { SkipsHidden = false }),
             ("- outside", detail with { SkipsOutside = false }),
             ("- one thread", detail with { Threads = 1 }),
-            ("1 pixel", detail with { PixelSize = 1 }),
-            ("2 pixels", detail with { PixelSize = 2 }),
+            ("- size", detail with { PixelSize = 0 }),
             ("3 pixels", detail with { PixelSize = 3 }),
         ];
         foreach (var (name, variant) in variants)

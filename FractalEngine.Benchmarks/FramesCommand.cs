@@ -1,4 +1,5 @@
 using System.Globalization;
+using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.Benchmarks;
 
@@ -12,7 +13,7 @@ internal static class FramesCommand
 
     private static readonly string[] Default =
     [
-        "menger:5:afar", "menger:5:close", "menger:5:inside", "sierpinski:12:afar", "appendix-b-structure:5:afar", "tree:14:afar",
+        "menger:5:afar", "menger:5:close", "menger:5:inside", "tetrahedron:12:afar", "appendix-b-structure:5:afar", "binary-tree:14:afar",
         "menger:20:afar", "menger:1000000:afar", "infinite-menger:inside",
     ];
 
@@ -39,9 +40,20 @@ internal static class FramesCommand
             }
         }
 
-        new FrameTable(rounds, samples, withTruth, Console.Out).Write((names.Count > 0 ? names : [.. Default]).Select(FrameCase.Parse));
-        return 0;
+        try
+        {
+            Write(rounds, samples, withTruth, names);
+            return 0;
+        }
+        catch (GraphicsUnavailableException exception)
+        {
+            Console.Error.WriteLine($"error: {exception.Message}");
+            return 3;
+        }
     }
+
+    private static void Write(int rounds, int samples, bool withTruth, List<string> names) =>
+        new FrameTable(rounds, samples, withTruth, Console.Out).Write((names.Count > 0 ? names : [.. Default]).Select(FrameCase.Parse));
 
     private static bool IsCase(string text) => text.Split(':') switch
     {

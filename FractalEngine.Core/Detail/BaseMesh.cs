@@ -6,7 +6,7 @@ namespace FractalEngine.Core.Detail;
 /// <summary>The corners of a base mesh as single floats about its middle, for drawing it into a <see cref="CoverageBuffer"/>.</summary>
 internal sealed class BaseMesh
 {
-    /// <summary>Meshes of more faces cover others, but are not drawn to find out by how much.</summary>
+    /// <summary>Meshes of more faces take too long to draw here: they hide nothing, and are themselves left out only with their boxes.</summary>
     public const int MostFaces = 256;
 
     private const int Lanes = 8;

@@ -18,10 +18,13 @@ public sealed class DetailTable
     private readonly StateRegion[] _regions;
 
     private DetailTable(DetailState[] states, StateRegion[] regions, long levels, Mesh mesh) =>
-        (_states, _regions, Levels, Mesh) = (states, regions, levels, mesh);
+        (_states, _regions, Levels, Mesh, Base) = (states, regions, levels, mesh, new(mesh));
 
     /// <summary>What every instance is a copy of.</summary>
     public Mesh Mesh { get; }
+
+    /// <summary>The same, for drawing it into a <see cref="CoverageBuffer"/>.</summary>
+    internal BaseMesh Base { get; }
 
     /// <summary>The levels of the whole fractal; a huge number where they are infinitely many.</summary>
     internal long Levels { get; }

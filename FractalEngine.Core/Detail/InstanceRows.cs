@@ -11,6 +11,9 @@ internal sealed class InstanceRows
     /// <summary>Of one instance.</summary>
     public const int Floats = 12;
 
+    // Grows by one in so many: what is kept is mostly used.
+    private const int Slack = 4;
+
     private readonly bool _hasPaths;
     private float[] _rows = new float[64 * Floats];
     private float[] _tints = [];
@@ -91,7 +94,7 @@ internal sealed class InstanceRows
     {
         if (Count == _rows.Length / Floats)
         {
-            Array.Resize(ref _rows, 2 * _rows.Length);
+            Array.Resize(ref _rows, (Count + (Count / Slack) + 16) * Floats);
         }
 
         if (_hasPaths && _paths.Length < _rows.Length / Floats)

@@ -19,6 +19,10 @@ internal sealed class StripSearch
     private const float SubPixel = 256;
     private const int Finer = 2;
 
+    // Of a whole budget, in one strip.
+    private const int NodesPerInstance = 4;
+    private const int LeastNodes = 20_000;
+
     // Left, right, top, bottom, nearness and depth of each copy.
     private const int EdgeRows = 6;
 
@@ -88,20 +92,19 @@ internal sealed class StripSearch
         _toWorld = new(new AffineMap(view.Axes, Vector.Zero));
         _coverage.Clear(finer * left, finer * right, finer * view.Height, settings.HasSamples);
         (_least, _most) = settings.HasSamples ? (0.25f - Widened, 0.75f + Widened) : (0.5f - Widened, 0.5f + Widened);
-        _mostNodes = 64L * budget;
+        _mostNodes = NodesPerInstance * (long)Math.Max(budget, LeastNodes);
         Rows.Clear();
         Shared.Clear();
     }
 
     /// <summary>Chooses what is drawn of an object.</summary>
     /// <param name="item">The object; the nearest is asked first.</param>
-    /// <param name="mesh">Its base mesh.</param>
-    public void Add(DetailObject item, BaseMesh mesh)
+    public void Add(DetailObject item)
     {
-        (_object, _mesh, _origin, _top, IsCut) = (item, mesh, AffineLanes.Of(item.Origin), 0, false);
-        if (_screenX.Length < mesh.Padded)
+        (_object, _mesh, _origin, _top, IsCut) = (item, item.Table.Base, AffineLanes.Of(item.Origin), 0, false);
+        if (_screenX.Length < _mesh.Padded)
         {
-            (_screenX, _screenY, _nearness) = (new float[mesh.Padded], new float[mesh.Padded], new float[mesh.Padded]);
+            (_screenX, _screenY, _nearness) = (new float[_mesh.Padded], new float[_mesh.Padded], new float[_mesh.Padded]);
         }
 
         var toView = _view.Axes.Inverse();

@@ -8,10 +8,11 @@ public sealed class VisibleSet
 {
     // A number that does not depend on the machine, so that neither does the result.
     private const int Strips = 8;
+    // Steps are three times as long from the fifth on: what is far from fitting takes long to look at.
     private const double Coarsening = 1.5;
+    private const int FineSteps = 4;
 
     private readonly StripSearch[] _strips = new StripSearch[Strips];
-    private readonly Dictionary<DetailTable, BaseMesh> _meshes = [];
     private readonly InstanceRows _shared = new(hasPaths: false);
     private readonly HashSet<(int, ulong)> _seen = [];
     private readonly ParallelOptions _parallel = new();
@@ -153,7 +154,7 @@ public sealed class VisibleSet
     private bool TryFill(int step)
     {
         (_isOverBudget, _found) = (false, 0);
-        PixelSize = step == 0 ? _settings.PixelSize : Math.Max(_settings.PixelSize, 1) * Math.Pow(Coarsening, step);
+        PixelSize = step == 0 ? _settings.PixelSize : Math.Max(_settings.PixelSize, 1) * Math.Pow(Coarsening, step + Math.Max(0, 2 * (step - FineSteps)));
         if (_settings.Threads > 1)
         {
             Parallel.For(0, Strips, _parallel, _fillStrip);
@@ -194,10 +195,6 @@ public sealed class VisibleSet
             var item = _objects[i];
             var box = item.Table.At(item.Table.Levels).Box;
             (_order[i], _keys[i]) = (i, box.IsEmpty ? 0 : ((item.Map * box.Centre) - _view.Position).LengthSquared());
-            if (!_meshes.ContainsKey(item.Table))
-            {
-                _meshes.Add(item.Table, new(item.Table.Mesh));
-            }
         }
 
         _keys.AsSpan(0, count).Sort(_order.AsSpan(0, count));
@@ -216,7 +213,7 @@ public sealed class VisibleSet
         for (var place = 0; place < count; place++)
         {
             var item = _objects[_order[place]];
-            strip.Add(item, _meshes[item.Table]);
+            strip.Add(item);
             _ends[(index * count) + place] = strip.Rows.Count;
             _sharedEnds[(index * count) + place] = strip.Shared.Count;
             _isCut[(index * count) + place] = strip.IsCut;

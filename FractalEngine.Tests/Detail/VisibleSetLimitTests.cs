@@ -56,7 +56,7 @@ public class VisibleSetLimitTests
     [InlineData(0.99, 3, 3000, 20_000)]
     [InlineData(0.9, 3, 3000, 20_000)]
     [InlineData(0.9, 3, 3000, 1_000_000)]
-    public void Fill_OfSeveralMapsThatHardlyShrink_EndsSoon(double factor, int maps, int depth, int budget) => FillHardlyShrinking(factor, maps, depth, budget, 2);
+    public void Fill_OfSeveralMapsThatHardlyShrink_EndsSoon(double factor, int maps, int depth, int budget) => FillHardlyShrinking(factor, maps, depth, budget, 20);
 
     private static void FillHardlyShrinking(double factor, int maps, int depth, int budget, double seconds)
     {
