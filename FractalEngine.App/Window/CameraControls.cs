@@ -28,8 +28,8 @@ internal sealed class CameraControls
     // Of the distance to what is nearest.
     private const double NearestPart = 0.02;
 
-    // Sub-fractals around the one that the camera is in; 30 levels further out nothing is seen that is not seen nearer.
-    private const int Ancestors = 30;
+    // Sub-fractals around the one that the camera is in, of which those too large to be told are left out; of maps that hardly shrink there are many.
+    private const int Ancestors = 1000;
 
     // A key that is only tapped, and may be up again before time is told, moves as far as one that is held so long.
     private static readonly TimeSpan Tap = TimeSpan.FromSeconds(0.05);
@@ -246,8 +246,9 @@ internal sealed class CameraControls
     {
         if (_address is not null)
         {
-            // Towards what is near, however small it is.
-            _focusDistance = Math.Min(_focusDistance, Math.Max(1, factor) * ZoomDistances * _address.NearestDistance());
+            // Towards what is near, however small it is; and away from it by as much.
+            var limit = Math.Max(1, factor) * ZoomDistances * _address.NearestDistance();
+            _focusDistance = factor > 1 && _address.Depth > 0 ? limit : Math.Min(_focusDistance, limit);
         }
 
         Move(CameraNavigation.Zoom(_pose.Camera, Focus, factor));

@@ -23,11 +23,17 @@ public sealed class FractalAddress
     private const double Fine = 0.1;
     private const int MostParts = 2000;
 
+    // In the present unit: of what is larger nothing is seen that is not seen nearer.
+    private const double Outermost = 1e15;
+
     // Of the determinant, for a largest entry of 1.
     private const double Thinnest = 1e-8;
 
-    // Further levels are below the last place of a coordinate, unless they hardly shrink.
-    private const int WorldLevels = 200;
+    // Of the whole: smaller sub-fractals are below the last place of a coordinate.
+    private const double LastPlace = 1e-17;
+
+    // What is near may be part of any of those further out, up to where they are too large to come into it.
+    private const int NearAncestors = 30;
 
     private readonly DetailTable _table;
     private readonly List<int> _path = [];
@@ -71,7 +77,7 @@ public sealed class FractalAddress
     }
 
     /// <summary>What drawing begins with: the sub-fractal itself, and the other parts of those that it is in.</summary>
-    /// <param name="ancestors">How many of these; what is further out is not drawn.</param>
+    /// <param name="ancestors">How many of these at most; what is further out, or 10¹⁵ times as large as the present unit, is not drawn.</param>
     public ImmutableArray<DetailRoot> Roots(int ancestors)
     {
         var roots = ImmutableArray.CreateBuilder<DetailRoot>();
@@ -81,7 +87,7 @@ public sealed class FractalAddress
         {
             var state = _table.At(_levels[i]);
             map *= state.Maps[_path[i]].ToMap().Inverse();
-            if (!map.IsFinite() || map.Linear.MaximumEntry() > 1e30)
+            if (!map.IsFinite() || map.Linear.MaximumEntry() > Outermost)
             {
                 break;
             }
@@ -103,10 +109,10 @@ public sealed class FractalAddress
     /// <param name="placement">The object's matrix m.</param>
     public Vector WorldPosition(AffineMap placement)
     {
-        var (map, depth) = (placement, Math.Min(Depth, WorldLevels));
-        for (var i = 0; i < depth; i++)
+        var (map, depth, least) = (placement, 0, LastPlace * _table.At(_table.Levels).Box.Transform(placement).Diagonal);
+        for (; depth < Depth && _table.At(_levels[depth]).Box.Transform(map).Diagonal > least; depth++)
         {
-            map *= _table.At(_levels[i]).Maps[_path[i]].ToMap();
+            map *= _table.At(_levels[depth]).Maps[_path[depth]].ToMap();
         }
 
         return map * (depth == Depth ? _about.Inverse() * Vector.Zero : _table.At(_levels[depth]).Box.Centre);
@@ -116,7 +122,7 @@ public sealed class FractalAddress
     public double NearestDistance()
     {
         _open.Clear();
-        foreach (var root in Roots(3))
+        foreach (var root in Roots(NearAncestors))
         {
             Open(root.Levels, root.Map);
         }

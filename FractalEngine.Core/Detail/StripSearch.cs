@@ -224,16 +224,17 @@ internal sealed class StripSearch
             var childState = _object.Table.At(below);
             var childMap = AffineLanes.Compose(in map, in state.Maps[child]);
             var childDepth = depth + 1;
+            var childPath = path.Then(child, depth, state.Indices[child], count, _object.Gradient);
             while (childState.Maps.Length == 1 && childDepth < Deepest)
             {
                 // Nothing to choose: the same seen more closely.
                 childMap = AffineLanes.Compose(in childMap, in childState.Maps[0]);
+                childPath = childPath.Then(0, childDepth, childState.Indices[0], 1, _object.Gradient);
                 below = childState.Downs[0] < 0 ? ~childState.Downs[0] : below - childState.Downs[0];
                 childState = _object.Table.At(below);
                 childDepth++;
             }
 
-            var childPath = path.Then(child, depth, state.Indices[child], count, _object.Gradient);
             if (footprint.IsUnsure)
             {
                 footprint = FootprintOf(childMap.Apply(childState.Centre), childMap.HalfSizeOf(childState.HalfSize));

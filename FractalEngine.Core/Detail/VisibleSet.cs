@@ -112,7 +112,8 @@ public sealed class VisibleSet
     public ReadOnlySpan<float> Tints(int item, int part)
     {
         var (start, end) = RangeOf(item, part);
-        return (part < Strips ? _strips[part].Rows : _shared).Tints[start..end];
+        // Where there are none, the list may be shorter than what comes before them.
+        return start == end ? [] : (part < Strips ? _strips[part].Rows : _shared).Tints[start..end];
     }
 
     /// <summary>How many instances are drawn of an object.</summary>

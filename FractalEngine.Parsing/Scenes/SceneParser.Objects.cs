@@ -102,7 +102,7 @@ public sealed partial class SceneParser
         gradient = new(kind, default);
         if (kind == GradientKind.None)
         {
-            return Fail(cursor, "'level' or 'path'");
+            return false;
         }
 
         var success = ParseColour(rest, out var colour, out rest);

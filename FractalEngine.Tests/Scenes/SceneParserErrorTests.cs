@@ -60,6 +60,12 @@ public class SceneParserErrorTests
     [InlineData("light ambient (1, 1, 1) -1", 25, "the intensity of a light must not be negative")]
     [InlineData("light point (0, 0, 0) (1, 1, 1) 1 0", 35, "the range of a light must be positive")]
     [InlineData("light spot (0, 0, 0) (0, 0, 1) 180 (1, 1, 1) 1 1", 32, "the angle of the cone must lie between 0 and 180 degrees")]
+    [InlineData("o \"a.fdo\" # gradient", 21, "unexpected end of file, expected 'level' or 'path'")]
+    [InlineData("o \"a.fdo\" # gradient none (1, 1, 1)", 22, "unexpected 'none', expected 'level' or 'path'")]
+    [InlineData("o \"a.fdo\" # gradient (1, 1, 1)", 22, "unexpected '(', expected 'level' or 'path'")]
+    [InlineData("o \"a.fdo\" # gradient level", 27, "unexpected end of file, expected '('")]
+    [InlineData("o \"a.fdo\" # gradient path red", 27, "unexpected 'red', expected '('")]
+    [InlineData("o \"a.fdo\" # gradient level (1, 2, 1)", 28, "the components of a colour must lie between 0 and 1")]
     [InlineData("player (0, 0, 0) 1 1", 18, "the player's radius must be positive, and the height at least twice as much")]
     public void Line_ThatIsWrong_PointsAtTheFault(string line, int column, string message) => FailsAt(line, column, message);
 

@@ -74,6 +74,16 @@ public class SceneParserTests
     }
 
     [Fact]
+    public void Object_WithAGradient_HasIt()
+    {
+        Assert.Equal(new Gradient(GradientKind.Level, new(1, 0.5, 0)), Object("o \"a.fdo\" # gradient level (1, 0.5, 0)").Gradient);
+        var declared = Object("o \"a.fdo\" # colour (0, 0, 1) gradient path (1 .5 0) name \"x\"");
+        Assert.Equal(("x", new Colour(0, 0, 1), new Gradient(GradientKind.Path, new(1, 0.5, 0))), (declared.Name, declared.Colour, declared.Gradient));
+        Assert.Null(Object("o \"a.fdo\" # colour (0, 0, 1)").Gradient);
+        Assert.NotNull(Object("p \"a.fdo\" # 0.5 mass 2 gradient path (1, 1, 1)").Gradient);
+    }
+
+    [Fact]
     public void PhysicsObject_WithoutOptions_HasTheDefaults()
     {
         var body = Assert.IsType<PhysicsObject>(Object("p \"a.fdo\" # 0.5"));

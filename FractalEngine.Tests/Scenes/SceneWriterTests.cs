@@ -36,11 +36,12 @@ public class SceneWriterTests
 
     private static readonly Gen<SceneObject> Plain = Gen.Elements("a.obj", "../some folder/b.fdo").Zip(Placements, (file, placement) => new SceneObject(file, placement))
         .Zip(Names, (declared, name) => declared with { Name = name })
-        .Zip(Gen.OneOf(Gen.Constant<Colour?>(null), Colours.Select(colour => (Colour?)colour)), (declared, colour) => declared with { Colour = colour });
+        .Zip(Gen.OneOf(Gen.Constant<Colour?>(null), Colours.Select(colour => (Colour?)colour)), (declared, colour) => declared with { Colour = colour })
+        .Zip(Colours.Zip(Gen.Elements(GradientKind.None, GradientKind.Level, GradientKind.Path)), (declared, g) => declared with { Gradient = g.Item2 == GradientKind.None ? null : new(g.Item2, g.Item1) });
 
     private static readonly Gen<SceneObject> Bodies = Plain.Zip(Unit).Zip(AnyVector.Zip(Positive), (o, b) => (SceneObject)new PhysicsObject(o.Item1.File, o.Item1.Placement, o.Item2)
     {
-        Name = o.Item1.Name, Colour = o.Item1.Colour, Velocity = b.Item1, Mass = b.Item2, Collider = (ColliderKind)(b.Item2.GetHashCode() & 3),
+        Name = o.Item1.Name, Colour = o.Item1.Colour, Gradient = o.Item1.Gradient, Velocity = b.Item1, Mass = b.Item2, Collider = (ColliderKind)(b.Item2.GetHashCode() & 3),
     });
 
     private static readonly Gen<double> Intensity = Laws.AnyFinite.Select(Math.Abs);
