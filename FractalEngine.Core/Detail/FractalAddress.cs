@@ -10,7 +10,7 @@ namespace FractalEngine.Core.Detail;
 /// to a sub-fractal further in or further out, so that all numbers stay about 1 and nothing loses precision, however deep it goes.
 /// </summary>
 /// <remarks>
-/// Replaces the paper's m ← m·t (§4.3.2), which keeps one matrix and loses it at about level 50. Memory: 12 bytes a level, at most <see cref="FractalLimits.Depth"/> levels.
+/// Replaces the paper's m ← m·t (§4.3.2), which keeps one matrix and loses it at about level 50. Memory: 16 bytes a level, at most <see cref="FractalLimits.Depth"/> levels.
 /// Lengths are in a unit that changes with the depth; perspective shows the same in any unit.
 /// </remarks>
 public sealed class FractalAddress
@@ -23,11 +23,17 @@ public sealed class FractalAddress
     private const double Fine = 0.1;
     private const int MostParts = 2000;
 
+    // Of the sub-fractal's size: what is nearer than this has parts enough of its own to be told relative to one.
+    private const double Small = 0.02;
+    private const int Patience = 6;
+
     // In the present unit: of what is larger nothing is seen that is not seen nearer.
     private const double Outermost = 1e15;
 
     // Of the determinant, for a largest entry of 1.
     private const double Thinnest = 1e-8;
+
+    private const int ColouredLevels = 64;
 
     // Of the whole: smaller sub-fractals are below the last place of a coordinate.
     private const double LastPlace = 1e-17;
@@ -38,8 +44,12 @@ public sealed class FractalAddress
     private readonly DetailTable _table;
     private readonly List<int> _path = [];
     private readonly List<long> _levels = [];
+
+    // Of the maps that are not the identity, up to each depth.
+    private readonly List<int> _counts = [0];
     private readonly PriorityQueue<(long Levels, AffineMap Map), double> _open = new();
     private AffineMap _about;
+    private int _moves;
 
     /// <summary>A camera outside, at the top.</summary>
     /// <param name="table">Of the fractal.</param>
@@ -71,8 +81,15 @@ public sealed class FractalAddress
     public void Move(Vector step)
     {
         _about = _about with { Translation = _about.Translation - step };
-        while (TryLeave() || TryEnter())
+        var depth = Depth;
+        Settle();
+        // To look for what is nearest takes long; it matters only after the camera has come nearer for a while and nothing could be entered.
+        _moves = Depth == depth ? _moves + 1 : 0;
+        if (_moves == Patience)
         {
+            _moves = 0;
+            Change();
+            Settle();
         }
     }
 
@@ -81,7 +98,7 @@ public sealed class FractalAddress
     public ImmutableArray<DetailRoot> Roots(int ancestors)
     {
         var roots = ImmutableArray.CreateBuilder<DetailRoot>();
-        roots.Add(new(_levels[^1], _about));
+        roots.Add(new(_levels[^1], _about, WayTo(_path.Count)));
         var map = _about;
         for (var i = _path.Count - 1; i >= Math.Max(0, _path.Count - ancestors); i--)
         {
@@ -92,11 +109,13 @@ public sealed class FractalAddress
                 break;
             }
 
+            var way = WayTo(i);
             for (var child = 0; child < state.Maps.Length; child++)
             {
                 if (child != _path[i])
                 {
-                    roots.Add(new(Below(_levels[i], state.Downs[child]), map * state.Maps[child].ToMap()));
+                    roots.Add(new(
+                        Below(_levels[i], state.Downs[child]), map * state.Maps[child].ToMap(), way.Then(state.Indices[child], child, state.Maps.Length)));
                 }
             }
         }
@@ -118,7 +137,9 @@ public sealed class FractalAddress
         return map * (depth == Depth ? _about.Inverse() * Vector.Zero : _table.At(_levels[depth]).Box.Centre);
     }
 
-    /// <summary>About how far the nearest surface is, in the present unit: to a tenth, unless more than some thousand parts are about as near.</summary>
+    /// <summary>
+    /// About how far the nearest surface is, in the present unit: to a tenth, unless more than some thousand parts are about as near. To the box of the base mesh, where that is near.
+    /// </summary>
     public double NearestDistance()
     {
         _open.Clear();
@@ -151,6 +172,20 @@ public sealed class FractalAddress
     public double FarthestDistance(ImmutableArray<DetailRoot> roots) => roots.Max(root =>
         _table.At(root.Levels) is { IsEmpty: false, Box: var box } && box.Transform(root.Map) is var image ? image.Centre.Length() + image.Diagonal : 0);
 
+    /// <summary>What leads to the sub-fractal that so many copies of the path lead to.</summary>
+    private DetailWay WayTo(int depth)
+    {
+        // Further down the weights are below the last place of a colour.
+        var way = DetailWay.Start;
+        for (var i = 0; i < Math.Min(depth, ColouredLevels); i++)
+        {
+            var state = _table.At(_levels[i]);
+            way = way.Then(state.Indices[_path[i]], _path[i], state.Maps.Length);
+        }
+
+        return way with { Count = _counts[depth] };
+    }
+
     private static long Below(long levels, long down) => down < 0 ? ~down : levels - down;
 
     /// <summary>The distance of the camera from a box.</summary>
@@ -165,6 +200,13 @@ public sealed class FractalAddress
         }
     }
 
+    private void Settle()
+    {
+        while (TryLeave() || TryEnter())
+        {
+        }
+    }
+
     private bool TryLeave()
     {
         if (_path.Count == 0 || !(Distance(State.Box, _about.Inverse() * Vector.Zero) > Left * State.Box.Diagonal))
@@ -172,10 +214,7 @@ public sealed class FractalAddress
             return false;
         }
 
-        var copy = _path[^1];
-        _path.RemoveAt(_path.Count - 1);
-        _levels.RemoveAt(_levels.Count - 1);
-        Rebase(_about * State.Maps[copy].ToMap().Inverse());
+        Leave();
         return true;
     }
 
@@ -194,15 +233,116 @@ public sealed class FractalAddress
             }
         }
 
-        if (!(least <= Entered) || IsTooThin(_about.Linear * state.Maps[nearest].ToMap().Linear))
+        return least <= Entered && TryEnter(nearest);
+    }
+
+    private bool TryEnter(int child)
+    {
+        var state = State;
+        if (_path.Count >= FractalLimits.Depth || IsTooThin(_about.Linear * state.Maps[child].ToMap().Linear))
         {
             return false;
         }
 
-        _levels.Add(Below(_levels[^1], state.Downs[nearest]));
-        _path.Add(nearest);
-        Rebase(_about * state.Maps[nearest].ToMap());
+        _levels.Add(Below(_levels[^1], state.Downs[child]));
+        _path.Add(child);
+        _counts.Add(_counts[^1] + (state.Indices[child] < 0 ? 0 : 1));
+        Rebase(_about * state.Maps[child].ToMap());
         return true;
+    }
+
+    private void Leave()
+    {
+        var copy = _path[^1];
+        _path.RemoveAt(_path.Count - 1);
+        _levels.RemoveAt(_levels.Count - 1);
+        _counts.RemoveAt(_counts.Count - 1);
+        Rebase(_about * State.Maps[copy].ToMap().Inverse());
+    }
+
+    /// <summary>
+    /// Where copies overlap, what is nearest may be in another one than that which the camera is in, and far smaller than it: then the camera is told relative to that one.
+    /// </summary>
+    private void Change()
+    {
+        if (FindNearest(out var up, out var down) > Small * State.Box.Transform(_about).Diagonal || down.Count == 0)
+        {
+            return;
+        }
+
+        for (; up > 0; up--)
+        {
+            Leave();
+        }
+
+        foreach (var child in down)
+        {
+            if (_table.At(Below(_levels[^1], State.Downs[child])).Maps.Length == 0 || !TryEnter(child))
+            {
+                break;
+            }
+        }
+    }
+
+    /// <summary>Finds a part about as small as it is near.</summary>
+    /// <param name="up">How many copies to leave to come there.</param>
+    /// <param name="down">Then the copies to go into.</param>
+    /// <returns>Its distance.</returns>
+    private double FindNearest(out int up, out List<int> down)
+    {
+        var open = new PriorityQueue<(int Up, int Node), double>();
+        var nodes = new List<(int Parent, int Child, long Levels, AffineMap Map)>();
+        var map = _about;
+        for (var i = _path.Count; i >= Math.Max(0, _path.Count - NearAncestors); i--)
+        {
+            // What was left is a part of what it was left for, and would be met twice.
+            var left = i == _path.Count ? -1 : _path[i];
+            map = i == _path.Count ? map : map * _table.At(_levels[i]).Maps[_path[i]].ToMap().Inverse();
+            if (!map.IsFinite() || map.Linear.MaximumEntry() > Outermost)
+            {
+                break;
+            }
+
+            nodes.Add((-1, -1, _levels[i], map));
+            AddParts(_path.Count - i, nodes.Count - 1, left);
+        }
+
+        var (nearest, found) = (0.0, (Up: 0, Node: -1));
+        for (var parts = 0; parts < MostParts && open.TryDequeue(out found, out nearest); parts++)
+        {
+            var (_, _, levels, place) = nodes[found.Node];
+            var state = _table.At(levels);
+            if (state.Maps.Length == 0 || state.Box.Transform(place).Diagonal <= nearest)
+            {
+                break;
+            }
+
+            AddParts(found.Up, found.Node, -1);
+        }
+
+        (up, down) = (found.Up, []);
+        for (var node = found.Node; node >= 0 && nodes[node].Parent >= 0; node = nodes[node].Parent)
+        {
+            down.Insert(0, nodes[node].Child);
+        }
+
+        return nearest;
+
+        void AddParts(int copies, int parent, int left)
+        {
+            var (_, _, levels, place) = nodes[parent];
+            var state = _table.At(levels);
+            for (var child = 0; child < state.Maps.Length; child++)
+            {
+                var below = _table.At(Below(levels, state.Downs[child]));
+                if (child != left && !below.IsEmpty)
+                {
+                    var childMap = place * state.Maps[child].ToMap();
+                    nodes.Add((parent, child, Below(levels, state.Downs[child]), childMap));
+                    open.Enqueue((copies, nodes.Count - 1), Distance(below.Box.Transform(childMap), Vector.Zero));
+                }
+            }
+        }
     }
 
     /// <summary>

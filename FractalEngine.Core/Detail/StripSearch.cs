@@ -110,13 +110,13 @@ internal sealed class StripSearch
         var toView = _view.Axes.Inverse();
         if (item.Roots is not { } roots)
         {
-            VisitRoot(item.Table.Levels, new AffineMap(toView * item.Map.Linear, toView * (item.Map.Translation - _view.Position)), new(0, 0, 1));
+            VisitRoot(item.Table.Levels, new AffineMap(toView * item.Map.Linear, toView * (item.Map.Translation - _view.Position)), new(0, DetailWay.Start));
             return;
         }
 
         for (var i = 0; i < roots.Length; i++)
         {
-            VisitRoot(roots[i].Levels, new AffineMap(toView * roots[i].Map.Linear, toView * roots[i].Map.Translation), new((ulong)(i + 1) << 40, 0, 1));
+            VisitRoot(roots[i].Levels, new AffineMap(toView * roots[i].Map.Linear, toView * roots[i].Map.Translation), new((ulong)(i + 1) << 40, roots[i].Way));
         }
     }
 
@@ -431,7 +431,7 @@ internal sealed class StripSearch
         rows.Add(in inWorld, _origin, path.Number);
         if (_object.Gradient != GradientKind.None)
         {
-            rows.SetTint(path.Tint(_object.Gradient, _object.Table.Levels));
+            rows.SetTint(path.Way.Tint(_object.Gradient, _object.Table.Levels));
         }
     }
 
@@ -500,33 +500,15 @@ internal sealed class StripSearch
     private static bool IsMirrored(Vector256<double> v1, Vector256<double> v2, Vector256<double> v3) =>
         (v1[0] * ((v2[1] * v3[2]) - (v2[2] * v3[1]))) + (v1[1] * ((v2[2] * v3[0]) - (v2[0] * v3[2]))) + (v1[2] * ((v2[0] * v3[1]) - (v2[1] * v3[0]))) < 0;
 
-    /// <summary>The way to a sub-fractal: what tells it apart from others, and what its colour follows from.</summary>
-    private readonly record struct Trail(ulong Number, float Value, float Weight)
+    /// <summary>The way to a sub-fractal.</summary>
+    /// <param name="Number">What tells it apart from others.</param>
+    /// <param name="Way">What its colour follows from; not kept where it has none of its own.</param>
+    private readonly record struct Trail(ulong Number, DetailWay Way)
     {
-        private const int MostLevels = 12;
-
         /// <summary>One copy further.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public Trail Then(int child, int depth, int index, int count, GradientKind gradient)
-        {
-            var number = ((Number ^ (ulong)(child + 1)) * 0x9E3779B97F4A7C15UL) + (ulong)depth;
-            return gradient == GradientKind.None || index < 0 ? this with { Number = number }
-                : gradient == GradientKind.Level ? new(number, Value + 1, Weight)
-                : new(number, Value + (0.5f * Weight * child / Math.Max(1, count - 1)), 0.5f * Weight);
-        }
-
-        /// <summary>From 0 to 1.</summary>
-        public float Tint(GradientKind gradient, long levels)
-        {
-            if (gradient == GradientKind.Path)
-            {
-                return Value;
-            }
-
-            var most = (float)Math.Clamp(levels, 1, MostLevels);
-            var turn = Value % (2 * most) / most;
-            return turn <= 1 ? turn : 2 - turn;
-        }
+        public Trail Then(int child, int depth, int index, int count, GradientKind gradient) => new(
+            ((Number ^ (ulong)(child + 1)) * 0x9E3779B97F4A7C15UL) + (ulong)depth, gradient == GradientKind.None ? Way : Way.Then(index, child, count));
     }
 
     /// <summary>Where something appears in the picture.</summary>
