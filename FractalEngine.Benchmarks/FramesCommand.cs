@@ -13,7 +13,7 @@ internal static class FramesCommand
 
     private static readonly string[] Default =
     [
-        "menger:5:afar", "menger:5:close", "menger:5:inside", "tetrahedron:12:afar", "appendix-b-structure:5:afar", "binary-tree:14:afar",
+        "menger:5:afar", "menger:5:close", "menger:5:inside", "tetrahedron:12:afar", "appendix-b:5:afar", "appendix-b-structure:5:afar", "binary-tree:14:afar",
         "menger:20:afar", "menger:1000000:afar", "infinite-menger:inside",
     ];
 

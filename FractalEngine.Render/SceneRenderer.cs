@@ -148,16 +148,17 @@ public sealed class SceneRenderer : IDisposable
         _lights.Bind(MeshPass.LightBinding, view.Camera.Position, view.Zoom is { } zoom ? Math.Exp(Math.Min(-zoom.LogUnit, DeepestLight)) : 1);
         for (var i = 0; i < _blocks.Length; i++)
         {
-            MeshPass.LeaveOut(settings.Wireframe ? null : HiddenSide(i, view, bounds));
+            var hidden = settings.Wireframe ? null : HiddenSide(i, view, bounds);
+            MeshPass.LeaveOut(hidden);
             BindBlock(i, view);
             if (settings.Wireframe)
             {
-                _pass.Use(null, Colour.White);
+                _pass.Use(null, Colour.White, FeaturesOf(i, null));
                 DrawInstances(i, _models[Scene.Objects[i].Model].Everything);
             }
             else
             {
-                DrawBatches(i, areTransparent: false);
+                DrawBatches(i, areTransparent: false, FeaturesOf(i, hidden));
             }
         }
 
@@ -216,6 +217,9 @@ public sealed class SceneRenderer : IDisposable
         _blocks[index].Bind(MeshPass.ObjectBinding, shifted, item.Colour, item.Gradient?.To ?? item.Colour, view.Camera.Position);
     }
 
+    private MeshFeatures FeaturesOf(int index, bool? hiddenSide) =>
+        (Detail.Has(index) ? MeshFeatures.InWorld : MeshFeatures.None) | (hiddenSide == false ? MeshFeatures.FrontOnly : MeshFeatures.None);
+
     private void DrawInstances(int index, DrawableBatch batch)
     {
         if (Detail.Has(index))
@@ -229,7 +233,7 @@ public sealed class SceneRenderer : IDisposable
     }
 
     /// <summary>Draws those materials of an object that are opaque, or those that are not.</summary>
-    private void DrawBatches(int index, bool areTransparent)
+    private void DrawBatches(int index, bool areTransparent, MeshFeatures instances)
     {
         var item = Scene.Objects[index];
         foreach (ref readonly var batch in item.Model.Batches.AsSpan())
@@ -237,7 +241,7 @@ public sealed class SceneRenderer : IDisposable
             if (batch.IsTransparent == areTransparent)
             {
                 _textures.Bind(batch.Material);
-                _pass.Use(batch.Material, item.Tint);
+                _pass.Use(batch.Material, item.Tint, instances);
                 DrawInstances(index, batch);
             }
         }
@@ -255,9 +259,9 @@ public sealed class SceneRenderer : IDisposable
             BindBlock(index, view);
             var looksAway = _maps[index].Linear.Determinant() >= 0;
             MeshPass.LeaveOut(looksAway);
-            DrawBatches(index, areTransparent: true);
+            DrawBatches(index, areTransparent: true, FeaturesOf(index, null));
             MeshPass.LeaveOut(!looksAway);
-            DrawBatches(index, areTransparent: true);
+            DrawBatches(index, areTransparent: true, FeaturesOf(index, null));
         }
 
         MeshPass.EndTransparent();

@@ -21,9 +21,6 @@ internal sealed class SceneWindow : IDisposable
     private static readonly TimeSpan FrameTime = TimeSpan.FromSeconds(1 / 60.0);
     private static readonly TimeSpan ProgressInterval = TimeSpan.FromSeconds(0.1);
 
-    private const double MovingPixelSize = 3;
-    private const int MovingInstances = 150_000;
-
     // A frame that took long must not make the camera jump.
     private static readonly TimeSpan LongestStep = TimeSpan.FromSeconds(0.1);
 
@@ -35,7 +32,7 @@ internal sealed class SceneWindow : IDisposable
     private readonly WindowOverlay _overlay = new();
     private readonly Stopwatch _clock = Stopwatch.StartNew();
     private RenderSettings _settings;
-    private RenderSettings? _moving;
+    private readonly MovingDetail _moving = new();
     private BackgroundLoad _load;
     private readonly LatestProgress _preparingProgress = new();
     private Document? _document;
@@ -271,17 +268,14 @@ internal sealed class SceneWindow : IDisposable
                 _isWindowStale = true;
                 break;
             case Key.G:
-                _moving = null;
                 _settings = _settings with { Grid = !_settings.Grid, Axes = !_settings.Grid };
                 _isDrawingStale = true;
                 break;
             case Key.X:
-                _moving = null;
                 _settings = _settings with { Wireframe = !_settings.Wireframe };
                 _isDrawingStale = true;
                 break;
             case Key.L:
-                _moving = null;
                 _settings = _settings with { Shading = _settings.Shading == Shading.PerVertex ? Shading.PerPixel : Shading.PerVertex };
                 _overlay.Say(_settings.Shading == Shading.PerPixel ? "light at every pixel" : "light at the vertices", _clock.Elapsed);
                 _isDrawingStale = true;
@@ -320,12 +314,18 @@ internal sealed class SceneWindow : IDisposable
 
     private void Refresh()
     {
+        var start = _clock.Elapsed;
         if (_isDrawingStale)
         {
             Draw();
         }
 
         _frame.Present(_window, _overlay.Panels);
+        if (_isDrawingStale && _next is not null)
+        {
+            _moving.Measure(_clock.Elapsed - start);
+        }
+
         (_isDrawingStale, _isWindowStale) = (false, false);
     }
 
@@ -345,7 +345,7 @@ internal sealed class SceneWindow : IDisposable
         {
             // One picture behind: while it is drawn, the next one's instances are chosen.
             (var drawn, _next) = (_next ?? view, view);
-            _frame.Draw(_document.Renderer, drawn, _window.Width, _window.Height, Moving(), view);
+            _frame.Draw(_document.Renderer, drawn, _window.Width, _window.Height, _moving.Adapt(_settings), view);
         }
         else
         {
@@ -364,17 +364,6 @@ internal sealed class SceneWindow : IDisposable
             _overlay.Measure(_document.Renderer.Statistics, _settings.Detail, _clock.Elapsed - start, _drawnFrames, _document.Controls.Depth, _document.Controls.Enlargement);
         }
     }
-
-    /// <summary>While the camera moves, edges may be jagged and small parts coarser; it is drawn again when it stands.</summary>
-    private RenderSettings Moving() => _moving ??= _settings with
-    {
-        Samples = 0,
-        Detail = _settings.Detail is { } detail ? detail with
-        {
-            PixelSize = Math.Max(detail.PixelSize, MovingPixelSize),
-            InstanceBudget = Math.Min(detail.InstanceBudget, MovingInstances),
-        } : null,
-    };
 
     private string SaveScreenshot(Document document)
     {

@@ -46,13 +46,14 @@ internal sealed class GlBuffer : GlObject
         }
     }
 
-    /// <summary>Makes room for new contents; a driver that still draws the old ones keeps them. Grows by half more than is needed.</summary>
+    /// <summary>Makes room for new contents; a driver that still draws the old ones keeps them. Half more than is needed is kept.</summary>
     /// <param name="bytes">That will be written.</param>
     /// <exception cref="GlException">The memory does not suffice.</exception>
     public void Discard(int bytes)
     {
         Bind();
-        if (bytes > _size)
+        // Neither grown at every picture, nor kept large: to discard a large buffer takes time.
+        if (bytes > _size || bytes < _size / 4)
         {
             _size = bytes + (bytes / 2);
         }

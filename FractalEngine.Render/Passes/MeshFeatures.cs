@@ -15,4 +15,10 @@ internal enum MeshFeatures
 
     /// <summary>A highlight.</summary>
     Glossy = 4,
+
+    /// <summary>Instances lead to world axes about the camera: the object's own map is in them.</summary>
+    InWorld = 8,
+
+    /// <summary>Only fronts are drawn, so that backs need no light.</summary>
+    FrontOnly = 16,
 }

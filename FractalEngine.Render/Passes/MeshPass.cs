@@ -18,10 +18,10 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     private static readonly Colour WireColour = new(0.80, 0.83, 0.87);
 
     // By features; each is built when it is needed first.
-    private readonly MeshProgram?[] _programs = new MeshProgram?[8];
+    private readonly MeshProgram?[] _programs = new MeshProgram?[32];
 
     // Those whose view is up to date in the frame that is being drawn.
-    private readonly bool[] _isReady = new bool[8];
+    private readonly bool[] _isReady = new bool[32];
     private (View View, double Aspect, BoundingBox Bounds, bool Wireframe, Shading Shading)? _frame;
     private MeshProgram? _current;
 
@@ -42,12 +42,13 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     /// <summary>Makes the program for a material current, and brings its uniforms up to date.</summary>
     /// <param name="material">Null for the object's own colour.</param>
     /// <param name="tint">Multiplies the material's colour, sRGB.</param>
+    /// <param name="instances"><see cref="MeshFeatures.InWorld"/> and <see cref="MeshFeatures.FrontOnly"/>, where they hold.</param>
     /// <exception cref="InvalidOperationException">No frame was begun.</exception>
     /// <exception cref="GlException">The driver refuses the program.</exception>
-    public void Use(DrawableMaterial? material, Colour tint)
+    public void Use(DrawableMaterial? material, Colour tint, MeshFeatures instances)
     {
         var (view, aspect, bounds, wireframe, shading) = _frame ?? throw new InvalidOperationException("no frame was begun");
-        var features = wireframe ? MeshFeatures.None : FeaturesOf(material, shading);
+        var features = instances | (wireframe ? MeshFeatures.None : FeaturesOf(material, shading));
         var program = _programs[(int)features] ??= new(context, features);
         if (_current != program)
         {

@@ -22,6 +22,8 @@ internal sealed class MeshProgram : IDisposable
             .. features.HasFlag(MeshFeatures.PerPixel) ? ["PER_PIXEL"] : Array.Empty<string>(),
             .. features.HasFlag(MeshFeatures.Textured) ? ["TEXTURED"] : Array.Empty<string>(),
             .. features.HasFlag(MeshFeatures.Glossy) ? ["GLOSSY"] : Array.Empty<string>(),
+            .. features.HasFlag(MeshFeatures.InWorld) ? ["IN_WORLD"] : Array.Empty<string>(),
+            .. features.HasFlag(MeshFeatures.FrontOnly) ? ["FRONT_ONLY"] : Array.Empty<string>(),
         ];
         _program = ShaderProgram.Load(context.Resources, "mesh", symbols);
         _program.BindBlock("ObjectBlock", MeshPass.ObjectBinding);

@@ -1,6 +1,6 @@
 #version 330 core
 // The colour of the side that is seen. A front face is wound clockwise on the screen: the world is left-handed.
-// PER_PIXEL, TEXTURED and GLOSSY are defined where they apply.
+// PER_PIXEL, TEXTURED, GLOSSY and FRONT_ONLY are defined where they apply.
 
 #include "material.glsl"
 #ifdef PER_PIXEL
@@ -14,10 +14,14 @@ in vec3 pixelNormal;
 in vec3 pixelColour;
 #else
 in vec3 frontColour;
-in vec3 backColour;
 #ifdef GLOSSY
 in vec3 frontHighlight;
+#endif
+#ifndef FRONT_ONLY
+in vec3 backColour;
+#ifdef GLOSSY
 in vec3 backHighlight;
+#endif
 #endif
 #endif
 #ifdef TEXTURED
@@ -48,9 +52,16 @@ void main()
 
     vec3 colour = pixelColour * light;
 #else
+#ifdef FRONT_ONLY
+    vec3 colour = frontColour;
+#ifdef GLOSSY
+    highlights = frontHighlight;
+#endif
+#else
     vec3 colour = gl_FrontFacing ? frontColour : backColour;
 #ifdef GLOSSY
     highlights = gl_FrontFacing ? frontHighlight : backHighlight;
+#endif
 #endif
 #endif
 
