@@ -41,18 +41,18 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
         var (brute, truth, bruteTime) = Brute(item, context, frame, settings);
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(item.Scene, settings));
         var detail = settings.Detail! with { InstanceBudget = 20_000_000 };
-        (string Name, DetailSettings Detail)[] variants =
+        (string Name, RenderSettings Settings)[] variants =
         [
-            ("detail", detail),
-            ("- hidden", detail with { SkipsHidden = false }),
-            ("- outside", detail with { SkipsOutside = false }),
-            ("- one thread", detail with { Threads = 1 }),
-            ("- size", detail with { PixelSize = 0 }),
-            ("3 pixels", detail with { PixelSize = 3 }),
+            ("detail", settings with { Detail = detail }),
+            ("- hidden", settings with { Detail = detail with { SkipsHidden = false } }),
+            ("- outside", settings with { Detail = detail with { SkipsOutside = false } }),
+            ("- backs", settings with { Detail = detail, SkipsBacks = false }),
+            ("- threads", settings with { Detail = detail with { Threads = 1 } }),
+            ("- size", settings with { Detail = detail with { PixelSize = 0 } }),
+            ("3 pixels", settings with { Detail = detail with { PixelSize = 3 } }),
         ];
-        foreach (var (name, variant) in variants)
+        foreach (var (name, chosen) in variants)
         {
-            var chosen = settings with { Detail = variant };
             var time = Time(() => Draw(frame, renderer, item, chosen));
             var picture = frame.Capture();
             var statistics = renderer.Statistics;

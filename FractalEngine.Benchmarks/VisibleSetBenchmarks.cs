@@ -28,7 +28,7 @@ public class VisibleSetBenchmarks
 
     /// <summary>The baseline: every instance.</summary>
     [Benchmark(Baseline = true)]
-    public int Everything() => Fill(new() { SkipsHidden = false, SkipsOutside = false, PixelSize = 0, InstanceBudget = 4_000_000, Threads = 1 });
+    public int Everything() => Fill(new() { SkipsHidden = false, PixelSize = 0, InstanceBudget = 4_000_000, Threads = 1 });
 
     [Benchmark]
     public int ViewAndSize() => Fill(new() { SkipsHidden = false, PixelSize = 8, InstanceBudget = 4_000_000, Threads = 1 });

@@ -22,6 +22,9 @@ public sealed record RenderSettings
     /// <summary>Samples a pixel; 0 switches multisampling off. More than the driver has means as many as it has.</summary>
     public int Samples { get; init; } = 4;
 
+    /// <summary>Leaves out the backs of closed meshes, where only fronts can be seen.</summary>
+    public bool SkipsBacks { get; init; } = true;
+
     /// <summary>Where the lights act.</summary>
     public Shading Shading { get; init; }
 

@@ -148,7 +148,7 @@ public sealed class SceneRenderer : IDisposable
         _lights.Bind(MeshPass.LightBinding, view.Camera.Position, view.Zoom is { } zoom ? Math.Exp(Math.Min(-zoom.LogUnit, DeepestLight)) : 1);
         for (var i = 0; i < _blocks.Length; i++)
         {
-            var hidden = settings.Wireframe ? null : HiddenSide(i, view, bounds);
+            var hidden = settings.Wireframe || !settings.SkipsBacks ? null : HiddenSide(i, view, bounds);
             MeshPass.LeaveOut(hidden);
             BindBlock(i, view);
             if (settings.Wireframe)
