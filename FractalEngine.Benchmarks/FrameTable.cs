@@ -1,6 +1,5 @@
 using System.Diagnostics;
 using System.Globalization;
-using FractalEngine.Core.Detail;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render;
 using FractalEngine.Render.Pictures;
