@@ -361,7 +361,8 @@ internal sealed class SceneWindow : IDisposable
         _drawnFrames++;
         if (_document is not null)
         {
-            _overlay.Measure(_document.Renderer.Statistics, _settings.Detail, _clock.Elapsed - start, _drawnFrames, _document.Controls.Depth, _document.Controls.Enlargement);
+            var detail = (_next is null ? _settings : _moving.Adapt(_settings)).Detail;
+            _overlay.Measure(_document.Renderer.Statistics, detail, _clock.Elapsed - start, _drawnFrames, _document.Controls.Depth, _document.Controls.Enlargement);
         }
     }
 
