@@ -74,6 +74,9 @@ public sealed partial class FractalAddress
     /// <summary>The natural logarithm of the present unit, in scene units.</summary>
     public double LogUnit { get; private set; }
 
+    /// <summary>Bytes of the path.</summary>
+    public long StorageBytes => (sizeof(int) * ((long)_path.Capacity + _counts.Capacity)) + (sizeof(long) * (long)_levels.Capacity);
+
     private DetailState State => _table.At(_levels[^1]);
 
     /// <summary>Moves the camera, and tells its place anew.</summary>
