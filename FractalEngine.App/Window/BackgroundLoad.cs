@@ -22,7 +22,16 @@ internal sealed class BackgroundLoad
         {
             var file = AssetLoader.Load(path, options, _progress);
             var preparation = new ScenePreparation(file.Scene, settings);
-            preparation.PrepareInSight(View.Of(file.Scene, aspect), aspect, _progress);
+            if (file.Scene.Objects.Length == 1)
+            {
+                // Whatever the camera looks at, there is nothing else to show.
+                preparation.PrepareAll(_progress, CancellationToken.None);
+            }
+            else
+            {
+                preparation.PrepareInSight(View.Of(file.Scene, aspect), aspect, _progress);
+            }
+
             return (file, preparation);
         });
         _task.ContinueWith(_ => completed(), TaskScheduler.Default);

@@ -331,14 +331,17 @@ internal sealed class SceneWindow : IDisposable
 
     private void Draw()
     {
-        var view = _document is { } document
-            ? document.Controls.Deepened(View.Of(document.File.Scene with { Scene = document.SceneNow() }, Aspect))
-            : new(Camera.Default, Projection.Perspective);
         var start = _clock.Elapsed;
+        var view = _document is { } document
+            ? View.Of(document.File.Scene with { Scene = document.SceneNow() }, Aspect)
+            : new(Camera.Default, Projection.Perspective);
         if (_document is { UsesTrail: true, Trail: { } trail } shown)
         {
-            shown.Renderer.Move(0, trail.Follow(shown.Placement, shown.Controls.Camera.Position));
-            view = View.Of(shown.File.Scene with { Scene = shown.SceneNow() }, Aspect);
+            shown.Renderer.Move(0, trail.Follow(shown.Placement, view.Camera.Position));
+        }
+        else
+        {
+            view = _document?.Controls.Deepened(view) ?? view;
         }
 
         if (_document?.Controls.IsMoving == true)

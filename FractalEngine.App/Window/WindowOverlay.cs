@@ -39,7 +39,7 @@ internal sealed class WindowOverlay
 
     private OverlayPanel? _description;
     private OverlayPanel? _message;
-    private OverlayPanel? _statistics;
+    private Func<OverlayPanel>? _statistics;
     private OverlayLine? _coarser;
 
     /// <summary>What is being loaded, and how far; null when nothing is.</summary>
@@ -61,7 +61,7 @@ internal sealed class WindowOverlay
     public IReadOnlyList<OverlayPanel> Panels =>
     [
         .. ShowsKeys ? [Keys] : Array.Empty<OverlayPanel>(),
-        .. ShowsStatistics && _statistics is { } statistics ? [statistics] : Array.Empty<OverlayPanel>(),
+        .. ShowsStatistics && _statistics is { } statistics ? [statistics()] : Array.Empty<OverlayPanel>(),
         .. Error is { } error
             ? [new OverlayPanel(OverlayAnchor.Centre, [.. error.Split('\n').Select(line => new OverlayLine(line, null, OverlayTone.Warning))])]
             : _description is { } description ? [_coarser is { } coarser ? description with { Lines = description.Lines.Add(coarser) } : description] : Array.Empty<OverlayPanel>(),
@@ -92,7 +92,8 @@ internal sealed class WindowOverlay
         _coarser = detail is not null && statistics.PixelSize > detail.PixelSize
             ? new(string.Create(CultureInfo.InvariantCulture, $"more than {detail.InstanceBudget:N0} instances: parts below {statistics.PixelSize:F1} pixels are drawn as one"), null, OverlayTone.Accent)
             : null;
-        _statistics = OverlayPanel.OfTable(OverlayAnchor.BottomRight, "Last picture",
+        // Written out only where it is shown.
+        _statistics = () => OverlayPanel.OfTable(OverlayAnchor.BottomRight, "Last picture",
         [
             ("time", Text($"{time.TotalMilliseconds:F1} ms, {statistics.WaitedFor.TotalMilliseconds:F1} choosing")),
             ("instances", Text($"{statistics.Instances:N0}")),

@@ -10,30 +10,17 @@ public sealed partial class FractalAddress
     /// </summary>
     public double NearestDistance()
     {
-        _open.Clear();
-        foreach (var root in Roots(NearAncestors))
+        // Asked for several times a picture; it changes with the place only.
+        if (_nearest is { } known)
         {
-            Open(root.Levels, root.Map);
+            return known;
         }
 
-        var nearest = 0.0;
-        for (var parts = 0; parts < MostParts && _open.TryDequeue(out var part, out nearest); parts++)
-        {
-            var state = _table.At(part.Levels);
-            if (state.Maps.Length == 0 || state.Box.Transform(part.Map).Diagonal <= Fine * nearest)
-            {
-                break;
-            }
-
-            for (var child = 0; child < state.Maps.Length; child++)
-            {
-                Open(Below(part.Levels, state.Downs[child]), part.Map * state.Maps[child].ToMap());
-            }
-        }
-
+        var state = State;
+        var distance = state.Maps.Length == 0 ? Distance(state.Box.Transform(_about), Vector.Zero) : FindNearest(Fine, out _, out _);
         // Among parts that are never far, as in a solid: the scale of what is around.
-        var size = State.Box.Transform(_about).Diagonal;
-        return Math.Max(nearest, 1e-3 * size);
+        _nearest = Math.Max(distance, 1e-3 * state.Box.Transform(_about).Diagonal);
+        return _nearest.Value;
     }
 
     /// <summary>
@@ -41,9 +28,15 @@ public sealed partial class FractalAddress
     /// </summary>
     private void Change()
     {
-        if (FindNearest(out var up, out var down) > Small * State.Box.Transform(_about).Diagonal || down.Count == 0)
+        if (FindNearest(1, out var up, out var node) > Small * State.Box.Transform(_about).Diagonal || node < 0)
         {
             return;
+        }
+
+        var down = new List<int>();
+        for (; _nodes[node].Parent >= 0; node = _nodes[node].Parent)
+        {
+            down.Insert(0, _nodes[node].Child);
         }
 
         for (; up > 0; up--)
@@ -60,14 +53,15 @@ public sealed partial class FractalAddress
         }
     }
 
-    /// <summary>Finds a part about as small as it is near.</summary>
+    /// <summary>Finds a part that is small compared with how near it is.</summary>
+    /// <param name="fine">What counts as small, as a part of the distance.</param>
     /// <param name="up">How many copies to leave to come there.</param>
-    /// <param name="down">Then the copies to go into.</param>
+    /// <param name="node">Its number among <see cref="_nodes"/>, which lead back to what was left for it; −1 for none.</param>
     /// <returns>Its distance.</returns>
-    private double FindNearest(out int up, out List<int> down)
+    private double FindNearest(double fine, out int up, out int node)
     {
-        var open = new PriorityQueue<(int Up, int Node), double>();
-        var nodes = new List<(int Parent, int Child, long Levels, AffineMap Map)>();
+        _nodes.Clear();
+        _open.Clear();
         var map = _about;
         for (var i = _path.Count; i >= Math.Max(0, _path.Count - NearAncestors); i--)
         {
@@ -79,54 +73,41 @@ public sealed partial class FractalAddress
                 break;
             }
 
-            nodes.Add((-1, -1, _levels[i], map));
-            AddParts(_path.Count - i, nodes.Count - 1, left);
+            _nodes.Add((-1, -1, _levels[i], map));
+            Open(_path.Count - i, _nodes.Count - 1, left);
         }
 
         var (nearest, found) = (0.0, (Up: 0, Node: -1));
-        for (var parts = 0; parts < MostParts && open.TryDequeue(out found, out nearest); parts++)
+        for (var parts = 0; parts < MostParts && _open.TryDequeue(out found, out nearest); parts++)
         {
-            var (_, _, levels, place) = nodes[found.Node];
+            var (_, _, levels, place) = _nodes[found.Node];
             var state = _table.At(levels);
-            if (state.Maps.Length == 0 || state.Box.Transform(place).Diagonal <= nearest)
+            if (state.Maps.Length == 0 || state.Box.Transform(place).Diagonal <= fine * nearest)
             {
                 break;
             }
 
-            AddParts(found.Up, found.Node, -1);
+            Open(found.Up, found.Node, -1);
         }
 
-        (up, down) = (found.Up, []);
-        for (var node = found.Node; node >= 0 && nodes[node].Parent >= 0; node = nodes[node].Parent)
-        {
-            down.Insert(0, nodes[node].Child);
-        }
-
+        (up, node) = found;
         return nearest;
-
-        void AddParts(int copies, int parent, int left)
-        {
-            var (_, _, levels, place) = nodes[parent];
-            var state = _table.At(levels);
-            for (var child = 0; child < state.Maps.Length; child++)
-            {
-                var below = _table.At(Below(levels, state.Downs[child]));
-                if (child != left && !below.IsEmpty)
-                {
-                    var childMap = place * state.Maps[child].ToMap();
-                    nodes.Add((parent, child, Below(levels, state.Downs[child]), childMap));
-                    open.Enqueue((copies, nodes.Count - 1), Distance(below.Box.Transform(childMap), Vector.Zero));
-                }
-            }
-        }
     }
 
-    private void Open(long levels, AffineMap map)
+    /// <summary>Puts the copies of a part into the queue, but for the one that was left.</summary>
+    private void Open(int up, int parent, int left)
     {
+        var (_, _, levels, map) = _nodes[parent];
         var state = _table.At(levels);
-        if (!state.IsEmpty)
+        for (var child = 0; child < state.Maps.Length; child++)
         {
-            _open.Enqueue((levels, map), Distance(state.Box.Transform(map), Vector.Zero));
+            var below = Below(levels, state.Downs[child]);
+            if (child != left && !_table.At(below).IsEmpty)
+            {
+                var childMap = map * state.Maps[child].ToMap();
+                _nodes.Add((parent, child, below, childMap));
+                _open.Enqueue((up, _nodes.Count - 1), Distance(_table.At(below).Box.Transform(childMap), Vector.Zero));
+            }
         }
     }
 }

@@ -47,7 +47,9 @@ public sealed partial class FractalAddress
 
     // Of the maps that are not the identity, up to each depth.
     private readonly List<int> _counts = [0];
-    private readonly PriorityQueue<(long Levels, AffineMap Map), double> _open = new();
+    private readonly PriorityQueue<(int Up, int Node), double> _open = new();
+    private readonly List<(int Parent, int Child, long Levels, AffineMap Map)> _nodes = [];
+    private double? _nearest;
     private AffineMap _about;
     private int _moves;
 
@@ -83,6 +85,7 @@ public sealed partial class FractalAddress
     /// <param name="step">World axes, in the present unit; finite.</param>
     public void Move(Vector step)
     {
+        _nearest = null;
         _about = _about with { Translation = _about.Translation - step };
         var depth = Depth;
         Settle();
