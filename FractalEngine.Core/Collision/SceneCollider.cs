@@ -16,19 +16,31 @@ namespace FractalEngine.Core.Collision;
 public sealed class SceneCollider
 {
     private readonly ImmutableArray<Item> _items;
+    private readonly Dictionary<Model, Lazy<Collider>> _shared;
+    private readonly ColliderKind _kind;
 
     /// <summary>For a scene. Builds nothing yet.</summary>
     /// <param name="scene">With its files loaded.</param>
     /// <param name="kind">The collider of every object that it fits, see <see cref="ColliderFactory"/>.</param>
     public SceneCollider(LoadedScene scene, ColliderKind kind = ColliderKind.Exact)
     {
-        var shared = scene.Models.ToDictionary(model => model, model => new Lazy<Collider>(() => ColliderFactory.Create(model, kind)));
-        _items = [.. scene.Objects.Select(placed => Similarity.TryMake(placed.Map, out var similarity)
-            ? new Item(shared[placed.Model], similarity, null, placed.Bounds)
-            : ColliderFactory.FindsImages(kind)
-                ? new Item(shared[placed.Model], Similarity.Identity, placed.Map, placed.Bounds)
-                : new Item(new(() => ColliderFactory.Create(placed, kind)), Similarity.Identity, null, placed.Bounds))];
+        _kind = kind;
+        _shared = scene.Models.ToDictionary(model => model, model => new Lazy<Collider>(() => ColliderFactory.Create(model, kind)));
+        _items = [.. scene.Objects.Select(ItemOf)];
     }
+
+    private SceneCollider(ImmutableArray<Item> items, Dictionary<Model, Lazy<Collider>> shared, ColliderKind kind) => (_items, _shared, _kind) = (items, shared, kind);
+
+    /// <summary>The same scene with one of its objects elsewhere. Colliders are shared; only the approximate ones of skewed objects are built anew.</summary>
+    /// <param name="index">The object's place in the scene.</param>
+    /// <param name="placed">The same model under another matrix.</param>
+    public SceneCollider WithObject(int index, PlacedModel placed) => new(_items.SetItem(index, ItemOf(placed)), _shared, _kind);
+
+    private Item ItemOf(PlacedModel placed) => Similarity.TryMake(placed.Map, out var similarity)
+        ? new(_shared[placed.Model], similarity, null, placed.Bounds)
+        : ColliderFactory.FindsImages(_kind)
+            ? new(_shared[placed.Model], Similarity.Identity, placed.Map, placed.Bounds)
+            : new(new(() => ColliderFactory.Create(placed, _kind)), Similarity.Identity, null, placed.Bounds);
 
     /// <summary>Bytes of the colliders built so far, each once.</summary>
     public long StorageBytes => _items.Select(item => item.Collider).Distinct().Where(collider => collider.IsValueCreated).Sum(collider => collider.Value.StorageBytes);

@@ -1,8 +1,8 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Render.Preparation;
+using FractalEngine.Tests.Render;
 
-namespace FractalEngine.Tests.Render;
+namespace FractalEngine.Tests.Meshes;
 
 public sealed class ClosedSurfaceTests
 {

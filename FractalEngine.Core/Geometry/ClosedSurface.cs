@@ -1,11 +1,10 @@
 using System.Runtime.InteropServices;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Render.Preparation;
+namespace FractalEngine.Core.Geometry;
 
 /// <summary>Tells whether a mesh is a solid's skin. From outside, the back faces of such a mesh are never seen and need not be drawn.</summary>
-internal static class ClosedSurface
+public static class ClosedSurface
 {
     /// <summary>
     /// True when every edge is passed as often in one direction as in the other, vertices at the same place taken as one, and every

@@ -1,0 +1,212 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics;
+
+/// <summary>
+/// Takes a body through a step: free flight to the moment of an impact, the paper's response there (v ← −e·vₙ + vₛ, §4.4.4), and on with the rest of
+/// the time. What it rests on takes its part of the acceleration away, so that nothing is pressed in and pushed out again.
+/// </summary>
+internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<Body> wake)
+{
+    private const int MostImpacts = 1000;
+
+    // Impacts at the same moment, one after the other: more are a corner that leaves no way.
+    private const int MostAtOnce = 16;
+
+    // Relative to the speed: what rounding leaves along a normal.
+    private const double Rounding = 1e-13;
+
+    // Of the rest speed: what leaves more slowly does not leave.
+    private const double NoSpeed = 1e-3;
+
+    private readonly HalfSpaces _planes = new();
+    private readonly Sweep _sweep = new(obstacles);
+    private readonly Placement _placement = new(obstacles, new());
+
+    /// <summary>Moves a body. The obstacles must be set up for it.</summary>
+    /// <param name="body">Awake.</param>
+    /// <param name="acceleration">By gravity and forces.</param>
+    /// <param name="time">Seconds.</param>
+    /// <param name="restSpeed">Approaches that are slower do not bounce.</param>
+    public void Move(Body body, Vector acceleration, double time, double restSpeed)
+    {
+        var (position, contacts) = (body.Position, body.Contacts);
+        var hold = obstacles.Hold(position);
+        if (!body.IsPlaced && !TryPlace(body, ref position))
+        {
+            return;
+        }
+
+        contacts.Refresh(position, hold, body.Radius);
+        obstacles.Collect(new(position, Vector.Zero, Vector.Zero), 0, body.Index);
+        obstacles.AddTouchedBodies(position, hold, contacts);
+        var (left, impactsHere) = (time, 0);
+        for (var impact = 0; impact < MostImpacts && impactsHere < MostAtOnce && left > 0; impact++)
+        {
+            Respond(body, position, restSpeed);
+            contacts.RemoveSeparating(position, body.Velocity, bodies, NoSpeed * restSpeed);
+            var steady = contacts.Allow(acceleration, position, _planes);
+            var duration = left;
+            if (body.Description.Friction > 0 && contacts.Count > 0)
+            {
+                Rub(body, acceleration, NoSpeed * restSpeed, ref steady, ref duration);
+            }
+
+            if (steady == Vector.Zero && contacts.Count > 0 && body.Velocity.MaximumComponent() <= NoSpeed * restSpeed)
+            {
+                body.Velocity = Vector.Zero;
+            }
+
+            body.FreeAcceleration = steady;
+            if (body.Velocity == Vector.Zero && steady == Vector.Zero)
+            {
+                Press(body, acceleration, position, left);
+                break;
+            }
+
+            var motion = new Motion(position, body.Velocity, steady);
+            obstacles.Collect(in motion, duration, body.Index);
+            var isHit = _sweep.TryHit(in motion, duration, out var hit, out var elapsed);
+            Press(body, acceleration, position, elapsed);
+            (position, body.Velocity) = (motion.At(elapsed), motion.VelocityAt(elapsed));
+            left -= elapsed;
+            impactsHere = elapsed > 0 ? 0 : impactsHere + 1;
+            if (isHit)
+            {
+                position = WithoutRounding(position, in hit);
+                contacts.Add(in hit, position);
+            }
+            contacts.Follow(position, hold, obstacles);
+        }
+
+        body.Position = position;
+        // What leads on into something would be found at the next step again.
+        Respond(body, position, double.PositiveInfinity);
+    }
+
+    /// <summary>A body that begins inside of something is pushed out; one that can't be stops.</summary>
+    private bool TryPlace(Body body, ref Vector position)
+    {
+        body.Clearance.Forget();
+        body.Contacts.Clear();
+        body.IsStuck = !_placement.TryFree(ref position, body.Index);
+        body.IsPlaced = !body.IsStuck;
+        (body.Position, body.Velocity) = (position, body.IsStuck ? Vector.Zero : body.Velocity);
+        return body.IsPlaced;
+    }
+
+    /// <summary>What friction does in some time: slows down, and holds what is slow.</summary>
+    /// <param name="body">Touches something.</param>
+    /// <param name="acceleration">By gravity and forces.</param>
+    /// <param name="slow">What is slower stands.</param>
+    /// <param name="steady">What the contacts leave of it; receives what friction leaves of that.</param>
+    /// <param name="duration">Receives the time until the body stands, if that is sooner.</param>
+    private static void Rub(Body body, Vector acceleration, double slow, ref Vector steady, ref double duration)
+    {
+        var strength = body.Description.Friction * (acceleration - steady).Length();
+        var (speed, pull) = (body.Velocity.Length(), steady.Length());
+        if (speed > slow)
+        {
+            var direction = body.Velocity / speed;
+            steady -= strength * direction;
+            var slowing = -Vector.Dot(steady, direction);
+            duration = slowing * duration > speed ? speed / slowing : duration;
+        }
+        else if (pull <= strength)
+        {
+            (body.Velocity, steady) = (Vector.Zero, Vector.Zero);
+        }
+        else
+        {
+            steady *= 1 - (strength / pull);
+        }
+    }
+
+    /// <summary>What a body presses on other bodies with, they get at their own turn.</summary>
+    private void Press(Body body, Vector acceleration, Vector position, double time)
+    {
+        for (var i = 0; i < body.Contacts.Count; i++)
+        {
+            var contact = body.Contacts[i];
+            if (contact.Body < 0 || bodies[contact.Body] is { IsAsleep: true })
+            {
+                continue;
+            }
+
+            var (other, normal) = (bodies[contact.Body], contact.Normal(position));
+            var pressing = -Vector.Dot(acceleration - other.FreeAcceleration, normal);
+            if (pressing > 0)
+            {
+                other.Pressed -= time * pressing * (body.Description.Mass / other.Description.Mass) * normal;
+            }
+        }
+    }
+
+    /// <summary>Makes the velocity lead into nothing that is touched: by bouncing where the approach is fast enough.</summary>
+    private void Respond(Body body, Vector position, double restSpeed)
+    {
+        var contacts = body.Contacts;
+        for (var round = 0; round < MostAtOnce; round++)
+        {
+            var (worst, approach) = (-1, 0.0);
+            for (var i = 0; i < contacts.Count; i++)
+            {
+                var velocity = RelativeVelocity(body, contacts[i]);
+                var speed = Vector.Dot(velocity, contacts[i].Normal(position));
+                if (speed < approach && speed < -Rounding * velocity.MaximumComponent() && (contacts[i].Body >= 0 || -speed > restSpeed))
+                {
+                    (worst, approach) = (i, speed);
+                }
+            }
+
+            if (worst < 0)
+            {
+                break;
+            }
+
+            Bounce(body, contacts[worst], contacts[worst].Normal(position), -approach, restSpeed);
+        }
+
+        // Slow approaches to surfaces, all at once.
+        body.Velocity = contacts.Allow(body.Velocity, position, _planes, onlySurfaces: true);
+    }
+
+    private Vector RelativeVelocity(Body body, in Contact contact) =>
+        contact.Body < 0 ? body.Velocity : body.Velocity - bodies[contact.Body].Velocity;
+
+    private void Bounce(Body body, in Contact contact, Vector normal, double approach, double restSpeed)
+    {
+        var other = contact.Body < 0 ? null : bodies[contact.Body];
+        if (other is { IsAsleep: true } && approach > restSpeed)
+        {
+            wake(other);
+        }
+
+        // What sleeps on is as firm as the ground.
+        var moves = other is { IsAsleep: false, IsStuck: false } ? other : null;
+        var share = moves is null ? 1 : moves.Description.Mass / (body.Description.Mass + moves.Description.Mass);
+        var restitution = approach <= restSpeed ? 0 : other is null ? body.Description.Restitution : Math.Min(body.Description.Restitution, other.Description.Restitution);
+        var change = (1 + restitution) * approach * normal;
+        var relative = RelativeVelocity(body, in contact);
+        var sliding = relative - (Vector.Dot(relative, normal) * normal);
+        var slidingSpeed = sliding.Length();
+        var friction = body.Description.Friction * (1 + restitution) * approach;
+        if (friction > 0 && slidingSpeed > 0)
+        {
+            change -= Math.Min(friction / slidingSpeed, 1) * sliding;
+        }
+
+        body.Velocity += share * change;
+        if (moves is not null)
+        {
+            moves.Velocity -= (1 - share) * change;
+        }
+    }
+
+    /// <summary>Takes back by how much a place overlaps through rounding.</summary>
+    private Vector WithoutRounding(Vector position, in Contact contact)
+    {
+        var gap = contact.Gap(position);
+        return gap < 0 && -gap <= 10 * obstacles.Touch(position) ? position - (gap * contact.Normal(position)) : position;
+    }
+}

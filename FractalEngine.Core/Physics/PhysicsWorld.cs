@@ -1,0 +1,370 @@
+using System.Buffers.Binary;
+using System.Globalization;
+using System.Security.Cryptography;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+
+namespace FractalEngine.Core.Physics;
+
+/// <summary>
+/// The bodies of a scene and what they run into (paper §4.4): balls against meshes and fractals through the colliders, and against each other. Deterministic: the
+/// same steps give the same bits. A step allocates nothing once all colliders are built. For one thread at a time.
+/// </summary>
+public sealed class PhysicsWorld
+{
+    private readonly LoadedScene _scene;
+    private readonly int[] _surfaceIndices;
+    private readonly PlacedModel[] _placed;
+    private readonly Dictionary<ColliderKind, Surfaces> _surfaces = [];
+    private readonly List<Body> _bodies = [];
+    private readonly List<int> _touching = [];
+    private readonly Stack<Body> _waking = [];
+    private readonly BodyGrid _grid = new();
+    private readonly QueryRecord _record = new();
+    private readonly Obstacles _obstacles;
+    private readonly BodyMover _mover;
+    private readonly int _sceneBodies;
+    private ColliderKind? _collider;
+    private double _pending;
+
+    /// <summary>A world with a body for each physics object of a scene. Colliders are built when they are first asked.</summary>
+    /// <param name="scene">With its files loaded. Objects that are no physics objects stand still.</param>
+    /// <param name="settings">Null for the usual ones.</param>
+    /// <exception cref="ArgumentException">A setting makes no sense, or an object has no size; the message names it.</exception>
+    public PhysicsWorld(LoadedScene scene, PhysicsSettings? settings = null)
+    {
+        (_scene, Settings, Gravity) = (scene, settings ?? new(), scene.Scene.Gravity);
+        Settings.Check();
+        _obstacles = new(_bodies, _grid, _record);
+        _mover = new(_bodies, _obstacles, Wake);
+        _surfaceIndices = new int[scene.Objects.Length];
+        var placed = new List<PlacedModel>();
+        for (var i = 0; i < scene.Objects.Length; i++)
+        {
+            if (scene.Objects[i].Declaration is PhysicsObject declared)
+            {
+                _surfaceIndices[i] = -1;
+                AddBody(BodyDescription.Of(scene.Objects[i], declared, i));
+            }
+            else
+            {
+                _surfaceIndices[i] = placed.Count;
+                placed.Add(scene.Objects[i]);
+            }
+        }
+
+        (_placed, _sceneBodies) = ([.. placed], _bodies.Count);
+        _grid.Build(_bodies);
+    }
+
+    /// <summary>How time is counted.</summary>
+    public PhysicsSettings Settings { get; }
+
+    /// <summary>Acceleration of all bodies, units a second².</summary>
+    public Vector Gravity { get; }
+
+    /// <summary>In the order of the scene's objects, then of <see cref="Add"/>.</summary>
+    public IReadOnlyList<Body> Bodies => _bodies;
+
+    /// <summary>Steps so far.</summary>
+    public long StepCount { get; private set; }
+
+    /// <summary>Seconds so far.</summary>
+    public double Time => StepCount * Settings.Step;
+
+    /// <summary>How far the time that has passed reaches into the step that comes next, from 0 to 1; see <see cref="Body.MapAt"/>.</summary>
+    public double Fraction => Math.Clamp(_pending / Settings.Step, 0, 1);
+
+    /// <summary>True while a body is awake.</summary>
+    public bool IsMoving => _bodies.Exists(static body => !body.IsAsleep && !body.IsStuck);
+
+    /// <summary>What the last step cost, all bodies together: faces and bounding volumes looked at.</summary>
+    public (long FaceTests, long BoundTests) Cost { get; private set; }
+
+    /// <summary>The collider of all bodies instead of their own; null for their own.</summary>
+    public ColliderKind? Collider
+    {
+        get => _collider;
+        set
+        {
+            if (_collider != value)
+            {
+                _collider = value;
+                WakeAll(placesAnew: false);
+            }
+        }
+    }
+
+    /// <summary>A hash of the places and velocities of all bodies: equal for equal bits, and for nothing else that matters.</summary>
+    public string StateHash
+    {
+        get
+        {
+            var bytes = new byte[_bodies.Count * 7 * sizeof(double)];
+            var rest = bytes.AsSpan();
+            foreach (var body in _bodies)
+            {
+                double[] numbers = [body.Position.X, body.Position.Y, body.Position.Z, body.Velocity.X, body.Velocity.Y, body.Velocity.Z, body.IsAsleep ? -body.Scale : body.Scale];
+                foreach (var number in numbers)
+                {
+                    BinaryPrimitives.WriteDoubleLittleEndian(rest, number);
+                    rest = rest[sizeof(double)..];
+                }
+            }
+
+            return Convert.ToHexStringLower(SHA256.HashData(bytes).AsSpan(0, 8));
+        }
+    }
+
+    /// <summary>Adds a body.</summary>
+    /// <exception cref="ArgumentException">A number is not finite, or outside of its range.</exception>
+    public Body Add(BodyDescription description)
+    {
+        var body = AddBody(description);
+        _grid.Build(_bodies);
+        return body;
+    }
+
+    /// <summary>Adds bodies, which is faster than one by one.</summary>
+    /// <exception cref="ArgumentException">A number is not finite, or outside of its range.</exception>
+    public void AddRange(IEnumerable<BodyDescription> descriptions)
+    {
+        foreach (var description in descriptions)
+        {
+            AddBody(description);
+        }
+
+        _grid.Build(_bodies);
+    }
+
+    /// <summary>Gives a body another velocity, and wakes it.</summary>
+    /// <exception cref="ArgumentException">It is not finite.</exception>
+    public void SetVelocity(Body body, Vector velocity)
+    {
+        RequireFinite(velocity, nameof(velocity));
+        Wake(body);
+        body.Velocity = velocity;
+    }
+
+    /// <summary>Lets a force act on a body until it is changed, and wakes it.</summary>
+    /// <param name="body">Of this world.</param>
+    /// <param name="force">Kilograms times units a second².</param>
+    /// <exception cref="ArgumentException">It is not finite.</exception>
+    public void SetForce(Body body, Vector force)
+    {
+        RequireFinite(force, nameof(force));
+        Wake(body);
+        body.Force = force;
+    }
+
+    /// <summary>Moves an object that is no body, and its collider with it. Bodies that it then overlaps are pushed out at the next step.</summary>
+    /// <param name="objectIndex">Its place in the scene, from 0.</param>
+    /// <param name="placement">Its new matrix m.</param>
+    /// <exception cref="ArgumentException">The object is a body.</exception>
+    public void MoveObject(int objectIndex, Transformation placement)
+    {
+        var index = _surfaceIndices[objectIndex];
+        if (index < 0)
+        {
+            throw new ArgumentException("the object is a body: it moves by itself", nameof(objectIndex));
+        }
+
+        var before = _placed[index];
+        _placed[index] = new(before.Declaration with { Placement = placement }, before.Model);
+        foreach (var surfaces in _surfaces.Values)
+        {
+            surfaces.Move(index, _placed[index]);
+        }
+
+        WakeAll(placesAnew: true);
+    }
+
+    /// <summary>Everything is as the scene has it; what was added is gone.</summary>
+    public void Reset()
+    {
+        _bodies.RemoveRange(_sceneBodies, _bodies.Count - _sceneBodies);
+        _bodies.ForEach(static body => body.Reset());
+        _grid.Build(_bodies);
+        (StepCount, _pending, Cost) = (0, 0, default);
+    }
+
+    /// <summary>Lets time pass: as many steps as fit.</summary>
+    /// <param name="seconds">Since the last call.</param>
+    /// <returns>How many steps were made.</returns>
+    public int Advance(double seconds)
+    {
+        _pending = Math.Min(_pending + Math.Max(0, seconds), Settings.MostStepsAtOnce * Settings.Step);
+        var steps = 0;
+        for (; _pending >= Settings.Step; steps++)
+        {
+            _pending -= Settings.Step;
+            Step();
+        }
+
+        return steps;
+    }
+
+    /// <summary>Makes one step.</summary>
+    /// <exception cref="InvalidOperationException">A body has left the range of a double; the message names it.</exception>
+    public void Step()
+    {
+        var (faceTests, boundTests) = (_record.FaceTests, _record.BoundTests);
+        for (var i = 0; i < _bodies.Count; i++)
+        {
+            var body = _bodies[i];
+            (body.PreviousPosition, body.PreviousScale, body.FaceTests, body.BoundTests) = (body.Position, body.Scale, 0, 0);
+            if (!body.IsAsleep)
+            {
+                Step(body);
+            }
+        }
+
+        StepCount++;
+        Cost = (_record.FaceTests - faceTests, _record.BoundTests - boundTests);
+    }
+
+    /// <summary>Finds the nearest point of all that bodies run into, as a body's collider sees it.</summary>
+    /// <param name="position">World space, finite.</param>
+    /// <param name="kind">Of the collider.</param>
+    /// <param name="closest">The answer, if there is one.</param>
+    public bool TryFindClosest(Vector position, ColliderKind kind, out ClosestPoint closest)
+    {
+        closest = default;
+        return SurfacesOf(kind) is { } surfaces && surfaces.Collider.TryFindClosest(position, double.PositiveInfinity, _record, out closest, out _);
+    }
+
+    /// <summary>Prepares obstacles for something that moves and is no body.</summary>
+    internal Obstacles ObstaclesFor(Vector[] spheres, double radius, Clearance clearance, double lookahead, ColliderKind kind)
+    {
+        _obstacles.Begin(SurfacesOf(kind), spheres, radius, clearance, lookahead);
+        return _obstacles;
+    }
+
+    /// <summary>Ends the sleep of a body and of all that touch it.</summary>
+    internal void Wake(Body body)
+    {
+        body.Wake();
+        _waking.Push(body);
+        while (_waking.TryPop(out var next))
+        {
+            _touching.Clear();
+            // What was asleep on it touched it to some rounding.
+            _grid.Collect(new(next.Position, next.Position), next.Radius * (1 + 1e-6), next.Index, _touching);
+            foreach (var index in _touching)
+            {
+                if (_bodies[index].IsAsleep)
+                {
+                    _bodies[index].Wake();
+                    _waking.Push(_bodies[index]);
+                }
+            }
+        }
+    }
+
+    private static readonly Vector[] OneSphere = [Vector.Zero];
+
+    private void Step(Body body)
+    {
+        var (faceTests, boundTests, step) = (_record.FaceTests, _record.BoundTests, Settings.Step);
+        var description = body.Description;
+        if (body.IsShrinking)
+        {
+            body.Scale = Math.Max(description.MinimumScale, body.Scale - (description.Shrinkage * step));
+            body.IsPlaced &= !body.IsStuck;
+        }
+
+        var acceleration = Gravity + (body.Force / description.Mass);
+        body.Velocity += body.Pressed;
+        body.Pressed = Vector.Zero;
+        if (description.Damping > 0)
+        {
+            body.Velocity *= Math.Exp(-description.Damping * step);
+        }
+
+        var reach = new Motion(body.Position, body.Velocity, acceleration).LengthWithin(step);
+        _obstacles.Begin(SurfacesOf(_collider ?? description.Collider), OneSphere, body.Radius, body.Clearance, 2 * reach);
+        var size = acceleration.Length();
+        _mover.Move(body, acceleration, step, Settings.RestSpeed ?? 0.5 * size * step);
+        if (!body.Position.IsFinite() || !body.Velocity.IsFinite())
+        {
+            throw new InvalidOperationException(string.Create(
+                CultureInfo.InvariantCulture, $"body {body.Name} has left the range of a double in step {StepCount}: position {body.Position}, velocity {body.Velocity}"));
+        }
+
+        _grid.Update(body.Index);
+        (body.FaceTests, body.BoundTests) = (_record.FaceTests - faceTests, _record.BoundTests - boundTests);
+        LetRest(body, Settings.SleepSpeed ?? 0.02 * Math.Sqrt(size * body.Radius));
+    }
+
+    /// <summary>Bodies that barely move fall asleep after a while.</summary>
+    private void LetRest(Body body, double sleepSpeed)
+    {
+        var isSlow = body.Velocity.LengthSquared() < sleepSpeed * sleepSpeed && body.Contacts.Count > 0;
+        var rests = sleepSpeed > 0 && !body.IsShrinking && (isSlow || body.IsStuck);
+        body.RestTime = rests ? body.RestTime + Settings.Step : 0;
+        if (body.RestTime >= Settings.SleepTime && rests)
+        {
+            (body.IsAsleep, body.Velocity) = (true, Vector.Zero);
+        }
+        else if (!rests)
+        {
+            // What slept on it may have nothing under it any more.
+            WakeTouching(body);
+        }
+    }
+
+    private void WakeTouching(Body body)
+    {
+        foreach (var candidate in _obstacles.Candidates)
+        {
+            var other = _bodies[candidate];
+            if (other.IsAsleep && (other.Position - body.PreviousPosition).Length() <= (other.Radius + (body.PreviousScale * body.Description.Radius)) * (1 + 1e-6))
+            {
+                Wake(other);
+            }
+        }
+    }
+
+    private Body AddBody(BodyDescription description)
+    {
+        description.Check();
+        var body = new Body(description, _bodies.Count);
+        _bodies.Add(body);
+        return body;
+    }
+
+    private Surfaces? SurfacesOf(ColliderKind kind)
+    {
+        if (_placed.Length == 0)
+        {
+            return null;
+        }
+
+        if (!_surfaces.TryGetValue(kind, out var surfaces))
+        {
+            _surfaces[kind] = surfaces = new(_placed, _scene.Scene, kind);
+        }
+
+        return surfaces;
+    }
+
+    private void WakeAll(bool placesAnew)
+    {
+        foreach (var body in _bodies)
+        {
+            body.Wake();
+            body.Clearance.Forget();
+            body.Contacts.Clear();
+            body.IsPlaced &= !placesAnew;
+        }
+    }
+
+    private static void RequireFinite(Vector vector, string name)
+    {
+        if (!vector.IsFinite())
+        {
+            throw new ArgumentException("expected finite components", name);
+        }
+    }
+}
