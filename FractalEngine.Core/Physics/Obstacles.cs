@@ -13,6 +13,7 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryRecord re
     private Vector[] _spheres = [Vector.Zero];
     private double _radius;
     private double _lookahead;
+    private Walker? _walker;
 
     /// <summary>The numbers of the bodies that may be run into, see <see cref="Collect"/>.</summary>
     public List<int> Candidates => _candidates;
@@ -26,9 +27,10 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryRecord re
     /// <param name="radius">Of the spheres.</param>
     /// <param name="clearance">What is known already of what is near.</param>
     /// <param name="lookahead">How far surfaces are looked for beyond what is asked, so that the next steps need not ask.</param>
-    public void Begin(Surfaces? surfaces, Vector[] spheres, double radius, Clearance clearance, double lookahead)
+    /// <param name="walker">A player who is in the way; null for none.</param>
+    public void Begin(Surfaces? surfaces, Vector[] spheres, double radius, Clearance clearance, double lookahead, Walker? walker = null)
     {
-        (_surfaces, _spheres, _radius, _clearance, _lookahead) = (surfaces, spheres, radius, clearance, lookahead);
+        (_surfaces, _spheres, _radius, _clearance, _lookahead, _walker) = (surfaces, spheres, radius, clearance, lookahead, walker);
         _candidates.Clear();
     }
 
@@ -104,6 +106,13 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryRecord re
         }
     }
 
+    /// <summary>Finds the surface nearest to a point.</summary>
+    public bool TryFindFace(Vector point, double within, out ClosestPoint closest)
+    {
+        closest = default;
+        return _surfaces is not null && _surfaces.Collider.TryFindClosest(point, within, record, out closest, out _);
+    }
+
     /// <summary>The distance of a centre from the nearest surface; nothing above a limit is looked for.</summary>
     public double SurfaceDistance(Vector position, double limit)
     {
@@ -124,7 +133,7 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryRecord re
     {
         followed = contact;
         var halfway = position + contact.Offset - (0.5 * _radius * contact.Direction);
-        if (!_surfaces!.Collider.TryFindClosest(halfway, 0.6 * _radius, record, out var closest, out _))
+        if (_surfaces is null || !_surfaces.Collider.TryFindClosest(halfway, 0.6 * _radius, record, out var closest, out _))
         {
             return false;
         }
@@ -161,16 +170,32 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryRecord re
         {
             foreach (var sphere in _spheres)
             {
-                var contact = ContactWith(candidate, sphere);
-                var gap = contact.Gap(position);
-                if (gap <= within)
-                {
-                    (nearest, within, isFound) = (contact, gap, true);
-                }
+                isFound |= IsNearer(ContactWith(candidate, sphere), position, ref within, ref nearest);
+            }
+        }
+
+        if (_walker is { } walker)
+        {
+            // As firm as a wall.
+            foreach (var sphere in walker.Spheres)
+            {
+                isFound |= IsNearer(new(walker.Position + sphere, _radius + walker.Description.Radius, Vector.Zero, -1, false), position, ref within, ref nearest);
             }
         }
 
         return isFound;
+    }
+
+    private static bool IsNearer(in Contact contact, Vector position, ref double within, ref Contact nearest)
+    {
+        var gap = contact.Gap(position);
+        if (!(gap <= within))
+        {
+            return false;
+        }
+
+        (nearest, within) = (contact, gap);
+        return true;
     }
 
     private bool TryFindSurface(Vector position, double within, out Contact nearest)

@@ -55,6 +55,7 @@ public sealed class PhysicsWorld
         }
 
         (_placed, _sceneBodies) = ([.. placed], _bodies.Count);
+        Walker = scene.Scene.Player is { } player ? new(this, _obstacles, player) : null;
         _grid.Build(_bodies);
     }
 
@@ -63,6 +64,9 @@ public sealed class PhysicsWorld
 
     /// <summary>Acceleration of all bodies, units a second².</summary>
     public Vector Gravity { get; }
+
+    /// <summary>Who walks in the scene; null for nobody. Not active at first.</summary>
+    public Walker? Walker { get; private set; }
 
     /// <summary>In the order of the scene's objects, then of <see cref="Add"/>.</summary>
     public IReadOnlyList<Body> Bodies => _bodies;
@@ -138,6 +142,9 @@ public sealed class PhysicsWorld
         _grid.Build(_bodies);
     }
 
+    /// <summary>Lets a player walk in the world, instead of the one before.</summary>
+    public Walker AddWalker(Player player) => Walker = new(this, _obstacles, player);
+
     /// <summary>Gives a body another velocity, and wakes it.</summary>
     /// <exception cref="ArgumentException">It is not finite.</exception>
     public void SetVelocity(Body body, Vector velocity)
@@ -185,6 +192,7 @@ public sealed class PhysicsWorld
     {
         _bodies.RemoveRange(_sceneBodies, _bodies.Count - _sceneBodies);
         _bodies.ForEach(static body => body.Reset());
+        Walker?.Reset();
         _grid.Build(_bodies);
         (StepCount, _pending, Cost) = (0, 0, default);
     }
@@ -220,6 +228,11 @@ public sealed class PhysicsWorld
             }
         }
 
+        if (Walker is { IsActive: true } walker)
+        {
+            walker.Step(Settings.Step);
+        }
+
         StepCount++;
         Cost = (_record.FaceTests - faceTests, _record.BoundTests - boundTests);
     }
@@ -234,12 +247,9 @@ public sealed class PhysicsWorld
         return SurfacesOf(kind) is { } surfaces && surfaces.Collider.TryFindClosest(position, double.PositiveInfinity, _record, out closest, out _);
     }
 
-    /// <summary>Prepares obstacles for something that moves and is no body.</summary>
-    internal Obstacles ObstaclesFor(Vector[] spheres, double radius, Clearance clearance, double lookahead, ColliderKind kind)
-    {
-        _obstacles.Begin(SurfacesOf(kind), spheres, radius, clearance, lookahead);
-        return _obstacles;
-    }
+    /// <summary>Prepares the obstacles for something that moves and is no body.</summary>
+    internal void Begin(Vector[] spheres, double radius, Clearance clearance, double lookahead) =>
+        _obstacles.Begin(SurfacesOf(_collider ?? ColliderKind.Exact), spheres, radius, clearance, lookahead);
 
     /// <summary>Ends the sleep of a body and of all that touch it.</summary>
     internal void Wake(Body body)
@@ -283,7 +293,7 @@ public sealed class PhysicsWorld
         }
 
         var reach = new Motion(body.Position, body.Velocity, acceleration).LengthWithin(step);
-        _obstacles.Begin(SurfacesOf(_collider ?? description.Collider), OneSphere, body.Radius, body.Clearance, 2 * reach);
+        _obstacles.Begin(SurfacesOf(_collider ?? description.Collider), OneSphere, body.Radius, body.Clearance, 2 * reach, Walker is { IsActive: true } ? Walker : null);
         var size = acceleration.Length();
         _mover.Move(body, acceleration, step, Settings.RestSpeed ?? 0.5 * size * step);
         if (!body.Position.IsFinite() || !body.Velocity.IsFinite())
@@ -358,6 +368,8 @@ public sealed class PhysicsWorld
             body.Contacts.Clear();
             body.IsPlaced &= !placesAnew;
         }
+
+        Walker?.Forget();
     }
 
     private static void RequireFinite(Vector vector, string name)

@@ -83,6 +83,7 @@ internal sealed class Sweep(Obstacles obstacles)
                 // Something is touched all along, which may hide what is run into.
                 if (Math.Abs(hit.Gap(place)) <= precision && IsApproaching(in motion, time, in hit))
                 {
+                    hit = Nearer(place, in hit, in motion, late);
                     return time;
                 }
 
@@ -99,8 +100,13 @@ internal sealed class Sweep(Obstacles obstacles)
             }
         }
 
+        hit = Nearer(motion.At(early), in hit, in motion, late);
         return early;
     }
+
+    /// <summary>What was overlapped at a later time, with the point that is nearest now.</summary>
+    private Contact Nearer(Vector place, in Contact contact, in Motion motion, double late) =>
+        contact.Body < 0 && obstacles.TryFollow(place, contact with { Direction = contact.Normal(motion.At(late)) }, out var followed) ? followed : contact;
 
     private static bool IsApproaching(in Motion motion, double time, in Contact contact)
     {
