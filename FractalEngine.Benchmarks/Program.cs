@@ -11,5 +11,10 @@ if (args is ["frames", ..])
     return FramesCommand.Run(args.AsSpan(1));
 }
 
+if (args is ["physics", ..])
+{
+    return PhysicsCommand.Run(args.AsSpan(1));
+}
+
 BenchmarkSwitcher.FromAssembly(typeof(Program).Assembly).Run(args);
 return 0;
