@@ -66,6 +66,9 @@ public sealed class SceneRenderer : IDisposable
             Scene.Objects.Length, _oneSided, Scene.Models.Length, Scene.Models.Count(static model => model.IsPlaceholder), Scene.Textures.Length,
             Scene.Models.Sum(static model => (long)model.EmptyFaces), _after.Uploads - _before.Uploads, _after.State - _before.State));
 
+    /// <summary>Sub-fractals of fewer pixels were drawn as one copy in the last picture.</summary>
+    public double PixelSize => Detail.PixelSize;
+
     /// <summary>Buffers moved to the GPU since the context was opened, and those that were there already.</summary>
     public ChangeCounts Uploads => Context.Resources.Uploads.Counts;
 
