@@ -11,5 +11,15 @@ if (args is ["frames", ..])
     return FramesCommand.Run(args.AsSpan(1));
 }
 
+if (args is ["skips", ..])
+{
+    return SkipsCommand.Run(args.AsSpan(1));
+}
+
+if (args is ["window", ..])
+{
+    return WindowCommand.Run(args.AsSpan(1));
+}
+
 BenchmarkSwitcher.FromAssembly(typeof(Program).Assembly).Run(args);
 return 0;
