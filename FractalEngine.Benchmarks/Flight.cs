@@ -13,7 +13,7 @@ internal sealed record Flight(int Pictures, double Seconds, double Slowest, long
 {
     private static readonly TimeSpan Length = TimeSpan.FromSeconds(5);
 
-    /// <summary>Flies straight ahead, as far as the fractal is large.</summary>
+    /// <summary>Flies ahead and back: to the fractal's middle, or, where it begins near that, by a tenth of the fractal's size.</summary>
     /// <param name="frame">Draws.</param>
     /// <param name="renderer">Of the fractal.</param>
     /// <param name="item">The fractal, and where the flight begins.</param>
@@ -22,14 +22,15 @@ internal sealed record Flight(int Pictures, double Seconds, double Slowest, long
     public static Flight Of(FrameRenderer frame, SceneRenderer renderer, FrameCase item, RenderSettings settings, (int Width, int Height) size)
     {
         var moving = new MovingDetail();
-        var way = item.Scene.Bounds.Diagonal * item.View.Camera.LocalAxes.V3;
+        var (camera, bounds) = (item.View.Camera, item.Scene.Bounds);
+        var way = Math.Max(0.1 * bounds.Diagonal, (bounds.Centre - camera.Position).Length() - (0.1 * bounds.Diagonal)) * camera.LocalAxes.V3;
         var (pictures, slowest, instances) = (0, 0.0, 0L);
         View? next = null;
         var clock = Stopwatch.StartNew();
         while (clock.Elapsed < Length)
         {
             var start = clock.Elapsed;
-            var view = At(item.View, (start / Length) * way);
+            var view = At(item.View, 0.5 * (1 - Math.Cos(2 * Math.PI * (start / Length))) * way);
             (var drawn, next) = (next ?? view, view);
             frame.Draw(renderer, drawn, size.Width, size.Height, moving.Adapt(settings), view);
             frame.Finish();
