@@ -84,10 +84,8 @@ internal sealed class SharedOptions
 
     /// <summary>One of a few words.</summary>
     public static T? ParseWord<T>(ArgumentResult result, params (string Word, T Value)[] words)
-        where T : struct
-    {
-        return ParseWords(result, words) is [var value] ? value : null;
-    }
+        where T : struct =>
+        ParseWords(result, words) is [var value] ? value : null;
 
     /// <summary>Any of a few words.</summary>
     public static T[] ParseWords<T>(ArgumentResult result, params ReadOnlySpan<(string Word, T Value)> words)
