@@ -49,7 +49,7 @@ internal sealed class DrawOptions
 
     private readonly Option<Skip[]> _without = new("--without")
     {
-        Description = "Do something that is left out as nothing is seen of it, for comparison; may be given several times.",
+        Description = $"Do something that is left out since nothing is seen of it, for comparison: {string.Join(", ", SkipWords.Select(item => item.Word))}. May be given several times.",
         HelpName = "SKIP",
         CustomParser = result => SharedOptions.ParseWords(result, SkipWords),
     };

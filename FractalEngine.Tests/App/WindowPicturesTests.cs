@@ -53,6 +53,25 @@ public sealed class WindowPicturesTests : IDisposable
     }
 
     [SkippableFact]
+    public void Report_OfAPicture_CountsWhatWasLeftOut()
+    {
+        using var window = Open();
+        using var frame = new FrameRenderer(window);
+        using var document = Load(window);
+        var pictures = new WindowPictures(frame);
+        pictures.Draw(document, Settings, Width, Height);
+        pictures.Draw(document, Settings, Width, Height);
+        pictures.ShowAgain();
+        var rows = new PictureReport(document.Renderer, Settings.Detail, Time, 0, 0).ToPanels(pictures.CountsOf(60)).SelectMany(panel => panel.Lines).ToDictionary(line => line.Text, line => line.Second);
+        Assert.Equal("2 objects, 2 files, 0 textures", rows["shared"]);
+        Assert.Equal("1 of 2 models", rows["not in sight yet"]);
+        Assert.Equal("of 1 of 2 objects", rows["backs"]);
+        // The instances of the near cube, both objects, the lights.
+        Assert.Equal("4; 0 made", rows["uploads"]);
+        Assert.Equal("57; 2 drawn, 1 shown again", rows["pictures at 60/s"]);
+    }
+
+    [SkippableFact]
     public void Sight_OfWhatComesIntoIt_IsPreparedInTheBackground()
     {
         using var window = Open();
