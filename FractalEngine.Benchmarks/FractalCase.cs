@@ -22,7 +22,8 @@ internal sealed record FractalCase(string Name, Fractal Fractal)
     public static IEnumerable<string> Names =>
         Directory.GetFiles(Path.Combine(Assets, "fractals"), "*.fdo").Select(file => Path.GetFileNameWithoutExtension(file)).Order(StringComparer.Ordinal).Concat(Written);
 
-    private static string Assets { get; } = FindAssets();
+    /// <summary>The folder of the scenes, fractals and meshes.</summary>
+    public static string Assets { get; } = FindAssets();
 
     /// <summary>A fractal by its name, or its name and depth: <c>tree</c> or <c>tree:20</c>.</summary>
     public static FractalCase Parse(string text) => text.Split(':') switch

@@ -65,6 +65,10 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
             frame.Finish();
         });
         Row(item.Name, "kept", renderer.Statistics.Instances, still, bruteTime, null, null, null, 0);
+        var flight = Flight.Of(frame, renderer, item, settings, (Width, Height));
+        output.WriteLine(string.Create(
+            CultureInfo.InvariantCulture,
+            $"{item.Name,-32} {"flight",-15} {flight.Instances,11} {1000 * flight.Seconds / flight.Pictures,9:F1}  {flight.Pictures / flight.Seconds:F1} pictures a second, the slowest {flight.Slowest:F0} ms"));
     }
 
     private (PixelImage? Brute, PixelImage? Truth, double Time) Brute(FrameCase item, OffscreenContext context, FrameRenderer frame, RenderSettings settings)

@@ -11,6 +11,16 @@ if (args is ["frames", ..])
     return FramesCommand.Run(args.AsSpan(1));
 }
 
+if (args is ["skips", ..])
+{
+    return SkipsCommand.Run(args.AsSpan(1));
+}
+
+if (args is ["window", ..])
+{
+    return WindowCommand.Run(args.AsSpan(1));
+}
+
 if (args is ["physics", ..])
 {
     return PhysicsCommand.Run(args.AsSpan(1));

@@ -45,6 +45,7 @@ public sealed class FrameRenderer : IDisposable
     public void Draw(SceneRenderer? scene, View view, int width, int height, RenderSettings settings, View? next = null)
     {
         _context.MakeCurrent();
+        _context.Follow(settings);
         var target = Target(width, height, Math.Clamp(settings.Samples, 0, _context.MaximumSamples));
         target.Bind();
         var (x, y, shownWidth, shownHeight) = view.Viewport(width, height);

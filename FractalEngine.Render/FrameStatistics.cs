@@ -10,4 +10,6 @@ namespace FractalEngine.Render;
 /// <param name="Choices">How often instances were chosen so far: not for pictures that need the same ones as the picture before.</param>
 /// <param name="UploadedBytes">Of instances moved to the GPU so far.</param>
 /// <param name="WaitedFor">How long the last choice kept the drawing thread waiting.</param>
-public readonly record struct FrameStatistics(int Instances, long Triangles, DetailCost Cost, double PixelSize, int Choices, long UploadedBytes, TimeSpan WaitedFor);
+/// <param name="Skips">What else was not needed.</param>
+public readonly record struct FrameStatistics(
+    int Instances, long Triangles, DetailCost Cost, double PixelSize, int Choices, long UploadedBytes, TimeSpan WaitedFor, SkipStatistics Skips);

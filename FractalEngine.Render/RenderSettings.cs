@@ -25,6 +25,21 @@ public sealed record RenderSettings
     /// <summary>Leaves out the backs of closed meshes, where only fronts can be seen.</summary>
     public bool SkipsBacks { get; init; } = true;
 
+    /// <summary>Leaves out faces without area, when a mesh is prepared.</summary>
+    public bool SkipsEmptyFaces { get; init; } = true;
+
+    /// <summary>Decodes and keeps each picture once, however many models show it.</summary>
+    public bool SharesTextures { get; init; } = true;
+
+    /// <summary>In a window, prepares a model when one of its objects is first in sight, and not before; where false, all of them before the first picture.</summary>
+    public bool PreparesOnSight { get; init; } = true;
+
+    /// <summary>Does not bind what is bound already, nor set uniforms to what they are.</summary>
+    public bool SkipsSameState { get; init; } = true;
+
+    /// <summary>Keeps what is on the GPU where it has not changed: chosen instances, objects and lights. Where false, all are chosen and uploaded for each picture.</summary>
+    public bool KeepsBuffers { get; init; } = true;
+
     /// <summary>Where the lights act.</summary>
     public Shading Shading { get; init; }
 

@@ -1,4 +1,3 @@
-using FractalEngine.Core.Detail;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Passes;
@@ -20,13 +19,16 @@ public sealed class SceneRenderer : IDisposable
     private readonly LightBlock _lights;
     private TransparentOrder _transparent;
     private readonly TextureSet _textures;
+    private readonly AdaptedDetail _adapted = new();
     private readonly Dictionary<DrawableModel, ModelBuffers> _models = [];
     private readonly ObjectBlock[] _blocks;
     private readonly AffineMap[] _maps;
     private readonly BoundingBox[] _boxes;
     private SceneDetail? _detail;
     private BoundingBox? _bounds;
-    private (DetailSettings Source, DetailSettings Detail)? _adapted;
+    private (ChangeCounts Uploads, ChangeCounts State) _before;
+    private (ChangeCounts Uploads, ChangeCounts State) _after;
+    private int _oneSided;
 
     /// <summary>Uploads a scene. On the context's thread.</summary>
     /// <exception cref="Gl.GlException">The GPU's memory does not suffice.</exception>
@@ -57,8 +59,21 @@ public sealed class SceneRenderer : IDisposable
     /// <summary>A box that holds all objects where they are now, world space.</summary>
     public BoundingBox Bounds => _bounds ??= _boxes.Aggregate(BoundingBox.Empty, BoundingBox.Union);
 
-    /// <summary>What the last picture took, where instances are chosen (<see cref="RenderSettings.Detail"/>).</summary>
-    public FrameStatistics Statistics => new(Detail.InstanceCount, Detail.TriangleCount, Detail.Cost, Detail.PixelSize, Detail.Choices, Detail.UploadedBytes, Detail.WaitedFor);
+    /// <summary>What the last picture took, where instances are chosen (<see cref="RenderSettings.Detail"/>). Counted out when it is asked for.</summary>
+    public FrameStatistics Statistics => new(
+        Detail.InstanceCount, Detail.TriangleCount, Detail.Cost, Detail.PixelSize, Detail.Choices, Detail.UploadedBytes, Detail.WaitedFor,
+        new(
+            Scene.Objects.Length, _oneSided, Scene.Models.Length, Scene.Models.Count(static model => model.IsPlaceholder), Scene.Textures.Length,
+            Scene.Models.Sum(static model => (long)model.EmptyFaces), _after.Uploads - _before.Uploads, _after.State - _before.State));
+
+    /// <summary>Sub-fractals of fewer pixels were drawn as one copy in the last picture.</summary>
+    public double PixelSize => Detail.PixelSize;
+
+    /// <summary>Buffers moved to the GPU since the context was opened, and those that were there already.</summary>
+    public ChangeCounts Uploads => Context.Resources.Uploads.Counts;
+
+    /// <summary>Bindings and uniforms since the context was opened, and those that held already.</summary>
+    public ChangeCounts StateChanges => Context.Resources.State.Changes.Counts;
 
     internal RenderContext Context { get; }
 
@@ -112,6 +127,7 @@ public sealed class SceneRenderer : IDisposable
     public void Choose(View view, int width, int height, RenderSettings settings)
     {
         Context.MakeCurrent();
+        Context.Follow(settings);
         var (_, _, shownWidth, shownHeight) = view.Viewport(width, height);
         Choose(view, (shownWidth, shownHeight), view.ShownAspect(width, height), LinesPass.BoundsWith(Bounds, settings), settings);
     }
@@ -138,18 +154,21 @@ public sealed class SceneRenderer : IDisposable
     /// <summary>Draws into the bound framebuffer's viewport.</summary>
     internal void Draw(View view, (int Width, int Height) size, double aspect, BoundingBox bounds, RenderSettings settings, View? next)
     {
+        _before = (Uploads, StateChanges);
         Choose(view, size, aspect, bounds, settings);
-        if (next is not null && Adapted(settings) is { } ahead)
+        if (next is not null && _adapted.Of(settings) is { } ahead)
         {
             Detail.Prepare(SceneDetail.ViewOf(next, size.Width, size.Height, aspect, next.ClipPlanes(bounds)), ahead, next.Zoom);
         }
 
         _pass.Begin(view, aspect, bounds, settings.Wireframe, settings.Shading);
         _lights.Bind(MeshPass.LightBinding, view.Camera.Position, view.Zoom is { } zoom ? Math.Exp(Math.Min(-zoom.LogUnit, DeepestLight)) : 1);
+        _oneSided = 0;
         for (var i = 0; i < _blocks.Length; i++)
         {
             var hidden = settings.Wireframe || !settings.SkipsBacks ? null : HiddenSide(i, view, bounds);
-            MeshPass.LeaveOut(hidden);
+            _oneSided += hidden is null ? 0 : 1;
+            _pass.LeaveOut(hidden);
             BindBlock(i, view);
             if (settings.Wireframe)
             {
@@ -167,7 +186,8 @@ public sealed class SceneRenderer : IDisposable
             DrawTransparent(view);
         }
 
-        MeshPass.End();
+        _pass.End();
+        _after = (Uploads, StateChanges);
     }
 
     /// <summary>Moves to the GPU what is not there yet.</summary>
@@ -185,28 +205,10 @@ public sealed class SceneRenderer : IDisposable
 
     private void Choose(View view, (int Width, int Height) size, double aspect, BoundingBox bounds, RenderSettings settings)
     {
-        if (Adapted(settings) is { } detail)
+        if (_adapted.Of(settings) is { } detail)
         {
             Detail.Update(SceneDetail.ViewOf(view, size.Width, size.Height, aspect, view.ClipPlanes(bounds)), detail, view.Zoom);
         }
-    }
-
-    /// <summary>What is left out, as far as the other settings allow it.</summary>
-    private DetailSettings? Adapted(RenderSettings settings)
-    {
-        if (settings.Detail is not { } detail)
-        {
-            return null;
-        }
-
-        // Through a wireframe one sees what is behind.
-        var (hasSamples, skipsHidden) = (settings.Samples > 1, detail.SkipsHidden && !settings.Wireframe);
-        if (_adapted is null || _adapted.Value.Source != detail || _adapted.Value.Detail.HasSamples != hasSamples || _adapted.Value.Detail.SkipsHidden != skipsHidden)
-        {
-            _adapted = (detail, detail with { HasSamples = hasSamples, SkipsHidden = skipsHidden });
-        }
-
-        return _adapted.Value.Detail;
     }
 
     private void BindBlock(int index, View view)
@@ -258,9 +260,9 @@ public sealed class SceneRenderer : IDisposable
         {
             BindBlock(index, view);
             var looksAway = _maps[index].Linear.Determinant() >= 0;
-            MeshPass.LeaveOut(looksAway);
+            _pass.LeaveOut(looksAway);
             DrawBatches(index, areTransparent: true, FeaturesOf(index, null));
-            MeshPass.LeaveOut(!looksAway);
+            _pass.LeaveOut(!looksAway);
             DrawBatches(index, areTransparent: true, FeaturesOf(index, null));
         }
 

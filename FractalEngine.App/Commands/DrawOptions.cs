@@ -2,6 +2,7 @@ using System.CommandLine;
 using FractalEngine.Core.Detail;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 
 namespace FractalEngine.App.Commands;
@@ -9,6 +10,12 @@ namespace FractalEngine.App.Commands;
 /// <summary>The options of the commands that draw.</summary>
 internal sealed class DrawOptions
 {
+    private static readonly (string Word, Skip Value)[] SkipWords =
+    [
+        ("backs", Skip.Backs), ("outside", Skip.Outside), ("hidden", Skip.Hidden), ("empty-faces", Skip.EmptyFaces), ("state", Skip.State),
+        ("buffers", Skip.Buffers), ("sharing", Skip.Sharing), ("sight", Skip.Sight), ("still", Skip.Still),
+    ];
+
     private readonly Option<bool> _wireframe = new("--wireframe") { Description = "Draw only the edges of the triangles." };
     private readonly Option<bool> _grid = new("--grid") { Description = "Draw a grid on the ground, and the axes." };
 
@@ -40,12 +47,19 @@ internal sealed class DrawOptions
         CustomParser = result => SharedOptions.ParseWord(result, ("vertex", Shading.PerVertex), ("pixel", Shading.PerPixel)),
     };
 
+    private readonly Option<Skip[]> _without = new("--without")
+    {
+        Description = $"Do something that is left out since nothing is seen of it, for comparison: {string.Join(", ", SkipWords.Select(item => item.Word))}. May be given several times.",
+        HelpName = "SKIP",
+        CustomParser = result => SharedOptions.ParseWords(result, SkipWords),
+    };
+
     private readonly Option<Projection?> _projection = SharedOptions.Projection();
     private readonly Option<(int Width, int Height)?> _resolution = SharedOptions.Resolution();
 
     public void AddTo(Command command)
     {
-        foreach (var option in (Option[])[_resolution, _projection, _shading, _wireframe, _grid, _detail, _instances, _samples])
+        foreach (var option in (Option[])[_resolution, _projection, _shading, _wireframe, _grid, _detail, _instances, _samples, _without])
         {
             command.Add(option);
         }
@@ -54,6 +68,12 @@ internal sealed class DrawOptions
     public (int Width, int Height) Resolution(ParseResult result) => result.GetValue(_resolution) ?? (1280, 720);
 
     public Projection? Projection(ParseResult result) => result.GetValue(_projection);
+
+    /// <summary>True unless <c>--without</c> names it.</summary>
+    public bool Does(ParseResult result, Skip skip) => !(result.GetValue(_without) ?? []).Contains(skip);
+
+    /// <summary>How to load the file, given how any command would.</summary>
+    public LoadOptions Loading(ParseResult result, LoadOptions options) => options with { SharesFiles = Does(result, Skip.Sharing) };
 
     public RenderSettings Settings(ParseResult result)
     {
@@ -67,6 +87,8 @@ internal sealed class DrawOptions
         {
             PixelSize = result.GetValue(_detail) ?? settings.Detail.PixelSize,
             InstanceBudget = (int)(result.GetValue(_instances) ?? settings.Detail.InstanceBudget),
+            SkipsOutside = Does(result, Skip.Outside),
+            SkipsHidden = Does(result, Skip.Hidden),
         };
         return settings with
         {
@@ -74,6 +96,12 @@ internal sealed class DrawOptions
             InstanceBudget = (int)(result.GetValue(_instances) ?? settings.InstanceBudget),
             Samples = (int)(result.GetValue(_samples) ?? settings.Samples),
             Shading = result.GetValue(_shading) ?? settings.Shading,
+            SkipsBacks = Does(result, Skip.Backs),
+            SkipsEmptyFaces = Does(result, Skip.EmptyFaces),
+            SkipsSameState = Does(result, Skip.State),
+            KeepsBuffers = Does(result, Skip.Buffers),
+            SharesTextures = Does(result, Skip.Sharing),
+            PreparesOnSight = Does(result, Skip.Sight),
         };
     }
 }

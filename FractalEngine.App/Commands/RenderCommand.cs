@@ -19,7 +19,7 @@ internal static class RenderCommand
         shared.AddTo(command);
         draw.AddTo(command);
         command.SetAction(result => Run(
-            result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetRequiredValue(output),
+            result.GetRequiredValue(shared.File), draw.Loading(result, shared.LoadOptions(result)), result.GetRequiredValue(output),
             draw.Resolution(result), draw.Projection(result), draw.Settings(result)));
         return command;
     }

@@ -84,18 +84,32 @@ internal sealed class SharedOptions
 
     /// <summary>One of a few words.</summary>
     public static T? ParseWord<T>(ArgumentResult result, params (string Word, T Value)[] words)
-        where T : struct
+        where T : struct =>
+        ParseWords(result, words) is [var value] ? value : null;
+
+    /// <summary>Any of a few words.</summary>
+    public static T[] ParseWords<T>(ArgumentResult result, params ReadOnlySpan<(string Word, T Value)> words)
     {
-        foreach (var (word, value) in words)
+        var values = new List<T>();
+        foreach (var token in result.Tokens)
         {
-            if (result.Tokens is [{ Value: var token }] && token == word)
+            var known = values.Count;
+            foreach (var (word, value) in words)
             {
-                return value;
+                if (token.Value == word)
+                {
+                    values.Add(value);
+                }
+            }
+
+            if (values.Count == known)
+            {
+                result.AddError($"{NameOf(result)}: expected one of {string.Join(", ", words.ToArray().Select(item => item.Word))}, not '{token.Value}'");
+                return [];
             }
         }
 
-        result.AddError($"{NameOf(result)}: expected one of {string.Join(", ", words.Select(item => item.Word))}");
-        return null;
+        return [.. values];
     }
 
     /// <summary>A whole number within bounds.</summary>

@@ -1,8 +1,5 @@
 using System.CommandLine;
 using FractalEngine.App.Window;
-using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Assets;
-using FractalEngine.Render;
 
 namespace FractalEngine.App.Commands;
 
@@ -11,7 +8,7 @@ internal static class ViewCommand
 {
     private const string Gallery = "assets/scenes/gallery.sdo";
 
-    private const int DefaultTrail = 3;
+    private static readonly int DefaultTrail = new WindowOptions().TrailLength;
 
     // Set by run.sh where it brings up a virtual display that nobody looks at.
     private const string NoWindowVariable = "FRACTALENGINE_NO_WINDOW";
@@ -32,21 +29,28 @@ internal static class ViewCommand
         };
         command.Add(trail);
         command.SetAction(result => Run(
-            result.GetValue(shared.File) ?? FindGallery(), shared.LoadOptions(result),
-            draw.Resolution(result), draw.Projection(result), draw.Settings(result), (int)(result.GetValue(trail) ?? DefaultTrail)));
+            result.GetValue(shared.File) ?? FindGallery(),
+            new()
+            {
+                Load = draw.Loading(result, shared.LoadOptions(result)),
+                Settings = draw.Settings(result),
+                Projection = draw.Projection(result),
+                TrailLength = (int)(result.GetValue(trail) ?? DefaultTrail),
+                Size = draw.Resolution(result),
+                SkipsStillPictures = draw.Does(result, Skip.Still),
+            }));
         return command;
     }
 
-    private static int Run(
-        string path, LoadOptions options, (int Width, int Height) size, Projection? projection, RenderSettings settings, int trail)
+    private static int Run(string path, WindowOptions options)
     {
         if (Environment.GetEnvironmentVariable(NoWindowVariable) is not "1")
         {
-            return SceneWindow.Show(path, options, projection, settings, trail, size);
+            return SceneWindow.Show(path, options);
         }
 
         var output = Path.Combine("out", Path.GetFileNameWithoutExtension(path) + ".png");
-        var exitCode = RenderCommand.Run(path, options, output, size, projection, settings);
+        var exitCode = RenderCommand.Run(path, options.Load, output, options.Size, options.Projection, options.Settings);
         Console.Error.WriteLine($"there is no display to open a window on: drew {output} instead");
         return exitCode;
     }

@@ -1,4 +1,6 @@
+using FractalEngine.Core.Fractals;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Text;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 
@@ -22,9 +24,9 @@ internal sealed class BackgroundLoad
         {
             var file = AssetLoader.Load(path, options, _progress);
             var preparation = new ScenePreparation(file.Scene, settings);
-            if (file.Scene.Objects.Length == 1)
+            if (file.Scene.Objects.Length == 1 || !settings.PreparesOnSight)
             {
-                // Whatever the camera looks at, there is nothing else to show.
+                // Of one object, whatever the camera looks at, there is nothing else to show.
                 preparation.PrepareAll(_progress, CancellationToken.None);
             }
             else
@@ -46,10 +48,26 @@ internal sealed class BackgroundLoad
     /// <summary>What it is doing, and how far it has come.</summary>
     public (string Text, double Fraction) Progress => _progress.Latest;
 
-    /// <summary>The result, or the exception that the load ended with.</summary>
-    public (LoadedFile File, ScenePreparation Preparation) Take()
+    /// <summary>The result; null where the file can't be loaded.</summary>
+    /// <param name="exitCode">Of a program that does nothing but load this file.</param>
+    /// <param name="error">Why it can't be loaded; null where it can.</param>
+    public (LoadedFile File, ScenePreparation Preparation)? Take(out int exitCode, out string? error)
     {
         IsTaken = true;
-        return _task.GetAwaiter().GetResult();
+        (exitCode, error) = (ExitCode.Done, null);
+        try
+        {
+            return _task.GetAwaiter().GetResult();
+        }
+        catch (SourceException exception)
+        {
+            (exitCode, error) = (exception.Diagnostic.IsLimit ? ExitCode.OverLimit : ExitCode.BadInput, exception.Diagnostic.ToString());
+        }
+        catch (FractalLimitException exception)
+        {
+            (exitCode, error) = (ExitCode.OverLimit, $"error: {exception.Message}");
+        }
+
+        return null;
     }
 }

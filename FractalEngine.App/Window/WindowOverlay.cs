@@ -1,9 +1,7 @@
 using System.Globalization;
 using System.Numerics;
-using FractalEngine.Core.Detail;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Ui;
 
@@ -39,8 +37,7 @@ internal sealed class WindowOverlay
 
     private OverlayPanel? _description;
     private OverlayPanel? _message;
-    private Func<OverlayPanel>? _statistics;
-    private OverlayLine? _coarser;
+    private PictureReport? _report;
 
     /// <summary>What is being loaded, and how far; null when nothing is.</summary>
     public (string Text, double Fraction)? Progress { get; set; }
@@ -54,6 +51,9 @@ internal sealed class WindowOverlay
     /// <summary>Whether it is written what a picture takes.</summary>
     public bool ShowsStatistics { get; set; }
 
+    /// <summary>Pictures drawn, shown again and not needed, see <see cref="PictureReport.ToPanels"/>.</summary>
+    public (long Drawn, long ShownAgain, long NotNeeded) Pictures { get; set; }
+
     /// <summary>When a message will have been shown long enough; null when there is none.</summary>
     public TimeSpan? NextExpiry { get; private set; }
 
@@ -61,17 +61,23 @@ internal sealed class WindowOverlay
     public IReadOnlyList<OverlayPanel> Panels =>
     [
         .. ShowsKeys ? [Keys] : Array.Empty<OverlayPanel>(),
-        .. ShowsStatistics && _statistics is { } statistics ? [statistics()] : Array.Empty<OverlayPanel>(),
+        .. ShowsStatistics && _report is { } report ? report.ToPanels(Pictures) : [],
         .. Error is { } error
             ? [new OverlayPanel(OverlayAnchor.Centre, [.. error.Split('\n').Select(line => new OverlayLine(line, null, OverlayTone.Warning))])]
-            : _description is { } description ? [_coarser is { } coarser ? description with { Lines = description.Lines.Add(coarser) } : description] : Array.Empty<OverlayPanel>(),
+            : _description is { } description ? [Coarser is { } coarser ? description with { Lines = description.Lines.Add(coarser) } : description] : Array.Empty<OverlayPanel>(),
         .. Progress is { } progress ? [OverlayPanel.OfProgress($"loading {progress.Text}".TrimEnd(), progress.Fraction)] : Array.Empty<OverlayPanel>(),
         .. _message is { } message ? [message] : Array.Empty<OverlayPanel>(),
     ];
 
+    /// <summary>Says that parts are coarser than asked for; null where they are not.</summary>
+    private OverlayLine? Coarser => _report is { Detail: { } detail, Renderer.PixelSize: var size } && size > detail.PixelSize
+        ? new(string.Create(CultureInfo.InvariantCulture, $"more than {detail.InstanceBudget:N0} instances: parts below {size:F1} pixels are drawn as one"), null, OverlayTone.Accent)
+        : null;
+
     /// <summary>Tells what is shown from now on.</summary>
     public void Describe(LoadedFile file, DrawableScene drawable)
     {
+        _report = null;
         var faces = file.Scene.Objects.Aggregate((BigInteger?)BigInteger.Zero, (sum, placed) => sum + placed.Model.FaceCount);
         _description = new(OverlayAnchor.BottomLeft,
         [
@@ -81,36 +87,7 @@ internal sealed class WindowOverlay
     }
 
     /// <summary>Tells what the last picture took.</summary>
-    /// <param name="statistics">Of its instances.</param>
-    /// <param name="detail">What was left out; null for nothing.</param>
-    /// <param name="time">How long it took to draw.</param>
-    /// <param name="pictures">How many were drawn so far.</param>
-    /// <param name="depth">Levels that the camera has gone down.</param>
-    /// <param name="enlargement">Decimal logarithm.</param>
-    public void Measure(FrameStatistics statistics, DetailSettings? detail, TimeSpan time, long pictures, int depth, double enlargement)
-    {
-        _coarser = detail is not null && statistics.PixelSize > detail.PixelSize
-            ? new(string.Create(CultureInfo.InvariantCulture, $"more than {detail.InstanceBudget:N0} instances: parts below {statistics.PixelSize:F1} pixels are drawn as one"), null, OverlayTone.Accent)
-            : null;
-        // Written out only where it is shown.
-        _statistics = () => OverlayPanel.OfTable(OverlayAnchor.BottomRight, "Last picture",
-        [
-            ("time", Text($"{time.TotalMilliseconds:F1} ms, {statistics.WaitedFor.TotalMilliseconds:F1} choosing")),
-            ("instances", Text($"{statistics.Instances:N0}")),
-            ("triangles", Text($"{statistics.Triangles:N0}")),
-            ("parts looked at", Text($"{statistics.Cost.Nodes:N0}")),
-            ("outside", Text($"{statistics.Cost.Outside:N0}")),
-            ("hidden", Text($"{statistics.Cost.Hidden:N0}")),
-            ("covering nothing", Text($"{statistics.Cost.Uncovering:N0}")),
-            ("drawn as one", Text($"{statistics.Cost.StandIns:N0}")),
-            ("pictures", Text($"{pictures:N0}")),
-            ("choices", Text($"{statistics.Choices:N0}")),
-            ("depth", Text($"{depth:N0}, enlarged 10^{enlargement:F1}")),
-            ("moved to GPU", Text($"{statistics.UploadedBytes / 1e6:F1} MB")),
-        ]);
-
-        static string Text(FormattableString text) => text.ToString(CultureInfo.InvariantCulture);
-    }
+    public void Measure(PictureReport report) => _report = report;
 
     /// <summary>Shows a message for a few seconds.</summary>
     public void Say(string message, TimeSpan now)

@@ -11,7 +11,7 @@ using FractalEngine.Parsing.Text;
 namespace FractalEngine.Parsing.Assets;
 
 /// <summary>
-/// Loads meshes, fractals and scenes with everything that they refer to. Each file is read once, however often it is named.
+/// Loads meshes, fractals and scenes with everything that they refer to. Each file is read once, however often it is named, unless the options say otherwise.
 /// </summary>
 /// <param name="options">How to load.</param>
 /// <param name="progress">Told how far each large file has come.</param>
@@ -78,7 +78,7 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
     }
 
     private LoadedFile Finish(string full, FileKind kind, LoadedScene scene, SceneFile? sceneFile) =>
-        new(full, kind, scene, sceneFile, StorageBytes, [.. _warnings]);
+        new(full, kind, scene, sceneFile, StorageBytes, options.SharesFiles ? [.. _warnings] : [.. _warnings.Distinct()]);
 
     private LoadedFile LoadScene(string full, string name)
     {
@@ -106,7 +106,7 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
     private Model LoadReferenced(SourceText source, int offset, string referrer, string file)
     {
         var (full, name) = _references!.Resolve(source, offset, referrer, file);
-        if (_models.TryGetValue(full, out var known))
+        if (options.SharesFiles && _models.TryGetValue(full, out var known))
         {
             return known;
         }
@@ -153,7 +153,7 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
 
     private (Mesh Mesh, ImmutableDictionary<string, Material> Materials, long Bytes) ReadMesh(string full, string name)
     {
-        if (_meshes.TryGetValue(full, out var known))
+        if (options.SharesFiles && _meshes.TryGetValue(full, out var known))
         {
             return known;
         }

@@ -17,7 +17,7 @@ internal sealed class AlphaTexture : GlObject
         : base(resources, label)
     {
         _name = GL.GenTexture();
-        GL.BindTexture(TextureTarget.Texture2D, _name);
+        Resources.State.BindTexture(_name);
         GL.PixelStore(PixelStoreParameter.UnpackAlignment, 1);
         unsafe
         {
@@ -33,12 +33,8 @@ internal sealed class AlphaTexture : GlObject
     }
 
     /// <summary>Binds it to the first texture unit.</summary>
-    public void Bind()
-    {
-        GL.ActiveTexture(TextureUnit.Texture0);
-        GL.BindTexture(TextureTarget.Texture2D, _name);
-    }
+    public void Bind() => Resources.State.BindTexture(_name);
 
     /// <inheritdoc/>
-    protected override void Delete() => GL.DeleteTexture(_name);
+    protected override void Delete() => Resources.State.DeleteTexture(_name);
 }

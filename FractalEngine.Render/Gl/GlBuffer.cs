@@ -17,7 +17,7 @@ internal sealed class GlBuffer : GlObject
     public void Bind() => GL.BindBuffer(_target, _name);
 
     /// <summary>Binds a uniform buffer to a binding point.</summary>
-    public void BindTo(int bindingPoint) => GL.BindBufferBase(BufferRangeTarget.UniformBuffer, bindingPoint, _name);
+    public void BindTo(int bindingPoint) => Resources.State.BindUniformBuffer(bindingPoint, _name);
 
     /// <summary>Replaces the contents; storage is allocated only when the size changes.</summary>
     /// <param name="data">Plain data.</param>
@@ -84,5 +84,5 @@ internal sealed class GlBuffer : GlObject
     }
 
     /// <inheritdoc/>
-    protected override void Delete() => GL.DeleteBuffer(_name);
+    protected override void Delete() => Resources.State.DeleteBuffer(_name);
 }

@@ -13,6 +13,12 @@ internal sealed class GlResources
     private readonly List<GlObject> _pending = [];
     private readonly int _thread = Environment.CurrentManagedThreadId;
 
+    /// <summary>What is bound.</summary>
+    public GlState State { get; } = new();
+
+    /// <summary>Uploads of what changes from picture to picture: made, and not needed.</summary>
+    public ChangeCounter Uploads { get; } = new();
+
     /// <summary>True on the thread that may call GL.</summary>
     public bool IsGlThread => Environment.CurrentManagedThreadId == _thread;
 

@@ -30,19 +30,17 @@ internal sealed class PictureTexture : GlObject
     /// <param name="isClamped">Whether it goes on beyond its edges with their colours; otherwise it repeats.</param>
     public void Bind(bool isClamped)
     {
-        GL.ActiveTexture(TextureUnit.Texture0);
-        GL.BindTexture(TextureTarget.Texture2D, _name);
-        if (_isClamped != isClamped)
+        Resources.State.BindTexture(_name);
+        if (Resources.State.Changes.IsNew(ref _isClamped, isClamped))
         {
             var mode = (int)(isClamped ? TextureWrapMode.ClampToEdge : TextureWrapMode.Repeat);
             GL.TexParameter(TextureTarget.Texture2D, TextureParameterName.TextureWrapS, mode);
             GL.TexParameter(TextureTarget.Texture2D, TextureParameterName.TextureWrapT, mode);
-            _isClamped = isClamped;
         }
     }
 
     /// <inheritdoc/>
-    protected override void Delete() => GL.DeleteTexture(_name);
+    protected override void Delete() => Resources.State.DeleteTexture(_name);
 
     private void Upload(PixelImage image)
     {
@@ -52,8 +50,7 @@ internal sealed class PictureTexture : GlObject
             throw new GlException($"{this} has {image.Width}×{image.Height} pixels: this driver allows {largest} pixels a side");
         }
 
-        GL.ActiveTexture(TextureUnit.Texture0);
-        GL.BindTexture(TextureTarget.Texture2D, _name);
+        Resources.State.BindTexture(_name);
         GL.PixelStore(PixelStoreParameter.UnpackAlignment, 1);
         unsafe
         {

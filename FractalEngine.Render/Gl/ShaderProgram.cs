@@ -35,7 +35,7 @@ internal sealed class ShaderProgram : GlObject
         new(resources, Read($"{name}.vert", symbols), Read($"{name}.frag", symbols));
 
     /// <summary>Makes this the current program.</summary>
-    public void Use() => GL.UseProgram(_name);
+    public void Use() => Resources.State.UseProgram(_name);
 
     /// <summary>The location of a uniform; −1 where the compiler left it out, which GL ignores.</summary>
     public int Uniform(string name) => GL.GetUniformLocation(_name, name);
@@ -54,7 +54,7 @@ internal sealed class ShaderProgram : GlObject
     }
 
     /// <inheritdoc/>
-    protected override void Delete() => GL.DeleteProgram(_name);
+    protected override void Delete() => Resources.State.DeleteProgram(_name);
 
     private static (string File, string Text) Read(string file, IReadOnlyList<string> symbols) => (file, ShaderSource.Read(file, symbols));
 

@@ -12,10 +12,10 @@ internal sealed class VertexArray : GlObject
         : base(resources, label) => _name = GL.GenVertexArray();
 
     /// <summary>Makes this the current vertex array.</summary>
-    public void Bind() => GL.BindVertexArray(_name);
+    public void Bind() => Resources.State.BindVertexArray(_name);
 
     /// <summary>Leaves no vertex array bound, so that later index buffers do not land in this one.</summary>
-    public static void Unbind() => GL.BindVertexArray(0);
+    public void Unbind() => Resources.State.BindVertexArray(0);
 
     /// <summary>Feeds an attribute of floats from a buffer.</summary>
     /// <param name="source">Interleaved floats.</param>
@@ -35,5 +35,5 @@ internal sealed class VertexArray : GlObject
     }
 
     /// <inheritdoc/>
-    protected override void Delete() => GL.DeleteVertexArray(_name);
+    protected override void Delete() => Resources.State.DeleteVertexArray(_name);
 }

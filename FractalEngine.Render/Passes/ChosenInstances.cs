@@ -25,7 +25,7 @@ internal sealed class ChosenInstances : IDisposable
         {
             _tints = new(resources, $"tints of {name}", BufferTarget.ArrayBuffer);
             _array.Attribute(_tints, TintLocation, 1, 1, 0, divisor: 1);
-            VertexArray.Unbind();
+            _array.Unbind();
         }
     }
 

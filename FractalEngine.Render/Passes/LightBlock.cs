@@ -19,6 +19,7 @@ internal sealed class LightBlock : IDisposable
 
     private readonly ImmutableArray<Light> _lights;
     private readonly bool _isDefault;
+    private readonly ChangeCounter _uploads;
     private readonly GlBuffer _buffer;
     private readonly float[] _data = new float[HeaderFloats + (MaximumLights * LightFloats)];
     private (Vector, double)? _lastCamera;
@@ -29,6 +30,7 @@ internal sealed class LightBlock : IDisposable
     /// <param name="bounds">Of the scene: the default lights stand around it.</param>
     public LightBlock(GlResources resources, ImmutableArray<Light> lights, BoundingBox bounds)
     {
+        _uploads = resources.Uploads;
         _isDefault = lights.IsEmpty;
         _lights = [.. (_isDefault ? DefaultLights(bounds) : lights).Where(light => light is not AmbientLight).Take(MaximumLights)];
         _buffer = new(resources, "lights", BufferTarget.UniformBuffer);
@@ -58,7 +60,8 @@ internal sealed class LightBlock : IDisposable
     /// <param name="unitsPerSceneUnit">1, or more where what is drawn is told in a smaller unit.</param>
     public void Bind(int bindingPoint, Vector camera, double unitsPerSceneUnit)
     {
-        if (_lastCamera is null || (_lastCamera != (camera, unitsPerSceneUnit) && _lights.Any(static light => light is PointLight)))
+        var isSame = _lastCamera is { } last && (last == (camera, unitsPerSceneUnit) || !_lights.Any(static light => light is PointLight));
+        if (_uploads.IsNeeded(isSame))
         {
             for (var i = 0; i < _lights.Length; i++)
             {

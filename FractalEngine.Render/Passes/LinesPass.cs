@@ -15,6 +15,7 @@ internal sealed class LinesPass : IDisposable
     // Lines to each side of the middle; every tenth is stronger.
     private const int GridLines = 20;
 
+    private readonly ChangeCounter _uploads;
     private readonly ShaderProgram _program;
     private readonly ViewUniforms _view;
     private readonly int _offset;
@@ -26,14 +27,15 @@ internal sealed class LinesPass : IDisposable
     /// <summary>Builds the program.</summary>
     public LinesPass(RenderContext context)
     {
+        _uploads = context.Resources.Uploads;
         _program = ShaderProgram.Load(context.Resources, "lines");
-        _view = new(_program, context.HasReversedDepth);
+        _view = new(_program, context.Resources.State.Changes, context.HasReversedDepth);
         _offset = _program.Uniform("offset");
         _lines = new(context.Resources, "grid and axes", BufferTarget.ArrayBuffer);
         _array = new(context.Resources, "grid and axes");
         _array.Attribute(_lines, 0, 3, Floats, 0);
         _array.Attribute(_lines, 1, 4, Floats, 3);
-        VertexArray.Unbind();
+        _array.Unbind();
     }
 
     /// <summary>What the lines reach beyond the scene, for planes that hold both.</summary>
@@ -63,10 +65,9 @@ internal sealed class LinesPass : IDisposable
         }
 
         var (spacing, middle) = Layout(scene);
-        if (_last != (settings.Grid, settings.Axes, spacing, middle))
+        if (_uploads.IsNew(ref _last, (settings.Grid, settings.Axes, spacing, middle)))
         {
             Build(settings, spacing, middle);
-            _last = (settings.Grid, settings.Axes, spacing, middle);
         }
 
         _program.Use();

@@ -5,7 +5,7 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Passes;
 
 /// <summary>A material as a shader sees it: <c>material</c> in material.glsl. Set when it has changed, not per draw call.</summary>
-internal sealed class MaterialUniforms(ShaderProgram program)
+internal sealed class MaterialUniforms(ShaderProgram program, ChangeCounter changes)
 {
     private const int Vectors = 4;
 
@@ -22,7 +22,7 @@ internal sealed class MaterialUniforms(ShaderProgram program)
     /// <param name="tint">Multiplies the material's colour, sRGB.</param>
     public void Set(Material? material, Colour tint)
     {
-        if (_last is { } last && ReferenceEquals(last.Material, material) && last.Tint == tint)
+        if (!changes.IsNeeded(_last is { } last && ReferenceEquals(last.Material, material) && last.Tint == tint))
         {
             return;
         }

@@ -20,10 +20,10 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     // By features; each is built when it is needed first.
     private readonly MeshProgram?[] _programs = new MeshProgram?[32];
 
-    // Those whose view is up to date in the frame that is being drawn.
-    private readonly bool[] _isReady = new bool[32];
+    // The frame for which each has the view.
+    private readonly long[] _frameOf = new long[32];
+    private long _frameNumber;
     private (View View, double Aspect, BoundingBox Bounds, bool Wireframe, Shading Shading)? _frame;
-    private MeshProgram? _current;
 
     /// <summary>Begins a frame.</summary>
     /// <param name="view">Camera and projection.</param>
@@ -34,8 +34,7 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     public void Begin(View view, double aspect, BoundingBox bounds, bool wireframe, Shading shading)
     {
         _frame = (view, aspect, bounds, wireframe, shading);
-        _current = null;
-        Array.Clear(_isReady);
+        _frameNumber++;
         GlShim.SetWireframe(wireframe);
     }
 
@@ -50,17 +49,11 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
         var (view, aspect, bounds, wireframe, shading) = _frame ?? throw new InvalidOperationException("no frame was begun");
         var features = instances | (wireframe ? MeshFeatures.None : FeaturesOf(material, shading));
         var program = _programs[(int)features] ??= new(context, features);
-        if (_current != program)
-        {
-            program.Use();
-            _current = program;
-        }
-
-        if (!_isReady[(int)features])
+        program.Use();
+        if (context.Resources.State.Changes.IsNew(ref _frameOf[(int)features], _frameNumber))
         {
             program.View.Set(view, aspect, bounds);
             program.SetWireframe(wireframe, WireColour);
-            _isReady[(int)features] = true;
         }
 
         // The object's own colour is not tinted: objects of different tints then share what is set.
@@ -69,18 +62,7 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
 
     /// <summary>Chooses which side of the triangles is not drawn.</summary>
     /// <param name="front">True for the front, false for the back; null to draw both.</param>
-    public static void LeaveOut(bool? front)
-    {
-        if (front is { } side)
-        {
-            GL.Enable(EnableCap.CullFace);
-            GlShim.SetCulledSide(side);
-        }
-        else
-        {
-            GL.Disable(EnableCap.CullFace);
-        }
-    }
+    public void LeaveOut(bool? front) => context.Resources.State.LeaveOut(front);
 
     /// <summary>From here on what is drawn mixes with what is there, and hides nothing. Colours come multiplied by their opacity.</summary>
     public static void BeginTransparent()
@@ -98,7 +80,7 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     }
 
     /// <summary>Leaves filled triangles with both sides for whoever draws next.</summary>
-    public static void End()
+    public void End()
     {
         LeaveOut(null);
         GlShim.SetWireframe(false);

@@ -9,6 +9,7 @@ namespace FractalEngine.Render.Passes;
 /// <summary>One combination of <see cref="MeshFeatures"/> as a program, with its uniforms.</summary>
 internal sealed class MeshProgram : IDisposable
 {
+    private readonly ChangeCounter _changes;
     private readonly ShaderProgram _program;
     private readonly int _flatColour;
     private readonly MaterialUniforms _material;
@@ -17,6 +18,7 @@ internal sealed class MeshProgram : IDisposable
     /// <summary>Compiles and links it.</summary>
     public MeshProgram(RenderContext context, MeshFeatures features)
     {
+        _changes = context.Resources.State.Changes;
         string[] symbols =
         [
             .. features.HasFlag(MeshFeatures.PerPixel) ? ["PER_PIXEL"] : Array.Empty<string>(),
@@ -28,11 +30,11 @@ internal sealed class MeshProgram : IDisposable
         _program = ShaderProgram.Load(context.Resources, "mesh", symbols);
         _program.BindBlock("ObjectBlock", MeshPass.ObjectBinding);
         _program.BindBlock("LightBlock", MeshPass.LightBinding);
-        View = new(_program, context.HasReversedDepth);
+        View = new(_program, _changes, context.HasReversedDepth);
         _flatColour = _program.Uniform("flatColour");
         _program.Use();
         GL.Uniform1(_program.Uniform("picture"), 0);
-        _material = new(_program);
+        _material = new(_program, _changes);
     }
 
     /// <summary>The camera as this program sees it.</summary>
@@ -44,11 +46,10 @@ internal sealed class MeshProgram : IDisposable
     /// <summary>Sets the colour of lines, or that there are none. The program must be in use.</summary>
     public void SetWireframe(bool wireframe, Colour colour)
     {
-        if (_lastWireframe != wireframe)
+        if (_changes.IsNew(ref _lastWireframe, wireframe))
         {
             var (red, green, blue) = colour.ToLinear();
             GL.Uniform4(_flatColour, (float)red, (float)green, (float)blue, wireframe ? 1 : 0);
-            _lastWireframe = wireframe;
         }
     }
 

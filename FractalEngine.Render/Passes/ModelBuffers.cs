@@ -86,7 +86,7 @@ internal sealed class ModelBuffers : IDisposable
             array.Attribute(instances, InstanceRows + row, 4, DrawableModel.InstanceFloats, 4 * row, divisor: 1);
         }
 
-        VertexArray.Unbind();
+        array.Unbind();
     }
 
     private void Upload(DrawableModel model)

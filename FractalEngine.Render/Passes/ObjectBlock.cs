@@ -23,7 +23,7 @@ internal sealed class ObjectBlock(GlResources resources, string name) : IDisposa
     /// <param name="camera">World space.</param>
     public void Bind(int bindingPoint, AffineMap map, Colour colour, Colour far, Vector camera)
     {
-        if (_last != (map, colour, far, camera))
+        if (resources.Uploads.IsNew(ref _last, (map, colour, far, camera)))
         {
             Write(map.Linear, 0);
             Write(CofactorsOf(map.Linear), 12);
@@ -33,7 +33,6 @@ internal sealed class ObjectBlock(GlResources resources, string name) : IDisposa
             (red, green, blue) = far.ToLinear();
             Write(new Vector(red, green, blue), 32);
             _buffer.Upload<float>(_data, BufferUsageHint.DynamicDraw);
-            _last = (map, colour, far, camera);
         }
 
         _buffer.BindTo(bindingPoint);

@@ -35,7 +35,7 @@ internal sealed class OverlayPass : IDisposable
         _array.Attribute(_quads, 0, 4, OverlayQuad.Floats, 0, divisor: 1);
         _array.Attribute(_quads, 1, 4, OverlayQuad.Floats, 4, divisor: 1);
         _array.Attribute(_quads, 2, 2, OverlayQuad.Floats, 8, divisor: 1);
-        VertexArray.Unbind();
+        _array.Unbind();
     }
 
     /// <summary>Draws panels into the bound framebuffer.</summary>

@@ -10,6 +10,7 @@ namespace FractalEngine.Render.Passes;
 /// <summary>Chooses the instances of a scene's objects that a picture needs, and keeps them on the GPU until the picture needs others.</summary>
 internal sealed class SceneDetail : IDisposable
 {
+    private readonly ChangeCounter _uploads;
     private readonly DrawableScene _scene;
     private readonly ChosenInstances?[] _instances;
     private readonly int[] _places;
@@ -23,7 +24,7 @@ internal sealed class SceneDetail : IDisposable
     /// <summary>For the objects of a scene that have levels to choose from.</summary>
     public SceneDetail(GlResources resources, DrawableScene scene, IReadOnlyDictionary<DrawableModel, ModelBuffers> models)
     {
-        _scene = scene;
+        (_uploads, _scene) = (resources.Uploads, scene);
         _instances = new ChosenInstances?[scene.Objects.Length];
         _places = new int[scene.Objects.Length];
         var objects = new List<DetailObject>();
@@ -91,10 +92,10 @@ internal sealed class SceneDetail : IDisposable
         }
     }
 
-    /// <summary>Chooses anew, if anything has changed that could change the choice.</summary>
+    /// <summary>Chooses and uploads anew, if anything has changed that could change the choice.</summary>
     public void Update(in DetailView view, DetailSettings settings, ZoomedObject? zoom)
     {
-        if (_objects.Length == 0 || _last == (view, settings, zoom))
+        if (_objects.Length == 0 || !_uploads.IsNeeded(_last == (view, settings, zoom), _objects.Length))
         {
             return;
         }

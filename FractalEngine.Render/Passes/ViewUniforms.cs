@@ -7,7 +7,7 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Passes;
 
 /// <summary>The camera as a shader sees it. Each uniform is set when it has changed, not per frame.</summary>
-internal sealed class ViewUniforms(ShaderProgram program, bool isReversed)
+internal sealed class ViewUniforms(ShaderProgram program, ChangeCounter changes, bool isReversed)
 {
     private readonly int _cameraAxes = program.Uniform("cameraAxes");
     private readonly int _viewScale = program.Uniform("viewScale");
@@ -23,7 +23,7 @@ internal sealed class ViewUniforms(ShaderProgram program, bool isReversed)
     /// <param name="bounds">Of everything there is, for planes that the view leaves open.</param>
     public void Set(View view, double aspect, BoundingBox bounds)
     {
-        if (_lastAxes != view.Camera.LocalAxesInverse)
+        if (changes.IsNew(ref _lastAxes, view.Camera.LocalAxesInverse))
         {
             SetAxes(view.Camera.LocalAxesInverse);
         }
@@ -31,9 +31,8 @@ internal sealed class ViewUniforms(ShaderProgram program, bool isReversed)
         var isPerspective = view.Projection == Projection.Perspective;
         var half = isPerspective ? view.Camera.HalfHeightAtUnitDepth : 0.5 * view.OrthographicHeight;
         var scale = (1 / (half * aspect), 1 / half);
-        if (_lastScale != scale)
+        if (changes.IsNew(ref _lastScale, scale))
         {
-            _lastScale = scale;
             GL.Uniform2(_viewScale, (float)scale.Item1, (float)scale.Item2);
         }
 
@@ -44,16 +43,14 @@ internal sealed class ViewUniforms(ShaderProgram program, bool isReversed)
             : isPerspective
             ? ((far + near) / (far - near), -2 * far * near / (far - near), 1.0, 0.0)
             : (2 / (far - near), -(far + near) / (far - near), 0.0, 1.0);
-        if (_lastDepth != depth)
+        if (changes.IsNew(ref _lastDepth, depth))
         {
-            _lastDepth = depth;
             GL.Uniform4(_depthScale, (float)depth.Item1, (float)depth.Item2, (float)depth.Item3, (float)depth.Item4);
         }
     }
 
     private void SetAxes(Matrix axes)
     {
-        _lastAxes = axes;
         var (v1, v2, v3) = axes;
         (_rows[0], _rows[1], _rows[2]) = ((float)v1.X, (float)v2.X, (float)v3.X);
         (_rows[3], _rows[4], _rows[5]) = ((float)v1.Y, (float)v2.Y, (float)v3.Y);

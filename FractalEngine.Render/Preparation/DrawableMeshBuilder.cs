@@ -13,7 +13,7 @@ internal static class DrawableMeshBuilder
     /// <param name="mesh">Normals are taken from it where it has them, else generated.</param>
     /// <param name="origin">The point of the mesh's frame that positions are written relative to.</param>
     /// <param name="creaseAngle">For generated normals, degrees.</param>
-    /// <param name="batches">The order of the faces, and whether texture coordinates are needed.</param>
+    /// <param name="batches">Which faces, their order, and whether texture coordinates are needed.</param>
     public static (float[] Vertices, float[] TextureCoordinates, uint[] Indices) Build(
         Mesh mesh, Vector origin, double creaseAngle, FaceBatches batches)
     {
@@ -21,13 +21,13 @@ internal static class DrawableMeshBuilder
         var generated = given.Length > 0 && !given.Contains(-1) ? mesh : NormalGenerator.WithNormals(mesh, creaseAngle);
         var vertices = new List<float>(mesh.VertexCount * DrawableModel.VertexFloats);
         var (textureCoordinates, hasTextures) = (new List<float>(), batches.HasTextures);
-        var indices = new uint[mesh.Faces.Length];
+        var indices = new uint[3 * batches.FaceCount];
         var next = 0;
         // The vertices made of one position are few: a list through this array, searched from its first.
         var firstOfPosition = new int[mesh.VertexCount];
         Array.Fill(firstOfPosition, -1);
         var made = new List<((Vector Normal, (double U, double V) Texture) Key, int Next)>(mesh.VertexCount);
-        for (var place = 0; place < mesh.FaceCount; place++)
+        for (var place = 0; place < indices.Length / 3; place++)
         {
             var face = batches.FaceAt(place);
             var (a, b, c) = mesh.Face(face);

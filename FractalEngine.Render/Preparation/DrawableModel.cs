@@ -38,6 +38,9 @@ public sealed class DrawableModel
     /// <summary>(u, v) of each vertex, v upwards, [vertices × 2]; empty where no material has a picture.</summary>
     public ReadOnlyMemory<float> TextureCoordinates { get; init; }
 
+    /// <summary>Faces of the mesh that are not among the triangles, since they have no area.</summary>
+    public int EmptyFaces { get; init; }
+
     /// <summary>Together they cover all indices.</summary>
     public ImmutableArray<DrawableBatch> Batches { get; init; } = [];
 

@@ -111,7 +111,7 @@ public sealed class DrawableScene
         }
 
         var (origin, meshOrigin) = (MiddleOf(model.Bounds), MiddleOf(mesh.Bounds));
-        var batches = FaceBatches.Of(model, textures);
+        var batches = FaceBatches.Of(model, textures, settings.SkipsEmptyFaces);
         var (vertices, textureCoordinates, indices) = DrawableMeshBuilder.Build(mesh, meshOrigin, settings.CreaseAngle, batches);
         // What is transparent lets the inner sides of a solid be seen.
         var isWorthIt = detail is not null ? model is FractalModel || mesh.FaceCount <= CheckedFaces : maps.Length >= CheckedInstances;
@@ -123,6 +123,7 @@ public sealed class DrawableScene
             MeshOrigin = meshOrigin,
             TextureCoordinates = textureCoordinates,
             Batches = batches.Batches,
+            EmptyFaces = batches.EmptyFaces,
             MeshSolidSign = meshSign,
             SolidSign = meshSign * commonSign,
         };

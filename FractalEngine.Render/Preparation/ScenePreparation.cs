@@ -22,7 +22,7 @@ public sealed class ScenePreparation
     public ScenePreparation(LoadedScene scene, RenderSettings settings)
     {
         (_scene, _settings, _models) = (scene, settings, [.. scene.Models]);
-        (_textures, _prepared, Scene) = (new(_notices), new DrawableModel?[_models.Length], DrawableScene.Outline(scene));
+        (_textures, _prepared, Scene) = (new(_notices, settings.SharesTextures), new DrawableModel?[_models.Length], DrawableScene.Outline(scene));
     }
 
     /// <summary>As far as it is prepared.</summary>

@@ -4,32 +4,34 @@ using FractalEngine.Render.Pictures;
 
 namespace FractalEngine.Render.Preparation;
 
-/// <summary>Decodes the pictures of materials, each file once. What can't be decoded is drawn grey, and said so.</summary>
+/// <summary>Decodes the pictures of materials, each file once unless told otherwise. What can't be decoded is drawn grey, and said so.</summary>
 /// <param name="notices">Receives what can't be decoded.</param>
-internal sealed class TextureCache(ImmutableArray<string>.Builder notices)
+/// <param name="isShared">Whether models share pictures; otherwise each material of each model has one of its own.</param>
+internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool isShared)
 {
+    private readonly List<DrawableTexture> _decoded = [];
     private readonly Dictionary<string, DrawableTexture?> _textures = [];
     private readonly Dictionary<Material, DrawableMaterial> _materials = [];
 
     /// <summary>The pictures so far.</summary>
-    public IEnumerable<DrawableTexture> Textures => _textures.Values.OfType<DrawableTexture>();
+    public IReadOnlyList<DrawableTexture> Textures => _decoded;
 
     /// <summary>A material with its picture; the same one for equal materials.</summary>
     public DrawableMaterial Of(Material material)
     {
-        if (!_materials.TryGetValue(material, out var drawable))
+        if (isShared && _materials.TryGetValue(material, out var known))
         {
-            var texture = material.Texture is { Path: var path } ? Load(path) : null;
-            drawable = new(material.Texture is not null && texture is null ? material.WithoutPicture() : material, texture);
-            _materials.Add(material, drawable);
+            return known;
         }
 
-        return drawable;
+        var texture = material.Texture is { Path: var path } ? Load(path) : null;
+        return _materials[material] = new(material.Texture is not null && texture is null ? material.WithoutPicture() : material, texture);
     }
 
     private DrawableTexture? Load(string path)
     {
-        if (_textures.TryGetValue(path, out var known))
+        // What can't be decoded is said once.
+        if (_textures.TryGetValue(path, out var known) && (isShared || known is null))
         {
             return known;
         }
@@ -43,7 +45,9 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices)
                 isTransparent = image.Pixels[i] < byte.MaxValue;
             }
 
-            return _textures[path] = new(Path.GetFileName(path), image, isTransparent);
+            var texture = new DrawableTexture(Path.GetFileName(path), image, isTransparent);
+            _decoded.Add(texture);
+            return _textures[path] = texture;
         }
         catch (IOException exception)
         {

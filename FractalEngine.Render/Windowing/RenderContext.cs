@@ -76,6 +76,10 @@ public abstract class RenderContext : IDisposable
         Resources.DeletePending();
     }
 
+    /// <summary>Takes over which GL calls are left out.</summary>
+    internal void Follow(RenderSettings settings) =>
+        (Resources.State.Changes.SkipsSame, Resources.Uploads.SkipsSame) = (settings.SkipsSameState, settings.KeepsBuffers);
+
     /// <summary>Reports what is still alive by name, deletes it and ends the context. Harmless when repeated.</summary>
     public void Dispose()
     {

@@ -25,6 +25,9 @@ public sealed class RenderWindow : RenderContext
     /// <summary>The height of the picture in pixels.</summary>
     public int Height => Window.Height;
 
+    /// <summary>Width divided by height; never 0.</summary>
+    public double Aspect => (double)Math.Max(1, Width) / Math.Max(1, Height);
+
     /// <summary>Shown in the title bar.</summary>
     public string Title
     {

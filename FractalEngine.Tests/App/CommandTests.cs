@@ -190,6 +190,16 @@ public sealed class CommandTests : IDisposable
     }
 
     [Theory]
+    [InlineData("render", "cube.obj", "--output", "a.png")]
+    [InlineData("view", "cube.obj")]
+    public void Without_AnUnknownWord_NamesItAndTheKnownOnes(params string[] arguments)
+    {
+        var (exitCode, _, error) = Run([.. arguments, "--without", "backs", "--without", "nonsense"]);
+        Assert.Equal(2, exitCode);
+        Assert.StartsWith("error: --without: expected one of backs, outside, hidden, empty-faces, state, buffers, sharing, sight, still, not 'nonsense'\n", error, StringComparison.Ordinal);
+    }
+
+    [Theory]
     [InlineData("missing.obj")]
     [InlineData("missing.sdo")]
     [InlineData(".")]

@@ -45,6 +45,17 @@ public sealed class AssetLoaderTests : IDisposable
     }
 
     [Fact]
+    public void Load_WithoutSharing_ReadsAFileForEachObject()
+    {
+        _folder.Write("a.obj", Triangle);
+        _folder.Write("f.fdo", "<$>. \"a.obj\"");
+        var scene = _folder.Write("s.sdo", "o \"a.obj\" #\no \"a.obj\" ((1, 0, 0), #, #)\no \"a.obj\" ((2, 0, 0), #, #)\no \"f.fdo\" #\no \"f.fdo\" #");
+        Assert.Equal(2, AssetLoader.Load(scene).Scene.Models.Count());
+        var models = AssetLoader.Load(scene, new() { SharesFiles = false }).Scene.Models.ToArray();
+        Assert.Equal((5, 5), (models.Length, models.Select(model => model.Mesh).Distinct().Count()));
+    }
+
+    [Fact]
     public void Load_OfAFileNamedOften_ReadsItOnce()
     {
         _folder.Write("sub/a.obj", Triangle);

@@ -7,7 +7,8 @@ namespace FractalEngine.Tests.Collision;
 /// <summary>The fractals that come with the program.</summary>
 internal static class AssetFractals
 {
-    private static readonly string Folder = Find();
+    /// <summary>Where they are.</summary>
+    public static readonly string Folder = Find();
 
     /// <summary>As its file says.</summary>
     public static Fractal Load(string name) =>

@@ -5,6 +5,12 @@ namespace FractalEngine.Tests.Render;
 /// <summary>How far pictures are from each other, in the values that files hold (sRGB).</summary>
 internal static class Pictures
 {
+    /// <summary>
+    /// Decibels from which pictures count as the same: a picture of every instance of a fractal is itself 24 to 40 dB from the truth, so that differences of 40 dB and more are
+    /// not seen beside that.
+    /// </summary>
+    public const double Same = 40;
+
     /// <summary>Peak signal-to-noise ratio in decibels: 20·log₁₀(255 / root of the mean square); infinite for equal pictures.</summary>
     public static double Ratio(PixelImage image1, PixelImage image2)
     {
@@ -43,5 +49,40 @@ internal static class Pictures
             }
         });
         return new(width, height, pixels);
+    }
+
+    /// <summary>The share of pixels that are not black in one picture and black, with all around them up to two pixels away, in another.</summary>
+    public static double ShareNotNear(PixelImage image1, PixelImage image2)
+    {
+        var (count, far) = (0, 0);
+        for (var y = 0; y < image1.Height; y++)
+        {
+            for (var x = 0; x < image1.Width; x++)
+            {
+                if (image1[x, y].Green > 0)
+                {
+                    count++;
+                    far += Around(image2, x, y) ? 0 : 1;
+                }
+            }
+        }
+
+        return (double)far / count;
+    }
+
+    private static bool Around(PixelImage image, int x, int y)
+    {
+        for (var row = Math.Max(0, y - 2); row <= Math.Min(image.Height - 1, y + 2); row++)
+        {
+            for (var column = Math.Max(0, x - 2); column <= Math.Min(image.Width - 1, x + 2); column++)
+            {
+                if (image[column, row].Green > 0)
+                {
+                    return true;
+                }
+            }
+        }
+
+        return false;
     }
 }

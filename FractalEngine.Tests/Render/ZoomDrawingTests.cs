@@ -1,4 +1,3 @@
-using System.Globalization;
 using FractalEngine.App.Window;
 using FractalEngine.Core.Detail;
 using FractalEngine.Core.Fractals;
@@ -11,6 +10,7 @@ using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Windowing;
 using FractalEngine.Tests.Detail;
 using FractalEngine.Tests.Support;
+using static System.FormattableString;
 
 namespace FractalEngine.Tests.Render;
 
@@ -21,9 +21,6 @@ public sealed class ZoomDrawingTests
     private const int Width = 160;
     private const int Height = 120;
     private const int Ancestors = 30;
-
-    // As for pictures of chosen instances: not seen beside how far both are from the truth.
-    private const double SamePicture = 40;
 
     private static readonly RenderSettings Settings = new() { Samples = 0 };
     private static readonly Light[] Directions = [new AmbientLight(Colour.White, 0.1), new DirectionalLight(new(0.3, -0.5, 0.9), Colour.White, 0.9), new DirectionalLight(new(0.9, 0.4, 0.2), new(0.4, 0.6, 1), 0.5)];
@@ -51,7 +48,7 @@ public sealed class ZoomDrawingTests
                 var zoomed = stage.Draw(new(camera, Projection.Perspective) { Clip = (near, far / unit), Zoom = stage.Zoom(dive.Address) });
                 var ratio = Pictures.Ratio(zoomed, ordinary);
                 var (_, share) = RenderScenes.Difference(zoomed, ordinary);
-                Assert.True(ratio >= SamePicture || share < 0.01, Text($"{name}, {placement}, depth {dive.Address.Depth}: {ratio:F1} dB, {share:P2} of the pixels"));
+                Assert.True(ratio >= Pictures.Same || share < 0.01, Invariant($"{name}, {placement}, depth {dive.Address.Depth}: {ratio:F1} dB, {share:P2} of the pixels"));
                 Assert.True(RenderScenes.CountOther(zoomed, (0, 0, 0, 255)) > 50, "there is nothing to see");
             }
         }
@@ -102,8 +99,8 @@ public sealed class ZoomDrawingTests
 
         for (var i = 0; i < centroids.Count; i++)
         {
-            Assert.True(Math.Abs(centroids[i] - expected[i]) < 0.25, Text($"step {i}: {centroids[i]} for {expected[i]}"));
-            Assert.True(i == 0 || Math.Abs(centroids[i] - centroids[i - 1]) < 0.5, Text($"step {i}: from {centroids[Math.Max(0, i - 1)]} to {centroids[i]}"));
+            Assert.True(Math.Abs(centroids[i] - expected[i]) < 0.25, Invariant($"step {i}: {centroids[i]} for {expected[i]}"));
+            Assert.True(i == 0 || Math.Abs(centroids[i] - centroids[i - 1]) < 0.5, Invariant($"step {i}: from {centroids[Math.Max(0, i - 1)]} to {centroids[i]}"));
         }
     }
 
@@ -121,7 +118,7 @@ public sealed class ZoomDrawingTests
             {
                 // At depth 10 the light is 59,049 times as far away as the corner: its direction differs by 1e-4.
                 var (mean, share) = RenderScenes.Difference(last, picture);
-                Assert.True(mean < 0.1 && share < 0.001, Text($"depth {depth}: mean {mean}, share {share}"));
+                Assert.True(mean < 0.1 && share < 0.001, Invariant($"depth {depth}: mean {mean}, share {share}"));
             }
 
             last = picture;
@@ -146,7 +143,7 @@ public sealed class ZoomDrawingTests
             controls.Handle(new WheelTurned(1, KeyModifiers.None), (double)Width / Height);
         }
 
-        Assert.True(controls.Depth >= 35, Text($"only {controls.Depth} levels"));
+        Assert.True(controls.Depth >= 35, Invariant($"only {controls.Depth} levels"));
         // About turned: what one comes from.
         foreach (var yaw in (double[])[0, 180])
         {
@@ -155,7 +152,7 @@ public sealed class ZoomDrawingTests
             var unit = Math.Exp(zoomed.Zoom!.LogUnit);
             var ordinary = stage.Draw(new(looking, Projection.Perspective) { Clip = (zoomed.Clip!.Value.Near * unit, 100) });
             var ratio = Pictures.Ratio(stage.Draw(zoomed), ordinary);
-            Assert.True(ratio >= SamePicture, Text($"depth {controls.Depth}, turned by {yaw}: {ratio:F1} dB"));
+            Assert.True(ratio >= Pictures.Same, Invariant($"depth {controls.Depth}, turned by {yaw}: {ratio:F1} dB"));
         }
     }
 
@@ -172,7 +169,7 @@ public sealed class ZoomDrawingTests
             var ordinary = stage.Draw(new(camera, Projection.Perspective) { Clip = (0.01 * unit, 100) });
             var zoomed = stage.Draw(new(camera, Projection.Perspective) { Clip = (0.01, 100 / unit), Zoom = stage.Zoom(dive.Address) });
             var ratio = Pictures.Ratio(zoomed, ordinary);
-            Assert.True(ratio >= SamePicture, Text($"by {kind}: {ratio:F1} dB"));
+            Assert.True(ratio >= Pictures.Same, Invariant($"by {kind}: {ratio:F1} dB"));
         }
     }
 
@@ -190,8 +187,6 @@ public sealed class ZoomDrawingTests
         "menger" => new Vector(-1, -0.8, -0.9).UnitVector(),
         _ => new Vector(-1, -0.7, -0.9).UnitVector(),
     };
-
-    private static string Text(FormattableString text) => text.ToString(CultureInfo.InvariantCulture);
 
     /// <summary>One fractal on black, and what draws it.</summary>
     private sealed class Stage : IDisposable

@@ -1,0 +1,117 @@
+using OpenTK.Graphics.OpenGL4;
+
+namespace FractalEngine.Render.Gl;
+
+/// <summary>
+/// What is bound in one context. Programs, vertex arrays, textures, uniform buffers and the side that is left out are set here and nowhere else, so that what is
+/// bound already is not bound again.
+/// </summary>
+internal sealed class GlState
+{
+    /// <summary>Binding points of uniform buffers.</summary>
+    public const int UniformBindings = 2;
+
+    // No object has this name: the next binding is made.
+    private const int Unknown = -1;
+
+    private readonly int[] _uniformBuffers = [.. Enumerable.Repeat(Unknown, UniformBindings)];
+    private int _program = Unknown;
+    private int _vertexArray = Unknown;
+    private int _texture = Unknown;
+    private (bool IsKnown, bool? Front) _leftOut;
+
+    /// <summary>Made and not needed: bindings, and uniforms of programs.</summary>
+    public ChangeCounter Changes { get; } = new();
+
+    /// <summary>Makes a program current.</summary>
+    public void UseProgram(int name)
+    {
+        if (Changes.IsNew(ref _program, name))
+        {
+            GL.UseProgram(name);
+        }
+    }
+
+    /// <summary>Makes a vertex array current; 0 for none.</summary>
+    public void BindVertexArray(int name)
+    {
+        if (Changes.IsNew(ref _vertexArray, name))
+        {
+            GL.BindVertexArray(name);
+        }
+    }
+
+    /// <summary>Binds a texture of two dimensions to the first texture unit.</summary>
+    public void BindTexture(int name)
+    {
+        if (Changes.IsNew(ref _texture, name))
+        {
+            GL.ActiveTexture(TextureUnit.Texture0);
+            GL.BindTexture(TextureTarget.Texture2D, name);
+        }
+    }
+
+    /// <summary>Binds a uniform buffer.</summary>
+    /// <param name="bindingPoint">Below <see cref="UniformBindings"/>.</param>
+    /// <param name="name">Of the buffer.</param>
+    public void BindUniformBuffer(int bindingPoint, int name)
+    {
+        if (Changes.IsNew(ref _uniformBuffers[bindingPoint], name))
+        {
+            GL.BindBufferBase(BufferRangeTarget.UniformBuffer, bindingPoint, name);
+        }
+    }
+
+    /// <summary>Chooses which side of triangles is not drawn.</summary>
+    /// <param name="front">True for the front, false for the back; null to draw both.</param>
+    public void LeaveOut(bool? front)
+    {
+        if (!Changes.IsNew(ref _leftOut, (true, front)))
+        {
+            return;
+        }
+
+        if (front is { } side)
+        {
+            GL.Enable(EnableCap.CullFace);
+            GlShim.SetCulledSide(side);
+        }
+        else
+        {
+            GL.Disable(EnableCap.CullFace);
+        }
+    }
+
+    /// <summary>Deletes a program. Its name may come again, for another one.</summary>
+    public void DeleteProgram(int name)
+    {
+        GL.DeleteProgram(name);
+        Forget(ref _program, name);
+    }
+
+    /// <summary>Deletes a vertex array.</summary>
+    public void DeleteVertexArray(int name)
+    {
+        GL.DeleteVertexArray(name);
+        Forget(ref _vertexArray, name);
+    }
+
+    /// <summary>Deletes a texture.</summary>
+    public void DeleteTexture(int name)
+    {
+        GL.DeleteTexture(name);
+        Forget(ref _texture, name);
+    }
+
+    /// <summary>Deletes a buffer of any kind.</summary>
+    public void DeleteBuffer(int name)
+    {
+        GL.DeleteBuffer(name);
+        foreach (ref var bound in _uniformBuffers.AsSpan())
+        {
+            Forget(ref bound, name);
+        }
+    }
+
+    private static void Forget(ref int bound, int name) => bound = bound == name ? Unknown : bound;
+}

@@ -1,0 +1,117 @@
+using FractalEngine.App.Window;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Render;
+using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Windowing;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.App;
+
+/// <summary>What a window draws while the camera moves and when it stands.</summary>
+[Collection("GL")]
+public sealed class WindowPicturesTests : IDisposable
+{
+    private const int Width = 160;
+    private const int Height = 120;
+
+    private static readonly RenderSettings Settings = new();
+    private static readonly TimeSpan Time = TimeSpan.FromSeconds(0.1);
+
+    private readonly TemporaryFolder _folder = new();
+
+    public void Dispose() => _folder.Dispose();
+
+    [SkippableFact]
+    public void Capture_WhileMoving_IsTheViewOnTheScreenInFullDetail()
+    {
+        using var window = Open();
+        using var frame = new FrameRenderer(window);
+        using var document = Load(window);
+        var pictures = new WindowPictures(frame);
+        var expected = new List<PixelImage>();
+        document.Controls.Handle(new KeyPressed(Key.D, KeyModifiers.None, false), window.Aspect);
+        for (var i = 0; i < 3; i++)
+        {
+            document.Controls.Advance(Time);
+            frame.Draw(document.Renderer, document.ViewNow((double)Width / Height), Width, Height, Settings);
+            expected.Add(frame.Capture());
+            pictures.Draw(document, Settings, Width, Height);
+            Assert.True(pictures.IsCoarse);
+            // One behind, but for the first.
+            Assert.Equal(expected[Math.Max(0, i - 1)].Pixels, pictures.Capture(document, Settings, Width, Height).Pixels);
+        }
+
+        Assert.NotEqual(expected[0].Pixels, expected[1].Pixels);
+        // When the camera stands, it is that of its place, drawn or not.
+        document.Controls.Handle(new KeyReleased(Key.D, KeyModifiers.None), window.Aspect);
+        Assert.Equal(expected[2].Pixels, pictures.Capture(document, Settings, Width, Height).Pixels);
+        pictures.Draw(document, Settings, Width, Height);
+        Assert.False(pictures.IsCoarse);
+        Assert.Equal(expected[2].Pixels, frame.Capture().Pixels);
+        Assert.Equal((4, 0, 6), pictures.CountsOf(10));
+    }
+
+    [SkippableFact]
+    public void Report_OfAPicture_CountsWhatWasLeftOut()
+    {
+        using var window = Open();
+        using var frame = new FrameRenderer(window);
+        using var document = Load(window);
+        var pictures = new WindowPictures(frame);
+        pictures.Draw(document, Settings, Width, Height);
+        pictures.Draw(document, Settings, Width, Height);
+        pictures.ShowAgain();
+        var rows = new PictureReport(document.Renderer, Settings.Detail, Time, 0, 0).ToPanels(pictures.CountsOf(60)).SelectMany(panel => panel.Lines).ToDictionary(line => line.Text, line => line.Second);
+        Assert.Equal("2 objects, 2 files, 0 textures", rows["shared"]);
+        Assert.Equal("1 of 2 models", rows["not in sight yet"]);
+        Assert.Equal("of 1 of 2 objects", rows["backs"]);
+        // The instances of the near cube, both objects, the lights.
+        Assert.Equal("4; 0 made", rows["uploads"]);
+        Assert.Equal("57; 2 drawn, 1 shown again", rows["pictures at 60/s"]);
+    }
+
+    [SkippableFact]
+    public void Sight_OfWhatComesIntoIt_IsPreparedInTheBackground()
+    {
+        using var window = Open();
+        using var document = Load(window);
+        Assert.Equal(1, document.Renderer.Scene.Models.Count(model => model.IsPlaceholder));
+        document.Sight.Start(document.ViewNow(window.Aspect), window.Aspect);
+        Assert.False(document.Sight.IsRunning);
+        // All of the scene.
+        document.Controls.Handle(new KeyPressed(Key.F, KeyModifiers.None, false), window.Aspect);
+        document.Sight.Start(document.ViewNow(window.Aspect), window.Aspect);
+        Assert.True(document.Sight.IsRunning);
+        DrawableScene? scene;
+        while ((scene = document.Sight.Take()) is null)
+        {
+            Thread.Sleep(1);
+        }
+
+        Assert.DoesNotContain(scene.Models, model => model.IsPlaceholder);
+        Assert.Equal((false, null), (document.Sight.IsRunning, document.Sight.Progress));
+    }
+
+    private static RenderWindow Open()
+    {
+        try
+        {
+            return new("pictures", Width, Height);
+        }
+        catch (GraphicsUnavailableException exception)
+        {
+            throw new SkipException(exception.Message);
+        }
+    }
+
+    private Document Load(RenderWindow window)
+    {
+        _folder.Write("near.obj", Files.Cube);
+        _folder.Write("far.obj", Files.Cube);
+        var file = AssetLoader.Load(_folder.Write("scene.sdo", "c (0.6, 0.9, -3) (-0.2, -0.2, 0) 60\no \"near.obj\" #\no \"far.obj\" ((0, 0, -9), #, #)\n"));
+        var preparation = new ScenePreparation(file.Scene, Settings);
+        preparation.PrepareInSight(View.Of(file.Scene, window.Aspect), window.Aspect);
+        return new(window, file, preparation, new() { Settings = Settings });
+    }
+}

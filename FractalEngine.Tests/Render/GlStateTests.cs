@@ -1,0 +1,92 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
+using FractalEngine.Render.Gl;
+using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Ui;
+
+namespace FractalEngine.Tests.Render;
+
+[Collection(GlTests.Name)]
+public sealed class GlStateTests
+{
+    [Fact]
+    public void Counter_OfTheSameValue_SkipsItAndCounts()
+    {
+        var counter = new ChangeCounter();
+        var last = 0;
+        Assert.Equal([false, true, false, true], ((int[])[0, 1, 1, 0]).Select(now => counter.IsNew(ref last, now)));
+        Assert.Equal(new(2, 2), counter.Counts);
+        Assert.False(counter.IsNeeded(true, 3));
+        Assert.True(counter.IsNeeded(false, 3));
+        Assert.Equal(new(5, 5), counter.Counts);
+    }
+
+    [Fact]
+    public void Counter_SwitchedOff_DoesEverythingAndKnowsWhatHolds()
+    {
+        var counter = new ChangeCounter { SkipsSame = false };
+        var last = 0;
+        Assert.Equal([true, true, true], ((int[])[0, 1, 1]).Select(now => counter.IsNew(ref last, now)));
+        counter.SkipsSame = true;
+        Assert.False(counter.IsNew(ref last, 1));
+        Assert.Equal(new(3, 1), counter.Counts);
+    }
+
+    [SkippableFact]
+    public void Binding_OfADeletedObject_IsForgotten()
+    {
+        using var context = GlTests.Open();
+        var state = context.Resources.State;
+        // Names of deleted objects come again.
+        for (var i = 0; i < 5; i++)
+        {
+            var before = state.Changes.Counts;
+            using var array = new VertexArray(context.Resources, "array");
+            using var texture = new AlphaTexture(context.Resources, "texture", 1, 1, [1]);
+            array.Bind();
+            texture.Bind();
+            // A texture is bound when it is made.
+            Assert.Equal(new(2, 1), state.Changes.Counts - before);
+            array.Bind();
+            texture.Bind();
+            Assert.Equal(new(2, 3), state.Changes.Counts - before);
+        }
+
+        context.Resources.ThrowOnError("binding");
+    }
+
+    [SkippableTheory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public void Scenes_OneAfterTheOtherInOneContext_LookAsInTheirOwn(bool skips)
+    {
+        using var textures = new TexturedScenes();
+        var settings = new RenderSettings { SkipsSameState = skips, KeepsBuffers = skips };
+        var glass = TexturedScenes.Of(RenderScenes.Cube(1), new("glass") { Diffuse = new(1, 0, 0), Opacity = 0.4 });
+        var checks = textures.Texture("a.png", 2, 2, (x, y) => ((byte)(255 * x), (byte)(255 * y), 90, 255));
+        LoadedScene[] scenes =
+        [
+            RenderScenes.Scene(new Scene(), (RenderScenes.Menger(2), Transformation.Identity, null), (glass, RenderScenes.At(1, 1, -1), null)),
+            RenderScenes.Scene(new Scene(), (TexturedScenes.Square(1, new("m") { Texture = checks }), Transformation.Identity, null), (RenderScenes.Model(RenderScenes.Ball(9)), RenderScenes.At(-1, 0, 1), null)),
+            RenderScenes.Scene(new Scene { Lights = [RenderScenes.FullLight] }, (RenderScenes.Model(RenderScenes.Cube(0.7)), Transformation.Identity, Colour.White)),
+        ];
+        var expected = scenes.Select(scene => RenderScenes.Draw(scene, RenderScenes.FrontView, settings: new())).ToArray();
+        using var context = GlTests.Open();
+        using var frame = new FrameRenderer(context);
+        for (var i = 0; i < 9; i++)
+        {
+            using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scenes[i % 3], settings));
+            // Lines and text between the pictures bind objects of their own; the second picture finds what they left.
+            for (var round = 0; round < 2; round++)
+            {
+                frame.Draw(renderer, RenderScenes.FrontView, 200, 150, settings with { Grid = true, Axes = true, Wireframe = round == 0 });
+                frame.Capture(OverlayPanel.OfText(OverlayAnchor.TopLeft, "text"));
+                frame.Draw(renderer, RenderScenes.FrontView, 200, 150, settings);
+                context.Resources.ThrowOnError("drawing");
+                Assert.Equal(expected[i % 3].Pixels, frame.Capture().Pixels);
+            }
+        }
+    }
+}
