@@ -66,6 +66,7 @@ public sealed class FrameRenderer : IDisposable
         if (view.Zoom is null)
         {
             _lines.Draw(view, aspect, scene.Bounds, settings);
+            _lines.Draw(view, aspect, bounds, scene.Lines);
         }
 
         GL.Disable(EnableCap.DepthTest);

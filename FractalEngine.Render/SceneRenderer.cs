@@ -15,6 +15,9 @@ public sealed class SceneRenderer : IDisposable
     // Natural logarithm. From deeper down lights with a place look the same.
     private const double DeepestLight = 14;
 
+    // Of the palette: coral.
+    private const int BallColour = 2;
+
     private readonly MeshPass _pass;
     private readonly LightBlock _lights;
     private TransparentOrder _transparent;
@@ -26,6 +29,7 @@ public sealed class SceneRenderer : IDisposable
     private readonly BoundingBox[] _boxes;
     private SceneDetail? _detail;
     private BoundingBox? _bounds;
+    private BallInstances? _balls;
     private (ChangeCounts Uploads, ChangeCounts State) _before;
     private (ChangeCounts Uploads, ChangeCounts State) _after;
     private int _oneSided;
@@ -56,8 +60,17 @@ public sealed class SceneRenderer : IDisposable
     /// <summary>What is drawn.</summary>
     public DrawableScene Scene { get; private set; }
 
-    /// <summary>A box that holds all objects where they are now, world space.</summary>
-    public BoundingBox Bounds => _bounds ??= _boxes.Aggregate(BoundingBox.Empty, BoundingBox.Union);
+    /// <summary>
+    /// A box that holds all objects where they are now, world space; of those that move all the time only as far as they stay near. What falls out of the scene
+    /// goes out of sight beyond the far plane, and does not take the planes with it.
+    /// </summary>
+    public BoundingBox Bounds => _bounds ??= BoundsNow();
+
+    /// <summary>Balls beside the scene's objects.</summary>
+    public IReadOnlyList<LooseBall> Balls { get; set; } = [];
+
+    /// <summary>Lines beside the scene's objects.</summary>
+    public IReadOnlyList<LineSegment> Lines { get; set; } = [];
 
     /// <summary>What the last picture took, where instances are chosen (<see cref="RenderSettings.Detail"/>). Counted out when it is asked for.</summary>
     public FrameStatistics Statistics => new(
@@ -115,7 +128,7 @@ public sealed class SceneRenderer : IDisposable
             _maps[index] = map;
             _boxes[index] = Scene.Objects[index].Model.Bounds.Transform(map);
             Detail.Move(index, map);
-            _bounds = null;
+            _bounds = Scene.Objects[index].IsMoving ? _bounds : null;
         }
     }
 
@@ -146,6 +159,7 @@ public sealed class SceneRenderer : IDisposable
             block.Dispose();
         }
 
+        _balls?.Dispose();
         _textures.Dispose();
         _lights.Dispose();
         _pass.Dispose();
@@ -166,6 +180,11 @@ public sealed class SceneRenderer : IDisposable
         _oneSided = 0;
         for (var i = 0; i < _blocks.Length; i++)
         {
+            if (Scene.Objects[i].IsMoving && settings.Detail is { SkipsOutside: true } && !view.MaySee(_boxes[i], aspect))
+            {
+                continue;
+            }
+
             var hidden = settings.Wireframe || !settings.SkipsBacks ? null : HiddenSide(i, view, bounds);
             _oneSided += hidden is null ? 0 : 1;
             _pass.LeaveOut(hidden);
@@ -181,6 +200,13 @@ public sealed class SceneRenderer : IDisposable
             }
         }
 
+        if (Balls.Count > 0)
+        {
+            _pass.LeaveOut(null);
+            _pass.Use(null, Colour.White, MeshFeatures.InWorld);
+            (_balls ??= new(Context.Resources)).Draw(Balls, view.Camera.Position, ObjectPalette.ColourOf(BallColour));
+        }
+
         if (!settings.Wireframe)
         {
             DrawTransparent(view);
@@ -188,6 +214,19 @@ public sealed class SceneRenderer : IDisposable
 
         _pass.End();
         _after = (Uploads, StateChanges);
+    }
+
+    private BoundingBox BoundsNow()
+    {
+        var (box, moves) = (BoundingBox.Empty, false);
+        for (var i = 0; i < _boxes.Length; i++)
+        {
+            moves |= Scene.Objects[i].IsMoving;
+            box = Scene.Objects[i].IsMoving ? box : BoundingBox.Union(box, _boxes[i]);
+        }
+
+        var whole = Scene.Source.Bounds;
+        return moves ? BoundingBox.Union(box, new(whole.Minimum - (0.5 * whole.Size), whole.Maximum + (0.5 * whole.Size))) : box;
     }
 
     /// <summary>Moves to the GPU what is not there yet.</summary>

@@ -142,6 +142,15 @@ internal sealed class CameraControls
         return _pose != before;
     }
 
+    /// <summary>Goes on from another place. Keys that are held are forgotten.</summary>
+    public void MoveTo(Camera camera)
+    {
+        _held.Clear();
+        _pose = _pose with { Camera = camera };
+        _focusDistance = DistanceToCentre(camera);
+        PlaceInFractal();
+    }
+
     /// <summary>Moves on for a while, as the held keys say.</summary>
     /// <returns>True when the view changed.</returns>
     public bool Advance(TimeSpan time)

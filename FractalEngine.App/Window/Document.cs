@@ -23,6 +23,7 @@ internal sealed class Document : IDisposable
         Controls = new(file.Scene.Bounds, camera, options.Projection ?? scene.Projection, scene.OrthographicHeight, FractalIn(drawable));
         Trail = file.Scene.Objects is [{ Model: FractalModel { Fractal: var fractal } }] ? new(fractal, options.TrailLength) : null;
         Renderer = new(window, drawable);
+        Physics = new(file.Scene, window.Wake);
     }
 
     /// <summary>The file.</summary>
@@ -33,6 +34,15 @@ internal sealed class Document : IDisposable
 
     /// <summary>Moves the camera.</summary>
     public CameraControls Controls { get; }
+
+    /// <summary>Moves the bodies.</summary>
+    public ScenePhysics Physics { get; }
+
+    /// <summary>Tells the player where to go.</summary>
+    public WalkControls Walk { get; } = new();
+
+    /// <summary>True while camera or bodies move.</summary>
+    public bool IsMoving => Physics.IsRunning || (!Physics.IsWalking && Controls.IsMoving);
 
     /// <summary>Prepares what comes in sight.</summary>
     public SightPreparation Sight { get; }
@@ -54,7 +64,13 @@ internal sealed class Document : IDisposable
     /// <param name="aspect">Width divided by height of the picture.</param>
     public View ViewNow(double aspect)
     {
+        Physics.Place(Renderer);
         var view = View.Of(File.Scene with { Scene = SceneNow() }, aspect);
+        if (Physics.IsWalking)
+        {
+            return view;
+        }
+
         if (!UsesTrail)
         {
             return Controls.Deepened(view);
@@ -64,10 +80,44 @@ internal sealed class Document : IDisposable
         return view;
     }
 
+    /// <summary>Takes in an event: the player's, or the camera's.</summary>
+    /// <returns>True when the view changed.</returns>
+    public bool Handle(WindowEvent windowEvent, double aspect) =>
+        Physics.IsWalking ? Walk.Handle(windowEvent, Physics.Walker!) : Controls.Handle(windowEvent, aspect);
+
+    /// <summary>Moves on for a while.</summary>
+    /// <returns>True when something may look different.</returns>
+    public bool Advance(TimeSpan time)
+    {
+        var moves = Physics.Advance(time);
+        return (!Physics.IsWalking && Controls.Advance(time)) || moves;
+    }
+
+    /// <summary>Lets the player walk from where the camera looks, or the camera fly from where the player stands.</summary>
+    /// <returns>What to say.</returns>
+    public string ToggleWalking()
+    {
+        var camera = Camera;
+        var message = Physics.ToggleWalking(camera);
+        if (Physics.IsWalking)
+        {
+            Walk.Direction = camera;
+        }
+        else
+        {
+            Controls.MoveTo(camera);
+        }
+
+        return message;
+    }
+
+    /// <summary>Where the scene is seen from: the camera's place, or the player's eyes.</summary>
+    public Camera Camera => Physics is { IsWalking: true, Walker: { } walker } ? Walk.Eyes(walker, Physics.Part) : Controls.Camera;
+
     /// <summary>The scene as it would be saved: with the present camera and projection.</summary>
     public Scene SceneNow() => File.Scene.Scene with
     {
-        Camera = Controls.Camera,
+        Camera = Camera,
         Projection = Controls.Projection,
         OrthographicHeight = Controls.OrthographicHeight,
     };

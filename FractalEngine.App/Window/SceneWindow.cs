@@ -87,7 +87,7 @@ internal sealed class SceneWindow : IDisposable
     private TimeSpan TimeToSleep() =>
         IsStale ? TimeSpan.Zero
         : !_options.SkipsStillPictures ? Until(_refreshed + FrameTime)
-        : _document?.Controls.IsMoving == true ? Until(_advanced + FrameTime)
+        : _document?.IsMoving == true ? Until(_advanced + FrameTime)
         : !_load.IsTaken || _document?.Sight.IsRunning == true ? ProgressInterval
         : _overlay.NextExpiry is { } expiry ? Until(expiry)
         : Timeout.InfiniteTimeSpan;
@@ -187,8 +187,8 @@ internal sealed class SceneWindow : IDisposable
 
         if (_document is { } document)
         {
-            var wasMoving = document.Controls.IsMoving;
-            _isDrawingStale |= document.Controls.Handle(windowEvent, _window.Aspect);
+            var wasMoving = document.IsMoving;
+            _isDrawingStale |= document.Handle(windowEvent, _window.Aspect);
             if (!wasMoving)
             {
                 _advanced = _clock.Elapsed;
@@ -220,6 +220,12 @@ internal sealed class SceneWindow : IDisposable
             case Key.S when pressed.Modifiers.HasFlag(KeyModifiers.Control) && _document is { } document:
                 Say(WindowFiles.SaveScene(document));
                 break;
+            case var key when !pressed.Modifiers.HasFlag(KeyModifiers.Control) && _document is { } document && PhysicsKeys.Apply(document, key) is { } message:
+                _advanced = _clock.Elapsed;
+                _overlay.Physics = document.Physics.Description;
+                _overlay.Say(message, _clock.Elapsed);
+                _isDrawingStale = true;
+                break;
             default:
                 Change(SettingKeys.Apply(_settings, pressed.Key));
                 break;
@@ -242,14 +248,15 @@ internal sealed class SceneWindow : IDisposable
     {
         var now = _clock.Elapsed;
         var time = now - _advanced;
-        if (_document?.Controls.IsMoving == true && time >= FrameTime)
+        if (_document?.IsMoving == true && time >= FrameTime)
         {
             _advanced = now;
-            _isDrawingStale |= _document.Controls.Advance(time < LongestStep ? time : LongestStep);
+            _isDrawingStale |= _document.Advance(time < LongestStep ? time : LongestStep);
+            _overlay.Physics = _document.Physics.Description;
         }
 
         // What was drawn while moving was coarse, and one picture behind.
-        _isDrawingStale |= _pictures.IsCoarse && _document?.Controls.IsMoving != true;
+        _isDrawingStale |= _pictures.IsCoarse && _document?.IsMoving != true;
         _isDrawingStale |= !_options.SkipsStillPictures && now - _refreshed >= FrameTime;
     }
 

@@ -28,6 +28,10 @@ internal sealed class WindowOverlay
         ("G X", "grid, wireframe"),
         ("L", "light at vertices, at pixels"),
         ("T", "the paper's way into a fractal"),
+        ("Space N", "pause, one step"),
+        ("B R", "drop a ball, reset"),
+        ("P", "walk, fly"),
+        ("C V", "next collider, closest points"),
         ("I", "what a picture takes"),
         ("F12", "screenshot"),
         ("Ctrl+S", "save scene and camera"),
@@ -45,6 +49,9 @@ internal sealed class WindowOverlay
     /// <summary>Why there is no picture; null when there is one.</summary>
     public string? Error { get; set; }
 
+    /// <summary>What is written of the bodies; null where there are none.</summary>
+    public string? Physics { get; set; }
+
     /// <summary>Whether the keys are listed.</summary>
     public bool ShowsKeys { get; set; }
 
@@ -60,6 +67,7 @@ internal sealed class WindowOverlay
     /// <summary>Everything that is written now.</summary>
     public IReadOnlyList<OverlayPanel> Panels =>
     [
+        .. Physics is { } physics ? [new OverlayPanel(OverlayAnchor.TopLeft, [new OverlayLine(physics, null, OverlayTone.Dim)])] : Array.Empty<OverlayPanel>(),
         .. ShowsKeys ? [Keys] : Array.Empty<OverlayPanel>(),
         .. ShowsStatistics && _report is { } report ? report.ToPanels(Pictures) : [],
         .. Error is { } error
@@ -77,7 +85,7 @@ internal sealed class WindowOverlay
     /// <summary>Tells what is shown from now on.</summary>
     public void Describe(LoadedFile file, DrawableScene drawable)
     {
-        _report = null;
+        (_report, Physics) = (null, null);
         var faces = file.Scene.Objects.Aggregate((BigInteger?)BigInteger.Zero, (sum, placed) => sum + placed.Model.FaceCount);
         _description = new(OverlayAnchor.BottomLeft,
         [

@@ -23,7 +23,6 @@ internal sealed class WindowPictures(FrameRenderer frame)
     /// <summary>True where the last picture was drawn for a moving camera.</summary>
     public bool IsCoarse { get; private set; }
 
-
     /// <summary>Counts a picture that was shown again, below another text.</summary>
     public void ShowAgain() => _shownAgain++;
 
@@ -43,7 +42,7 @@ internal sealed class WindowPictures(FrameRenderer frame)
     public RenderSettings Draw(Document? document, RenderSettings settings, int width, int height)
     {
         _drawn++;
-        IsCoarse = document?.Controls.IsMoving == true;
+        IsCoarse = document?.IsMoving == true;
         if (document is null)
         {
             frame.Draw(null, new(Camera.Default, Projection.Perspective), width, height, settings);
@@ -82,7 +81,7 @@ internal sealed class WindowPictures(FrameRenderer frame)
     /// <param name="height">Pixels.</param>
     public PixelImage Capture(Document document, RenderSettings settings, int width, int height)
     {
-        var view = document.Controls.IsMoving && _shown is { } shown ? shown : document.ViewNow((double)width / height);
+        var view = document.IsMoving && _shown is { } shown ? shown : document.ViewNow((double)width / height);
         frame.Draw(document.Renderer, view, width, height, settings);
         return frame.Capture();
     }

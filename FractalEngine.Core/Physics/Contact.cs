@@ -20,5 +20,5 @@ internal readonly record struct Contact(Vector Point, double Reach, Vector Offse
     public double Gap(Vector position) => Separation(position).Length() - Reach;
 
     /// <summary>Away from the obstacle, of length 1; zero where the centre is on it.</summary>
-    public Vector Normal(Vector position) => Separation(position).UnitVector();
+    public Vector Normal(Vector position) => Separation(position).DirectionOrZero();
 }

@@ -79,7 +79,8 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryRecord re
     public bool TryFind(Vector position, double within, out Contact nearest)
     {
         var isFound = TryFindBody(position, ref within, out nearest);
-        if (_clearance.At(position) - _radius > within)
+        // A body that is overlapped by more than the radius hides all surfaces.
+        if (_clearance.At(position) - _radius > within || within < -_radius)
         {
             return isFound;
         }

@@ -2,6 +2,7 @@ using System.Buffers.Binary;
 using System.Globalization;
 using System.Security.Cryptography;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 
@@ -144,6 +145,17 @@ public sealed class PhysicsWorld
 
     /// <summary>Lets a player walk in the world, instead of the one before.</summary>
     public Walker AddWalker(Player player) => Walker = new(this, _obstacles, player);
+
+    /// <summary>Builds all colliders that bodies will ask, instead of at their first query.</summary>
+    /// <exception cref="ColliderMismatchException">A collider does not fit an object.</exception>
+    /// <exception cref="FractalLimitException">A fractal is too large for its collider.</exception>
+    public void BuildColliders()
+    {
+        foreach (var kind in _bodies.Select(body => _collider ?? body.Description.Collider).Append(_collider ?? ColliderKind.Exact).Distinct())
+        {
+            SurfacesOf(kind)?.Collider.Build();
+        }
+    }
 
     /// <summary>Gives a body another velocity, and wakes it.</summary>
     /// <exception cref="ArgumentException">It is not finite.</exception>

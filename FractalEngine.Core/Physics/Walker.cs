@@ -300,7 +300,7 @@ public sealed class Walker
 
         // Just above what lies behind the edge.
         var beside = EdgeWidth * Description.Radius;
-        var place = contact.Point + (beside * (Up - outwards.UnitVector()));
+        var place = contact.Point + (beside * (Up - outwards.DirectionOrZero()));
         return _obstacles.TryFindFace(place, 1.01 * beside, out var closest)
             && Math.Abs(Vector.Dot(closest.Normal, Up)) >= _leastClimb && Vector.Dot(place - closest.Point, Up) > 0;
     }
@@ -310,7 +310,7 @@ public sealed class Walker
     /// <summary>Lets nothing move against a wall, however it leans.</summary>
     private void AddWall(Vector normal)
     {
-        var wall = (normal - (Vector.Dot(normal, Up) * Up)).UnitVector();
+        var wall = (normal - (Vector.Dot(normal, Up) * Up)).DirectionOrZero();
         _planes.Add(wall == Vector.Zero ? normal : wall, 0);
     }
 

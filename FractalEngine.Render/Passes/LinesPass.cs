@@ -70,18 +70,34 @@ internal sealed class LinesPass : IDisposable
             Build(settings, spacing, middle);
         }
 
-        _program.Use();
-        _view.Set(view, aspect, BoundsWith(scene, settings));
-        var (x, y, z) = middle - view.Camera.Position;
-        GL.Uniform3(_offset, (float)x, (float)y, (float)z);
-        GL.Enable(EnableCap.Blend);
-        GL.BlendFuncSeparate(
-            BlendingFactorSrc.SrcAlpha, BlendingFactorDest.OneMinusSrcAlpha, BlendingFactorSrc.Zero, BlendingFactorDest.One);
-        GL.DepthMask(false);
-        _array.Bind();
-        GL.DrawArrays(PrimitiveType.Lines, 0, _data.Count / Floats);
-        GL.DepthMask(true);
-        GL.Disable(EnableCap.Blend);
+        Draw(view, aspect, BoundsWith(scene, settings), middle - view.Camera.Position);
+    }
+
+    /// <summary>Draws some lines in front of everything.</summary>
+    /// <param name="view">Camera and projection.</param>
+    /// <param name="aspect">Width divided by height of the viewport.</param>
+    /// <param name="bounds">Of everything there is.</param>
+    /// <param name="segments">The lines.</param>
+    public void Draw(View view, double aspect, BoundingBox bounds, IReadOnlyList<LineSegment> segments)
+    {
+        if (segments.Count == 0)
+        {
+            return;
+        }
+
+        // In the buffer of the grid, which is built again when it is asked for next.
+        _last = null;
+        _data.Clear();
+        foreach (var (from, to, colour) in segments)
+        {
+            Add(from - view.Camera.Position, to - view.Camera.Position, colour, 1, 1);
+        }
+
+        _lines.Upload<float>(CollectionsMarshal.AsSpan(_data), BufferUsageHint.StreamDraw);
+        // They lead through what they tell of.
+        GL.Disable(EnableCap.DepthTest);
+        Draw(view, aspect, bounds, Vector.Zero);
+        GL.Enable(EnableCap.DepthTest);
     }
 
     /// <inheritdoc/>
@@ -90,6 +106,21 @@ internal sealed class LinesPass : IDisposable
         _array.Dispose();
         _lines.Dispose();
         _program.Dispose();
+    }
+
+    private void Draw(View view, double aspect, BoundingBox bounds, Vector offset)
+    {
+        _program.Use();
+        _view.Set(view, aspect, bounds);
+        GL.Uniform3(_offset, (float)offset.X, (float)offset.Y, (float)offset.Z);
+        GL.Enable(EnableCap.Blend);
+        GL.BlendFuncSeparate(
+            BlendingFactorSrc.SrcAlpha, BlendingFactorDest.OneMinusSrcAlpha, BlendingFactorSrc.Zero, BlendingFactorDest.One);
+        GL.DepthMask(false);
+        _array.Bind();
+        GL.DrawArrays(PrimitiveType.Lines, 0, _data.Count / Floats);
+        GL.DepthMask(true);
+        GL.Disable(EnableCap.Blend);
     }
 
     /// <summary>A power of ten as spacing, so that the grid reaches beyond the scene, and a grid point near its middle.</summary>

@@ -21,7 +21,7 @@ internal sealed class SceneDetail : IDisposable
     private (DetailView View, DetailSettings Settings, ZoomedObject? Zoom)? _aheadKey;
     private (DetailView View, DetailSettings Settings, ZoomedObject? Zoom)? _last;
 
-    /// <summary>For the objects of a scene that have levels to choose from.</summary>
+    /// <summary>For the objects of a scene that have levels to choose from, and don't move all the time.</summary>
     public SceneDetail(GlResources resources, DrawableScene scene, IReadOnlyDictionary<DrawableModel, ModelBuffers> models)
     {
         (_uploads, _scene) = (resources.Uploads, scene);
@@ -32,7 +32,7 @@ internal sealed class SceneDetail : IDisposable
         {
             var model = scene.Objects[i].Model;
             _places[i] = objects.Count;
-            if (model.Detail is { } table)
+            if (model.Detail is { } table && !scene.Objects[i].IsMoving)
             {
                 _instances[i] = new(resources, scene.Objects[i].Name, models[model], scene.Objects[i].Gradient is not null);
                 objects.Add(new(table, scene.Objects[i].Map, model.MeshOrigin, model.MeshSolidSign, !model.HasTransparentParts)

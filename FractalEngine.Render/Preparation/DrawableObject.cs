@@ -14,6 +14,12 @@ public sealed record DrawableObject(string Name, DrawableModel Model, AffineMap 
     /// <summary>What the colours of materials are multiplied by, sRGB: the colour that the scene declares, white where it declares none.</summary>
     public Colour Tint { get; init; } = Colour.White;
 
+    /// <summary>
+    /// True for a mesh that physics moves. It is drawn whole wherever it is: what is chosen of all other objects does not depend on it, and stays as it is while
+    /// only such objects move.
+    /// </summary>
+    public bool IsMoving { get; init; }
+
     /// <summary>How the instances of a fractal differ from <see cref="Colour"/>; null for not at all.</summary>
     public Gradient? Gradient { get; init; }
 }

@@ -75,6 +75,7 @@ public sealed class DrawableScene
             {
                 Tint = placed.Declaration.Colour ?? Colour.White,
                 Gradient = placed.Declaration.Gradient,
+                IsMoving = placed is { Declaration: PhysicsObject, Model: MeshModel },
             })],
             []);
     }
@@ -117,7 +118,7 @@ public sealed class DrawableScene
         var isWorthIt = detail is not null ? model is FractalModel || mesh.FaceCount <= CheckedFaces : maps.Length >= CheckedInstances;
         var meshSign = isWorthIt && !batches.Batches.Any(static batch => batch.IsTransparent) && ClosedSurface.IsSolid(mesh) ? 1 : 0;
         var commonSign = detail is null ? CommonSign(maps) : CommonSign(model);
-        return new(name, origin, model.Bounds, vertices, indices, detail is null ? Rows(maps, meshOrigin, origin) : [])
+        return new(name, origin, model.Bounds, vertices, indices, detail is null || model is MeshModel ? Rows(maps, meshOrigin, origin) : [])
         {
             Detail = detail,
             MeshOrigin = meshOrigin,

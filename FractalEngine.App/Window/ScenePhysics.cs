@@ -1,0 +1,278 @@
+using System.Diagnostics;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Scenes;
+using FractalEngine.Render;
+
+namespace FractalEngine.App.Window;
+
+/// <summary>The bodies of a scene in a window: lets time pass, drops balls, lets a player walk, and moves what is drawn.</summary>
+internal sealed class ScenePhysics
+{
+    // Of the scene's size.
+    private const double BallSize = 0.015;
+    private const double PlayerHeight = 0.05;
+
+    // Of the player's height.
+    private const double PlayerRadius = 0.2;
+
+    // Parts of the free distance at the camera: what is dropped or walks fits in.
+    private const double FreePart = 0.3;
+
+    private const double BallRestitution = 0.6;
+    private const double BallFriction = 0.3;
+
+    // Beyond, meshes of whole fractals take seconds to build.
+    private const int MostExpandedFaces = 2_000_000;
+
+    private const int MostLines = 100;
+
+    private static readonly Colour TowardsSurface = new(1, 0.75, 0.2);
+    private static readonly Colour AlongNormal = new(0.3, 0.9, 1);
+
+    private readonly LoadedScene _scene;
+    private readonly PhysicsWorld _world;
+    private readonly Task _building;
+    private readonly double _size;
+    private TimeSpan _stepTime;
+
+    /// <summary>Begins to build the colliders in the background, where there are bodies that need them.</summary>
+    /// <param name="scene">Loaded.</param>
+    /// <param name="built">Called on another thread when the colliders are there.</param>
+    public ScenePhysics(LoadedScene scene, Action built)
+    {
+        (_scene, _world, _size) = (scene, new(scene), scene.Bounds.IsEmpty ? 1 : scene.Bounds.Diagonal);
+        _building = _world.Bodies.Count == 0 ? Task.CompletedTask : Task.Run(() =>
+        {
+            _world.BuildColliders();
+            built();
+        });
+    }
+
+    /// <summary>True while there is something to move: time must be told by <see cref="Advance"/>.</summary>
+    public bool IsRunning => !IsPaused && IsReady && (_world.IsMoving || IsWalking);
+
+    /// <summary>Whether time stands still.</summary>
+    public bool IsPaused { get; private set; }
+
+    /// <summary>Whether the player walks, and the camera is where the player's eyes are.</summary>
+    public bool IsWalking => _world.Walker is { IsActive: true };
+
+    /// <summary>Who walks; null for nobody.</summary>
+    public Walker? Walker => _world.Walker;
+
+    /// <summary>Whether closest points and normals are shown as lines.</summary>
+    public bool ShowsClosestPoints { get; set; }
+
+    /// <summary>How far between two steps what is drawn is, see <see cref="Body.MapAt"/>.</summary>
+    public double Part => IsPaused ? 1 : _world.Fraction;
+
+    /// <summary>What is written of the bodies: how many there are, how they find what they touch, and what that costs.</summary>
+    public string Description
+    {
+        get
+        {
+            var awake = _world.Bodies.Count(static body => !body.IsAsleep);
+            var collider = _world.Collider is { } kind ? SceneParser.NameOf(kind) : "each body's own";
+            return FormattableString.Invariant(
+                $"{_world.Bodies.Count:N0} bodies, {awake:N0} awake · collider: {collider} · a step: {_world.Cost.FaceTests:N0} faces, {_world.Cost.BoundTests:N0} bounds, {_stepTime.TotalMilliseconds:F2} ms{(IsPaused ? " · paused" : "")}");
+        }
+    }
+
+    private bool IsReady => _building.IsCompletedSuccessfully;
+
+    /// <summary>Lets time pass.</summary>
+    /// <returns>True when something may have moved.</returns>
+    public bool Advance(TimeSpan time)
+    {
+        if (!IsRunning)
+        {
+            return false;
+        }
+
+        var start = Stopwatch.GetTimestamp();
+        var steps = _world.Advance(time.TotalSeconds);
+        _stepTime = steps > 0 ? Stopwatch.GetElapsedTime(start) / steps : _stepTime;
+        return true;
+    }
+
+    /// <summary>Stops time, or lets it go on.</summary>
+    /// <returns>What to say.</returns>
+    public string TogglePause()
+    {
+        IsPaused = !IsPaused;
+        return IsPaused ? "paused: N makes one step" : "time goes on";
+    }
+
+    /// <summary>Makes one step, and stops time.</summary>
+    public string StepOnce()
+    {
+        IsPaused = true;
+        if (!IsReady)
+        {
+            return "the colliders are being built";
+        }
+
+        var start = Stopwatch.GetTimestamp();
+        _world.Step();
+        _stepTime = Stopwatch.GetElapsedTime(start);
+        return FormattableString.Invariant($"step {_world.StepCount:N0}, {_world.Time:F3} s");
+    }
+
+    /// <summary>Everything is where the scene's file has it.</summary>
+    public string Reset()
+    {
+        if (IsReady)
+        {
+            _world.Reset();
+        }
+
+        return "as in the file";
+    }
+
+    /// <summary>Drops a ball before the camera.</summary>
+    public string DropBall(Camera camera)
+    {
+        if (!IsReady)
+        {
+            return "the colliders are being built";
+        }
+
+        var radius = Math.Min(BallSize * _size, FreePart * FreeDistance(camera.Position));
+        if (!(radius > 0))
+        {
+            return "there is no room for a ball";
+        }
+
+        _world.Add(new(camera.Position + (2 * radius * camera.LocalAxes.V3), radius) { Restitution = BallRestitution, Friction = BallFriction });
+        return "dropped a ball";
+    }
+
+    /// <summary>Lets a player walk, or no longer.</summary>
+    /// <param name="camera">Where a player begins that the scene does not have.</param>
+    public string ToggleWalking(Camera camera)
+    {
+        if (!IsReady)
+        {
+            return "the colliders are being built";
+        }
+
+        if (_world.Walker is { IsActive: true } walking)
+        {
+            walking.IsActive = false;
+            return "the camera flies";
+        }
+
+        if (_scene.Scene.Player is null)
+        {
+            var height = Math.Min(PlayerHeight * _size, FreePart * FreeDistance(camera.Position));
+            if (!(height > 0))
+            {
+                return "there is no room for a player";
+            }
+
+            _world.AddWalker(new(camera.Position, PlayerRadius * height, height));
+        }
+
+        _world.Walker!.IsActive = true;
+        return "walking: W A S D, Space jumps, P flies again";
+    }
+
+    /// <summary>Takes the next collider for all bodies, as far as it fits the scene.</summary>
+    public string CycleCollider()
+    {
+        if (!IsReady)
+        {
+            return "the colliders are being built";
+        }
+
+        var (kinds, before) = (Enum.GetValues<ColliderKind>(), _world.Collider);
+        var next = before is { } kind ? (int)kind + 1 : 0;
+        for (; next < kinds.Length; next++)
+        {
+            if (TryUse(kinds[next], out var reason))
+            {
+                return $"collider: {SceneParser.NameOf(kinds[next])}";
+            }
+
+            Console.Error.WriteLine($"collider {SceneParser.NameOf(kinds[next])}: {reason}");
+        }
+
+        _world.Collider = null;
+        return "collider: each body's own";
+    }
+
+    /// <summary>Moves what is drawn to where the bodies are.</summary>
+    public void Place(SceneRenderer renderer)
+    {
+        if (!IsReady)
+        {
+            return;
+        }
+
+        var part = Part;
+        var balls = new List<LooseBall>();
+        foreach (var body in _world.Bodies)
+        {
+            var map = body.MapAt(part);
+            if (body.Description.ObjectIndex is >= 0 and var index)
+            {
+                renderer.Move(index, map);
+            }
+            else
+            {
+                balls.Add(new(map.Translation, body.Radius));
+            }
+        }
+
+        renderer.Balls = balls;
+        renderer.Lines = ShowsClosestPoints ? ClosestPoints(part) : [];
+    }
+
+    private List<LineSegment> ClosestPoints(double part)
+    {
+        var lines = new List<LineSegment>();
+        foreach (var body in _world.Bodies.OrderBy(static body => body.IsAsleep).Take(MostLines))
+        {
+            var centre = body.MapAt(part).Translation;
+            if (_world.TryFindClosest(centre, _world.Collider ?? body.Description.Collider, out var closest))
+            {
+                lines.Add(new(centre, closest.Point, TowardsSurface));
+                lines.Add(new(closest.Point, closest.Point + (2 * body.Radius * closest.Normal), AlongNormal));
+            }
+        }
+
+        return lines;
+    }
+
+    private double FreeDistance(Vector position) => _world.TryFindClosest(position, ColliderKind.Exact, out var closest) ? closest.Distance : double.PositiveInfinity;
+
+    private bool TryUse(ColliderKind kind, out string reason)
+    {
+        var faces = _scene.Models.Aggregate(System.Numerics.BigInteger.Zero, (sum, model) => sum + (model.FaceCount ?? MostExpandedFaces + 1));
+        var isExpanded = kind is ColliderKind.Hierarchy or ColliderKind.BoundingBox or ColliderKind.Simple;
+        if (isExpanded && faces > MostExpandedFaces)
+        {
+            reason = "the scene has more faces than it is made for in a window";
+            return false;
+        }
+
+        var before = _world.Collider;
+        try
+        {
+            _world.Collider = kind;
+            _world.BuildColliders();
+            reason = "";
+            return true;
+        }
+        catch (Exception exception) when (exception is ColliderMismatchException or FractalLimitException)
+        {
+            (_world.Collider, reason) = (before, exception.Message);
+            return false;
+        }
+    }
+}
