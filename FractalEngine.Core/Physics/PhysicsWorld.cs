@@ -1,5 +1,4 @@
 using System.Buffers.Binary;
-using System.Globalization;
 using System.Security.Cryptography;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
@@ -12,7 +11,7 @@ namespace FractalEngine.Core.Physics;
 /// The bodies of a scene and what they run into (paper §4.4): balls against meshes and fractals through the colliders, and against each other. Deterministic: the
 /// same steps give the same bits. A step allocates nothing once all colliders are built. For one thread at a time.
 /// </summary>
-public sealed class PhysicsWorld
+public sealed partial class PhysicsWorld
 {
     private readonly LoadedScene _scene;
     private readonly int[] _surfaceIndices;
@@ -122,6 +121,25 @@ public sealed class PhysicsWorld
         }
     }
 
+    /// <summary>The scene with its objects where they are now.</summary>
+    public LoadedScene SceneNow()
+    {
+        var objects = _scene.Objects.ToBuilder();
+        foreach (var body in _bodies.Where(body => body.Description.ObjectIndex >= 0))
+        {
+            var (index, before) = (body.Description.ObjectIndex, _scene.Objects[body.Description.ObjectIndex]);
+            var placement = before.Declaration.Placement;
+            objects[index] = new(before.Declaration with { Placement = placement with { Position = body.Position, Scale = body.Scale * placement.Scale } }, before.Model);
+        }
+
+        for (var i = 0; i < _surfaceIndices.Length; i++)
+        {
+            objects[i] = _surfaceIndices[i] < 0 ? objects[i] : _placed[_surfaceIndices[i]];
+        }
+
+        return new(_scene.Scene with { Objects = [.. objects.Select(placed => placed.Declaration)] }, objects.ToImmutable());
+    }
+
     /// <summary>Adds a body.</summary>
     /// <exception cref="ArgumentException">A number is not finite, or outside of its range.</exception>
     public Body Add(BodyDescription description)
@@ -209,46 +227,6 @@ public sealed class PhysicsWorld
         (StepCount, _pending, Cost) = (0, 0, default);
     }
 
-    /// <summary>Lets time pass: as many steps as fit.</summary>
-    /// <param name="seconds">Since the last call.</param>
-    /// <returns>How many steps were made.</returns>
-    public int Advance(double seconds)
-    {
-        _pending = Math.Min(_pending + Math.Max(0, seconds), Settings.MostStepsAtOnce * Settings.Step);
-        var steps = 0;
-        for (; _pending >= Settings.Step; steps++)
-        {
-            _pending -= Settings.Step;
-            Step();
-        }
-
-        return steps;
-    }
-
-    /// <summary>Makes one step.</summary>
-    /// <exception cref="InvalidOperationException">A body has left the range of a double; the message names it.</exception>
-    public void Step()
-    {
-        var (faceTests, boundTests) = (_record.FaceTests, _record.BoundTests);
-        for (var i = 0; i < _bodies.Count; i++)
-        {
-            var body = _bodies[i];
-            (body.PreviousPosition, body.PreviousScale, body.FaceTests, body.BoundTests) = (body.Position, body.Scale, 0, 0);
-            if (!body.IsAsleep)
-            {
-                Step(body);
-            }
-        }
-
-        if (Walker is { IsActive: true } walker)
-        {
-            walker.Step(Settings.Step);
-        }
-
-        StepCount++;
-        Cost = (_record.FaceTests - faceTests, _record.BoundTests - boundTests);
-    }
-
     /// <summary>Finds the nearest point of all that bodies run into, as a body's collider sees it.</summary>
     /// <param name="position">World space, finite.</param>
     /// <param name="kind">Of the collider.</param>
@@ -262,91 +240,6 @@ public sealed class PhysicsWorld
     /// <summary>Prepares the obstacles for something that moves and is no body.</summary>
     internal void Begin(Vector[] spheres, double radius, Clearance clearance, double lookahead) =>
         _obstacles.Begin(SurfacesOf(_collider ?? ColliderKind.Exact), spheres, radius, clearance, lookahead);
-
-    /// <summary>Ends the sleep of a body and of all that touch it.</summary>
-    internal void Wake(Body body)
-    {
-        body.Wake();
-        _waking.Push(body);
-        while (_waking.TryPop(out var next))
-        {
-            _touching.Clear();
-            // What was asleep on it touched it to some rounding.
-            _grid.Collect(new(next.Position, next.Position), next.Radius * (1 + 1e-6), next.Index, _touching);
-            foreach (var index in _touching)
-            {
-                if (_bodies[index].IsAsleep)
-                {
-                    _bodies[index].Wake();
-                    _waking.Push(_bodies[index]);
-                }
-            }
-        }
-    }
-
-    private static readonly Vector[] OneSphere = [Vector.Zero];
-
-    private void Step(Body body)
-    {
-        var (faceTests, boundTests, step) = (_record.FaceTests, _record.BoundTests, Settings.Step);
-        var description = body.Description;
-        if (body.IsShrinking)
-        {
-            body.Scale = Math.Max(description.MinimumScale, body.Scale - (description.Shrinkage * step));
-            body.IsPlaced &= !body.IsStuck;
-        }
-
-        var acceleration = Gravity + (body.Force / description.Mass);
-        body.Velocity += body.Pressed;
-        body.Pressed = Vector.Zero;
-        if (description.Damping > 0)
-        {
-            body.Velocity *= Math.Exp(-description.Damping * step);
-        }
-
-        var reach = new Motion(body.Position, body.Velocity, acceleration).LengthWithin(step);
-        _obstacles.Begin(SurfacesOf(_collider ?? description.Collider), OneSphere, body.Radius, body.Clearance, 2 * reach, Walker is { IsActive: true } ? Walker : null);
-        var size = acceleration.Length();
-        _mover.Move(body, acceleration, step, Settings.RestSpeed ?? 0.5 * size * step);
-        if (!body.Position.IsFinite() || !body.Velocity.IsFinite())
-        {
-            throw new InvalidOperationException(string.Create(
-                CultureInfo.InvariantCulture, $"body {body.Name} has left the range of a double in step {StepCount}: position {body.Position}, velocity {body.Velocity}"));
-        }
-
-        _grid.Update(body.Index);
-        (body.FaceTests, body.BoundTests) = (_record.FaceTests - faceTests, _record.BoundTests - boundTests);
-        LetRest(body, Settings.SleepSpeed ?? 0.02 * Math.Sqrt(size * body.Radius));
-    }
-
-    /// <summary>Bodies that barely move fall asleep after a while.</summary>
-    private void LetRest(Body body, double sleepSpeed)
-    {
-        var isSlow = body.Velocity.LengthSquared() < sleepSpeed * sleepSpeed && body.Contacts.Count > 0;
-        var rests = sleepSpeed > 0 && !body.IsShrinking && (isSlow || body.IsStuck);
-        body.RestTime = rests ? body.RestTime + Settings.Step : 0;
-        if (body.RestTime >= Settings.SleepTime && rests)
-        {
-            (body.IsAsleep, body.Velocity) = (true, Vector.Zero);
-        }
-        else if (!rests)
-        {
-            // What slept on it may have nothing under it any more.
-            WakeTouching(body);
-        }
-    }
-
-    private void WakeTouching(Body body)
-    {
-        foreach (var candidate in _obstacles.Candidates)
-        {
-            var other = _bodies[candidate];
-            if (other.IsAsleep && (other.Position - body.PreviousPosition).Length() <= (other.Radius + (body.PreviousScale * body.Description.Radius)) * (1 + 1e-6))
-            {
-                Wake(other);
-            }
-        }
-    }
 
     private Body AddBody(BodyDescription description)
     {
