@@ -35,7 +35,7 @@ internal static class CommandLine
         var root = new RootCommand("FractalEngine draws fractals of any size, and regular models beside them.");
         foreach (var command in (Command[])[
             ViewCommand.Create(), RenderCommand.Create(), InfoCommand.Create(), CountCommand.Create(), ExportCommand.Create(),
-            CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create(), QueryCommand.Create()])
+            CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create(), QueryCommand.Create(), SimulateCommand.Create()])
         {
             root.Add(command);
         }
@@ -73,6 +73,10 @@ internal static class CommandLine
         catch (GraphicsUnavailableException exception)
         {
             return Fail(ExitCode.NoGraphics, exception.Message);
+        }
+        catch (OperationCanceledException exception)
+        {
+            return Fail(ExitCode.Interrupted, exception.Message);
         }
         catch (Exception exception) when (exception is UsageException or IOException or UnauthorizedAccessException)
         {

@@ -17,4 +17,7 @@ internal static class ExitCode
 
     /// <summary>There is no display, or no OpenGL on it.</summary>
     public const int NoGraphics = 4;
+
+    /// <summary>Ended from outside, as shells count it: 128 and the number of the signal of Ctrl+C.</summary>
+    public const int Interrupted = 130;
 }

@@ -24,14 +24,7 @@ internal static class QueryCommand
             HelpName = "POINTS.txt",
             Required = true,
         };
-        var collider = new Option<ColliderKind?>("--collider")
-        {
-            Description = "How to search; exact unless stated.",
-            HelpName = "exact|fractal|hierarchy|bounding-box|simple",
-            CustomParser = result => SharedOptions.ParseWord(
-                result, ("exact", ColliderKind.Exact), ("fractal", ColliderKind.Fractal), ("hierarchy", ColliderKind.Hierarchy),
-                ("bounding-box", ColliderKind.BoundingBox), ("simple", ColliderKind.Simple)),
-        };
+        var collider = SharedOptions.Collider("How to search; exact unless stated.");
         var within = NumberOption("--within", "Look no farther than so many units.", "R");
         var epsilon = NumberOption("--epsilon", "Let answers be farther than the nearest by up to the factor 1 + E.", "E");
         var json = new Option<bool>("--json") { Description = "Write an array of JSON objects instead of lines." };

@@ -4,6 +4,7 @@ using System.Globalization;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Scenes;
 
 namespace FractalEngine.App.Commands;
 
@@ -141,6 +142,18 @@ internal sealed class SharedOptions
     };
 
     private static string NameOf(ArgumentResult result) => result.Parent is OptionResult option ? option.Option.Name : result.Argument.Name;
+
+    /// <summary>How what is nearest is found.</summary>
+    public static Option<ColliderKind?> Collider(string description)
+    {
+        (string Word, ColliderKind Kind)[] words = [.. Enum.GetValues<ColliderKind>().Select(kind => (SceneParser.NameOf(kind), kind))];
+        return new("--collider")
+        {
+            Description = description,
+            HelpName = string.Join('|', words.Select(item => item.Word)),
+            CustomParser = result => ParseWord(result, words),
+        };
+    }
 
     /// <summary>The projection of a picture.</summary>
     public static Option<Projection?> Projection() => new("--projection")

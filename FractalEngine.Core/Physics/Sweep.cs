@@ -132,7 +132,8 @@ internal sealed class Sweep(Obstacles obstacles)
         if (gapEarly <= tiny && !IsApproaching(in motion, early, in contact))
         {
             // It leaves what it touches, and comes back later.
-            for (var time = 0.5 * (early + late); gapEarly <= tiny && time > early; time = 0.5 * (early + time))
+            var time = 0.5 * (early + late);
+            for (var i = 0; i < MostRefinements && gapEarly <= tiny && time > early; i++, time = 0.5 * (early + time))
             {
                 gapEarly = Gap(in motion, in contact, time);
                 if (gapEarly > tiny)
@@ -158,27 +159,27 @@ internal sealed class Sweep(Obstacles obstacles)
         var side = 0;
         for (var i = 0; i < 40 && late - early > 1e-16 * late; i++)
         {
-            var time = ((early * gapLate) - (late * gapEarly)) / (gapLate - gapEarly);
-            if (!(time > early && time < late))
+            var guess = ((early * gapLate) - (late * gapEarly)) / (gapLate - gapEarly);
+            if (!(guess > early && guess < late))
             {
                 break;
             }
 
-            var gap = Gap(in motion, in contact, time);
+            var gap = Gap(in motion, in contact, guess);
             if (Math.Abs(gap) <= tiny)
             {
-                return time;
+                return guess;
             }
 
             if (gap > 0)
             {
-                (early, gapEarly) = (time, gap);
+                (early, gapEarly) = (guess, gap);
                 gapLate = side == 1 ? 0.5 * gapLate : gapLate;
                 side = 1;
             }
             else
             {
-                (late, gapLate) = (time, gap);
+                (late, gapLate) = (guess, gap);
                 gapEarly = side == -1 ? 0.5 * gapEarly : gapEarly;
                 side = -1;
             }

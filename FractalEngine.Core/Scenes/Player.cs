@@ -8,25 +8,36 @@ namespace FractalEngine.Core.Scenes;
 /// <param name="Height">From the lowest to the highest point; at least twice the radius.</param>
 public sealed record Player(Vector Position, double Radius, double Height)
 {
-    /// <summary>Walking speed, units a second; null for the default.</summary>
+    /// <summary>The steepest ground that is walked on unless the scene says so, degrees from the horizontal.</summary>
+    public const double DefaultSlope = 50;
+
+    /// <summary>The most that <see cref="Slope"/> may be, degrees: on a wall nobody walks.</summary>
+    public const double SteepestSlope = 89;
+
+    // Of the height: how fast, how high and over what people of that size go.
+    private const double SpeedByHeight = 2.5;
+    private const double JumpByHeight = 0.6;
+    private const double StepByHeight = 0.25;
+
+    /// <summary>How fast the player walks, units a second, not negative; null for <see cref="WalkingSpeed"/>'s own.</summary>
     public double? Speed { get; init; }
 
-    /// <summary>Speed upwards with which a jump begins, units a second; null for the default.</summary>
+    /// <summary>The speed upwards with which a jump begins, units a second, not negative; null for <see cref="JumpSpeed"/>'s own.</summary>
     public double? Jump { get; init; }
 
-    /// <summary>The steepest ground that can be walked on, degrees from level.</summary>
-    public double Slope { get; init; } = 50;
+    /// <summary>The steepest ground that is walked on, degrees from the horizontal, from 0 to <see cref="SteepestSlope"/>.</summary>
+    public double Slope { get; init; } = DefaultSlope;
 
-    /// <summary>How high a step may be, scene units; null for the default.</summary>
+    /// <summary>The highest step that is climbed without a jump, scene units, not negative and less than the height; null for <see cref="StepHeight"/>'s own.</summary>
     public double? Step { get; init; }
 
-    /// <summary>2.5 heights a second unless the scene says otherwise.</summary>
-    public double WalkingSpeed => Speed ?? 2.5 * Height;
+    /// <summary>How fast the player walks, units a second: 2.5 heights unless stated.</summary>
+    public double WalkingSpeed => Speed ?? (SpeedByHeight * Height);
 
-    /// <summary>A quarter of the height unless the scene says otherwise.</summary>
-    public double StepHeight => Step ?? 0.25 * Height;
+    /// <summary>The highest step that is climbed without a jump, scene units: a quarter of the height unless stated.</summary>
+    public double StepHeight => Step ?? (StepByHeight * Height);
 
-    /// <summary>What carries 0.6 heights up, unless the scene says otherwise.</summary>
-    /// <param name="gravity">Units a second².</param>
-    public double JumpSpeed(double gravity) => Jump ?? Math.Sqrt(2 * gravity * 0.6 * Height);
+    /// <summary>The speed upwards with which a jump begins, units a second: what carries the player 0.6 heights up unless stated, √(2·g·0.6·height).</summary>
+    /// <param name="gravity">The size g of the acceleration, units a second².</param>
+    public double JumpSpeed(double gravity) => Jump ?? Math.Sqrt(2 * gravity * JumpByHeight * Height);
 }

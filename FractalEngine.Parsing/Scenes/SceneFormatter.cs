@@ -33,8 +33,7 @@ internal static class SceneFormatter
         SceneDeclarationKind.Clip => scene.Clip is var (near, far) ? $"clip {Text(near)} {Text(far)}" : null,
         SceneDeclarationKind.Background => scene.Background is { } background ? $"background {background}" : null,
         SceneDeclarationKind.Gravity => AreSame(scene.Gravity, Scene.DefaultGravity) ? null : $"gravity {scene.Gravity}",
-        SceneDeclarationKind.Player => scene.Player is { } player
-            ? $"player {player.Position} {Text(player.Radius)} {Text(player.Height)}" : null,
+        SceneDeclarationKind.Player => scene.Player is { } player ? Format(player) : null,
         SceneDeclarationKind.Light => index < scene.Lights.Length ? Format(scene.Lights[index]) : null,
         SceneDeclarationKind.SceneObject => index < scene.Objects.Length ? Format(scene.Objects[index]) : null,
         _ => throw new ArgumentOutOfRangeException(nameof(kind)),
@@ -49,23 +48,40 @@ internal static class SceneFormatter
         _ => throw new ArgumentOutOfRangeException(nameof(light)),
     };
 
+    private static string Format(Player player) => Join(
+        $"player {player.Position} {Text(player.Radius)} {Text(player.Height)}",
+        player.Speed is { } speed ? $"speed {Text(speed)}" : null,
+        player.Jump is { } jump ? $"jump {Text(jump)}" : null,
+        AreSame(player.Slope, Player.DefaultSlope) ? null : $"slope {Text(player.Slope)}",
+        player.Step is { } step ? $"step {Text(step)}" : null);
+
     private static string Format(SceneObject declared)
     {
-        string?[] parts =
-        [
-            declared is PhysicsObject ? "p" : "o",
+        var body = declared as PhysicsObject;
+        return Join(
+            body is not null ? "p" : "o",
             $"\"{declared.File}\"",
             Format(declared.Placement),
-            declared is PhysicsObject { Restitution: var restitution } ? Text(restitution) : null,
+            body is { Restitution: var restitution } ? Text(restitution) : null,
             declared.Name is { } name ? $"name \"{name}\"" : null,
             declared.Colour is { } colour ? $"colour {colour}" : null,
             declared.Gradient is { } gradient ? $"gradient {(gradient.By == GradientKind.Level ? "level" : "path")} {gradient.To}" : null,
-            declared is PhysicsObject { Velocity: var velocity } && !AreSame(velocity, Vector.Zero) ? $"velocity {velocity}" : null,
-            declared is PhysicsObject { Mass: not 1.0 and var mass } ? $"mass {Text(mass)}" : null,
-            declared is PhysicsObject { Collider: not ColliderKind.Exact and var collider } ? $"collider {SceneParser.NameOf(collider)}" : null,
-        ];
-        return string.Join(' ', parts.Where(part => part is not null));
+            body is { Velocity: var velocity } && !AreSame(velocity, Vector.Zero) ? $"velocity {velocity}" : null,
+            body is { Mass: not 1.0 and var mass } ? $"mass {Text(mass)}" : null,
+            body is { Friction: var friction } && !AreSame(friction, 0) ? $"friction {Text(friction)}" : null,
+            body is { Damping: var damping } && !AreSame(damping, 0) ? $"damping {Text(damping)}" : null,
+            body is not null ? FormatShrinkage(body.Shrinkage, body.MinimumScale) : null,
+            body is { Collider: not ColliderKind.Exact and var collider } ? $"collider {SceneParser.NameOf(collider)}" : null);
     }
+
+    private static string? FormatShrinkage(double rate, double minimum) => (AreSame(rate, 0), AreSame(minimum, PhysicsObject.DefaultMinimumScale)) switch
+    {
+        (true, true) => null,
+        (false, true) => $"shrink {Text(rate)}",
+        (_, false) => $"shrink {Text(rate)} {Text(minimum)}",
+    };
+
+    private static string Join(params string?[] parts) => string.Join(' ', parts.Where(part => part is not null));
 
     private static string Format(Transformation placement) =>
         (Format(placement.Position, Vector.Zero), Format(placement.Rotation, Vector.Zero), Format(placement.Scale, Vector.One)) switch
@@ -78,6 +94,8 @@ internal static class SceneFormatter
 
     /// <summary>Bit for bit: −0 is not 0 here.</summary>
     private static bool AreSame(Vector v1, Vector v2) => v1.ToString() == v2.ToString();
+
+    private static bool AreSame(double number1, double number2) => BitConverter.DoubleToInt64Bits(number1) == BitConverter.DoubleToInt64Bits(number2);
 
     private static string Text(double number) => number.ToString("R", CultureInfo.InvariantCulture);
 }

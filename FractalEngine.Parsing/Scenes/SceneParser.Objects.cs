@@ -64,10 +64,9 @@ public sealed partial class SceneParser
     private bool ParseOption(Cursor cursor, ref SceneObject declared, out Cursor rest)
     {
         rest = cursor;
-        ParseBlanks(cursor, out var start);
-        if (start.Offset == cursor.Offset && !IsAtEndOfLine(start))
+        if (!ParseBlankOrEnd(cursor, out var start))
         {
-            return Fail(start, "a blank");
+            return false;
         }
 
         var (success, next) = (false, start);
@@ -95,6 +94,10 @@ public sealed partial class SceneParser
         rest = success ? next : next.Offset > start.Offset ? throw SyntaxError() : cursor;
         return success;
     }
+
+    /// <summary>What stands before a trailing part: a blank, unless the line ends there.</summary>
+    private bool ParseBlankOrEnd(Cursor cursor, out Cursor rest) =>
+        ParseBlanks(cursor, out rest) && (rest.Offset > cursor.Offset || IsAtEndOfLine(rest) || Fail(rest, "a blank"));
 
     private bool ParseGradient(Cursor cursor, out Gradient gradient, out Cursor rest)
     {
@@ -128,6 +131,25 @@ public sealed partial class SceneParser
             return success;
         }
 
+        if (ParseKeyword(start, "friction", out rest))
+        {
+            var success = ParseNotNegative(rest, "the friction", out var friction, out rest);
+            body = body with { Friction = friction };
+            return success;
+        }
+
+        if (ParseKeyword(start, "damping", out rest))
+        {
+            var success = ParseNotNegative(rest, "the damping", out var damping, out rest);
+            body = body with { Damping = damping };
+            return success;
+        }
+
+        if (ParseKeyword(start, "shrink", out rest))
+        {
+            return ParseShrinkage(rest, ref body, out rest);
+        }
+
         if (ParseKeyword(start, "collider", out rest))
         {
             var place = rest;
@@ -142,5 +164,28 @@ public sealed partial class SceneParser
         }
 
         return false;
+    }
+
+    /// <summary>A rate, and the scale at which shrinking ends where one is written.</summary>
+    private bool ParseShrinkage(Cursor cursor, ref PhysicsObject body, out Cursor rest)
+    {
+        var success = ParseNotNegative(cursor, "the rate of shrinking", out var rate, out rest);
+        var minimum = PhysicsObject.DefaultMinimumScale;
+        // What is no number begins the next option.
+        if (success && ParseSeparator(rest, out var place) && ParseNumber(place, out var stated, out var end))
+        {
+            Require(stated is > 0 and <= 1, place, "the smallest scale must be more than 0 and no more than 1");
+            (minimum, rest) = (stated, end);
+        }
+
+        body = body with { Shrinkage = rate, MinimumScale = minimum };
+        return success;
+    }
+
+    private bool ParseNotNegative(Cursor cursor, string what, out double number, out Cursor rest)
+    {
+        var success = ParseNumber(cursor, out number, out rest);
+        Require(!success || number >= 0, cursor, $"{what} must not be negative");
+        return success;
     }
 }

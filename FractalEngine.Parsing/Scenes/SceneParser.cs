@@ -179,18 +179,6 @@ public sealed partial class SceneParser : SceneValueParser
     private bool ParseGravity(Cursor cursor, out Cursor rest) =>
         ParseVectorOr(cursor, Vector.Zero, out var gravity, out rest) && Declare(_scene with { Gravity = gravity });
 
-    private bool ParsePlayer(Cursor cursor, out Cursor rest)
-    {
-        if (!ParseVector(cursor, out var position, out rest) || !ParseSeparatorOrNothing(rest, out var sizes)
-            || !ParseNumber(sizes, out var radius, out rest) || !ParseSeparator(rest, out rest) || !ParseNumber(rest, out var height, out rest))
-        {
-            return false;
-        }
-
-        Require(radius > 0 && height >= 2 * radius, sizes, "the player's radius must be positive, and the height at least twice as much");
-        return Declare(_scene with { Player = new(position, radius, height) });
-    }
-
     private bool Declare(Scene scene)
     {
         _scene = scene;

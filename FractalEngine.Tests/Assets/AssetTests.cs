@@ -1,6 +1,8 @@
 using System.Globalization;
 using System.Numerics;
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Tests.Support;
@@ -154,6 +156,53 @@ public sealed class AssetTests
         var scene = AssetLoader.Load(Full("assets/scenes/gallery.sdo")).Scene;
         var instances = scene.Objects.Aggregate(BigInteger.Zero, (sum, placed) => sum + placed.Model.InstanceCount!.Value);
         Assert.True(instances <= 1_500_000, $"{instances} instances");
+    }
+
+    [Theory]
+    [InlineData("drop")]
+    [InlineData("playground")]
+    public void Bodies_After15Seconds_LieOnThingsAndMostSleep(string name)
+    {
+        var world = Simulate(name, 15 * 60);
+        Assert.DoesNotContain(world.Bodies, body => body.IsStuck);
+        // The ground is at height 0; a millionth of a radius is what still counts as touching.
+        Assert.All(world.Bodies, body => Assert.True(body.Position.Y >= body.Radius * (1 - 1e-6), $"{body.Name} is at {body.Position}"));
+        Assert.True(world.Bodies.Count(body => body.IsAsleep) >= 0.9 * world.Bodies.Count, string.Join(", ", world.Bodies.Where(body => !body.IsAsleep).Select(body => body.Name)));
+    }
+
+    [Fact]
+    public void Playground_ItsShrinkingBall_LiesOnTheSpongeAndThenFallsThrough()
+    {
+        // The sponge reaches from 1 to 4; the hole is as wide as the ball when that has lost 0.22 of 0.72, after about 6 seconds.
+        Assert.InRange(Ball(5 * 60).Position.Y, 4, 4.5);
+        Assert.InRange(Ball(9 * 60).Position.Y, 0, 1);
+
+        static Body Ball(int steps) => Simulate("playground", steps).Bodies.Single(body => body.Name == "shrinking");
+    }
+
+    [Fact]
+    public void Playground_ItsPlayer_StandsOnTheGroundClearOfEverything()
+    {
+        var scene = AssetLoader.Load(Full("assets/scenes/playground.sdo")).Scene;
+        var player = scene.Scene.Player!;
+        Assert.Equal(0, player.Position.Y - (0.5 * player.Height));
+        // The middles of the spheres that bound the body: the lower one touches the ground, and nothing else is as near.
+        foreach (var height in new[] { player.Radius, player.Height - player.Radius })
+        {
+            Assert.True(new SceneCollider(scene).TryFindClosest(player.Position with { Y = height }, 10, new(), out var closest, out _));
+            Near.Equal(height, closest.Distance, 1e-12);
+        }
+    }
+
+    private static PhysicsWorld Simulate(string name, int steps)
+    {
+        var world = new PhysicsWorld(AssetLoader.Load(Full($"assets/scenes/{name}.sdo")).Scene);
+        for (var step = 0; step < steps; step++)
+        {
+            world.Step();
+        }
+
+        return world;
     }
 
     private static Fractal Fractal(string name) =>

@@ -67,6 +67,37 @@ public class SceneParserErrorTests
     [InlineData("o \"a.fdo\" # gradient path red", 27, "unexpected 'red', expected '('")]
     [InlineData("o \"a.fdo\" # gradient level (1, 2, 1)", 28, "the components of a colour must lie between 0 and 1")]
     [InlineData("player (0, 0, 0) 1 1", 18, "the player's radius must be positive, and the height at least twice as much")]
+    [InlineData("p \"a.obj\" # 1 friction -0.1", 24, "the friction must not be negative")]
+    [InlineData("p \"a.obj\" # 1 friction", 23, "unexpected end of file, expected a number")]
+    [InlineData("p \"a.obj\" # 1 friction nan", 24, "unexpected 'nan', expected a number")]
+    [InlineData("p \"a.obj\" # 1 friction 1e999", 24, "the number 1e999 is beyond the range of a double")]
+    [InlineData("p \"a.obj\" # 1 damping -1", 23, "the damping must not be negative")]
+    [InlineData("p \"a.obj\" # 1 damping Infinity", 23, "unexpected 'Infinity', expected a number")]
+    [InlineData("p \"a.obj\" # 1 shrink -1", 22, "the rate of shrinking must not be negative")]
+    [InlineData("p \"a.obj\" # 1 shrink 1 0", 24, "the smallest scale must be more than 0 and no more than 1")]
+    [InlineData("p \"a.obj\" # 1 shrink 1 -0.5", 24, "the smallest scale must be more than 0 and no more than 1")]
+    [InlineData("p \"a.obj\" # 1 shrink 1, 1.5", 25, "the smallest scale must be more than 0 and no more than 1")]
+    [InlineData("p \"a.obj\" # 1 shrink", 21, "unexpected end of file, expected a number")]
+    [InlineData("p \"a.obj\" # 1 shrink 1, name", 25, "unexpected 'name', expected a number")]
+    [InlineData("p \"a.obj\" # 1 shrink 1 -1e999", 24, "the number -1e999 is beyond the range of a double")]
+    [InlineData("p \"a.obj\" # 1 velocity (0, nan, 0)", 28, "unexpected 'nan', expected a number")]
+    [InlineData("p \"a.obj\" # 1 velocity (0, -1e999, 0)", 28, "the number -1e999 is beyond the range of a double")]
+    [InlineData("p \"a.obj\" # 1 velocity (0, 0, Infinity)", 31, "unexpected 'Infinity', expected a number")]
+    [InlineData("p \"a.obj\" # 1 mass inf", 20, "unexpected 'inf', expected a number")]
+    [InlineData("p \"a.obj\" # 1 mass 1e999", 20, "the number 1e999 is beyond the range of a double")]
+    [InlineData("p \"a.obj\" # NaN", 13, "unexpected 'NaN', expected a number")]
+    [InlineData("gravity (0, -1e999, 0)", 13, "the number -1e999 is beyond the range of a double")]
+    [InlineData("player (0, 0, 0) 1 2 speed -1", 28, "the player's speed must not be negative")]
+    [InlineData("player (0, 0, 0) 1 2 jump -1", 27, "the speed of a jump must not be negative")]
+    [InlineData("player (0, 0, 0) 1 2 slope -1", 28, "the player's slope must lie between 0 and 89 degrees")]
+    [InlineData("player (0, 0, 0) 1 2 slope 89.5", 28, "the player's slope must lie between 0 and 89 degrees")]
+    [InlineData("player (0, 0, 0) 1 2 step -1", 27, "the player's step must not be negative, and less than the height")]
+    [InlineData("player (0, 0, 0) 1 2 step 2", 27, "the player's step must not be negative, and less than the height")]
+    [InlineData("player (0, 0, 0) 1 2 speed", 27, "unexpected end of file, expected a number")]
+    [InlineData("player (0, 0, 0) 1 2 speed nan", 28, "unexpected 'nan', expected a number")]
+    [InlineData("player (0, 0, 0) 1 2 jump 1e999", 27, "the number 1e999 is beyond the range of a double")]
+    [InlineData("player (0, 0, 0) 1 2 mass 3", 22, "unexpected 'mass', expected 'speed', 'jump', 'slope', 'step' or the end of the line")]
+    [InlineData("player (0, 0, 0) 1 2speed 3", 21, "unexpected 'speed', expected a blank or the end of the line")]
     public void Line_ThatIsWrong_PointsAtTheFault(string line, int column, string message) => FailsAt(line, column, message);
 
     [Theory]
@@ -78,6 +109,11 @@ public class SceneParserErrorTests
     [InlineData("o \"a.obj\" # name x", 18)]
     [InlineData("p \"a.obj\" # 1 collider sphere", 24)]
     [InlineData("p \"a.obj\" # 1 velocity 3", 24)]
+    [InlineData("p \"a.obj\" # 1 friction 0,5", 25)]
+    [InlineData("p \"a.obj\" # 1 shrink 0.1 0.2 0.3", 30)]
+    [InlineData("o \"a.obj\" # friction 1", 13)]
+    [InlineData("player (0, 0, 0) 1 2 3", 22)]
+    [InlineData("player (0, 0, 0) 1 2 speed 1 # fast", 30)]
     [InlineData("gravity -9.8", 9)]
     [InlineData("c (1,,2,3) # 60", 6)]
     [InlineData("C # # 60", 1)]
@@ -107,7 +143,7 @@ public class SceneParserErrorTests
     [Fact]
     public void Parse_OfAnyText_EndsInAResultOrOneProperError() => Seeded.Run(3000, random =>
     {
-        var text = new StringBuilder(Samples.AppendixA + "\nlight spot (1, 2, 3) (0, -1, 0) 40 (0, 1, 0) 2, 30\np \"b.fdo\" # 1 mass 2 name \"x\"\naspect 16:9");
+        var text = new StringBuilder(Samples.AppendixA + "\nlight spot (1, 2, 3) (0, -1, 0) 40 (0, 1, 0) 2, 30\np \"b.fdo\" # 1 mass 2 friction 1 shrink 0.1 0.5 name \"x\"\naspect 16:9\nplayer (0, 0, 0) 1 2 speed 1 step 0.5");
         for (var change = random.Next(1, 6); change > 0; change--)
         {
             const string characters = "\0\t\n\r \"#(),-.0159:acelmops§\uD83D";

@@ -88,6 +88,7 @@ public class SceneParserTests
     {
         var body = Assert.IsType<PhysicsObject>(Object("p \"a.fdo\" # 0.5"));
         Assert.Equal((0.5, Vector.Zero, 1.0, ColliderKind.Exact), (body.Restitution, body.Velocity, body.Mass, body.Collider));
+        Assert.Equal((0.0, 0.0, 0.0, 0.05), (body.Friction, body.Damping, body.Shrinkage, body.MinimumScale));
     }
 
     [Theory]
@@ -99,6 +100,25 @@ public class SceneParserTests
     public void PhysicsObject_WithOptions_HasThem(string name, ColliderKind collider) => Assert.Equal(
         new PhysicsObject("a.fdo", Samples.Move(1, 2, 3), 1) { Velocity = new(4, 5, 6), Mass = 2.5, Collider = collider, Name = "n", Colour = Colour.White },
         Object($"p \"a.fdo\" ((1,2,3),#,#) 1 velocity (4, 5, 6) mass 2.5 collider {name} name \"n\" colour (1,1,1)"));
+
+    [Theory]
+    [InlineData("friction 0.5", 0.5, 0, 0, 0.05)]
+    [InlineData("friction 7", 7, 0, 0, 0.05)]
+    [InlineData("damping 0.25", 0, 0.25, 0, 0.05)]
+    [InlineData("shrink 0.1", 0, 0, 0.1, 0.05)]
+    [InlineData("shrink 0.1 0.2", 0, 0, 0.1, 0.2)]
+    [InlineData("shrink 0.1, 1", 0, 0, 0.1, 1)]
+    [InlineData("shrink 0 .5", 0, 0, 0, 0.5)]
+    [InlineData("shrink 0.1 mass 1", 0, 0, 0.1, 0.05)]
+    [InlineData("friction 0.5 damping 0.25 shrink 0.1 0.2", 0.5, 0.25, 0.1, 0.2)]
+    [InlineData("shrink 0.1 0.2 damping 0.25 name \"x\" friction 0.5", 0.5, 0.25, 0.1, 0.2)]
+    [InlineData("friction 1 friction 0", 0, 0, 0, 0.05)]
+    [InlineData("shrink 1 0.5 shrink 2", 0, 0, 2, 0.05)]
+    public void PhysicsObject_WithFrictionDampingAndShrinking_HasThemTheLastCounts(string options, double friction, double damping, double rate, double minimum)
+    {
+        var body = Assert.IsType<PhysicsObject>(Object($"p \"a.obj\" # 0.5 {options}"));
+        Assert.Equal((friction, damping, rate, minimum), (body.Friction, body.Damping, body.Shrinkage, body.MinimumScale));
+    }
 
     [Theory]
     [InlineData("projection perspective", Projection.Perspective, null)]
@@ -132,6 +152,35 @@ public class SceneParserTests
     public void Player_HasAPositionARadiusAndAHeight() => Assert.Equal(new Player(new(1, 2, 3), 0.3, 1.8), Parse("player (1, 2, 3) 0.3 1.8").Player);
 
     [Fact]
+    public void Player_WithoutOptions_GoesAsFarAsItsHeightLets()
+    {
+        var player = new Player(Vector.Zero, 0.3, 1.8);
+        Assert.Equal((null, null, 50.0, null), (player.Speed, player.Jump, player.Slope, player.Step));
+        // 2.5 · 1.8; 1.8 / 4; and the height v²/2g of the jump is 0.6 · 1.8. Roundings of a few products.
+        Near.Equal(4.5, player.WalkingSpeed, 1e-15);
+        Near.Equal(0.45, player.StepHeight, 1e-16);
+        Near.Equal(1.08, player.JumpSpeed(9.8) * player.JumpSpeed(9.8) / (2 * 9.8), 1e-15);
+        Assert.Equal(0, player.JumpSpeed(0));
+    }
+
+    [Theory]
+    [InlineData("speed 4 jump 5 slope 60 step 0.5")]
+    [InlineData("step .5 slope 60 jump 5 speed 4")]
+    [InlineData("speed 1 speed 4 jump 5 slope 60 step 0.5")]
+    public void Player_WithOptions_HasThem(string options)
+    {
+        var player = Parse($"player (1, 2, 3) 0.3 1.8 {options}").Player!;
+        Assert.Equal(new Player(new(1, 2, 3), 0.3, 1.8) { Speed = 4, Jump = 5, Slope = 60, Step = 0.5 }, player);
+        Assert.Equal((4, 5, 0.5), (player.WalkingSpeed, player.JumpSpeed(9.8), player.StepHeight));
+    }
+
+    [Theory]
+    [InlineData("speed 0 jump 0 slope 0 step 0", 0, 0)]
+    [InlineData("speed 0 jump 0 slope 89 step 1.7999999999999998", 89, 1.7999999999999998)]
+    public void Player_AtTheEndsOfTheRanges_IsRead(string options, double slope, double step) => Assert.Equal(
+        new Player(Vector.Zero, 0.9, 1.8) { Speed = 0, Jump = 0, Slope = slope, Step = step }, Parse($"player (0, 0, 0) 0.9 1.8 {options}").Player);
+
+    [Fact]
     public void Lights_OfAllKinds_AreReadInOrder() => Assert.Equal(
         [
             new AmbientLight(new(1, 1, 1), 0.2),
@@ -161,6 +210,14 @@ public class SceneParserTests
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
     public void Parse_InAnyCulture_ReadsPoints(string culture) => Assert.Equal(Parse(Samples.AppendixA), InCulture.Get(culture, () => Parse(Samples.AppendixA)));
+
+    [Theory]
+    [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
+    public void Parse_OfBodiesAndThePlayerInAnyCulture_ReadsPoints(string culture)
+    {
+        const string text = "p \"a.obj\" # 0.5 friction 0.5 damping 1.5 shrink 0.1 0.2\nplayer (0, 0, 0) 0.3 1.8 speed 1.5 jump 2.5 slope 30.5 step 0.1";
+        Assert.Equal(Parse(text), InCulture.Get(culture, () => Parse(text)));
+    }
 
     [Fact]
     public void FileOffset_PointsAtTheName()

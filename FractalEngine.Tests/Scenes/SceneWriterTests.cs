@@ -25,6 +25,7 @@ public class SceneWriterTests
     private static readonly Gen<Vector> AnyVector = Laws.AnyFinite.Three().Select(t => new Vector(t.Item1, t.Item2, t.Item3));
     private static readonly Gen<double> Positive = Laws.AnyFinite.Where(number => number > 0);
     private static readonly Gen<double> Unit = Gen.OneOf(Gen.Elements(0.0, -0.0, 1.0, double.Epsilon, 1.0 / 3), Gen.Choose(0, int.MaxValue).Select(i => (double)i / int.MaxValue));
+    private static readonly Gen<double> NotNegative = Gen.OneOf(Gen.Elements(0.0, -0.0), Laws.AnyFinite.Select(Math.Abs));
     private static readonly Gen<Colour> Colours = Unit.Three().Select(t => new Colour(t.Item1, t.Item2, t.Item3));
     private static readonly Gen<Vector> Directions = AnyVector.Where(v => v != Vector.Zero);
     private static readonly Gen<double> Factor = Laws.AnyFinite.Where(number => Math.Abs(number) is > 1e-100 and < 1e100);
@@ -42,7 +43,10 @@ public class SceneWriterTests
     private static readonly Gen<SceneObject> Bodies = Plain.Zip(Unit).Zip(AnyVector.Zip(Positive), (o, b) => (SceneObject)new PhysicsObject(o.Item1.File, o.Item1.Placement, o.Item2)
     {
         Name = o.Item1.Name, Colour = o.Item1.Colour, Gradient = o.Item1.Gradient, Velocity = b.Item1, Mass = b.Item2, Collider = (ColliderKind)(b.Item2.GetHashCode() & 3),
-    });
+    }).Zip(NotNegative.Three().Zip(Gen.Elements(1, double.Epsilon, 0.05, 1.0 / 3)), (declared, more) => Gen.Elements(declared, (PhysicsObject)declared with
+    {
+        Friction = more.Item1.Item1, Damping = more.Item1.Item2, Shrinkage = more.Item1.Item3, MinimumScale = more.Item2,
+    })).SelectMany(declared => declared);
 
     private static readonly Gen<double> Intensity = Laws.AnyFinite.Select(Math.Abs);
 
@@ -61,7 +65,8 @@ public class SceneWriterTests
         from gravity in AnyVector
         from sizes in Positive
         from colour in Colours
-        from given in Gen.Choose(0, 127)
+        from going in NotNegative.Zip(Gen.Elements(50, 0, -0.0, 89, 100.0 / 3))
+        from given in Gen.Choose(0, 1023)
         select new Scene
         {
             Objects = [.. objects],
@@ -72,7 +77,13 @@ public class SceneWriterTests
             OrthographicHeight = (given & 12) == 12 ? sizes : null,
             Background = (given & 16) == 0 ? null : colour,
             Clip = (given & 32) == 0 || sizes > 1e307 ? null : (sizes, 2 * Math.Max(sizes, 1e-300)),
-            Player = (given & 64) == 0 || sizes > 1e307 ? null : new(gravity, sizes, 3 * sizes),
+            Player = (given & 64) == 0 || sizes > 1e307 ? null : new(gravity, sizes, 3 * sizes)
+            {
+                Speed = (given & 128) == 0 ? null : going.Item1,
+                Jump = (given & 256) == 0 ? null : going.Item1,
+                Slope = going.Item2,
+                Step = (given & 512) == 0 ? null : sizes,
+            },
             Aspect = (given & 3) == 0 ? null : 0.01 + colour.Red,
         };
 
@@ -93,6 +104,24 @@ public class SceneWriterTests
         var scene = Parse(Samples.AppendixA).Scene;
         Assert.Equal(SceneWriter.Write(scene), InCulture.Get(culture, () => SceneWriter.Write(scene)));
     }
+
+    [Theory]
+    [InlineData("p \"a.obj\" # 0.5")]
+    [InlineData("p \"a.obj\" # 0.5 friction 0.5 damping 0.25 shrink 0.1 0.2 collider simple")]
+    [InlineData("p \"a.obj\" # 0.5 shrink 0.1")]
+    [InlineData("p \"a.obj\" # 0.5 shrink 0 0.5")]
+    [InlineData("player (0, 0, 0) 0.3 1.8")]
+    [InlineData("player (0, 0, 0) 0.3 1.8 speed 4.5 jump 3 slope 45 step 0")]
+    public void Write_OfBodiesAndThePlayer_StatesWhatIsNoDefault(string line)
+    {
+        Assert.Equal(line + "\n", SceneWriter.Write(Parse(line).Scene));
+        Assert.Equal(line + "\n", InCulture.Get("de-DE", () => SceneWriter.Write(Parse(line).Scene)));
+    }
+
+    [Theory]
+    [InlineData("p \"a.obj\" # 0.5 friction 0 damping 0 shrink 0 0.05 mass 1 collider exact", "p \"a.obj\" # 0.5\n")]
+    [InlineData("player (0, 0, 0) 0.3 1.8 slope 50", "player (0, 0, 0) 0.3 1.8\n")]
+    public void Write_OfStatedDefaults_LeavesThemOut(string line, string expected) => Assert.Equal(expected, SceneWriter.Write(Parse(line).Scene));
 
     [Theory]
     [InlineData(Commented)]

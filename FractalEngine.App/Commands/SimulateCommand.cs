@@ -1,0 +1,161 @@
+using System.CommandLine;
+using System.Diagnostics;
+using System.Globalization;
+using System.Text;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Physics;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.App.Commands;
+
+/// <summary><c>simulate SCENE.sdo --seconds 10 [--output bodies.csv]</c></summary>
+internal static class SimulateCommand
+{
+    private const double DefaultSeconds = 10;
+
+    private const long MostSteps = 10_000_000;
+
+    // Of a step: by how much a quotient of two rounded numbers may exceed the whole number that is meant.
+    private const double Rounding = 1e-9;
+
+    public static Command Create()
+    {
+        var shared = new SharedOptions();
+        var seconds = PositiveOption("--seconds", string.Create(CultureInfo.InvariantCulture, $"How long to simulate; {DefaultSeconds} unless stated."), "SECONDS");
+        var step = PositiveOption("--step", "The length of a step; a sixtieth of a second unless stated.", "SECONDS");
+        var collider = SharedOptions.Collider("How all bodies find what they touch, whatever the scene says.");
+        var output = SharedOptions.Output(".csv", "The table to write: a row for each body and step; stdout unless stated.");
+        output.Required = false;
+        var command = new Command("simulate", "Let the physics objects of a scene fall, and write where they are after each step.") { seconds, step, collider, output };
+        shared.AddTo(command);
+        command.SetAction(result => Run(
+            result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetValue(seconds) ?? DefaultSeconds,
+            result.GetValue(step) ?? new PhysicsSettings().Step, result.GetValue(collider), result.GetValue(output)));
+        return command;
+    }
+
+    private static Option<double?> PositiveOption(string name, string description, string helpName) => new(name)
+    {
+        Description = description,
+        HelpName = helpName,
+        CustomParser = result =>
+        {
+            if (result.Tokens is [{ Value: var token }]
+                && double.TryParse(token, NumberStyles.Float, CultureInfo.InvariantCulture, out var number)
+                && number > 0 && double.IsFinite(number))
+            {
+                return number;
+            }
+
+            result.AddError($"{name}: expected a number above 0");
+            return null;
+        },
+    };
+
+    private static int Run(string path, LoadOptions options, double seconds, double step, ColliderKind? collider, string? output)
+    {
+        var steps = Math.Max(0, Math.Ceiling((seconds / step) - Rounding));
+        if (steps > MostSteps)
+        {
+            throw new UsageException(string.Create(CultureInfo.InvariantCulture, $"{seconds:R} s are {steps:G4} steps of {step:R} s, and more than {MostSteps} are not made"));
+        }
+
+        var file = Loading.Load(path, options);
+        if (!file.Scene.Objects.Any(placed => placed.Declaration is PhysicsObject))
+        {
+            throw new UsageException($"{path} has no physics objects, so there is nothing to simulate");
+        }
+
+        var clock = Stopwatch.StartNew();
+        var world = MakeWorld(path, file.Scene, step, collider);
+        BuildColliders(world, file.Scene);
+        var buildTime = clock.Elapsed;
+        var stepTime = TimeSpan.Zero;
+        using (var interruption = new Interruption())
+        {
+            if (output is null)
+            {
+                stepTime = Simulate(path, world, (long)steps, Console.OpenStandardOutput(), interruption);
+            }
+            else
+            {
+                AtomicFile.Write(output, stream => stepTime = Simulate(path, world, (long)steps, stream, interruption));
+            }
+        }
+
+        Report(world, buildTime, stepTime);
+        return ExitCode.Done;
+    }
+
+    private static PhysicsWorld MakeWorld(string path, LoadedScene scene, double step, ColliderKind? collider)
+    {
+        try
+        {
+            return new(scene, new() { Step = step }) { Collider = collider };
+        }
+        catch (ArgumentException exception)
+        {
+            // The step has been looked at, so this is about what the scene says of a body.
+            throw new SourceException(path, exception.Message);
+        }
+    }
+
+    /// <summary>Builds what bodies will ask, so that it is neither counted with the steps nor an error in the midst of them.</summary>
+    private static void BuildColliders(PhysicsWorld world, LoadedScene scene)
+    {
+        foreach (var kind in world.Bodies.Select(body => world.Collider ?? body.Description.Collider).Distinct().Order())
+        {
+            foreach (var placed in scene.Objects)
+            {
+                if (placed.Declaration is PhysicsObject || placed.Bounds == BoundingBox.Empty)
+                {
+                    continue;
+                }
+
+                try
+                {
+                    // In its own middle no object is passed over for another one.
+                    world.TryFindClosest(placed.Bounds.Centre, kind, out _);
+                }
+                catch (ColliderMismatchException exception)
+                {
+                    throw new UsageException($"{placed.Declaration.File}: {exception.Message}");
+                }
+            }
+        }
+    }
+
+    /// <summary>Makes the steps, and writes a row for each body after each of them.</summary>
+    /// <returns>How long the steps took, without the writing.</returns>
+    private static TimeSpan Simulate(string path, PhysicsWorld world, long steps, Stream stream, Interruption interruption)
+    {
+        using var writer = new StreamWriter(stream, new UTF8Encoding(encoderShouldEmitUTF8Identifier: false), 1 << 16);
+        var (table, clock) = (new BodyTable(writer), new Stopwatch());
+        table.WriteHeader();
+        for (var step = 0L; step < steps; step++)
+        {
+            interruption.ThrowIfAsked();
+            clock.Start();
+            try
+            {
+                world.Step();
+            }
+            catch (InvalidOperationException exception)
+            {
+                throw new SourceException(path, exception.Message);
+            }
+
+            clock.Stop();
+            table.WriteStep(world);
+        }
+
+        return clock.Elapsed;
+    }
+
+    private static void Report(PhysicsWorld world, TimeSpan buildTime, TimeSpan stepTime) => Console.Error.WriteLine(string.Create(
+        CultureInfo.InvariantCulture,
+        $"bodies {world.Bodies.Count}\nbuild {buildTime.TotalMilliseconds:F3} ms\nsteps {world.StepCount}\nstep {stepTime.TotalMilliseconds / Math.Max(1, world.StepCount):F3} ms\nasleep {world.Bodies.Count(body => body.IsAsleep)}\nstuck {world.Bodies.Count(body => body.IsStuck)}\nstate {world.StateHash}"));
+}
