@@ -37,6 +37,7 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
             return;
         }
 
+        _sweep.Begin();
         contacts.Refresh(position, hold, body.Radius);
         obstacles.Collect(new(position, Vector.Zero, Vector.Zero), 0, body.Index);
         obstacles.AddTouchedBodies(position, hold, contacts);
@@ -72,6 +73,12 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
             (position, body.Velocity) = (motion.At(elapsed), motion.VelocityAt(elapsed));
             left -= elapsed;
             impactsHere = elapsed > 0 ? 0 : impactsHere + 1;
+            if (!isHit && elapsed < duration)
+            {
+                // Too many steps: the rest of the time is lost to it.
+                break;
+            }
+
             if (isHit)
             {
                 position = WithoutRounding(position, in hit);

@@ -30,7 +30,7 @@ internal readonly record struct Motion(Vector Start, Vector Velocity, Vector Acc
     {
         var (speed, acceleration) = (Velocity.Length(), Acceleration.Length());
         // v·t + a·t²/2 = s, in the form that loses nothing where a is small.
-        var divisor = speed + Math.Sqrt((speed * speed) + (2 * acceleration * distance));
+        var divisor = speed + double.Hypot(speed, Math.Sqrt(2 * acceleration * distance));
         return divisor > 0 ? 2 * distance / divisor : double.PositiveInfinity;
     }
 }

@@ -18,19 +18,23 @@ internal sealed class Sweep(Obstacles obstacles)
     private const double Grazing = 1e-12;
 
     private const int MostSteps = 100_000;
+    private int _stepsLeft = MostSteps;
     private const int MostRefinements = 60;
+
+    /// <summary>Begins with another mover or time step: what may be spent on it is limited.</summary>
+    public void Begin() => _stepsLeft = MostSteps;
 
     /// <summary>Goes along a path that begins where nothing is overlapped.</summary>
     /// <param name="motion">The path.</param>
     /// <param name="time">How long.</param>
     /// <param name="hit">What was touched.</param>
-    /// <param name="elapsed">How long it went; less than the time where something was touched.</param>
+    /// <param name="elapsed">How long it went; less than the time where something was touched, or where it took too many steps.</param>
     /// <returns>True when something was touched.</returns>
     public bool TryHit(in Motion motion, double time, out Contact hit, out double elapsed)
     {
         (hit, elapsed) = (default, 0);
         var radius = obstacles.Radius;
-        for (var step = 0; step < MostSteps && elapsed < time; step++)
+        for (; _stepsLeft > 0 && elapsed < time; _stepsLeft--)
         {
             var rest = new Motion(motion.At(elapsed), motion.VelocityAt(elapsed), motion.Acceleration);
             var left = time - elapsed;

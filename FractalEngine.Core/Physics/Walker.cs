@@ -107,6 +107,7 @@ public sealed class Walker
     {
         var speed = Math.Max(Description.WalkingSpeed, Velocity.Length());
         _world.Begin(_spheres, Description.Radius, _clearance, (2 * time * speed) + _stepHeight);
+        _sweep.Begin();
         PreviousPosition = Position;
         if (!_isPlaced)
         {

@@ -78,6 +78,36 @@ public sealed class WindowTests : IDisposable
     }
 
     [SkippableFact]
+    public void Window_OfBodies_StopsStepsResetsDropsAndWalks()
+    {
+        _folder.Write("fall.sdo", "c (0, 1, -6) (0, 0, 0) 60\no \"cube.obj\" ((0, -1, 0), #, (8, 1, 8))\np \"cube.obj\" ((0, 40, 0), #, #) 0.5 colour (1, 0, 0)\nplayer (2, 1, -2) 0.3 1.6\n");
+        using var window = Open("fall.sdo");
+        // Time goes on from the beginning; a scene of one falling body stands still soon after.
+        window.Do("key space");
+        var stopped = window.Screenshot(1);
+        Thread.Sleep(TimeSpan.FromSeconds(0.5));
+        Assert.Equal(0, Difference(stopped, window.Screenshot(2)));
+
+        // 3 s: the body lies before the camera.
+        window.Do(string.Join(' ', Enumerable.Repeat("key n", 180)));
+        var fallen = window.Screenshot(3);
+        Assert.True(Difference(stopped, fallen) > 0.01, "180 steps changed nothing");
+
+        window.Do("key r");
+        Assert.Equal(0, Difference(stopped, window.Screenshot(4)));
+
+        window.Do("key b");
+        Assert.True(Difference(stopped, window.Screenshot(5)) > 0.001, "the key B changed nothing");
+
+        window.Do("key r key p");
+        var walking = window.Screenshot(6);
+        Assert.True(Difference(stopped, walking) > 0.01, "the key P changed nothing");
+
+        window.Do("key p");
+        Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
+    [SkippableFact]
     public void Window_WithNothingToDo_Sleeps()
     {
         using var window = Open("scene.sdo");
