@@ -17,7 +17,7 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
     private const double Rounding = 1e-13;
 
     // Of the rest speed: what leaves more slowly does not leave.
-    private const double NoSpeed = 1e-3;
+    private const double NoSpeed = 1e-4;
 
     private readonly HalfSpaces _planes = new();
     private readonly Sweep _sweep = new(obstacles);
@@ -44,7 +44,8 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
         for (var impact = 0; impact < MostImpacts && impactsHere < MostAtOnce && left > 0; impact++)
         {
             Respond(body, position, restSpeed);
-            contacts.RemoveSeparating(position, body.Velocity, bodies, NoSpeed * restSpeed);
+            var kept = contacts.RemoveSeparating(position, body.Velocity, bodies, NoSpeed * restSpeed);
+            body.Velocity = kept == body.Velocity ? kept : contacts.Allow(kept, position, _planes, onlySurfaces: true);
             var steady = contacts.Allow(acceleration, position, _planes);
             var duration = left;
             if (body.Description.Friction > 0 && contacts.Count > 0)

@@ -84,17 +84,30 @@ internal sealed class ContactSet
     /// <param name="position">Of the body.</param>
     /// <param name="velocity">Of the body.</param>
     /// <param name="bodies">The others.</param>
-    /// <param name="slow">Speeds that do not count: what leaves so slowly would be back at once, and two edges could pass a body to and fro.</param>
-    public void RemoveSeparating(Vector position, Vector velocity, List<Body> bodies, double slow)
+    /// <param name="slow">
+    /// What leaves a surface more slowly does not leave: it would be back at once, and several edges could pass a body to and fro. It loses that speed, since
+    /// gravity would have taken it.
+    /// </param>
+    /// <returns>The velocity without what was too slow.</returns>
+    public Vector RemoveSeparating(Vector position, Vector velocity, List<Body> bodies, double slow)
     {
         for (var i = Count - 1; i >= 0; i--)
         {
-            var relative = _contacts[i].Body < 0 ? velocity : velocity - bodies[_contacts[i].Body].Velocity;
-            if (Vector.Dot(relative, _contacts[i].Normal(position)) > slow + (Rounding * relative.MaximumComponent()))
+            var isSurface = _contacts[i].Body < 0;
+            var relative = isSurface ? velocity : velocity - bodies[_contacts[i].Body].Velocity;
+            var normal = _contacts[i].Normal(position);
+            var speed = Vector.Dot(relative, normal);
+            if (speed > slow + (Rounding * relative.MaximumComponent()))
             {
                 RemoveAt(i);
             }
+            else if (isSurface && speed > 0)
+            {
+                velocity -= speed * normal;
+            }
         }
+
+        return velocity;
     }
 
     /// <summary>The part of a velocity or an acceleration that leads into none of the contacts: zero where they leave no direction free.</summary>

@@ -7,7 +7,7 @@ namespace FractalEngine.Core.Physics;
 /// <summary>What one mover can run into: the surfaces of the scene, and those other bodies that are within its reach. Set up anew for each mover and step.</summary>
 internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryRecord record)
 {
-    private readonly List<int> _candidates = [];
+    private readonly List<int> _candidates = new(256);
     private Surfaces? _surfaces;
     private Clearance _clearance = new();
     private Vector[] _spheres = [Vector.Zero];

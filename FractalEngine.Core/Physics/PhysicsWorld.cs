@@ -13,13 +13,16 @@ namespace FractalEngine.Core.Physics;
 /// </summary>
 public sealed partial class PhysicsWorld
 {
+    // Room for so many bodies near one; more are a matter of a larger list.
+    private const int Neighbours = 256;
+
     private readonly LoadedScene _scene;
     private readonly int[] _surfaceIndices;
     private readonly PlacedModel[] _placed;
     private readonly Dictionary<ColliderKind, Surfaces> _surfaces = [];
     private readonly List<Body> _bodies = [];
-    private readonly List<int> _touching = [];
-    private readonly Stack<Body> _waking = [];
+    private readonly List<int> _touching = new(Neighbours);
+    private readonly Stack<Body> _waking = new(Neighbours);
     private readonly BodyGrid _grid = new();
     private readonly QueryRecord _record = new();
     private readonly Obstacles _obstacles;
