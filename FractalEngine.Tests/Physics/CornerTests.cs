@@ -1,0 +1,94 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
+using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Physics;
+
+/// <summary>Where several surfaces are touched at once.</summary>
+public class CornerTests
+{
+    private const double Overlap = 1e-6;
+
+    [Fact]
+    public void Corner_OfThreePlanes_IsNeitherEnteredNorASpring() => Check(150, 150);
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void Corner_OfThreePlanesForLong_IsNeitherEnteredNorASpring() => Check(20_000, 300);
+
+    [Fact]
+    public void Corners_OfFractals_AreNoSprings()
+    {
+        foreach (var name in new[] { "menger", "sierpinski", "tetrahedron", "snowflake" })
+        {
+            var placed = Worlds.Place(AssetFractals.Load(name, 2));
+            Seeded.Run(10, random =>
+            {
+                var world = Worlds.Of(Worlds.Gravity, random.Between(0.002, 0.03), placed);
+                var size = placed.Bounds.Diagonal;
+                world.Add(new(placed.Bounds.Centre + new Vector(random.Between(-0.2, 0.2) * size, 0.7 * size, random.Between(-0.2, 0.2) * size), random.Between(0.01, 0.1) * size)
+                {
+                    Restitution = random.Next(2) * random.NextDouble(), Friction = random.Next(2) * random.NextDouble(), Velocity = random.Vector(3),
+                });
+                CheckEnergy(world, 300, size);
+            });
+        }
+    }
+
+    /// <summary>A ball that just fits between two walls falls through; one that doesn't is held at the top.</summary>
+    [Fact]
+    public void Slit_AsWideAsTheBall_LetsItFall()
+    {
+        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Of(
+            PhysicsMeshes.Plane(new(-0.5, 0, 0), Vector.I), PhysicsMeshes.Plane(new(0.5, 0, 0), -Vector.I))));
+        var body = world.Add(new(Vector.Zero, 0.5));
+        world.Run(60, () => Assert.InRange(Math.Abs(body.Position.X), 0, Overlap));
+        // ½·9.8.
+        Near.Equal(-4.9, body.Position.Y, 1e-6);
+    }
+
+    private static void Check(int cases, int steps) => Seeded.Run(cases, random =>
+    {
+        // Normals that all look up at least a little, in three directions around.
+        var turn = random.Between(0, 2 * Math.PI);
+        Vector[] normals = [.. Enumerable.Range(0, 3).Select(i => turn + ((i + random.Between(-0.35, 0.35)) * 2 * Math.PI / 3))
+            .Select(angle => new Vector(Math.Cos(angle), random.Between(0.05, 2), Math.Sin(angle)).UnitVector())];
+        var radius = Math.Pow(10, random.Between(-1.5, 0));
+        var world = Worlds.Of(Worlds.Gravity, Math.Pow(10, random.Between(-3, -1)), Worlds.Place(PhysicsMeshes.Of([.. normals.Select(normal => PhysicsMeshes.Plane(Vector.Zero, normal, 1000))])));
+        var start = random.Between(3, 30) * radius * Vector.J;
+        var lowest = normals.Min(normal => Vector.Dot(start, normal));
+        // Clear of all of them at first.
+        start *= lowest < 1.5 * radius ? 1.5 * radius / lowest : 1;
+        world.Add(new(start, radius)
+        {
+            Velocity = random.Vector(10), Restitution = random.Next(3) switch { 0 => 0, 1 => 0.95, _ => random.NextDouble() }, Friction = random.Next(2) * random.NextDouble(),
+        });
+        var body = world.Bodies[0];
+        CheckEnergy(world, steps, start.Length(), () =>
+        {
+            foreach (var normal in normals)
+            {
+                var height = Vector.Dot(body.Position, normal);
+                Assert.True(height >= radius * (1 - Overlap), $"{body.Description}, step {world.Settings.Step:R}, after {world.StepCount}: {height:R} from a plane");
+            }
+        });
+    });
+
+    /// <summary>Without anything that drives it, a world never has more energy than before.</summary>
+    private static void CheckEnergy(PhysicsWorld world, int steps, double size, Action? afterEach = null)
+    {
+        var body = world.Bodies[0];
+        var before = world.Energy();
+        world.Run(steps, () =>
+        {
+            var after = world.Energy();
+            // Lifted by the rounding of a contact, at most: 1e-6 of the radius is what may overlap.
+            Assert.True(
+                after <= before + (1e-9 * (Math.Abs(before) + (9.8 * size))) + (9.8 * Overlap * body.Radius),
+                $"{body.Description}, step {world.Settings.Step:R}, after {world.StepCount}: energy {after:R}, {before:R} before");
+            before = Math.Min(before, after);
+            afterEach?.Invoke();
+        });
+    }
+}

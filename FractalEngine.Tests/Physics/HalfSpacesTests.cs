@@ -1,0 +1,72 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Physics;
+
+public sealed class HalfSpacesTests
+{
+    [Fact]
+    public void TryNearest_OfRandomPlanes_IsWhatProjectionConvergesTo() => Seeded.Run(2000, random =>
+    {
+        // All planes leave a ball about some point free, so that there is an answer.
+        var (planes, free) = (new HalfSpaces(), RandomVector(random));
+        var count = random.Next(1, HalfSpaces.Capacity + 1);
+        var (normals, offsets) = (new Vector[count], new double[count]);
+        for (var i = 0; i < count; i++)
+        {
+            normals[i] = RandomVector(random).UnitVector();
+            offsets[i] = Vector.Dot(normals[i], free) - random.NextDouble();
+            planes.Add(normals[i], offsets[i]);
+        }
+
+        var target = 3 * RandomVector(random);
+        Assert.True(planes.TryNearest(target, out var nearest));
+        for (var i = 0; i < count; i++)
+        {
+            Assert.True(Vector.Dot(normals[i], nearest) >= offsets[i] - 1e-12);
+        }
+
+        // Dykstra's projections converge to it, slowly where planes meet at sharp angles: by as much as they still violate one, they may be nearer.
+        var other = Dykstra(target, normals, offsets);
+        var violation = Enumerable.Range(0, count).Max(i => Math.Max(0, offsets[i] - Vector.Dot(normals[i], other)));
+        Assert.True((nearest - target).Length() <= (other - target).Length() + 1e-6 + (100 * violation), $"{nearest} is farther than {other}");
+    });
+
+    [Fact]
+    public void TryNearest_OfPlanesThatExcludeEachOther_IsFalse()
+    {
+        var planes = new HalfSpaces();
+        planes.Add(Vector.I, 1);
+        planes.Add(-Vector.I, 1);
+        Assert.False(planes.TryNearest(Vector.Zero, out var nearest));
+        Assert.Equal(Vector.Zero, nearest);
+    }
+
+    [Fact]
+    public void TryNearest_InACornerOfThree_IsTheCorner()
+    {
+        var planes = new HalfSpaces();
+        planes.Add(Vector.I, 1);
+        planes.Add(Vector.J, 2);
+        planes.Add(Vector.K, 3);
+        Assert.True(planes.TryNearest(Vector.Zero, out var nearest));
+        Assert.Equal(new(1, 2, 3), nearest);
+    }
+
+    private static Vector Dykstra(Vector target, Vector[] normals, double[] offsets)
+    {
+        var (point, corrections) = (target, new Vector[normals.Length]);
+        for (var round = 0; round < 4000; round++)
+        {
+            var i = round % normals.Length;
+            var shifted = point + corrections[i];
+            var missing = Math.Max(0, offsets[i] - Vector.Dot(normals[i], shifted));
+            (point, corrections[i]) = (shifted + (missing * normals[i]), -missing * normals[i]);
+        }
+
+        return point;
+    }
+
+    private static Vector RandomVector(Random random) => new(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5);
+}

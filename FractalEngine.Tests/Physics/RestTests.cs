@@ -1,0 +1,194 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Physics;
+
+/// <summary>What rests does not creep, costs nothing asleep, and is not forgotten there.</summary>
+public class RestTests
+{
+    // Places of rest are kept to this, scene units; the scenes measure about 1.
+    private const double Creep = 1e-9;
+
+    private const int Steps = 20_000;
+    private const int SoakSteps = 1_000_000;
+
+    public static TheoryData<string, double> Places => new()
+    {
+        { "menger 2", 0 }, { "menger 3", 0 }, { "infinite menger", 0 }, { "menger 2", 0.5 }, { "groove", 0 }, { "groove", 0.3 }, { "corner", 0 }, { "floor", 0 }, { "cradle", 0 },
+    };
+
+    [Theory]
+    [MemberData(nameof(Places))]
+    public void Rest_WithoutSleep_StaysInItsPlace(string name, double friction) => CheckRest(name, friction, 0, Steps);
+
+    [Theory]
+    [MemberData(nameof(Places))]
+    public void Rest_WithSleep_StaysInItsPlace(string name, double friction) => CheckRest(name, friction, null, Steps);
+
+    [Theory]
+    [MemberData(nameof(Places))]
+    [Trait("Category", "Soak")]
+    public void Rest_WithoutSleepForLong_StaysInItsPlace(string name, double friction) => CheckRest(name, friction, 0, SoakSteps);
+
+    [Theory]
+    [MemberData(nameof(Places))]
+    [Trait("Category", "Soak")]
+    public void Rest_WithSleepForLong_StaysInItsPlace(string name, double friction) => CheckRest(name, friction, null, SoakSteps);
+
+    [Fact]
+    public void Rest_InAGroove_IsWhereBothSidesAreARadiusAway() => Seeded.Run(50, random =>
+    {
+        var (n1, n2) = (Tilted(-random.Between(20, 80)), Tilted(random.Between(20, 80)));
+        var radius = random.Between(0.05, 0.5);
+        var world = Worlds.Of(Worlds.Gravity, random.Between(0.001, 0.03), Worlds.Place(PhysicsMeshes.Of(PhysicsMeshes.Plane(Vector.Zero, n1), PhysicsMeshes.Plane(Vector.Zero, n2))));
+        var body = world.Add(new(new(0, 1 + (3 * radius), 0), radius));
+        world.Run((int)(4 / world.Settings.Step));
+        // c·n1 = c·n2 = r, in the plane z = 0.
+        var determinant = (n1.X * n2.Y) - (n1.Y * n2.X);
+        Near.Equal(new(radius * (n2.Y - n1.Y) / determinant, radius * (n1.X - n2.X) / determinant, 0), body.Position, 1e-6 * radius);
+        Near.Equal(Vector.Zero, body.Velocity, 1e-9);
+    });
+
+    [Fact]
+    public void Sleep_OnAFractal_CostsNothing()
+    {
+        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(AssetFractals.Load("menger", 3)));
+        world.AddRange(Enumerable.Range(0, 9).Select(i => new BodyDescription(new((i % 3 * 0.33) - 0.33, 0.8, (i / 3 * 0.33) - 0.33), 0.1) { Friction = 0.5 }));
+        world.Add(new(new(0, 1.2, 0), 0.2));
+        world.Run(600);
+        // The one that is as wide as the hole in the middle has fallen through or rests; whoever rests sleeps.
+        var asleep = world.Bodies.Where(body => body.IsAsleep).ToArray();
+        Assert.True(asleep.Length >= 8, $"{asleep.Length} of {world.Bodies.Count} sleep");
+        world.Step();
+        Assert.All(asleep, body => Assert.Equal((0L, 0L, Vector.Zero), (body.FaceTests, body.BoundTests, body.Velocity)));
+    }
+
+    [Fact]
+    public void Sleep_OfAllBodies_MakesStepsFree()
+    {
+        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Floor()));
+        world.AddRange(Enumerable.Range(0, 20).Select(i => new BodyDescription(new(i, 0.5, 0), 0.4)));
+        world.Run(300);
+        Assert.False(world.IsMoving);
+        world.Step();
+        Assert.Equal((0, 0), world.Cost);
+    }
+
+    [Fact]
+    public void Sleeping_WhenHit_Wakes()
+    {
+        var world = Asleep(out var body);
+        world.Add(new(body.Position + new Vector(-3, 0, 0), 0.5) { Velocity = new(4, 0, 0), Restitution = 1 });
+        world.Run(60);
+        Assert.False(body.IsAsleep);
+        // Equal masses, the lesser restitution of both is 0: they go on together.
+        Near.Equal(new(2, 0, 0), body.Velocity, 1e-9);
+    }
+
+    [Fact]
+    public void Sleeping_WhenGivenAVelocity_Wakes()
+    {
+        var world = Asleep(out var body);
+        world.SetVelocity(body, new(1, 0, 0));
+        var start = body.Position;
+        world.Run(60);
+        Near.Equal(start + Vector.I, body.Position, 1e-9);
+    }
+
+    [Fact]
+    public void Sleeping_WhenPulled_Wakes()
+    {
+        var world = Asleep(out var body);
+        world.SetForce(body, new(2 * body.Description.Mass, 0, 0));
+        world.Run(60);
+        Near.Equal(new(2, 0, 0), body.Velocity, 1e-9);
+    }
+
+    /// <summary>A tower asleep; the lowest is shot away.</summary>
+    [Theory]
+    [InlineData(2)]
+    [InlineData(3)]
+    [InlineData(6)]
+    public void Sleeping_OnABodyThatIsKnockedAway_Falls(int height)
+    {
+        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Floor()));
+        for (var i = 0; i < height; i++)
+        {
+            world.Add(new(new(0, 0.5 + i, 0), 0.5));
+        }
+
+        world.Run(240);
+        Assert.All(world.Bodies, body => Assert.True(body.IsAsleep, $"{body.Name} is awake at {body.Position}"));
+        world.SetVelocity(world.Bodies[0], new(20, 0, 0));
+        world.Run(30);
+        for (var i = 1; i < height; i++)
+        {
+            // In half a second: ½·9.8·0.5² = 1.2; whoever is lower is on the floor.
+            Assert.InRange(world.Bodies[i].Position.Y, 0.5 - 1e-6, i - 0.2);
+        }
+    }
+
+    [Fact]
+    public void Sleeping_OnASleepingBodyThatIsShotAway_Falls()
+    {
+        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Floor()));
+        var lower = world.Add(new(new(0, 0.5, 0), 0.5) { Mass = 0.1 });
+        var upper = world.Add(new(new(0, 1.5, 0), 0.5));
+        world.Run(240);
+        Assert.True(lower.IsAsleep && upper.IsAsleep);
+        world.Add(new(new(-3, 0.45, 0), 0.45) { Mass = 10, Velocity = new(30, 0, 0), Restitution = 1 });
+        world.Run(90);
+        Assert.True(lower.Position.X > 5, $"it is at {lower.Position}");
+        Assert.InRange(upper.Position.Y, 0.5 - 1e-6, 1.2);
+    }
+
+    private static PhysicsWorld Asleep(out Body body)
+    {
+        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Floor()));
+        body = world.Add(new(new(0, 0.5, 0), 0.5) { Mass = 2 });
+        // Another, of the same mass as what it is hit with.
+        body = world.Add(new(new(0, 0.6, 10), 0.5));
+        world.Run(240);
+        Assert.True(body.IsAsleep);
+        return world;
+    }
+
+    private static Vector Tilted(double degrees) => new(Math.Sin(degrees * Math.PI / 180), Math.Cos(degrees * Math.PI / 180), 0);
+
+    private static void CheckRest(string name, double friction, double? sleepSpeed, int steps)
+    {
+        PlacedModel[] objects = name switch
+        {
+            "menger 2" => [Worlds.Place(AssetFractals.Load("menger", 2))],
+            "menger 3" => [Worlds.Place(AssetFractals.Load("menger", 3))],
+            "infinite menger" => [Worlds.Place(AssetFractals.Load("infinite-menger"))],
+            "groove" => [Worlds.Place(PhysicsMeshes.Of(PhysicsMeshes.Plane(Vector.Zero, Tilted(-35)), PhysicsMeshes.Plane(Vector.Zero, Tilted(50))))],
+            "corner" => [Worlds.Place(PhysicsMeshes.Of(
+                PhysicsMeshes.Plane(Vector.Zero, new(1, 1, 0.2)), PhysicsMeshes.Plane(Vector.Zero, new(-0.5, 1, 1)), PhysicsMeshes.Plane(Vector.Zero, new(-0.3, 1, -1.2))))],
+            "cradle" => [Worlds.Place(AssetFractals.Load("sierpinski", 3))],
+            _ => [Worlds.Place(PhysicsMeshes.Floor())],
+        };
+        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = sleepSpeed }, objects);
+        // Wider than the sponge's hole of 1/3, so that it rests on the rim.
+        var body = world.Add(new(name == "corner" ? new(0.1, 1, 0.1) : name == "cradle" ? new(0.03, 3, 0.02) : new(0.02, 0.9, 0.01), 0.2) { Friction = friction });
+        var settled = 0;
+        // Frictionless, it slides to and fro until impacts have taken its energy.
+        for (; settled < 20_000 && (body.Velocity != Vector.Zero || settled < 300); settled++)
+        {
+            world.Step();
+        }
+
+        if (name == "cradle" && body.Position.Y < -3)
+        {
+            return;
+        }
+
+        var place = body.Position;
+        world.Run(steps, () => Near.Equal(place, body.Position, Creep));
+        Near.Equal(Vector.Zero, body.Velocity, Creep);
+        Assert.Equal(sleepSpeed is null, body.IsAsleep);
+    }
+}

@@ -1,0 +1,99 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Physics;
+
+/// <summary>Edges within a flat surface are no obstacles.</summary>
+public class SlidingTests
+{
+    // Of the radius, and of the speed. A normal that is off by 1e-9 at one seam would show.
+    private const double Height = 1e-7;
+    private const double Speed = 1e-9;
+
+    [Fact]
+    public void Sliding_OverManyTriangles_KeepsHeightAndVelocity() => Seeded.Run(40, random =>
+    {
+        // A grid with its inner vertices shaken sideways.
+        var mesh = Grid(random, 20);
+        CheckSliding(random, Worlds.Place(mesh), new(2, 0, 2), 16, random.Between(0.05, 3));
+    });
+
+    [Fact]
+    public void Sliding_OverATurnedPlane_KeepsHeightAndVelocity() => Seeded.Run(40, random =>
+    {
+        var mesh = Grid(random, 20);
+        var turn = Transformation.Identity with { Rotation = random.Degrees(), Position = random.Vector(5), Scale = new(random.Between(0.5, 2), 1, random.Between(0.5, 2)) };
+        var placed = Worlds.Place(mesh, turn);
+        var normal = placed.Map.Linear.Cofactors().V2.UnitVector();
+        var (radius, step) = (random.Between(0.1, 1), random.Between(0.002, 0.05));
+        var world = Worlds.Of(-9.8 * normal, step, placed);
+        var start = placed.Map * new Vector(10, 0, 10);
+        var velocity = 3 * Vector.Cross(normal, random.Direction());
+        var body = world.Add(new(start + (radius * normal), radius) { Velocity = velocity });
+        world.Run((int)(1 / step), () =>
+        {
+            // Coordinates of some tens.
+            Near.Equal(radius, Vector.Dot(body.Position - start, normal), (Height * radius) + 1e-13);
+            Near.Equal(velocity, body.Velocity, 3 * Speed);
+        });
+    });
+
+    [Theory]
+    [InlineData(1)]
+    [InlineData(2)]
+    [InlineData(4)]
+    public void Sliding_OverInstances_KeepsHeightAndVelocity(int depth) => Seeded.Run(10, random =>
+    {
+        var half = Math.Pow(2, -depth) / 2;
+        // Cubes side by side: 4^depth make a slab, whose sides of 15 digits meet.
+        var placed = Worlds.Place(new Core.Fractals.Fractal(Samples.Repeated(depth, [.. from x in new[] { -0.25, 0.25 } from z in new[] { -0.25, 0.25 } select Samples.MoveAndScale(x, 0, z, 0.5)]).Description, PhysicsMeshes.Cube));
+        CheckSliding(random, placed, new(-0.4, half, -0.4), 0.6, random.Between(0.02, 0.5));
+    });
+
+    /// <summary>Over the sponge's rim, between its outer edge and its holes, for a ball so large that no hole lets it sink.</summary>
+    [Fact]
+    public void Sliding_OverTheMengersRim_KeepsHeightAndVelocity() => Seeded.Run(10, random =>
+    {
+        var world = Worlds.Of(Worlds.Gravity, random.Between(0.002, 0.02), Worlds.Place(AssetFractals.Load("menger", 2)));
+        // At this depth holes are 1/9 wide and begin 1/9 from the edge; the ball touches in one point, 0.05 from the edge.
+        var body = world.Add(new(new(-0.45, 0.5 + 0.1, -0.4), 0.1) { Velocity = new(0, 0, 0.5) });
+        world.Run((int)(1.5 / world.Settings.Step), () =>
+        {
+            // The asset's thirds have 15 digits.
+            Near.Equal(0.6, body.Position.Y, Height * 0.1);
+            Near.Equal(new(0, 0, 0.5), body.Velocity, Speed);
+        });
+    });
+
+    private static void CheckSliding(Random random, PlacedModel placed, Vector start, double room, double speed)
+    {
+        var (radius, step) = (room * Math.Pow(10, random.Between(-2, -0.5)), random.Between(0.002, 0.05));
+        var world = Worlds.Of(Worlds.Gravity, step, placed);
+        var velocity = speed * new Vector(random.NextDouble(), 0, random.NextDouble());
+        var body = world.Add(new(start + new Vector(0, radius, 0), radius) { Velocity = velocity, Restitution = random.NextDouble() });
+        world.Run((int)Math.Min(400, room / speed / step), () =>
+        {
+            Near.Equal(start.Y + radius, body.Position.Y, Height * radius);
+            Near.Equal(velocity, body.Velocity, Speed * Math.Max(1, speed));
+            Near.Equal(start + new Vector(0, radius, 0) + (world.Time * velocity), body.Position, 1e-7 * room);
+        });
+    }
+
+    private static Mesh Grid(Random random, int side)
+    {
+        var positions = from i in Enumerable.Range(0, side + 1)
+                        from j in Enumerable.Range(0, side + 1)
+                        let place = new Vector(i + random.Between(-0.3, 0.3), 0, j + random.Between(-0.3, 0.3))
+                        from x in new[] { place.X, place.Y, place.Z }
+                        select x;
+        var faces = from i in Enumerable.Range(0, side)
+                    from j in Enumerable.Range(0, side)
+                    let corner = (i * (side + 1)) + j
+                    from vertex in new[] { corner, corner + 1, corner + side + 1, corner + 1, corner + side + 2, corner + side + 1 }
+                    select vertex;
+        return new([.. positions], [.. faces]);
+    }
+}
