@@ -17,7 +17,7 @@ public class ManyBodiesTests
     [InlineData(2)]
     [InlineData(3)]
     [Trait("Category", "Soak")]
-    public void Poured_ManyIntoABox_NeitherOverlapNorLeaveAndSleep(int seed) => CheckPoured(200, 3600, seed);
+    public void Poured_ManyIntoABox_NeitherOverlapNorLeaveAndSleep(int seed) => CheckPoured(200, 9000, seed);
 
     [Fact]
     public void Cloud_WithoutGravity_KeepsItsMomentum() => Seeded.Run(3, random =>
