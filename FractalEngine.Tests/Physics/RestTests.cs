@@ -17,7 +17,7 @@ public class RestTests
 
     public static TheoryData<string, double> Places => new()
     {
-        { "menger 2", 0 }, { "menger 3", 0 }, { "infinite menger", 0 }, { "menger 2", 0.5 }, { "groove", 0 }, { "groove", 0.3 }, { "corner", 0 }, { "floor", 0 }, { "cradle", 0 },
+        { "menger 2", 0 }, { "menger 3", 0 }, { "infinite menger", 0 }, { "menger 2", 0.5 }, { "groove", 0 }, { "groove", 0.3 }, { "corner", 0 }, { "floor", 0 },
     };
 
     [Theory]
@@ -168,22 +168,16 @@ public class RestTests
             "groove" => [Worlds.Place(PhysicsMeshes.Of(PhysicsMeshes.Plane(Vector.Zero, Tilted(-35)), PhysicsMeshes.Plane(Vector.Zero, Tilted(50))))],
             "corner" => [Worlds.Place(PhysicsMeshes.Of(
                 PhysicsMeshes.Plane(Vector.Zero, new(1, 1, 0.2)), PhysicsMeshes.Plane(Vector.Zero, new(-0.5, 1, 1)), PhysicsMeshes.Plane(Vector.Zero, new(-0.3, 1, -1.2))))],
-            "cradle" => [Worlds.Place(AssetFractals.Load("sierpinski", 3))],
             _ => [Worlds.Place(PhysicsMeshes.Floor())],
         };
         var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = sleepSpeed }, objects);
         // Wider than the sponge's hole of 1/3, so that it rests on the rim.
-        var body = world.Add(new(name == "corner" ? new(0.1, 1, 0.1) : name == "cradle" ? new(0.03, 3, 0.02) : new(0.02, 0.9, 0.01), 0.2) { Friction = friction });
+        var body = world.Add(new(name == "corner" ? new(0.1, 1, 0.1) : new(0.02, 0.9, 0.01), 0.2) { Friction = friction });
         var settled = 0;
         // Frictionless, it slides to and fro until impacts have taken its energy.
         for (; settled < 20_000 && (body.Velocity != Vector.Zero || settled < 300); settled++)
         {
             world.Step();
-        }
-
-        if (name == "cradle" && body.Position.Y < -3)
-        {
-            return;
         }
 
         var place = body.Position;

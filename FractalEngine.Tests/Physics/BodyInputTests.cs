@@ -1,0 +1,106 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
+
+namespace FractalEngine.Tests.Physics;
+
+/// <summary>Numbers that no body and no world can have are refused, by name.</summary>
+public class BodyInputTests
+{
+    private static readonly BodyDescription Ball = new(Vector.Zero, 1) { Name = "ball 7" };
+
+    public static TheoryData<double> Unreal => [double.NaN, double.PositiveInfinity, double.NegativeInfinity];
+
+    [Theory]
+    [MemberData(nameof(Unreal))]
+    public void Add_WithAnUnrealNumber_NamesTheBody(double number)
+    {
+        BodyDescription[] wrong =
+        [
+            Ball with { Position = new(0, number, 0) }, Ball with { Velocity = new(0, 0, number) }, Ball with { Radius = number }, Ball with { Mass = number },
+            Ball with { Restitution = number }, Ball with { Friction = number }, Ball with { Damping = number }, Ball with { Shrinkage = number },
+            Ball with { MinimumScale = number }, Ball with { Axes = new(Vector.I, new(number, 0, 0), Vector.K) },
+        ];
+        CheckRefused(wrong);
+    }
+
+    [Fact]
+    public void Add_OutOfRange_NamesTheBody() => CheckRefused(
+    [
+        Ball with { Radius = 0 }, Ball with { Radius = -1 }, Ball with { Mass = 0 }, Ball with { Mass = -1 }, Ball with { Restitution = -0.1 }, Ball with { Restitution = 1.1 },
+        Ball with { Friction = -0.1 }, Ball with { Damping = -0.1 }, Ball with { Shrinkage = -0.1 }, Ball with { MinimumScale = 0 }, Ball with { MinimumScale = -0.5 },
+        Ball with { MinimumScale = 1.5 },
+    ]);
+
+    [Fact]
+    public void AddRange_WithOneThatIsWrong_AddsNone()
+    {
+        var world = Worlds.Of(Worlds.Gravity, 0.01);
+        Assert.Throws<ArgumentException>(() => world.AddRange([Ball, Ball with { Position = new(5, 0, 0) }, Ball with { Mass = -1 }]));
+        Assert.Empty(world.Bodies);
+        world.Run(3);
+        world.Add(Ball);
+        world.Run(3);
+        Assert.Single(world.Bodies);
+    }
+
+    [Theory]
+    [MemberData(nameof(Unreal))]
+    public void SetVelocity_ToAnUnrealNumber_NamesTheBodyAndChangesNothing(double number)
+    {
+        var world = Worlds.Of(Worlds.Gravity, 0.01);
+        var body = world.Add(Ball);
+        foreach (var set in new Action<Vector>[] { vector => world.SetVelocity(body, vector), vector => world.SetForce(body, vector) })
+        {
+            var exception = Assert.Throws<ArgumentException>(() => set(new(1, number, 2)));
+            Assert.Equal((Vector.Zero, Vector.Zero), (body.Velocity, body.Force));
+            Assert.Contains("ball 7", exception.Message, StringComparison.Ordinal);
+        }
+    }
+
+    [Fact]
+    public void Settings_ThatMakeNoSense_AreRefused()
+    {
+        PhysicsSettings[] wrong =
+        [
+            .. new[] { 0, -1, double.NaN, double.PositiveInfinity, double.NegativeInfinity }.Select(step => new PhysicsSettings { Step = step }),
+            .. new[] { -1, double.NaN }.SelectMany(number => new[] { new PhysicsSettings { RestSpeed = number }, new() { SleepSpeed = number }, new() { SleepTime = number } }),
+            new() { MostStepsAtOnce = 0 }, new() { MostStepsAtOnce = -1 },
+        ];
+        Assert.All(wrong, settings => Assert.Throws<ArgumentException>(() => Worlds.Of(Worlds.Gravity, settings)));
+    }
+
+    [Theory]
+    [MemberData(nameof(Unreal))]
+    public void Advance_ByAnUnrealTime_DoesNotHarm(double seconds)
+    {
+        var world = Worlds.Of(Worlds.Gravity, 0.01);
+        var body = world.Add(Ball);
+        try
+        {
+            world.Advance(seconds);
+        }
+        catch (ArgumentException)
+        {
+            // Refusing is as good as making at most so many steps.
+        }
+
+        world.Advance(0.011);
+        Assert.InRange(world.StepCount, 1, 2 * world.Settings.MostStepsAtOnce);
+        Assert.True(body.Position.IsFinite() && world.Fraction is >= 0 and <= 1);
+    }
+
+    [Fact]
+    public void Step_BeyondTheRangeOfADouble_NamesTheBody()
+    {
+        var world = Worlds.Of(Worlds.Gravity, 1);
+        world.Add(Ball with { Velocity = new(1.7e308, 0, 0) });
+        Assert.Contains("ball 7", Assert.Throws<InvalidOperationException>(() => world.Run(3)).Message, StringComparison.Ordinal);
+    }
+
+    private static void CheckRefused(BodyDescription[] wrong)
+    {
+        var world = Worlds.Of(Worlds.Gravity, 0.01);
+        Assert.All(wrong, description => Assert.Contains("ball 7", Assert.Throws<ArgumentException>(() => world.Add(description)).Message, StringComparison.Ordinal));
+        Assert.Empty(world.Bodies);
+    }
+}

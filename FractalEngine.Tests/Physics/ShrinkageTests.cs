@@ -1,0 +1,93 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Physics;
+
+/// <summary>Bodies that grow smaller (paper §5.5).</summary>
+public class ShrinkageTests
+{
+    [Fact]
+    public void Radius_OfAShrinkingBody_FallsLinearlyToItsLeast() => Seeded.Run(20, random =>
+    {
+        var (radius, rate, least) = (random.Between(0.1, 2), random.Between(0.05, 2), random.Between(0.05, 0.9));
+        var world = Worlds.Of(Worlds.Gravity, random.Between(0.005, 0.1), Worlds.Place(PhysicsMeshes.Floor()));
+        var body = world.Add(new(new(0, 5, 0), radius) { Shrinkage = rate, MinimumScale = least, Restitution = 0.5 });
+        world.Run((int)(2 / world.Settings.Step), () =>
+        {
+            // Hundreds of subtractions.
+            Near.Equal(radius * Math.Max(least, 1 - (rate * world.Time)), body.Radius, 1e-12);
+            Assert.True(body.Position.Y >= body.Radius * (1 - 1e-6));
+        });
+    });
+
+    [Fact]
+    public void ShrinkingBody_OnAFloor_StaysOnIt()
+    {
+        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Floor()));
+        var body = world.Add(new(new(0, 1, 0), 1) { Shrinkage = 0.1, MinimumScale = 0.2 });
+        world.Run(700, () =>
+        {
+            // It falls by 0.1/60 a step, from rest: within ½·9.8/60² = 0.0014 a step, so it is a step or two behind.
+            Assert.InRange(body.Position.Y - body.Radius, -1e-6, 3 * 0.1 / 60);
+        });
+        Assert.True(body.IsAsleep);
+        Near.Equal(0.2, body.Position.Y, 1e-6);
+    }
+
+    /// <summary>A funnel with a hole of radius 0.5 at y = 0, walls at 45°.</summary>
+    [Fact]
+    public void ShrinkingBody_InAFunnel_FallsThroughWhenItFits()
+    {
+        const int Sides = 24;
+        var faces = Enumerable.Range(0, Sides).SelectMany(i =>
+        {
+            var (a, b) = (Ring(0.5, 0, i), Ring(0.5, 0, i + 1));
+            var (c, d) = (Ring(3, 2.5, i), Ring(3, 2.5, i + 1));
+            return new[] { (a, b, c), (b, d, c) };
+        }).ToArray();
+        var world = Worlds.Of(Worlds.Gravity, 1 / 120.0, Worlds.Place(PhysicsMeshes.Of(faces)));
+        var body = world.Add(new(new(0.3, 3, 0.2), 1) { Shrinkage = 0.05, MinimumScale = 0.1 });
+        var plain = new PlainFaces(faces);
+        while (body.Position.Y > -1 && world.Time < 20)
+        {
+            world.Step();
+            Assert.True(plain.Distance(body.Position) >= body.Radius * (1 - 1e-6), $"overlaps at {body.Position}, radius {body.Radius:R}");
+        }
+
+        // The sides of the hole are as near as 0.5·cos(π/24) = 0.496; from there it takes less than a second to fall.
+        Assert.InRange(body.Radius, 0.496 - 0.05, 0.5);
+        Assert.InRange(body.Position.Y, -2, -1);
+    }
+
+    [Fact]
+    public void ShrinkingBody_ThatIsStuck_ComesFree()
+    {
+        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Room));
+        var body = world.Add(new(Vector.Zero, 0.7) { Shrinkage = 0.5, MinimumScale = 0.3 });
+        world.Step();
+        Assert.True(body.IsStuck);
+        world.Run(240);
+        Assert.False(body.IsStuck);
+        Near.Equal(-0.5 + body.Radius, body.Position.Y, 1e-6);
+    }
+
+    [Fact]
+    public void MapAt_OfAPart_LiesBetweenTheSteps() => Seeded.Run(20, random =>
+    {
+        var world = Worlds.Of(Worlds.Gravity, 0.02);
+        var axes = random.Orthogonal();
+        var body = world.Add(new(random.Vector(), 0.5) { Velocity = random.Vector(5), Shrinkage = 0.3, Axes = axes });
+        world.Run(random.Next(1, 30));
+        var (place, scale) = (body.Position, body.Scale);
+        Near.Equal(place, body.MapAt(1).Translation, 1e-14 * 10);
+        world.Step();
+        foreach (var part in new[] { 0, 0.25, 0.7, 1 })
+        {
+            // A few operations on numbers of some units.
+            Near.Equal(((1 - part) * place) + (part * body.Position), body.MapAt(part).Translation, 1e-13);
+            Near.Equal((((1 - part) * scale) + (part * body.Scale)) * axes, body.MapAt(part).Linear, 1e-13);
+        }
+    });
+
+    private static Vector Ring(double radius, double height, int i) => new(radius * Math.Cos(i * Math.PI / 12), height, radius * Math.Sin(i * Math.PI / 12));
+}
