@@ -48,10 +48,10 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
             var kept = contacts.RemoveSeparating(position, body.Velocity, bodies, NoSpeed * restSpeed);
             body.Velocity = kept == body.Velocity ? kept : contacts.Allow(kept, position, _planes, onlySurfaces: true);
             var steady = contacts.Allow(acceleration, position, _planes);
-            var duration = left;
+            var (duration, stands) = (left, false);
             if (body.Description.Friction > 0 && contacts.Count > 0)
             {
-                Rub(body, acceleration, NoSpeed * restSpeed, ref steady, ref duration);
+                stands = Rub(body, acceleration, ref steady, ref duration);
             }
 
             if (steady == Vector.Zero && contacts.Count > 0 && body.Velocity.MaximumComponent() <= NoSpeed * restSpeed)
@@ -73,10 +73,11 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
             (position, body.Velocity) = (motion.At(elapsed), motion.VelocityAt(elapsed));
             left -= elapsed;
             impactsHere = elapsed > 0 ? 0 : impactsHere + 1;
-            if (!isHit && elapsed < duration)
+            if (!isHit)
             {
-                // Too many steps: the rest of the time is lost to it.
-                break;
+                // After too many steps the rest of the time is lost.
+                left = elapsed < duration ? 0 : left;
+                body.Velocity = stands ? Vector.Zero : body.Velocity;
             }
 
             if (isHit)
@@ -103,31 +104,39 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
         return body.IsPlaced;
     }
 
-    /// <summary>What friction does in some time: slows down, and holds what is slow.</summary>
+    /// <summary>
+    /// What friction leaves of an acceleration. It acts against the velocity at the end of the time, so that it never turns a body round, and holds what is slow.
+    /// </summary>
     /// <param name="body">Touches something.</param>
     /// <param name="acceleration">By gravity and forces.</param>
-    /// <param name="slow">What is slower stands.</param>
     /// <param name="steady">What the contacts leave of it; receives what friction leaves of that.</param>
-    /// <param name="duration">Receives the time until the body stands, if that is sooner.</param>
-    private static void Rub(Body body, Vector acceleration, double slow, ref Vector steady, ref double duration)
+    /// <param name="duration">How long it acts; receives the time until the body stands or turns, if that is sooner.</param>
+    /// <returns>True when the body stands then.</returns>
+    private static bool Rub(Body body, Vector acceleration, ref Vector steady, ref double duration)
     {
         var strength = body.Description.Friction * (acceleration - steady).Length();
-        var (speed, pull) = (body.Velocity.Length(), steady.Length());
-        if (speed > slow)
+        var (velocity, along) = (body.Velocity, Vector.Dot(body.Velocity, steady));
+        var squared = velocity.LengthSquared();
+        if (along < 0)
         {
-            var direction = body.Velocity / speed;
-            steady -= strength * direction;
-            var slowing = -Vector.Dot(steady, direction);
-            duration = slowing * duration > speed ? speed / slowing : duration;
+            // From there on the friction would help it.
+            duration = Math.Min(duration, -squared / along);
         }
-        else if (pull <= strength)
+
+        var free = velocity + (duration * steady);
+        var speed = free.Length();
+        if (speed > duration * strength)
         {
-            (body.Velocity, steady) = (Vector.Zero, Vector.Zero);
+            steady -= strength / speed * free;
+            return false;
         }
-        else
-        {
-            steady *= 1 - (strength / pull);
-        }
+
+        // When all that acceleration has added to the velocity, friction has taken: |v + s·t| = f·t.
+        var excess = (strength * strength) - steady.LengthSquared();
+        var time = excess > 0 ? (along + Math.Sqrt((along * along) + (excess * squared))) / excess : duration;
+        duration = Math.Min(duration, time);
+        steady = duration > 0 ? -velocity / duration : Vector.Zero;
+        return true;
     }
 
     /// <summary>What a body presses on other bodies with, they get at their own turn.</summary>

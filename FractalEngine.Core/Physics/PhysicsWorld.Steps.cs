@@ -14,8 +14,14 @@ public sealed partial class PhysicsWorld
     /// <summary>Lets time pass: as many steps as fit.</summary>
     /// <param name="seconds">Since the last call.</param>
     /// <returns>How many steps were made.</returns>
+    /// <exception cref="ArgumentException">The time is not finite.</exception>
     public int Advance(double seconds)
     {
+        if (!double.IsFinite(seconds))
+        {
+            throw new ArgumentException("expected a finite time", nameof(seconds));
+        }
+
         _pending = Math.Min(_pending + Math.Max(0, seconds), Settings.MostStepsAtOnce * Settings.Step);
         var steps = 0;
         for (; _pending >= Settings.Step; steps++)
@@ -107,7 +113,9 @@ public sealed partial class PhysicsWorld
     /// <summary>Bodies that barely move fall asleep after a while.</summary>
     private void LetRest(Body body, double sleepSpeed)
     {
-        var isSlow = body.Velocity.LengthSquared() < sleepSpeed * sleepSpeed && body.Contacts.Count > 0;
+        // By how far it gets: what is jammed may be pushed about and go nowhere.
+        var way = sleepSpeed * Settings.Step;
+        var isSlow = (body.Position - body.PreviousPosition).LengthSquared() < way * way && body.Contacts.Count > 0;
         var rests = sleepSpeed > 0 && !body.IsShrinking && (isSlow || body.IsStuck);
         body.RestTime = rests ? body.RestTime + Settings.Step : 0;
         if (body.RestTime >= Settings.SleepTime && rests)

@@ -156,7 +156,13 @@ public sealed partial class PhysicsWorld
     /// <exception cref="ArgumentException">A number is not finite, or outside of its range.</exception>
     public void AddRange(IEnumerable<BodyDescription> descriptions)
     {
-        foreach (var description in descriptions)
+        var all = descriptions.ToArray();
+        foreach (var description in all)
+        {
+            description.Check();
+        }
+
+        foreach (var description in all)
         {
             AddBody(description);
         }
@@ -182,7 +188,7 @@ public sealed partial class PhysicsWorld
     /// <exception cref="ArgumentException">It is not finite.</exception>
     public void SetVelocity(Body body, Vector velocity)
     {
-        RequireFinite(velocity, nameof(velocity));
+        RequireFinite(body, velocity, nameof(velocity));
         Wake(body);
         body.Velocity = velocity;
     }
@@ -193,7 +199,7 @@ public sealed partial class PhysicsWorld
     /// <exception cref="ArgumentException">It is not finite.</exception>
     public void SetForce(Body body, Vector force)
     {
-        RequireFinite(force, nameof(force));
+        RequireFinite(body, force, nameof(force));
         Wake(body);
         body.Force = force;
     }
@@ -280,11 +286,11 @@ public sealed partial class PhysicsWorld
         Walker?.Forget();
     }
 
-    private static void RequireFinite(Vector vector, string name)
+    private static void RequireFinite(Body body, Vector vector, string name)
     {
         if (!vector.IsFinite())
         {
-            throw new ArgumentException("expected finite components", name);
+            throw new ArgumentException($"body {body.Name}: expected a finite {name}", name);
         }
     }
 }

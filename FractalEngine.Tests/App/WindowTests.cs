@@ -80,7 +80,7 @@ public sealed class WindowTests : IDisposable
     [SkippableFact]
     public void Window_OfBodies_StopsStepsResetsDropsAndWalks()
     {
-        _folder.Write("fall.sdo", "c (0, 1, -6) (0, 0, 0) 60\no \"cube.obj\" ((0, -1, 0), #, (8, 1, 8))\np \"cube.obj\" ((0, 40, 0), #, #) 0.5 colour (1, 0, 0)\nplayer (2, 1, -2) 0.3 1.6\n");
+        _folder.Write("fall.sdo", "c (0, 1, -6) (0, 0, 0) 60\no \"cube.obj\" ((0, -1, 0), #, (8, 1, 8))\np \"cube.obj\" ((0, 40, 0), #, #) 0 colour (1, 0, 0)\nplayer (2, 1, -2) 0.3 1.6\n");
         using var window = Open("fall.sdo");
         // Time goes on from the beginning; a scene of one falling body stands still soon after.
         window.Do("key space");
@@ -88,10 +88,10 @@ public sealed class WindowTests : IDisposable
         Thread.Sleep(TimeSpan.FromSeconds(0.5));
         Assert.Equal(0, Difference(stopped, window.Screenshot(2)));
 
-        // 3 s: the body lies before the camera.
-        window.Do(string.Join(' ', Enumerable.Repeat("key n", 180)));
+        // After 4 s the body lies before the camera.
+        window.Do(string.Join(' ', Enumerable.Repeat("key n", 240)));
         var fallen = window.Screenshot(3);
-        Assert.True(Difference(stopped, fallen) > 0.01, "180 steps changed nothing");
+        Assert.True(Difference(stopped, fallen) > 0.01, "240 steps changed nothing");
 
         window.Do("key r");
         Assert.Equal(0, Difference(stopped, window.Screenshot(4)));
