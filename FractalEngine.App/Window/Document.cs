@@ -23,7 +23,7 @@ internal sealed class Document : IDisposable
         Controls = new(file.Scene.Bounds, camera, options.Projection ?? scene.Projection, scene.OrthographicHeight, FractalIn(drawable));
         Trail = file.Scene.Objects is [{ Model: FractalModel { Fractal: var fractal } }] ? new(fractal, options.TrailLength) : null;
         Renderer = new(window, drawable);
-        Physics = new(file.Scene, window.Wake);
+        Physics = new(file.Scene, window.Wake, buildsAll: !options.Settings.PreparesOnSight);
     }
 
     /// <summary>The file.</summary>

@@ -10,14 +10,15 @@ namespace FractalEngine.App.Window;
 /// <param name="Time">How long it took to draw.</param>
 /// <param name="Depth">Levels that the camera has gone down.</param>
 /// <param name="Enlargement">Decimal logarithm.</param>
-internal readonly record struct PictureReport(SceneRenderer Renderer, DetailSettings? Detail, TimeSpan Time, int Depth, double Enlargement)
+/// <param name="Physics">Has or has not built colliders.</param>
+internal readonly record struct PictureReport(SceneRenderer Renderer, DetailSettings? Detail, TimeSpan Time, int Depth, double Enlargement, ScenePhysics Physics)
 {
     /// <summary>Two panels.</summary>
     /// <param name="pictures">Drawn so far; shown again without drawing, below another text; and not shown since nothing had changed, that a loop of 60 a second would have drawn.</param>
     public IReadOnlyList<OverlayPanel> ToPanels((long Drawn, long ShownAgain, long NotNeeded) pictures)
     {
         var statistics = Renderer.Statistics;
-        var (cost, skips) = (statistics.Cost, statistics.Skips);
+        var (cost, skips, colliders) = (statistics.Cost, statistics.Skips, Physics.ColliderCounts);
         return
         [
             OverlayPanel.OfTable(OverlayAnchor.BottomRight, "Last picture",
@@ -39,6 +40,7 @@ internal readonly record struct PictureReport(SceneRenderer Renderer, DetailSett
                 ("backs", Invariant($"of {skips.OneSided:N0} of {skips.Objects:N0} objects")),
                 ("empty faces", Invariant($"{skips.EmptyFaces:N0}")),
                 ("not in sight yet", Invariant($"{skips.Unprepared:N0} of {skips.Models:N0} models")),
+                ("not asked yet", Invariant($"{colliders.All - colliders.Built:N0} of {colliders.All:N0} colliders")),
                 ("shared", Invariant($"{skips.Objects:N0} objects, {skips.Models:N0} files, {skips.Textures:N0} textures")),
                 ("uploads", Invariant($"{skips.Uploads.Skipped:N0}; {skips.Uploads.Made:N0} made")),
                 ("state changes", Invariant($"{skips.StateChanges.Skipped:N0}; {skips.StateChanges.Made:N0} made")),

@@ -38,15 +38,18 @@ internal sealed class ScenePhysics
     private readonly PhysicsWorld _world;
     private readonly Task _building;
     private readonly double _size;
+    private readonly int _colliders;
     private TimeSpan _stepTime;
 
     /// <summary>Begins to build the colliders in the background, where there are bodies that need them.</summary>
     /// <param name="scene">Loaded.</param>
     /// <param name="built">Called on another thread when the colliders are there.</param>
-    public ScenePhysics(LoadedScene scene, Action built)
+    /// <param name="buildsAll">Builds them even where there are no bodies, for comparison.</param>
+    public ScenePhysics(LoadedScene scene, Action built, bool buildsAll = false)
     {
         (_scene, _world, _size) = (scene, new(scene), scene.Bounds.IsEmpty ? 1 : scene.Bounds.Diagonal);
-        _building = _world.Bodies.Count == 0 ? Task.CompletedTask : Task.Run(() =>
+        _colliders = _world.ColliderCounts.All;
+        _building = _world.Bodies.Count == 0 && !buildsAll ? Task.CompletedTask : Task.Run(() =>
         {
             _world.BuildColliders();
             built();
@@ -82,6 +85,9 @@ internal sealed class ScenePhysics
                 $"{_world.Bodies.Count:N0} bodies, {awake:N0} awake · collider: {collider} · a step: {_world.Cost.FaceTests:N0} faces, {_world.Cost.BoundTests:N0} bounds, {_stepTime.TotalMilliseconds:F2} ms{(IsPaused ? " · paused" : "")}");
         }
     }
+
+    /// <summary>How many colliders have been built, of how many.</summary>
+    public (int Built, int All) ColliderCounts => IsReady ? _world.ColliderCounts : (0, _colliders);
 
     private bool IsReady => _building.IsCompletedSuccessfully;
 

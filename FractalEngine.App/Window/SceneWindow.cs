@@ -290,7 +290,7 @@ internal sealed class SceneWindow : IDisposable
         {
             document.Sight.Start(_pictures.Latest!, _window.Aspect);
             var controls = document.Controls;
-            _overlay.Measure(new(document.Renderer, drawn.Detail, _clock.Elapsed - start, controls.Depth, controls.Enlargement));
+            _overlay.Measure(new(document.Renderer, drawn.Detail, _clock.Elapsed - start, controls.Depth, controls.Enlargement, document.Physics));
         }
     }
 

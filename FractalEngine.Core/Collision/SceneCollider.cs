@@ -45,6 +45,16 @@ public sealed class SceneCollider
     /// <summary>Bytes of the colliders built so far, each once.</summary>
     public long StorageBytes => _items.Select(item => item.Collider).Distinct().Where(collider => collider.IsValueCreated).Sum(collider => collider.Value.StorageBytes);
 
+    /// <summary>How many colliders there are, and how many of them have been built.</summary>
+    public (int Built, int All) Counts
+    {
+        get
+        {
+            var colliders = _items.Select(item => item.Collider).Distinct().ToArray();
+            return (colliders.Count(static collider => collider.IsValueCreated), colliders.Length);
+        }
+    }
+
     /// <summary>Builds all colliders now instead of at their first query.</summary>
     public void Build()
     {

@@ -173,6 +173,10 @@ public sealed partial class PhysicsWorld
     /// <summary>Lets a player walk in the world, instead of the one before.</summary>
     public Walker AddWalker(Player player) => Walker = new(this, _obstacles, player);
 
+    /// <summary>How many colliders have been built, of those of all objects that stand still.</summary>
+    public (int Built, int All) ColliderCounts => _surfaces.TryGetValue(_collider ?? ColliderKind.Exact, out var surfaces)
+        ? surfaces.Collider.Counts : (0, _placed.Select(static placed => placed.Model).Distinct().Count());
+
     /// <summary>Builds all colliders that bodies will ask, instead of at their first query.</summary>
     /// <exception cref="ColliderMismatchException">A collider does not fit an object.</exception>
     /// <exception cref="FractalLimitException">A fractal is too large for its collider.</exception>
