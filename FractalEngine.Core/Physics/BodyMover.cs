@@ -47,50 +47,58 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
             Respond(body, position, restSpeed);
             var kept = contacts.RemoveSeparating(position, body.Velocity, bodies, NoSpeed * restSpeed);
             body.Velocity = kept == body.Velocity ? kept : contacts.Allow(kept, position, _planes, onlySurfaces: true);
-            var steady = contacts.Allow(acceleration, position, _planes);
-            var (duration, stands) = (left, false);
-            if (body.Description.Friction > 0 && contacts.Count > 0)
-            {
-                stands = Rub(body, acceleration, ref steady, ref duration);
-            }
-
-            if (steady == Vector.Zero && contacts.Count > 0 && body.Velocity.MaximumComponent() <= NoSpeed * restSpeed)
-            {
-                body.Velocity = Vector.Zero;
-            }
-
-            body.FreeAcceleration = steady;
-            if (body.Velocity == Vector.Zero && steady == Vector.Zero)
-            {
-                Press(body, acceleration, position, left);
-                break;
-            }
-
-            var motion = new Motion(position, body.Velocity, steady);
-            obstacles.Collect(in motion, duration, body.Index);
-            var isHit = _sweep.TryHit(in motion, duration, out var hit, out var elapsed);
-            Press(body, acceleration, position, elapsed);
-            (position, body.Velocity) = (motion.At(elapsed), motion.VelocityAt(elapsed));
-            left -= elapsed;
-            impactsHere = elapsed > 0 ? 0 : impactsHere + 1;
-            if (!isHit)
-            {
-                // After too many steps the rest of the time is lost.
-                left = elapsed < duration ? 0 : left;
-                body.Velocity = stands ? Vector.Zero : body.Velocity;
-            }
-
-            if (isHit)
-            {
-                position = WithoutRounding(position, in hit);
-                contacts.Add(in hit, position);
-            }
-            contacts.Follow(position, hold, obstacles);
+            var elapsed = Glide(body, acceleration, ref position, left, NoSpeed * restSpeed);
+            (left, impactsHere) = (left - elapsed, elapsed > 0 ? 0 : impactsHere + 1);
         }
 
+        // An impact in the last moment is answered in the next step.
         body.Position = position;
-        // What leads on into something would be found at the next step again.
-        Respond(body, position, double.PositiveInfinity);
+    }
+
+    /// <summary>Goes on until something new is touched, friction has done its work, or the time is up.</summary>
+    /// <param name="body">Leads into nothing that it touches.</param>
+    /// <param name="acceleration">By gravity and forces.</param>
+    /// <param name="position">Receives where it comes to.</param>
+    /// <param name="time">Seconds.</param>
+    /// <param name="slow">What is slower, and not accelerated, rests.</param>
+    /// <returns>The time that has passed.</returns>
+    private double Glide(Body body, Vector acceleration, ref Vector position, double time, double slow)
+    {
+        var contacts = body.Contacts;
+        var steady = contacts.Allow(acceleration, position, _planes);
+        var (duration, stands) = (time, false);
+        if (body.Description.Friction > 0 && contacts.Count > 0)
+        {
+            stands = Rub(body, acceleration, ref steady, ref duration);
+        }
+
+        var isSlow = contacts.Count > 0 && body.Velocity.MaximumComponent() <= slow;
+        body.Velocity = steady == Vector.Zero && isSlow ? Vector.Zero : body.Velocity;
+        body.FreeAcceleration = steady;
+        if (body.Velocity == Vector.Zero && steady == Vector.Zero)
+        {
+            Press(body, acceleration, position, time);
+            return time;
+        }
+
+        var motion = new Motion(position, body.Velocity, steady);
+        obstacles.Collect(in motion, duration, body.Index);
+        var isHit = _sweep.TryHit(in motion, duration, out var hit, out var elapsed);
+        Press(body, acceleration, position, elapsed);
+        (position, body.Velocity) = (motion.At(elapsed), motion.VelocityAt(elapsed));
+        if (isHit)
+        {
+            position = WithoutRounding(position, in hit);
+            contacts.Add(in hit, position);
+        }
+        else if (stands)
+        {
+            body.Velocity = Vector.Zero;
+        }
+
+        contacts.Follow(position, obstacles.Hold(position), obstacles);
+        // After too many advances the rest of the time is lost.
+        return isHit || elapsed >= duration ? elapsed : time;
     }
 
     /// <summary>A body that begins inside of something is pushed out; one that can't be stops.</summary>

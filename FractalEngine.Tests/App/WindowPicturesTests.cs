@@ -62,9 +62,10 @@ public sealed class WindowPicturesTests : IDisposable
         pictures.Draw(document, Settings, Width, Height);
         pictures.Draw(document, Settings, Width, Height);
         pictures.ShowAgain();
-        var rows = new PictureReport(document.Renderer, Settings.Detail, Time, 0, 0).ToPanels(pictures.CountsOf(60)).SelectMany(panel => panel.Lines).ToDictionary(line => line.Text, line => line.Second);
+        var rows = new PictureReport(document.Renderer, Settings.Detail, Time, 0, 0, document.Physics).ToPanels(pictures.CountsOf(60)).SelectMany(panel => panel.Lines).ToDictionary(line => line.Text, line => line.Second);
         Assert.Equal("2 objects, 2 files, 0 textures", rows["shared"]);
         Assert.Equal("1 of 2 models", rows["not in sight yet"]);
+        Assert.Equal("2 of 2 colliders", rows["not asked yet"]);
         Assert.Equal("of 1 of 2 objects", rows["backs"]);
         // The instances of the near cube, both objects, the lights.
         Assert.Equal("4; 0 made", rows["uploads"]);
