@@ -45,8 +45,7 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
         for (var impact = 0; impact < MostImpacts && impactsHere < MostAtOnce && left > 0; impact++)
         {
             Respond(body, position, restSpeed);
-            var kept = contacts.RemoveSeparating(position, body.Velocity, bodies, NoSpeed * restSpeed);
-            body.Velocity = kept == body.Velocity ? kept : contacts.Allow(kept, position, _planes, onlySurfaces: true);
+            body.Velocity = contacts.RemoveSeparating(position, body.Velocity, bodies, NoSpeed * restSpeed);
             var elapsed = Glide(body, acceleration, ref position, left, NoSpeed * restSpeed);
             (left, impactsHere) = (left - elapsed, elapsed > 0 ? 0 : impactsHere + 1);
         }

@@ -8,6 +8,9 @@ internal sealed class ContactSet
     // Relative to the speed: what rounding leaves of a velocity along the normal.
     private const double Rounding = 1e-13;
 
+    // Squared sine of the angle below which two surfaces are one.
+    private const double Parallel = 1e-10;
+
     // Of the reach: a gap that differs by less needs no other point.
     private const double Unmoved = 1e-13;
 
@@ -91,20 +94,46 @@ internal sealed class ContactSet
     /// <returns>The velocity without what was too slow.</returns>
     public Vector RemoveSeparating(Vector position, Vector velocity, List<Body> bodies, double slow)
     {
+        var leavesSlowly = false;
         for (var i = Count - 1; i >= 0; i--)
         {
             var isSurface = _contacts[i].Body < 0;
             var relative = isSurface ? velocity : velocity - bodies[_contacts[i].Body].Velocity;
-            var normal = _contacts[i].Normal(position);
-            var speed = Vector.Dot(relative, normal);
-            if (speed > slow + (Rounding * relative.MaximumComponent()))
+            var (speed, rounding) = (Vector.Dot(relative, _contacts[i].Normal(position)), Rounding * relative.MaximumComponent());
+            if (speed > slow + rounding)
             {
                 RemoveAt(i);
             }
-            else if (isSurface && speed > 0)
+            else
             {
-                velocity -= speed * normal;
+                leavesSlowly |= isSurface && speed > rounding;
             }
+        }
+
+        return leavesSlowly ? Along(velocity, position) : velocity;
+    }
+
+    /// <summary>The part of a velocity along all surfaces at once: none where there are three.</summary>
+    private Vector Along(Vector velocity, Vector position)
+    {
+        var (first, second) = (Vector.Zero, Vector.Zero);
+        for (var i = 0; i < Count; i++)
+        {
+            if (_contacts[i].Body >= 0)
+            {
+                continue;
+            }
+
+            var normal = _contacts[i].Normal(position);
+            normal -= (Vector.Dot(normal, first) * first) + (Vector.Dot(normal, second) * second);
+            if (normal.LengthSquared() <= Parallel)
+            {
+                continue;
+            }
+
+            var direction = normal.UnitVector();
+            velocity -= Vector.Dot(velocity, direction) * direction;
+            (first, second) = first == Vector.Zero ? (direction, second) : (first, direction);
         }
 
         return velocity;
