@@ -1,6 +1,4 @@
 using System.Diagnostics;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
@@ -26,20 +24,18 @@ internal sealed class ScenePhysics
     private const double BallRestitution = 0.6;
     private const double BallFriction = 0.3;
 
-    // Beyond, meshes of whole fractals take seconds to build.
-    private const int MostExpandedFaces = 2_000_000;
-
     private const int MostLines = 100;
 
     private static readonly Colour TowardsSurface = new(1, 0.75, 0.2);
     private static readonly Colour AlongNormal = new(0.3, 0.9, 1);
 
     private readonly LoadedScene _scene;
-    private readonly PhysicsWorld _world;
-    private readonly Task _building;
+    private readonly Task<PhysicsWorld> _building;
     private readonly double _size;
     private readonly int _colliders;
     private TimeSpan _stepTime;
+    private string? _problem;
+    private bool _isProblemTold;
 
     /// <summary>Begins to build the colliders in the background, where there are bodies that need them.</summary>
     /// <param name="scene">Loaded.</param>
@@ -47,49 +43,77 @@ internal sealed class ScenePhysics
     /// <param name="buildsAll">Builds them even where there are no bodies, for comparison.</param>
     public ScenePhysics(LoadedScene scene, Action built, bool buildsAll = false)
     {
-        (_scene, _world, _size) = (scene, new(scene), scene.Bounds.IsEmpty ? 1 : scene.Bounds.Diagonal);
-        _colliders = _world.ColliderCounts.All;
-        _building = _world.Bodies.Count == 0 && !buildsAll ? Task.CompletedTask : Task.Run(() =>
+        (_scene, _size) = (scene, scene.Bounds.IsEmpty ? 1 : scene.Bounds.Diagonal);
+        _colliders = scene.Objects.Where(static placed => placed.Declaration is not PhysicsObject).Select(static placed => placed.Model).Distinct().Count();
+        _building = Task.Run(() =>
         {
-            _world.BuildColliders();
-            built();
+            var world = new PhysicsWorld(scene);
+            if (world.Bodies.Count > 0 || buildsAll)
+            {
+                world.BuildColliders();
+            }
+
+            return world;
         });
+        _building.ContinueWith(_ => built(), TaskScheduler.Default);
+    }
+
+    /// <summary>Why nothing moves, or moves no longer, once; null where nothing is wrong.</summary>
+    public string? TakeProblem()
+    {
+        if (_building.IsFaulted && !_isProblemTold)
+        {
+            (_problem, _isProblemTold) = ($"error: no physics: {_building.Exception.InnerException!.Message}", true);
+        }
+
+        (var problem, _problem) = (_problem, null);
+        return problem;
     }
 
     /// <summary>True while there is something to move: time must be told by <see cref="Advance"/>.</summary>
-    public bool IsRunning => !IsPaused && IsReady && (_world.IsMoving || IsWalking);
+    public bool IsRunning => !IsPaused && IsReady && (World.IsMoving || IsWalking);
 
     /// <summary>Whether time stands still.</summary>
     public bool IsPaused { get; private set; }
 
     /// <summary>Whether the player walks, and the camera is where the player's eyes are.</summary>
-    public bool IsWalking => _world.Walker is { IsActive: true };
+    public bool IsWalking => IsReady && World.Walker is { IsActive: true };
 
     /// <summary>Who walks; null for nobody.</summary>
-    public Walker? Walker => _world.Walker;
+    public Walker? Walker => IsReady ? World.Walker : null;
 
     /// <summary>Whether closest points and normals are shown as lines.</summary>
     public bool ShowsClosestPoints { get; set; }
 
     /// <summary>How far between two steps what is drawn is, see <see cref="Body.MapAt"/>.</summary>
-    public double Part => IsPaused ? 1 : _world.Fraction;
+    public double Part => IsPaused || !IsReady ? 1 : World.Fraction;
 
     /// <summary>What is written of the bodies: how many there are, how they find what they touch, and what that costs.</summary>
     public string Description
     {
         get
         {
-            var awake = _world.Bodies.Count(static body => !body.IsAsleep);
-            var collider = _world.Collider is { } kind ? SceneParser.NameOf(kind) : "each body's own";
+            if (!IsReady)
+            {
+                return NotReady;
+            }
+
+            var awake = World.Bodies.Count(static body => !body.IsAsleep);
+            var collider = World.Collider is { } kind ? SceneParser.NameOf(kind) : "each body's own";
             return FormattableString.Invariant(
-                $"{_world.Bodies.Count:N0} bodies, {awake:N0} awake · collider: {collider} · a step: {_world.Cost.FaceTests:N0} faces, {_world.Cost.BoundTests:N0} bounds, {_stepTime.TotalMilliseconds:F2} ms{(IsPaused ? " · paused" : "")}");
+                $"{World.Bodies.Count:N0} bodies, {awake:N0} awake · collider: {collider} · a step: {World.Cost.FaceTests:N0} faces, {World.Cost.BoundTests:N0} bounds, {_stepTime.TotalMilliseconds:F2} ms{(IsPaused ? " · paused" : "")}");
         }
     }
 
     /// <summary>How many colliders have been built, of how many.</summary>
-    public (int Built, int All) ColliderCounts => IsReady ? _world.ColliderCounts : (0, _colliders);
+    public (int Built, int All) ColliderCounts => IsReady ? World.ColliderCounts : (0, _colliders);
 
     private bool IsReady => _building.IsCompletedSuccessfully;
+
+    /// <summary>Once it is ready.</summary>
+    private PhysicsWorld World => _building.Result;
+
+    private string NotReady => _building.IsFaulted ? "there is no physics in this scene" : "the colliders are being built";
 
     /// <summary>Lets time pass.</summary>
     /// <returns>True when something may have moved.</returns>
@@ -100,8 +124,8 @@ internal sealed class ScenePhysics
             return false;
         }
 
-        var start = Stopwatch.GetTimestamp();
-        var steps = _world.Advance(time.TotalSeconds);
+        var (start, steps) = (Stopwatch.GetTimestamp(), 0);
+        TryStep(() => steps = World.Advance(time.TotalSeconds));
         _stepTime = steps > 0 ? Stopwatch.GetElapsedTime(start) / steps : _stepTime;
         return true;
     }
@@ -120,13 +144,13 @@ internal sealed class ScenePhysics
         IsPaused = true;
         if (!IsReady)
         {
-            return "the colliders are being built";
+            return NotReady;
         }
 
         var start = Stopwatch.GetTimestamp();
-        _world.Step();
+        TryStep(World.Step);
         _stepTime = Stopwatch.GetElapsedTime(start);
-        return FormattableString.Invariant($"step {_world.StepCount:N0}, {_world.Time:F3} s");
+        return FormattableString.Invariant($"step {World.StepCount:N0}, {World.Time:F3} s");
     }
 
     /// <summary>Everything is where the scene's file has it.</summary>
@@ -134,7 +158,7 @@ internal sealed class ScenePhysics
     {
         if (IsReady)
         {
-            _world.Reset();
+            World.Reset();
         }
 
         return "as in the file";
@@ -145,7 +169,7 @@ internal sealed class ScenePhysics
     {
         if (!IsReady)
         {
-            return "the colliders are being built";
+            return NotReady;
         }
 
         var radius = Math.Min(BallSize * _size, FreePart * FreeDistance(camera.Position));
@@ -154,7 +178,7 @@ internal sealed class ScenePhysics
             return "there is no room for a ball";
         }
 
-        _world.Add(new(camera.Position + (2 * radius * camera.LocalAxes.V3), radius) { Restitution = BallRestitution, Friction = BallFriction });
+        World.Add(new(camera.Position + (2 * radius * camera.LocalAxes.V3), radius) { Restitution = BallRestitution, Friction = BallFriction });
         return "dropped a ball";
     }
 
@@ -164,10 +188,10 @@ internal sealed class ScenePhysics
     {
         if (!IsReady)
         {
-            return "the colliders are being built";
+            return NotReady;
         }
 
-        if (_world.Walker is { IsActive: true } walking)
+        if (World.Walker is { IsActive: true } walking)
         {
             walking.IsActive = false;
             return "the camera flies";
@@ -181,10 +205,10 @@ internal sealed class ScenePhysics
                 return "there is no room for a player";
             }
 
-            _world.AddWalker(new(camera.Position, PlayerRadius * height, height));
+            World.AddWalker(new(camera.Position, PlayerRadius * height, height));
         }
 
-        _world.Walker!.IsActive = true;
+        World.Walker!.IsActive = true;
         return "walking: W A S D, Space jumps, P flies again";
     }
 
@@ -193,23 +217,10 @@ internal sealed class ScenePhysics
     {
         if (!IsReady)
         {
-            return "the colliders are being built";
+            return NotReady;
         }
 
-        var (kinds, before) = (Enum.GetValues<ColliderKind>(), _world.Collider);
-        var next = before is { } kind ? (int)kind + 1 : 0;
-        for (; next < kinds.Length; next++)
-        {
-            if (TryUse(kinds[next], out var reason))
-            {
-                return $"collider: {SceneParser.NameOf(kinds[next])}";
-            }
-
-            Console.Error.WriteLine($"collider {SceneParser.NameOf(kinds[next])}: {reason}");
-        }
-
-        _world.Collider = null;
-        return "collider: each body's own";
+        return ColliderCycle.Next(World, _scene);
     }
 
     /// <summary>Moves what is drawn to where the bodies are.</summary>
@@ -222,7 +233,7 @@ internal sealed class ScenePhysics
 
         var part = Part;
         var balls = new List<LooseBall>();
-        foreach (var body in _world.Bodies)
+        foreach (var body in World.Bodies)
         {
             var map = body.MapAt(part);
             if (body.Description.ObjectIndex is >= 0 and var index)
@@ -239,13 +250,26 @@ internal sealed class ScenePhysics
         renderer.Lines = ShowsClosestPoints ? ClosestPoints(part) : [];
     }
 
+    /// <summary>Stops time where a body leaves the range of a double.</summary>
+    private void TryStep(Action step)
+    {
+        try
+        {
+            step();
+        }
+        catch (InvalidOperationException exception)
+        {
+            (_problem, IsPaused) = ($"error: {exception.Message}", true);
+        }
+    }
+
     private List<LineSegment> ClosestPoints(double part)
     {
         var lines = new List<LineSegment>();
-        foreach (var body in _world.Bodies.OrderBy(static body => body.IsAsleep).Take(MostLines))
+        foreach (var body in World.Bodies.OrderBy(static body => body.IsAsleep).Take(MostLines))
         {
             var centre = body.MapAt(part).Translation;
-            if (_world.TryFindClosest(centre, _world.Collider ?? body.Description.Collider, out var closest))
+            if (World.TryFindClosest(centre, World.Collider ?? body.Description.Collider, out var closest))
             {
                 lines.Add(new(centre, closest.Point, TowardsSurface));
                 lines.Add(new(closest.Point, closest.Point + (2 * body.Radius * closest.Normal), AlongNormal));
@@ -255,30 +279,5 @@ internal sealed class ScenePhysics
         return lines;
     }
 
-    private double FreeDistance(Vector position) => _world.TryFindClosest(position, ColliderKind.Exact, out var closest) ? closest.Distance : double.PositiveInfinity;
-
-    private bool TryUse(ColliderKind kind, out string reason)
-    {
-        var faces = _scene.Models.Aggregate(System.Numerics.BigInteger.Zero, (sum, model) => sum + (model.FaceCount ?? MostExpandedFaces + 1));
-        var isExpanded = kind is ColliderKind.Hierarchy or ColliderKind.BoundingBox or ColliderKind.Simple;
-        if (isExpanded && faces > MostExpandedFaces)
-        {
-            reason = "the scene has more faces than it is made for in a window";
-            return false;
-        }
-
-        var before = _world.Collider;
-        try
-        {
-            _world.Collider = kind;
-            _world.BuildColliders();
-            reason = "";
-            return true;
-        }
-        catch (Exception exception) when (exception is ColliderMismatchException or FractalLimitException)
-        {
-            (_world.Collider, reason) = (before, exception.Message);
-            return false;
-        }
-    }
+    private double FreeDistance(Vector position) => World.TryFindClosest(position, ColliderKind.Exact, out var closest) ? closest.Distance : double.PositiveInfinity;
 }

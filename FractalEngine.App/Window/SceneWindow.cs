@@ -255,6 +255,11 @@ internal sealed class SceneWindow : IDisposable
             _overlay.Physics = _document.Physics.Description;
         }
 
+        if (_document?.Physics.TakeProblem() is { } problem)
+        {
+            Say(problem);
+        }
+
         // What was drawn while moving was coarse, and one picture behind.
         _isDrawingStale |= _pictures.IsCoarse && _document?.IsMoving != true;
         _isDrawingStale |= !_options.SkipsStillPictures && now - _refreshed >= FrameTime;

@@ -1,0 +1,58 @@
+using System.Numerics;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Physics;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Scenes;
+
+namespace FractalEngine.App.Window;
+
+/// <summary>Takes one collider after the other for all bodies, as far as they fit the scene; then each body its own again.</summary>
+internal static class ColliderCycle
+{
+    // Beyond, meshes of whole fractals take seconds to build.
+    private const int MostExpandedFaces = 2_000_000;
+
+    /// <summary>Takes the next. Why others were passed over is written to the terminal.</summary>
+    /// <returns>What to say.</returns>
+    public static string Next(PhysicsWorld world, LoadedScene scene)
+    {
+        var kinds = Enum.GetValues<ColliderKind>();
+        for (var next = world.Collider is { } before ? (int)before + 1 : 0; next < kinds.Length; next++)
+        {
+            if (TryUse(world, scene, kinds[next], out var reason))
+            {
+                return $"collider: {SceneParser.NameOf(kinds[next])}";
+            }
+
+            Console.Error.WriteLine($"collider {SceneParser.NameOf(kinds[next])}: {reason}");
+        }
+
+        world.Collider = null;
+        return "collider: each body's own";
+    }
+
+    private static bool TryUse(PhysicsWorld world, LoadedScene scene, ColliderKind kind, out string reason)
+    {
+        var faces = scene.Models.Aggregate(BigInteger.Zero, (sum, model) => sum + (model.FaceCount ?? MostExpandedFaces + 1));
+        if (kind is ColliderKind.Hierarchy or ColliderKind.BoundingBox or ColliderKind.Simple && faces > MostExpandedFaces)
+        {
+            reason = "the scene has more faces than it is made for in a window";
+            return false;
+        }
+
+        var before = world.Collider;
+        try
+        {
+            world.Collider = kind;
+            world.BuildColliders();
+            reason = "";
+            return true;
+        }
+        catch (Exception exception) when (exception is ColliderMismatchException or FractalLimitException)
+        {
+            (world.Collider, reason) = (before, exception.Message);
+            return false;
+        }
+    }
+}
