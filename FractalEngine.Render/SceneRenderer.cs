@@ -15,6 +15,10 @@ public sealed class SceneRenderer : IDisposable
     // Natural logarithm. From deeper down lights with a place look the same.
     private const double DeepestLight = 14;
 
+    // Of the scene's size: balls farther out do not matter, and places of others are rounded to this.
+    private const double FarBalls = 2;
+    private const double BallGrid = 0.25;
+
     // Of the palette: coral.
     private const int BallColour = 2;
 
@@ -30,6 +34,7 @@ public sealed class SceneRenderer : IDisposable
     private SceneDetail? _detail;
     private BoundingBox? _bounds;
     private BallInstances? _balls;
+    private IReadOnlyList<LooseBall> _looseBalls = [];
     private (ChangeCounts Uploads, ChangeCounts State) _before;
     private (ChangeCounts Uploads, ChangeCounts State) _after;
     private int _oneSided;
@@ -66,8 +71,16 @@ public sealed class SceneRenderer : IDisposable
     /// </summary>
     public BoundingBox Bounds => _bounds ??= BoundsNow();
 
-    /// <summary>Balls beside the scene's objects.</summary>
-    public IReadOnlyList<LooseBall> Balls { get; set; } = [];
+    /// <summary>Balls beside the scene's objects. Those far out of the scene are not drawn.</summary>
+    public IReadOnlyList<LooseBall> Balls
+    {
+        get => _looseBalls;
+        set
+        {
+            var isChange = value.Count > 0 || _looseBalls.Count > 0;
+            (_looseBalls, _bounds) = (value, isChange ? null : _bounds);
+        }
+    }
 
     /// <summary>Lines beside the scene's objects.</summary>
     public IReadOnlyList<LineSegment> Lines { get; set; } = [];
@@ -200,7 +213,7 @@ public sealed class SceneRenderer : IDisposable
             }
         }
 
-        if (Balls.Count > 0)
+        if (Balls.Count > 0 && view.Zoom is null)
         {
             _pass.LeaveOut(null);
             _pass.Use(null, Colour.White, MeshFeatures.InWorld);
@@ -226,8 +239,20 @@ public sealed class SceneRenderer : IDisposable
         }
 
         var whole = Scene.Source.Bounds;
-        return moves ? BoundingBox.Union(box, new(whole.Minimum - (0.5 * whole.Size), whole.Maximum + (0.5 * whole.Size))) : box;
+        box = moves ? BoundingBox.Union(box, Around(whole, 0.5)) : box;
+        var (far, grid) = (Around(whole, FarBalls), BallGrid * whole.Diagonal);
+        foreach (var (centre, radius) in _looseBalls)
+        {
+            // In coarse steps, so that the planes stay where they are most of the time.
+            box = far.DistanceSquared(centre) > 0 || !(grid > 0) ? box : BoundingBox.Union(box, new(Down(centre - (radius * Vector.One), grid), -Down(-centre - (radius * Vector.One), grid)));
+        }
+
+        return box;
     }
+
+    private static BoundingBox Around(BoundingBox box, double sizes) => new(box.Minimum - (sizes * box.Size), box.Maximum + (sizes * box.Size));
+
+    private static Vector Down(Vector v, double grid) => new(grid * Math.Floor(v.X / grid), grid * Math.Floor(v.Y / grid), grid * Math.Floor(v.Z / grid));
 
     /// <summary>Moves to the GPU what is not there yet.</summary>
     private void Upload()

@@ -34,7 +34,8 @@ internal static class ColliderCycle
 
     private static bool TryUse(PhysicsWorld world, LoadedScene scene, ColliderKind kind, out string reason)
     {
-        var faces = scene.Models.Aggregate(BigInteger.Zero, (sum, model) => sum + (model.FaceCount ?? MostExpandedFaces + 1));
+        var models = scene.Objects.Where(static placed => placed.Declaration is not PhysicsObject).Select(static placed => placed.Model).Distinct();
+        var faces = models.Aggregate(BigInteger.Zero, (sum, model) => sum + (model.FaceCount ?? MostExpandedFaces + 1));
         if (kind is ColliderKind.Hierarchy or ColliderKind.BoundingBox or ColliderKind.Simple && faces > MostExpandedFaces)
         {
             reason = "the scene has more faces than it is made for in a window";

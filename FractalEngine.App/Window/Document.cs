@@ -97,13 +97,14 @@ internal sealed class Document : IDisposable
     /// <returns>What to say.</returns>
     public string ToggleWalking()
     {
-        var camera = Camera;
+        var (camera, walked) = (Camera, Physics.IsWalking);
         var message = Physics.ToggleWalking(camera);
         if (Physics.IsWalking)
         {
+            Walk.Release();
             Walk.Direction = camera;
         }
-        else
+        else if (walked)
         {
             Controls.MoveTo(camera);
         }

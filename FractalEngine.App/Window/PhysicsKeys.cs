@@ -12,7 +12,7 @@ internal static class PhysicsKeys
         var physics = document.Physics;
         switch (key)
         {
-            case Key.Space when !physics.IsWalking:
+            case Key.Space when !physics.IsWalking || physics.IsPaused:
                 return physics.TogglePause();
             case Key.N:
                 return physics.StepOnce();

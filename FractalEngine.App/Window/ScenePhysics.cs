@@ -1,4 +1,6 @@
 using System.Diagnostics;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
@@ -36,6 +38,7 @@ internal sealed class ScenePhysics
     private TimeSpan _stepTime;
     private string? _problem;
     private bool _isProblemTold;
+    private bool _isBroken;
 
     /// <summary>Begins to build the colliders in the background, where there are bodies that need them.</summary>
     /// <param name="scene">Loaded.</param>
@@ -113,6 +116,8 @@ internal sealed class ScenePhysics
     /// <summary>Once it is ready.</summary>
     private PhysicsWorld World => _building.Result;
 
+    private static string Broken => "a body has left the range of numbers: R puts everything back";
+
     private string NotReady => _building.IsFaulted ? "there is no physics in this scene" : "the colliders are being built";
 
     /// <summary>Lets time pass.</summary>
@@ -134,8 +139,8 @@ internal sealed class ScenePhysics
     /// <returns>What to say.</returns>
     public string TogglePause()
     {
-        IsPaused = !IsPaused;
-        return IsPaused ? "paused: N makes one step" : "time goes on";
+        IsPaused = _isBroken || !IsPaused;
+        return _isBroken ? Broken : IsPaused ? "paused: N makes one step" : "time goes on";
     }
 
     /// <summary>Makes one step, and stops time.</summary>
@@ -145,6 +150,11 @@ internal sealed class ScenePhysics
         if (!IsReady)
         {
             return NotReady;
+        }
+
+        if (_isBroken)
+        {
+            return Broken;
         }
 
         var start = Stopwatch.GetTimestamp();
@@ -159,6 +169,7 @@ internal sealed class ScenePhysics
         if (IsReady)
         {
             World.Reset();
+            _isBroken = false;
         }
 
         return "as in the file";
@@ -172,7 +183,12 @@ internal sealed class ScenePhysics
             return NotReady;
         }
 
-        var radius = Math.Min(BallSize * _size, FreePart * FreeDistance(camera.Position));
+        if (!TryFindFreeDistance(camera.Position, out var free, out var problem))
+        {
+            return problem;
+        }
+
+        var radius = Math.Min(BallSize * _size, FreePart * free);
         if (!(radius > 0))
         {
             return "there is no room for a ball";
@@ -197,9 +213,15 @@ internal sealed class ScenePhysics
             return "the camera flies";
         }
 
+        if (!TryFindFreeDistance(camera.Position, out var free, out var problem))
+        {
+            return problem;
+        }
+
+        IsPaused = _isBroken;
         if (_scene.Scene.Player is null)
         {
-            var height = Math.Min(PlayerHeight * _size, FreePart * FreeDistance(camera.Position));
+            var height = Math.Min(PlayerHeight * _size, FreePart * free);
             if (!(height > 0))
             {
                 return "there is no room for a player";
@@ -247,7 +269,7 @@ internal sealed class ScenePhysics
         }
 
         renderer.Balls = balls;
-        renderer.Lines = ShowsClosestPoints ? ClosestPoints(part) : [];
+        renderer.Lines = ShowsClosestPoints && !_isBroken ? ClosestPoints(part) : [];
     }
 
     /// <summary>Stops time where a body leaves the range of a double.</summary>
@@ -259,7 +281,7 @@ internal sealed class ScenePhysics
         }
         catch (InvalidOperationException exception)
         {
-            (_problem, IsPaused) = ($"error: {exception.Message}", true);
+            (_problem, IsPaused, _isBroken) = ($"error: {exception.Message}", true, true);
         }
     }
 
@@ -279,5 +301,19 @@ internal sealed class ScenePhysics
         return lines;
     }
 
-    private double FreeDistance(Vector position) => World.TryFindClosest(position, ColliderKind.Exact, out var closest) ? closest.Distance : double.PositiveInfinity;
+    /// <summary>How far everything is from a position. The first to ask builds the colliders.</summary>
+    private bool TryFindFreeDistance(Vector position, out double distance, out string problem)
+    {
+        (distance, problem) = (double.PositiveInfinity, "");
+        try
+        {
+            distance = World.TryFindClosest(position, World.Collider ?? ColliderKind.Exact, out var closest) ? closest.Distance : distance;
+            return true;
+        }
+        catch (Exception exception) when (exception is ColliderMismatchException or FractalLimitException)
+        {
+            problem = $"error: {exception.Message}";
+            return false;
+        }
+    }
 }

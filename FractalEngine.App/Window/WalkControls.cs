@@ -20,6 +20,13 @@ internal sealed class WalkControls
     /// <summary>Where the player looks; its position is not used.</summary>
     public Camera Direction { get; set; } = Camera.Default;
 
+    /// <summary>Lets go of all keys.</summary>
+    public void Release()
+    {
+        _held.Clear();
+        _looks = false;
+    }
+
     /// <summary>Takes in an event.</summary>
     /// <returns>True when the player looks elsewhere.</returns>
     public bool Handle(WindowEvent windowEvent, Walker walker)

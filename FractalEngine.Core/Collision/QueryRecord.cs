@@ -13,6 +13,7 @@ public sealed class QueryRecord
     private int[] _trail = [];
     private int[] _bestTrail = [];
     private double[] _scratch = [];
+    private double[] _objectBounds = [];
     private OpenCopies? _openCopies;
 
     /// <summary>How many faces were looked at: the paper's collision cost (§5.2.3). Added up until <see cref="Reset"/>.</summary>
@@ -41,6 +42,17 @@ public sealed class QueryRecord
 
     /// <summary>Room for numbers of a search; kept for the next one.</summary>
     internal Span<double> Scratch(int length) => _scratch.Length >= length ? _scratch : _scratch = new double[length];
+
+    /// <summary>Room for a bound of each object of a scene.</summary>
+    internal Span<double> ObjectBounds(int count)
+    {
+        if (_objectBounds.Length < count)
+        {
+            _objectBounds = new double[count];
+        }
+
+        return _objectBounds.AsSpan(0, count);
+    }
 
     /// <summary>Keeps the present path while other objects are asked.</summary>
     internal void KeepPath()

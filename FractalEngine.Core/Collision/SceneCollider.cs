@@ -79,7 +79,7 @@ public sealed class SceneCollider
     {
         Collider.Check(position, within, epsilon);
         (closest, objectIndex) = (default, -1);
-        Span<double> bounds = _items.Length <= 256 ? stackalloc double[_items.Length] : new double[_items.Length];
+        var bounds = record.ObjectBounds(_items.Length);
         for (var i = 0; i < _items.Length; i++)
         {
             bounds[i] = i == except ? double.PositiveInfinity : Math.Sqrt(_items[i].Bounds.DistanceSquared(position));

@@ -7,10 +7,13 @@ public sealed class Body
 {
     private readonly BodyDescription _description;
 
-    internal Body(BodyDescription description, int index)
+    /// <param name="description">Checked.</param>
+    /// <param name="index">Its place among the bodies.</param>
+    /// <param name="acceleration">What it falls with until it is seen what it rests on.</param>
+    internal Body(BodyDescription description, int index, Vector acceleration)
     {
         (_description, Index) = (description, index);
-        Reset();
+        Reset(acceleration);
     }
 
     /// <summary>What it was made from.</summary>
@@ -85,11 +88,11 @@ public sealed class Body
     internal bool IsShrinking => _description.Shrinkage > 0 && Scale > _description.MinimumScale;
 
     /// <summary>Back to the beginning.</summary>
-    internal void Reset()
+    internal void Reset(Vector acceleration)
     {
         (Position, PreviousPosition, Velocity, Force) = (_description.Position, _description.Position, _description.Velocity, Vector.Zero);
         (Scale, PreviousScale, IsAsleep, IsStuck, RestTime, IsPlaced) = (1, 1, false, false, 0, false);
-        (FaceTests, BoundTests, FreeAcceleration, Pressed) = (0, 0, Vector.Zero, Vector.Zero);
+        (FaceTests, BoundTests, FreeAcceleration, Pressed) = (0, 0, acceleration, Vector.Zero);
         Contacts.Clear();
         Clearance.Forget();
     }

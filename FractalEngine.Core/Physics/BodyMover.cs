@@ -41,6 +41,7 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
         contacts.Refresh(position, hold, body.Radius);
         obstacles.Collect(new(position, Vector.Zero, Vector.Zero), 0, body.Index);
         obstacles.AddTouchedBodies(position, hold, contacts);
+        TakePressure(body, position);
         var (left, impactsHere) = (time, 0);
         for (var impact = 0; impact < MostImpacts && impactsHere < MostAtOnce && left > 0; impact++)
         {
@@ -64,7 +65,7 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
     private double Glide(Body body, Vector acceleration, ref Vector position, double time, double slow)
     {
         var contacts = body.Contacts;
-        var steady = contacts.Allow(acceleration, position, _planes);
+        var steady = contacts.Allow(acceleration, position, _planes, accelerated: bodies);
         var (duration, stands) = (time, false);
         if (body.Description.Friction > 0 && contacts.Count > 0)
         {
@@ -144,6 +145,27 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
         duration = Math.Min(duration, time);
         steady = duration > 0 ? -velocity / duration : Vector.Zero;
         return true;
+    }
+
+    /// <summary>What others press on a body with: it gives way where it can, and presses on what it lies on itself. Nothing bounces from a load.</summary>
+    private void TakePressure(Body body, Vector position)
+    {
+        var (pressed, contacts) = (body.Pressed, body.Contacts);
+        body.Pressed = Vector.Zero;
+        if (pressed == Vector.Zero)
+        {
+            return;
+        }
+
+        body.Velocity += contacts.Allow(pressed, position, _planes);
+        for (var i = 0; i < contacts.Count; i++)
+        {
+            var normal = contacts[i].Normal(position);
+            if (contacts[i].Body >= 0 && bodies[contacts[i].Body] is { IsAsleep: false } other && Vector.Dot(pressed, normal) is < 0 and var passed)
+            {
+                other.Pressed += passed * (body.Description.Mass / other.Description.Mass) * normal;
+            }
+        }
     }
 
     /// <summary>What a body presses on other bodies with, they get at their own turn.</summary>

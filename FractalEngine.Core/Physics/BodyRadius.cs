@@ -13,7 +13,7 @@ internal static class BodyRadius
     private const double Precision = 1e-9;
     private const int MostNodes = 50_000;
 
-    /// <summary>For a mesh exactly the farthest vertex; for a fractal no less than it, and more by a billionth where the search ends early.</summary>
+    /// <summary>For a mesh exactly the farthest vertex; for a fractal no less than it, by a billionth more, or further where 50,000 sub-fractals do not tell.</summary>
     public static double Of(PlacedModel placed) => placed.Model switch
     {
         FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } => Of(fractal, placed.Map.Linear),

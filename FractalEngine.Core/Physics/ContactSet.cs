@@ -144,14 +144,16 @@ internal sealed class ContactSet
     /// <param name="position">Of the body.</param>
     /// <param name="planes">Lends memory.</param>
     /// <param name="onlySurfaces">Leaves other bodies out.</param>
-    public Vector Allow(Vector vector, Vector position, HalfSpaces planes, bool onlySurfaces = false)
+    /// <param name="accelerated">For accelerations: the other bodies, which give way by their own; null for velocities that they stop.</param>
+    public Vector Allow(Vector vector, Vector position, HalfSpaces planes, bool onlySurfaces = false, List<Body>? accelerated = null)
     {
         planes.Clear();
         for (var i = 0; i < Count; i++)
         {
             if (!onlySurfaces || _contacts[i].Body < 0)
             {
-                planes.Add(_contacts[i].Normal(position), 0);
+                var normal = _contacts[i].Normal(position);
+                planes.Add(normal, _contacts[i].Body >= 0 && accelerated is not null ? Vector.Dot(normal, accelerated[_contacts[i].Body].FreeAcceleration) : 0);
             }
         }
 

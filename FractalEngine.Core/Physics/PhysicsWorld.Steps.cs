@@ -84,12 +84,9 @@ public sealed partial class PhysicsWorld
         if (body.IsShrinking)
         {
             body.Scale = Math.Max(description.MinimumScale, body.Scale - (description.Shrinkage * step));
-            body.IsPlaced &= !body.IsStuck;
         }
 
         var acceleration = Gravity + (body.Force / description.Mass);
-        body.Velocity += body.Pressed;
-        body.Pressed = Vector.Zero;
         if (description.Damping > 0)
         {
             body.Velocity *= Math.Exp(-description.Damping * step);
@@ -129,14 +126,18 @@ public sealed partial class PhysicsWorld
         }
     }
 
-    private void WakeTouching(Body body)
+    private void WakeTouching(Body body) => WakeAt(body.PreviousPosition, body.PreviousScale * body.Description.Radius, body.Index);
+
+    /// <summary>Wakes what touched a ball.</summary>
+    internal void WakeAt(Vector centre, double radius, int except = -1)
     {
-        foreach (var candidate in _obstacles.Candidates)
+        _left.Clear();
+        _grid.Collect(new(centre, centre), radius * Touching, except, _left);
+        foreach (var index in _left)
         {
-            var other = _bodies[candidate];
-            if (other.IsAsleep && (other.Position - body.PreviousPosition).Length() <= (other.Radius + (body.PreviousScale * body.Description.Radius)) * Touching)
+            if (_bodies[index].IsAsleep)
             {
-                Wake(other);
+                Wake(_bodies[index]);
             }
         }
     }

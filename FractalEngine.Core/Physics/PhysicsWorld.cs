@@ -22,6 +22,7 @@ public sealed partial class PhysicsWorld
     private readonly Dictionary<ColliderKind, Surfaces> _surfaces = [];
     private readonly List<Body> _bodies = [];
     private readonly List<int> _touching = new(Neighbours);
+    private readonly List<int> _left = new(Neighbours);
     private readonly Stack<Body> _waking = new(Neighbours);
     private readonly BodyGrid _grid = new();
     private readonly QueryRecord _record = new();
@@ -84,7 +85,7 @@ public sealed partial class PhysicsWorld
     public double Fraction => Math.Clamp(_pending / Settings.Step, 0, 1);
 
     /// <summary>True while a body is awake.</summary>
-    public bool IsMoving => _bodies.Exists(static body => !body.IsAsleep && !body.IsStuck);
+    public bool IsMoving => _bodies.Exists(static body => !body.IsAsleep && (!body.IsStuck || body.IsShrinking));
 
     /// <summary>What the last step cost, all bodies together: faces and bounding volumes looked at.</summary>
     public (long FaceTests, long BoundTests) Cost { get; private set; }
@@ -171,7 +172,17 @@ public sealed partial class PhysicsWorld
     }
 
     /// <summary>Lets a player walk in the world, instead of the one before.</summary>
-    public Walker AddWalker(Player player) => Walker = new(this, _obstacles, player);
+    /// <param name="player">Place and sizes in world space, scene units.</param>
+    /// <exception cref="ArgumentException">The place is not finite, or the radius not positive, or the height less than twice as much.</exception>
+    public Walker AddWalker(Player player)
+    {
+        if (!player.Position.IsFinite() || !(player.Radius > 0) || !(player.Height >= 2 * player.Radius) || !double.IsFinite(player.Height))
+        {
+            throw new ArgumentException("expected a finite place, a positive radius and a height of at least twice the radius", nameof(player));
+        }
+
+        return Walker = new(this, _obstacles, player);
+    }
 
     /// <summary>How many colliders have been built, of those of all objects that stand still.</summary>
     public (int Built, int All) ColliderCounts => _surfaces.TryGetValue(_collider ?? ColliderKind.Exact, out var surfaces)
@@ -184,7 +195,7 @@ public sealed partial class PhysicsWorld
     {
         foreach (var kind in _bodies.Select(body => _collider ?? body.Description.Collider).Append(_collider ?? ColliderKind.Exact).Distinct())
         {
-            SurfacesOf(kind)?.Collider.Build();
+            SurfacesOf(kind)?.Build();
         }
     }
 
@@ -221,20 +232,23 @@ public sealed partial class PhysicsWorld
         }
 
         var before = _placed[index];
-        _placed[index] = new(before.Declaration with { Placement = placement }, before.Model);
-        foreach (var surfaces in _surfaces.Values)
-        {
-            surfaces.Move(index, _placed[index]);
-        }
-
+        Place(index, new(before.Declaration with { Placement = placement }, before.Model));
         WakeAll(placesAnew: true);
     }
 
-    /// <summary>Everything is as the scene has it; what was added is gone.</summary>
+    /// <summary>Bodies and objects are where the scene has them, and bodies that were added are gone. A <see cref="Collider"/> and a player who were chosen stay.</summary>
     public void Reset()
     {
         _bodies.RemoveRange(_sceneBodies, _bodies.Count - _sceneBodies);
-        _bodies.ForEach(static body => body.Reset());
+        for (var i = 0; i < _surfaceIndices.Length; i++)
+        {
+            if (_surfaceIndices[i] >= 0 && !ReferenceEquals(_placed[_surfaceIndices[i]], _scene.Objects[i]))
+            {
+                Place(_surfaceIndices[i], _scene.Objects[i]);
+            }
+        }
+
+        _bodies.ForEach(body => body.Reset(Gravity));
         Walker?.Reset();
         _grid.Build(_bodies);
         (StepCount, _pending, Cost) = (0, 0, default);
@@ -254,10 +268,19 @@ public sealed partial class PhysicsWorld
     internal void Begin(Vector[] spheres, double radius, Clearance clearance, double lookahead) =>
         _obstacles.Begin(SurfacesOf(_collider ?? ColliderKind.Exact), spheres, radius, clearance, lookahead);
 
+    private void Place(int index, PlacedModel placed)
+    {
+        _placed[index] = placed;
+        foreach (var surfaces in _surfaces.Values)
+        {
+            surfaces.Move(index, placed);
+        }
+    }
+
     private Body AddBody(BodyDescription description)
     {
         description.Check();
-        var body = new Body(description, _bodies.Count);
+        var body = new Body(description, _bodies.Count, Gravity);
         _bodies.Add(body);
         return body;
     }
@@ -282,6 +305,7 @@ public sealed partial class PhysicsWorld
         foreach (var body in _bodies)
         {
             body.Wake();
+            body.FreeAcceleration = Gravity;
             body.Clearance.Forget();
             body.Contacts.Clear();
             body.IsPlaced &= !placesAnew;

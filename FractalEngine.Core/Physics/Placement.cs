@@ -33,9 +33,10 @@ internal sealed class Placement(Obstacles obstacles, HalfSpaces planes)
                 return true;
             }
 
-            var normal = near.Normal(place);
+            // Of two centres at one place none is to any side of the other.
+            var normal = near.Normal(place) is var away && away != Vector.Zero ? away : Vector.J;
             planes.Add(normal, Vector.Dot(normal, near.Point - near.Offset) + near.Reach + (0.5 * touch));
-            if (normal == Vector.Zero || !planes.TryNearest(start, out var next) || !IsReachable(place, next))
+            if (!planes.TryNearest(start, out var next) || !IsReachable(place, next))
             {
                 break;
             }

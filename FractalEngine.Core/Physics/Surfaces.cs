@@ -24,6 +24,16 @@ internal sealed class Surfaces
     /// <summary>True for an object that is a closed solid, or made of such: what is behind its faces is within it. Looked at when it is first asked for.</summary>
     public bool IsSolid(int index) => _isSolid[index] ??= ClosedSurface.IsSolid(_objects[index].Model.Mesh);
 
+    /// <summary>Builds all colliders now, and looks which objects are solids, instead of when they are first asked.</summary>
+    public void Build()
+    {
+        Collider.Build();
+        for (var i = 0; i < _objects.Length; i++)
+        {
+            IsSolid(i);
+        }
+    }
+
     /// <summary>Moves an object, and its collider with it.</summary>
     public void Move(int index, PlacedModel placed)
     {

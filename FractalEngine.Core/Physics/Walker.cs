@@ -33,6 +33,7 @@ public sealed class Walker
     private readonly double _stepHeight;
     private double _jumpTime;
     private bool _isPlaced;
+    private bool _isActive;
 
     internal Walker(PhysicsWorld world, Obstacles obstacles, Player player)
     {
@@ -66,7 +67,20 @@ public sealed class Walker
     public bool IsGrounded { get; private set; }
 
     /// <summary>False while the player is not there: nothing touches or moves it.</summary>
-    public bool IsActive { get; set; }
+    public bool IsActive
+    {
+        get => _isActive;
+        set
+        {
+            if (_isActive != value)
+            {
+                _isActive = value;
+                // Something may lie here by now; or have lain on who goes away.
+                Forget();
+                WakeTouching(Position);
+            }
+        }
+    }
 
     /// <summary>Where to walk: a direction, and as its length the part of the full speed, at most 1. What leads up or down is left out.</summary>
     public Vector Wish { get; set; }
@@ -139,6 +153,18 @@ public sealed class Walker
         {
             Position = start;
         }
+        else
+        {
+            WakeTouching(PreviousPosition);
+        }
+    }
+
+    private void WakeTouching(Vector position)
+    {
+        foreach (var sphere in _spheres)
+        {
+            _world.WakeAt(position + sphere, Description.Radius);
+        }
     }
 
     /// <summary>Along the ground: up steps and slopes, and down again without losing it.</summary>
@@ -169,7 +195,7 @@ public sealed class Walker
             {
                 // However it leans, it is a wall: nobody climbs it by walking against it.
                 AddWall(normal);
-                Push(in contact, normal);
+                Push(in contact, normal, velocity);
             }
 
             velocity = Allowed(wish);
@@ -213,7 +239,7 @@ public sealed class Walker
 
             var normal = contact.Normal(Position);
             _planes.Add(normal, 0);
-            Push(in contact, normal);
+            Push(in contact, normal, velocity);
             if (IsGround(in contact, normal))
             {
                 IsGrounded = true;
@@ -316,7 +342,7 @@ public sealed class Walker
     }
 
     /// <summary>Pushes a body that is in the way.</summary>
-    private void Push(in Contact contact, Vector normal)
+    private void Push(in Contact contact, Vector normal, Vector velocity)
     {
         if (contact.Body < 0)
         {
@@ -324,7 +350,7 @@ public sealed class Walker
         }
 
         var body = _world.Bodies[contact.Body];
-        var approach = Vector.Dot(Velocity - body.Velocity, normal);
+        var approach = Vector.Dot(velocity - body.Velocity, normal);
         if (approach < 0)
         {
             _world.SetVelocity(body, body.Velocity + (approach * normal));

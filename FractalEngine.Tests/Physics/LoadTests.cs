@@ -1,0 +1,101 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Physics;
+
+/// <summary>Bodies that lie on each other, fall together, or lose what they lie on.</summary>
+public sealed class LoadTests
+{
+    [Theory]
+    [InlineData(1)]
+    [InlineData(100)]
+    public void Stack_OfElasticBalls_DoesNotBounceFromItsLoad(double mass)
+    {
+        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = 0 }, Worlds.Place(PhysicsMeshes.Floor()));
+        var lower = world.Add(new(new(0, 0.5, 0), 0.5) { Restitution = 0.9 });
+        var upper = world.Add(new(new(0, 1.5, 0), 0.5) { Restitution = 0.9, Mass = mass });
+        world.Run(600);
+        // Both fall by what counts as touching, and rest.
+        Near.Equal(new(0, 0.5, 0), lower.Position, 1e-5);
+        Near.Equal(new(0, 1.5, 0), upper.Position, 1e-5);
+    }
+
+    [Fact]
+    public void Pair_ThatTouchesInTheAir_FallsAsEachAlone()
+    {
+        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings());
+        var upper = world.Add(new(new(0, 1, 0), 0.5) { Mass = 100, Friction = 0.5 });
+        var lower = world.Add(new(new(0, 0, 0), 0.5));
+        world.Run(60);
+        // One step apart at most: each sees the other where it is at that moment.
+        var fallen = 0.5 * 9.8;
+        Near.Equal(new(0, 1 - fallen, 0), upper.Position, 9.8 / 60);
+        Near.Equal(new(0, -fallen, 0), lower.Position, 9.8 / 60);
+    }
+
+    [Fact]
+    public void Sleeper_OnABodyThatShrinks_ComesDownWithIt()
+    {
+        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings(), Worlds.Place(PhysicsMeshes.Floor()));
+        world.Add(new(new(0, 1, 0), 1) { Shrinkage = 0.01, MinimumScale = 0.5, Friction = 1 });
+        var upper = world.Add(new(new(0, 3, 0), 1) { Friction = 1 });
+        world.Run(1200);
+        Assert.InRange(upper.Position.Y, 0, 2.65);
+    }
+
+    [Fact]
+    public void Player_AgainstABallThatTouchesAlready_PushesIt()
+    {
+        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings(), Worlds.Place(PhysicsMeshes.Floor()));
+        var walker = world.AddWalker(new(new(0, 0.9, 0), 0.3, 1.8));
+        var ball = world.Add(new(new(0.61, 0.3, 0), 0.3));
+        walker.IsActive = true;
+        world.Run(60);
+        walker.Wish = Vector.I;
+        world.Run(60);
+        Assert.True(ball.Position.X > 3, $"{ball.Position}");
+    }
+
+    [Fact]
+    public void Ball_OnAPlayerWhoGoes_Falls()
+    {
+        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings(), Worlds.Place(PhysicsMeshes.Floor()));
+        var walker = world.AddWalker(new(new(0, 0.9, 0), 0.3, 1.8));
+        walker.IsActive = true;
+        var ball = world.Add(new(new(0, 2.2, 0), 0.3));
+        world.Run(300);
+        Assert.True(ball.IsAsleep);
+        Near.Equal(2.1, ball.Position.Y, 1e-6);
+        walker.IsActive = false;
+        world.Run(120);
+        Near.Equal(0.3, ball.Position.Y, 1e-6);
+
+        // And a player who comes back where it lies stands beside or above it, and can walk.
+        walker.IsActive = true;
+        walker.Wish = Vector.K;
+        world.Run(120);
+        Assert.True(walker.Position.Z > 3, $"{walker.Position}");
+    }
+
+    [Fact]
+    public void Reset_AfterAnObjectWasMoved_PutsItBack()
+    {
+        var scene = new LoadedScene(new Scene(),
+        [
+            Worlds.Place(PhysicsMeshes.Floor()),
+            new(new PhysicsObject("cube.obj", At(2), 0.5), new MeshModel("cube.obj", 0, PhysicsMeshes.Cube)),
+        ]);
+        var world = new PhysicsWorld(scene);
+        world.Run(120);
+        var hash = world.StateHash;
+        world.MoveObject(0, At(-5));
+        world.Run(60);
+        world.Reset();
+        world.Run(120);
+        Assert.Equal(hash, world.StateHash);
+    }
+
+    private static Transformation At(double height) => Transformation.Identity with { Position = new(0, height, 0) };
+}
