@@ -14,6 +14,11 @@ internal static class GrowthCommand
     private static readonly Dictionary<string, Action<GrowthOptions>> Tables = new()
     {
         ["growth-depth"] = GrowthByDepth.Write,
+        ["growth-bodies"] = GrowthByBodies.Write,
+        ["growth-maps"] = GrowthByMaps.Write,
+        ["growth-faces"] = GrowthByFaces.Write,
+        ["float-double"] = FloatAndDouble.Write,
+        ["drawing"] = DrawingGrowth.Write,
     };
 
     public static int Run(ReadOnlySpan<string> args)

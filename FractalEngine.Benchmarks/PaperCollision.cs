@@ -47,8 +47,7 @@ internal sealed record PaperCollision(
     private static double PercentWrong(Collider collider, Collider exact, Vector[] positions, BoundingBox bounds)
     {
         var record = new QueryRecord();
-        return 100.0 / positions.Length * positions.Count(
-            position => Math.Abs(Distance(collider, position, record) - Distance(exact, position, record)) > Wrong * bounds.Diagonal);
+        return Math.Round(100.0 * positions.Count(position => Math.Abs(Distance(collider, position, record) - Distance(exact, position, record)) > Wrong * bounds.Diagonal) / positions.Length, 3);
     }
 
     private static double Distance(Collider collider, Vector position, QueryRecord record) =>
