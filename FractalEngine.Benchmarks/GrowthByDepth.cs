@@ -22,8 +22,8 @@ internal static class GrowthByDepth
         {
             var (exact, greedy) = (point.Exact, point.Greedy);
             table.Add(
-                point.Name, point.Depth, point.Fractal.LevelCount, Math.Round(BigInteger.Log10(point.Fractal.FaceCount!.Value), 3), exact.Microseconds(times[i]),
-                greedy.Microseconds(times[i + 1]), exact.FaceTests, greedy.FaceTests, exact.BoundTests, greedy.BoundTests, exact.Bytes, greedy.Bytes, Math.Round(1e3 * times[i + 2], 4));
+                point.Name, point.Depth, point.Fractal.LevelCount, Math.Round(BigInteger.Log10(point.Fractal.FaceCount!.Value), 3), exact.Microseconds,
+                greedy.Microseconds, exact.FaceTests, greedy.FaceTests, exact.BoundTests, greedy.BoundTests, exact.Bytes, greedy.Bytes, Math.Round(1e3 * times[i + 2], 4));
         }
 
         table.Save();

@@ -31,8 +31,8 @@ internal static class GrowthByFaces
         {
             var (exact, greedy, hierarchy, simple) = (point.Exact, point.Greedy, point.Hierarchy, point.Simple);
             table.Add(
-                point.Name, point.Mesh.FaceCount, exact.Microseconds(times[i]), greedy.Microseconds(times[i + 1]), hierarchy.Microseconds(times[i + 2]),
-                simple.Microseconds(times[i + 3]), exact.FaceTests, greedy.FaceTests, hierarchy.FaceTests, exact.BoundTests, hierarchy.BoundTests, exact.Bytes, hierarchy.Bytes,
+                point.Name, point.Mesh.FaceCount, exact.Microseconds, greedy.Microseconds, hierarchy.Microseconds,
+                simple.Microseconds, exact.FaceTests, greedy.FaceTests, hierarchy.FaceTests, exact.BoundTests, hierarchy.BoundTests, exact.Bytes, hierarchy.Bytes,
                 Math.Round(1e3 * times[i + 4], 4), Math.Round(1e3 * times[i + 5], 4));
         }
 

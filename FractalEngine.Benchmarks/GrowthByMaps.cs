@@ -27,7 +27,7 @@ internal static class GrowthByMaps
         {
             var (exact, greedy) = (point.Exact, point.Greedy);
             table.Add(
-                point.Maps, Math.Round(ScaleOf(point.Maps), 4), Depth, point.Seed, exact.Microseconds(times[i]), greedy.Microseconds(times[i + 1]), exact.FaceTests,
+                point.Maps, Math.Round(ScaleOf(point.Maps), 4), Depth, point.Seed, exact.Microseconds, greedy.Microseconds, exact.FaceTests,
                 greedy.FaceTests, exact.BoundTests, greedy.BoundTests, exact.Bytes, Math.Round(1e3 * times[i + 2], 4));
         }
 
