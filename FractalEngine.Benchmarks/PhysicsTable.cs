@@ -60,7 +60,8 @@ internal sealed class PhysicsTable(int rounds, TextWriter output)
         output.Flush();
     }
 
-    private static int Awake(PhysicsWorld world)
+    /// <summary>How many do not sleep.</summary>
+    internal static int Awake(PhysicsWorld world)
     {
         var awake = 0;
         for (var i = 0; i < world.Bodies.Count; i++)
@@ -71,7 +72,8 @@ internal sealed class PhysicsTable(int rounds, TextWriter output)
         return awake;
     }
 
-    private static PhysicsWorld WorldOf(FractalCase fractal, int count, ColliderKind collider)
+    /// <summary>A fractal of size 1 over a floor, and balls above it; the same every time.</summary>
+    internal static PhysicsWorld WorldOf(FractalCase fractal, int count, ColliderKind collider)
     {
         var box = fractal.Fractal.Bounds;
         var scale = 1 / box.Size.MaximumComponent();

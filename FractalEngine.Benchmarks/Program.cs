@@ -26,5 +26,15 @@ if (args is ["physics", ..])
     return PhysicsCommand.Run(args.AsSpan(1));
 }
 
+if (args is ["growth", ..])
+{
+    return GrowthCommand.Run(args.AsSpan(1));
+}
+
+if (args is ["paper", ..])
+{
+    return PaperCommand.Run(args.AsSpan(1));
+}
+
 BenchmarkSwitcher.FromAssembly(typeof(Program).Assembly).Run(args);
 return 0;
