@@ -34,7 +34,7 @@ internal sealed class Placement(Obstacles obstacles, HalfSpaces planes)
             }
 
             // Of two centres at one place none is to any side of the other.
-            var normal = near.Normal(place) is var away && away != Vector.Zero ? away : Vector.J;
+            var normal = near.Separation(place).Length() > On * obstacles.Radius ? near.Normal(place) : Vector.J;
             planes.Add(normal, Vector.Dot(normal, near.Point - near.Offset) + near.Reach + (0.5 * touch));
             if (!planes.TryNearest(start, out var next) || !IsReachable(place, next))
             {
