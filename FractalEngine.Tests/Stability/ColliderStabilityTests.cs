@@ -127,7 +127,7 @@ public class ColliderStabilityTests(ITestOutputHelper output)
         var fractal = Corners(null, 1);
         var (table, probe, oracle, record) = (DetailTable.Of(fractal), new FractalProbe("halves", fractal), new DeepOracle(fractal), new QueryRecord());
         var deepest = 0;
-        Seeded.Run(20, random =>
+        Seeded.Run(10, random =>
         {
             var address = new FractalAddress(table, AffineMap.Identity, new(3, 4, 5));
             while (address.Depth < 200)

@@ -22,7 +22,7 @@ public class NumberStabilityTests(ITestOutputHelper output)
     private const int Batch = 10_000;
 
     [Fact]
-    public void TryRead_OfRandomText_IsTheNearestDouble() => CheckText(20);
+    public void TryRead_OfRandomText_IsTheNearestDouble() => CheckText(8);
 
     /// <summary>Ten million.</summary>
     [Fact]

@@ -27,7 +27,7 @@ public class PhysicsStabilityTests(ITestOutputHelper output)
     public void Bounce_OnAFloor_RisesToRestitutionSquaredAtAnyStep(double step)
     {
         using var report = new StabilityReport(output);
-        Seeded.Run(step < 1e-4 ? 2 : 50, random =>
+        Seeded.Run(step < 1e-3 ? 4 : 50, random =>
         {
             var (e, height) = (random.Between(0.5, 1), random.Between(0.5, 2));
             var world = Worlds.Of(Worlds.Gravity, step, Worlds.Place(PhysicsMeshes.Floor()));
