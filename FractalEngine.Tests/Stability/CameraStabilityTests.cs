@@ -42,7 +42,7 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
     [SkippableTheory]
     [InlineData("menger")]
     [InlineData("sierpinski")]
-    public void Picture_OfASelfSimilarFractal_IsTheSameAtAnyDepth(string name) => CheckPictures(name, [41, 42, 47, 100, 1040, 5000]);
+    public void Picture_OfASelfSimilarFractal_IsTheSameAtAnyDepth(string name) => CheckPictures(name, [41, 42, 47, 100, 1040]);
 
     [SkippableTheory]
     [InlineData("menger")]

@@ -58,7 +58,7 @@ public class NumberStabilityTests(ITestOutputHelper output)
                 var expected = double.Parse(text, NumberStyles.Float, CultureInfo.InvariantCulture);
                 Assert.True(NumberReader.TryRead(text, out var value, out var length) && length == text.Length, text);
                 report.Require("last places off double.Parse", BitConverter.DoubleToInt64Bits(expected) == BitConverter.DoubleToInt64Bits(value) ? 0 : 1, 0, () => $"{text}: {value}, not {expected}");
-                // That takes long: one in 50, and twice as many of those between two doubles.
+                // That takes long.
                 if (i % 50 == 0 && double.IsFinite(value))
                 {
                     report.Require("units in the last place off exact arithmetic", UnitsOff(text, value), 0.5, () => $"{text}: {value}");
