@@ -11,6 +11,9 @@ namespace FractalEngine.Core.Maths;
 /// <param name="V3">Third column; the local forward axis of an orientation.</param>
 public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
 {
+    // The cosine of the yaw from which on the lock counts as complete: above the roundings of a few products, and an error of at most twice as much in an entry.
+    private const double Locked = 1e-13;
+
     /// <summary>The neutral matrix (i j k).</summary>
     public static Matrix Identity => new(Vector.I, Vector.J, Vector.K);
 
@@ -124,7 +127,7 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
     public Vector EulerAngles()
     {
         var cosineOfYaw = Math.Sqrt((V1.X * V1.X) + (V2.X * V2.X));
-        var pitch = cosineOfYaw > 1e-12 ? Math.Atan2(V3.Y, V3.Z) : 0;
+        var pitch = cosineOfYaw > Locked ? Math.Atan2(V3.Y, V3.Z) : 0;
         var unpitched = Pitch(-pitch) * this;
         return new(pitch, Math.Atan2(-V3.X, cosineOfYaw), Math.Atan2(-unpitched.V1.Y, unpitched.V2.Y));
     }

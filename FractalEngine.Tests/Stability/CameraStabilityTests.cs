@@ -1,0 +1,100 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
+using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Preparation;
+using FractalEngine.Tests.Detail;
+using FractalEngine.Tests.Render;
+using FractalEngine.Tests.Support;
+using Xunit.Abstractions;
+
+namespace FractalEngine.Tests.Stability;
+
+/// <summary>A camera that goes down in a fractal and comes back. FractalAddressTests do so for more fractals, ZoomDrawingTests compare neighbouring levels and what world space still tells.</summary>
+[Collection(GlTests.Name)]
+public sealed class CameraStabilityTests(ITestOutputHelper output)
+{
+    private const int Width = 160;
+    private const int Height = 120;
+
+    // All that is drawn of what the camera is in; from there on pictures of self-similar fractals are the same.
+    private const int Ancestors = 30;
+
+    private static readonly RenderSettings Settings = new() { Samples = 0 };
+    private static readonly Vector Direction = new Vector(-1, -0.8, -0.9).UnitVector();
+
+    [Theory]
+    [InlineData("menger", 10_000)]
+    [InlineData("turned", 10_000)]
+    [InlineData("sierpinski", 10_000)]
+    public void Camera_GoingInAndOutAgain_IsWhereItBegan(string name, int depth) => CheckThereAndBack(name, depth);
+
+    [Theory]
+    [InlineData("menger")]
+    [InlineData("turned")]
+    [InlineData("sierpinski")]
+    [Trait("Category", "Soak")]
+    public void Camera_GoingAMillionLevelsInAndOutAgain_IsWhereItBegan(string name) => CheckThereAndBack(name, FractalLimits.Depth);
+
+    /// <summary>The picture is one of the whole, seen from the same side; how deep it is does not change a pixel.</summary>
+    [SkippableTheory]
+    [InlineData("menger")]
+    [InlineData("sierpinski")]
+    public void Picture_OfASelfSimilarFractal_IsTheSameAtAnyDepth(string name) => CheckPictures(name, [41, 42, 47, 100, 1040]);
+
+    [SkippableTheory]
+    [InlineData("menger")]
+    [InlineData("sierpinski")]
+    [Trait("Category", "Soak")]
+    public void Picture_OfASelfSimilarFractal_IsTheSameAMillionLevelsDown(string name) => CheckPictures(name, [100_000, 999_990]);
+
+    private void CheckThereAndBack(string name, int depth)
+    {
+        using var report = new StabilityReport(output);
+        var dive = FractalAddressTests.Dive(name, 0, AffineMap.Identity);
+        var (about, size) = (dive.Address.About, dive.Start.Length() + 1);
+        dive.GoTo(depth);
+        report.Note("depth", dive.Address.Depth);
+        report.Note("enlargement, powers of ten", -dive.Address.LogUnit / Math.Log(10));
+        dive.GoBack();
+        Assert.Equal((0, 0.0), (dive.Address.Depth, dive.Address.LogUnit));
+        // As FractalAddressTests ask. What is lost deep down is a part of the unit there; coming back, the last steps outside decide.
+        report.Require("place after the return, of the distance", Near.Difference(about, dive.Address.About) / size, 1e-9, () => $"{name}");
+    }
+
+    private void CheckPictures(string name, int[] depths)
+    {
+        using var report = new StabilityReport(output);
+        var scene = new LoadedScene(
+            new() { Background = Colour.Black, Lights = [new AmbientLight(Colour.White, 0.1), new DirectionalLight(new(0.3, -0.5, 0.9), Colour.White, 0.9)] },
+            [new(new SceneObject("a.fdo", Transformation.Identity) { Colour = Colour.White }, new FractalModel("a.fdo", 1, FractalAddressTests.Infinite(name)))]);
+        var drawable = DrawableScene.Prepare(scene, Settings);
+        using var context = GlTests.Open();
+        using var renderer = new SceneRenderer(context, drawable);
+        using var frame = new FrameRenderer(context);
+        var dive = new FractalDive(drawable.Objects[0].Model.Detail!, 0, AffineMap.Identity, Direction);
+        var first = At(40);
+        Assert.True(RenderScenes.CountOther(first, (0, 0, 0, 255)) > 500, "there is nothing to see");
+        foreach (var depth in depths)
+        {
+            var (mean, share) = RenderScenes.Difference(first, At(depth));
+            Assert.Equal(depth, dive.Address.Depth);
+            report.Require("share of pixels that differ by more than 8 of 255 from depth 40", share, 0, () => $"depth {depth}");
+            report.Require("mean difference from depth 40, of 255", mean, 0, () => $"depth {depth}");
+        }
+
+        PixelImage At(int depth)
+        {
+            dive.GoTo(depth, 0.2);
+            // A place that is in no copy's reach and within the sub-fractal's own: the same at each level.
+            dive.Settle(1.5 * Direction);
+            var camera = new Camera(dive.Address.WorldPosition(AffineMap.Identity), CameraFraming.LookRotation(dive.Target(Vector.Zero)), 50);
+            var zoom = new ZoomedObject(0, dive.Address.Roots(Ancestors), dive.Address.LogUnit);
+            frame.Draw(renderer, new(camera, Projection.Perspective) { Clip = (0.02, 1e12), Zoom = zoom }, Width, Height, Settings);
+            context.Resources.ThrowOnError("drawing");
+            return frame.Capture();
+        }
+    }
+}

@@ -1,0 +1,243 @@
+using System.Numerics;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Detail;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Detail;
+using FractalEngine.Tests.Support;
+using Xunit.Abstractions;
+using Vector = FractalEngine.Core.Maths.Vector;
+
+namespace FractalEngine.Tests.Stability;
+
+/// <summary>
+/// Exact colliders where objects are tiny, huge, far away, mirrored and squeezed; at places that are equally near to many parts; and at every depth from 1 to 200.
+/// What faces alone can break is in FaceKernelTests, what fractals can in ExactFractalAttackTests, depths to a million in DeepExactnessTests.
+/// </summary>
+public class ColliderStabilityTests(ITestOutputHelper output)
+{
+    // Of the larger of the size and of the coordinates, as promised.
+    private const double Tolerance = 1e-12;
+
+    /// <summary>What there are exact colliders for.</summary>
+    private static readonly (string Name, Func<Random, Model> Draw)[] Shapes =
+    [
+        ("mesh", random => new MeshModel("/mesh.obj", 0, CollisionMeshes.Soup(random.Next(), 40, 0.3))),
+        ("similar fractal", random => new FractalModel("/similar.fdo", 0, Samples.Repeated(3, Similar(random), Similar(random), Similar(random)))),
+        ("skewed fractal", random => new FractalModel("/skewed.fdo", 0, Samples.Repeated(3, random.Transformation(), random.Transformation(), random.Transformation()))),
+        ("fractal of sums", random => new FractalModel("/sums.fdo", 0, RandomFractals.Draw(random, Composition.Componentwise))),
+    ];
+
+    /// <summary>How objects are placed, sizes aside.</summary>
+    public static TheoryData<string> Placements => ["scale", "far", "scale and far", "mirror", "condition 1e6", "condition 1e6, far"];
+
+    [Theory]
+    [MemberData(nameof(Placements))]
+    public void Find_OnAPlacedObject_IsThatOfExactArithmetic(string placement) => CheckPlaced(placement, 12);
+
+    [Theory]
+    [MemberData(nameof(Placements))]
+    [Trait("Category", "Soak")]
+    public void Find_OnAPlacedObjectForLong_IsThatOfExactArithmetic(string placement) => CheckPlaced(placement, 1000);
+
+    /// <summary>A cube's 48 symmetries are the sponge's: what is asked at the images of a position must be the same, in the middle 48 times at once.</summary>
+    [Theory]
+    [InlineData(1)]
+    [InlineData(3)]
+    [InlineData(30)]
+    [InlineData(200)]
+    [InlineData(null)]
+    public void Find_AtSymmetricPlaces_IsTheSameDistance(int? depth)
+    {
+        using var report = new StabilityReport(output);
+        var (collider, record) = (new ExactFractalCollider(DetailViews.Menger(depth)), new QueryRecord());
+        Seeded.Run(60, random =>
+        {
+            var position = random.Next(3) switch { 0 => random.Vector(1.5), 1 => new(random.NextDouble(), 0, 0), _ => 0.5 * random.Next(4) * Vector.One };
+            var distances = Symmetric(position).Select(image =>
+            {
+                Assert.True(collider.TryFindClosest(image, double.PositiveInfinity, record, out var closest));
+                Assert.True(closest.Normal.IsFinite());
+                return closest.Distance;
+            }).ToArray();
+            report.Require("difference between 48 symmetric places, of the size", (distances.Max() - distances.Min()) / Math.Sqrt(12), Tolerance, () => $"{position}");
+        });
+        // The hole in the middle has edges at a third: 1/3·√2 from the middle of a cube of half 1.
+        Assert.True(collider.TryFindClosest(Vector.Zero, double.PositiveInfinity, record, out var middle));
+        report.Require("distance of the middle", Math.Abs(middle.Distance - (Math.Sqrt(2) / 3)), Tolerance, () => $"{middle}");
+    }
+
+    /// <summary>Corners, edges and middles of the tetrahedron fractal, whose maps halve: each position of an instance's face lies on the fractal, to the last place.</summary>
+    [Fact]
+    public void Find_AtEveryDepthTo200_IsOnTheInstanceThatThePathNames()
+    {
+        using var report = new StabilityReport(output);
+        var record = new QueryRecord();
+        for (var depth = 1; depth <= 200; depth++)
+        {
+            var fractal = Corners(depth, 1);
+            var collider = new ExactFractalCollider(fractal);
+            Seeded.RunOne(depth, random =>
+            {
+                for (var i = 0; i < 10; i++)
+                {
+                    var path = Enumerable.Range(0, depth).Select(_ => random.Next(4)).ToArray();
+                    var (a, b, c) = fractal.BaseMesh.Face(random.Next(4));
+                    var local = i % 3 == 0 ? a : i % 3 == 1 ? 0.5 * (a + b) : (0.25 * a) + (0.5 * b) + (0.25 * c);
+                    var position = Exactly(path, local, 1);
+                    Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest));
+                    report.Require("distance of what lies on the fractal, of the size", closest.Distance / fractal.Bounds.Diagonal, Tolerance, () => $"depth {depth}, path {string.Join(' ', path)}, at {local}");
+                }
+            });
+        }
+    }
+
+    [Fact]
+    public void Find_AtEveryDepthTo200_HasNothingNearer()
+    {
+        using var report = new StabilityReport(output);
+        var (record, compared) = (new QueryRecord(), 0);
+        for (var depth = 1; depth <= 200; depth++)
+        {
+            // Quarters, which lie apart: balls are enough to tell which copies may be near.
+            var fractal = Corners(depth, 2);
+            var (probe, oracle) = (new FractalProbe($"depth {depth}", fractal), new DeepOracle(fractal));
+            Seeded.RunOne(depth, random =>
+            {
+                for (var i = 0; i < 3; i++)
+                {
+                    // Beside an instance that some copies lead to: by as much as that part of the fractal measures.
+                    var path = Enumerable.Range(0, random.Next(1, Math.Min(depth, 40) + 1)).Select(_ => random.Next(4)).ToArray();
+                    compared += IsNearest(report, probe, oracle, Exactly(path, random.Vector(3), 2), record) ? 1 : 0;
+                }
+            });
+        }
+
+        // Balls overlap more than what they hold does, so that some positions take too long.
+        Assert.InRange(compared, 400, 600);
+    }
+
+    /// <summary>A place told by a path and where in its frame it is, beside the same in exact arithmetic. Maps halve, so that each is exact in a double.</summary>
+    [Fact]
+    public void WorldPosition_OfAPathAndAPlaceInItsFrame_IsThatOfExactArithmetic()
+    {
+        using var report = new StabilityReport(output);
+        var fractal = Corners(null, 1);
+        var (table, probe, oracle, record) = (DetailTable.Of(fractal), new FractalProbe("halves", fractal), new DeepOracle(fractal), new QueryRecord());
+        var deepest = 0;
+        Seeded.Run(10, random =>
+        {
+            var address = new FractalAddress(table, AffineMap.Identity, new(3, 4, 5));
+            while (address.Depth < 200)
+            {
+                // Into some copy of where it is, to one of its corners, and not all of the way.
+                var child = fractal.LevelAt(0).Maps[random.Next(4)];
+                address.Move(0.7 * (address.About * (child * fractal.BaseMesh.Vertex(random.Next(4)))));
+                var local = address.About.Inverse() * Vector.Zero;
+                var (position, expected) = (address.WorldPosition(AffineMap.Identity), Exactly([.. address.Path], local, 1));
+                var size = FractalPositions.SizeOf(fractal, position);
+                report.Require("world position, of the size", Near.Difference(expected, position) / size, Tolerance, () => $"depth {address.Depth}, {local}");
+                deepest = Math.Max(deepest, address.Depth);
+                if (random.Next(10) == 0)
+                {
+                    IsNearest(report, probe, oracle, position, record);
+                }
+            }
+        });
+        report.Note("depth", deepest);
+    }
+
+    private void CheckPlaced(string placement, int seeds)
+    {
+        using var report = new StabilityReport(output);
+        Parallel.For(1, seeds + 1, seed => Seeded.RunOne(seed, random =>
+        {
+            foreach (var (name, draw) in Shapes)
+            {
+                var (model, place) = (draw(random), Place(random, placement));
+                if (model.Mesh.FaceCount == 0 || (model is FractalModel { Fractal.InstanceCount: var count } && count == 0))
+                {
+                    continue;
+                }
+
+                var faces = model is FractalModel { Fractal: var fractal } ? WorldFaces.Of(fractal, place) : WorldFaces.Of(model.Mesh, place);
+                var (collider, record) = (new SceneCollider(new(new(), [new(new("object", place), model)])), new QueryRecord());
+                for (var query = 0; query < 10; query++)
+                {
+                    var position = faces.Position(random);
+                    var (expected, size) = (faces.Distance(position), faces.Magnitude(position));
+                    Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest, out _));
+                    Assert.True(closest.Normal.IsFinite() && closest.Point.IsFinite(), $"{name}, {place} at {position}: {closest}");
+                    report.Require($"{name}: distance", Math.Abs(closest.Distance - expected) / size, Tolerance, () => $"{name}, {place} at {position}: {closest.Distance:R}, not {expected:R}");
+                    report.Require($"{name}: point to position", Math.Abs((closest.Point - position).Length() - expected) / size, Tolerance, () => $"{name}, {place} at {position}: {closest.Point}");
+                }
+            }
+        }));
+    }
+
+    /// <summary>Checks that the answer is a point of the fractal, and that nothing is nearer; false where the oracle takes too long.</summary>
+    private static bool IsNearest(StabilityReport report, FractalProbe probe, DeepOracle oracle, Vector position, QueryRecord record)
+    {
+        Assert.True(probe.Exact.TryFindClosest(position, double.PositiveInfinity, record, out var closest));
+        probe.CheckAnswer(position, record, closest);
+        if (oracle.Nearest(position, 20_000, closest.Distance) is not { } nearest)
+        {
+            return false;
+        }
+
+        report.Require("farther than by branch and bound with balls, of the size", (closest.Distance - nearest) / FractalPositions.SizeOf(probe.Fractal, position), Tolerance, () => $"{position}");
+        return true;
+    }
+
+    private static Transformation Place(Random random, string placement)
+    {
+        var (scale, far) = (Math.Pow(10, random.Between(-12, 12)), Math.Pow(10, random.Between(0, 9)));
+        return placement switch
+        {
+            "scale" => new(scale * random.Vector(), random.Degrees(), scale * Vector.One),
+            "far" => new(far * random.Direction(), random.Degrees(), Vector.One),
+            "scale and far" => new(scale * far * random.Direction(), random.Degrees(), scale * Vector.One),
+            "mirror" => new(scale * far * random.Direction(), random.Degrees(), scale * new Vector(-1, random.Next(2) == 0 ? 1 : -1, 1)),
+            "condition 1e6" => new(scale * random.Vector(), random.Degrees(), scale * new Vector(1e-3, random.Next(2) == 0 ? 1 : -1, 1e-6)),
+            _ => new(scale * far * random.Direction(), random.Degrees(), scale * new Vector(1e-6, 1e-3, 1)),
+        };
+    }
+
+    private static Transformation Similar(Random random) => new(random.Vector(2), random.Degrees(), random.Between(0.3, 0.7) * (random.Next(2) == 0 ? Vector.One : new(-1, 1, 1)));
+
+    /// <summary>Four copies of a tetrahedron in its corners, halves or quarters or smaller: whole numbers and powers of two, so that a map rounds nothing.</summary>
+    private static Fractal Corners(int? depth, int halvings) => Math.ScaleB(1, -halvings) switch
+    {
+        var ratio => Samples.Repeated(depth, [.. Enumerable.Range(0, 4).Select(Samples.Tetrahedron.Vertex).Select(corner => (1 - ratio) * corner).Select(v => Samples.MoveAndScale(v.X, v.Y, v.Z, ratio))]),
+    };
+
+    /// <summary>The place in the world, rounded once: (1 − r)·corner + r·((1 − r)·corner + …), with a common denominator of a power of two.</summary>
+    private static Vector Exactly(int[] path, Vector local, int halvings)
+    {
+        // 2⁻¹⁰⁷⁴ is the smallest power that a double has: every coordinate is a whole number of it.
+        var exponent = -1074 - (halvings * path.Length);
+        return new(Along(v => v.X), Along(v => v.Y), Along(v => v.Z));
+
+        double Along(Func<Vector, double> coordinate)
+        {
+            var sum = Whole(coordinate(local), exponent + (halvings * path.Length));
+            for (var i = 0; i < path.Length; i++)
+            {
+                sum += Whole((1 - Math.ScaleB(1, -halvings)) * coordinate(Samples.Tetrahedron.Vertex(path[i])), exponent) >> (halvings * i);
+            }
+
+            // Corners are small numbers: nothing but zeros is shifted out. 120 bits are left for the last rounding.
+            var shift = (int)Math.Max(0, BigInteger.Abs(sum).GetBitLength() - 120);
+            return Math.ScaleB((double)(sum >> shift), exponent + shift);
+        }
+    }
+
+    private static BigInteger Whole(double x, int exponent) => x == 0 ? 0 : new BigInteger(Math.ScaleB(x, 52 - Math.ILogB(x))) << (Math.ILogB(x) - 52 - exponent);
+
+    private static IEnumerable<Vector> Symmetric(Vector v) =>
+        from order in (Vector[])[v, new(v.Y, v.Z, v.X), new(v.Z, v.X, v.Y), new(v.Y, v.X, v.Z), new(v.X, v.Z, v.Y), new(v.Z, v.Y, v.X)]
+        from signs in Enumerable.Range(0, 8)
+        select order.Stretch(new((signs & 1) == 0 ? 1 : -1, (signs & 2) == 0 ? 1 : -1, (signs & 4) == 0 ? 1 : -1));
+}

@@ -1,0 +1,99 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
+using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Windowing;
+using FractalEngine.Tests.Render;
+using Xunit.Abstractions;
+
+namespace FractalEngine.Tests.Stability;
+
+/// <summary>Surfaces that are close behind each other, from the near plane to the far one.</summary>
+[Collection(GlTests.Name)]
+public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
+{
+    private const int Size = 40;
+    private const double Near = 1;
+
+    // Of the distance.
+    private const double Gap = 1e-4;
+
+    // Nothing but the depth buffer decides what hides what.
+    private static readonly RenderSettings Settings = new() { Samples = 0, Detail = null };
+
+    /// <summary>Far plane divided by near plane.</summary>
+    public static TheoryData<double> Ranges => [1e2, 1e4, 1e7];
+
+    /// <summary>Oracle: the red one is nearer, so each pixel is red. Turned by 40°, both still are the same part of the distance apart along every line of sight.</summary>
+    [SkippableTheory]
+    [MemberData(nameof(Ranges))]
+    public void Surfaces_ATenThousandthApart_KeepTheirOrder(double range)
+    {
+        using var report = new StabilityReport(output);
+        using var stage = new Stage();
+        foreach (var distance in Distances(range))
+        {
+            // Turned, they reach from two thirds of their distance to twice as far: there neither plane may cut them.
+            foreach (var degrees in distance < 2 * Near || distance > 0.5 * range ? (double[])[0] : [0, 40])
+            {
+                report.Require("pixels that show what is behind", stage.CountWrong(distance, range, degrees, Gap), 0, () => $"at {distance} of {range}, turned by {degrees}");
+            }
+        }
+    }
+
+    /// <summary>Not promised: how near surfaces can be. Without any gap one of both orders of drawing shows what it should not, or the test would see nothing.</summary>
+    [SkippableTheory]
+    [MemberData(nameof(Ranges))]
+    public void Surfaces_ThatAreNearer_KeepTheirOrderDownToAMillionth(double range)
+    {
+        using var report = new StabilityReport(output);
+        using var stage = new Stage();
+        var (least, gap) = (double.PositiveInfinity, Gap);
+        while (gap > 1e-12 && Distances(range).All(distance => stage.CountWrong(distance, range, 0, gap) == 0))
+        {
+            (least, gap) = (gap, gap / 2);
+        }
+
+        // A float has 24 bits: two depths that are one part in 10⁷ apart are next to each other. Ten of these, for the roundings of the matrices.
+        report.Require("smallest gap that keeps its order, of the distance", least, 1e-6, () => $"range {range}");
+        Assert.InRange(gap, 1e-9, 1e-6);
+    }
+
+    private static IEnumerable<double> Distances(double range) =>
+        Enumerable.Range(0, 30).Select(i => Near * Math.Pow(10, i / 3.0)).Where(distance => distance < 0.7 * range).Select(distance => Math.Max(distance, 1.01 * Near)).Append(0.999 * range);
+
+    /// <summary>Draws two squares that fill the picture, in full light.</summary>
+    private sealed class Stage : IDisposable
+    {
+        private readonly OffscreenContext _context = GlTests.Open();
+        private readonly FrameRenderer _frame;
+
+        public Stage() => _frame = new(_context);
+
+        /// <summary>How many pixels show what is behind, whichever is drawn first.</summary>
+        public int CountWrong(double distance, double range, double degrees, double gap)
+        {
+            var (red, green) = (Square(distance, degrees, new(1, 0, 0)), Square(distance * (1 + gap), degrees, new(0, 1, 0)));
+            return CountNotRed(range, red, green) + CountNotRed(range, green, red);
+        }
+
+        public void Dispose()
+        {
+            _frame.Dispose();
+            _context.Dispose();
+        }
+
+        private int CountNotRed(double range, params ReadOnlySpan<(Model Model, Transformation Placement, Colour? Colour)> squares)
+        {
+            var scene = RenderScenes.Scene(new Scene { Background = Colour.Black, Lights = [RenderScenes.FullLight] }, squares);
+            using var renderer = new SceneRenderer(_context, DrawableScene.Prepare(scene, Settings));
+            _frame.Draw(renderer, new(new(Vector.Zero, Vector.Zero, 60), Projection.Perspective) { Clip = (Near, range * Near) }, Size, Size, Settings);
+            _context.Resources.ThrowOnError("drawing");
+            return RenderScenes.CountOther(_frame.Capture(), (255, 0, 0, 255));
+        }
+
+        private static (Model Model, Transformation Placement, Colour? Colour) Square(double distance, double degrees, Colour colour) =>
+            (RenderScenes.Model(RenderScenes.Square(1)), new(new(0, 0, distance), new(degrees, 0, 0), 50 * distance * Vector.One), colour);
+    }
+}

@@ -1,0 +1,190 @@
+using System.Globalization;
+using System.Numerics;
+using System.Text;
+using FractalEngine.App;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Meshes;
+using FractalEngine.Parsing.Points;
+using FractalEngine.Parsing.Scenes;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Tests.Support;
+using Xunit.Abstractions;
+using Vector = FractalEngine.Core.Maths.Vector;
+
+namespace FractalEngine.Tests.Stability;
+
+/// <summary>Numbers as text, beyond what NumberReaderTests ask: to and fro, beside exact arithmetic, and in files of every format under other cultures.</summary>
+public class NumberStabilityTests(ITestOutputHelper output)
+{
+    private const int Batch = 10_000;
+
+    [Fact]
+    public void TryRead_OfRandomText_IsTheNearestDouble() => CheckText(8);
+
+    /// <summary>Ten million.</summary>
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void TryRead_OfTenMillionRandomTexts_IsTheNearestDouble() => CheckText(1000);
+
+    [Fact]
+    public void TryRead_OfWhatWasWritten_IsTheSameBits() => CheckWritten(20);
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void TryRead_OfTenMillionThatWereWritten_IsTheSameBits() => CheckWritten(1000);
+
+    /// <summary>What is written under a culture is read under it, and is the text that the invariant culture gives.</summary>
+    [Theory]
+    [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
+    public void Formats_InAnyCulture_AreWrittenAndReadToTheSameBits(string culture) => Seeded.Run(30, random =>
+    {
+        var numbers = Enumerable.Range(0, 9).Select(_ => Finite(random) % 1e30).ToArray();
+        Assert.Equal(Written(numbers), InCulture.Get(culture, () => Written(numbers)));
+        Assert.Equal(ReadBack(numbers), InCulture.Get(culture, () => ReadBack(numbers)));
+        Assert.Equal(string.Join(' ', numbers.Select(Bits)), InCulture.Get(culture, () => ReadBack(numbers)));
+    });
+
+    private void CheckText(int batches)
+    {
+        using var report = new StabilityReport(output);
+        Parallel.For(1, batches + 1, seed => Seeded.RunOne(seed, random =>
+        {
+            for (var i = 0; i < Batch; i++)
+            {
+                var text = Text(random);
+                var expected = double.Parse(text, NumberStyles.Float, CultureInfo.InvariantCulture);
+                Assert.True(NumberReader.TryRead(text, out var value, out var length) && length == text.Length, text);
+                report.Require("last places off double.Parse", BitConverter.DoubleToInt64Bits(expected) == BitConverter.DoubleToInt64Bits(value) ? 0 : 1, 0, () => $"{text}: {value}, not {expected}");
+                // That takes long.
+                if (i % 50 == 0 && double.IsFinite(value))
+                {
+                    report.Require("units in the last place off exact arithmetic", UnitsOff(text, value), 0.5, () => $"{text}: {value}");
+                }
+            }
+        }));
+    }
+
+    private void CheckWritten(int batches)
+    {
+        using var report = new StabilityReport(output);
+        Parallel.For(1, batches + 1, seed => Seeded.RunOne(seed, random =>
+        {
+            for (var i = 0; i < Batch; i++)
+            {
+                var number = Finite(random);
+                Assert.True(NumberReader.TryRead(number.ToString("R", CultureInfo.InvariantCulture), out var value, out _));
+                report.Require("doubles that changed", BitConverter.DoubleToInt64Bits(number) == BitConverter.DoubleToInt64Bits(value) ? 0 : 1, 0, () => $"{number}: {value}");
+                var single = BitConverter.Int32BitsToSingle(random.Next());
+                if (float.IsFinite(single))
+                {
+                    Assert.True(NumberReader.TryRead(single.ToString("R", CultureInfo.InvariantCulture), out value, out _));
+                    report.Require("floats that changed", single.Equals((float)value) ? 0 : 1, 0, () => $"{single}: {value}");
+                }
+            }
+        }));
+    }
+
+    /// <summary>Plain, with exponents, subnormal, at the ends of the range, and exactly or nearly between two doubles.</summary>
+    private static string Text(Random random) => random.Next(8) switch
+    {
+        0 => $"{Digits(random, 1, 20)}.{Digits(random, 0, 20)}",
+        1 => $"-{Digits(random, 1, 19)}e{random.Next(-345, 312)}",
+        2 => $"{Digits(random, 1, 18)}.{Digits(random, 0, 18)}E{random.Next(-40, 40):+00;-00}",
+        3 => $"{Digits(random, 1, 17)}e-{random.Next(305, 345)}",
+        4 => $".{Digits(random, 1, 800)}e{random.Next(-400, 300)}",
+        5 => Between(BitConverter.Int64BitsToDouble(random.NextInt64(1L << 52)), random.Next(3)),
+        _ => Between(BitConverter.Int64BitsToDouble(random.NextInt64(0x7FEFFFFFFFFFFFFF)) switch { var d when d > 1e250 => Math.Sqrt(d), var d => d }, random.Next(3)),
+    };
+
+    /// <summary>All digits of the middle between a number and its neighbour; or the same a little less or more.</summary>
+    private static string Between(double number, int more)
+    {
+        var (mantissa, exponent) = Parts(number);
+        var (middle, power) = ((2 * mantissa) + 1, exponent - 1);
+        // m·2⁻ᵏ = m·5ᵏ·10⁻ᵏ
+        var (digits, ten) = power >= 0 ? (middle << power, 0) : (middle * BigInteger.Pow(5, -power), power);
+        return more switch
+        {
+            0 => $"{digits}e{ten}",
+            1 => $"{digits}0000000001e{ten - 10}",
+            _ => $"{digits - 1}9999999999e{ten - 10}",
+        };
+    }
+
+    /// <summary>How far a double is from a decimal text, in units of the double's last place; a tie that did not go to the even one counts as 1.</summary>
+    private static double UnitsOff(string text, double value)
+    {
+        var (mantissa, exponent) = Parts(value);
+        var lower = text.ToUpperInvariant().Split('E');
+        var (whole, fraction) = lower[0].TrimStart('-').Split('.') switch { [var w, var f] => (w, f), [var w] => (w, ""), _ => ("", "") };
+        var decimals = BigInteger.Parse("0" + whole + fraction, CultureInfo.InvariantCulture);
+        var power = (lower.Length > 1 ? int.Parse(lower[1], CultureInfo.InvariantCulture) : 0) - fraction.Length;
+        // decimals·10^power against mantissa·2^exponent, both as whole numbers.
+        var (left, right) = (decimals * BigInteger.Pow(10, Math.Max(0, power)) * BigInteger.Pow(2, Math.Max(0, -exponent)), mantissa * BigInteger.Pow(2, Math.Max(0, exponent)) * BigInteger.Pow(10, Math.Max(0, -power)));
+        var unit = BigInteger.Pow(2, Math.Max(0, exponent)) * BigInteger.Pow(10, Math.Max(0, -power));
+        var twice = 2 * BigInteger.Abs(left - right);
+        return twice > unit || (twice == unit && !mantissa.IsEven) ? 1 : (double)(1000 * twice / unit) / 2000;
+    }
+
+    /// <summary>|number| = mantissa·2^exponent.</summary>
+    private static (BigInteger Mantissa, int Exponent) Parts(double number)
+    {
+        var bits = BitConverter.DoubleToInt64Bits(number);
+        var (field, fraction) = ((int)((bits >> 52) & 0x7FF), bits & 0xFFFFFFFFFFFFF);
+        return field == 0 ? (fraction, -1074) : (fraction | (1L << 52), field - 1075);
+    }
+
+    private static string Digits(Random random, int least, int most) =>
+        string.Concat(Enumerable.Range(0, random.Next(least, most + 1)).Select(_ => (char)('0' + random.Next(10))));
+
+    private static double Finite(Random random) => BitConverter.Int64BitsToDouble(random.NextInt64(long.MinValue, long.MaxValue)) switch
+    {
+        var number when double.IsFinite(number) => number,
+        _ => random.Next(2) == 0 ? double.Epsilon : double.MaxValue,
+    };
+
+    private static string Bits(double number) => $"{BitConverter.DoubleToInt64Bits(number):X}";
+
+    /// <summary>OBJ, SDO, CSV and a text for people.</summary>
+    private static string Written(double[] numbers)
+    {
+        using var stream = new MemoryStream();
+        ObjWriter.Write(MeshOf(numbers), "mesh", stream);
+        using var table = new StringWriter { NewLine = "\n" };
+        var world = new PhysicsWorld(new(new Scene(), []), new());
+        world.Add(new(new(numbers[0], numbers[1], numbers[2]), 1) { Velocity = new(numbers[3] % 1e6, 0.5, -1.25) });
+        new BodyTable(table).WriteStep(world);
+        return string.Join('\n', Encoding.UTF8.GetString(stream.ToArray()), SceneWriter.Write(SceneOf(numbers)), table, new Diagnostic("ı.fdo", 1234567, 89, DiagnosticSeverity.Warning, "i"), DecimalText.Approximate(1234567));
+    }
+
+    /// <summary>The bits of all numbers; fails unless all formats agree.</summary>
+    private static string ReadBack(double[] numbers)
+    {
+        using var stream = new MemoryStream();
+        ObjWriter.Write(MeshOf(numbers), "mesh", stream);
+        var mesh = ObjParser.Parse(new SourceText("a.obj", Encoding.UTF8.GetString(stream.ToArray()))).Mesh;
+        var scene = SceneParser.Parse(new("a.sdo", SceneWriter.Write(SceneOf(numbers)))).Scene;
+        var points = PointsParser.Parse(new("a.txt", string.Join('\n', numbers.Chunk(3).Select(point => new Vector(point[0], point[1], point[2]).ToString().Trim('(', ')')))));
+        var fractal = Samples.ParseFractal($"v {Invariant(numbers[0])} {Invariant(numbers[1])} {Invariant(numbers[2])}\nt.a. (a, #, #)\nx. \"b.obj\"\n<$>. [t.1] x\n");
+        var material = MtlParser.Parse(new("a.mtl", $"newmtl m\nNs {Invariant(Math.Abs(numbers[0]) % 1000)}\n"));
+        Assert.Equal(Math.Abs(numbers[0]) % 1000, material.Materials["m"].SpecularExponent);
+        Assert.Equal(new Vector(numbers[0], numbers[1], numbers[2]), Naive.Levels(fractal.Description.Steps).Single()[0].Position);
+        Assert.Equal(string.Join(' ', numbers.Select(Bits)), string.Join(' ', points.SelectMany(Components).Select(Bits)));
+        Assert.Equal(string.Join(' ', numbers[..6].Select(Bits)), string.Join(' ', scene.Objects.Select(o => o.Placement.Position).SelectMany(Components).Select(Bits)));
+        return string.Join(' ', mesh.Positions.Select(Bits));
+    }
+
+    private static string Invariant(double number) => number.ToString("R", CultureInfo.InvariantCulture);
+
+    private static double[] Components(Vector v) => [v.X, v.Y, v.Z];
+
+    private static Mesh MeshOf(double[] numbers) => new([.. numbers], [0, 1, 2]);
+
+    private static Scene SceneOf(double[] numbers) => new()
+    {
+        Objects = [new("a.obj", Samples.Move(numbers[0], numbers[1], numbers[2])), new("b.obj", Samples.Move(numbers[3], numbers[4], numbers[5]))],
+    };
+}

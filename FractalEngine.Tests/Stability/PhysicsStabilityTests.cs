@@ -1,0 +1,93 @@
+using FractalEngine.Core.Physics;
+using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Physics;
+using FractalEngine.Tests.Support;
+using Xunit.Abstractions;
+
+namespace FractalEngine.Tests.Stability;
+
+/// <summary>How far energies and places wander. What moves and rests as it should is in Tests/Physics.</summary>
+public class PhysicsStabilityTests(ITestOutputHelper output)
+{
+    public static TheoryData<double> Steps => [1e-5, 1e-4, 1e-3, 1 / 240.0, 1 / 60.0, 0.1];
+
+    /// <summary>On a floor without loss: each bounce begins at the height that energy says.</summary>
+    [Theory]
+    [MemberData(nameof(Steps))]
+    public void Energy_OfABallThatBouncesWithoutLoss_StaysAtAnyStep(double step) => CheckEnergy(step, 20_000);
+
+    [Theory]
+    [MemberData(nameof(Steps))]
+    [Trait("Category", "Soak")]
+    public void Energy_OfABallThatBouncesWithoutLossForAMillionSteps_StaysAtAnyStep(double step) => CheckEnergy(step, 1_000_000);
+
+    /// <summary>The first top after the fall is at e²·h (FlightTests hold every one to 1e-6).</summary>
+    [Theory]
+    [MemberData(nameof(Steps))]
+    public void Bounce_OnAFloor_RisesToRestitutionSquaredAtAnyStep(double step)
+    {
+        using var report = new StabilityReport(output);
+        Seeded.Run(step < 1e-3 ? 4 : 50, random =>
+        {
+            var (e, height) = (random.Between(0.5, 1), random.Between(0.5, 2));
+            var world = Worlds.Of(Worlds.Gravity, step, Worlds.Place(PhysicsMeshes.Floor()));
+            var body = world.Add(new(new(0, 0.1 + height, 0), 0.1) { Restitution = e });
+            while (body.Velocity.Y <= 0)
+            {
+                world.Step();
+            }
+
+            var top = body.Position.Y - 0.1 + (body.Velocity.Y * body.Velocity.Y / (2 * 9.8));
+            // What is promised is 1 %; the moment of an impact is found to 1e-10 of the radius.
+            report.Require("height of the bounce, of e²·h", Math.Abs(top - (e * e * height)) / height, 1e-8, () => $"e {e}, h {height}: {top}");
+        });
+    }
+
+    /// <summary>RestTests hold a million steps at eight places to 1e-9 units; this is how far it is from that.</summary>
+    [Theory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public void Rest_OnASponge_DoesNotMove(bool sleeps)
+    {
+        using var report = new StabilityReport(output);
+        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = sleeps ? null : 0 }, Worlds.Place(AssetFractals.Load("menger", 2)));
+        var body = world.Add(new(new(0.02, 0.9, 0.01), 0.2) { Friction = 0.5 });
+        world.Run(600);
+        var place = body.Position;
+        world.Run(20_000, () => report.Require("way from the place of rest, units", (body.Position - place).Length(), 1e-9, () => $"after {world.StepCount} steps"));
+    }
+
+    /// <summary>Many worlds at once, each on some thread: what one computes is nothing to another. DeterminismTests compare six.</summary>
+    [Fact]
+    public void StateHash_OfWorldsInParallel_IsThatOfEachAlone()
+    {
+        using var report = new StabilityReport(output);
+        var alone = Enumerable.Range(0, 12).Select(Hash).ToArray();
+        var together = new string[48];
+        Parallel.For(0, together.Length, i => together[i] = Hash(i % alone.Length));
+        Assert.Equal(alone.Length, alone.Distinct().Count());
+        for (var i = 0; i < together.Length; i++)
+        {
+            report.Require("worlds that differ", together[i] == alone[i % alone.Length] ? 0 : 1, 0, () => $"world {i}");
+        }
+    }
+
+    private void CheckEnergy(double step, int steps)
+    {
+        using var report = new StabilityReport(output);
+        var world = Worlds.Of(Worlds.Gravity, step, Worlds.Place(PhysicsMeshes.Floor()));
+        // The fastest that a step's gravity adds is small beside the speed of the impacts, so that none counts as rest.
+        world.Add(new(new(0.3, 3.1, -0.2), 0.1) { Restitution = 1 });
+        var energy = world.Energy();
+        // An impact is found to 1e-10 of the radius, which is 1e-11 of the height or less; the sums of a step round by 2⁻⁵².
+        world.Run(steps, () => report.Require("energy, of the first", Math.Abs(world.Energy() - energy) / energy, (1e-11 * (1 + (world.Time / 1.5))) + (1e-15 * world.StepCount), () => $"after {world.StepCount} steps"));
+    }
+
+    private static string Hash(int seed)
+    {
+        var (random, world) = (new Random(seed), Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(AssetFractals.Load("menger", 2))));
+        world.AddRange(Enumerable.Range(0, 6).Select(i => new BodyDescription(new((i % 3 * 0.3) - 0.3, 0.8, (i / 3 * 0.3) - 0.2), 0.1) { Velocity = random.Vector(), Restitution = random.NextDouble() }));
+        world.Run(120);
+        return world.StateHash;
+    }
+}
