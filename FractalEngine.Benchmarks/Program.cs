@@ -26,5 +26,16 @@ if (args is ["physics", ..])
     return PhysicsCommand.Run(args.AsSpan(1));
 }
 
+if (args is ["front", ..])
+{
+    return FrontCommand.Run(args.AsSpan(1));
+}
+
+if (args is [[not '-', ..] word, ..])
+{
+    Console.Error.WriteLine($"error: unknown command '{word}'");
+    return 2;
+}
+
 BenchmarkSwitcher.FromAssembly(typeof(Program).Assembly).Run(args);
 return 0;
