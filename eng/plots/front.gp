@@ -22,7 +22,7 @@ is(shape, collider) = strcol("shape") eq shape && strcol("queries") eq "near" &&
 error(column_name) = column(column_name) < rounding ? floor : column(column_name)
 x(shape, collider, name) = is(shape, collider) ? error(name) : NaN
 # Not all, so that they keep clear of each other.
-hasLabel(knob, value) = knob eq "epsilon" ? value > 0 && value != 0.5 : knob eq "depth" ? value != 2 && value != 4 && value != 5 : \
+hasLabel(knob, value) = knob eq "epsilon" ? value > 0 && value != 0.5 : knob eq "depth" ? value == 1 || value == 3 || value > 6 : \
     value == 1 || value == 4 || value == 16 || value == 64
 knob(shape, collider) = is(shape, collider) && hasLabel(strcol("knob"), column("value")) ? sprintf("%g", column("value")) : ""
 grouped(n) = n < 1e6 ? sprintf("%d,%03d", n / 1000, int(n) % 1000) : sprintf("%d,%03d,%03d", n / 1000000, int(n) / 1000 % 1000, int(n) % 1000)
