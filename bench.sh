@@ -27,7 +27,10 @@ export FRACTALENGINE_COMMIT
 export DOTNET_TieredPGO=0
 
 for command in "${commands[@]}"; do
-    "${benchmarks[@]}" "$command" "${options[@]}" --output docs/benchmarks </dev/null || fail "the command '$command' failed"
+    # The paper's models have one size.
+    sized=("${options[@]}")
+    [ "$command" != paper ] || sized=()
+    "${benchmarks[@]}" "$command" "${sized[@]}" --output docs/benchmarks </dev/null || fail "the command '$command' failed"
 done
 
 for plot in eng/plots/*.gp; do
