@@ -19,6 +19,10 @@ command -v gnuplot >/dev/null || fail 'gnuplot is missing'
 
 benchmarks=("$root/FractalEngine.Benchmarks/bin/$configuration/net10.0/FractalEngine.Benchmarks")
 [ -x "${benchmarks[0]}" ] || benchmarks=(dotnet "${benchmarks[0]}.dll")
+# What draws needs a display.
+if [ -z "${DISPLAY:-}" ] && command -v xvfb-run >/dev/null; then
+    benchmarks=(xvfb-run -a -s '-screen 0 1280x720x24 -noreset' "${benchmarks[@]}")
+fi
 
 cd "$root"
 FRACTALENGINE_COMMIT="$(git rev-parse --short HEAD 2>/dev/null || echo unknown)"
