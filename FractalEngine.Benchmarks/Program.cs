@@ -36,5 +36,16 @@ if (args is ["paper", ..])
     return PaperCommand.Run(args.AsSpan(1));
 }
 
+if (args is ["front", ..])
+{
+    return FrontCommand.Run(args.AsSpan(1));
+}
+
+if (args is [[not '-', ..] word, ..])
+{
+    Console.Error.WriteLine($"error: unknown command '{word}'");
+    return 2;
+}
+
 BenchmarkSwitcher.FromAssembly(typeof(Program).Assembly).Run(args);
 return 0;

@@ -1,4 +1,4 @@
-# Shared by run.sh and test.sh; sourced, not run. Brings a machine with the .NET SDK to where the engine builds and draws:
+# Shared by run.sh, test.sh and bench.sh; sourced, not run. Brings a machine with the .NET SDK to where the engine builds and draws:
 # packages (Debian and its relatives only), restore, build. Says nothing on stdout, and does nothing when all is there.
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
@@ -27,6 +27,9 @@ missing_packages() {
     command -v xauth >/dev/null || echo xauth
     if [ "${1:-}" = tests ]; then
         command -v xdotool >/dev/null || echo xdotool
+    fi
+    if [ "${1:-}" = plots ]; then
+        command -v gnuplot >/dev/null || echo gnuplot-nox
     fi
 }
 

@@ -13,20 +13,30 @@ namespace FractalEngine.Core.Collision;
 /// A round of a recursion is one level, its sets concatenated; sets below the last recursion belong to the base object. So a query costs exactly
 /// b·t face tests a level, b·t·d in all; it keeps t maps and the base object.
 /// </remarks>
-public sealed class FractalCollider : Collider
+public sealed partial class FractalCollider : Collider
 {
+    // A copy that is smaller than the last place of a coordinate has no parts that could be told apart.
+    private const double Smallest = 1e-15;
+
     private readonly List<(CopySet Set, int Rounds)> _levels = [];
     private readonly bool _isSimilar;
     private readonly Mesh _base;
     private readonly FaceHierarchy _faces;
     private readonly bool _hasNoLevels;
+    private readonly int _width;
 
     /// <summary>Prepares a fractal in affine composition.</summary>
+    /// <param name="fractal">Of any depth.</param>
+    /// <param name="width">
+    /// In how many of the nearest copies of each level the search goes on: 1 is the paper's descent; more cost up to as many times as much and err less, but are not exact either.
+    /// </param>
+    /// <exception cref="ArgumentOutOfRangeException">The width is less than 1.</exception>
     /// <exception cref="ArgumentException">The fractal is composed componentwise.</exception>
     /// <exception cref="SingularMatrixException">A map flattens what it maps, as a scale of 0 does; fractal files with one are refused.</exception>
     /// <exception cref="FractalLimitException">A round, or the base object, has more than a million instances of its own.</exception>
-    public FractalCollider(Fractal fractal)
+    public FractalCollider(Fractal fractal, int width = 1)
     {
+        ArgumentOutOfRangeException.ThrowIfLessThan(width, 1);
         if (fractal.Description.Composition != Composition.Affine)
         {
             throw new ArgumentException("expected affine composition: the descent follows maps", nameof(fractal));
@@ -48,6 +58,7 @@ public sealed class FractalCollider : Collider
         _faces = new(_base);
         _isSimilar = _levels.All(level => level.Set.AreSimilar);
         _hasNoLevels = _levels.All(level => level.Rounds == 0);
+        _width = width;
     }
 
     /// <inheritdoc/>
@@ -61,6 +72,11 @@ public sealed class FractalCollider : Collider
     private protected override bool Find(Vector position, double within, double epsilon, QueryRecord record, out ClosestPoint closest)
     {
         record.ClearPath();
+        if (_width > 1)
+        {
+            return FindWithBeam(position, within, record, out closest);
+        }
+
         var (map, local, face) = (AffineMap.Identity, position, -1);
         var faceTests = 0L;
         if (_hasNoLevels)
@@ -71,8 +87,7 @@ public sealed class FractalCollider : Collider
 
         foreach (var (set, rounds) in _levels)
         {
-            // A copy that is smaller than the last place of a coordinate has no parts that could be told apart.
-            for (var round = 0; round < rounds && !(round > 0 && BoundingSphere.LengtheningBound(map.Linear) < 1e-15); round++)
+            for (var round = 0; round < rounds && !(round > 0 && BoundingSphere.LengtheningBound(map.Linear) < Smallest); round++)
             {
                 var copy = NearestCopy(set, position, local, map, ref face, ref faceTests);
                 if (copy < 0)

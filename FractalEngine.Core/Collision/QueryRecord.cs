@@ -15,6 +15,7 @@ public sealed class QueryRecord
     private double[] _scratch = [];
     private double[] _objectBounds = [];
     private OpenCopies? _openCopies;
+    private DescentBeam? _beam;
 
     /// <summary>How many faces were looked at: the paper's collision cost (§5.2.3). Added up until <see cref="Reset"/>.</summary>
     public long FaceTests { get; set; }
@@ -39,6 +40,9 @@ public sealed class QueryRecord
 
     /// <summary>Of searches that take long; made by the first.</summary>
     internal OpenCopies OpenCopies => _openCopies ??= new();
+
+    /// <summary>Of descents in several copies; made by the first.</summary>
+    internal DescentBeam Beam => _beam ??= new();
 
     /// <summary>Room for numbers of a search; kept for the next one.</summary>
     internal Span<double> Scratch(int length) => _scratch.Length >= length ? _scratch : _scratch = new double[length];
@@ -72,6 +76,8 @@ public sealed class QueryRecord
     internal void ClearPath() => _path.Clear();
 
     internal void AppendToPath(int number) => _path.Add(number);
+
+    internal void ReversePath() => _path.Reverse();
 
     private static int[] Grown(ref int[] numbers, int length)
     {

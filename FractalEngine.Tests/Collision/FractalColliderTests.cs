@@ -65,6 +65,64 @@ public class FractalColliderTests
         Assert.True(greedy.Distance > 1, $"{greedy.Distance}");
     }
 
+    [Fact]
+    public void Width_OfMoreCopies_ErrsLess()
+    {
+        var fractal = AssetFractals.Load("appendix-b", 3);
+        var exact = new ExactFractalCollider(fractal);
+        var colliders = new[] { 1, 2, 4, 16, 64 }.Select(width => new FractalCollider(fractal, width)).ToArray();
+        var (record, random) = (new QueryRecord(), new Random(1));
+        var errors = new double[colliders.Length];
+        for (var query = 0; query < 200; query++)
+        {
+            var position = random.Vector(8);
+            exact.TryFindClosest(position, double.PositiveInfinity, record, out var right);
+            for (var i = 0; i < errors.Length; i++)
+            {
+                Assert.True(colliders[i].TryFindClosest(position, double.PositiveInfinity, record, out var found));
+                // Rounding of both, as parts of the size.
+                Assert.True(found.Distance >= right.Distance - (1e-12 * fractal.Bounds.Diagonal), $"{found.Distance} and {right.Distance}");
+                errors[i] += found.Distance - right.Distance;
+            }
+        }
+
+        Assert.True(errors.Zip(errors[1..]).All(pair => pair.Second < pair.First), string.Join(' ', errors));
+    }
+
+    [Fact]
+    public void Width_OfAllCopies_IsExactAndNamesTheInstance() => Seeded.Run(200, random =>
+    {
+        var fractal = RandomFractals.Draw(random);
+        if (fractal.InstanceCount is not { } count || count > 2000)
+        {
+            return;
+        }
+
+        var (record, position, size) = (new QueryRecord(), random.Vector(4), fractal.Bounds.Diagonal);
+        var found = new FractalCollider(fractal, 2000).TryFindClosest(position, double.PositiveInfinity, record, out var wide);
+        var path = record.InstancePath.ToArray();
+        Assert.Equal(new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var exact), found);
+        // Rounding of both, as parts of the size and of the distance.
+        Assert.Equal(exact.Distance, wide.Distance, 1e-12 * (size + exact.Distance));
+        Assert.All(path, copy => Assert.True(copy >= 0));
+    });
+
+    [Fact]
+    public void Width_OfMoreCopies_AllocatesNothingAndKeepsWithin()
+    {
+        var collider = new FractalCollider(AssetFractals.Load("tree", null), 8);
+        var record = new QueryRecord();
+        Assert.True(collider.TryFindClosest(new(1, 2, 3), double.PositiveInfinity, record, out var closest));
+        var before = GC.GetAllocatedBytesForCurrentThread();
+        Assert.True(collider.TryFindClosest(new(1, 2, 3), closest.Distance, record, out _));
+        Assert.False(collider.TryFindClosest(new(1, 2, 3), 0.99 * closest.Distance, record, out _));
+        Assert.Equal(before, GC.GetAllocatedBytesForCurrentThread());
+    }
+
+    [Fact]
+    public void Width_LessThanOne_IsRefused() =>
+        Assert.Throws<ArgumentOutOfRangeException>(() => new FractalCollider(Samples.AppendixBAt(2), 0));
+
     private static Mesh Fan(int faces) => new(
         [0, 0, 0, .. Enumerable.Range(0, faces + 1).SelectMany(i => new[] { Math.Cos(0.3 * i), Math.Sin(0.3 * i), 0.1 * i })],
         [.. Enumerable.Range(1, faces).SelectMany(i => new[] { 0, i, i + 1 })]);
