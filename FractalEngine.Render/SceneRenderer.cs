@@ -15,10 +15,6 @@ public sealed class SceneRenderer : IDisposable
     // Natural logarithm. From deeper down lights with a place look the same.
     private const double DeepestLight = 14;
 
-    // Of the scene's size: balls farther out do not matter, and places of others are rounded to this.
-    private const double FarBalls = 2;
-    private const double BallGrid = 0.25;
-
     // Of the palette: coral.
     private const int BallColour = 2;
 
@@ -69,7 +65,7 @@ public sealed class SceneRenderer : IDisposable
     /// A box that holds all objects where they are now, world space; of those that move all the time only as far as they stay near. What falls out of the scene
     /// goes out of sight beyond the far plane, and does not take the planes with it.
     /// </summary>
-    public BoundingBox Bounds => _bounds ??= BoundsNow();
+    public BoundingBox Bounds => _bounds ??= SceneBounds.Of(Scene, _boxes, _looseBalls);
 
     /// <summary>Balls beside the scene's objects. Those far out of the scene are not drawn.</summary>
     public IReadOnlyList<LooseBall> Balls
@@ -228,31 +224,6 @@ public sealed class SceneRenderer : IDisposable
         _pass.End();
         _after = (Uploads, StateChanges);
     }
-
-    private BoundingBox BoundsNow()
-    {
-        var (box, moves) = (BoundingBox.Empty, false);
-        for (var i = 0; i < _boxes.Length; i++)
-        {
-            moves |= Scene.Objects[i].IsMoving;
-            box = Scene.Objects[i].IsMoving ? box : BoundingBox.Union(box, _boxes[i]);
-        }
-
-        var whole = Scene.Source.Bounds;
-        box = moves ? BoundingBox.Union(box, Around(whole, 0.5)) : box;
-        var (far, grid) = (Around(whole, FarBalls), BallGrid * whole.Diagonal);
-        foreach (var (centre, radius) in _looseBalls)
-        {
-            // In coarse steps, so that the planes stay where they are most of the time.
-            box = far.DistanceSquared(centre) > 0 || !(grid > 0) ? box : BoundingBox.Union(box, new(Down(centre - (radius * Vector.One), grid), -Down(-centre - (radius * Vector.One), grid)));
-        }
-
-        return box;
-    }
-
-    private static BoundingBox Around(BoundingBox box, double sizes) => new(box.Minimum - (sizes * box.Size), box.Maximum + (sizes * box.Size));
-
-    private static Vector Down(Vector v, double grid) => new(grid * Math.Floor(v.X / grid), grid * Math.Floor(v.Y / grid), grid * Math.Floor(v.Z / grid));
 
     /// <summary>Moves to the GPU what is not there yet.</summary>
     private void Upload()
