@@ -19,6 +19,9 @@ public sealed record FractalDescription(
     /// <summary>True when there is a repetition whose depth can be changed.</summary>
     public bool HasDepth => Steps.Any(step => step is Repetition);
 
+    /// <summary>True when no transformation mirrors: then faces of all instances are wound as those of the base mesh.</summary>
+    public bool KeepsOrientation => Steps.All(KeepOrientation);
+
     /// <summary>
     /// The same fractal with the outermost repetition carried out <paramref name="depth"/> times, whatever the file says.
     /// </summary>
@@ -35,4 +38,11 @@ public sealed record FractalDescription(
     public FractalDescription Under(Transformation placement) => Composition == Composition.Affine
         ? this with { Steps = Steps.Insert(0, TransformationSet.Of(placement)) }
         : throw new InvalidOperationException("a placement is no level of a fractal that is composed componentwise");
+
+    private static bool KeepOrientation(FractalStep step) => step switch
+    {
+        Repetition repetition => repetition.Body.All(KeepOrientation),
+        TransformationSet set => set.Maps.All(map => map.Linear.Determinant() > 0),
+        _ => false,
+    };
 }

@@ -146,7 +146,7 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryRecord re
 
     /// <summary>Finds the surface that is nearest to a position, and on which side of it that is.</summary>
     /// <param name="position">Of the mover.</param>
-    /// <param name="closest">The nearest point, if it is within the radius.</param>
+    /// <param name="closest">The nearest point, if it is within the radius; its normal looks out of the object.</param>
     /// <param name="isBehind">True within a closed solid. Seen from within, the nearest point of a solid is inside of a face.</param>
     /// <returns>False when no surface is within the radius.</returns>
     public bool TryFindSide(Vector position, out ClosestPoint closest, out bool isBehind)
@@ -157,7 +157,9 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryRecord re
             return false;
         }
 
-        isBehind = closest.Feature == FaceFeature.Interior && Vector.Dot(position - closest.Point, closest.Normal) < 0 && _surfaces.IsSolid(index);
+        var orientation = _surfaces.Orientation(index);
+        closest = orientation < 0 ? closest with { Normal = -closest.Normal } : closest;
+        isBehind = orientation != 0 && closest.Feature == FaceFeature.Interior && Vector.Dot(position - closest.Point, closest.Normal) < 0 && _surfaces.IsSolid(index);
         return true;
     }
 

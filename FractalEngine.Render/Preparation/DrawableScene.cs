@@ -168,14 +168,7 @@ public sealed class DrawableScene
     }
 
     /// <summary>The sign that the determinants of all instances' maps have; 0 where it differs or depends on the depth.</summary>
-    private static int CommonSign(Model model) => model is not FractalModel { Fractal.Description.Steps: var steps } || steps.All(IsNeverMirrored) ? 1 : 0;
-
-    private static bool IsNeverMirrored(FractalStep step) => step switch
-    {
-        Repetition repetition => repetition.Body.All(IsNeverMirrored),
-        TransformationSet set => set.Maps.All(map => map.Linear.Determinant() > 0),
-        _ => false,
-    };
+    private static int CommonSign(Model model) => model is not FractalModel { Fractal.Description.KeepsOrientation: false } ? 1 : 0;
 
     /// <summary>The sign that the determinants of all maps have; 0 when they differ or one is flat.</summary>
     private static int CommonSign(ImmutableArray<AffineMap> maps)
