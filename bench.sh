@@ -1,19 +1,38 @@
 #!/usr/bin/env bash
-# Measures, and draws what was measured: docs/benchmarks/*.csv and *.svg. `./bench.sh quick` takes smaller shapes, and a few
+# Measures, and draws what was measured: docs/benchmarks/*.csv and *.svg. `./bench.sh quick` takes smaller shapes, and some
 # minutes. Names of commands after that measure those only; all pictures are drawn.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/eng/setup.sh"
 
-options=()
+quick=
 if [ "${1:-}" = quick ]; then
-    options=(--quick)
+    quick=yes
     shift
 fi
 
-commands=(front growth paper)
+commands=(front growth loading precision frames skips physics window paper classes)
 [ $# = 0 ] || commands=("$@")
 
+classes='*'
+[ -z "$quick" ] || classes='*.MeshColliderBenchmarks.* *.LoadingBenchmarks.* *.PrecisionBenchmarks.* --job short --inProcess --iterationTime 100'
+
+# Prints the words that a command is called with.
+words() {
+    case "$1" in
+        front | growth | loading | precision) echo "$1 ${quick:+--quick}" ;;
+        frames) echo "frames ${quick:+menger:5:afar menger:5:inside --rounds 1 --no-truth}" ;;
+        skips | physics) echo "$1 ${quick:+--rounds 1}" ;;
+        # The paper's models have one size, and a window one cost.
+        window | paper) echo "$1" ;;
+        # Of BenchmarkDotNet: all, or three with few iterations.
+        classes) echo "--artifacts out/benchmarkdotnet --filter $classes" ;;
+        *) fail "unknown command '$1'" 2 ;;
+    esac
+}
+
 install_packages plots
+# The window that is measured is the program's own.
+build FractalEngine.App
 build FractalEngine.Benchmarks
 command -v gnuplot >/dev/null || fail 'gnuplot is missing'
 
@@ -30,12 +49,13 @@ export FRACTALENGINE_COMMIT
 # What the compiler learns from the first shapes would make the order of rows count.
 export DOTNET_TieredPGO=0
 
+set -f # Stars are for BenchmarkDotNet.
 for command in "${commands[@]}"; do
-    # The paper's models have one size.
-    sized=("${options[@]}")
-    [ "$command" != paper ] || sized=()
-    "${benchmarks[@]}" "$command" "${sized[@]}" --output docs/benchmarks </dev/null || fail "the command '$command' failed"
+    words="$(words "$command")" || exit 2
+    read -ra line <<<"$words"
+    "${benchmarks[@]}" "${line[@]}" --output docs/benchmarks </dev/null || fail "the command '$command' failed"
 done
+set +f
 
 for plot in eng/plots/*.gp; do
     gnuplot "$plot" || fail "gnuplot can't draw $plot"
