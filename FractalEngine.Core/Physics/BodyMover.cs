@@ -13,6 +13,12 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
     // Impacts at the same moment, one after the other: more are a corner that leaves no way.
     private const int MostAtOnce = 16;
 
+    // Of a step: what is sooner is soon.
+    private const double NoTime = 1e-3;
+
+    // Of the speed: who leads more into a body that gives way waits until it has.
+    private const double Recoil = 0.01;
+
     // Relative to the speed: what rounding leaves along a normal.
     private const double Rounding = 1e-13;
 
@@ -42,13 +48,17 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
         obstacles.Collect(new(position, Vector.Zero, Vector.Zero), 0, body.Index);
         obstacles.AddTouchedBodies(position, hold, contacts);
         TakePressure(body, position);
-        var (left, impactsHere) = (time, 0);
+        var (left, impactsHere, isBlocked, slow) = (time, 0, false, NoSpeed * restSpeed);
         for (var impact = 0; impact < MostImpacts && impactsHere < MostAtOnce && left > 0; impact++)
         {
+            var velocity = body.Velocity;
             Respond(body, position, restSpeed);
-            body.Velocity = contacts.RemoveSeparating(position, body.Velocity, bodies, NoSpeed * restSpeed);
-            var elapsed = Glide(body, acceleration, ref position, left, NoSpeed * restSpeed);
+            body.Velocity = contacts.RemoveSeparating(position, body.Velocity, bodies, slow, isBlocked);
+            var isAnswered = (body.Velocity - velocity).MaximumComponent() > slow;
+            var elapsed = Glide(body, acceleration, ref position, left, slow, isBlocked);
             (left, impactsHere) = (left - elapsed, elapsed > 0 ? 0 : impactsHere + 1);
+            // What is run into gives way, but at its own turn: until then it is as firm as the ground, and one can only slide over it or wait.
+            isBlocked |= !isAnswered && elapsed < NoTime * time && contacts.HasMoving(bodies);
         }
 
         // An impact in the last moment is answered in the next step.
@@ -61,11 +71,29 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
     /// <param name="position">Receives where it comes to.</param>
     /// <param name="time">Seconds.</param>
     /// <param name="slow">What is slower, and not accelerated, rests.</param>
+    /// <param name="isBlocked">Nothing gives way.</param>
     /// <returns>The time that has passed.</returns>
-    private double Glide(Body body, Vector acceleration, ref Vector position, double time, double slow)
+    private double Glide(Body body, Vector acceleration, ref Vector position, double time, double slow, bool isBlocked)
     {
         var contacts = body.Contacts;
-        var steady = contacts.Allow(acceleration, position, _planes, accelerated: bodies);
+        var free = isBlocked ? contacts.Allow(body.Velocity, position, _planes) : body.Velocity;
+        var kept = body.Velocity - free;
+        if (kept.Length() > Recoil * free.Length())
+        {
+            // It would go another way than its own.
+            return time;
+        }
+
+        body.Velocity = free;
+        var steady = contacts.AllowAcceleration(acceleration, position, free, bodies, _planes, isBlocked, out var turnTime);
+        var elapsed = Glide(body, steady, acceleration, ref position, Math.Min(time, turnTime), slow);
+        body.Velocity += kept;
+        return elapsed;
+    }
+
+    private double Glide(Body body, Vector steady, Vector acceleration, ref Vector position, double time, double slow)
+    {
+        var contacts = body.Contacts;
         var (duration, stands) = (time, false);
         if (body.Description.Friction > 0 && contacts.Count > 0)
         {
@@ -98,7 +126,7 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
 
         contacts.Follow(position, obstacles.Hold(position), obstacles);
         // After too many advances the rest of the time is lost.
-        return isHit || elapsed >= duration ? elapsed : time;
+        return isHit || elapsed >= duration ? elapsed : double.PositiveInfinity;
     }
 
     /// <summary>A body that begins inside of something is pushed out; one that can't be stops.</summary>
@@ -108,7 +136,12 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
         body.Contacts.Clear();
         body.IsStuck = !_placement.TryFree(ref position, body.Index);
         body.IsPlaced = !body.IsStuck;
-        (body.Position, body.Velocity) = (position, body.IsStuck ? Vector.Zero : body.Velocity);
+        body.Position = position;
+        if (body.IsStuck)
+        {
+            (body.Velocity, body.FreeAcceleration) = (Vector.Zero, Vector.Zero);
+        }
+
         return body.IsPlaced;
     }
 

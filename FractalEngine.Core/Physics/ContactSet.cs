@@ -14,6 +14,9 @@ internal sealed class ContactSet
     // Of the reach: a gap that differs by less needs no other point.
     private const double Unmoved = 1e-13;
 
+    // Radians: by how much a way over another body turns before it is looked at anew.
+    private const double Turn = 1.0 / 64;
+
     // Contacts whose directions differ by less are the same.
     private const double SameDirection = 1e-12;
 
@@ -47,6 +50,20 @@ internal sealed class ContactSet
         }
 
         _contacts[Count++] = contact with { Direction = normal };
+    }
+
+    /// <summary>True where a body is touched that does not sleep.</summary>
+    public bool HasMoving(List<Body> bodies)
+    {
+        for (var i = 0; i < Count; i++)
+        {
+            if (_contacts[i].Body >= 0 && !bodies[_contacts[i].Body].IsAsleep)
+            {
+                return true;
+            }
+        }
+
+        return false;
     }
 
     /// <summary>Forgets those that are not touched any more, and those with other bodies, which move.</summary>
@@ -91,15 +108,18 @@ internal sealed class ContactSet
     /// What leaves a surface more slowly does not leave: it would be back at once, and several edges could pass a body to and fro. It loses that speed, since
     /// gravity would have taken it.
     /// </param>
+    /// <param name="areFirm">Bodies are left, too, only by what moves away from where they are.</param>
     /// <returns>The velocity without what was too slow.</returns>
-    public Vector RemoveSeparating(Vector position, Vector velocity, List<Body> bodies, double slow)
+    public Vector RemoveSeparating(Vector position, Vector velocity, List<Body> bodies, double slow, bool areFirm)
     {
         var leavesSlowly = false;
         for (var i = Count - 1; i >= 0; i--)
         {
             var isSurface = _contacts[i].Body < 0;
             var relative = isSurface ? velocity : velocity - bodies[_contacts[i].Body].Velocity;
-            var (speed, rounding) = (Vector.Dot(relative, _contacts[i].Normal(position)), Rounding * relative.MaximumComponent());
+            var normal = _contacts[i].Normal(position);
+            var (speed, rounding) = (Vector.Dot(relative, normal), Rounding * relative.MaximumComponent());
+            speed = areFirm ? Math.Min(speed, Vector.Dot(velocity, normal)) : speed;
             if (speed > slow + rounding)
             {
                 RemoveAt(i);
@@ -139,24 +159,58 @@ internal sealed class ContactSet
         return velocity;
     }
 
-    /// <summary>The part of a velocity or an acceleration that leads into none of the contacts: zero where they leave no direction free.</summary>
-    /// <param name="vector">World space.</param>
+    /// <summary>The part of a velocity that leads into none of the contacts: zero where they leave no direction free.</summary>
+    /// <param name="velocity">World space.</param>
     /// <param name="position">Of the body.</param>
     /// <param name="planes">Lends memory.</param>
     /// <param name="onlySurfaces">Leaves other bodies out.</param>
-    /// <param name="accelerated">For accelerations: the other bodies, which give way by their own; null for velocities that they stop.</param>
-    public Vector Allow(Vector vector, Vector position, HalfSpaces planes, bool onlySurfaces = false, List<Body>? accelerated = null)
+    public Vector Allow(Vector velocity, Vector position, HalfSpaces planes, bool onlySurfaces = false)
     {
         planes.Clear();
         for (var i = 0; i < Count; i++)
         {
             if (!onlySurfaces || _contacts[i].Body < 0)
             {
-                var normal = _contacts[i].Normal(position);
-                planes.Add(normal, _contacts[i].Body >= 0 && accelerated is not null ? Vector.Dot(normal, accelerated[_contacts[i].Body].FreeAcceleration) : 0);
+                planes.Add(_contacts[i].Normal(position), 0);
             }
         }
 
+        return Nearest(velocity, planes);
+    }
+
+    /// <summary>The part of an acceleration that leads into none of the contacts. Other bodies give way by their own, and who slides over one is held to its sphere: a = −v²/r along the normal.</summary>
+    /// <param name="acceleration">World space.</param>
+    /// <param name="position">Of the body.</param>
+    /// <param name="velocity">Of the body.</param>
+    /// <param name="bodies">The others.</param>
+    /// <param name="planes">Lends memory.</param>
+    /// <param name="areFirm">Other bodies do not give way.</param>
+    /// <param name="turnTime">How long it holds: until the way over another body has turned by 1/64.</param>
+    public Vector AllowAcceleration(Vector acceleration, Vector position, Vector velocity, List<Body> bodies, HalfSpaces planes, bool areFirm, out double turnTime)
+    {
+        turnTime = double.PositiveInfinity;
+        planes.Clear();
+        for (var i = 0; i < Count; i++)
+        {
+            var normal = _contacts[i].Normal(position);
+            var least = 0.0;
+            if (_contacts[i].Body >= 0)
+            {
+                var other = bodies[_contacts[i].Body];
+                var relative = areFirm ? velocity : velocity - other.Velocity;
+                var along = relative - (Vector.Dot(relative, normal) * normal);
+                least = (areFirm ? 0 : Vector.Dot(normal, other.FreeAcceleration)) - (along.LengthSquared() / _contacts[i].Reach);
+                turnTime = Math.Min(turnTime, Turn * _contacts[i].Reach / along.Length());
+            }
+
+            planes.Add(normal, least);
+        }
+
+        return Nearest(acceleration, planes);
+    }
+
+    private static Vector Nearest(Vector vector, HalfSpaces planes)
+    {
         if (!planes.TryNearest(vector, out var allowed))
         {
             return Vector.Zero;

@@ -117,7 +117,7 @@ public sealed partial class PhysicsWorld
         body.RestTime = rests ? body.RestTime + Settings.Step : 0;
         if (body.RestTime >= Settings.SleepTime && rests)
         {
-            (body.IsAsleep, body.Velocity) = (true, Vector.Zero);
+            (body.IsAsleep, body.Velocity, body.FreeAcceleration) = (true, Vector.Zero, Vector.Zero);
         }
         else if (!rests)
         {

@@ -85,6 +85,37 @@ public class SlidingTests
         });
     });
 
+    /// <summary>School physics: without friction a ball leaves the sphere under it where the cosine of the angle from the top is (2 + v²/(g·r))/3, and until then v² grows by 2·g·height.</summary>
+    [Theory]
+    [InlineData(1.0 / 60)]
+    [InlineData(1.0 / 240)]
+    [InlineData(1.0 / 1000)]
+    public void Sliding_DownASleepingBall_LeavesItWhereEnergySays(double step)
+    {
+        var world = Worlds.Of(Worlds.Gravity, step, Worlds.Place(PhysicsMeshes.Floor()));
+        var below = world.Add(new(new(0, 1, 0), 1) { Mass = 1000 });
+        world.Run((int)(1.5 / step));
+        Assert.True(below.IsAsleep);
+        const double Reach = 1.25;
+        const double Speed = 0.5;
+        const double Leaving = (2 + (Speed * Speed / (9.8 * Reach))) / 3;
+        var ball = world.Add(new(below.Position + new Vector(0, Reach, 0), 0.25) { Velocity = new(Speed, 0, 0) });
+        var (steps, cosine) = (0, 1.0);
+        for (; cosine > Leaving + 0.02 && steps < 2 / step; steps++)
+        {
+            world.Step();
+            var offset = ball.Position - below.Position;
+            cosine = offset.Y / offset.Length();
+            Near.Equal(Reach, offset.Length(), 2e-3);
+            Near.Equal((Speed * Speed) + (2 * 9.8 * Reach * (1 - cosine)), ball.Velocity.LengthSquared(), 0.01 + (4 * step));
+        }
+
+        Assert.InRange(cosine, 0.5, Leaving + 0.02);
+        // A little later it is in the air.
+        world.Run((int)(0.25 / step));
+        Assert.True((ball.Position - below.Position).Length() > 1.01 * Reach);
+    }
+
     private static void CheckSliding(Random random, PlacedModel placed, Vector start, double room, double speed)
     {
         var (radius, step) = (room * Math.Pow(10, random.Between(-2, -0.5)), random.Between(0.002, 0.05));
