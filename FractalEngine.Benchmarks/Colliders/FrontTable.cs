@@ -29,30 +29,38 @@ internal sealed class FrontTable(int queries, int rounds, CsvTable table)
     private const double TestsOfRound = 1_000_000;
     private const int FewestTimed = 4;
 
-    private static readonly TimeSpan WarmUp = TimeSpan.FromSeconds(1);
-
     private readonly QueryRecord _record = new();
 
+    /// <summary>Rounds are made for at least so long, so that the compiler has done its best in the last ones.</summary>
+    public TimeSpan WarmUp { get; init; } = TimeSpan.FromSeconds(1);
+
     /// <summary>Adds the rows of a shape.</summary>
-    /// <exception cref="InvalidDataException">A collider broke its promise: an exact one erred, or one with ε by more than it.</exception>
-    public void Add(FrontShape shape)
+    /// <exception cref="InvalidDataException">A collider broke its promise: an exact one erred, one with ε by more than it, or one found something nearer than every face.</exception>
+    public void Add(FrontShape shape) => Add(shape, FrontRow.All(shape));
+
+    /// <summary>Adds some rows of a shape.</summary>
+    /// <exception cref="InvalidDataException">As above.</exception>
+    public void Add(FrontShape shape, IReadOnlyList<FrontRow> rows)
     {
-        var rows = FrontRow.All(shape);
         Add(shape, rows, "uniform", shape.Uniform);
         Add(shape, rows, "near", shape.Near);
     }
 
-    private void Add(FrontShape shape, List<FrontRow> rows, string kind, Func<Random, Vector> make)
+    private void Add(FrontShape shape, IReadOnlyList<FrontRow> rows, string kind, Func<Random, Vector> make)
     {
         var random = new Random(1);
         var positions = Enumerable.Range(0, queries).Select(_ => make(random)).ToArray();
         var oracle = ColliderQuality.Oracle(shape.Faces, positions);
         var answers = rows.Select(row => Ask(row, positions, oracle)).ToArray();
+        foreach (var (row, answer) in rows.Zip(answers))
+        {
+            Check(shape, row, answer.Distances, oracle);
+        }
+
         var times = Times(rows, positions, [.. answers.Select(answer => TimedPositions(answer.FaceTests + answer.BoundTests))]);
         for (var i = 0; i < rows.Count; i++)
         {
             var (row, answer) = (rows[i], answers[i]);
-            Check(shape, row, answer.Distances, oracle);
             var errors = AnswerErrors.Of(answer.Distances, oracle, shape.Size);
             table.Add(
                 shape.Name, shape.Faces.FaceCount, kind, row.Name, row.Knob, row.Value, Math.Round(times[i], 1), answer.FaceTests, answer.BoundTests,
@@ -72,10 +80,11 @@ internal sealed class FrontTable(int queries, int rounds, CsvTable table)
 
     private static void Check(FrontShape shape, FrontRow row, double[] distances, double[] oracle)
     {
-        var most = row.Collider.IsExact ? 1 + row.Epsilon : double.PositiveInfinity;
+        var rounding = AnswerErrors.Rounding * shape.Size;
         for (var i = 0; i < oracle.Length; i++)
         {
-            if (!(distances[i] <= (most * oracle[i]) + (AnswerErrors.Rounding * shape.Size)) || distances[i] < oracle[i] - (AnswerErrors.Rounding * shape.Size))
+            var most = row.Collider.IsExact ? ((1 + row.Epsilon) * oracle[i]) + rounding : double.PositiveInfinity;
+            if (!(distances[i] >= oracle[i] - rounding && distances[i] <= most))
             {
                 throw new InvalidDataException(FormattableString.Invariant(
                     $"{shape.Name}, {row.Name} {row.Knob} {row.Value}, position {i}: found {distances[i]:R} where every face gives {oracle[i]:R}"));
@@ -86,7 +95,7 @@ internal sealed class FrontTable(int queries, int rounds, CsvTable table)
     private int TimedPositions(double tests) => Math.Clamp((int)(TestsOfRound / Math.Max(tests, 1)), Math.Min(FewestTimed, queries), queries);
 
     /// <summary>Nanoseconds a query.</summary>
-    private double[] Times(List<FrontRow> rows, Vector[] positions, int[] counts)
+    private double[] Times(IReadOnlyList<FrontRow> rows, Vector[] positions, int[] counts)
     {
         var best = new double[rows.Count];
         Array.Fill(best, double.PositiveInfinity);

@@ -37,9 +37,6 @@ internal static class FramesCommand
         return 0;
     }
 
-    private static bool IsCase(string text) => text.Split(':') switch
-    {
-        [var name, .., "afar" or "close" or "inside"] => FractalCase.Names.Contains(name),
-        _ => false,
-    };
+    private static bool IsCase(string text) => text.LastIndexOf(':') is > 0 and var colon && text[(colon + 1)..] is "afar" or "close" or "inside"
+        && FractalCase.IsCase(text[..colon]);
 }

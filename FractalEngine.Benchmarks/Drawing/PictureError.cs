@@ -6,8 +6,14 @@ namespace FractalEngine.Benchmarks.Drawing;
 internal static class PictureError
 {
     /// <summary>Peak signal-to-noise ratio in decibels: 20·log₁₀(255 / root of the mean square); infinite for equal pictures.</summary>
+    /// <exception cref="ArgumentException">They are not of one size.</exception>
     public static double Ratio(PixelImage image1, PixelImage image2)
     {
+        if ((image1.Width, image1.Height) != (image2.Width, image2.Height))
+        {
+            throw new ArgumentException($"expected {image1.Width} × {image1.Height} pixels, not {image2.Width} × {image2.Height}", nameof(image2));
+        }
+
         var sum = 0.0;
         for (var i = 0; i < image1.Pixels.Length; i++)
         {

@@ -19,7 +19,7 @@ internal static class SkipsCommand
             return 2;
         }
 
-        var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "skips.csv"), FormattableString.Invariant($"skips --rounds {rounds}"), SkipTable.Columns);
+        var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "skips.csv"), FormattableString.Invariant($"skips{string.Concat(files.Select(file => " " + file))} --rounds {rounds}"), SkipTable.Columns);
         Write(new(rounds, Console.Out, csv), files);
         csv?.Save();
         return 0;

@@ -32,7 +32,7 @@ internal static class WindowCommand
         }
 
         var file = files is [var given] ? given : Path.Combine(FractalCase.Assets, "scenes", "gallery.sdo");
-        var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "window.csv"), "window", "scene", "switched_off", "percent_of_a_core");
+        var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "window.csv"), string.Join(' ', ["window", .. files]), "scene", "switched_off", "percent_of_a_core");
         foreach (var (name, options) in ((string, string[])[])[("everything skipped", []), ("- still", ["--without", "still"])])
         {
             if (ShareOfCore([program, "view", file, .. options]) is not { } share)

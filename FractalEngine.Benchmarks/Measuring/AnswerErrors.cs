@@ -20,10 +20,17 @@ internal readonly record struct AnswerErrors(double Largest, double Mean, double
     /// <param name="size">Diagonal of the shape.</param>
     public static AnswerErrors Of(double[] distances, double[] oracle, double size)
     {
-        var errors = distances.Zip(oracle, (distance, right) => Math.Abs(distance - right)).ToArray();
+        var errors = distances.Zip(oracle, Error).ToArray();
         // Where the position is on the surface, what rounding leaves is no error.
         var relative = errors.Zip(oracle, (error, right) => error <= Rounding * size ? 0 : error / right).ToArray();
         var missed = distances.Zip(oracle).Count(pair => pair.Second <= Reach * size && !(pair.First <= Reach * size));
         return new(errors.Max() / size, errors.Average() / size, relative.Max(), relative.Average(), 100.0 * missed / oracle.Length);
     }
+
+    /// <summary>What is no number is as wrong as can be: <c>Max</c> leaves NaN out.</summary>
+    private static double Error(double distance, double right) => Math.Abs(distance - right) switch
+    {
+        double.NaN => distance == right ? 0 : double.PositiveInfinity,
+        var error => error,
+    };
 }

@@ -1,6 +1,7 @@
 using System.Globalization;
 using System.Runtime.InteropServices;
 using System.Text;
+using FractalEngine.Parsing.Assets;
 
 namespace FractalEngine.Benchmarks.Measuring;
 
@@ -28,13 +29,8 @@ internal sealed class CsvTable(string path, string command, params string[] colu
     }
 
     /// <summary>Writes the file.</summary>
-    public void Save()
-    {
-        Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(path))!);
-        var temporary = path + ".tmp";
-        File.WriteAllText(temporary, $"# {command}\n# {Machine}{(Driver is null ? "" : $", {Driver}")}\n{string.Join(',', columns)}\n{_rows}");
-        File.Move(temporary, path, overwrite: true);
-    }
+    public void Save() => AtomicFile.Write(path, stream => stream.Write(
+        Encoding.UTF8.GetBytes($"# {command}\n# {Machine}{(Driver is null ? "" : $", {Driver}")}\n{string.Join(',', columns.Select(Quoted))}\n{_rows}")));
 
     /// <summary>The machine, in words: no names.</summary>
     private static string Machine =>
@@ -44,9 +40,9 @@ internal sealed class CsvTable(string path, string command, params string[] colu
     {
         null => "",
         double number => number.ToString("R", CultureInfo.InvariantCulture),
-        IFormattable other => other.ToString(null, CultureInfo.InvariantCulture),
+        IFormattable other => Quoted(other.ToString(null, CultureInfo.InvariantCulture)),
         _ => Quoted(value.ToString()!),
     };
 
-    private static string Quoted(string text) => text.AsSpan().IndexOfAny(",\"\n") < 0 ? text : $"\"{text.Replace("\"", "\"\"", StringComparison.Ordinal)}\"";
+    private static string Quoted(string text) => text.AsSpan().IndexOfAny(",\"\r\n") < 0 ? text : $"\"{text.Replace("\"", "\"\"", StringComparison.Ordinal)}\"";
 }

@@ -25,13 +25,12 @@ internal static class PaperCommand
 
     public static int Run(ReadOnlySpan<string> args)
     {
-        if (args is not ([] or ["--output", _]))
+        var output = CommandWords.DefaultFolder;
+        if (!new CommandWords(Usage).Value("--output", value => output = value).TryRead(args))
         {
-            Console.Error.WriteLine(Usage);
             return 2;
         }
 
-        var output = args.Length > 0 ? args[1] : CommandWords.DefaultFolder;
         var folder = Directory.CreateTempSubdirectory("fractalengine");
         try
         {

@@ -20,7 +20,8 @@ internal static class ExactDistance
         public static Triple Cross(Triple v, Triple w) => new((v.Y * w.Z) - (v.Z * w.Y), (v.Z * w.X) - (v.X * w.Z), (v.X * w.Y) - (v.Y * w.X));
     }
 
-    /// <summary>From a triangle that has an area.</summary>
+    /// <summary>From a triangle.</summary>
+    /// <exception cref="DivideByZeroException">It has no area.</exception>
     public static Rational SquaredToFace(Vector position, Vector corner1, Vector corner2, Vector corner3)
     {
         var (p, a, b, c) = (Triple.Of(position), Triple.Of(corner1), Triple.Of(corner2), Triple.Of(corner3));

@@ -3,14 +3,11 @@ using System.Reflection;
 
 namespace FractalEngine.Tests.Support;
 
-/// <summary>The program as its users start it: another process, with arguments, streams and an exit code.</summary>
+/// <summary>The program as its users start it, or that of the benchmarks: another process, with arguments, streams and an exit code.</summary>
 internal static class AppProcess
 {
     // Long enough for a loaded machine; a hang is a failure.
     private static readonly TimeSpan Patience = TimeSpan.FromSeconds(60);
-
-    private static readonly string Program =
-        Path.ChangeExtension(Assembly.Load("FractalEngine.App").Location, ".dll");
 
     /// <summary>Runs the program to its end.</summary>
     /// <param name="folder">The working directory.</param>
@@ -18,9 +15,17 @@ internal static class AppProcess
     public static AppResult Run(string folder, params string[] arguments) => Run(folder, [], arguments);
 
     /// <summary>Runs the program to its end with some variables of the environment changed; null removes one.</summary>
-    public static AppResult Run(string folder, Dictionary<string, string?> environment, params string[] arguments)
+    public static AppResult Run(string folder, Dictionary<string, string?> environment, params string[] arguments) => End(Start(folder, environment, arguments), arguments);
+
+    /// <summary>Runs the program of the benchmarks to its end.</summary>
+    public static AppResult RunBenchmarks(string folder, params string[] arguments) => End(Start("FractalEngine.Benchmarks", folder, [], arguments), arguments);
+
+    /// <summary>Starts the program; whoever calls waits for its end.</summary>
+    public static Process Start(string folder, Dictionary<string, string?> environment, params string[] arguments) => Start("FractalEngine.App", folder, environment, arguments);
+
+    private static AppResult End(Process process, string[] arguments)
     {
-        using var process = Start(folder, environment, arguments);
+        using var ended = process;
         var output = process.StandardOutput.ReadToEndAsync();
         var error = process.StandardError.ReadToEndAsync();
         if (!process.WaitForExit(Patience))
@@ -32,10 +37,9 @@ internal static class AppProcess
         return new(process.ExitCode, output.GetAwaiter().GetResult(), error.GetAwaiter().GetResult());
     }
 
-    /// <summary>Starts the program; whoever calls waits for its end.</summary>
-    public static Process Start(string folder, Dictionary<string, string?> environment, params string[] arguments)
+    private static Process Start(string assembly, string folder, Dictionary<string, string?> environment, string[] arguments)
     {
-        var start = new ProcessStartInfo("dotnet", ["exec", Program, .. arguments])
+        var start = new ProcessStartInfo("dotnet", ["exec", Path.ChangeExtension(Assembly.Load(assembly).Location, ".dll"), .. arguments])
         {
             WorkingDirectory = folder,
             RedirectStandardOutput = true,

@@ -1,0 +1,97 @@
+using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Benchmarks;
+
+/// <summary>The program of the benchmarks, run as a process: wrong words end it before anything is measured or written.</summary>
+public sealed class BenchmarkCommandTests : IDisposable
+{
+    private readonly TemporaryFolder _folder = new();
+
+    private static readonly string[] Names = ["front", "table", "growth", "loading", "frames", "skips", "window", "physics", "precision", "paper"];
+
+    public static TheoryData<string> Commands => [.. Names];
+
+    private static IEnumerable<string> Classes =>
+        typeof(CommandWords).Assembly.GetTypes().Select(type => type.Name).Where(name => name.EndsWith("Benchmarks", StringComparison.Ordinal)).Order(StringComparer.Ordinal);
+
+    public void Dispose() => _folder.Dispose();
+
+    [Theory]
+    [MemberData(nameof(Commands))]
+    public void Run_OfACommandWithAnUnknownWord_IsWrongUsage(string command) => AssertRefused(command, "nonsense", "nonsense");
+
+    [Theory]
+    [InlineData("front --quick --nonsense", "--nonsense")]
+    [InlineData("front tree: --quick", "tree:")]
+    [InlineData("front tree:0", "tree:0")]
+    [InlineData("front tree:2:2", "tree:2:2")]
+    [InlineData("front Tree", "Tree")]
+    [InlineData("front --output", "--output")]
+    [InlineData("table --queries", "--queries")]
+    [InlineData("table --queries 0", "--queries")]
+    [InlineData("table --queries -5", "--queries")]
+    [InlineData("table --rounds 1.5", "--rounds")]
+    [InlineData("table --rounds 99999999999", "--rounds")]
+    [InlineData("table tree-stump", "tree-stump")]
+    [InlineData("growth growth-nothing", "growth-nothing")]
+    [InlineData("loading --quick --rounds", "--rounds")]
+    [InlineData("frames menger", "menger")]
+    [InlineData("frames menger:3", "menger:3")]
+    [InlineData("frames menger:x:afar", "menger:x:afar")]
+    [InlineData("frames menger:1:2:afar", "menger:1:2:afar")]
+    [InlineData("frames :afar", ":afar")]
+    [InlineData("frames --samples -1", "--samples")]
+    [InlineData("physics --collider best", "--collider")]
+    [InlineData("physics --balls none", "--balls")]
+    [InlineData("skips nothing.sdo", "nothing.sdo")]
+    [InlineData("window nothing.sdo", "nothing.sdo")]
+    [InlineData("paper --quick", "--quick")]
+    public void Run_OfWordsThatMakeNoSense_NamesTheFirst(string words, string wrong)
+    {
+        var line = words.Split(' ');
+        AssertRefused(line[0], wrong, line[1..]);
+    }
+
+    [Fact]
+    public void Run_OfAnUnknownCommand_NamesAllThereAre() => Assert.Equal(
+        new AppResult(2, "", $"error: unknown command 'Front': expected one of {string.Join(' ', Names)}, or an option of BenchmarkDotNet{Environment.NewLine}"),
+        AppProcess.RunBenchmarks(_folder.Path, "Front", "--output", "out"));
+
+    [Fact]
+    public void Run_OfAnOptionOfBenchmarkDotNet_IsItsWork()
+    {
+        var (exitCode, output, error) = AppProcess.RunBenchmarks(_folder.Path, "--list", "flat", "--output", "out");
+        Assert.Equal((0, ""), (exitCode, error));
+        Assert.Equal(Classes, output.Split('\n', StringSplitOptions.RemoveEmptyEntries).Select(line => line.Split('.')[^2]).Distinct().Order(StringComparer.Ordinal));
+    }
+
+    [Fact]
+    public void ReadMe_HasARowForEveryClassAndCommand()
+    {
+        var rows = File.ReadAllLines(Repository.Full("FractalEngine.Benchmarks/README.md")).Where(line => line.StartsWith("| `", StringComparison.Ordinal)).Select(line => line.Split('`')[1]);
+        Assert.Equal(Classes.Select(name => name + ".cs").Concat(Names).Order(StringComparer.Ordinal), rows.Order(StringComparer.Ordinal));
+    }
+
+    [Fact]
+    public void Run_OfAFractalWithoutEnd_SaysThatThereAreTooManyInstances()
+    {
+        var (exitCode, _, error) = AppProcess.RunBenchmarks(_folder.Path, "front", "infinite-menger", "--output", "out");
+        Assert.Equal(1, exitCode);
+        Assert.Matches(@"^error: the fractal has infinitely many instances, [^\n]+\n$", error);
+        Assert.Empty(Directory.GetFileSystemEntries(_folder.Path));
+    }
+
+    private void AssertRefused(string command, string wrong, params string[] words)
+    {
+        string[] line = command is "table" ? [command, .. words] : [command, "--output", "out", .. words];
+        var (exitCode, output, error) = AppProcess.RunBenchmarks(_folder.Path, line);
+        Assert.Equal((2, ""), (exitCode, output));
+        var lines = error.ReplaceLineEndings("\n").Split('\n');
+        Assert.Equal($"error: unexpected '{wrong}'", lines[0]);
+        // How it is called comes next, and no second error.
+        Assert.StartsWith($"{command} [", lines[1], StringComparison.Ordinal);
+        Assert.DoesNotContain("error:", string.Concat(lines[1..]), StringComparison.Ordinal);
+        Assert.Empty(Directory.GetFileSystemEntries(_folder.Path));
+    }
+}

@@ -1,0 +1,34 @@
+using FractalEngine.Benchmarks.Precision;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Benchmarks;
+
+public class FloatAndDoubleTests
+{
+    // The kernel that is measured in both precisions must be the engine's, or its errors say nothing of the engine.
+    [Fact]
+    public void DistanceSquared_InDoubles_IsTheEnginesToTheBit() => Seeded.Run(3000, random =>
+    {
+        var (position, a, b, c) = NastyFace.Random(random);
+        Assert.Equal(
+            BitConverter.DoubleToInt64Bits(FaceKernel.ClosestPoint(position, a, b, c).DistanceSquared),
+            BitConverter.DoubleToInt64Bits(GenericFaceKernel<double>.DistanceSquared(Triple(position), Triple(a), Triple(b), Triple(c))));
+    });
+
+    [Fact]
+    public void WorstError_FarAway_IsThatOfTheCoordinatesRounding()
+    {
+        var set = FloatAndDouble.Sets[1];
+        var (single, precise, engine) = (FloatAndDouble.Faces<float>(set), FloatAndDouble.Faces<double>(set), FloatAndDouble.Engine(set));
+        // Coordinates are up to 1001, of which each rounding takes 2⁻²⁴ or 2⁻⁵³.
+        Assert.InRange(single.WorstError, 1e-6, 1e-3);
+        Assert.InRange(precise.WorstError, 1e-15, 1e-12);
+        Assert.Equal((precise.WorstError, precise.Above), (engine.WorstError, engine.Above));
+        Assert.InRange(single.Above, 1, 99);
+    }
+
+    private static GenericFaceKernel<double>.Triple Triple(Vector v) => new(v.X, v.Y, v.Z);
+}

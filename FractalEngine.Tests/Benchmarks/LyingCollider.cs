@@ -1,0 +1,23 @@
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Tests.Benchmarks;
+
+/// <summary>A collider that promises what another one keeps, and says what it likes.</summary>
+/// <param name="truth">Whom it asks.</param>
+/// <param name="isExact">What it promises.</param>
+/// <param name="lie">What it makes of the distance; null for nothing found.</param>
+internal sealed class LyingCollider(Collider truth, bool isExact, Func<double, double?> lie) : Collider
+{
+    public override bool IsExact => isExact;
+
+    public override long StorageBytes => truth.StorageBytes;
+
+    private protected override bool Find(Vector position, double within, double epsilon, QueryRecord record, out ClosestPoint closest)
+    {
+        var found = truth.TryFindClosest(position, within, record, out closest);
+        var distance = lie(closest.Distance);
+        closest = closest with { Distance = distance ?? 0 };
+        return found && distance is not null;
+    }
+}
