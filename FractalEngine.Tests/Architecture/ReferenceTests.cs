@@ -2,14 +2,13 @@ using System.Reflection;
 using System.Xml.Linq;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Architecture;
 
 /// <summary>App ──► Render ──► Core ◄── Parsing ◄── App: who may know whom.</summary>
 public class ReferenceTests
 {
-    private static readonly string Root = Above(AppContext.BaseDirectory).First(folder => File.Exists(Path.Combine(folder, "FractalEngine.sln")));
-
     [Fact]
     public void Core_RefersToTheFrameworkOnly()
     {
@@ -57,7 +56,7 @@ public class ReferenceTests
 
     private static IEnumerable<string> Names(Assembly assembly) => assembly.GetReferencedAssemblies().Select(name => name.Name!);
 
-    private static XDocument Project(string name) => XDocument.Load(Path.Combine(Root, $"FractalEngine.{name}", $"FractalEngine.{name}.csproj"));
+    private static XDocument Project(string name) => XDocument.Load(Repository.Full($"FractalEngine.{name}/FractalEngine.{name}.csproj"));
 
     private static string[] Packages(string name) => [.. Includes(name, "PackageReference")];
 
@@ -66,12 +65,4 @@ public class ReferenceTests
 
     private static IEnumerable<string> Includes(string name, string element) =>
         Project(name).Descendants(element).Select(reference => (string?)reference.Attribute("Include")).OfType<string>();
-
-    private static IEnumerable<string> Above(string folder)
-    {
-        for (DirectoryInfo? above = new(folder); above is not null; above = above.Parent)
-        {
-            yield return above.FullName;
-        }
-    }
 }
