@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures, and draws what was measured: docs/benchmarks/*.csv and *.svg. `./bench.sh quick` takes smaller shapes, and a few
+# Measures, and draws what was measured: docs/benchmarks/*.csv and *.svg. `./bench.sh quick` takes smaller shapes, and some
 # minutes. Names of commands after that measure those only; all pictures are drawn.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/eng/setup.sh"
@@ -11,7 +11,8 @@ measure_stability() {
     [ "$skipped" = 0 ] || fail "tests of stability were skipped, since there is no display: nothing is written"
     [ "$failed" = 0 ] && [ "$passed" != 0 ] || fail "tests of stability failed: nothing is written"
     # Files in one order everywhere. Machine and header are the same in all.
-    local LC_ALL=C file="docs/benchmarks/$table.csv"
+    local - LC_ALL=C file="docs/benchmarks/$table.csv"
+    set +f
     local files=("$fragments"/*.csv)
     if ! { echo "# $command" && sed -n 2,3p "${files[0]}" && tail -qn +4 "${files[@]}"; } >"$file.tmp"; then
         rm -f "$file.tmp"
@@ -20,20 +21,39 @@ measure_stability() {
     mv "$file.tmp" "$file"
 }
 
-options=()
+quick=
 if [ "${1:-}" = quick ]; then
-    options=(--quick)
+    quick=yes
     shift
 fi
 
-commands=(front growth paper stability)
+commands=(front growth loading precision frames skips physics window paper stability classes)
 [ $# = 0 ] || commands=("$@")
+
+classes='*'
+[ -z "$quick" ] || classes='*.MeshColliderBenchmarks.* *.LoadingBenchmarks.* *.PrecisionBenchmarks.* --job short --inProcess --iterationTime 100'
+
+# Prints the words that a command is called with.
+words() {
+    case "$1" in
+        front | growth | loading | precision) echo "$1 ${quick:+--quick}" ;;
+        frames) echo "frames ${quick:+menger:5:afar menger:5:inside --rounds 1 --no-truth}" ;;
+        skips | physics) echo "$1 ${quick:+--rounds 1}" ;;
+        # The paper's models have one size, and a window one cost.
+        window | paper) echo "$1" ;;
+        # Of BenchmarkDotNet: all, or three with few iterations.
+        classes) echo "--artifacts out/benchmarkdotnet --filter $classes" ;;
+        *) fail "unknown command '$1'" 2 ;;
+    esac
+}
 
 install_packages plots
 for command in "${commands[@]}"; do
     if [ "$command" = stability ]; then
         build FractalEngine.Tests
     else
+        # The window that is measured is the program's own.
+        build FractalEngine.App
         build FractalEngine.Benchmarks
     fi
 done
@@ -54,21 +74,22 @@ export FRACTALENGINE_COMMIT
 # What the compiler learns from the first shapes would make the order of rows count.
 export DOTNET_TieredPGO=0
 
+set -f # Stars are for BenchmarkDotNet.
 for command in "${commands[@]}"; do
     if [ "$command" = stability ]; then
-        measure_stability stability 'Category!=Soak' "stability${options[*]:+ ${options[*]}}"
+        measure_stability stability 'Category!=Soak' "stability${quick:+ --quick}"
         # The long counts have a table of their own, which the quick ones leave as it is.
-        if [ "${#options[@]}" = 0 ]; then
+        if [ -z "$quick" ]; then
             measure_stability stability-soak 'Category=Soak' stability
         fi
         continue
     fi
 
-    # The paper's models have one size.
-    sized=("${options[@]}")
-    [ "$command" != paper ] || sized=()
-    "${benchmarks[@]}" "$command" "${sized[@]}" --output docs/benchmarks </dev/null || fail "the command '$command' failed"
+    words="$(words "$command")" || exit 2
+    read -ra line <<<"$words"
+    "${benchmarks[@]}" "${line[@]}" --output docs/benchmarks </dev/null || fail "the command '$command' failed"
 done
+set +f
 
 for plot in eng/plots/*.gp; do
     gnuplot "$plot" || fail "gnuplot can't draw $plot"

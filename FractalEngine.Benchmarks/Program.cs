@@ -1,51 +1,62 @@
 using BenchmarkDotNet.Running;
-using FractalEngine.Benchmarks;
+using FractalEngine.Benchmarks.Colliders;
+using FractalEngine.Benchmarks.Drawing;
+using FractalEngine.Benchmarks.Growth;
+using FractalEngine.Benchmarks.Loading;
+using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Benchmarks.Paper;
+using FractalEngine.Benchmarks.Physics;
+using FractalEngine.Benchmarks.Precision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Render.Windowing;
 
-if (args is ["table", ..])
+// Measurements that BenchmarkDotNet can't make, since their rows have to take turns, or since they draw; everything else is a class of it.
+var commands = new Dictionary<string, Func<string[], int>>
 {
-    return TableCommand.Run(args.AsSpan(1));
+    ["front"] = words => FrontCommand.Run(words),
+    ["table"] = words => TableCommand.Run(words),
+    ["growth"] = words => GrowthCommand.Run(words),
+    ["loading"] = words => LoadingCommand.Run(words),
+    ["frames"] = words => FramesCommand.Run(words),
+    ["skips"] = words => SkipsCommand.Run(words),
+    ["window"] = words => WindowCommand.Run(words),
+    ["physics"] = words => PhysicsCommand.Run(words),
+    ["precision"] = words => PrecisionCommand.Run(words),
+    ["paper"] = words => PaperCommand.Run(words),
+};
+
+if (args is not [[not '-', ..] name, .. var rest])
+{
+    var at = Array.IndexOf(args, "--output");
+    var output = at >= 0 && at + 1 < args.Length ? args[at + 1] : null;
+    string[] others = output is null ? args : [.. args[..at], .. args[(at + 2)..]];
+    var summaries = BenchmarkSwitcher.FromAssembly(typeof(CommandWords).Assembly).Run(others, ReportedConfig.Create(output));
+    return summaries.Any(summary => summary.HasCriticalValidationErrors || summary.Reports.Any(report => !report.Success)) ? 1 : 0;
 }
 
-if (args is ["frames", ..])
+if (!commands.TryGetValue(name, out var run))
 {
-    return FramesCommand.Run(args.AsSpan(1));
-}
-
-if (args is ["skips", ..])
-{
-    return SkipsCommand.Run(args.AsSpan(1));
-}
-
-if (args is ["window", ..])
-{
-    return WindowCommand.Run(args.AsSpan(1));
-}
-
-if (args is ["physics", ..])
-{
-    return PhysicsCommand.Run(args.AsSpan(1));
-}
-
-if (args is ["growth", ..])
-{
-    return GrowthCommand.Run(args.AsSpan(1));
-}
-
-if (args is ["paper", ..])
-{
-    return PaperCommand.Run(args.AsSpan(1));
-}
-
-if (args is ["front", ..])
-{
-    return FrontCommand.Run(args.AsSpan(1));
-}
-
-if (args is [[not '-', ..] word, ..])
-{
-    Console.Error.WriteLine($"error: unknown command '{word}'");
+    Console.Error.WriteLine($"error: unknown command '{name}': expected one of {string.Join(' ', commands.Keys)}, or an option of BenchmarkDotNet");
     return 2;
 }
 
-BenchmarkSwitcher.FromAssembly(typeof(Program).Assembly).Run(args);
-return 0;
+try
+{
+    return run(rest);
+}
+catch (GraphicsUnavailableException exception)
+{
+    Console.Error.WriteLine($"error: {exception.Message}");
+    return 3;
+}
+catch (SourceException exception)
+{
+    Console.Error.WriteLine(exception.Diagnostic);
+    return 1;
+}
+catch (Exception exception) when (exception is FractalLimitException or InvalidDataException or IOException or UnauthorizedAccessException)
+{
+    Console.Error.WriteLine($"error: {exception.Message}");
+    return 1;
+}

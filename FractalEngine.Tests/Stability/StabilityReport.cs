@@ -1,6 +1,6 @@
 using System.Globalization;
 using System.Runtime.CompilerServices;
-using FractalEngine.Benchmarks;
+using FractalEngine.Benchmarks.Measuring;
 using Xunit.Abstractions;
 using Xunit.Sdk;
 

@@ -1,0 +1,129 @@
+using System.Diagnostics;
+using System.Globalization;
+using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Benchmarks.Colliders;
+
+/// <summary>
+/// What do the colliders of fractals cost, and how wrong are they? One row for each fractal, collider and kind of position: face and bound tests
+/// and time a query, the largest error, and the collisions that were missed.
+/// </summary>
+/// <remarks>
+/// Times are the smallest of some rounds, in which the colliders take turns, on one thread; the ratio is to the paper's descent on
+/// the same positions. The reference for errors is a hierarchy over the faces of the expanded fractal where they are not too many, else the exact collider.
+/// </remarks>
+internal sealed class ColliderTable(int queries, int rounds, TextWriter output)
+{
+    // What counts as touching, as a part of the fractal's size; errors above the second number count as wrong.
+    private const double Reach = 0.02;
+    private const double Wrong = 1e-6;
+    private const int MostExpandedFaces = 1_000_000;
+
+    private static readonly TimeSpan FirstWarmUp = TimeSpan.FromSeconds(3);
+
+    private readonly QueryRecord _record = new();
+    private readonly Stopwatch _sinceStart = Stopwatch.StartNew();
+
+    /// <summary>Writes the head and a few rows for each fractal.</summary>
+    public void Write(IEnumerable<FractalCase> cases)
+    {
+        output.WriteLine(
+            $"{"fractal",-26}{"positions",-10}{"collider",-11}{"faces",9}{"bounds",9}{"us",9}{"ratio",8}{"largest error",15}{"wrong %",9}{"missed %",10}");
+        foreach (var (name, fractal) in cases)
+        {
+            var build = Stopwatch.StartNew();
+            var exact = new ExactFractalCollider(fractal);
+            build.Stop();
+            List<(string Name, Collider Collider)> colliders = [("fractal", new FractalCollider(fractal)), ("exact", exact)];
+            if (fractal.FaceCount <= MostExpandedFaces)
+            {
+                colliders.Insert(0, ("hierarchy", new HierarchyCollider(FractalGenerator.Flatten(fractal, MostExpandedFaces))));
+            }
+
+            foreach (var (kind, make) in Kinds)
+            {
+                var random = new Random(1);
+                var positions = Enumerable.Range(0, queries).Select(_ => make(random, fractal)).ToArray();
+                Write(name, kind, fractal, colliders, positions, kind == "far" ? Reach * fractal.Bounds.Diagonal : double.PositiveInfinity);
+            }
+
+            output.WriteLine(Line($"{name,-26}{"build",-10}{"exact",-11}{build.Elapsed.TotalMilliseconds,27:F2} ms, {exact.StorageBytes / 1024.0:F1} KB"));
+        }
+    }
+
+    private static (string Name, Func<Random, Fractal, Vector> Make)[] Kinds { get; } =
+    [
+        ("uniform", static (random, fractal) => QueryPositions.Uniform(random, fractal.Bounds)),
+        ("near", QueryPositions.Near),
+        ("far", static (random, fractal) => QueryPositions.Far(random, fractal.Bounds)),
+    ];
+
+    private void Write(
+        string name, string kind, Fractal fractal, List<(string Name, Collider Collider)> colliders, Vector[] positions, double within)
+    {
+        var size = fractal.Bounds.Diagonal;
+        var distances = colliders.Select(entry => Distances(entry.Collider, positions, within)).ToArray();
+        var costs = colliders.Select(entry => Cost(entry.Collider, positions, within)).ToArray();
+        WarmUp(colliders, positions, within);
+        var times = Times(colliders, positions, within);
+        // The first is the hierarchy, if there is one, else the last is.
+        var reference = distances[colliders.Count > 2 ? 0 : 1];
+        var greedy = colliders.FindIndex(entry => entry.Name == "fractal");
+        for (var i = 0; i < colliders.Count; i++)
+        {
+            var errors = distances[i].Zip(reference, (distance, right) => distance == right ? 0 : Math.Abs(distance - right) / size).ToArray();
+            var missed = distances[i].Zip(reference).Count(pair => pair.Second <= Reach * size && !(pair.First <= Reach * size));
+            output.WriteLine(Line(
+                $"{name,-26}{kind,-10}{colliders[i].Name,-11}{costs[i].Faces,9:F1}{costs[i].Bounds,9:F1}{times[i],9:F3}{times[i] / times[greedy],8:F3}{errors.Max(),15:E1}{Percent(errors.Count(error => error > Wrong)),9:F1}{Percent(missed),10:F1}"));
+        }
+    }
+
+    private double Percent(int count) => 100.0 * count / queries;
+
+    private static string Line(FormattableString text) => text.ToString(CultureInfo.InvariantCulture);
+
+    private double[] Distances(Collider collider, Vector[] positions, double within) =>
+        [.. positions.Select(position => collider.TryFindClosest(position, within, _record, out var closest) ? closest.Distance : double.PositiveInfinity)];
+
+    private (double Faces, double Bounds) Cost(Collider collider, Vector[] positions, double within)
+    {
+        _record.Reset();
+        Distances(collider, positions, within);
+        return ((double)_record.FaceTests / queries, (double)_record.BoundTests / queries);
+    }
+
+    /// <summary>The compiler needs some thousand calls, and then some time, to do its best: most of it with the first fractal.</summary>
+    private void WarmUp(List<(string Name, Collider Collider)> colliders, Vector[] positions, double within)
+    {
+        do
+        {
+            Times(colliders, positions, within);
+        }
+        while (_sinceStart.Elapsed < FirstWarmUp);
+    }
+
+    /// <summary>Microseconds a query.</summary>
+    private double[] Times(List<(string Name, Collider Collider)> colliders, Vector[] positions, double within)
+    {
+        var best = new double[colliders.Count];
+        Array.Fill(best, double.PositiveInfinity);
+        for (var round = 0; round < rounds; round++)
+        {
+            for (var i = 0; i < best.Length; i++)
+            {
+                var watch = Stopwatch.StartNew();
+                foreach (var position in positions)
+                {
+                    colliders[i].Collider.TryFindClosest(position, within, _record, out _);
+                }
+
+                best[i] = Math.Min(best[i], watch.Elapsed.TotalMicroseconds / queries);
+            }
+        }
+
+        return best;
+    }
+}

@@ -1,0 +1,76 @@
+using BenchmarkDotNet.Attributes;
+using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Benchmarks.Colliders;
+
+/// <summary>
+/// What does an exact answer cost beside the paper's descent, and does a query allocate? One operation is one query. Errors are told where
+/// the fractal is small enough to look at every face.
+/// </summary>
+[MemoryDiagnoser]
+public class FractalColliderBenchmarks : IMeasuresMore
+{
+    private const int Queries = 4096;
+    private const int ComparedQueries = 512;
+
+    private readonly QueryRecord _record = new();
+    private Fractal _fractal = null!;
+    private Vector[] _near = null!;
+    private Vector[] _far = null!;
+    private double _reach;
+    private FractalCollider _descent = null!;
+    private ExactFractalCollider _exact = null!;
+
+    [Params("sierpinski:5", "sierpinski:8", "tetrahedron:20", "menger:4", "menger:12", "tree:6", "tree:8", "tree:20", "appendix-b:3", "appendix-b:5", "terrain:7", "terrain:8")]
+    public string Shape { get; set; } = "";
+
+    [GlobalSetup]
+    public void SetUp()
+    {
+        var fractal = FractalCase.Parse(Shape).Fractal;
+        _fractal = fractal;
+        var random = new Random(1);
+        _near = [.. Enumerable.Range(0, Queries).Select(_ => QueryPositions.Near(random, fractal))];
+        _far = [.. Enumerable.Range(0, Queries).Select(_ => QueryPositions.Far(random, fractal.Bounds))];
+        (_descent, _exact, _reach) = (new(fractal), new(fractal), AnswerErrors.Reach * fractal.Bounds.Diagonal);
+    }
+
+    /// <summary>The baseline: approximate, see <see cref="FractalCollider"/>.</summary>
+    [Benchmark(Baseline = true, OperationsPerInvoke = Queries)]
+    public double DescentNear() => Sum(_descent, _near, double.PositiveInfinity);
+
+    [Benchmark(OperationsPerInvoke = Queries)]
+    public double ExactNear() => Sum(_exact, _near, double.PositiveInfinity);
+
+    /// <summary>What most bodies of a scene ask most of the time: is anything within 2 % of the size, where there is nothing?</summary>
+    [Benchmark(OperationsPerInvoke = Queries)]
+    public double ExactFarWithinReach() => Sum(_exact, _far, _reach);
+
+    /// <inheritdoc/>
+    IEnumerable<MoreValue> IMeasuresMore.Measure(string method)
+    {
+        var isFar = method == nameof(ExactFarWithinReach);
+        var positions = (isFar ? _far : _near)[..ComparedQueries];
+        var isSmall = !isFar && _fractal.FaceCount <= FrontShape.MostFaces;
+        return ColliderQuality.Measure(
+            method == nameof(DescentNear) ? () => new FractalCollider(_fractal) : () => new ExactFractalCollider(_fractal),
+            positions,
+            isFar ? _reach : double.PositiveInfinity,
+            isSmall ? ColliderQuality.Oracle(FractalGenerator.Flatten(_fractal, FrontShape.MostFaces), positions) : null,
+            _fractal.Bounds.Diagonal);
+    }
+
+    private double Sum(Collider collider, Vector[] positions, double within)
+    {
+        var sum = 0.0;
+        foreach (var position in positions)
+        {
+            sum += collider.TryFindClosest(position, within, _record, out var closest) ? closest.Distance : 0;
+        }
+
+        return sum;
+    }
+}

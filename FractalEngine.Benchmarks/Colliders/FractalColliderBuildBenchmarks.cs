@@ -1,0 +1,32 @@
+using BenchmarkDotNet.Attributes;
+using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+
+namespace FractalEngine.Benchmarks.Colliders;
+
+/// <summary>How long does it take to build the exact collider of a fractal, and how large is it?</summary>
+public class FractalColliderBuildBenchmarks : IMeasuresMore
+{
+    private Fractal _fractal = null!;
+
+    [ParamsSource(nameof(Names))]
+    public string Shape { get; set; } = "";
+
+    /// <summary>All fractals of the assets.</summary>
+    public static IEnumerable<string> Names => FractalCase.Names;
+
+    [GlobalSetup]
+    public void SetUp() => _fractal = FractalCase.Load(Shape).Fractal;
+
+    /// <summary>The baseline: a box around the fractal, which anything that shows it needs.</summary>
+    [Benchmark(Baseline = true)]
+    public BoundingBox Bounds() => new Fractal(_fractal.Description, _fractal.BaseMesh).Bounds;
+
+    [Benchmark]
+    public Collider Exact() => new ExactFractalCollider(_fractal);
+
+    /// <inheritdoc/>
+    IEnumerable<MoreValue> IMeasuresMore.Measure(string method) => [new("bytes", method == nameof(Exact) ? Exact().StorageBytes : null)];
+}

@@ -1,0 +1,34 @@
+using FractalEngine.Benchmarks.Measuring;
+
+namespace FractalEngine.Benchmarks.Colliders;
+
+/// <summary>The words after <c>front</c>: shapes and options.</summary>
+internal static class FrontCommand
+{
+    private const string Usage = """
+        front [NAME[:NUMBER] ...] [--quick] [--output FOLDER]
+          Which collider for which error? Writes front.csv, into docs/benchmarks unless stated. A number is a fractal's depth or a mesh's faces.
+          --quick: smaller shapes and fewer positions.
+        """;
+
+    public static int Run(ReadOnlySpan<string> args)
+    {
+        var (isQuick, folder, names) = (false, CommandWords.DefaultFolder, new List<string>());
+        if (!new CommandWords(Usage).Flag("--quick", () => isQuick = true).Value("--output", value => folder = value).Names(FrontShape.IsName, names).TryRead(args))
+        {
+            return 2;
+        }
+
+        var command = string.Join(' ', (string[])["front", .. names, .. isQuick ? ["--quick"] : Array.Empty<string>()]);
+        var csv = new CsvTable(Path.Combine(folder, "front.csv"), command, FrontTable.Columns);
+        var table = isQuick ? new FrontTable(400, 10, csv) : new FrontTable(1000, 20, csv);
+        foreach (var name in names.Count > 0 ? [.. names] : isQuick ? FrontShape.Quick : FrontShape.Default)
+        {
+            Console.WriteLine($"front: {name}");
+            table.Add(FrontShape.Create(name));
+        }
+
+        csv.Save();
+        return 0;
+    }
+}

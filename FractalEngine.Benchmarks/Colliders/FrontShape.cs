@@ -1,0 +1,65 @@
+using System.Diagnostics;
+using System.Globalization;
+using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Generation;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Benchmarks.Colliders;
+
+/// <summary>A shape that colliders of meshes and of fractals can be compared on: its faces fit into memory.</summary>
+/// <param name="Name">Short, for tables and files.</param>
+/// <param name="Fractal">Null for a mesh.</param>
+/// <param name="Faces">All of them; of a fractal, expanded.</param>
+/// <param name="ExpansionMilliseconds">What it took to expand them; 0 for a mesh.</param>
+internal sealed record FrontShape(string Name, Fractal? Fractal, Mesh Faces, double ExpansionMilliseconds)
+{
+    /// <summary>Shapes with more faces have no oracle, and are refused.</summary>
+    public const int MostFaces = 3_000_000;
+
+    private static readonly string[] Meshes = ["spaceship-interior", "tree-stump"];
+
+    /// <summary>The shapes unless others are named; a number is the depth of a fractal, or the faces of a mesh.</summary>
+    public static string[] Default { get; } =
+        ["appendix-b:3", "menger:4", "terrain:8", "tree:7", "sierpinski:5", "tetrahedron:8", "fern:3", "romanesco:3", "spaceship-interior:200000", "tree-stump:200000"];
+
+    /// <summary>The same with fewer faces: at most some 300,000.</summary>
+    public static string[] Quick { get; } =
+        ["appendix-b:3", "menger:3", "terrain:7", "tree:6", "sierpinski:5", "tetrahedron:8", "fern:2", "romanesco:2", "spaceship-interior:50000", "tree-stump:50000"];
+
+    /// <summary>The diagonal of the box: what errors are parts of.</summary>
+    public double Size => Faces.Bounds.Diagonal;
+
+    /// <summary>True for the name of a shape, with a number after a colon or without.</summary>
+    public static bool IsName(string text) => text.Split(':') switch
+    {
+        [var name] => IsKnown(name),
+        [var name, var number] => IsKnown(name) && int.TryParse(number, NumberStyles.None, CultureInfo.InvariantCulture, out var count) && count > 0,
+        _ => false,
+    };
+
+    /// <summary>Makes the shape of a name.</summary>
+    /// <exception cref="FractalLimitException">It has more than <see cref="MostFaces"/>, or no end.</exception>
+    public static FrontShape Create(string text)
+    {
+        var name = text.Split(':')[0];
+        if (Meshes.Contains(name))
+        {
+            return new(name, null, MeshGenerators.Create(name, 1, text == name ? null : int.Parse(text[(name.Length + 1)..], NumberStyles.None, CultureInfo.InvariantCulture)), 0);
+        }
+
+        var fractal = FractalCase.Parse(text).Fractal;
+        var watch = Stopwatch.StartNew();
+        var faces = FractalGenerator.Flatten(fractal, MostFaces);
+        return new(name, fractal, faces, watch.Elapsed.TotalMilliseconds);
+    }
+
+    /// <summary>Anywhere in its box.</summary>
+    public Vector Uniform(Random random) => QueryPositions.Uniform(random, Faces.Bounds);
+
+    /// <summary>Near a random face.</summary>
+    public Vector Near(Random random) => Fractal is null ? QueryPositions.Near(random, Faces) : QueryPositions.Near(random, Fractal);
+
+    private static bool IsKnown(string name) => Meshes.Contains(name) || FractalCase.Names.Contains(name);
+}

@@ -1,0 +1,87 @@
+using BenchmarkDotNet.Attributes;
+using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Generation;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Benchmarks.Colliders;
+
+/// <summary>
+/// How much faster than looking at every face are the colliders of meshes? One operation is one query, for positions spread over the
+/// box or near the surface (within 1 % of the diagonal).
+/// </summary>
+[MemoryDiagnoser]
+public class MeshColliderBenchmarks : IMeasuresMore
+{
+    // The simple collider is asked for fewer, since it takes a millisecond each.
+    private const int Queries = 8192;
+    private const int SimpleQueries = 32;
+    private const int ComparedQueries = 1024;
+
+    private readonly QueryRecord _record = new();
+    private Mesh _mesh = null!;
+    private Vector[] _positions = null!;
+    private SimpleCollider _simple = null!;
+    private BoundingBoxCollider _boxes = null!;
+    private HierarchyCollider _hierarchy = null!;
+
+    public enum Place
+    {
+        Uniform,
+        Near,
+    }
+
+    [Params("terrain", "tree-stump")]
+    public string Mesh { get; set; } = "";
+
+    [Params(Place.Uniform, Place.Near)]
+    public Place Positions { get; set; }
+
+    [GlobalSetup]
+    public void SetUp()
+    {
+        var mesh = MeshGenerators.Create(Mesh, 1, 50_000);
+        _mesh = mesh;
+        var random = new Random(1);
+        _positions = [.. Enumerable.Range(0, Queries).Select(_ => Positions == Place.Uniform ? QueryPositions.Uniform(random, mesh.Bounds) : QueryPositions.Near(random, mesh))];
+        (_simple, _boxes, _hierarchy) = (new(mesh), new(mesh), new(mesh));
+    }
+
+    [Benchmark(Baseline = true, OperationsPerInvoke = SimpleQueries)]
+    public double Simple() => Sum(_simple, SimpleQueries);
+
+    [Benchmark(OperationsPerInvoke = Queries)]
+    public double BoundingBox() => Sum(_boxes, Queries);
+
+    [Benchmark(OperationsPerInvoke = Queries)]
+    public double Hierarchy() => Sum(_hierarchy, Queries);
+
+    /// <inheritdoc/>
+    IEnumerable<MoreValue> IMeasuresMore.Measure(string method)
+    {
+        var positions = _positions[..ComparedQueries];
+        return ColliderQuality.Measure(
+            method switch
+            {
+                nameof(Simple) => () => new SimpleCollider(_mesh),
+                nameof(BoundingBox) => () => new BoundingBoxCollider(_mesh),
+                _ => () => new HierarchyCollider(_mesh),
+            },
+            method == nameof(Simple) ? positions[..SimpleQueries] : positions,
+            double.PositiveInfinity,
+            ColliderQuality.Oracle(_mesh, positions)[..(method == nameof(Simple) ? SimpleQueries : ComparedQueries)],
+            _mesh.Bounds.Diagonal);
+    }
+
+    private double Sum(Collider collider, int queries)
+    {
+        var sum = 0.0;
+        foreach (var position in _positions.AsSpan(0, queries))
+        {
+            sum += collider.TryFindClosest(position, double.PositiveInfinity, _record, out var closest) ? closest.Distance : 0;
+        }
+
+        return sum;
+    }
+}

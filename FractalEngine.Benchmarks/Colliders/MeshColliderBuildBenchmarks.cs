@@ -1,0 +1,51 @@
+using BenchmarkDotNet.Attributes;
+using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Generation;
+
+namespace FractalEngine.Benchmarks.Colliders;
+
+/// <summary>How long does it take to build the colliders of meshes, and how large are they?</summary>
+public class MeshColliderBuildBenchmarks : IMeasuresMore
+{
+    private Mesh _mesh = null!;
+
+    [Params(50_000, 1_000_000)]
+    public int Faces { get; set; }
+
+    [GlobalSetup]
+    public void SetUp() => _mesh = MeshGenerators.Create("terrain", 1, Faces);
+
+    /// <summary>The baseline: every corner of every face read once.</summary>
+    [Benchmark(Baseline = true)]
+    public double ReadAllCorners()
+    {
+        var sum = 0.0;
+        for (var face = 0; face < _mesh.FaceCount; face++)
+        {
+            var (a, b, c) = _mesh.Face(face);
+            sum += a.X + b.Y + c.Z;
+        }
+
+        return sum;
+    }
+
+    [Benchmark]
+    public Collider BoundingBox() => new BoundingBoxCollider(_mesh);
+
+    [Benchmark]
+    public Collider Hierarchy() => new HierarchyCollider(_mesh);
+
+    /// <inheritdoc/>
+    IEnumerable<MoreValue> IMeasuresMore.Measure(string method)
+    {
+        Collider? collider = method switch
+        {
+            nameof(BoundingBox) => BoundingBox(),
+            nameof(Hierarchy) => Hierarchy(),
+            _ => null,
+        };
+        return [new("million_faces_a_second", Faces / 1e6, IsAmount: true), new("bytes_a_face", (double?)collider?.StorageBytes / Faces)];
+    }
+}

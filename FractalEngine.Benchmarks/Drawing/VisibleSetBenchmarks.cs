@@ -1,0 +1,45 @@
+using BenchmarkDotNet.Attributes;
+using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Core.Detail;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+
+namespace FractalEngine.Benchmarks.Drawing;
+
+/// <summary>
+/// What does it cost on one core to choose the instances of a picture of 1280 × 720, and is anything allocated? The sponge from afar: with size and view alone 163,021 of its 3,200,000 instances
+/// are left, with coverage as well 87,586.
+/// </summary>
+[MemoryDiagnoser]
+public class VisibleSetBenchmarks
+{
+    private readonly VisibleSet _set = new();
+    private DetailObject[] _objects = [];
+    private DetailView _view;
+
+    [GlobalSetup]
+    public void SetUp()
+    {
+        var fractal = FractalCase.Load("menger").Fractal;
+        var camera = CameraFraming.Default(fractal.Bounds, FrameCase.Aspect);
+        _objects = [new(DetailTable.Of(fractal), AffineMap.Identity, fractal.BaseMesh.Bounds.Centre, 1)];
+        _view = new(
+            camera.Position, camera.LocalAxes, true, camera.HalfHeightAtUnitDepth, 1280, 720, FrameCase.Aspect, 1e-3 * fractal.Bounds.Diagonal, double.PositiveInfinity);
+    }
+
+    /// <summary>The baseline: every instance.</summary>
+    [Benchmark(Baseline = true)]
+    public int Everything() => Fill(new() { SkipsHidden = false, PixelSize = 0, InstanceBudget = 4_000_000, Threads = 1 });
+
+    [Benchmark]
+    public int ViewAndSize() => Fill(new() { SkipsHidden = false, PixelSize = 8, InstanceBudget = 4_000_000, Threads = 1 });
+
+    [Benchmark]
+    public int ViewSizeAndCoverage() => Fill(new() { Threads = 1 });
+
+    private int Fill(DetailSettings settings)
+    {
+        _set.Fill(in _view, _objects, settings);
+        return _set.InstanceCount;
+    }
+}

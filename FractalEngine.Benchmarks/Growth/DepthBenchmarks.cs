@@ -1,0 +1,53 @@
+using BenchmarkDotNet.Attributes;
+using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Benchmarks.Colliders;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Benchmarks.Growth;
+
+/// <summary>
+/// How does the cost of an exact answer grow with the depth? At most linearly, to the depth where sub-fractals are below the precision of a
+/// coordinate, and then not at all. One operation is one query.
+/// </summary>
+public class DepthBenchmarks : IMeasuresMore
+{
+    private const int Queries = 1024;
+
+    private readonly QueryRecord _record = new();
+    private Fractal _fractal = null!;
+    private Vector[] _near = null!;
+    private ExactFractalCollider _exact = null!;
+
+    [Params("sierpinski", "menger", "tree", "terrain")]
+    public string Shape { get; set; } = "";
+
+    [Params(5, 10, 20, 40, 60, 100_000)]
+    public int Depth { get; set; }
+
+    [GlobalSetup]
+    public void SetUp()
+    {
+        _fractal = FractalCase.Load(Shape, Depth).Fractal;
+        var random = new Random(1);
+        _near = [.. Enumerable.Range(0, Queries).Select(_ => QueryPositions.Near(random, _fractal))];
+        _exact = new(_fractal);
+    }
+
+    [Benchmark(OperationsPerInvoke = Queries)]
+    public double ExactNear()
+    {
+        var sum = 0.0;
+        foreach (var position in _near)
+        {
+            sum += _exact.TryFindClosest(position, double.PositiveInfinity, _record, out var closest) ? closest.Distance : 0;
+        }
+
+        return sum;
+    }
+
+    /// <inheritdoc/>
+    IEnumerable<MoreValue> IMeasuresMore.Measure(string method) =>
+        ColliderQuality.Measure(() => new ExactFractalCollider(_fractal), _near, double.PositiveInfinity, null, _fractal.Bounds.Diagonal).Where(value => value.Value is not null);
+}

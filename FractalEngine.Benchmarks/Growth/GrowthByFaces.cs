@@ -1,0 +1,84 @@
+using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Generation;
+
+namespace FractalEngine.Benchmarks.Growth;
+
+/// <summary>How does the cost of a query near the surface grow with the faces of a base mesh: of a fractal over it, and of the mesh itself?</summary>
+internal static class GrowthByFaces
+{
+    private const int Depth = 5;
+
+    // Colliders that look at every face of the base are asked for fewer positions.
+    private const int MostFaceTests = 4_000_000;
+
+    /// <summary>Writes the file.</summary>
+    public static void Write(TableOptions options)
+    {
+        (string Name, int[] Faces)[] cases =
+        [
+            ("terrain", [1, 2, 10, 32, 100, 316, 1000, 3162, 10_000, 31_623, 100_000]),
+            ("icosphere", [20, 80, 320, 1280, 5120, 20_480, 81_920]),
+        ];
+        var points = (from item in cases from faces in item.Faces select new Point(item.Name, faces, options.IsQuick ? 256 : 1024)).ToArray();
+        var times = TakeTurns.Best([.. points.SelectMany(point => point.Actions)], options.Rounds);
+        var table = options.Table(
+            "growth-faces.csv", "base", "base_faces", "fractal_exact_us", "fractal_greedy_us", "mesh_hierarchy_us", "mesh_simple_us", "fractal_exact_face_tests",
+            "fractal_greedy_face_tests", "mesh_hierarchy_face_tests", "fractal_exact_bound_tests", "mesh_hierarchy_bound_tests", "fractal_exact_bytes", "mesh_hierarchy_bytes",
+            "fractal_exact_build_ms", "mesh_hierarchy_build_ms");
+        foreach (var (point, i) in points.Select((point, i) => (point, 6 * i)))
+        {
+            var (exact, greedy, hierarchy, simple) = (point.Exact, point.Greedy, point.Hierarchy, point.Simple);
+            table.Add(
+                point.Name, point.Mesh.FaceCount, exact.Microseconds, greedy.Microseconds, hierarchy.Microseconds,
+                simple.Microseconds, exact.FaceTests, greedy.FaceTests, hierarchy.FaceTests, exact.BoundTests, hierarchy.BoundTests, exact.Bytes, hierarchy.Bytes,
+                Math.Round(1e3 * times[i + 4], 4), Math.Round(1e3 * times[i + 5], 4));
+        }
+
+        table.Save();
+    }
+
+    private sealed class Point
+    {
+        private readonly Fractal _fractal;
+
+        public Point(string name, int faces, int queries)
+        {
+            (Name, Mesh) = (name, MeshOf(name, faces));
+            _fractal = new(FractalCase.Load("sierpinski", Depth).Fractal.Description, Mesh);
+            var random = new Random(1);
+            var onFractal = Enumerable.Range(0, queries).Select(_ => QueryPositions.Near(random, _fractal)).ToArray();
+            var onMesh = Enumerable.Range(0, queries).Select(_ => QueryPositions.Near(random, Mesh)).ToArray();
+            (Exact, Hierarchy) = (new(new ExactFractalCollider(_fractal), onFractal), new(new HierarchyCollider(Mesh), onMesh));
+            Greedy = new(new FractalCollider(_fractal), onFractal[..Math.Clamp(MostFaceTests / (35 * faces), 1, queries)]);
+            Simple = new(new SimpleCollider(Mesh), onMesh[..Math.Clamp(MostFaceTests / faces, 1, queries)]);
+        }
+
+        public string Name { get; }
+
+        public Mesh Mesh { get; }
+
+        public AskedCollider Exact { get; }
+
+        public AskedCollider Greedy { get; }
+
+        public AskedCollider Hierarchy { get; }
+
+        public AskedCollider Simple { get; }
+
+        public Action[] Actions =>
+        [
+            Exact.Ask, Greedy.Ask, Hierarchy.Ask, Simple.Ask, () => _ = new ExactFractalCollider(_fractal), () => _ = new HierarchyCollider(Mesh),
+        ];
+    }
+
+    /// <summary>A generated mesh in the box of side 2, as the fractal's own base is; one face is a triangle.</summary>
+    private static Mesh MeshOf(string name, int faces)
+    {
+        var mesh = faces == 1 ? new Mesh([-1, 0, -1, 1, 0, -1, 0, 0, 1], [0, 2, 1]) : MeshGenerators.Create(name, 1, faces);
+        var (centre, scale) = (mesh.Bounds.Centre, 2 / mesh.Bounds.Size.MaximumComponent());
+        return mesh.Transform(vertex => scale * (vertex - centre));
+    }
+}

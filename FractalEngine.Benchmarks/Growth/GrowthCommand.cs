@@ -1,0 +1,43 @@
+using System.Diagnostics;
+using System.Globalization;
+using FractalEngine.Benchmarks.Measuring;
+
+namespace FractalEngine.Benchmarks.Growth;
+
+/// <summary>The words after <c>growth</c>: tables and options.</summary>
+internal static class GrowthCommand
+{
+    private const string Usage = """
+        growth [TABLE ...] [--quick] [--output FOLDER]
+          How does cost grow? Writes a file for each table, or the named ones, to docs/benchmarks unless stated.
+        """;
+
+    private static readonly Dictionary<string, Action<TableOptions>> Tables = new()
+    {
+        ["growth-depth"] = GrowthByDepth.Write,
+        ["growth-bodies"] = GrowthByBodies.Write,
+        ["growth-maps"] = GrowthByMaps.Write,
+        ["growth-faces"] = GrowthByFaces.Write,
+        ["drawing"] = DrawingGrowth.Write,
+    };
+
+    public static int Run(ReadOnlySpan<string> args)
+    {
+        var (options, names) = (new TableOptions("growth", false, CommandWords.DefaultFolder), new List<string>());
+        var words = new CommandWords($"{Usage}\nTables: {string.Join(' ', Tables.Keys)}")
+            .Flag("--quick", () => options = options with { IsQuick = true }).Value("--output", folder => options = options with { Folder = folder }).Names(Tables.ContainsKey, names);
+        if (!words.TryRead(args))
+        {
+            return 2;
+        }
+
+        foreach (var (name, write) in Tables.Where(table => names.Count == 0 || names.Contains(table.Key)))
+        {
+            var watch = Stopwatch.StartNew();
+            write(options);
+            Console.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{name,-16} {watch.Elapsed.TotalSeconds,6:F1} s"));
+        }
+
+        return 0;
+    }
+}

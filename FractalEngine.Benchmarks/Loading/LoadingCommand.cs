@@ -1,0 +1,35 @@
+using System.Globalization;
+using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Render.Windowing;
+
+namespace FractalEngine.Benchmarks.Loading;
+
+/// <summary>The words after <c>loading</c>: options.</summary>
+internal static class LoadingCommand
+{
+    private const string Usage = """
+        loading [--quick] [--output FOLDER]
+          What do loading, parsing and expanding cost? loading.csv, expansion.csv and, where there is a display, first-picture.csv, in docs/benchmarks unless stated.
+        """;
+
+    public static int Run(ReadOnlySpan<string> args)
+    {
+        if (TableOptions.TryRead("loading", Usage, args) is not { } options)
+        {
+            return 2;
+        }
+
+        LoadingTable.Write(options);
+        ExpansionTable.Write(options);
+        try
+        {
+            FirstPictureTable.Write(options);
+        }
+        catch (GraphicsUnavailableException exception)
+        {
+            Console.WriteLine(string.Create(CultureInfo.InvariantCulture, $"first-picture.csv is left out: {exception.Message}"));
+        }
+
+        return 0;
+    }
+}

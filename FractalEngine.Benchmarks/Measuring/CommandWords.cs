@@ -1,0 +1,93 @@
+using System.Globalization;
+
+namespace FractalEngine.Benchmarks.Measuring;
+
+/// <summary>What may stand after a command: options, and names of what it measures.</summary>
+/// <param name="usage">Written where something else stands there.</param>
+internal sealed class CommandWords(string usage)
+{
+    private readonly Dictionary<string, Action> _flags = [];
+    private readonly Dictionary<string, Func<string, bool>> _values = [];
+    private Func<string, bool> _name = static _ => false;
+
+    /// <summary>Where measurements are kept.</summary>
+    public static string DefaultFolder => Path.Combine(Path.GetDirectoryName(FractalCase.Assets)!, "docs", "benchmarks");
+
+    /// <summary>An option without a value.</summary>
+    public CommandWords Flag(string option, Action set)
+    {
+        _flags.Add(option, set);
+        return this;
+    }
+
+    /// <summary>An option with a value of any form.</summary>
+    public CommandWords Value(string option, Action<string> set) => Value(option, text =>
+    {
+        set(text);
+        return true;
+    });
+
+    /// <summary>An option with a value.</summary>
+    /// <param name="option">With its dashes.</param>
+    /// <param name="trySet">False for a value that is none.</param>
+    public CommandWords Value(string option, Func<string, bool> trySet)
+    {
+        _values.Add(option, trySet);
+        return this;
+    }
+
+    /// <summary>An option with a positive whole number.</summary>
+    public CommandWords Count(string option, Action<int> set) => Value(option, text =>
+    {
+        var isCount = TryCount(text, out var count);
+        if (isCount)
+        {
+            set(count);
+        }
+
+        return isCount;
+    });
+
+    /// <summary>Words that are no options.</summary>
+    public CommandWords Names(Func<string, bool> isName, List<string> names)
+    {
+        _name = text =>
+        {
+            var known = isName(text);
+            if (known)
+            {
+                names.Add(text);
+            }
+
+            return known;
+        };
+        return this;
+    }
+
+    /// <summary>Reads them; false, with a line on standard error, where one is not expected.</summary>
+    public bool TryRead(ReadOnlySpan<string> words)
+    {
+        for (var i = 0; i < words.Length; i++)
+        {
+            if (_flags.TryGetValue(words[i], out var flag))
+            {
+                flag();
+            }
+            else if (i + 1 < words.Length && _values.TryGetValue(words[i], out var value) && value(words[i + 1]))
+            {
+                i++;
+            }
+            else if (!_name(words[i]))
+            {
+                Console.Error.WriteLine($"error: unexpected '{words[i]}'\n{usage}");
+                return false;
+            }
+        }
+
+        return true;
+    }
+
+    /// <summary>A positive whole number.</summary>
+    public static bool TryCount(string text, out int count) =>
+        int.TryParse(text, NumberStyles.None, CultureInfo.InvariantCulture, out count) && count > 0;
+}

@@ -1,0 +1,94 @@
+using System.Globalization;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
+
+namespace FractalEngine.Benchmarks.Measuring;
+
+/// <summary>A fractal that colliders are measured on.</summary>
+/// <param name="Name">Short, for tables.</param>
+/// <param name="Fractal">At the depth that is asked for.</param>
+internal sealed record FractalCase(string Name, Fractal Fractal)
+{
+    /// <summary>
+    /// Beside those of the assets: three branches of 0.6, each leaning another way; four maps of which none keeps shapes, like a fern's; and a tree that
+    /// keeps its trunk at each level by the identity, so that most of its chains are the same instance.
+    /// </summary>
+    private static readonly string[] Written = ["three-branches", "four-fronds", "binary-tree"];
+
+    /// <summary>The names there are.</summary>
+    public static IEnumerable<string> Names =>
+        Directory.GetFiles(Path.Combine(Assets, "fractals"), "*.fdo").Select(file => Path.GetFileNameWithoutExtension(file)).Order(StringComparer.Ordinal).Concat(Written);
+
+    /// <summary>The folder of the scenes, fractals and meshes.</summary>
+    public static string Assets { get; } = FindAssets();
+
+    /// <summary>True for the name of a fractal, or its name and depth: <c>tree</c> or <c>tree:20</c>.</summary>
+    public static bool IsCase(string text) => text.Split(':') switch
+    {
+        [var name] => Names.Contains(name),
+        [var name, var depth] => Names.Contains(name) && CommandWords.TryCount(depth, out _),
+        _ => false,
+    };
+
+    /// <summary>A fractal by its name, or its name and depth: <c>tree</c> or <c>tree:20</c>.</summary>
+    public static FractalCase Parse(string text) => text.Split(':') switch
+    {
+        [var name, var depth] => Load(name, int.Parse(depth, CultureInfo.InvariantCulture)),
+        _ => Load(text),
+    };
+
+    /// <summary>A fractal by its name.</summary>
+    /// <param name="name">One of <see cref="Names"/>.</param>
+    /// <param name="depth">Of its outermost recursion; null for the depth in its file.</param>
+    public static FractalCase Load(string name, int? depth = null)
+    {
+        var fractal = name switch
+        {
+            "three-branches" => new(ThreeBranches, Mesh("hexagonal-pyramid")),
+            "four-fronds" => new(FourFronds, Mesh("hexagonal-pyramid")),
+            "binary-tree" => new(BinaryTree, Mesh("hexagonal-pyramid")),
+            _ => ((FractalModel)Model("fractals", name + ".fdo")).Fractal,
+        };
+        return depth is { } count && fractal.Description.HasDepth
+            ? new($"{name} {count}", fractal.WithDepth(count))
+            : new(name, fractal);
+    }
+
+    private static FractalDescription ThreeBranches { get; } = Repeated(
+        new(new(0, 1, 0), new(0, 40, 8), 0.6 * Vector.One),
+        new(new(0.1, 0.9, 0), new(20, 0, 50), 0.6 * Vector.One),
+        new(new(0, 0.8, 0.1), new(-45, 130, 0), 0.6 * Vector.One));
+
+    private static FractalDescription FourFronds { get; } = Repeated(
+        new(new(0, 0.16, 0), new(0, 10, 3), new(0.85, 0.84, 0.86)),
+        new(new(0, 0.16, 0), new(10, 20, 52), new(0.3, 0.34, 0.25)),
+        new(new(0, 0.05, 0), new(-10, -20, -49), new(-0.28, 0.37, 0.3)),
+        new(new(0, 0, 0), new(0, 0, 0), new(0.05, 0.2, 0.05)));
+
+    private static FractalDescription BinaryTree { get; } = Repeated(
+        Transformation.Identity,
+        new(new(0, 0.7, 0), new(0, 70, 24), 0.76 * Vector.One),
+        new(new(0, 0.8, 0), new(0, -40, -31), 0.7 * Vector.One));
+
+    private static FractalDescription Repeated(params Transformation[] maps) => new("base.obj", [new Repetition([new TransformationSet([.. maps])], 5)]);
+
+    private static Mesh Mesh(string name) => Model("models", name + ".obj").Mesh;
+
+    private static Model Model(string folder, string file) => AssetLoader.Load(Path.Combine(Assets, folder, file)).Scene.Objects[0].Model;
+
+    private static string FindAssets()
+    {
+        for (var folder = AppContext.BaseDirectory; folder is not null; folder = Path.GetDirectoryName(folder))
+        {
+            if (File.Exists(Path.Combine(folder, "assets", AssetFolder.MarkerName)))
+            {
+                return Path.Combine(folder, "assets");
+            }
+        }
+
+        throw new DirectoryNotFoundException("expected the folder 'assets' above the program");
+    }
+}

@@ -1,0 +1,59 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Benchmarks.Measuring;
+
+/// <summary>Where a shape is asked for its nearest point. The same seed gives the same positions.</summary>
+internal static class QueryPositions
+{
+    /// <summary>Anywhere in a box.</summary>
+    public static Vector Uniform(Random random, BoundingBox box) => box.Minimum + box.Size.Stretch(Unit(random));
+
+    /// <summary>Up to 1 % of the diagonal along each axis from a random point of a random face.</summary>
+    public static Vector Near(Random random, Mesh mesh) => OnSurface(random, mesh) + Offset(random, 0.01 * mesh.Bounds.Diagonal);
+
+    /// <summary>Up to 1 % of the diagonal along each axis from a random point of a random instance.</summary>
+    public static Vector Near(Random random, Fractal fractal) => OnSurface(random, fractal) + Offset(random, 0.01 * fractal.Bounds.Diagonal);
+
+    /// <summary>Between half a size and one size away from a box, to all sides.</summary>
+    public static Vector Far(Random random, BoundingBox box)
+    {
+        while (true)
+        {
+            var direction = Offset(random, 1);
+            if (direction.Length() is > 0.1 and <= 1)
+            {
+                return box.Centre + ((1 + (0.5 * random.NextDouble())) * box.Diagonal * direction.UnitVector());
+            }
+        }
+    }
+
+    /// <summary>On a random face of a random instance, by one random map a level.</summary>
+    public static Vector OnSurface(Random random, Fractal fractal)
+    {
+        // Deeper levels move a point by less than a coordinate can hold.
+        const int deepest = 120;
+        var levels = (int)Math.Min(fractal.LevelCount ?? deepest, deepest);
+        var point = OnSurface(random, fractal.BaseMesh);
+        for (var level = levels - 1; level >= 0; level--)
+        {
+            var maps = fractal.LevelAt(level).Maps;
+            point = maps[random.Next(maps.Length)] * point;
+        }
+
+        return point;
+    }
+
+    private static Vector OnSurface(Random random, Mesh mesh)
+    {
+        var (a, b, c) = mesh.Face(random.Next(mesh.FaceCount));
+        var (u, v) = (random.NextDouble(), random.NextDouble());
+        (u, v) = u + v > 1 ? (1 - u, 1 - v) : (u, v);
+        return a + (u * (b - a)) + (v * (c - a));
+    }
+
+    private static Vector Offset(Random random, double most) => most * ((2 * Unit(random)) - Vector.One);
+
+    private static Vector Unit(Random random) => new(random.NextDouble(), random.NextDouble(), random.NextDouble());
+}

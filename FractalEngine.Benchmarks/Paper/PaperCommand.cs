@@ -1,0 +1,96 @@
+using System.Globalization;
+using FractalEngine.Benchmarks.Measuring;
+
+namespace FractalEngine.Benchmarks.Paper;
+
+/// <summary>The words after <c>paper</c>: the paper's own tables, figures 17 and 18, measured here, beside what the paper prints.</summary>
+internal static class PaperCommand
+{
+    private const string Usage = """
+        paper [--output FOLDER]
+          Load time, storage and collision cost of the paper's five models: paper-figure17.csv and paper-figure18.csv, in docs/benchmarks unless stated. Takes some minutes and 8 GB.
+        """;
+
+    private static readonly string[] Columns17 =
+    [
+        "model", "name", "fractal", "faces", "paper_faces", "load_s", "every_instance_load_s", "paper_load_s", "storage_bytes", "paper_storage_bytes", "collision_cost",
+        "paper_collision_cost", "own_collider_cost", "note",
+    ];
+
+    private static readonly string[] Columns18 =
+    [
+        "model", "name", "faces", "simple", "paper_simple", "fractal", "paper_fractal", "boxes", "paper_boxes", "box_depth", "own_collider_faces", "own_collider_bounds",
+        "fractal_wrong_percent", "boxes_wrong_percent", "note",
+    ];
+
+    public static int Run(ReadOnlySpan<string> args)
+    {
+        if (args is not ([] or ["--output", _]))
+        {
+            Console.Error.WriteLine(Usage);
+            return 2;
+        }
+
+        var output = args.Length > 0 ? args[1] : CommandWords.DefaultFolder;
+        var folder = Directory.CreateTempSubdirectory("fractalengine");
+        try
+        {
+            Write(output, [.. PaperModel.All.Select(model => Measure(model, model.FileIn(folder.FullName)))]);
+        }
+        finally
+        {
+            folder.Delete(recursive: true);
+        }
+
+        return 0;
+    }
+
+    private static void Write(string output, (object?[] Figure17, object?[] Figure18)[] rows)
+    {
+        Write(output, "paper-figure17.csv", Columns17, [.. rows.Select(row => row.Figure17)]);
+        Write(output, "paper-figure18.csv", Columns18, [.. rows.Select(row => row.Figure18)]);
+    }
+
+    private static (object?[] Figure17, object?[] Figure18) Measure(PaperModel paper, string file)
+    {
+        var loaded = PaperModel.Load(file);
+        var model = PaperModel.ModelOf(loaded);
+        var load = Math.Round(PaperLoading.Seconds(file), 6);
+        var every = Math.Round(PaperLoading.SecondsForEveryInstance(file), 6);
+        var cost = PaperCollision.Of(model);
+        return (
+            [
+                paper.Id, paper.Name, paper.Shape is null ? "N" : "Y", model.FaceCount, paper.Faces, load, every, paper.LoadSeconds, loaded.StorageBytes, paper.StorageBytes,
+                cost.Fractal ?? cost.Simple, paper.FractalCost ?? paper.Faces, cost.Exact.Faces, paper.NoteOnFigure17,
+            ],
+            [
+                paper.Id, paper.Name, model.FaceCount, cost.Simple, paper.Faces, cost.Fractal, paper.FractalCost, cost.Boxes, paper.BoxCost, cost.BoxDepth, cost.Exact.Faces,
+                cost.Exact.Bounds, cost.FractalWrong, cost.BoxesWrong, paper.NoteOnFigure18,
+            ]);
+    }
+
+    private static void Write(string output, string file, string[] columns, object?[][] rows)
+    {
+        var table = new CsvTable(Path.Combine(output, file), "paper", columns);
+        foreach (var row in rows)
+        {
+            table.Add(row);
+        }
+
+        table.Save();
+        // As text a model is a column, as in the paper.
+        for (var column = 0; column < columns.Length; column++)
+        {
+            Console.WriteLine($"{columns[column],-24}{string.Concat(rows.Select(row => $"{Text(row[column]),20}"))}");
+        }
+
+        Console.WriteLine();
+    }
+
+    private static string Text(object? value) => value switch
+    {
+        // Too long for a column; it stands in the file.
+        string { Length: > 20 } => "see file",
+        _ => Convert.ToString(value, CultureInfo.InvariantCulture) ?? "",
+    };
+}

@@ -1,0 +1,44 @@
+using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Scenes;
+
+namespace FractalEngine.Benchmarks.Physics;
+
+/// <summary>The words after <c>physics</c>: fractals and options.</summary>
+internal static class PhysicsCommand
+{
+    private const string Usage = """
+        physics [NAME[:DEPTH] ...] [--balls N] [--collider NAME] [--rounds N] [--output FOLDER]
+          What a step costs while balls fall on a fractal; menger:5 and 1,000 balls unless stated.
+          --output: also as physics.csv.
+        """;
+
+    public static int Run(ReadOnlySpan<string> args)
+    {
+        var (rounds, balls, collider, folder, names) = (3, 1000, ColliderKind.Exact, (string?)null, new List<string>());
+        var words = new CommandWords($"{Usage}\nNames: {string.Join(' ', FractalCase.Names)}")
+            .Count("--rounds", count => rounds = count).Count("--balls", count => balls = count).Value("--collider", text => TryParse(text, out collider))
+            .Value("--output", value => folder = value).Names(FractalCase.IsCase, names);
+        if (!words.TryRead(args))
+        {
+            return 2;
+        }
+
+        var command = FormattableString.Invariant($"physics{string.Concat(names.Select(name => " " + name))} --balls {balls} --collider {SceneParser.NameOf(collider)} --rounds {rounds}");
+        var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "physics.csv"), command, PhysicsTable.Columns);
+        var table = new PhysicsTable(rounds, Console.Out, csv);
+        foreach (var name in names.Count > 0 ? names : ["menger:5"])
+        {
+            table.Write(FractalCase.Parse(name), balls, collider);
+        }
+
+        csv?.Save();
+        return 0;
+    }
+
+    private static bool TryParse(string text, out ColliderKind collider)
+    {
+        collider = Enum.GetValues<ColliderKind>().FirstOrDefault(kind => SceneParser.NameOf(kind) == text);
+        return SceneParser.NameOf(collider) == text;
+    }
+}

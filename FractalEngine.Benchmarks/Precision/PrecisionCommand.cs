@@ -1,0 +1,23 @@
+using FractalEngine.Benchmarks.Measuring;
+
+namespace FractalEngine.Benchmarks.Precision;
+
+/// <summary>The words after <c>precision</c>: options.</summary>
+internal static class PrecisionCommand
+{
+    private const string Usage = """
+        precision [--quick] [--output FOLDER]
+          Float or double? Time and error of the same kernels in both: float-double.csv, in docs/benchmarks unless stated.
+        """;
+
+    public static int Run(ReadOnlySpan<string> args)
+    {
+        if (TableOptions.TryRead("precision", Usage, args) is not { } options)
+        {
+            return 2;
+        }
+
+        FloatAndDouble.Write(options);
+        return 0;
+    }
+}
