@@ -4,13 +4,30 @@
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/eng/setup.sh"
 
+# Runs the tests of a filter, each of which writes a file of the worst that it met, and puts these together as one table.
+measure_stability() {
+    local table="$1" category="$2" command="$3" fragments="$results/$1"
+    FRACTALENGINE_STABILITY="$fragments" run_tests "$results" "FullyQualifiedName~FractalEngine.Tests.Stability.&$category"
+    [ "$skipped" = 0 ] || fail "tests of stability were skipped, since there is no display: nothing is written"
+    [ "$failed" = 0 ] && [ "$passed" != 0 ] || fail "tests of stability failed: nothing is written"
+    # Files in one order everywhere. Machine and header are the same in all.
+    local - LC_ALL=C file="docs/benchmarks/$table.csv"
+    set +f
+    local files=("$fragments"/*.csv)
+    if ! { echo "# $command" && sed -n 2,3p "${files[0]}" && tail -qn +4 "${files[@]}"; } >"$file.tmp"; then
+        rm -f "$file.tmp"
+        fail "can't write $file"
+    fi
+    mv "$file.tmp" "$file"
+}
+
 quick=
 if [ "${1:-}" = quick ]; then
     quick=yes
     shift
 fi
 
-commands=(front growth loading precision frames skips physics window paper classes)
+commands=(front growth loading precision frames skips physics window paper stability classes)
 [ $# = 0 ] || commands=("$@")
 
 classes='*'
@@ -31,9 +48,16 @@ words() {
 }
 
 install_packages plots
-# The window that is measured is the program's own.
-build FractalEngine.App
-build FractalEngine.Benchmarks
+for command in "${commands[@]}"; do
+    if [ "$command" = stability ]; then
+        build FractalEngine.Tests
+    else
+        words "$command" >/dev/null || exit 2
+        # The window that is measured is the program's own.
+        build FractalEngine.App
+        build FractalEngine.Benchmarks
+    fi
+done
 command -v gnuplot >/dev/null || fail 'gnuplot is missing'
 
 benchmarks=("$root/FractalEngine.Benchmarks/bin/$configuration/net10.0/FractalEngine.Benchmarks")
@@ -44,6 +68,8 @@ if [ -z "${DISPLAY:-}" ] && command -v xvfb-run >/dev/null; then
 fi
 
 cd "$root"
+results="$(mktemp -d)"
+trap 'rm -rf "$results"' EXIT
 FRACTALENGINE_COMMIT="$(git rev-parse --short HEAD 2>/dev/null || echo unknown)"
 export FRACTALENGINE_COMMIT
 # What the compiler learns from the first shapes would make the order of rows count.
@@ -51,6 +77,15 @@ export DOTNET_TieredPGO=0
 
 set -f # Stars are for BenchmarkDotNet.
 for command in "${commands[@]}"; do
+    if [ "$command" = stability ]; then
+        measure_stability stability 'Category!=Soak' "stability${quick:+ --quick}"
+        # The long counts have a table of their own, which the quick ones leave as it is.
+        if [ -z "$quick" ]; then
+            measure_stability stability-soak 'Category=Soak' stability
+        fi
+        continue
+    fi
+
     words="$(words "$command")" || exit 2
     read -ra line <<<"$words"
     "${benchmarks[@]}" "${line[@]}" --output docs/benchmarks </dev/null || fail "the command '$command' failed"

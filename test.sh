@@ -15,26 +15,6 @@ build FractalEngine.Tests
 
 results="$(mktemp -d)"
 trap 'rm -rf "$results"' EXIT
-command=(dotnet test "$root/FractalEngine.Tests" -c "$configuration" --no-build --nologo --filter "$filter"
-    --logger "trx;LogFileName=tests.trx" --logger "console;verbosity=minimal" --results-directory "$results" "$@")
-# Tests draw on a display of their own, so that windows and the user's keyboard don't meet. It must not reset between two
-# programs (-noreset): who connects just then is turned away.
-if command -v xvfb-run >/dev/null; then
-    command=(xvfb-run -a -s '-screen 0 1280x960x24 -noreset' "${command[@]}")
-fi
-"${command[@]}" </dev/null
-status=$?
-
-count() {
-    grep -o '<UnitTestResult [^>]*outcome="[^"]*"' "$results/tests.trx" 2>/dev/null | grep -c "outcome=\"$1\"" || true
-}
-
-passed="$(count Passed)"
-failed="$(count Failed)"
-skipped="$(count NotExecuted)"
-# A test host that crashed leaves no results, or results without the failure.
-if [ "$status" != 0 ] && [ "$failed" = 0 ]; then
-    failed=1
-fi
+run_tests "$results" "$filter" "$@"
 echo "$passed passed, $failed failed, $skipped skipped"
 [ "$failed" = 0 ] && [ "$passed" != 0 ]

@@ -77,3 +77,29 @@ build() {
     touch -r "$log" "$stamp"
     rm -f "$log"
 }
+
+# Runs the tests of a filter, built before; further arguments go to `dotnet test`. Leaves a protocol in the folder, and sets
+# $passed, $failed and $skipped.
+run_tests() {
+    local results="$1" filter="$2" status=0
+    shift 2
+    local command=(dotnet test "$root/FractalEngine.Tests" -c "$configuration" --no-build --nologo --filter "$filter"
+        --logger "trx;LogFileName=tests.trx" --logger "console;verbosity=minimal" --results-directory "$results" "$@")
+    # Tests draw on a display of their own, so that windows and the user's keyboard don't meet. It must not reset between two
+    # programs (-noreset): who connects just then is turned away.
+    if command -v xvfb-run >/dev/null; then
+        command=(xvfb-run -a -s '-screen 0 1280x960x24 -noreset' "${command[@]}")
+    fi
+    "${command[@]}" </dev/null || status=$?
+    passed="$(count_results "$results" Passed)"
+    failed="$(count_results "$results" Failed)"
+    skipped="$(count_results "$results" NotExecuted)"
+    # A test host that crashed leaves no results, or results without the failure.
+    if [ "$status" != 0 ] && [ "$failed" = 0 ]; then
+        failed=1
+    fi
+}
+
+count_results() {
+    grep -o '<UnitTestResult [^>]*outcome="[^"]*"' "$1/tests.trx" 2>/dev/null | grep -c "outcome=\"$2\"" || true
+}

@@ -32,10 +32,10 @@ internal sealed record FrontShape(string Name, Fractal? Fractal, Mesh Faces, dou
     public double Size => Faces.Bounds.Diagonal;
 
     /// <summary>True for the name of a shape, with a number after a colon or without.</summary>
-    public static bool IsName(string text) => text.Split(':') switch
+    public static bool IsName(string text) => FractalCase.IsCase(text) || text.Split(':') switch
     {
-        [var name] => IsKnown(name),
-        [var name, var number] => IsKnown(name) && int.TryParse(number, NumberStyles.None, CultureInfo.InvariantCulture, out var count) && count > 0,
+        [var name] => Meshes.Contains(name),
+        [var name, var number] => Meshes.Contains(name) && CommandWords.TryCount(number, out _),
         _ => false,
     };
 
@@ -60,6 +60,4 @@ internal sealed record FrontShape(string Name, Fractal? Fractal, Mesh Faces, dou
 
     /// <summary>Near a random face.</summary>
     public Vector Near(Random random) => Fractal is null ? QueryPositions.Near(random, Faces) : QueryPositions.Near(random, Fractal);
-
-    private static bool IsKnown(string name) => Meshes.Contains(name) || FractalCase.Names.Contains(name);
 }

@@ -20,11 +20,16 @@ internal sealed class CommandWords(string usage)
         return this;
     }
 
-    /// <summary>An option with a value of any form.</summary>
+    /// <summary>An option with a value of any form but that of an option.</summary>
     public CommandWords Value(string option, Action<string> set) => Value(option, text =>
     {
-        set(text);
-        return true;
+        var isValue = !text.StartsWith('-');
+        if (isValue)
+        {
+            set(text);
+        }
+
+        return isValue;
     });
 
     /// <summary>An option with a value.</summary>

@@ -13,8 +13,6 @@ namespace FractalEngine.Tests.Assets;
 /// <summary>The files under assets/: each loads, and is what it says that it is.</summary>
 public sealed class AssetTests
 {
-    private static readonly string Root = FindRoot();
-
     public static TheoryData<string> Files => Named(".obj", ".fdo", ".sdo");
 
     public static TheoryData<string> Meshes => Named(".obj");
@@ -209,20 +207,9 @@ public sealed class AssetTests
         Assert.IsType<FractalModel>(AssetLoader.Load(Full($"assets/fractals/{name}.fdo")).Scene.Objects[0].Model).Fractal;
 
     private static TheoryData<string> Named(params string[] endings) =>
-        [.. Directory.EnumerateFiles(Path.Combine(Root, "assets"), "*", SearchOption.AllDirectories)
+        [.. Directory.EnumerateFiles(Full("assets"), "*", SearchOption.AllDirectories)
             .Where(file => endings.Contains(Path.GetExtension(file)))
-            .Select(file => Path.GetRelativePath(Root, file).Replace('\\', '/')).Order(StringComparer.Ordinal)];
+            .Select(file => Path.GetRelativePath(Repository.Root, file).Replace('\\', '/')).Order(StringComparer.Ordinal)];
 
-    private static string Full(string file) => Path.Combine(Root, file);
-
-    private static string FindRoot()
-    {
-        DirectoryInfo? folder = new(AppContext.BaseDirectory);
-        while (folder is not null && !File.Exists(Path.Combine(folder.FullName, "FractalEngine.sln")))
-        {
-            folder = folder.Parent;
-        }
-
-        return folder?.FullName ?? throw new InvalidOperationException("the tests do not lie below FractalEngine.sln");
-    }
+    private static string Full(string file) => Repository.Full(file);
 }

@@ -11,8 +11,7 @@ internal static class FaceOracle
 {
     public static double Distance(Vector position, Vector a, Vector b, Vector c)
     {
-        var exponent = new[] { position, a, b, c }.SelectMany(v => new[] { v.X, v.Y, v.Z }).Where(x => x != 0)
-            .Select(x => Math.ILogB(x) - 52).DefaultIfEmpty(0).Min();
+        var exponent = Exponent(position, a, b, c);
         var (p, p1, p2, p3) = (Point.Of(position, exponent), Point.Of(a, exponent), Point.Of(b, exponent), Point.Of(c, exponent));
         var nearest = Fraction.Smaller(ToSegment(p, p1, p2), Fraction.Smaller(ToSegment(p, p2, p3), ToSegment(p, p3, p1)));
         var (ab, ac, ap) = (p2 - p1, p3 - p1, p - p1);
@@ -26,6 +25,19 @@ internal static class FaceOracle
 
         return nearest.SquareRoot(exponent);
     }
+
+    /// <summary>Of the smallest angle of a triangle: twice the area by the product of the two longest edges. 0 where there is no area.</summary>
+    public static double SmallestSine(Vector a, Vector b, Vector c)
+    {
+        var exponent = Exponent(a, b, c);
+        var (p1, p2, p3) = (Point.Of(a, exponent), Point.Of(b, exponent), Point.Of(c, exponent));
+        var normal = Point.Cross(p2 - p1, p3 - p1);
+        BigInteger[] edges = [.. new[] { p2 - p1, p3 - p2, p1 - p3 }.Select(edge => Point.Dot(edge, edge)).Order()];
+        return edges[1].IsZero ? 0 : new Fraction(Point.Dot(normal, normal), edges[1] * edges[2]).SquareRoot(0);
+    }
+
+    private static int Exponent(params ReadOnlySpan<Vector> vectors) => vectors.ToArray().SelectMany(v => new[] { v.X, v.Y, v.Z }).Where(x => x != 0)
+        .Select(x => Math.ILogB(x) - 52).DefaultIfEmpty(0).Min();
 
     private static Fraction ToSegment(Point p, Point start, Point end)
     {

@@ -20,26 +20,8 @@ internal readonly record struct NastyFace(Vector Position, Vector A, Vector B, V
 
     public static Vector Cube(Random random) => new((2 * random.NextDouble()) - 1, (2 * random.NextDouble()) - 1, (2 * random.NextDouble()) - 1);
 
-    private static (Vector A, Vector B, Vector C) Corners(Random random)
-    {
-        var (a, b, c) = (Cube(random), Cube(random), Cube(random));
-        var small = Math.Pow(10, -random.Next(0, 18));
-        (a, b, c) = random.Next(10) switch
-        {
-            0 => (a, b, b + (small * c)),
-            1 => (a, b, a + (random.NextDouble() * (b - a)) + (small * c)),
-            2 => (a, b, a + (random.Next(-4, 5) / 4.0 * (b - a))),
-            3 => (a, a, c),
-            4 => (a, a, a),
-            5 => (Whole(a), Whole(b), Whole(c)),
-            6 => (Whole(a), Whole(a) + Whole(b), Whole(a) + (random.Next(-3, 4) * Whole(b))),
-            7 => (a.Stretch(new(1, 0, 1)), b.Stretch(new(1, 0, 1)), c.Stretch(new(1, 0, 1))),
-            _ => (a, b, c),
-        };
-        return random.Next(3) switch { 0 => (a, b, c), 1 => (b, c, a), _ => (c, a, b) };
-    }
-
-    private static Vector Place(Random random, Vector a, Vector b, Vector c)
+    /// <summary>A position on a corner, an edge, the face or its plane, or near, or far from it.</summary>
+    public static Vector Place(Random random, Vector a, Vector b, Vector c)
     {
         var (u, v) = (random.NextDouble(), random.NextDouble());
         (u, v) = u + v > 1 ? (1 - u, 1 - v) : (u, v);
@@ -58,6 +40,25 @@ internal readonly record struct NastyFace(Vector Position, Vector A, Vector B, V
             8 => inside + (Math.Pow(10, random.Next(-16, 2)) * Cube(random)),
             _ => 2 * Cube(random),
         };
+    }
+
+    private static (Vector A, Vector B, Vector C) Corners(Random random)
+    {
+        var (a, b, c) = (Cube(random), Cube(random), Cube(random));
+        var small = Math.Pow(10, -random.Next(0, 18));
+        (a, b, c) = random.Next(10) switch
+        {
+            0 => (a, b, b + (small * c)),
+            1 => (a, b, a + (random.NextDouble() * (b - a)) + (small * c)),
+            2 => (a, b, a + (random.Next(-4, 5) / 4.0 * (b - a))),
+            3 => (a, a, c),
+            4 => (a, a, a),
+            5 => (Whole(a), Whole(b), Whole(c)),
+            6 => (Whole(a), Whole(a) + Whole(b), Whole(a) + (random.Next(-3, 4) * Whole(b))),
+            7 => (a.Stretch(new(1, 0, 1)), b.Stretch(new(1, 0, 1)), c.Stretch(new(1, 0, 1))),
+            _ => (a, b, c),
+        };
+        return random.Next(3) switch { 0 => (a, b, c), 1 => (b, c, a), _ => (c, a, b) };
     }
 
     private static Vector Whole(Vector v) => new(Math.Round(8 * v.X), Math.Round(8 * v.Y), Math.Round(8 * v.Z));

@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -50,23 +51,26 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
     [Trait("Category", "Soak")]
     public void Picture_OfASelfSimilarFractal_IsTheSameAMillionLevelsDown(string name) => CheckPictures(name, [100_000, 999_990]);
 
-    private void CheckThereAndBack(string name, int depth)
+    private void CheckThereAndBack(string name, int deepest, [CallerMemberName] string test = "")
     {
-        using var report = new StabilityReport(output);
-        var dive = FractalAddressTests.Dive(name, 0, AffineMap.Identity);
-        var (about, size) = (dive.Address.About, dive.Start.Length() + 1);
-        dive.GoTo(depth);
-        report.Note("depth", dive.Address.Depth);
-        report.Note("enlargement, powers of ten", -dive.Address.LogUnit / Math.Log(10));
-        dive.GoBack();
-        Assert.Equal((0, 0.0), (dive.Address.Depth, dive.Address.LogUnit));
-        // As FractalAddressTests ask. What is lost deep down is a part of the unit there; coming back, the last steps outside decide.
-        report.Require("place after the return, of the distance", Near.Difference(about, dive.Address.About) / size, 1e-9, () => $"{name}");
+        using var report = new StabilityReport(output, name, test);
+        foreach (var depth in RoundNumbers.To(deepest))
+        {
+            var dive = FractalAddressTests.Dive(name, 0, AffineMap.Identity);
+            var (about, size) = (dive.Address.About, dive.Start.Length() + 1);
+            dive.GoTo(depth);
+            Assert.Equal(depth, dive.Address.Depth);
+            report.Note("enlargement (powers of ten)", -dive.Address.LogUnit / Math.Log(10));
+            dive.GoBack();
+            Assert.Equal((0, 0.0), (dive.Address.Depth, dive.Address.LogUnit));
+            // As FractalAddressTests ask. What is lost deep down is a part of the unit there; coming back, the last steps outside decide.
+            report.Require("place after the return by depth (of the distance)", Near.Difference(about, dive.Address.About) / size, 1e-9, () => $"depth {depth}", depth);
+        }
     }
 
-    private void CheckPictures(string name, int[] depths)
+    private void CheckPictures(string name, int[] depths, [CallerMemberName] string test = "")
     {
-        using var report = new StabilityReport(output);
+        using var report = new StabilityReport(output, name, test);
         var scene = new LoadedScene(
             new() { Background = Colour.Black, Lights = [new AmbientLight(Colour.White, 0.1), new DirectionalLight(new(0.3, -0.5, 0.9), Colour.White, 0.9)] },
             [new(new SceneObject("a.fdo", Transformation.Identity) { Colour = Colour.White }, new FractalModel("a.fdo", 1, FractalAddressTests.Infinite(name)))]);
@@ -81,8 +85,8 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
         {
             var (mean, share) = RenderScenes.Difference(first, At(depth));
             Assert.Equal(depth, dive.Address.Depth);
-            report.Require("share of pixels that differ by more than 8 of 255 from depth 40", share, 0, () => $"depth {depth}");
-            report.Require("mean difference from depth 40, of 255", mean, 0, () => $"depth {depth}");
+            report.Require("picture beside that at depth 40: share of pixels that differ by more than 8 of 255", share, 0, () => $"depth {depth}");
+            report.Require("picture beside that at depth 40: mean difference of 255", mean, 0, () => $"depth {depth}");
         }
 
         PixelImage At(int depth)

@@ -1,4 +1,5 @@
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Detail;
 using FractalEngine.Core.Fractals;
@@ -31,7 +32,7 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     ];
 
     /// <summary>How objects are placed, sizes aside.</summary>
-    public static TheoryData<string> Placements => ["scale", "far", "scale and far", "mirror", "condition 1e6", "condition 1e6, far"];
+    public static TheoryData<string> Placements => ["scale", "far", "scale and far", "mirror", "condition 1e6", "condition 1e6 and far"];
 
     [Theory]
     [MemberData(nameof(Placements))]
@@ -42,6 +43,18 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     [Trait("Category", "Soak")]
     public void Find_OnAPlacedObjectForLong_IsThatOfExactArithmetic(string placement) => CheckPlaced(placement, 1000);
 
+    /// <summary>What an object's placement has one at a time, and its powers of ten.</summary>
+    public static TheoryData<string, int, int> Decades => new() { { "translation in sizes", 0, 9 }, { "scale", -12, 12 }, { "condition", 0, 6 } };
+
+    [Theory]
+    [MemberData(nameof(Decades))]
+    public void Find_OnAnObjectOfEveryPlacement_IsThatOfExactArithmetic(string by, int first, int last) => CheckDecades(by, first, last, 3);
+
+    [Theory]
+    [MemberData(nameof(Decades))]
+    [Trait("Category", "Soak")]
+    public void Find_OnAnObjectOfEveryPlacementForLong_IsThatOfExactArithmetic(string by, int first, int last) => CheckDecades(by, first, last, 150);
+
     /// <summary>A cube's 48 symmetries are the sponge's: what is asked at the images of a position must be the same, in the middle 48 times at once.</summary>
     [Theory]
     [InlineData(1)]
@@ -51,7 +64,7 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     [InlineData(null)]
     public void Find_AtSymmetricPlaces_IsTheSameDistance(int? depth)
     {
-        using var report = new StabilityReport(output);
+        using var report = new StabilityReport(output, (object?)depth ?? "infinite");
         var (collider, record) = (new ExactFractalCollider(DetailViews.Menger(depth)), new QueryRecord());
         Seeded.Run(60, random =>
         {
@@ -62,11 +75,11 @@ public class ColliderStabilityTests(ITestOutputHelper output)
                 Assert.True(closest.Normal.IsFinite());
                 return closest.Distance;
             }).ToArray();
-            report.Require("difference between 48 symmetric places, of the size", (distances.Max() - distances.Min()) / Math.Sqrt(12), Tolerance, () => $"{position}");
+            report.Require("48 symmetric places of the sponge (of the size)", (distances.Max() - distances.Min()) / Math.Sqrt(12), Tolerance, () => $"{position}");
         });
         // The hole in the middle has edges at a third: 1/3·√2 from the middle of a cube of half 1.
         Assert.True(collider.TryFindClosest(Vector.Zero, double.PositiveInfinity, record, out var middle));
-        report.Require("distance of the middle", Math.Abs(middle.Distance - (Math.Sqrt(2) / 3)), Tolerance, () => $"{middle}");
+        report.Require("distance of the middle of the sponge", Math.Abs(middle.Distance - (Math.Sqrt(2) / 3)), Tolerance, () => $"{middle}");
     }
 
     /// <summary>Corners, edges and middles of the tetrahedron fractal, whose maps halve: each position of an instance's face lies on the fractal, to the last place.</summary>
@@ -88,7 +101,7 @@ public class ColliderStabilityTests(ITestOutputHelper output)
                     var local = i % 3 == 0 ? a : i % 3 == 1 ? 0.5 * (a + b) : (0.25 * a) + (0.5 * b) + (0.25 * c);
                     var position = Exactly(path, local, 1);
                     Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest));
-                    report.Require("distance of what lies on the fractal, of the size", closest.Distance / fractal.Bounds.Diagonal, Tolerance, () => $"depth {depth}, path {string.Join(' ', path)}, at {local}");
+                    report.Require("distance of what lies on an instance (of the size)", closest.Distance / fractal.Bounds.Diagonal, Tolerance, () => $"depth {depth}, path {string.Join(' ', path)}, at {local}");
                 }
             });
         }
@@ -138,7 +151,7 @@ public class ColliderStabilityTests(ITestOutputHelper output)
                 var local = address.About.Inverse() * Vector.Zero;
                 var (position, expected) = (address.WorldPosition(AffineMap.Identity), Exactly([.. address.Path], local, 1));
                 var size = FractalPositions.SizeOf(fractal, position);
-                report.Require("world position, of the size", Near.Difference(expected, position) / size, Tolerance, () => $"depth {address.Depth}, {local}");
+                report.Require("world position of a path and a place in its frame (of the size)", Near.Difference(expected, position) / size, Tolerance, () => $"depth {address.Depth}, {local}");
                 deepest = Math.Max(deepest, address.Depth);
                 if (random.Next(10) == 0)
                 {
@@ -149,32 +162,50 @@ public class ColliderStabilityTests(ITestOutputHelper output)
         report.Note("depth", deepest);
     }
 
-    private void CheckPlaced(string placement, int seeds)
+    private void CheckPlaced(string placement, int seeds, [CallerMemberName] string test = "")
     {
-        using var report = new StabilityReport(output);
+        using var report = new StabilityReport(output, placement, test);
         Parallel.For(1, seeds + 1, seed => Seeded.RunOne(seed, random =>
         {
             foreach (var (name, draw) in Shapes)
             {
-                var (model, place) = (draw(random), Place(random, placement));
-                if (model.Mesh.FaceCount == 0 || (model is FractalModel { Fractal.InstanceCount: var count } && count == 0))
-                {
-                    continue;
-                }
-
-                var faces = model is FractalModel { Fractal: var fractal } ? WorldFaces.Of(fractal, place) : WorldFaces.Of(model.Mesh, place);
-                var (collider, record) = (new SceneCollider(new(new(), [new(new("object", place), model)])), new QueryRecord());
-                for (var query = 0; query < 10; query++)
-                {
-                    var position = faces.Position(random);
-                    var (expected, size) = (faces.Distance(position), faces.Magnitude(position));
-                    Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest, out _));
-                    Assert.True(closest.Normal.IsFinite() && closest.Point.IsFinite(), $"{name}, {place} at {position}: {closest}");
-                    report.Require($"{name}: distance", Math.Abs(closest.Distance - expected) / size, Tolerance, () => $"{name}, {place} at {position}: {closest.Distance:R}, not {expected:R}");
-                    report.Require($"{name}: point to position", Math.Abs((closest.Point - position).Length() - expected) / size, Tolerance, () => $"{name}, {place} at {position}: {closest.Point}");
-                }
+                CheckQueries(report, random, $"distance from placed objects (of the magnitude): {name}", draw(random), Place(random, placement), null);
             }
         }));
+    }
+
+    private void CheckDecades(string by, int first, int last, int seeds, [CallerMemberName] string test = "")
+    {
+        using var report = new StabilityReport(output, by, test);
+        Parallel.For(0, (last - first + 1) * seeds, i => Seeded.RunOne(i, random =>
+        {
+            var decade = RoundNumbers.PowerOfTen(first + (i / seeds));
+            foreach (var (name, draw) in Shapes)
+            {
+                CheckQueries(report, random, $"distance by the {by} (of the magnitude): {name}", draw(random), PlaceBy(random, by, decade), decade);
+            }
+        }));
+    }
+
+    /// <summary>The distance that is told, and that of the point that is named: the worse is noted.</summary>
+    private static void CheckQueries(StabilityReport report, Random random, string what, Model model, Transformation place, double? at)
+    {
+        if (model.Mesh.FaceCount == 0 || (model is FractalModel { Fractal.InstanceCount: var count } && count == 0))
+        {
+            return;
+        }
+
+        var faces = model is FractalModel { Fractal: var fractal } ? WorldFaces.Of(fractal, place) : WorldFaces.Of(model.Mesh, place);
+        var (collider, record) = (new SceneCollider(new(new(), [new(new("object", place), model)])), new QueryRecord());
+        for (var query = 0; query < 10; query++)
+        {
+            var position = faces.Position(random);
+            var (expected, size) = (faces.Distance(position), faces.Magnitude(position));
+            Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest, out _));
+            Assert.True(closest.Normal.IsFinite() && closest.Point.IsFinite(), $"{what}: {place} at {position}: {closest}");
+            var error = Math.Max(Math.Abs(closest.Distance - expected), Math.Abs((closest.Point - position).Length() - expected)) / size;
+            report.Require(what, error, Tolerance, () => $"{place} at {position}: {closest}, not {expected:R}", at);
+        }
     }
 
     /// <summary>Checks that the answer is a point of the fractal, and that nothing is nearer; false where the oracle takes too long.</summary>
@@ -187,7 +218,7 @@ public class ColliderStabilityTests(ITestOutputHelper output)
             return false;
         }
 
-        report.Require("farther than by branch and bound with balls, of the size", (closest.Distance - nearest) / FractalPositions.SizeOf(probe.Fractal, position), Tolerance, () => $"{position}");
+        report.Require("farther than by branch and bound with balls (of the size)", (closest.Distance - nearest) / FractalPositions.SizeOf(probe.Fractal, position), Tolerance, () => $"{position}");
         return true;
     }
 
@@ -204,6 +235,15 @@ public class ColliderStabilityTests(ITestOutputHelper output)
             _ => new(scale * far * random.Direction(), random.Degrees(), scale * new Vector(1e-6, 1e-3, 1)),
         };
     }
+
+    private static Transformation PlaceBy(Random random, string by, double decade) => by switch
+    {
+        // Shapes measure some units.
+        "translation in sizes" => new(decade * random.Direction(), random.Degrees(), Vector.One),
+        "scale" => new(decade * random.Vector(), random.Degrees(), decade * Vector.One),
+        "condition" => new(random.Vector(), random.Degrees(), new Vector(1, Math.Pow(decade, -random.NextDouble()), 1 / decade)),
+        _ => throw new ArgumentOutOfRangeException(nameof(by), by, null),
+    };
 
     private static Transformation Similar(Random random) => new(random.Vector(2), random.Degrees(), random.Between(0.3, 0.7) * (random.Next(2) == 0 ? Vector.One : new(-1, 1, 1)));
 

@@ -1,5 +1,6 @@
 using System.Globalization;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using System.Text;
 using FractalEngine.App;
 using FractalEngine.Core.Geometry;
@@ -47,9 +48,9 @@ public class NumberStabilityTests(ITestOutputHelper output)
         Assert.Equal(string.Join(' ', numbers.Select(Bits)), InCulture.Get(culture, () => ReadBack(numbers)));
     });
 
-    private void CheckText(int batches)
+    private void CheckText(int batches, [CallerMemberName] string test = "")
     {
-        using var report = new StabilityReport(output);
+        using var report = new StabilityReport(output, method: test);
         Parallel.For(1, batches + 1, seed => Seeded.RunOne(seed, random =>
         {
             for (var i = 0; i < Batch; i++)
@@ -57,31 +58,31 @@ public class NumberStabilityTests(ITestOutputHelper output)
                 var text = Text(random);
                 var expected = double.Parse(text, NumberStyles.Float, CultureInfo.InvariantCulture);
                 Assert.True(NumberReader.TryRead(text, out var value, out var length) && length == text.Length, text);
-                report.Require("last places off double.Parse", BitConverter.DoubleToInt64Bits(expected) == BitConverter.DoubleToInt64Bits(value) ? 0 : 1, 0, () => $"{text}: {value}, not {expected}");
+                report.Require("decimal texts whose bits are not those of double.Parse", BitConverter.DoubleToInt64Bits(expected) == BitConverter.DoubleToInt64Bits(value) ? 0 : 1, 0, () => $"{text}: {value}, not {expected}");
                 // That takes long.
                 if (i % 50 == 0 && double.IsFinite(value))
                 {
-                    report.Require("units in the last place off exact arithmetic", UnitsOff(text, value), 0.5, () => $"{text}: {value}");
+                    report.Require("decimal texts off rational arithmetic (units in the last place)", UnitsOff(text, value), 0.5, () => $"{text}: {value}");
                 }
             }
         }));
     }
 
-    private void CheckWritten(int batches)
+    private void CheckWritten(int batches, [CallerMemberName] string test = "")
     {
-        using var report = new StabilityReport(output);
+        using var report = new StabilityReport(output, method: test);
         Parallel.For(1, batches + 1, seed => Seeded.RunOne(seed, random =>
         {
             for (var i = 0; i < Batch; i++)
             {
                 var number = Finite(random);
                 Assert.True(NumberReader.TryRead(number.ToString("R", CultureInfo.InvariantCulture), out var value, out _));
-                report.Require("doubles that changed", BitConverter.DoubleToInt64Bits(number) == BitConverter.DoubleToInt64Bits(value) ? 0 : 1, 0, () => $"{number}: {value}");
+                report.Require("numbers written and read whose bits changed: doubles", BitConverter.DoubleToInt64Bits(number) == BitConverter.DoubleToInt64Bits(value) ? 0 : 1, 0, () => $"{number}: {value}");
                 var single = BitConverter.Int32BitsToSingle(random.Next());
                 if (float.IsFinite(single))
                 {
                     Assert.True(NumberReader.TryRead(single.ToString("R", CultureInfo.InvariantCulture), out value, out _));
-                    report.Require("floats that changed", single.Equals((float)value) ? 0 : 1, 0, () => $"{single}: {value}");
+                    report.Require("numbers written and read whose bits changed: floats", single.Equals((float)value) ? 0 : 1, 0, () => $"{single}: {value}");
                 }
             }
         }));

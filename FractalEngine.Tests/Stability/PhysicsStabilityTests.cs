@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Physics;
 using FractalEngine.Tests.Collision;
 using FractalEngine.Tests.Physics;
@@ -26,7 +27,7 @@ public class PhysicsStabilityTests(ITestOutputHelper output)
     [MemberData(nameof(Steps))]
     public void Bounce_OnAFloor_RisesToRestitutionSquaredAtAnyStep(double step)
     {
-        using var report = new StabilityReport(output);
+        using var report = new StabilityReport(output, step);
         Seeded.Run(step < 1e-3 ? 4 : 50, random =>
         {
             var (e, height) = (random.Between(0.5, 1), random.Between(0.5, 2));
@@ -39,7 +40,7 @@ public class PhysicsStabilityTests(ITestOutputHelper output)
 
             var top = body.Position.Y - 0.1 + (body.Velocity.Y * body.Velocity.Y / (2 * 9.8));
             // What is promised is 1 %; the moment of an impact is found to 1e-10 of the radius.
-            report.Require("height of the bounce, of e²·h", Math.Abs(top - (e * e * height)) / height, 1e-8, () => $"e {e}, h {height}: {top}");
+            report.Require("height of a bounce off e²·h (of h)", Math.Abs(top - (e * e * height)) / height, 1e-8, () => $"e {e}, h {height}: {top}");
         });
     }
 
@@ -49,12 +50,12 @@ public class PhysicsStabilityTests(ITestOutputHelper output)
     [InlineData(false)]
     public void Rest_OnASponge_DoesNotMove(bool sleeps)
     {
-        using var report = new StabilityReport(output);
+        using var report = new StabilityReport(output, sleeps ? "asleep" : "awake");
         var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = sleeps ? null : 0 }, Worlds.Place(AssetFractals.Load("menger", 2)));
         var body = world.Add(new(new(0.02, 0.9, 0.01), 0.2) { Friction = 0.5 });
         world.Run(600);
         var place = body.Position;
-        world.Run(20_000, () => report.Require("way from the place of rest, units", (body.Position - place).Length(), 1e-9, () => $"after {world.StepCount} steps"));
+        world.Run(20_000, () => report.Require("way from the place of rest on a sponge (units)", (body.Position - place).Length(), 1e-9, () => $"after {world.StepCount} steps"));
     }
 
     /// <summary>Many worlds at once, each on some thread: what one computes is nothing to another. DeterminismTests compare six.</summary>
@@ -68,19 +69,24 @@ public class PhysicsStabilityTests(ITestOutputHelper output)
         Assert.Equal(alone.Length, alone.Distinct().Count());
         for (var i = 0; i < together.Length; i++)
         {
-            report.Require("worlds that differ", together[i] == alone[i % alone.Length] ? 0 : 1, 0, () => $"world {i}");
+            report.Require("worlds that differ when they run in parallel", together[i] == alone[i % alone.Length] ? 0 : 1, 0, () => $"world {i}");
         }
     }
 
-    private void CheckEnergy(double step, int steps)
+    private void CheckEnergy(double step, int steps, [CallerMemberName] string test = "")
     {
-        using var report = new StabilityReport(output);
+        using var report = new StabilityReport(output, step, test);
         var world = Worlds.Of(Worlds.Gravity, step, Worlds.Place(PhysicsMeshes.Floor()));
         // The fastest that a step's gravity adds is small beside the speed of the impacts, so that none counts as rest.
         world.Add(new(new(0.3, 3.1, -0.2), 0.1) { Restitution = 1 });
         var energy = world.Energy();
         // An impact is found to 1e-10 of the radius, which is 1e-11 of the height or less; the sums of a step round by 2⁻⁵².
-        world.Run(steps, () => report.Require("energy, of the first", Math.Abs(world.Energy() - energy) / energy, (1e-11 * (1 + (world.Time / 1.5))) + (1e-15 * world.StepCount), () => $"after {world.StepCount} steps"));
+        world.Run(steps, () => report.Require(
+            "energy of a ball that bounces with e = 1 by steps (of the first)",
+            Math.Abs(world.Energy() - energy) / energy,
+            (1e-11 * (1 + (world.Time / 1.5))) + (1e-15 * world.StepCount),
+            () => $"after {world.StepCount} steps",
+            RoundNumbers.From(world.StepCount)));
     }
 
     private static string Hash(int seed)
