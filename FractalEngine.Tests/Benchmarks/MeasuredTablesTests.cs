@@ -31,7 +31,7 @@ public partial class MeasuredTablesTests
         Assert.All(table.Rows, row =>
         {
             Assert.Equal(table.Header.Length, row.Length);
-            Assert.All(row, field => Assert.DoesNotContain("NaN", field, StringComparison.OrdinalIgnoreCase));
+            Assert.DoesNotContain("NaN", row, StringComparer.OrdinalIgnoreCase);
         });
     }
 
@@ -103,9 +103,12 @@ public partial class MeasuredTablesTests
     [Fact]
     public void Pictures_AreEachShownSomewhere()
     {
-        var linked = Directory.GetFiles(Folder, "*.md").SelectMany(page => Link().Matches(File.ReadAllText(page)).Select(match => match.Groups[1].Value)).ToHashSet();
+        var linked = (
+            from page in Directory.GetFiles(Repository.Full("docs"), "*.md", SearchOption.AllDirectories)
+            from match in Link().Matches(File.ReadAllText(page))
+            select Path.GetFullPath(Path.Combine(Path.GetDirectoryName(page)!, match.Groups[1].Value))).ToHashSet();
         Assert.NotEmpty(linked);
-        Assert.All(Directory.GetFiles(Folder, "*.svg"), picture => Assert.Contains(Path.GetFileName(picture), linked));
+        Assert.All(Directory.GetFiles(Folder, "*.svg"), picture => Assert.Contains(Path.GetFullPath(picture), linked));
     }
 
     private static CsvText Read(string file) => CsvText.Read(Path.Combine(Folder, file));

@@ -10,6 +10,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.Detail;
 
 /// <summary>Fractals that are hard to choose from: deep, degenerate, huge, tiny, or hardly shrinking.</summary>
+[Collection(TimedTests.Name)]
 public class VisibleSetLimitTests
 {
     private static readonly DetailSettings Ordinary = new() { Threads = 2 };

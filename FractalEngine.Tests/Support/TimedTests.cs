@@ -1,0 +1,8 @@
+namespace FractalEngine.Tests.Support;
+
+/// <summary>Tests with a limit of time that others, in parallel, would use up: they run alone.</summary>
+[CollectionDefinition(Name, DisableParallelization = true)]
+public class TimedTests
+{
+    public const string Name = "Timed";
+}
