@@ -30,7 +30,8 @@ fi
 commands=(front growth loading precision frames skips physics window paper stability classes)
 [ $# = 0 ] || commands=("$@")
 
-classes='*'
+# Few iterations: what has to be told apart is measured in turns, by the commands.
+classes='* --job short'
 [ -z "$quick" ] || classes='*.MeshColliderBenchmarks.* *.LoadingBenchmarks.* *.PrecisionBenchmarks.* --job short --inProcess --iterationTime 100'
 
 # Prints the words that a command is called with.
@@ -41,7 +42,7 @@ words() {
         skips | physics) echo "$1 ${quick:+--rounds 1}" ;;
         # The paper's models have one size, and a window one cost.
         window | paper) echo "$1" ;;
-        # Of BenchmarkDotNet: all, or three with few iterations.
+        # Of BenchmarkDotNet: all, or three.
         classes) echo "--artifacts out/benchmarkdotnet --filter $classes" ;;
         *) fail "unknown command '$1'" 2 ;;
     esac
