@@ -28,7 +28,11 @@ internal sealed record FrontRow(string Name, string? Knob, double? Value, Collid
             rows.AddRange(Widths.Select(width => Build("fractal", "width", width, 0, 0, () => new FractalCollider(fractal, width))));
         }
 
-        var faces = shape.Faces;
+        if (shape.Faces is not { } faces)
+        {
+            return rows;
+        }
+
         var bytes = (sizeof(double) * (long)faces.Positions.Length) + (sizeof(int) * (long)faces.Faces.Length);
         var expansion = shape.ExpansionMilliseconds;
         rows.AddRange(WithEpsilons("hierarchy", bytes, expansion, () => new HierarchyCollider(faces)));

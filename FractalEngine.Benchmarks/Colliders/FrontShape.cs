@@ -8,28 +8,35 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Benchmarks.Colliders;
 
-/// <summary>A shape that colliders of meshes and of fractals can be compared on: its faces fit into memory.</summary>
+/// <summary>A shape that colliders of meshes and of fractals can be compared on; where its faces do not fit into memory, only those of fractals.</summary>
 /// <param name="Name">Short, for tables and files.</param>
 /// <param name="Fractal">Null for a mesh.</param>
-/// <param name="Faces">All of them; of a fractal, expanded.</param>
+/// <param name="Faces">All of them; of a fractal, expanded; null where there are more than <see cref="MostFaces"/>.</param>
 /// <param name="ExpansionMilliseconds">What it took to expand them; 0 for a mesh.</param>
-internal sealed record FrontShape(string Name, Fractal? Fractal, Mesh Faces, double ExpansionMilliseconds)
+internal sealed record FrontShape(string Name, Fractal? Fractal, Mesh? Faces, double ExpansionMilliseconds)
 {
-    /// <summary>Shapes with more faces have no oracle, and are refused.</summary>
+    /// <summary>Shapes with more faces have no oracle, and no colliders of meshes.</summary>
     public const int MostFaces = 3_000_000;
 
     private static readonly string[] Meshes = ["spaceship-interior", "tree-stump"];
 
     /// <summary>The shapes unless others are named; a number is the depth of a fractal, or the faces of a mesh.</summary>
     public static string[] Default { get; } =
-        ["appendix-b:3", "menger:4", "terrain:8", "tree:7", "sierpinski:5", "tetrahedron:8", "fern:3", "romanesco:3", "spaceship-interior:200000", "tree-stump:200000"];
+    [
+        "appendix-b:3", "menger:4", "terrain:8", "tree:7", "sierpinski:5", "tetrahedron:8", "fern:3", "romanesco:3", "diamond:3", "shell", "snowflake", "tree-leaves", "appendix-b-structure:4",
+        "spaceship-interior:200000", "tree-stump:200000", "menger-40", "googol", "infinite-menger",
+    ];
 
     /// <summary>The same with fewer faces: at most some 300,000.</summary>
     public static string[] Quick { get; } =
-        ["appendix-b:3", "menger:3", "terrain:7", "tree:6", "sierpinski:5", "tetrahedron:8", "fern:2", "romanesco:2", "spaceship-interior:50000", "tree-stump:50000"];
+    [
+        "appendix-b:3", "menger:3", "terrain:7", "tree:6", "sierpinski:5", "tetrahedron:8", "fern:2", "romanesco:2", "spaceship-interior:50000", "tree-stump:50000", "menger-40", "infinite-menger",
+    ];
 
     /// <summary>The diagonal of the box: what errors are parts of.</summary>
-    public double Size => Faces.Bounds.Diagonal;
+    public double Size => Bounds.Diagonal;
+
+    private BoundingBox Bounds => Fractal?.Bounds ?? Faces!.Bounds;
 
     /// <summary>True for the name of a shape, with a number after a colon or without.</summary>
     public static bool IsName(string text) => FractalCase.IsCase(text) || text.Split(':') switch
@@ -40,7 +47,6 @@ internal sealed record FrontShape(string Name, Fractal? Fractal, Mesh Faces, dou
     };
 
     /// <summary>Makes the shape of a name.</summary>
-    /// <exception cref="FractalLimitException">It has more than <see cref="MostFaces"/>, or no end.</exception>
     public static FrontShape Create(string text)
     {
         var name = text.Split(':')[0];
@@ -50,14 +56,19 @@ internal sealed record FrontShape(string Name, Fractal? Fractal, Mesh Faces, dou
         }
 
         var fractal = FractalCase.Parse(text).Fractal;
+        if (!(fractal.FaceCount <= MostFaces))
+        {
+            return new(name, fractal, null, 0);
+        }
+
         var watch = Stopwatch.StartNew();
         var faces = FractalGenerator.Flatten(fractal, MostFaces);
         return new(name, fractal, faces, watch.Elapsed.TotalMilliseconds);
     }
 
     /// <summary>Anywhere in its box.</summary>
-    public Vector Uniform(Random random) => QueryPositions.Uniform(random, Faces.Bounds);
+    public Vector Uniform(Random random) => QueryPositions.Uniform(random, Bounds);
 
     /// <summary>Near a random face.</summary>
-    public Vector Near(Random random) => Fractal is null ? QueryPositions.Near(random, Faces) : QueryPositions.Near(random, Fractal);
+    public Vector Near(Random random) => Fractal is null ? QueryPositions.Near(random, Faces!) : QueryPositions.Near(random, Fractal);
 }

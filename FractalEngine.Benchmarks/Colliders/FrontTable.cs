@@ -10,7 +10,7 @@ namespace FractalEngine.Benchmarks.Colliders;
 /// missed, bytes.
 /// </summary>
 /// <remarks>
-/// The oracle looks at every face (<see cref="SimpleCollider"/>). Times are the smallest of some rounds, in which all rows of a shape take turns, on one thread. Slow
+/// The oracle looks at every face (<see cref="SimpleCollider"/>); shapes with too many have no errors. Times are the smallest of some rounds, in which all rows of a shape take turns, on one thread. Slow
 /// rows are timed on the first positions only; tests and errors are those of all. Caches are warm. Only times differ from run to run.
 /// </remarks>
 /// <param name="queries">Of each kind.</param>
@@ -50,32 +50,35 @@ internal sealed class FrontTable(int queries, int rounds, CsvTable table)
     {
         var random = new Random(1);
         var positions = Enumerable.Range(0, queries).Select(_ => make(random)).ToArray();
-        var oracle = ColliderQuality.Oracle(shape.Faces, positions);
+        var oracle = shape.Faces is null ? null : ColliderQuality.Oracle(shape.Faces, positions);
         var answers = rows.Select(row => Ask(row, positions, oracle)).ToArray();
-        foreach (var (row, answer) in rows.Zip(answers))
+        if (oracle is not null)
         {
-            Check(shape, row, answer.Distances, oracle);
+            foreach (var (row, answer) in rows.Zip(answers))
+            {
+                Check(shape, row, answer.Distances, oracle);
+            }
         }
 
         var times = Times(rows, positions, [.. answers.Select(answer => TimedPositions(answer.FaceTests + answer.BoundTests))]);
         for (var i = 0; i < rows.Count; i++)
         {
             var (row, answer) = (rows[i], answers[i]);
-            var errors = AnswerErrors.Of(answer.Distances, oracle, shape.Size);
+            AnswerErrors? errors = oracle is null ? null : AnswerErrors.Of(answer.Distances, oracle, shape.Size);
             table.Add(
-                shape.Name, shape.Faces.FaceCount, kind, row.Name, row.Knob, row.Value, Math.Round(times[i], 1), answer.FaceTests, answer.BoundTests,
-                errors.Largest, errors.Mean, errors.LargestRelative, errors.MeanRelative, errors.MissedPercent, row.Bytes, Math.Round(row.BuildMilliseconds, 2));
+                shape.Name, shape.Faces?.FaceCount, kind, row.Name, row.Knob, row.Value, Math.Round(times[i], 1), answer.FaceTests, answer.BoundTests,
+                errors?.Largest, errors?.Mean, errors?.LargestRelative, errors?.MeanRelative, errors?.MissedPercent, row.Bytes, Math.Round(row.BuildMilliseconds, 2));
         }
     }
 
     /// <summary>All positions; a collider that is the oracle is asked for its costs only, with one.</summary>
-    private (double[] Distances, double FaceTests, double BoundTests) Ask(FrontRow row, Vector[] positions, double[] oracle)
+    private (double[] Distances, double FaceTests, double BoundTests) Ask(FrontRow row, Vector[] positions, double[]? oracle)
     {
         _record.Reset();
         var asked = row.Collider is SimpleCollider ? positions[..1] : positions;
         var distances = asked.Select(position =>
             row.Collider.TryFindClosest(position, double.PositiveInfinity, _record, out var closest, row.Epsilon) ? closest.Distance : double.PositiveInfinity).ToArray();
-        return (asked.Length < positions.Length ? oracle : distances, (double)_record.FaceTests / asked.Length, (double)_record.BoundTests / asked.Length);
+        return (asked.Length < positions.Length ? oracle! : distances, (double)_record.FaceTests / asked.Length, (double)_record.BoundTests / asked.Length);
     }
 
     private static void Check(FrontShape shape, FrontRow row, double[] distances, double[] oracle)

@@ -77,15 +77,6 @@ public sealed class BenchmarkCommandTests : IDisposable
         string[] InBackticks(int column) => [.. rows.SelectMany(row => row[column].Split('`').Where((_, i) => i % 2 == 1)).Order(StringComparer.Ordinal)];
     }
 
-    [Fact]
-    public void Run_OfAFractalWithoutEnd_SaysThatThereAreTooManyInstances()
-    {
-        var (exitCode, _, error) = AppProcess.RunBenchmarks(_folder.Path, "front", "infinite-menger", "--output", "out");
-        Assert.Equal(1, exitCode);
-        Assert.Matches(@"^error: the fractal has infinitely many instances, [^\n]+\n$", error);
-        Assert.Empty(Directory.GetFileSystemEntries(_folder.Path));
-    }
-
     private void AssertRefused(string command, string wrong, params string[] words)
     {
         string[] line = command is "table" ? [command, .. words] : [command, "--output", "out", .. words];

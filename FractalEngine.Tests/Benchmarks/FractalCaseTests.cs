@@ -48,6 +48,17 @@ public class FractalCaseTests
     public void Create_OfAShape_HasItsFaces(string name, int faces)
     {
         var shape = FrontShape.Create(name);
-        Assert.Equal((name.Split(':')[0], faces), (shape.Name, shape.Faces.FaceCount));
+        Assert.Equal((name.Split(':')[0], faces), (shape.Name, shape.Faces!.FaceCount));
+    }
+
+    [Theory]
+    [InlineData("infinite-menger")]
+    [InlineData("googol")]
+    [InlineData("menger:5")]
+    public void Create_OfAFractalOfTooManyFaces_HasCollidersOfLevelsOnly(string name)
+    {
+        var shape = FrontShape.Create(name);
+        Assert.Null(shape.Faces);
+        Assert.Equal(["exact", "fractal"], FrontRow.All(shape).Select(row => row.Name).Distinct());
     }
 }

@@ -41,14 +41,15 @@ public partial class MeasuredTablesTests
         var table = Read("front.csv");
         Assert.Equal(FrontTable.Columns, table.Header);
         var groups = table.Named().GroupBy(row => (row("shape"), row("queries"))).ToArray();
-        Assert.Equal(10 * 2, groups.Length);
+        Assert.InRange(groups.Length, 2 * 10, 2 * 20);
         Assert.All(groups, group =>
         {
             Assert.Single(group.Select(row => row("faces")).Distinct());
-            Assert.Equal(["0", "0.01", "0.1", "0.5", "1"], Places(group, "hierarchy"));
-            Assert.Equal(["1", "2", "3", "4", "5", "6"], Places(group, "octree").Take(6));
-            Assert.Equal(7, Places(group, "octree").Count());
-            Assert.Single(Places(group, "simple"));
+            var isTooLarge = group.First()("faces") == "";
+            Assert.Equal(isTooLarge ? [] : ["0", "0.01", "0.1", "0.5", "1"], Places(group, "hierarchy"));
+            Assert.Equal(isTooLarge ? [] : ["1", "2", "3", "4", "5", "6"], Places(group, "octree").Take(6));
+            Assert.Equal(isTooLarge ? 0 : 7, Places(group, "octree").Count());
+            Assert.Equal(isTooLarge ? 0 : 1, Places(group, "simple").Count());
             var isMesh = group.Key.Item1 is "spaceship-interior" or "tree-stump";
             Assert.Equal(isMesh ? [] : ["0", "0.01", "0.1", "0.5", "1"], Places(group, "exact"));
             Assert.Equal(isMesh ? [] : ["1", "2", "4", "8", "16", "32", "64"], Places(group, "fractal"));
@@ -61,9 +62,9 @@ public partial class MeasuredTablesTests
     public void Front_OfExactColliders_HasErrorsOfRoundingOnly()
     {
         var exact = Read("front.csv").Named().Where(row => row("collider") == "simple" || (row("knob"), row("value")) == ("epsilon", "0")).ToArray();
-        // Eight fractals have three such colliders, two meshes two, each asked for two kinds of positions.
-        Assert.Equal(2 * ((8 * 3) + (2 * 2)), exact.Length);
-        Assert.All(exact, row =>
+        // Eight fractals, at least, have three such colliders, two meshes two, each asked for two kinds of positions.
+        Assert.InRange(exact.Length, 2 * ((8 * 3) + (2 * 2)), 200);
+        Assert.All(exact.Where(row => row("largest_error") != ""), row =>
         {
             Assert.InRange(CsvText.Number(row("largest_error")), 0, 1e-12);
             Assert.InRange(CsvText.Number(row("mean_error")), 0, 1e-12);
@@ -75,7 +76,7 @@ public partial class MeasuredTablesTests
     [Fact]
     public void Front_OfCollidersWithEpsilon_ErrsByNoMoreThanIt()
     {
-        var rows = Read("front.csv").Named().Where(row => row("knob") == "epsilon").ToArray();
+        var rows = Read("front.csv").Named().Where(row => row("knob") == "epsilon" && row("largest_error") != "").ToArray();
         Assert.All(rows, row => Assert.InRange(CsvText.Number(row("largest_relative_error")), 0, CsvText.Number(row("value"))));
         Assert.Contains(rows, row => CsvText.Number(row("largest_relative_error")) > 0.1);
     }
@@ -83,7 +84,14 @@ public partial class MeasuredTablesTests
     [Fact]
     public void Front_OfEveryRow_IsWithinWhatItsColumnsMean() => Assert.All(Read("front.csv").Named(), row =>
     {
-        double Value(string column) => CsvText.Number(row(column));
+        // Empty where there is no oracle.
+        double Value(string column) => row(column) == "" ? -1 : CsvText.Number(row(column));
+        if (row("faces") == "")
+        {
+            Assert.Equal((-1, -1), (Value("largest_error"), Value("missed_percent")));
+            return;
+        }
+
         Assert.InRange(Value("mean_error"), 0, Value("largest_error"));
         Assert.InRange(Value("mean_relative_error"), 0, Value("largest_relative_error"));
         Assert.InRange(Value("missed_percent"), 0, 100);
