@@ -31,7 +31,7 @@ commands=(front growth loading precision frames skips physics window paper stabi
 [ $# = 0 ] || commands=("$@")
 
 # Few iterations: what has to be told apart is measured in turns, by the commands.
-classes='* --job short'
+classes='* --job short --inProcess --iterationTime 100'
 [ -z "$quick" ] || classes='*.MeshColliderBenchmarks.* *.LoadingBenchmarks.* *.PrecisionBenchmarks.* --job short --inProcess --iterationTime 100'
 
 # Prints the words that a command is called with.
