@@ -14,6 +14,9 @@ internal sealed class LevelBounds
     private const int KeptLevels = 4096;
     private const int LimitRounds = 100_000;
 
+    // Maps of a round that are also looked at as a whole.
+    private const int ComposedMaps = 256;
+
     private static readonly Bound Unknown = new(
         new(Vector.Zero, double.PositiveInfinity),
         new(double.NegativeInfinity * Vector.One, double.PositiveInfinity * Vector.One));
@@ -42,6 +45,7 @@ internal sealed class LevelBounds
             var body = step is Repetition repetition ? repetition : new([step], 1);
             var rounds = body.Count ?? LimitRounds;
             var settled = false;
+            var composed = ComposedRound(body);
             for (var round = 0; round < rounds; round++)
             {
                 var before = below;
@@ -49,8 +53,14 @@ internal sealed class LevelBounds
                 {
                     var set = body.LevelAt(level);
                     exact &= set.Maps.All(map => SendsAxesToAxes(map.Linear));
-                    below = below.Under(set);
+                    below = below.Under(set.Maps.AsSpan());
                     kept.Add(below);
+                }
+
+                if (composed.Length > 0)
+                {
+                    // Turned boxes and stretched balls grow from set to set, where the maps of a whole round may shrink.
+                    below = kept[^1] = Bound.Smaller(below, before.Under(composed));
                 }
 
                 if (!below.IsFinite())
@@ -92,6 +102,21 @@ internal sealed class LevelBounds
         return new(complete ? [.. kept] : [.. kept.Take(KeptLevels)], exact);
     }
 
+    /// <summary>All maps of a round of several sets; none where boxes of each set are exact, or where there are too many.</summary>
+    private static AffineMap[] ComposedRound(Repetition body)
+    {
+        AffineMap[] maps = [AffineMap.Identity];
+        var exact = true;
+        for (var level = 0L; level < body.LevelsPerRound && maps.Length <= ComposedMaps; level++)
+        {
+            var set = body.LevelAt(level);
+            exact &= set.Maps.All(map => SendsAxesToAxes(map.Linear));
+            maps = [.. from outer in maps from inner in set.Maps select outer * inner];
+        }
+
+        return exact || body.LevelsPerRound == 1 || maps.Length > ComposedMaps ? [] : maps;
+    }
+
     private static bool IsSettled(Bound before, Bound now) => Math.Max(
         Math.Abs(before.Sphere.Radius - now.Sphere.Radius),
         Math.Max(
@@ -120,11 +145,11 @@ internal sealed class LevelBounds
             return new(new(centre, radius), mesh.Bounds);
         }
 
-        /// <summary>Around the copies that a set makes of what this is around.</summary>
-        public Bound Under(TransformationSet set)
+        /// <summary>Around the copies that maps make of what this is around.</summary>
+        public Bound Under(ReadOnlySpan<AffineMap> maps)
         {
             var (box, ballBox) = (BoundingBox.Empty, BoundingBox.Empty);
-            foreach (var map in set.Maps)
+            foreach (var map in maps)
             {
                 box = BoundingBox.Union(box, Box.Transform(map));
                 var ball = Sphere.Transform(map);
@@ -133,7 +158,7 @@ internal sealed class LevelBounds
 
             box = new(Vector.Max(box.Minimum, ballBox.Minimum), Vector.Min(box.Maximum, ballBox.Maximum));
             var radius = 0.0;
-            foreach (var map in set.Maps)
+            foreach (var map in maps)
             {
                 var ball = Sphere.Transform(map);
                 radius = Math.Max(radius, (ball.Centre - box.Centre).Length() + ball.Radius);
@@ -141,6 +166,11 @@ internal sealed class LevelBounds
 
             return new(new(box.Centre, radius), box);
         }
+
+        /// <summary>Around the same thing as both are.</summary>
+        public static Bound Smaller(in Bound bound1, in Bound bound2) => new(
+            bound1.Sphere.Radius <= bound2.Sphere.Radius ? bound1.Sphere : bound2.Sphere,
+            new(Vector.Max(bound1.Box.Minimum, bound2.Box.Minimum), Vector.Min(bound1.Box.Maximum, bound2.Box.Maximum)));
 
         /// <summary>An upper bound of <c>Dot(direction, v)</c> over the image of what this is around.</summary>
         public double Farthest(AffineMap map, Vector direction)
