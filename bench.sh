@@ -30,9 +30,8 @@ fi
 commands=(front growth loading precision frames skips physics window paper stability classes)
 [ $# = 0 ] || commands=("$@")
 
-# Few iterations: what has to be told apart is measured in turns, by the commands.
-classes='* --job short --inProcess --iterationTime 100'
-[ -z "$quick" ] || classes='*.MeshColliderBenchmarks.* *.LoadingBenchmarks.* *.PrecisionBenchmarks.* --job short --inProcess --iterationTime 100'
+classes='*'
+[ -z "$quick" ] || classes='*.MeshColliderBenchmarks.* *.LoadingBenchmarks.* *.PrecisionBenchmarks.*'
 
 # Prints the words that a command is called with.
 words() {
@@ -42,8 +41,8 @@ words() {
         skips | physics) echo "$1 ${quick:+--rounds 1}" ;;
         # The paper's models have one size, and a window one cost.
         window | paper) echo "$1" ;;
-        # Of BenchmarkDotNet: all, or three.
-        classes) echo "--artifacts out/benchmarkdotnet --filter $classes" ;;
+        # BenchmarkDotNet, with few iterations: what has to be told apart is measured in turns, by the commands.
+        classes) echo "--artifacts out/benchmarkdotnet --job short --inProcess --iterationTime 100 --filter $classes" ;;
         *) fail "unknown command '$1'" 2 ;;
     esac
 }

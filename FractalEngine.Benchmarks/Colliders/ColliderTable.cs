@@ -17,8 +17,7 @@ namespace FractalEngine.Benchmarks.Colliders;
 /// </remarks>
 internal sealed class ColliderTable(int queries, int rounds, TextWriter output)
 {
-    // What counts as touching, as a part of the fractal's size; errors above the second number count as wrong.
-    private const double Reach = 0.02;
+    // Of the fractal's size: errors above it count as wrong.
     private const double Wrong = 1e-6;
     private const int MostExpandedFaces = 1_000_000;
 
@@ -47,7 +46,7 @@ internal sealed class ColliderTable(int queries, int rounds, TextWriter output)
             {
                 var random = new Random(1);
                 var positions = Enumerable.Range(0, queries).Select(_ => make(random, fractal)).ToArray();
-                Write(name, kind, fractal, colliders, positions, kind == "far" ? Reach * fractal.Bounds.Diagonal : double.PositiveInfinity);
+                Write(name, kind, fractal, colliders, positions, kind == "far" ? AnswerErrors.Reach * fractal.Bounds.Diagonal : double.PositiveInfinity);
             }
 
             output.WriteLine(Line($"{name,-26}{"build",-10}{"exact",-11}{build.Elapsed.TotalMilliseconds,27:F2} ms, {exact.StorageBytes / 1024.0:F1} KB"));
@@ -74,14 +73,12 @@ internal sealed class ColliderTable(int queries, int rounds, TextWriter output)
         var greedy = colliders.FindIndex(entry => entry.Name == "fractal");
         for (var i = 0; i < colliders.Count; i++)
         {
-            var errors = distances[i].Zip(reference, (distance, right) => distance == right ? 0 : Math.Abs(distance - right) / size).ToArray();
-            var missed = distances[i].Zip(reference).Count(pair => pair.Second <= Reach * size && !(pair.First <= Reach * size));
+            var errors = AnswerErrors.Of(distances[i], reference, size);
+            var wrong = distances[i].Zip(reference).Count(pair => Math.Abs(pair.First - pair.Second) > Wrong * size);
             output.WriteLine(Line(
-                $"{name,-26}{kind,-10}{colliders[i].Name,-11}{costs[i].Faces,9:F1}{costs[i].Bounds,9:F1}{times[i],9:F3}{times[i] / times[greedy],8:F3}{errors.Max(),15:E1}{Percent(errors.Count(error => error > Wrong)),9:F1}{Percent(missed),10:F1}"));
+                $"{name,-26}{kind,-10}{colliders[i].Name,-11}{costs[i].Faces,9:F1}{costs[i].Bounds,9:F1}{times[i],9:F3}{times[i] / times[greedy],8:F3}{errors.Largest,15:E1}{100.0 * wrong / queries,9:F1}{errors.MissedPercent,10:F1}"));
         }
     }
-
-    private double Percent(int count) => 100.0 * count / queries;
 
     private static string Line(FormattableString text) => text.ToString(CultureInfo.InvariantCulture);
 

@@ -1,4 +1,3 @@
-using System.Globalization;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Render.Windowing;
 
@@ -27,7 +26,7 @@ internal static class LoadingCommand
         }
         catch (GraphicsUnavailableException exception)
         {
-            Console.WriteLine(string.Create(CultureInfo.InvariantCulture, $"first-picture.csv is left out: {exception.Message}"));
+            Console.WriteLine($"first-picture.csv is left out: {exception.Message}");
         }
 
         return 0;

@@ -77,7 +77,7 @@ internal static class LoadingTable
     private static double _sink;
 
     /// <summary>What any parser has to do.</summary>
-    private static int Words(string text)
+    public static int Words(string text)
     {
         var words = 0;
         foreach (var line in text.AsSpan().EnumerateLines())

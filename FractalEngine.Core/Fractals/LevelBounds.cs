@@ -105,16 +105,26 @@ internal sealed class LevelBounds
     /// <summary>All maps of a round of several sets; none where boxes of each set are exact, or where there are too many.</summary>
     private static AffineMap[] ComposedRound(Repetition body)
     {
-        AffineMap[] maps = [AffineMap.Identity];
-        var exact = true;
-        for (var level = 0L; level < body.LevelsPerRound && maps.Length <= ComposedMaps; level++)
+        if (body.LevelsPerRound == 1)
         {
-            var set = body.LevelAt(level);
-            exact &= set.Maps.All(map => SendsAxesToAxes(map.Linear));
-            maps = [.. from outer in maps from inner in set.Maps select outer * inner];
+            return [];
         }
 
-        return exact || body.LevelsPerRound == 1 || maps.Length > ComposedMaps ? [] : maps;
+        AffineMap[] maps = [AffineMap.Identity];
+        var exact = true;
+        for (var level = 0L; level < body.LevelsPerRound; level++)
+        {
+            var set = body.LevelAt(level).Maps;
+            if ((long)maps.Length * set.Length > ComposedMaps)
+            {
+                return [];
+            }
+
+            exact &= set.All(map => SendsAxesToAxes(map.Linear));
+            maps = [.. from outer in maps from inner in set select outer * inner];
+        }
+
+        return exact ? [] : maps;
     }
 
     private static bool IsSettled(Bound before, Bound now) => Math.Max(

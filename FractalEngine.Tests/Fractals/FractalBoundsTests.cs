@@ -29,6 +29,17 @@ public class FractalBoundsTests
     }
 
     [Fact]
+    public void LevelBounds_OfRoundsOfManyMaps_DoNotMultiplyThemOut() => Seeded.Run(1, random =>
+    {
+        // Nine million products of 96 bytes.
+        var set = new TransformationSet([.. Enumerable.Range(0, 3000).Select(_ => random.Transformation())]);
+        var fractal = new Fractal(new("base.obj", [new Repetition([set, set], 3)]), Samples.Triangle);
+        var before = GC.GetAllocatedBytesForCurrentThread();
+        Assert.True(LevelBounds.Of(fractal).At(0).IsFinite());
+        Assert.InRange(GC.GetAllocatedBytesForCurrentThread() - before, 0, 10_000_000);
+    });
+
+    [Fact]
     public void Bounds_OfAnyFractal_AreThoseOfItsExpandedVertices() => Seeded.Run(300, random =>
     {
         var fractal = RandomFractals.Draw(random);
