@@ -14,8 +14,8 @@ internal static class CommandLine
     /// <returns>The exit code.</returns>
     public static int Run(string[] args)
     {
-        var root = Root();
-        var result = root.Parse(args.Contains("--version") ? ["--version"] : WithCommand(root, args));
+        var root = CreateRootCommand();
+        var result = root.Parse(args.Contains("--version") ? ["--version"] : WithDefaultCommand(root, args));
         if (result.Errors.Count > 0)
         {
             foreach (var message in result.Errors.Select(error => error.Message).Distinct())
@@ -30,7 +30,7 @@ internal static class CommandLine
         return Invoke(result);
     }
 
-    private static RootCommand Root()
+    private static RootCommand CreateRootCommand()
     {
         var root = new RootCommand("FractalEngine draws fractals of any size, and regular models beside them.");
         foreach (var command in (Command[])[
@@ -44,7 +44,7 @@ internal static class CommandLine
     }
 
     /// <summary>Without the name of a command, <c>view</c> is meant. Asking for help without one is about the program as a whole.</summary>
-    private static string[] WithCommand(RootCommand root, string[] args) => args switch
+    private static string[] WithDefaultCommand(RootCommand root, string[] args) => args switch
     {
         [var first, ..] when root.Subcommands.Any(command => command.Name == first) => args,
         ["-h" or "--help" or "-?", ..] => args,
@@ -60,32 +60,32 @@ internal static class CommandLine
         catch (SourceException exception)
         {
             Console.Error.WriteLine(exception.Diagnostic);
-            return exception.Diagnostic.IsLimit ? ExitCode.OverLimit : ExitCode.BadInput;
+            return exception.Diagnostic.IsLimitExceeded ? ExitCode.OverLimit : ExitCode.BadInput;
         }
         catch (FractalLimitException exception)
         {
-            return Fail(ExitCode.OverLimit, exception.Message);
+            return ReportError(ExitCode.OverLimit, exception.Message);
         }
         catch (GlException exception)
         {
-            return Fail(ExitCode.OverLimit, exception.Message);
+            return ReportError(ExitCode.OverLimit, exception.Message);
         }
         catch (GraphicsUnavailableException exception)
         {
-            return Fail(ExitCode.NoGraphics, exception.Message);
+            return ReportError(ExitCode.NoGraphics, exception.Message);
         }
         catch (OperationCanceledException exception)
         {
-            return Fail(ExitCode.Interrupted, exception.Message);
+            return ReportError(ExitCode.Interrupted, exception.Message);
         }
         catch (Exception exception) when (exception is UsageException or IOException or UnauthorizedAccessException)
         {
             // Input that can't be read has become a SourceException already, so this is about an output.
-            return Fail(ExitCode.WrongUsage, exception.Message);
+            return ReportError(ExitCode.WrongUsage, exception.Message);
         }
     }
 
-    private static int Fail(int exitCode, string message)
+    private static int ReportError(int exitCode, string message)
     {
         Console.Error.WriteLine($"error: {message}");
         return exitCode;

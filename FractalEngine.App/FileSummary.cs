@@ -24,7 +24,7 @@ internal sealed record FileSummary(
     public static FileSummary Of(LoadedFile file, TimeSpan loadTime)
     {
         var models = file.Scene.Objects.Select(placed => placed.Model).ToArray();
-        var distinct = models.Distinct().ToDictionary(model => model, DistinctCount);
+        var distinct = models.Distinct().ToDictionary(model => model, CountDistinctInstances);
         return new(
             file.Kind.ToString().ToLowerInvariant(),
             Sum(models, model => model.VertexCount),
@@ -37,29 +37,29 @@ internal sealed record FileSummary(
     }
 
     /// <summary>One JSON object; numbers of any length are written out.</summary>
-    public string ToJson() => "{" + string.Join(", ", Fields(Json).Select(field => $"\"{field.Name}\": {field.Value}")) + "}";
+    public string ToJson() => "{" + string.Join(", ", Fields(FormatJson).Select(field => $"\"{field.Name}\": {field.Value}")) + "}";
 
     /// <summary>A line a field.</summary>
-    public string ToText() => string.Join('\n', Fields(Plain).Select(field => $"{field.Name,-18}{field.Value}"));
+    public string ToText() => string.Join('\n', Fields(FormatPlain).Select(field => $"{field.Name,-18}{field.Value}"));
 
     private IEnumerable<(string Name, string Value)> Fields(Func<object?, string> format) =>
     [
         ("kind", format(Kind)),
-        ("vertices", Count(Vertices, format)),
-        ("faces", Count(Faces, format)),
-        ("instances", Count(Instances, format)),
+        ("vertices", FormatCount(Vertices, format)),
+        ("faces", FormatCount(Faces, format)),
+        ("instances", FormatCount(Instances, format)),
         ("infinite", format(Instances is null)),
-        ("distinctInstances", DistinctInstances is { } distinct ? DecimalText.Of(distinct) : format(null)),
+        ("distinctInstances", DistinctInstances is { } distinct ? DecimalText.Format(distinct) : format(null)),
         ("boundsMin", format(Bounds.IsEmpty ? null : Bounds.Minimum)),
         ("boundsMax", format(Bounds.IsEmpty ? null : Bounds.Maximum)),
         ("storageBytes", format(StorageBytes)),
         ("loadMilliseconds", format(Math.Round(LoadTime.TotalMilliseconds, 3))),
     ];
 
-    private static string Count(BigInteger? count, Func<object?, string> format) =>
-        count is { } number ? DecimalText.Of(number) : format(null);
+    private static string FormatCount(BigInteger? count, Func<object?, string> format) =>
+        count is { } number ? DecimalText.Format(number) : format(null);
 
-    private static string Json(object? value) => value switch
+    private static string FormatJson(object? value) => value switch
     {
         null => "null",
         bool flag => flag ? "true" : "false",
@@ -69,7 +69,7 @@ internal sealed record FileSummary(
         _ => throw new ArgumentOutOfRangeException(nameof(value)),
     };
 
-    private static string Plain(object? value) => value switch
+    private static string FormatPlain(object? value) => value switch
     {
         null => "-",
         bool flag => flag ? "yes" : "no",
@@ -77,7 +77,7 @@ internal sealed record FileSummary(
         _ => string.Create(CultureInfo.InvariantCulture, $"{value}"),
     };
 
-    private static BigInteger? DistinctCount(Model model) => model switch
+    private static BigInteger? CountDistinctInstances(Model model) => model switch
     {
         FractalModel { Fractal: var fractal } => Core.Fractals.DistinctInstances.Count(fractal),
         _ => BigInteger.One,

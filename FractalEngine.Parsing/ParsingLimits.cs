@@ -13,13 +13,13 @@ public static class ParsingLimits
     public const long MaterialBytes = 1L << 24;
 
     /// <summary>The longest file of a picture: 64 MiB.</summary>
-    public const long PictureBytes = 1L << 26;
+    public const long ImageBytes = 1L << 26;
 
     /// <summary>The most pixels of a picture's side: what every driver of the last fifteen years can hold.</summary>
-    public const int PictureSide = 8192;
+    public const int ImageSide = 8192;
 
     /// <summary>The most pixels of all pictures that a file and those it refers to name: 512 MiB, decoded.</summary>
-    public const long PicturePixels = 1L << 27;
+    public const long TotalImagePixels = 1L << 27;
 
     /// <summary>The most corners of one polygon. Ear clipping takes the square of their number at worst: half a second here.</summary>
     public const int PolygonCorners = 20_000;

@@ -9,13 +9,13 @@ namespace FractalEngine.Parsing;
 internal static class ScaleCheck
 {
     // The product of three factors, and its inverse, have to stay within the range of a double.
-    private const double Smallest = 1e-100;
-    private const double Largest = 1e100;
+    private const double MinFactor = 1e-100;
+    private const double MaxFactor = 1e100;
 
-    public static bool IsRegular(Vector scale) => IsRegular(scale.X) && IsRegular(scale.Y) && IsRegular(scale.Z);
+    public static bool IsInvertible(Vector scale) => IsInvertible(scale.X) && IsInvertible(scale.Y) && IsInvertible(scale.Z);
 
-    public static string Message(Vector scale) =>
+    public static string SingularScaleMessage(Vector scale) =>
         $"the scale {scale} is singular: each factor must lie between 1e-100 and 1e100 in size";
 
-    private static bool IsRegular(double factor) => Math.Abs(factor) is >= Smallest and <= Largest;
+    private static bool IsInvertible(double factor) => Math.Abs(factor) is >= MinFactor and <= MaxFactor;
 }

@@ -16,22 +16,22 @@ namespace FractalEngine.Render;
 public sealed class FrameRenderer : IDisposable
 {
     // Bars beside the picture are this much darker than the background, in linear light.
-    private const double BarShade = 0.45;
+    private const double LetterboxShade = 0.45;
 
     private readonly RenderContext _context;
-    private readonly LinesPass _lines;
-    private readonly OverlayPass _overlay;
-    private Framebuffer? _drawn;
-    private Framebuffer? _resolved;
-    private int _samples;
+    private readonly LinesPass _linesPass;
+    private readonly OverlayPass _overlayPass;
+    private Framebuffer? _sceneTarget;
+    private Framebuffer? _resolvedTarget;
+    private int _sampleCount;
 
     /// <summary>For a context.</summary>
     public FrameRenderer(RenderContext context)
     {
         context.MakeCurrent();
         _context = context;
-        _lines = new(context);
-        _overlay = new(context.Resources);
+        _linesPass = new(context);
+        _overlayPass = new(context.Resources);
     }
 
     /// <summary>Draws a scene, or the background alone.</summary>
@@ -40,17 +40,17 @@ public sealed class FrameRenderer : IDisposable
     /// <param name="width">Of the picture, pixels.</param>
     /// <param name="height">Of the picture, pixels.</param>
     /// <param name="settings">How it is drawn.</param>
-    /// <param name="next">The view that is likely to be drawn next: what it needs is chosen on other threads while this one is drawn. Null for none.</param>
+    /// <param name="nextView">The view that is likely to be drawn next: what it needs is chosen on other threads while this one is drawn. Null for none.</param>
     /// <exception cref="GlException">The picture is larger than the driver allows.</exception>
-    public void Draw(SceneRenderer? scene, View view, int width, int height, RenderSettings settings, View? next = null)
+    public void Draw(SceneRenderer? scene, View view, int width, int height, RenderSettings settings, View? nextView = null)
     {
         _context.MakeCurrent();
-        _context.Follow(settings);
-        var target = Target(width, height, Math.Clamp(settings.Samples, 0, _context.MaximumSamples));
+        _context.ApplySettings(settings);
+        var target = EnsureTarget(width, height, Math.Clamp(settings.Samples, 0, _context.MaxSampleCount));
         target.Bind();
-        var (x, y, shownWidth, shownHeight) = view.Viewport(width, height);
+        var (x, y, viewportWidth, viewportHeight) = view.Viewport(width, height);
         var background = scene?.Scene.Source.Scene.Background ?? settings.Background;
-        Clear(background, (x, height - y - shownHeight, shownWidth, shownHeight), (width, height));
+        Clear(background, (x, height - y - viewportHeight, viewportWidth, viewportHeight), (width, height));
         if (scene is null)
         {
             return;
@@ -60,13 +60,13 @@ public sealed class FrameRenderer : IDisposable
         GL.Enable(EnableCap.DepthTest);
         GL.DepthFunc(_context.HasReversedDepth ? DepthFunction.Greater : DepthFunction.Less);
         GL.FrontFace(FrontFaceDirection.Cw);
-        var aspect = view.ShownAspect(width, height);
-        var bounds = LinesPass.BoundsWith(scene.Bounds, settings);
-        scene.Draw(view, (shownWidth, shownHeight), aspect, bounds, settings, next);
-        if (view.Zoom is null)
+        var aspect = view.EffectiveAspect(width, height);
+        var bounds = LinesPass.BoundsIncludingLines(scene.Bounds, settings);
+        scene.Draw(view, (viewportWidth, viewportHeight), aspect, bounds, settings, nextView);
+        if (view.DeepZoom is null)
         {
-            _lines.Draw(view, aspect, scene.Bounds, settings);
-            _lines.Draw(view, aspect, bounds, scene.Lines);
+            _linesPass.Draw(view, aspect, scene.Bounds, settings);
+            _linesPass.Draw(view, aspect, bounds, scene.Lines);
         }
 
         GL.Disable(EnableCap.DepthTest);
@@ -92,79 +92,79 @@ public sealed class FrameRenderer : IDisposable
     /// <param name="overlay">Panels over the picture; none for the scene alone.</param>
     public PixelImage Capture(params IReadOnlyList<OverlayPanel> overlay)
     {
-        var picture = Resolve(overlay);
-        var rows = new byte[4 * picture.Width * picture.Height];
-        picture.Read(rows);
-        return PixelImage.FromBottomUp(picture.Width, picture.Height, rows);
+        var frame = Resolve(overlay);
+        var pixels = new byte[4 * frame.Width * frame.Height];
+        frame.ReadPixels(pixels);
+        return PixelImage.FromBottomUp(frame.Width, frame.Height, pixels);
     }
 
     /// <inheritdoc/>
     public void Dispose()
     {
-        _drawn?.Dispose();
-        _resolved?.Dispose();
-        _lines.Dispose();
-        _overlay.Dispose();
+        _sceneTarget?.Dispose();
+        _resolvedTarget?.Dispose();
+        _linesPass.Dispose();
+        _overlayPass.Dispose();
     }
 
     /// <summary>Fills the picture. The sRGB values are written as they are, so that the background is exact.</summary>
-    private void Clear(Colour background, (int X, int Y, int Width, int Height) shown, (int Width, int Height) size)
+    private void Clear(Colour background, (int X, int Y, int Width, int Height) viewport, (int Width, int Height) frameSize)
     {
         GL.Disable(EnableCap.FramebufferSrgb);
         GL.DepthMask(true);
         GL.ClearDepth(_context.HasReversedDepth ? 0.0 : 1.0);
-        if ((shown.Width, shown.Height) != size)
+        if ((viewport.Width, viewport.Height) != frameSize)
         {
-            SetClearColour(Shaded(background));
+            SetClearColour(LetterboxColour(background));
             GL.Clear(ClearBufferMask.ColorBufferBit);
         }
 
         GL.Enable(EnableCap.ScissorTest);
-        GL.Scissor(shown.X, shown.Y, shown.Width, shown.Height);
+        GL.Scissor(viewport.X, viewport.Y, viewport.Width, viewport.Height);
         SetClearColour(background);
         GL.Clear(ClearBufferMask.ColorBufferBit | ClearBufferMask.DepthBufferBit);
         GL.Disable(EnableCap.ScissorTest);
-        GL.Viewport(shown.X, shown.Y, shown.Width, shown.Height);
+        GL.Viewport(viewport.X, viewport.Y, viewport.Width, viewport.Height);
     }
 
     private static void SetClearColour(Colour colour) =>
         GL.ClearColor((float)colour.Red, (float)colour.Green, (float)colour.Blue, 1);
 
-    private static Colour Shaded(Colour colour) => new(BarShade * colour.Red, BarShade * colour.Green, BarShade * colour.Blue);
+    private static Colour LetterboxColour(Colour colour) => new(LetterboxShade * colour.Red, LetterboxShade * colour.Green, LetterboxShade * colour.Blue);
 
-    private Framebuffer Target(int width, int height, int samples)
+    private Framebuffer EnsureTarget(int width, int height, int sampleCount)
     {
-        if (_drawn is not null && (_drawn.Width, _drawn.Height, _samples) == (width, height, samples))
+        if (_sceneTarget is not null && (_sceneTarget.Width, _sceneTarget.Height, _sampleCount) == (width, height, sampleCount))
         {
-            return _drawn;
+            return _sceneTarget;
         }
 
-        if (width < 1 || height < 1 || Math.Max(width, height) > _context.MaximumSize)
+        if (width < 1 || height < 1 || Math.Max(width, height) > _context.MaxFrameSize)
         {
             throw new GlException(
-                $"a picture of {width}×{height} pixels cannot be drawn: this driver allows 1 to {_context.MaximumSize} pixels a side");
+                $"a picture of {width}×{height} pixels cannot be drawn: this driver allows 1 to {_context.MaxFrameSize} pixels a side");
         }
 
-        _drawn?.Dispose();
-        _resolved?.Dispose();
-        (_drawn, _resolved) = (null, null);
-        _drawn = new(_context.Resources, "scene", width, height, samples, withDepth: true);
-        _resolved = new(_context.Resources, "picture", width, height, 0, withDepth: false);
-        _samples = samples;
-        return _drawn;
+        _sceneTarget?.Dispose();
+        _resolvedTarget?.Dispose();
+        (_sceneTarget, _resolvedTarget) = (null, null);
+        _sceneTarget = new(_context.Resources, "scene", width, height, sampleCount, hasDepth: true);
+        _resolvedTarget = new(_context.Resources, "picture", width, height, 0, hasDepth: false);
+        _sampleCount = sampleCount;
+        return _sceneTarget;
     }
 
     private Framebuffer Resolve(IReadOnlyList<OverlayPanel> overlay)
     {
-        if (_drawn is null || _resolved is null)
+        if (_sceneTarget is null || _resolvedTarget is null)
         {
             throw new InvalidOperationException("nothing has been drawn yet");
         }
 
         _context.MakeCurrent();
-        _drawn.ResolveTo(_resolved);
-        _resolved.Bind();
-        _overlay.Draw(overlay, _resolved.Width, _resolved.Height);
-        return _resolved;
+        _sceneTarget.ResolveTo(_resolvedTarget);
+        _resolvedTarget.Bind();
+        _overlayPass.Draw(overlay, _resolvedTarget.Width, _resolvedTarget.Height);
+        return _resolvedTarget;
     }
 }

@@ -8,12 +8,12 @@ namespace FractalEngine.Render;
 public sealed record RenderSettings
 {
     /// <summary>What is left out of a picture because it would not be seen; null to draw every instance of every fractal in every picture.</summary>
-    public DetailSettings? Detail { get; init; } = new();
+    public CullingSettings? Culling { get; init; } = new();
 
-    /// <summary>Without <see cref="Detail"/>, the most instances of one fractal that are drawn; deeper fractals are drawn at a smaller depth, with a notice.</summary>
-    public int InstanceBudget { get; init; } = FractalLimits.DrawnInstances;
+    /// <summary>Without <see cref="Culling"/>, the most instances of one fractal that are drawn; deeper fractals are drawn at a smaller depth, with a notice.</summary>
+    public int InstanceBudget { get; init; } = FractalLimits.MaxDrawnInstances;
 
-    /// <summary>Without <see cref="Detail"/>, the most triangles of one fractal that are drawn: limits instances of large meshes further.</summary>
+    /// <summary>Without <see cref="Culling"/>, the most triangles of one fractal that are drawn: limits instances of large meshes further.</summary>
     public long TriangleBudget { get; init; } = 200_000_000;
 
     /// <summary>Where faces meet at a larger angle, generated normals make an edge. Degrees.</summary>
@@ -23,22 +23,22 @@ public sealed record RenderSettings
     public int Samples { get; init; } = 4;
 
     /// <summary>Leaves out the backs of closed meshes, where only fronts can be seen.</summary>
-    public bool SkipsBacks { get; init; } = true;
+    public bool BackFaceCulling { get; init; } = true;
 
     /// <summary>Leaves out faces without area, when a mesh is prepared.</summary>
-    public bool SkipsEmptyFaces { get; init; } = true;
+    public bool RemoveDegenerateTriangles { get; init; } = true;
 
     /// <summary>Decodes and keeps each picture once, however many models show it.</summary>
-    public bool SharesTextures { get; init; } = true;
+    public bool ShareTextures { get; init; } = true;
 
     /// <summary>In a window, prepares a model when one of its objects is first in sight, and not before; where false, all of them before the first picture.</summary>
-    public bool PreparesOnSight { get; init; } = true;
+    public bool LazyLoading { get; init; } = true;
 
     /// <summary>Does not bind what is bound already, nor set uniforms to what they are.</summary>
-    public bool SkipsSameState { get; init; } = true;
+    public bool FilterRedundantState { get; init; } = true;
 
     /// <summary>Keeps what is on the GPU where it has not changed: chosen instances, objects and lights. Where false, all are chosen and uploaded for each picture.</summary>
-    public bool KeepsBuffers { get; init; } = true;
+    public bool ReuseBuffers { get; init; } = true;
 
     /// <summary>Where the lights act.</summary>
     public Shading Shading { get; init; }

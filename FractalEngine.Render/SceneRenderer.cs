@@ -13,27 +13,27 @@ namespace FractalEngine.Render;
 public sealed class SceneRenderer : IDisposable
 {
     // Natural logarithm. From deeper down lights with a place look the same.
-    private const double DeepestLight = 14;
+    private const double MaxLogLightScale = 14;
 
     // Of the palette: coral.
-    private const int BallColour = 2;
+    private const int SphereColourIndex = 2;
 
-    private readonly MeshPass _pass;
-    private readonly LightBlock _lights;
-    private TransparentOrder _transparent;
-    private readonly TextureSet _textures;
-    private readonly AdaptedDetail _adapted = new();
-    private readonly Dictionary<DrawableModel, ModelBuffers> _models = [];
-    private readonly ObjectBlock[] _blocks;
-    private readonly AffineMap[] _maps;
-    private readonly BoundingBox[] _boxes;
-    private SceneDetail? _detail;
+    private readonly MeshPass _meshPass;
+    private readonly LightBlock _lightBlock;
+    private TransparentOrder _transparentOrder;
+    private readonly TextureSet _textureSet;
+    private readonly EffectiveCulling _effectiveCulling = new();
+    private readonly Dictionary<DrawableModel, ModelBuffers> _modelBuffers = [];
+    private readonly ObjectBlock[] _objectBlocks;
+    private readonly AffineMap[] _objectMaps;
+    private readonly BoundingBox[] _objectBounds;
+    private SceneCuller? _culler;
     private BoundingBox? _bounds;
-    private BallInstances? _balls;
-    private IReadOnlyList<LooseBall> _looseBalls = [];
-    private (ChangeCounts Uploads, ChangeCounts State) _before;
-    private (ChangeCounts Uploads, ChangeCounts State) _after;
-    private int _oneSided;
+    private SphereBatch? _sphereBatch;
+    private IReadOnlyList<SphereInstance> _spheres = [];
+    private (RedundancyCounts Uploads, RedundancyCounts State) _countsBefore;
+    private (RedundancyCounts Uploads, RedundancyCounts State) _countsAfter;
+    private int _backFaceCulledCount;
 
     /// <summary>Uploads a scene. On the context's thread.</summary>
     /// <exception cref="Gl.GlException">The GPU's memory does not suffice.</exception>
@@ -41,12 +41,12 @@ public sealed class SceneRenderer : IDisposable
     {
         context.MakeCurrent();
         (Scene, Context) = (scene, context);
-        _maps = [.. scene.Objects.Select(item => item.Map)];
-        _boxes = [.. scene.Source.Objects.Select(placed => placed.Bounds)];
-        _pass = new(context);
-        _lights = new(context.Resources, scene.Source.Scene.Lights, scene.Source.Bounds);
-        _blocks = [.. scene.Objects.Select(item => new ObjectBlock(context.Resources, item.Name))];
-        (_transparent, _textures) = (new([]), new());
+        _objectMaps = [.. scene.Objects.Select(item => item.Map)];
+        _objectBounds = [.. scene.Source.Objects.Select(placed => placed.Bounds)];
+        _meshPass = new(context);
+        _lightBlock = new(context.Resources, scene.Source.Scene.Lights, scene.Source.Bounds);
+        _objectBlocks = [.. scene.Objects.Select(item => new ObjectBlock(context.Resources, item.Name))];
+        (_transparentOrder, _textureSet) = (new([]), new());
         try
         {
             Upload();
@@ -65,79 +65,79 @@ public sealed class SceneRenderer : IDisposable
     /// A box that holds all objects where they are now, world space; of those that move all the time only as far as they stay near. What falls out of the scene
     /// goes out of sight beyond the far plane, and does not take the planes with it.
     /// </summary>
-    public BoundingBox Bounds => _bounds ??= SceneBounds.Of(Scene, _boxes, _looseBalls);
+    public BoundingBox Bounds => _bounds ??= SceneBounds.Compute(Scene, _objectBounds, _spheres);
 
     /// <summary>Balls beside the scene's objects. Those far out of the scene are not drawn.</summary>
-    public IReadOnlyList<LooseBall> Balls
+    public IReadOnlyList<SphereInstance> Spheres
     {
-        get => _looseBalls;
+        get => _spheres;
         set
         {
-            var isChange = value.Count > 0 || _looseBalls.Count > 0;
-            (_looseBalls, _bounds) = (value, isChange ? null : _bounds);
+            var mayChangeBounds = value.Count > 0 || _spheres.Count > 0;
+            (_spheres, _bounds) = (value, mayChangeBounds ? null : _bounds);
         }
     }
 
     /// <summary>Lines beside the scene's objects.</summary>
     public IReadOnlyList<LineSegment> Lines { get; set; } = [];
 
-    /// <summary>What the last picture took, where instances are chosen (<see cref="RenderSettings.Detail"/>). Counted out when it is asked for.</summary>
+    /// <summary>What the last picture took, where instances are chosen (<see cref="RenderSettings.Culling"/>). Counted out when it is asked for.</summary>
     public FrameStatistics Statistics => new(
-        Detail.InstanceCount, Detail.TriangleCount, Detail.Cost, Detail.PixelSize, Detail.Choices, Detail.UploadedBytes, Detail.WaitedFor,
+        Culler.InstanceCount, Culler.TriangleCount, Culler.Statistics, Culler.MinProjectedSize, Culler.CullCount, Culler.UploadedBytes, Culler.CullWaitTime,
         new(
-            Scene.Objects.Length, _oneSided, Scene.Models.Length, Scene.Models.Count(static model => model.IsPlaceholder), Scene.Textures.Length,
-            Scene.Models.Sum(static model => (long)model.EmptyFaces), _after.Uploads - _before.Uploads, _after.State - _before.State));
+            Scene.Objects.Length, _backFaceCulledCount, Scene.Models.Length, Scene.Models.Count(static model => model.IsPlaceholder), Scene.Textures.Length,
+            Scene.Models.Sum(static model => (long)model.DegenerateTriangleCount), _countsAfter.Uploads - _countsBefore.Uploads, _countsAfter.State - _countsBefore.State));
 
     /// <summary>Sub-fractals of fewer pixels were drawn as one copy in the last picture.</summary>
-    public double PixelSize => Detail.PixelSize;
+    public double MinProjectedSize => Culler.MinProjectedSize;
 
     /// <summary>Buffers moved to the GPU since the context was opened, and those that were there already.</summary>
-    public ChangeCounts Uploads => Context.Resources.Uploads.Counts;
+    public RedundancyCounts UploadCounts => Context.Resources.UploadFilter.Counts;
 
     /// <summary>Bindings and uniforms since the context was opened, and those that held already.</summary>
-    public ChangeCounts StateChanges => Context.Resources.State.Changes.Counts;
+    public RedundancyCounts StateChangeCounts => Context.Resources.State.Filter.Counts;
 
     internal RenderContext Context { get; }
 
     /// <summary>The instances that were chosen for the last picture, and what that took.</summary>
-    internal SceneDetail Detail => _detail!;
+    internal SceneCuller Culler => _culler!;
 
     /// <summary>Takes over what has been prepared since: the same scene with other models. Objects stay where they are. On the context's thread.</summary>
     /// <exception cref="Gl.GlException">The GPU's memory does not suffice.</exception>
     public void Update(DrawableScene scene)
     {
         Context.MakeCurrent();
-        _detail?.Dispose();
-        _detail = null;
-        foreach (var model in _models.Keys.Except(scene.Models).ToArray())
+        _culler?.Dispose();
+        _culler = null;
+        foreach (var model in _modelBuffers.Keys.Except(scene.Models).ToArray())
         {
-            _models[model].Dispose();
-            _models.Remove(model);
+            _modelBuffers[model].Dispose();
+            _modelBuffers.Remove(model);
         }
 
         Scene = scene;
         Upload();
-        for (var i = 0; i < _maps.Length; i++)
+        for (var i = 0; i < _objectMaps.Length; i++)
         {
-            Detail.Move(i, _maps[i]);
+            Culler.Move(i, _objectMaps[i]);
         }
     }
 
     /// <summary>Where an object is now.</summary>
     /// <param name="index">Its place in the scene, from 0.</param>
-    public AffineMap MapOf(int index) => _maps[index];
+    public AffineMap MapOf(int index) => _objectMaps[index];
 
     /// <summary>Moves an object.</summary>
     /// <param name="index">Its place in the scene, from 0.</param>
     /// <param name="map">From the model's frame to world space.</param>
     public void Move(int index, AffineMap map)
     {
-        if (_maps[index] != map)
+        if (_objectMaps[index] != map)
         {
-            _maps[index] = map;
-            _boxes[index] = Scene.Objects[index].Model.Bounds.Transform(map);
-            Detail.Move(index, map);
-            _bounds = Scene.Objects[index].IsMoving ? _bounds : null;
+            _objectMaps[index] = map;
+            _objectBounds[index] = Scene.Objects[index].Model.Bounds.Transform(map);
+            Culler.Move(index, map);
+            _bounds = Scene.Objects[index].IsDynamic ? _bounds : null;
         }
     }
 
@@ -146,74 +146,74 @@ public sealed class SceneRenderer : IDisposable
     /// <param name="width">Of the picture, pixels.</param>
     /// <param name="height">Of the picture, pixels.</param>
     /// <param name="settings">What is left out.</param>
-    public void Choose(View view, int width, int height, RenderSettings settings)
+    public void Cull(View view, int width, int height, RenderSettings settings)
     {
         Context.MakeCurrent();
-        Context.Follow(settings);
-        var (_, _, shownWidth, shownHeight) = view.Viewport(width, height);
-        Choose(view, (shownWidth, shownHeight), view.ShownAspect(width, height), LinesPass.BoundsWith(Bounds, settings), settings);
+        Context.ApplySettings(settings);
+        var (_, _, viewportWidth, viewportHeight) = view.Viewport(width, height);
+        Cull(view, (viewportWidth, viewportHeight), view.EffectiveAspect(width, height), LinesPass.BoundsIncludingLines(Bounds, settings), settings);
     }
 
     /// <inheritdoc/>
     public void Dispose()
     {
-        _detail?.Dispose();
-        foreach (var buffers in _models.Values)
+        _culler?.Dispose();
+        foreach (var buffers in _modelBuffers.Values)
         {
             buffers.Dispose();
         }
 
-        foreach (var block in _blocks)
+        foreach (var block in _objectBlocks)
         {
             block.Dispose();
         }
 
-        _balls?.Dispose();
-        _textures.Dispose();
-        _lights.Dispose();
-        _pass.Dispose();
+        _sphereBatch?.Dispose();
+        _textureSet.Dispose();
+        _lightBlock.Dispose();
+        _meshPass.Dispose();
     }
 
     /// <summary>Draws into the bound framebuffer's viewport.</summary>
-    internal void Draw(View view, (int Width, int Height) size, double aspect, BoundingBox bounds, RenderSettings settings, View? next)
+    internal void Draw(View view, (int Width, int Height) viewportSize, double aspect, BoundingBox bounds, RenderSettings settings, View? nextView)
     {
-        _before = (Uploads, StateChanges);
-        Choose(view, size, aspect, bounds, settings);
-        if (next is not null && _adapted.Of(settings) is { } ahead)
+        _countsBefore = (UploadCounts, StateChangeCounts);
+        Cull(view, viewportSize, aspect, bounds, settings);
+        if (nextView is not null && _effectiveCulling.Resolve(settings) is { } nextCulling)
         {
-            Detail.Prepare(SceneDetail.ViewOf(next, size.Width, size.Height, aspect, next.ClipPlanes(bounds)), ahead, next.Zoom);
+            Culler.StartSpeculativeCull(SceneCuller.ToCullingView(nextView, viewportSize.Width, viewportSize.Height, aspect, nextView.ClipPlanes(bounds)), nextCulling, nextView.DeepZoom);
         }
 
-        _pass.Begin(view, aspect, bounds, settings.Wireframe, settings.Shading);
-        _lights.Bind(MeshPass.LightBinding, view.Camera.Position, view.Zoom is { } zoom ? Math.Exp(Math.Min(-zoom.LogUnit, DeepestLight)) : 1);
-        _oneSided = 0;
-        for (var i = 0; i < _blocks.Length; i++)
+        _meshPass.Begin(view, aspect, bounds, settings.Wireframe, settings.Shading);
+        _lightBlock.Bind(MeshPass.LightBinding, view.Camera.Position, view.DeepZoom is { } zoom ? Math.Exp(Math.Min(-zoom.LogUnit, MaxLogLightScale)) : 1);
+        _backFaceCulledCount = 0;
+        for (var i = 0; i < _objectBlocks.Length; i++)
         {
-            if (Scene.Objects[i].IsMoving && settings.Detail is { SkipsOutside: true } && !view.MaySee(_boxes[i], aspect))
+            if (Scene.Objects[i].IsDynamic && settings.Culling is { FrustumCulling: true } && !view.MayIntersectFrustum(_objectBounds[i], aspect))
             {
                 continue;
             }
 
-            var hidden = settings.Wireframe || !settings.SkipsBacks ? null : HiddenSide(i, view, bounds);
-            _oneSided += hidden is null ? 0 : 1;
-            _pass.LeaveOut(hidden);
-            BindBlock(i, view);
+            var culledFace = settings.Wireframe || !settings.BackFaceCulling ? null : FaceToCull(i, view, bounds);
+            _backFaceCulledCount += culledFace is null ? 0 : 1;
+            _meshPass.Cull(culledFace);
+            BindObjectBlock(i, view);
             if (settings.Wireframe)
             {
-                _pass.Use(null, Colour.White, FeaturesOf(i, null));
-                DrawInstances(i, _models[Scene.Objects[i].Model].Everything);
+                _meshPass.UseMaterial(null, Colour.White, FeaturesOf(i, null));
+                DrawInstances(i, _modelBuffers[Scene.Objects[i].Model].WholeMesh);
             }
             else
             {
-                DrawBatches(i, areTransparent: false, FeaturesOf(i, hidden));
+                DrawBatches(i, drawsTransparent: false, FeaturesOf(i, culledFace));
             }
         }
 
-        if (Balls.Count > 0 && view.Zoom is null)
+        if (Spheres.Count > 0 && view.DeepZoom is null)
         {
-            _pass.LeaveOut(null);
-            _pass.Use(null, Colour.White, MeshFeatures.InWorld);
-            (_balls ??= new(Context.Resources)).Draw(Balls, view.Camera.Position, ObjectPalette.ColourOf(BallColour));
+            _meshPass.Cull(null);
+            _meshPass.UseMaterial(null, Colour.White, MeshFeatures.CameraRelative);
+            (_sphereBatch ??= new(Context.Resources)).Draw(Spheres, view.Camera.Position, ObjectPalette.ColourOf(SphereColourIndex));
         }
 
         if (!settings.Wireframe)
@@ -221,64 +221,64 @@ public sealed class SceneRenderer : IDisposable
             DrawTransparent(view);
         }
 
-        _pass.End();
-        _after = (Uploads, StateChanges);
+        _meshPass.End();
+        _countsAfter = (UploadCounts, StateChangeCounts);
     }
 
     /// <summary>Moves to the GPU what is not there yet.</summary>
     private void Upload()
     {
-        _transparent = new([.. Enumerable.Range(0, Scene.Objects.Length).Where(i => Scene.Objects[i].Model.HasTransparentParts)]);
-        _textures.Upload(Context.Resources, Scene.Textures);
-        foreach (var model in Scene.Models.Where(model => !_models.ContainsKey(model)))
+        _transparentOrder = new([.. Enumerable.Range(0, Scene.Objects.Length).Where(i => Scene.Objects[i].Model.HasTransparentBatches)]);
+        _textureSet.Upload(Context.Resources, Scene.Textures);
+        foreach (var model in Scene.Models.Where(model => !_modelBuffers.ContainsKey(model)))
         {
-            _models.Add(model, new(Context.Resources, model));
+            _modelBuffers.Add(model, new(Context.Resources, model));
         }
 
-        _detail = new(Context.Resources, Scene, _models);
+        _culler = new(Context.Resources, Scene, _modelBuffers);
     }
 
-    private void Choose(View view, (int Width, int Height) size, double aspect, BoundingBox bounds, RenderSettings settings)
+    private void Cull(View view, (int Width, int Height) viewportSize, double aspect, BoundingBox bounds, RenderSettings settings)
     {
-        if (_adapted.Of(settings) is { } detail)
+        if (_effectiveCulling.Resolve(settings) is { } culling)
         {
-            Detail.Update(SceneDetail.ViewOf(view, size.Width, size.Height, aspect, view.ClipPlanes(bounds)), detail, view.Zoom);
+            Culler.Update(SceneCuller.ToCullingView(view, viewportSize.Width, viewportSize.Height, aspect, view.ClipPlanes(bounds)), culling, view.DeepZoom);
         }
     }
 
-    private void BindBlock(int index, View view)
+    private void BindObjectBlock(int index, View view)
     {
-        var (item, map) = (Scene.Objects[index], _maps[index]);
+        var (item, map) = (Scene.Objects[index], _objectMaps[index]);
         // Chosen instances are in world axes about the camera already.
-        var shifted = Detail.Has(index) ? AffineMap.Translate(view.Camera.Position) : new AffineMap(map.Linear, map * item.Model.Origin);
-        _blocks[index].Bind(MeshPass.ObjectBinding, shifted, item.Colour, item.Gradient?.To ?? item.Colour, view.Camera.Position);
+        var modelToWorld = Culler.SelectsInstances(index) ? AffineMap.Translate(view.Camera.Position) : new AffineMap(map.Linear, map * item.Model.Origin);
+        _objectBlocks[index].Bind(MeshPass.ObjectBinding, modelToWorld, item.Colour, item.Gradient?.EndColour ?? item.Colour, view.Camera.Position);
     }
 
-    private MeshFeatures FeaturesOf(int index, bool? hiddenSide) =>
-        (Detail.Has(index) ? MeshFeatures.InWorld : MeshFeatures.None) | (hiddenSide == false ? MeshFeatures.FrontOnly : MeshFeatures.None);
+    private MeshFeatures FeaturesOf(int index, bool? culledFace) =>
+        (Culler.SelectsInstances(index) ? MeshFeatures.CameraRelative : MeshFeatures.None) | (culledFace == false ? MeshFeatures.FrontFacesOnly : MeshFeatures.None);
 
     private void DrawInstances(int index, DrawableBatch batch)
     {
-        if (Detail.Has(index))
+        if (Culler.SelectsInstances(index))
         {
-            Detail.Draw(index, batch);
+            Culler.Draw(index, batch);
         }
         else
         {
-            _models[Scene.Objects[index].Model].Draw(batch);
+            _modelBuffers[Scene.Objects[index].Model].Draw(batch);
         }
     }
 
     /// <summary>Draws those materials of an object that are opaque, or those that are not.</summary>
-    private void DrawBatches(int index, bool areTransparent, MeshFeatures instances)
+    private void DrawBatches(int index, bool drawsTransparent, MeshFeatures instanceFeatures)
     {
         var item = Scene.Objects[index];
         foreach (ref readonly var batch in item.Model.Batches.AsSpan())
         {
-            if (batch.IsTransparent == areTransparent)
+            if (batch.IsTransparent == drawsTransparent)
             {
-                _textures.Bind(batch.Material);
-                _pass.Use(batch.Material, item.Tint, instances);
+                _textureSet.Bind(batch.Material);
+                _meshPass.UseMaterial(batch.Material, item.Tint, instanceFeatures);
                 DrawInstances(index, batch);
             }
         }
@@ -291,30 +291,30 @@ public sealed class SceneRenderer : IDisposable
     private void DrawTransparent(View view)
     {
         MeshPass.BeginTransparent();
-        foreach (var index in _transparent.FarToNear(view.Camera, _boxes))
+        foreach (var index in _transparentOrder.SortBackToFront(view.Camera, _objectBounds))
         {
-            BindBlock(index, view);
-            var looksAway = _maps[index].Linear.Determinant() >= 0;
-            _pass.LeaveOut(looksAway);
-            DrawBatches(index, areTransparent: true, FeaturesOf(index, null));
-            _pass.LeaveOut(!looksAway);
-            DrawBatches(index, areTransparent: true, FeaturesOf(index, null));
+            BindObjectBlock(index, view);
+            var cullsFrontFirst = _objectMaps[index].Linear.Determinant() >= 0;
+            _meshPass.Cull(cullsFrontFirst);
+            DrawBatches(index, drawsTransparent: true, FeaturesOf(index, null));
+            _meshPass.Cull(!cullsFrontFirst);
+            DrawBatches(index, drawsTransparent: true, FeaturesOf(index, null));
         }
 
         MeshPass.EndTransparent();
     }
 
     /// <summary>The side of an object's triangles that certainly is not seen: true for the front, null where both may be.</summary>
-    private bool? HiddenSide(int index, View view, BoundingBox bounds)
+    private bool? FaceToCull(int index, View view, BoundingBox bounds)
     {
-        var mirror = Math.Sign(_maps[index].Linear.Determinant());
-        if (Detail.Has(index))
+        var orientation = Math.Sign(_objectMaps[index].Linear.Determinant());
+        if (Culler.SelectsInstances(index))
         {
-            var chosen = Detail.SolidSign(index) * mirror;
-            return chosen == 0 ? null : chosen < 0;
+            var visibleSign = Culler.WindingSign(index) * orientation;
+            return visibleSign == 0 ? null : visibleSign < 0;
         }
 
-        var sign = Scene.Objects[index].Model.SolidSign * mirror;
-        return sign != 0 && view.IsBeyondNearPlane(_boxes[index], bounds) ? sign < 0 : null;
+        var modelSign = Scene.Objects[index].Model.WindingSign * orientation;
+        return modelSign != 0 && view.IsBeyondNearPlane(_objectBounds[index], bounds) ? modelSign < 0 : null;
     }
 }

@@ -12,7 +12,7 @@ public sealed record View(Camera Camera, Projection Projection)
     /// <summary>
     /// The least near plane, as a fraction of the far one: a 32-bit depth buffer then tells apart depths that differ by 1/1000.
     /// </summary>
-    private const double NearToFar = 1e-4;
+    private const double MinNearToFarRatio = 1e-4;
 
     /// <summary>The height that an orthographic picture shows, scene units; not used by perspective.</summary>
     public double OrthographicHeight { get; init; } = 10;
@@ -21,22 +21,22 @@ public sealed record View(Camera Camera, Projection Projection)
     public double? Aspect { get; init; }
 
     /// <summary>The object that the camera is deep in; null where world space tells where it is.</summary>
-    public ZoomedObject? Zoom { get; init; }
+    public DeepZoom? DeepZoom { get; init; }
 
     /// <summary>The depths between which things are drawn; null to take them from the bounds of what there is.</summary>
     public (double Near, double Far)? Clip { get; init; }
 
     /// <summary>The view that a scene asks for, where it asks for one.</summary>
     /// <param name="scene">Gives projection, planes, aspect and its bounds.</param>
-    /// <param name="pictureAspect">Width divided by height of the window or file: decides how far away a default camera stands.</param>
+    /// <param name="frameAspect">Width divided by height of the window or file: decides how far away a default camera stands.</param>
     /// <param name="camera">Takes the place of the scene's camera, for one that the user moves.</param>
-    public static View Of(LoadedScene scene, double pictureAspect, Camera? camera = null)
+    public static View Of(LoadedScene scene, double frameAspect, Camera? camera = null)
     {
         var (settings, bounds) = (scene.Scene, scene.Bounds);
-        camera ??= settings.Camera ?? CameraFraming.Default(bounds, settings.Aspect ?? pictureAspect);
+        camera ??= settings.Camera ?? CameraFraming.Default(bounds, settings.Aspect ?? frameAspect);
         return new(camera, settings.Projection)
         {
-            OrthographicHeight = settings.OrthographicHeight ?? DefaultHeight(camera, bounds),
+            OrthographicHeight = settings.OrthographicHeight ?? DefaultOrthographicHeight(camera, bounds),
             Aspect = settings.Aspect,
             Clip = settings.Clip,
         };
@@ -49,9 +49,9 @@ public sealed record View(Camera Camera, Projection Projection)
     public (int X, int Y, int Width, int Height) Viewport(int width, int height)
     {
         var aspect = Aspect ?? ((double)width / height);
-        var shownWidth = Math.Clamp((int)Math.Round(height * aspect), 1, width);
-        var shownHeight = Math.Clamp((int)Math.Round(width / aspect), 1, height);
-        return ((width - shownWidth) / 2, (height - shownHeight) / 2, shownWidth, shownHeight);
+        var viewportWidth = Math.Clamp((int)Math.Round(height * aspect), 1, width);
+        var viewportHeight = Math.Clamp((int)Math.Round(width / aspect), 1, height);
+        return ((width - viewportWidth) / 2, (height - viewportHeight) / 2, viewportWidth, viewportHeight);
     }
 
     /// <summary>Where a point of the world appears in a picture.</summary>
@@ -64,18 +64,18 @@ public sealed record View(Camera Camera, Projection Projection)
     /// </returns>
     public (double X, double Y, double Depth)? Project(Vector point, int width, int height)
     {
-        var (right, up, depth) = Camera.Map(point);
+        var (right, up, depth) = Camera.ToCameraSpace(point);
         if (Projection == Projection.Perspective && depth <= 0)
         {
             return null;
         }
 
         var viewport = Viewport(width, height);
-        var half = Projection == Projection.Perspective ? depth * Camera.HalfHeightAtUnitDepth : 0.5 * OrthographicHeight;
-        var aspect = ShownAspect(width, height);
+        var halfHeight = Projection == Projection.Perspective ? depth * Camera.HalfHeightAtUnitDepth : 0.5 * OrthographicHeight;
+        var aspect = EffectiveAspect(width, height);
         return (
-            viewport.X + (0.5 * viewport.Width * (1 + (right / (half * aspect)))),
-            viewport.Y + (0.5 * viewport.Height * (1 - (up / half))),
+            viewport.X + (0.5 * viewport.Width * (1 + (right / (halfHeight * aspect)))),
+            viewport.Y + (0.5 * viewport.Height * (1 - (up / halfHeight))),
             depth);
     }
 
@@ -87,9 +87,9 @@ public sealed record View(Camera Camera, Projection Projection)
     /// </returns>
     public (double Near, double Far) ClipPlanes(BoundingBox bounds)
     {
-        if (Clip is { } given)
+        if (Clip is { } fixedPlanes)
         {
-            return given;
+            return fixedPlanes;
         }
 
         if (bounds.IsEmpty || !bounds.Minimum.IsFinite() || !bounds.Maximum.IsFinite())
@@ -97,23 +97,23 @@ public sealed record View(Camera Camera, Projection Projection)
             return (0.1, 1000);
         }
 
-        var (middle, reach) = DepthsOf(bounds);
-        var margin = (0.01 * reach) + (1e-6 * Math.Abs(middle));
-        var far = middle + reach + margin;
+        var (centreDepth, halfExtent) = DepthExtent(bounds);
+        var margin = (0.01 * halfExtent) + (1e-6 * Math.Abs(centreDepth));
+        var far = centreDepth + halfExtent + margin;
         if (far <= 0)
         {
             // Everything lies behind the camera.
             return (0.1, 1000);
         }
 
-        var near = middle - reach - margin;
-        return Projection == Projection.Perspective ? (Math.Max(near, NearToFar * far), far) : (Math.Max(near, 0), far);
+        var near = centreDepth - halfExtent - margin;
+        return Projection == Projection.Perspective ? (Math.Max(near, MinNearToFarRatio * far), far) : (Math.Max(near, 0), far);
     }
 
     /// <summary>False for a box that certainly lies outside the picture: behind the camera, or beyond one of the picture's edges.</summary>
     /// <param name="box">World space; infinite ones are seen from everywhere.</param>
     /// <param name="aspect">Width divided by height of the picture.</param>
-    public bool MaySee(BoundingBox box, double aspect)
+    public bool MayIntersectFrustum(BoundingBox box, double aspect)
     {
         if (box.IsEmpty || !box.Size.IsFinite())
         {
@@ -121,34 +121,34 @@ public sealed record View(Camera Camera, Projection Projection)
         }
 
         var axes = Camera.LocalAxesInverse;
-        var (centre, half) = (Camera.Map(box.Centre), axes.Absolute() * (0.5 * box.Size));
-        var shown = Aspect ?? aspect;
+        var (centre, halfSize) = (Camera.ToCameraSpace(box.Centre), axes.Absolute() * (0.5 * box.Size));
+        var effectiveAspect = Aspect ?? aspect;
         if (Projection == Projection.Orthographic)
         {
-            return centre.Z + half.Z > 0 && Math.Abs(centre.X) - half.X < 0.5 * OrthographicHeight * shown && Math.Abs(centre.Y) - half.Y < 0.5 * OrthographicHeight;
+            return centre.Z + halfSize.Z > 0 && Math.Abs(centre.X) - halfSize.X < 0.5 * OrthographicHeight * effectiveAspect && Math.Abs(centre.Y) - halfSize.Y < 0.5 * OrthographicHeight;
         }
 
-        var slope = Camera.HalfHeightAtUnitDepth;
-        var depth = centre.Z + half.Z;
-        return depth > 0 && Math.Abs(centre.X) - half.X < slope * shown * depth && Math.Abs(centre.Y) - half.Y < slope * depth;
+        var halfHeightAtUnitDepth = Camera.HalfHeightAtUnitDepth;
+        var farthestDepth = centre.Z + halfSize.Z;
+        return farthestDepth > 0 && Math.Abs(centre.X) - halfSize.X < halfHeightAtUnitDepth * effectiveAspect * farthestDepth && Math.Abs(centre.Y) - halfSize.Y < halfHeightAtUnitDepth * farthestDepth;
     }
 
     /// <summary>True when no part of a box is nearer than the near plane: then it is seen from outside, and whole.</summary>
     internal bool IsBeyondNearPlane(BoundingBox box, BoundingBox bounds) =>
-        DepthsOf(box) is var (middle, reach) && middle - reach > ClipPlanes(bounds).Near;
+        DepthExtent(box) is var (centreDepth, halfExtent) && centreDepth - halfExtent > ClipPlanes(bounds).Near;
 
     /// <summary>Width divided by height of what is shown, exact where it was asked for.</summary>
-    internal double ShownAspect(int width, int height) => Aspect ?? ((double)width / height);
+    internal double EffectiveAspect(int width, int height) => Aspect ?? ((double)width / height);
 
     /// <summary>The depth of a box's middle, and how far it reaches from there to both sides.</summary>
-    private (double Middle, double Reach) DepthsOf(BoundingBox box)
+    private (double Middle, double Reach) DepthExtent(BoundingBox box)
     {
         var axes = Camera.LocalAxesInverse.Absolute();
-        return (Camera.Map(box.Centre).Z, 0.5 * Vector.Dot(new(axes.V1.Z, axes.V2.Z, axes.V3.Z), box.Size));
+        return (Camera.ToCameraSpace(box.Centre).Z, 0.5 * Vector.Dot(new(axes.V1.Z, axes.V2.Z, axes.V3.Z), box.Size));
     }
 
     /// <summary>What perspective shows at the depth of the middle of things; their size where that lies behind the camera.</summary>
-    private static double DefaultHeight(Camera camera, BoundingBox bounds) => camera.Map(bounds.Centre).Z switch
+    private static double DefaultOrthographicHeight(Camera camera, BoundingBox bounds) => camera.ToCameraSpace(bounds.Centre).Z switch
     {
         > 0 and < double.PositiveInfinity and var depth => 2 * camera.HalfHeightAtUnitDepth * depth,
         _ when bounds.Diagonal is > 0 and < double.PositiveInfinity => bounds.Diagonal,

@@ -31,6 +31,6 @@ internal static class CheckCommand
             return ExitCode.Done;
         }
 
-        return errors.All(error => error.IsLimit) ? ExitCode.OverLimit : ExitCode.BadInput;
+        return errors.All(error => error.IsLimitExceeded) ? ExitCode.OverLimit : ExitCode.BadInput;
     }
 }

@@ -17,7 +17,7 @@ internal static class CountCommand
 
     private static int Run(string path)
     {
-        var file = Loading.Load(path, new());
+        var file = ConsoleLoader.Load(path, new());
         if (file.Kind != FileKind.Mesh)
         {
             throw new UsageException($"only meshes (.obj) have a mesh count header, and {path} is none; 'info' counts the faces of all files");

@@ -10,30 +10,30 @@ namespace FractalEngine.App.Commands;
 /// <summary>The options of the commands that draw.</summary>
 internal sealed class DrawOptions
 {
-    private static readonly (string Word, Skip Value)[] SkipWords =
+    private static readonly (string Word, Optimisation Value)[] OptimisationWords =
     [
-        ("backs", Skip.Backs), ("outside", Skip.Outside), ("hidden", Skip.Hidden), ("empty-faces", Skip.EmptyFaces), ("state", Skip.State),
-        ("buffers", Skip.Buffers), ("sharing", Skip.Sharing), ("sight", Skip.Sight), ("still", Skip.Still),
+        ("backs", Optimisation.BackFaceCulling), ("outside", Optimisation.FrustumCulling), ("hidden", Optimisation.OcclusionCulling), ("empty-faces", Optimisation.DegenerateRemoval), ("state", Optimisation.StateFiltering),
+        ("buffers", Optimisation.BufferReuse), ("sharing", Optimisation.MeshSharing), ("sight", Optimisation.LazyLoading), ("still", Optimisation.Idle),
     ];
 
     private readonly Option<bool> _wireframe = new("--wireframe") { Description = "Draw only the edges of the triangles." };
     private readonly Option<bool> _grid = new("--grid") { Description = "Draw a grid on the ground, and the axes." };
 
-    private readonly Option<long?> _instances = new("--instances")
+    private readonly Option<long?> _maxInstances = new("--instances")
     {
-        Description = $"The most instances to draw; {new DetailSettings().InstanceBudget} unless stated ({FractalLimits.DrawnInstances} of one fractal with --detail 0).",
+        Description = $"The most instances to draw; {new CullingSettings().InstanceBudget} unless stated ({FractalLimits.MaxDrawnInstances} of one fractal with --detail 0).",
         HelpName = "N",
         CustomParser = SharedOptions.ParseInteger(1, 100_000_000),
     };
 
-    private readonly Option<long?> _samples = new("--samples")
+    private readonly Option<long?> _sampleCount = new("--samples")
     {
         Description = "Samples a pixel against jagged edges; 4 unless stated.",
         HelpName = "N",
         CustomParser = SharedOptions.ParseInteger(0, 32),
     };
 
-    private readonly Option<double?> _detail = new("--detail")
+    private readonly Option<double?> _minProjectedSize = new("--detail")
     {
         Description = "Sub-fractals that appear smaller are drawn as one copy of their base mesh: pixels, 1.5 unless stated; 0 draws every instance of every fractal.",
         HelpName = "PIXELS",
@@ -47,19 +47,19 @@ internal sealed class DrawOptions
         CustomParser = result => SharedOptions.ParseWord(result, ("vertex", Shading.PerVertex), ("pixel", Shading.PerPixel)),
     };
 
-    private readonly Option<Skip[]> _without = new("--without")
+    private readonly Option<Optimisation[]> _disabled = new("--without")
     {
-        Description = $"Do something that is left out since nothing is seen of it, for comparison: {string.Join(", ", SkipWords.Select(item => item.Word))}. May be given several times.",
+        Description = $"Do something that is left out since nothing is seen of it, for comparison: {string.Join(", ", OptimisationWords.Select(item => item.Word))}. May be given several times.",
         HelpName = "SKIP",
-        CustomParser = result => SharedOptions.ParseWords(result, SkipWords),
+        CustomParser = result => SharedOptions.ParseWords(result, OptimisationWords),
     };
 
-    private readonly Option<Projection?> _projection = SharedOptions.Projection();
-    private readonly Option<(int Width, int Height)?> _resolution = SharedOptions.Resolution();
+    private readonly Option<Projection?> _projection = SharedOptions.ProjectionOption();
+    private readonly Option<(int Width, int Height)?> _resolution = SharedOptions.ResolutionOption();
 
     public void AddTo(Command command)
     {
-        foreach (var option in (Option[])[_resolution, _projection, _shading, _wireframe, _grid, _detail, _instances, _samples, _without])
+        foreach (var option in (Option[])[_resolution, _projection, _shading, _wireframe, _grid, _minProjectedSize, _maxInstances, _sampleCount, _disabled])
         {
             command.Add(option);
         }
@@ -70,10 +70,10 @@ internal sealed class DrawOptions
     public Projection? Projection(ParseResult result) => result.GetValue(_projection);
 
     /// <summary>True unless <c>--without</c> names it.</summary>
-    public bool Does(ParseResult result, Skip skip) => !(result.GetValue(_without) ?? []).Contains(skip);
+    public bool IsEnabled(ParseResult result, Optimisation optimisation) => !(result.GetValue(_disabled) ?? []).Contains(optimisation);
 
     /// <summary>How to load the file, given how any command would.</summary>
-    public LoadOptions Loading(ParseResult result, LoadOptions options) => options with { SharesFiles = Does(result, Skip.Sharing) };
+    public LoadOptions WithLoadOptions(ParseResult result, LoadOptions options) => options with { ShareModels = IsEnabled(result, Optimisation.MeshSharing) };
 
     public RenderSettings Settings(ParseResult result)
     {
@@ -83,25 +83,25 @@ internal sealed class DrawOptions
             Grid = result.GetValue(_grid),
             Axes = result.GetValue(_grid),
         };
-        var detail = settings.Detail! with
+        var culling = settings.Culling! with
         {
-            PixelSize = result.GetValue(_detail) ?? settings.Detail.PixelSize,
-            InstanceBudget = (int)(result.GetValue(_instances) ?? settings.Detail.InstanceBudget),
-            SkipsOutside = Does(result, Skip.Outside),
-            SkipsHidden = Does(result, Skip.Hidden),
+            MinProjectedSize = result.GetValue(_minProjectedSize) ?? settings.Culling.MinProjectedSize,
+            InstanceBudget = (int)(result.GetValue(_maxInstances) ?? settings.Culling.InstanceBudget),
+            FrustumCulling = IsEnabled(result, Optimisation.FrustumCulling),
+            OcclusionCulling = IsEnabled(result, Optimisation.OcclusionCulling),
         };
         return settings with
         {
-            Detail = detail.PixelSize > 0 ? detail : null,
-            InstanceBudget = (int)(result.GetValue(_instances) ?? settings.InstanceBudget),
-            Samples = (int)(result.GetValue(_samples) ?? settings.Samples),
+            Culling = culling.MinProjectedSize > 0 ? culling : null,
+            InstanceBudget = (int)(result.GetValue(_maxInstances) ?? settings.InstanceBudget),
+            Samples = (int)(result.GetValue(_sampleCount) ?? settings.Samples),
             Shading = result.GetValue(_shading) ?? settings.Shading,
-            SkipsBacks = Does(result, Skip.Backs),
-            SkipsEmptyFaces = Does(result, Skip.EmptyFaces),
-            SkipsSameState = Does(result, Skip.State),
-            KeepsBuffers = Does(result, Skip.Buffers),
-            SharesTextures = Does(result, Skip.Sharing),
-            PreparesOnSight = Does(result, Skip.Sight),
+            BackFaceCulling = IsEnabled(result, Optimisation.BackFaceCulling),
+            RemoveDegenerateTriangles = IsEnabled(result, Optimisation.DegenerateRemoval),
+            FilterRedundantState = IsEnabled(result, Optimisation.StateFiltering),
+            ReuseBuffers = IsEnabled(result, Optimisation.BufferReuse),
+            ShareTextures = IsEnabled(result, Optimisation.MeshSharing),
+            LazyLoading = IsEnabled(result, Optimisation.LazyLoading),
         };
     }
 }

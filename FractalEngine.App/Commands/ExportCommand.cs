@@ -12,35 +12,35 @@ internal static class ExportCommand
     public static Command Create()
     {
         var shared = new SharedOptions();
-        var output = SharedOptions.Output(".obj", "The mesh to write.");
+        var output = SharedOptions.OutputOption(".obj", "The mesh to write.");
         var depth = new Option<long?>("--depth")
         {
             Description = "The depth of the recursion, whatever the fractal's file says.",
             HelpName = "N",
             CustomParser = SharedOptions.ParseInteger(0, int.MaxValue),
         };
-        var limit = new Option<long?>("--limit")
+        var maxFaces = new Option<long?>("--limit")
         {
-            Description = $"The most faces to write; {FractalLimits.ExportedFaces} unless stated.",
+            Description = $"The most faces to write; {FractalLimits.MaxExportedFaces} unless stated.",
             HelpName = "FACES",
             CustomParser = SharedOptions.ParseInteger(1, int.MaxValue),
         };
-        var command = new Command("export", "Write all faces of a file, fractals expanded, as one flat mesh.") { output, depth, limit };
+        var command = new Command("export", "Write all faces of a file, fractals expanded, as one flat mesh.") { output, depth, maxFaces };
         shared.AddTo(command);
         command.SetAction(result => Run(
             result.GetRequiredValue(shared.File), shared.LoadOptions(result) with { Depth = (int?)result.GetValue(depth) },
-            result.GetRequiredValue(output), result.GetValue(limit) ?? FractalLimits.ExportedFaces));
+            result.GetRequiredValue(output), result.GetValue(maxFaces) ?? FractalLimits.MaxExportedFaces));
         return command;
     }
 
-    private static int Run(string path, LoadOptions options, string output, long limit)
+    private static int Run(string path, LoadOptions options, string output, long maxFaces)
     {
-        if (options.Depth > FractalLimits.Depth)
+        if (options.Depth > FractalLimits.MaxDepth)
         {
-            throw new FractalLimitException($"--depth is more than the limit of {FractalLimits.Depth}");
+            throw new FractalLimitException($"--depth is more than the limit of {FractalLimits.MaxDepth}");
         }
 
-        var file = Loading.Load(path, options);
+        var file = ConsoleLoader.Load(path, options);
         if (file.Scene.Models.Select(model => model.Path).Append(file.Path).Contains(Path.GetFullPath(output)))
         {
             throw new UsageException($"{output} is one of the files to export: it is not overwritten");
@@ -51,7 +51,7 @@ internal static class ExportCommand
             throw new UsageException($"{path} has no recursive fractal, so --depth has nothing to change");
         }
 
-        AtomicFile.Write(output, stream => ObjWriter.Write(file.Scene, stream, limit));
+        AtomicFile.Write(output, stream => ObjWriter.Write(file.Scene, stream, maxFaces));
         return ExitCode.Done;
     }
 }

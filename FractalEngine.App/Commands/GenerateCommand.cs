@@ -13,7 +13,7 @@ internal static class GenerateCommand
     public static Command Create()
     {
         var name = new Argument<string>("NAME") { Description = Descriptions() };
-        var output = SharedOptions.Output(".obj", "The mesh to write.");
+        var output = SharedOptions.OutputOption(".obj", "The mesh to write.");
         var seed = new Option<ulong?>("--seed")
         {
             Description = "Another number gives another mesh of the same kind; 0 unless stated.",
@@ -24,7 +24,7 @@ internal static class GenerateCommand
         {
             Description = "How many faces the mesh shall have: exactly, or the nearest number that its shape allows.",
             HelpName = "N",
-            CustomParser = SharedOptions.ParseInteger(1, MeshGenerators.LargestFaceCount),
+            CustomParser = SharedOptions.ParseInteger(1, MeshGenerators.MaxFaceCount),
         };
         var command = new Command("generate", "Make a mesh by program, such as stand-ins for the paper's regular models.") { name, output, seed, faces };
         command.SetAction(result => Run(

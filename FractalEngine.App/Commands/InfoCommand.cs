@@ -22,7 +22,7 @@ internal static class InfoCommand
     private static int Run(string path, LoadOptions options, bool json)
     {
         var clock = Stopwatch.StartNew();
-        var file = Loading.Load(path, options);
+        var file = ConsoleLoader.Load(path, options);
         DrawableScene.Prepare(file.Scene, new RenderSettings());
         var summary = FileSummary.Of(file, clock.Elapsed);
         Console.WriteLine(json ? summary.ToJson() : summary.ToText());

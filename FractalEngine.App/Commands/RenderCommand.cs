@@ -11,25 +11,25 @@ namespace FractalEngine.App.Commands;
 /// <summary><c>render FILE --output X.png</c></summary>
 internal static class RenderCommand
 {
-    private const double LongestTime = 3600;
+    private const double MaxTime = 3600;
 
     public static Command Create()
     {
         var shared = new SharedOptions();
         var draw = new DrawOptions();
-        var output = SharedOptions.Output(".png", "The picture to write.");
+        var output = SharedOptions.OutputOption(".png", "The picture to write.");
         var command = new Command("render", "Draw a file into a picture, without a window.") { output };
         var time = new Option<double?>("--time")
         {
             Description = "Let the physics run for so many seconds first.",
             HelpName = "SECONDS",
-            CustomParser = SharedOptions.ParseNumber(0, LongestTime),
+            CustomParser = SharedOptions.ParseNumber(0, MaxTime),
         };
         shared.AddTo(command);
         draw.AddTo(command);
         command.Add(time);
         command.SetAction(result => Run(
-            result.GetRequiredValue(shared.File), draw.Loading(result, shared.LoadOptions(result)), result.GetRequiredValue(output),
+            result.GetRequiredValue(shared.File), draw.WithLoadOptions(result, shared.LoadOptions(result)), result.GetRequiredValue(output),
             draw.Resolution(result), draw.Projection(result), draw.Settings(result), result.GetValue(time) ?? 0));
         return command;
     }
@@ -38,11 +38,11 @@ internal static class RenderCommand
     public static int Run(
         string path, LoadOptions options, string output, (int Width, int Height) size, Projection? projection, RenderSettings settings, double time = 0)
     {
-        var file = Loading.Load(path, options);
-        var scene = projection is { } asked ? file.Scene with { Scene = file.Scene.Scene with { Projection = asked } } : file.Scene;
+        var file = ConsoleLoader.Load(path, options);
+        var scene = projection is { } requestedProjection ? file.Scene with { Scene = file.Scene.Scene with { Projection = requestedProjection } } : file.Scene;
         // A camera that the scene leaves open frames it as it is at first, so that pictures of several times show the same.
         var view = View.Of(scene, (double)size.Width / size.Height);
-        var drawable = DrawableScene.Prepare(time > 0 ? After(scene, time) : scene, settings);
+        var drawable = DrawableScene.Prepare(time > 0 ? Simulate(scene, time) : scene, settings);
         foreach (var notice in drawable.Notices)
         {
             Console.Error.WriteLine(notice);
@@ -54,14 +54,14 @@ internal static class RenderCommand
         return ExitCode.Done;
     }
 
-    private static LoadedScene After(LoadedScene scene, double seconds)
+    private static LoadedScene Simulate(LoadedScene scene, double seconds)
     {
         var world = new PhysicsWorld(scene);
-        while (world.Time + (0.5 * world.Settings.Step) < seconds)
+        while (world.Time + (0.5 * world.Settings.TimeStep) < seconds)
         {
             world.Step();
         }
 
-        return world.SceneNow();
+        return world.GetCurrentScene();
     }
 }

@@ -31,12 +31,12 @@ internal sealed class SharedOptions
 
     /// <summary>Adds what every command that loads a file has.</summary>
     /// <param name="command">The command.</param>
-    /// <param name="composes">Whether it matters to the command how fractals are composed.</param>
-    public void AddTo(Command command, bool composes = true)
+    /// <param name="hasComposition">Whether it matters to the command how fractals are composed.</param>
+    public void AddTo(Command command, bool hasComposition = true)
     {
         command.Add(File);
         command.Add(AllowOutside);
-        if (composes)
+        if (hasComposition)
         {
             command.Add(Composition);
         }
@@ -61,23 +61,23 @@ internal sealed class SharedOptions
     /// <summary>How to load the file.</summary>
     public LoadOptions LoadOptions(ParseResult result) => new()
     {
-        AllowOutside = result.GetValue(AllowOutside),
+        AllowOutsideFiles = result.GetValue(AllowOutside),
         Composition = result.CommandResult.Command.Options.Contains(Composition) ? result.GetValue(Composition) : null,
     };
 
     /// <summary>Where a command writes to.</summary>
-    public static Option<string> Output(string ending, string description) => new("--output", "-o")
+    public static Option<string> OutputOption(string extension, string description) => new("--output", "-o")
     {
         Description = description,
-        HelpName = $"FILE{ending}",
+        HelpName = $"FILE{extension}",
         Required = true,
         Validators =
         {
             result =>
             {
-                if (result.Tokens is [{ Value: var path }] && !path.EndsWith(ending, StringComparison.OrdinalIgnoreCase))
+                if (result.Tokens is [{ Value: var path }] && !path.EndsWith(extension, StringComparison.OrdinalIgnoreCase))
                 {
-                    result.AddError($"--output '{path}' must end in {ending}");
+                    result.AddError($"--output '{path}' must end in {extension}");
                 }
             },
         },
@@ -94,7 +94,7 @@ internal sealed class SharedOptions
         var values = new List<T>();
         foreach (var token in result.Tokens)
         {
-            var known = values.Count;
+            var countBefore = values.Count;
             foreach (var (word, value) in words)
             {
                 if (token.Value == word)
@@ -103,7 +103,7 @@ internal sealed class SharedOptions
                 }
             }
 
-            if (values.Count == known)
+            if (values.Count == countBefore)
             {
                 result.AddError($"{NameOf(result)}: expected one of {string.Join(", ", words.ToArray().Select(item => item.Word))}, not '{token.Value}'");
                 return [];
@@ -114,39 +114,39 @@ internal sealed class SharedOptions
     }
 
     /// <summary>A whole number within bounds.</summary>
-    public static Func<ArgumentResult, long?> ParseInteger(long smallest, long largest) => result =>
+    public static Func<ArgumentResult, long?> ParseInteger(long min, long max) => result =>
     {
         if (result.Tokens is [{ Value: var token }]
             && long.TryParse(token, NumberStyles.AllowLeadingSign, CultureInfo.InvariantCulture, out var number)
-            && number >= smallest && number <= largest)
+            && number >= min && number <= max)
         {
             return number;
         }
 
-        result.AddError($"{NameOf(result)}: expected a whole number from {smallest} to {largest}");
+        result.AddError($"{NameOf(result)}: expected a whole number from {min} to {max}");
         return null;
     };
 
     /// <summary>A decimal number between two others.</summary>
-    public static Func<ArgumentResult, double?> ParseNumber(double smallest, double largest) => result =>
+    public static Func<ArgumentResult, double?> ParseNumber(double min, double max) => result =>
     {
         if (result.Tokens is [{ Value: var token }]
             && double.TryParse(token, NumberStyles.Float, CultureInfo.InvariantCulture, out var number)
-            && number >= smallest && number <= largest)
+            && number >= min && number <= max)
         {
             return number;
         }
 
-        result.AddError(string.Create(CultureInfo.InvariantCulture, $"{NameOf(result)}: expected a number from {smallest} to {largest}"));
+        result.AddError(string.Create(CultureInfo.InvariantCulture, $"{NameOf(result)}: expected a number from {min} to {max}"));
         return null;
     };
 
     private static string NameOf(ArgumentResult result) => result.Parent is OptionResult option ? option.Option.Name : result.Argument.Name;
 
     /// <summary>How what is nearest is found.</summary>
-    public static Option<ColliderKind?> Collider(string description)
+    public static Option<ColliderKind?> ColliderOption(string description)
     {
-        (string Word, ColliderKind Kind)[] words = [.. Enum.GetValues<ColliderKind>().Select(kind => (SceneParser.NameOf(kind), kind))];
+        (string Word, ColliderKind Kind)[] words = [.. Enum.GetValues<ColliderKind>().Select(kind => (SceneParser.GetColliderName(kind), kind))];
         return new("--collider")
         {
             Description = description,
@@ -156,7 +156,7 @@ internal sealed class SharedOptions
     }
 
     /// <summary>The projection of a picture.</summary>
-    public static Option<Projection?> Projection() => new("--projection")
+    public static Option<Projection?> ProjectionOption() => new("--projection")
     {
         Description = "The projection, whatever the scene says: perspective or orthographic.",
         HelpName = "perspective|orthographic",
@@ -165,7 +165,7 @@ internal sealed class SharedOptions
     };
 
     /// <summary>The size of a picture or window in pixels.</summary>
-    public static Option<(int Width, int Height)?> Resolution() => new("--resolution")
+    public static Option<(int Width, int Height)?> ResolutionOption() => new("--resolution")
     {
         Description = "Width and height in pixels; 1280x720 unless stated.",
         HelpName = "WIDTHxHEIGHT",

@@ -16,24 +16,24 @@ internal static class SimulateCommand
 {
     private const double DefaultSeconds = 10;
 
-    private const long MostSteps = 10_000_000;
+    private const long MaxSteps = 10_000_000;
 
     // Of a step: by how much a quotient of two rounded numbers may exceed the whole number that is meant.
-    private const double Rounding = 1e-9;
+    private const double StepTolerance = 1e-9;
 
     public static Command Create()
     {
         var shared = new SharedOptions();
         var seconds = PositiveOption("--seconds", string.Create(CultureInfo.InvariantCulture, $"How long to simulate; {DefaultSeconds} unless stated."), "SECONDS");
         var step = PositiveOption("--step", "The length of a step; a sixtieth of a second unless stated.", "SECONDS");
-        var collider = SharedOptions.Collider("How all bodies find what they touch, whatever the scene says.");
-        var output = SharedOptions.Output(".csv", "The table to write: a row for each body and step; stdout unless stated.");
+        var collider = SharedOptions.ColliderOption("How all bodies find what they touch, whatever the scene says.");
+        var output = SharedOptions.OutputOption(".csv", "The table to write: a row for each body and step; stdout unless stated.");
         output.Required = false;
         var command = new Command("simulate", "Let the physics objects of a scene fall, and write where they are after each step.") { seconds, step, collider, output };
         shared.AddTo(command);
         command.SetAction(result => Run(
             result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetValue(seconds) ?? DefaultSeconds,
-            result.GetValue(step) ?? new PhysicsSettings().Step, result.GetValue(collider), result.GetValue(output)));
+            result.GetValue(step) ?? new PhysicsSettings().TimeStep, result.GetValue(collider), result.GetValue(output)));
         return command;
     }
 
@@ -57,24 +57,24 @@ internal static class SimulateCommand
 
     private static int Run(string path, LoadOptions options, double seconds, double step, ColliderKind? collider, string? output)
     {
-        var steps = Math.Max(0, Math.Ceiling((seconds / step) - Rounding));
-        if (steps > MostSteps)
+        var steps = Math.Max(0, Math.Ceiling((seconds / step) - StepTolerance));
+        if (steps > MaxSteps)
         {
-            throw new UsageException(string.Create(CultureInfo.InvariantCulture, $"{seconds:R} s are {steps:G4} steps of {step:R} s, and more than {MostSteps} are not made"));
+            throw new UsageException(string.Create(CultureInfo.InvariantCulture, $"{seconds:R} s are {steps:G4} steps of {step:R} s, and more than {MaxSteps} are not made"));
         }
 
-        var file = Loading.Load(path, options);
+        var file = ConsoleLoader.Load(path, options);
         if (!file.Scene.Objects.Any(placed => placed.Declaration is PhysicsObject))
         {
             throw new UsageException($"{path} has no physics objects, so there is nothing to simulate");
         }
 
         var clock = Stopwatch.StartNew();
-        var world = MakeWorld(path, file.Scene, step, collider);
+        var world = CreateWorld(path, file.Scene, step, collider);
         BuildColliders(world, file.Scene);
         var buildTime = clock.Elapsed;
         var stepTime = TimeSpan.Zero;
-        using (var interruption = new Interruption())
+        using (var interruption = new InterruptSignal())
         {
             if (output is null)
             {
@@ -86,15 +86,15 @@ internal static class SimulateCommand
             }
         }
 
-        Report(world, buildTime, stepTime);
+        WriteReport(world, buildTime, stepTime);
         return ExitCode.Done;
     }
 
-    private static PhysicsWorld MakeWorld(string path, LoadedScene scene, double step, ColliderKind? collider)
+    private static PhysicsWorld CreateWorld(string path, LoadedScene scene, double step, ColliderKind? collider)
     {
         try
         {
-            return new(scene, new() { Step = step }) { Collider = collider };
+            return new(scene, new() { TimeStep = step }) { ColliderOverride = collider };
         }
         catch (ArgumentException exception)
         {
@@ -106,7 +106,7 @@ internal static class SimulateCommand
     /// <summary>Builds what bodies will ask, so that it is neither counted with the steps nor an error in the midst of them.</summary>
     private static void BuildColliders(PhysicsWorld world, LoadedScene scene)
     {
-        foreach (var kind in world.Bodies.Select(body => world.Collider ?? body.Description.Collider).Distinct().Order())
+        foreach (var kind in world.Bodies.Select(body => world.ColliderOverride ?? body.Description.Collider).Distinct().Order())
         {
             foreach (var placed in scene.Objects)
             {
@@ -130,14 +130,14 @@ internal static class SimulateCommand
 
     /// <summary>Makes the steps, and writes a row for each body after each of them.</summary>
     /// <returns>How long the steps took, without the writing.</returns>
-    private static TimeSpan Simulate(string path, PhysicsWorld world, long steps, Stream stream, Interruption interruption)
+    private static TimeSpan Simulate(string path, PhysicsWorld world, long steps, Stream stream, InterruptSignal interruption)
     {
         using var writer = new StreamWriter(stream, new UTF8Encoding(encoderShouldEmitUTF8Identifier: false), 1 << 16);
-        var (table, clock) = (new BodyTable(writer), new Stopwatch());
+        var (table, clock) = (new BodyCsvWriter(writer), new Stopwatch());
         table.WriteHeader();
         for (var step = 0L; step < steps; step++)
         {
-            interruption.ThrowIfAsked();
+            interruption.ThrowIfRequested();
             clock.Start();
             try
             {
@@ -155,7 +155,7 @@ internal static class SimulateCommand
         return clock.Elapsed;
     }
 
-    private static void Report(PhysicsWorld world, TimeSpan buildTime, TimeSpan stepTime) => Console.Error.WriteLine(string.Create(
+    private static void WriteReport(PhysicsWorld world, TimeSpan buildTime, TimeSpan stepTime) => Console.Error.WriteLine(string.Create(
         CultureInfo.InvariantCulture,
         $"bodies {world.Bodies.Count}\nbuild {buildTime.TotalMilliseconds:F3} ms\nsteps {world.StepCount}\nstep {stepTime.TotalMilliseconds / Math.Max(1, world.StepCount):F3} ms\nasleep {world.Bodies.Count(body => body.IsAsleep)}\nstuck {world.Bodies.Count(body => body.IsStuck)}\nstate {world.StateHash}"));
 }

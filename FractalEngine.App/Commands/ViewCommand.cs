@@ -6,9 +6,9 @@ namespace FractalEngine.App.Commands;
 /// <summary><c>[view] [FILE]</c>: what the program does when it is told nothing else.</summary>
 internal static class ViewCommand
 {
-    private const string Gallery = "assets/scenes/gallery.sdo";
+    private const string GalleryPath = "assets/scenes/gallery.sdo";
 
-    private static readonly int DefaultTrail = new WindowOptions().TrailLength;
+    private static readonly int DefaultTrailLength = new WindowOptions().TrailLength;
 
     // Set by run.sh where it brings up a virtual display that nobody looks at.
     private const string NoWindowVariable = "FRACTALENGINE_NO_WINDOW";
@@ -21,23 +21,23 @@ internal static class ViewCommand
         var command = new Command("view", "Open a window on a file, or on the gallery. This is what happens without a command, too.");
         shared.AddTo(command);
         draw.AddTo(command);
-        var trail = new Option<long?>("--trail")
+        var trailLength = new Option<long?>("--trail")
         {
-            Description = $"The length of the queue with which key T follows the paper's way into a fractal; {DefaultTrail} unless stated.",
+            Description = $"The length of the queue with which key T follows the paper's way into a fractal; {DefaultTrailLength} unless stated.",
             HelpName = "N",
             CustomParser = SharedOptions.ParseInteger(1, 1000),
         };
-        command.Add(trail);
+        command.Add(trailLength);
         command.SetAction(result => Run(
             result.GetValue(shared.File) ?? FindGallery(),
             new()
             {
-                Load = draw.Loading(result, shared.LoadOptions(result)),
+                Load = draw.WithLoadOptions(result, shared.LoadOptions(result)),
                 Settings = draw.Settings(result),
                 Projection = draw.Projection(result),
-                TrailLength = (int)(result.GetValue(trail) ?? DefaultTrail),
+                TrailLength = (int)(result.GetValue(trailLength) ?? DefaultTrailLength),
                 Size = draw.Resolution(result),
-                SkipsStillPictures = draw.Does(result, Skip.Still),
+                IdleWhenUnchanged = draw.IsEnabled(result, Optimisation.Idle),
             }));
         return command;
     }
@@ -60,13 +60,13 @@ internal static class ViewCommand
     {
         for (var folder = AppContext.BaseDirectory; folder is not null; folder = Path.GetDirectoryName(folder))
         {
-            var gallery = Path.Combine(folder, Gallery);
+            var gallery = Path.Combine(folder, GalleryPath);
             if (File.Exists(gallery))
             {
                 return Path.GetRelativePath(Directory.GetCurrentDirectory(), gallery);
             }
         }
 
-        throw new UsageException($"{Gallery} is not beside the program: name a file to view");
+        throw new UsageException($"{GalleryPath} is not beside the program: name a file to view");
     }
 }

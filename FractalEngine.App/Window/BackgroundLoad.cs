@@ -9,7 +9,7 @@ namespace FractalEngine.App.Window;
 /// <summary>Loads and prepares a file on another thread.</summary>
 internal sealed class BackgroundLoad
 {
-    private readonly LatestProgress _progress = new();
+    private readonly ThrottledProgress _progress = new();
     private readonly Task<(LoadedFile File, ScenePreparation Preparation)> _task;
 
     /// <summary>Starts at once.</summary>
@@ -24,14 +24,14 @@ internal sealed class BackgroundLoad
         {
             var file = AssetLoader.Load(path, options, _progress);
             var preparation = new ScenePreparation(file.Scene, settings);
-            if (file.Scene.Objects.Length == 1 || !settings.PreparesOnSight)
+            if (file.Scene.Objects.Length == 1 || !settings.LazyLoading)
             {
                 // Of one object, whatever the camera looks at, there is nothing else to show.
                 preparation.PrepareAll(_progress, CancellationToken.None);
             }
             else
             {
-                preparation.PrepareInSight(View.Of(file.Scene, aspect), aspect, _progress);
+                preparation.PrepareVisible(View.Of(file.Scene, aspect), aspect, _progress);
             }
 
             return (file, preparation);
@@ -43,7 +43,7 @@ internal sealed class BackgroundLoad
     public bool IsCompleted => _task.IsCompleted;
 
     /// <summary>True once the result has been asked for.</summary>
-    public bool IsTaken { get; private set; }
+    public bool IsResultTaken { get; private set; }
 
     /// <summary>What it is doing, and how far it has come.</summary>
     public (string Text, double Fraction) Progress => _progress.Latest;
@@ -51,9 +51,9 @@ internal sealed class BackgroundLoad
     /// <summary>The result; null where the file can't be loaded.</summary>
     /// <param name="exitCode">Of a program that does nothing but load this file.</param>
     /// <param name="error">Why it can't be loaded; null where it can.</param>
-    public (LoadedFile File, ScenePreparation Preparation)? Take(out int exitCode, out string? error)
+    public (LoadedFile File, ScenePreparation Preparation)? TakeResult(out int exitCode, out string? error)
     {
-        IsTaken = true;
+        IsResultTaken = true;
         (exitCode, error) = (ExitCode.Done, null);
         try
         {
@@ -61,7 +61,7 @@ internal sealed class BackgroundLoad
         }
         catch (SourceException exception)
         {
-            (exitCode, error) = (exception.Diagnostic.IsLimit ? ExitCode.OverLimit : ExitCode.BadInput, exception.Diagnostic.ToString());
+            (exitCode, error) = (exception.Diagnostic.IsLimitExceeded ? ExitCode.OverLimit : ExitCode.BadInput, exception.Diagnostic.ToString());
         }
         catch (FractalLimitException exception)
         {

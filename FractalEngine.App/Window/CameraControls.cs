@@ -14,33 +14,33 @@ namespace FractalEngine.App.Window;
 internal sealed class CameraControls
 {
     // Radians a pixel: a drag across a window of 1280 pixels turns by about 220°.
-    private const double TurnPerPixel = 0.003;
+    private const double RadiansPerPixel = 0.003;
     private const double ZoomPerNotch = 0.88;
-    private const double SpeedFactor = 4;
+    private const double SpeedModifierFactor = 4;
 
     // Of the scene's size a second: a scene is crossed in about three seconds.
-    private const double SizesPerSecond = 0.35;
+    private const double SceneSizesPerSecond = 0.35;
 
     // Near a fractal the distance to it is halved about every second.
-    private const double DistancesPerSecond = 0.8;
-    private const double ZoomDistances = 2;
+    private const double SurfaceDistancesPerSecond = 0.8;
+    private const double MaxFocusDistanceRatio = 2;
 
     // Of the distance to what is nearest.
-    private const double NearestPart = 0.02;
+    private const double NearPlaneFraction = 0.02;
 
     // Sub-fractals around the one that the camera is in, of which those too large to be told are left out; of maps that hardly shrink there are many.
-    private const int Ancestors = 1000;
+    private const int MaxAncestors = 1000;
 
     // A key that is only tapped, and may be up again before time is told, moves as far as one that is held so long.
-    private static readonly TimeSpan Tap = TimeSpan.FromSeconds(0.05);
+    private static readonly TimeSpan TapDuration = TimeSpan.FromSeconds(0.05);
 
-    private readonly HashSet<Key> _held = [];
-    private readonly double _size;
-    private readonly BoundingBox _bounds;
-    private readonly Pose _initial;
-    private MouseButton? _dragged;
+    private readonly HashSet<Key> _heldKeys = [];
+    private readonly double _sceneSize;
+    private readonly BoundingBox _sceneBounds;
+    private readonly Pose _initialPose;
+    private MouseButton? _draggedButton;
     private KeyModifiers _modifiers;
-    private readonly FractalPlace? _fractal;
+    private readonly FractalLocation? _fractal;
     private FractalAddress? _address;
     private Pose _pose;
     private double _focusDistance;
@@ -51,38 +51,38 @@ internal sealed class CameraControls
     /// <param name="projection">Likewise.</param>
     /// <param name="orthographicHeight">Likewise; null where it follows the camera.</param>
     /// <param name="fractal">A fractal that the camera can go into as deep as it likes; null for none.</param>
-    public CameraControls(BoundingBox bounds, Camera camera, Projection projection, double? orthographicHeight, FractalPlace? fractal = null)
+    public CameraControls(BoundingBox bounds, Camera camera, Projection projection, double? orthographicHeight, FractalLocation? fractal = null)
     {
         _fractal = fractal;
-        _bounds = bounds.IsEmpty ? new(-Vector.One, Vector.One) : bounds;
-        _size = Math.Max(_bounds.Diagonal, 1e-9 * (1 + _bounds.Centre.MaximumComponent()));
-        _pose = _initial = new(camera, projection, orthographicHeight, 0);
+        _sceneBounds = bounds.IsEmpty ? new(-Vector.One, Vector.One) : bounds;
+        _sceneSize = Math.Max(_sceneBounds.Diagonal, 1e-9 * (1 + _sceneBounds.Centre.MaxAbsComponent()));
+        _pose = _initialPose = new(camera, projection, orthographicHeight, 0);
         _focusDistance = DistanceToCentre(camera);
-        PlaceInFractal();
+        ResetFractalAddress();
     }
 
     /// <summary>Where the scene is seen from now.</summary>
-    public Camera Camera => _address is null ? _pose.Camera : _pose.Camera with { Position = _address.WorldPosition(_fractal!.Placement) };
+    public Camera Camera => _address is null ? _pose.Camera : _pose.Camera with { Position = _address.WorldPosition(_fractal!.ObjectToWorld) };
 
     /// <summary>How deep the camera is in the fractal: the levels that it has gone down.</summary>
     public int Depth => _address?.Depth ?? 0;
 
     /// <summary>By how much what is around the camera is enlarged: the decimal logarithm.</summary>
-    public double Enlargement => _address is null ? 0 : -_address.LogUnit / Math.Log(10);
+    public double Log10Magnification => _address is null ? 0 : -_address.LogUnit / Math.Log(10);
 
     /// <summary>A view as the camera sees it from deep in the fractal; the view itself from outside.</summary>
-    public View Deepened(View view)
+    public View WithDeepZoom(View view)
     {
         if (_address is not { Depth: > 0 } || Projection != Projection.Perspective)
         {
             return view;
         }
 
-        var roots = _address.Roots(Ancestors);
+        var roots = _address.CollectRoots(MaxAncestors);
         return view with
         {
-            Zoom = new(_fractal!.Index, roots, _address.LogUnit),
-            Clip = (NearestPart * _address.NearestDistance(), 1.01 * _address.FarthestDistance(roots)),
+            DeepZoom = new(_fractal!.ObjectIndex, roots, _address.LogUnit),
+            Clip = (NearPlaneFraction * _address.ClosestSurfaceDistance(), 1.01 * _address.MaxDrawDistance(roots)),
         };
     }
 
@@ -109,33 +109,33 @@ internal sealed class CameraControls
         {
             case KeyPressed pressed:
                 _modifiers = pressed.Modifiers;
-                _held.Add(pressed.Key);
-                Press(pressed, aspect);
+                _heldKeys.Add(pressed.Key);
+                HandleKey(pressed, aspect);
                 if (!pressed.IsRepeat)
                 {
-                    Advance(Tap);
+                    Advance(TapDuration);
                 }
 
                 break;
             case KeyReleased released:
                 _modifiers = released.Modifiers;
-                _held.Remove(released.Key);
+                _heldKeys.Remove(released.Key);
                 break;
             case MousePressed pressed:
-                (_dragged, _modifiers) = (pressed.Button, pressed.Modifiers);
+                (_draggedButton, _modifiers) = (pressed.Button, pressed.Modifiers);
                 break;
             case MouseReleased:
-                _dragged = null;
+                _draggedButton = null;
                 break;
-            case MouseMoved moved when _dragged is { } button:
+            case MouseMoved moved when _draggedButton is { } button:
                 Drag(button, moved.DeltaX, moved.DeltaY, aspect);
                 break;
             case WheelTurned wheel:
                 Zoom(Math.Pow(ZoomPerNotch, wheel.Notches));
                 break;
             case FocusLost:
-                _held.Clear();
-                (_dragged, _modifiers) = (null, KeyModifiers.None);
+                _heldKeys.Clear();
+                (_draggedButton, _modifiers) = (null, KeyModifiers.None);
                 break;
         }
 
@@ -145,10 +145,10 @@ internal sealed class CameraControls
     /// <summary>Goes on from another place. Keys that are held are forgotten.</summary>
     public void MoveTo(Camera camera)
     {
-        _held.Clear();
+        _heldKeys.Clear();
         _pose = _pose with { Camera = camera };
         _focusDistance = DistanceToCentre(camera);
-        PlaceInFractal();
+        ResetFractalAddress();
     }
 
     /// <summary>Moves on for a while, as the held keys say.</summary>
@@ -160,24 +160,24 @@ internal sealed class CameraControls
             return false;
         }
 
-        var speed = Speed()
-            * (_modifiers.HasFlag(KeyModifiers.Shift) ? SpeedFactor : 1)
-            / (_modifiers.HasFlag(KeyModifiers.Alt) ? SpeedFactor : 1);
-        Move(CameraNavigation.Move(_pose.Camera, time.TotalSeconds * speed * Direction().UnitVector()));
+        var distancePerSecond = MoveSpeed()
+            * (_modifiers.HasFlag(KeyModifiers.Shift) ? SpeedModifierFactor : 1)
+            / (_modifiers.HasFlag(KeyModifiers.Alt) ? SpeedModifierFactor : 1);
+        Move(CameraNavigation.Move(_pose.Camera, time.TotalSeconds * distancePerSecond * Direction().UnitVector()));
         return true;
     }
 
     /// <summary>Units a second: by the size of the scene, and near a fractal by the distance to it.</summary>
-    private double Speed()
+    private double MoveSpeed()
     {
-        var speed = SizesPerSecond * _size;
+        var sceneSpeed = SceneSizesPerSecond * _sceneSize;
         if (_address is null)
         {
-            return speed;
+            return sceneSpeed;
         }
 
-        var near = DistancesPerSecond * _address.NearestDistance();
-        return _address.Depth == 0 ? Math.Min(speed, near) : near;
+        var fractalSpeed = SurfaceDistancesPerSecond * _address.ClosestSurfaceDistance();
+        return _address.Depth == 0 ? Math.Min(sceneSpeed, fractalSpeed) : fractalSpeed;
     }
 
     private Vector Direction() => new(
@@ -185,9 +185,9 @@ internal sealed class CameraControls
         Axis(Key.E, Key.PageUp) - Axis(Key.Q, Key.PageDown),
         Axis(Key.W, Key.Up) - Axis(Key.S, Key.Down));
 
-    private double Axis(Key letter, Key arrow) => _held.Contains(letter) || _held.Contains(arrow) ? 1 : 0;
+    private double Axis(Key letter, Key arrow) => _heldKeys.Contains(letter) || _heldKeys.Contains(arrow) ? 1 : 0;
 
-    private void Press(KeyPressed pressed, double aspect)
+    private void HandleKey(KeyPressed pressed, double aspect)
     {
         if (pressed.Modifiers.HasFlag(KeyModifiers.Control))
         {
@@ -197,7 +197,7 @@ internal sealed class CameraControls
         switch (pressed.Key)
         {
             case Key.F:
-                Frame(Camera, aspect);
+                FrameScene(Camera, aspect);
                 break;
             case Key.Digit1 or Key.Keypad1:
                 LookAlong(Vector.K, aspect);
@@ -215,39 +215,39 @@ internal sealed class CameraControls
                 };
                 break;
             case Key.Enter or Key.KeypadEnter:
-                _pose = _initial;
+                _pose = _initialPose;
                 _focusDistance = DistanceToCentre(_pose.Camera);
-                PlaceInFractal();
+                ResetFractalAddress();
                 break;
         }
     }
 
     private void LookAlong(Vector direction, double aspect) =>
-        Frame(Camera with { Rotation = CameraFraming.LookRotation(direction) }, aspect);
+        FrameScene(Camera with { Rotation = CameraFraming.LookRotation(direction) }, aspect);
 
-    private void Frame(Camera camera, double aspect)
+    private void FrameScene(Camera camera, double aspect)
     {
-        _pose = _pose with { Camera = CameraFraming.Frame(camera, _bounds, aspect), OrthographicHeight = null };
+        _pose = _pose with { Camera = CameraFraming.Frame(camera, _sceneBounds, aspect), OrthographicHeight = null };
         _focusDistance = DistanceToCentre(_pose.Camera);
-        PlaceInFractal();
+        ResetFractalAddress();
     }
 
-    private void Drag(MouseButton button, double right, double down, double aspect)
+    private void Drag(MouseButton button, double deltaX, double deltaY, double aspect)
     {
-        var (turn, climb) = (TurnPerPixel * right, -TurnPerPixel * down);
+        var (yaw, pitch) = (RadiansPerPixel * deltaX, -RadiansPerPixel * deltaY);
         if (button == MouseButton.Middle || (button == MouseButton.Left && _modifiers.HasFlag(KeyModifiers.Shift)))
         {
             // The point in focus follows the pointer: a pixel is as wide there as the picture shows it.
-            var perPixel = TurnPerPixel * _focusDistance * Math.Min(1, aspect);
-            Move(CameraNavigation.Move(_pose.Camera, new(-perPixel * right, perPixel * down, 0)));
+            var distancePerPixel = RadiansPerPixel * _focusDistance * Math.Min(1, aspect);
+            Move(CameraNavigation.Move(_pose.Camera, new(-distancePerPixel * deltaX, distancePerPixel * deltaY, 0)));
         }
         else if (button == MouseButton.Left)
         {
-            Move(CameraNavigation.Orbit(_pose.Camera, Focus, turn, climb));
+            Move(CameraNavigation.Orbit(_pose.Camera, Focus, yaw, pitch));
         }
         else
         {
-            Move(CameraNavigation.Turn(_pose.Camera, turn, climb));
+            Move(CameraNavigation.Turn(_pose.Camera, yaw, pitch));
         }
     }
 
@@ -256,8 +256,8 @@ internal sealed class CameraControls
         if (_address is not null)
         {
             // Towards what is near, however small it is; and away from it by as much.
-            var limit = Math.Max(1, factor) * ZoomDistances * _address.NearestDistance();
-            _focusDistance = factor > 1 && _address.Depth > 0 ? limit : Math.Min(_focusDistance, limit);
+            var maxFocusDistance = Math.Max(1, factor) * MaxFocusDistanceRatio * _address.ClosestSurfaceDistance();
+            _focusDistance = factor > 1 && _address.Depth > 0 ? maxFocusDistance : Math.Min(_focusDistance, maxFocusDistance);
         }
 
         Move(CameraNavigation.Zoom(_pose.Camera, Focus, factor));
@@ -274,29 +274,29 @@ internal sealed class CameraControls
             return;
         }
 
-        var unit = _address.LogUnit;
+        var logUnit = _address.LogUnit;
         _address.Move(camera.Position);
-        _focusDistance *= Math.Exp(unit - _address.LogUnit);
-        _pose = _pose with { Camera = camera with { Position = Vector.Zero }, Steps = _pose.Steps + (camera.Position == Vector.Zero ? 0 : 1) };
+        _focusDistance *= Math.Exp(logUnit - _address.LogUnit);
+        _pose = _pose with { Camera = camera with { Position = Vector.Zero }, MoveCount = _pose.MoveCount + (camera.Position == Vector.Zero ? 0 : 1) };
     }
 
     /// <summary>Tells where the camera is relative to the fractal, where there is one.</summary>
-    private void PlaceInFractal()
+    private void ResetFractalAddress()
     {
         if (_fractal is not null)
         {
-            _address = new(_fractal.Table, _fractal.Placement, _pose.Camera.Position);
+            _address = new(_fractal.Hierarchy, _fractal.ObjectToWorld, _pose.Camera.Position);
             _address.Move(Vector.Zero);
             _focusDistance *= Math.Exp(-_address.LogUnit);
-            _pose = _pose with { Camera = _pose.Camera with { Position = Vector.Zero }, Steps = _pose.Steps + 1 };
+            _pose = _pose with { Camera = _pose.Camera with { Position = Vector.Zero }, MoveCount = _pose.MoveCount + 1 };
         }
     }
 
-    private double DistanceToCentre(Camera camera) => camera.Map(_bounds.Centre).Z switch
+    private double DistanceToCentre(Camera camera) => camera.ToCameraSpace(_sceneBounds.Centre).Z switch
     {
-        var depth when depth > 1e-3 * _size => depth,
-        _ => _size,
+        var depth when depth > 1e-3 * _sceneSize => depth,
+        _ => _sceneSize,
     };
 
-    private sealed record Pose(Camera Camera, Projection Projection, double? OrthographicHeight, long Steps);
+    private sealed record Pose(Camera Camera, Projection Projection, double? OrthographicHeight, long MoveCount);
 }

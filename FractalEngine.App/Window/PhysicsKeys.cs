@@ -19,9 +19,9 @@ internal static class PhysicsKeys
             case Key.R:
                 return physics.Reset();
             case Key.B:
-                return physics.DropBall(document.Camera);
+                return physics.DropSphere(document.Camera);
             case Key.C:
-                return physics.CycleCollider();
+                return physics.SwitchCollider();
             case Key.P:
                 return document.ToggleWalking();
             case Key.V:

@@ -14,59 +14,59 @@ namespace FractalEngine.App.Window;
 internal sealed class ScenePhysics
 {
     // Of the scene's size.
-    private const double BallSize = 0.015;
-    private const double PlayerHeight = 0.05;
+    private const double SphereRadiusFraction = 0.015;
+    private const double PlayerHeightFraction = 0.05;
 
     // Of the player's height.
-    private const double PlayerRadius = 0.2;
+    private const double PlayerRadiusFraction = 0.2;
 
     // Parts of the free distance at the camera: what is dropped or walks fits in.
-    private const double FreePart = 0.3;
+    private const double FreeDistanceFraction = 0.3;
 
-    private const double BallRestitution = 0.6;
-    private const double BallFriction = 0.3;
+    private const double SphereRestitution = 0.6;
+    private const double SphereFriction = 0.3;
 
-    private const int MostLines = 100;
+    private const int MaxClosestPointBodies = 100;
 
-    private static readonly Colour TowardsSurface = new(1, 0.75, 0.2);
-    private static readonly Colour AlongNormal = new(0.3, 0.9, 1);
+    private static readonly Colour ClosestPointColour = new(1, 0.75, 0.2);
+    private static readonly Colour NormalColour = new(0.3, 0.9, 1);
 
     private readonly LoadedScene _scene;
-    private readonly Task<PhysicsWorld> _building;
-    private readonly double _size;
-    private readonly int _colliders;
+    private readonly Task<PhysicsWorld> _worldTask;
+    private readonly double _sceneSize;
+    private readonly int _colliderCount;
     private TimeSpan _stepTime;
     private string? _problem;
-    private bool _isProblemTold;
+    private bool _isProblemReported;
     private bool _isBroken;
 
     /// <summary>Begins to build the colliders in the background, where there are bodies that need them.</summary>
     /// <param name="scene">Loaded.</param>
-    /// <param name="built">Called on another thread when the colliders are there.</param>
-    /// <param name="buildsAll">Builds them even where there are no bodies, for comparison.</param>
-    public ScenePhysics(LoadedScene scene, Action built, bool buildsAll = false)
+    /// <param name="completed">Called on another thread when the colliders are there.</param>
+    /// <param name="alwaysBuild">Builds them even where there are no bodies, for comparison.</param>
+    public ScenePhysics(LoadedScene scene, Action completed, bool alwaysBuild = false)
     {
-        (_scene, _size) = (scene, scene.Bounds.IsEmpty ? 1 : scene.Bounds.Diagonal);
-        _colliders = scene.Objects.Where(static placed => placed.Declaration is not PhysicsObject).Select(static placed => placed.Model).Distinct().Count();
-        _building = Task.Run(() =>
+        (_scene, _sceneSize) = (scene, scene.Bounds.IsEmpty ? 1 : scene.Bounds.Diagonal);
+        _colliderCount = scene.Objects.Where(static placed => placed.Declaration is not PhysicsObject).Select(static placed => placed.Model).Distinct().Count();
+        _worldTask = Task.Run(() =>
         {
             var world = new PhysicsWorld(scene);
-            if (world.Bodies.Count > 0 || buildsAll)
+            if (world.Bodies.Count > 0 || alwaysBuild)
             {
                 world.BuildColliders();
             }
 
             return world;
         });
-        _building.ContinueWith(_ => built(), TaskScheduler.Default);
+        _worldTask.ContinueWith(_ => completed(), TaskScheduler.Default);
     }
 
     /// <summary>Why nothing moves, or moves no longer, once; null where nothing is wrong.</summary>
     public string? TakeProblem()
     {
-        if (_building.IsFaulted && !_isProblemTold)
+        if (_worldTask.IsFaulted && !_isProblemReported)
         {
-            (_problem, _isProblemTold) = ($"error: no physics: {_building.Exception.InnerException!.Message}", true);
+            (_problem, _isProblemReported) = ($"error: no physics: {_worldTask.Exception.InnerException!.Message}", true);
         }
 
         (var problem, _problem) = (_problem, null);
@@ -80,45 +80,45 @@ internal sealed class ScenePhysics
     public bool IsPaused { get; private set; }
 
     /// <summary>Whether the player walks, and the camera is where the player's eyes are.</summary>
-    public bool IsWalking => IsReady && World.Walker is { IsActive: true };
+    public bool IsWalking => IsReady && World.Character is { IsActive: true };
 
     /// <summary>Who walks; null for nobody.</summary>
-    public Walker? Walker => IsReady ? World.Walker : null;
+    public CharacterController? Character => IsReady ? World.Character : null;
 
     /// <summary>Whether closest points and normals are shown as lines.</summary>
     public bool ShowsClosestPoints { get; set; }
 
-    /// <summary>How far between two steps what is drawn is, see <see cref="Body.MapAt"/>.</summary>
-    public double Part => IsPaused || !IsReady ? 1 : World.Fraction;
+    /// <summary>How far between two steps what is drawn is, see <see cref="Body.InterpolatedMap"/>.</summary>
+    public double InterpolationAlpha => IsPaused || !IsReady ? 1 : World.InterpolationAlpha;
 
     /// <summary>What is written of the bodies: how many there are, how they find what they touch, and what that costs.</summary>
-    public string Description
+    public string StatusText
     {
         get
         {
             if (!IsReady)
             {
-                return NotReady;
+                return NotReadyMessage;
             }
 
             var awake = World.Bodies.Count(static body => !body.IsAsleep);
-            var collider = World.Collider is { } kind ? SceneParser.NameOf(kind) : "each body's own";
+            var collider = World.ColliderOverride is { } kind ? SceneParser.GetColliderName(kind) : "each body's own";
             return FormattableString.Invariant(
-                $"{World.Bodies.Count:N0} bodies, {awake:N0} awake · collider: {collider} · a step: {World.Cost.FaceTests:N0} faces, {World.Cost.BoundTests:N0} bounds, {_stepTime.TotalMilliseconds:F2} ms{(IsPaused ? " · paused" : "")}");
+                $"{World.Bodies.Count:N0} bodies, {awake:N0} awake · collider: {collider} · a step: {World.LastStepCost.FaceTests:N0} faces, {World.LastStepCost.BoundTests:N0} bounds, {_stepTime.TotalMilliseconds:F2} ms{(IsPaused ? " · paused" : "")}");
         }
     }
 
     /// <summary>How many colliders have been built, of how many.</summary>
-    public (int Built, int All) ColliderCounts => IsReady ? World.ColliderCounts : (0, _colliders);
+    public (int Built, int All) ColliderCounts => IsReady ? World.ColliderCounts : (0, _colliderCount);
 
-    private bool IsReady => _building.IsCompletedSuccessfully;
+    private bool IsReady => _worldTask.IsCompletedSuccessfully;
 
     /// <summary>Once it is ready.</summary>
-    private PhysicsWorld World => _building.Result;
+    private PhysicsWorld World => _worldTask.Result;
 
-    private static string Broken => "a body has left the range of numbers: R puts everything back";
+    private static string OutOfRangeMessage => "a body has left the range of numbers: R puts everything back";
 
-    private string NotReady => _building.IsFaulted ? "there is no physics in this scene" : "the colliders are being built";
+    private string NotReadyMessage => _worldTask.IsFaulted ? "there is no physics in this scene" : "the colliders are being built";
 
     /// <summary>Lets time pass.</summary>
     /// <returns>True when something may have moved.</returns>
@@ -140,7 +140,7 @@ internal sealed class ScenePhysics
     public string TogglePause()
     {
         IsPaused = _isBroken || !IsPaused;
-        return _isBroken ? Broken : IsPaused ? "paused: N makes one step" : "time goes on";
+        return _isBroken ? OutOfRangeMessage : IsPaused ? "paused: N makes one step" : "time goes on";
     }
 
     /// <summary>Makes one step, and stops time.</summary>
@@ -149,12 +149,12 @@ internal sealed class ScenePhysics
         IsPaused = true;
         if (!IsReady)
         {
-            return NotReady;
+            return NotReadyMessage;
         }
 
         if (_isBroken)
         {
-            return Broken;
+            return OutOfRangeMessage;
         }
 
         var start = Stopwatch.GetTimestamp();
@@ -176,25 +176,25 @@ internal sealed class ScenePhysics
     }
 
     /// <summary>Drops a ball before the camera.</summary>
-    public string DropBall(Camera camera)
+    public string DropSphere(Camera camera)
     {
         if (!IsReady)
         {
-            return NotReady;
+            return NotReadyMessage;
         }
 
-        if (!TryFindFreeDistance(camera.Position, out var free, out var problem))
+        if (!TryFindFreeDistance(camera.Position, out var freeDistance, out var problem))
         {
             return problem;
         }
 
-        var radius = Math.Min(BallSize * _size, FreePart * free);
+        var radius = Math.Min(SphereRadiusFraction * _sceneSize, FreeDistanceFraction * freeDistance);
         if (!(radius > 0))
         {
             return "there is no room for a ball";
         }
 
-        World.Add(new(camera.Position + (2 * radius * camera.LocalAxes.V3), radius) { Restitution = BallRestitution, Friction = BallFriction });
+        World.Add(new(camera.Position + (2 * radius * camera.LocalAxes.V3), radius) { Restitution = SphereRestitution, Friction = SphereFriction });
         return "dropped a ball";
     }
 
@@ -204,16 +204,16 @@ internal sealed class ScenePhysics
     {
         if (!IsReady)
         {
-            return NotReady;
+            return NotReadyMessage;
         }
 
-        if (World.Walker is { IsActive: true } walking)
+        if (World.Character is { IsActive: true } controller)
         {
-            walking.IsActive = false;
+            controller.IsActive = false;
             return "the camera flies";
         }
 
-        if (!TryFindFreeDistance(camera.Position, out var free, out var problem))
+        if (!TryFindFreeDistance(camera.Position, out var freeDistance, out var problem))
         {
             return problem;
         }
@@ -221,55 +221,55 @@ internal sealed class ScenePhysics
         IsPaused = _isBroken;
         if (_scene.Scene.Player is null)
         {
-            var height = Math.Min(PlayerHeight * _size, FreePart * free);
+            var height = Math.Min(PlayerHeightFraction * _sceneSize, FreeDistanceFraction * freeDistance);
             if (!(height > 0))
             {
                 return "there is no room for a player";
             }
 
-            World.AddWalker(new(camera.Position, PlayerRadius * height, height));
+            World.AddCharacter(new(camera.Position, PlayerRadiusFraction * height, height));
         }
 
-        World.Walker!.IsActive = true;
+        World.Character!.IsActive = true;
         return "walking: W A S D, Space jumps, P flies again";
     }
 
     /// <summary>Takes the next collider for all bodies, as far as it fits the scene.</summary>
-    public string CycleCollider()
+    public string SwitchCollider()
     {
         if (!IsReady)
         {
-            return NotReady;
+            return NotReadyMessage;
         }
 
-        return ColliderCycle.Next(World, _scene);
+        return ColliderSwitch.SwitchToNext(World, _scene);
     }
 
     /// <summary>Moves what is drawn to where the bodies are.</summary>
-    public void Place(SceneRenderer renderer)
+    public void ApplyTo(SceneRenderer renderer)
     {
         if (!IsReady)
         {
             return;
         }
 
-        var part = Part;
-        var balls = new List<LooseBall>();
+        var alpha = InterpolationAlpha;
+        var spheres = new List<SphereInstance>();
         foreach (var body in World.Bodies)
         {
-            var map = body.MapAt(part);
+            var map = body.InterpolatedMap(alpha);
             if (body.Description.ObjectIndex is >= 0 and var index)
             {
                 renderer.Move(index, map);
             }
             else
             {
-                balls.Add(new(map.Translation, body.Radius));
+                spheres.Add(new(map.Translation, body.Radius));
             }
         }
 
-        renderer.Balls = balls;
-        renderer.Lines = ShowsClosestPoints && !_isBroken ? ClosestPoints(part) : [];
+        renderer.Spheres = spheres;
+        renderer.Lines = ShowsClosestPoints && !_isBroken ? ClosestPointLines(alpha) : [];
     }
 
     /// <summary>Stops time where a body leaves the range of a double.</summary>
@@ -285,16 +285,16 @@ internal sealed class ScenePhysics
         }
     }
 
-    private List<LineSegment> ClosestPoints(double part)
+    private List<LineSegment> ClosestPointLines(double alpha)
     {
         var lines = new List<LineSegment>();
-        foreach (var body in World.Bodies.OrderBy(static body => body.IsAsleep).Take(MostLines))
+        foreach (var body in World.Bodies.OrderBy(static body => body.IsAsleep).Take(MaxClosestPointBodies))
         {
-            var centre = body.MapAt(part).Translation;
-            if (World.TryFindClosest(centre, World.Collider ?? body.Description.Collider, out var closest))
+            var centre = body.InterpolatedMap(alpha).Translation;
+            if (World.TryFindClosest(centre, World.ColliderOverride ?? body.Description.Collider, out var closest))
             {
-                lines.Add(new(centre, closest.Point, TowardsSurface));
-                lines.Add(new(closest.Point, closest.Point + (2 * body.Radius * closest.Normal), AlongNormal));
+                lines.Add(new(centre, closest.Point, ClosestPointColour));
+                lines.Add(new(closest.Point, closest.Point + (2 * body.Radius * closest.Normal), NormalColour));
             }
         }
 
@@ -307,7 +307,7 @@ internal sealed class ScenePhysics
         (distance, problem) = (double.PositiveInfinity, "");
         try
         {
-            distance = World.TryFindClosest(position, World.Collider ?? ColliderKind.Exact, out var closest) ? closest.Distance : distance;
+            distance = World.TryFindClosest(position, World.ColliderOverride ?? ColliderKind.Exact, out var closest) ? closest.Distance : distance;
             return true;
         }
         catch (Exception exception) when (exception is ColliderMismatchException or FractalLimitException)

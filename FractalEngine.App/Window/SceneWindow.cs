@@ -6,7 +6,7 @@ namespace FractalEngine.App.Window;
 
 /// <summary>
 /// The window: loads a file in the background, draws when something has changed, and sleeps otherwise. What keys and mouse do to
-/// the camera is <see cref="CameraControls"/>, how pictures are drawn is <see cref="WindowPictures"/>; here are the loop, and the keys that do something else.
+/// the camera is <see cref="CameraControls"/>, how pictures are drawn is <see cref="WindowRenderer"/>; here are the loop, and the keys that do something else.
 /// </summary>
 internal sealed class SceneWindow : IDisposable
 {
@@ -14,33 +14,33 @@ internal sealed class SceneWindow : IDisposable
     private static readonly TimeSpan ProgressInterval = TimeSpan.FromSeconds(0.1);
 
     // A frame that took long must not make the camera jump.
-    private static readonly TimeSpan LongestStep = TimeSpan.FromSeconds(0.1);
+    private static readonly TimeSpan MaxTimeStep = TimeSpan.FromSeconds(0.1);
 
     private readonly WindowOptions _options;
     private readonly RenderWindow _window;
-    private readonly FrameRenderer _frame;
-    private readonly WindowPictures _pictures;
+    private readonly FrameRenderer _frameRenderer;
+    private readonly WindowRenderer _windowRenderer;
     private readonly WindowOverlay _overlay = new();
     private readonly Stopwatch _clock = Stopwatch.StartNew();
     private RenderSettings _settings;
     private BackgroundLoad _load;
     private Document? _document;
-    private TimeSpan _advanced;
-    private TimeSpan _refreshed;
+    private TimeSpan _lastAdvance;
+    private TimeSpan _lastRefresh;
     private int _exitCode;
     private bool _isClosing;
     private bool _isVisible = true;
 
     // What the window shows is older than the scene, or than the text over it. A new text costs no new drawing.
-    private bool _isDrawingStale = true;
-    private bool _isWindowStale = true;
+    private bool _needsDraw = true;
+    private bool _needsPresent = true;
 
     private SceneWindow(string path, WindowOptions options)
     {
         (_options, _settings) = (options, options.Settings);
         _window = new("FractalEngine", options.Size.Width, options.Size.Height);
-        _frame = new(_window);
-        _pictures = new(_frame);
+        _frameRenderer = new(_window);
+        _windowRenderer = new(_frameRenderer);
         _load = StartLoading(path);
     }
 
@@ -58,7 +58,7 @@ internal sealed class SceneWindow : IDisposable
     public void Dispose()
     {
         _document?.Dispose();
-        _frame.Dispose();
+        _frameRenderer.Dispose();
         _window.Dispose();
     }
 
@@ -66,33 +66,33 @@ internal sealed class SceneWindow : IDisposable
     {
         while (!_isClosing)
         {
-            foreach (var windowEvent in _window.WaitEvents(TimeToSleep()))
+            foreach (var windowEvent in _window.WaitEvents(WaitTimeout()))
             {
                 Handle(windowEvent);
             }
 
-            FinishLoading();
-            FinishPreparing();
+            PollLoading();
+            PollPreparation();
             Advance();
-            _isWindowStale |= _overlay.Expire(_clock.Elapsed);
-            if (IsStale && _window.Width > 0 && _window.Height > 0 && !_isClosing)
+            _needsPresent |= _overlay.Expire(_clock.Elapsed);
+            if (NeedsRefresh && _window.Width > 0 && _window.Height > 0 && !_isClosing)
             {
                 Refresh();
             }
         }
     }
 
-    private bool IsStale => (_isVisible || !_options.SkipsStillPictures) && (_isDrawingStale || _isWindowStale);
+    private bool NeedsRefresh => (_isVisible || !_options.IdleWhenUnchanged) && (_needsDraw || _needsPresent);
 
-    private TimeSpan TimeToSleep() =>
-        IsStale ? TimeSpan.Zero
-        : !_options.SkipsStillPictures ? Until(_refreshed + FrameTime)
-        : _document?.IsMoving == true ? Until(_advanced + FrameTime)
-        : !_load.IsTaken || _document?.Sight.IsRunning == true ? ProgressInterval
-        : _overlay.NextExpiry is { } expiry ? Until(expiry)
+    private TimeSpan WaitTimeout() =>
+        NeedsRefresh ? TimeSpan.Zero
+        : !_options.IdleWhenUnchanged ? TimeUntil(_lastRefresh + FrameTime)
+        : _document?.IsMoving == true ? TimeUntil(_lastAdvance + FrameTime)
+        : !_load.IsResultTaken || _document?.FirstSightLoader.IsRunning == true ? ProgressInterval
+        : _overlay.NextExpiry is { } expiry ? TimeUntil(expiry)
         : Timeout.InfiniteTimeSpan;
 
-    private TimeSpan Until(TimeSpan time) => time - _clock.Elapsed is { Ticks: > 0 } left ? left : TimeSpan.Zero;
+    private TimeSpan TimeUntil(TimeSpan time) => time - _clock.Elapsed is { Ticks: > 0 } left ? left : TimeSpan.Zero;
 
     private BackgroundLoad StartLoading(string path)
     {
@@ -100,9 +100,9 @@ internal sealed class SceneWindow : IDisposable
         return new(path, _options.Load, _settings, _window.Aspect, _window.Wake);
     }
 
-    private void FinishLoading()
+    private void PollLoading()
     {
-        if (_load.IsTaken)
+        if (_load.IsResultTaken)
         {
             return;
         }
@@ -110,12 +110,12 @@ internal sealed class SceneWindow : IDisposable
         if (!_load.IsCompleted)
         {
             _overlay.Progress = _load.Progress;
-            _isWindowStale = true;
+            _needsPresent = true;
             return;
         }
 
-        (_overlay.Progress, _isWindowStale) = (null, true);
-        var loaded = _load.Take(out _exitCode, out var error);
+        (_overlay.Progress, _needsPresent) = (null, true);
+        var loaded = _load.TakeResult(out _exitCode, out var error);
         _overlay.Error = error;
         if (loaded is not var (file, preparation))
         {
@@ -125,28 +125,28 @@ internal sealed class SceneWindow : IDisposable
 
         _document?.Dispose();
         _document = null;
-        _pictures.Reset();
+        _windowRenderer.Reset();
         _document = new(_window, file, preparation, _options);
         foreach (var message in file.Warnings.Select(warning => warning.ToString()).Concat(preparation.Scene.Notices))
         {
             Console.Error.WriteLine(message);
         }
 
-        _overlay.Describe(file, preparation.Scene);
-        _isDrawingStale = true;
+        _overlay.DescribeFile(file, preparation.Scene);
+        _needsDraw = true;
     }
 
     /// <summary>Shows what has been prepared since it came in sight.</summary>
-    private void FinishPreparing()
+    private void PollPreparation()
     {
-        if (_document is not { Sight.IsRunning: true } document)
+        if (_document is not { FirstSightLoader.IsRunning: true } document)
         {
             return;
         }
 
-        _isWindowStale = true;
-        var prepared = document.Sight.Take();
-        _overlay.Progress = document.Sight.Progress;
+        _needsPresent = true;
+        var prepared = document.FirstSightLoader.TakeScene();
+        _overlay.Progress = document.FirstSightLoader.Progress;
         if (prepared is not null)
         {
             foreach (var notice in prepared.Notices.Skip(document.Renderer.Scene.Notices.Length))
@@ -155,8 +155,8 @@ internal sealed class SceneWindow : IDisposable
             }
 
             document.Renderer.Update(prepared);
-            _overlay.Describe(document.File, prepared);
-            _isDrawingStale = true;
+            _overlay.DescribeFile(document.File, prepared);
+            _needsDraw = true;
         }
     }
 
@@ -168,78 +168,78 @@ internal sealed class SceneWindow : IDisposable
                 _isClosing = true;
                 return;
             case WindowResized:
-                _isDrawingStale = true;
+                _needsDraw = true;
                 break;
             case WindowExposed:
-                _isWindowStale = true;
+                _needsPresent = true;
                 break;
             case VisibilityChanged visibility:
                 _isVisible = visibility.IsVisible;
-                _isWindowStale = true;
+                _needsPresent = true;
                 break;
-            case FileDropped dropped when _load.IsTaken:
+            case FileDropped dropped when _load.IsResultTaken:
                 _load = StartLoading(dropped.Path);
                 break;
             case KeyPressed { IsRepeat: false } pressed:
-                Press(pressed);
+                HandleKey(pressed);
                 break;
         }
 
         if (_document is { } document)
         {
             var wasMoving = document.IsMoving;
-            _isDrawingStale |= document.Handle(windowEvent, _window.Aspect);
+            _needsDraw |= document.Handle(windowEvent, _window.Aspect);
             if (!wasMoving)
             {
-                _advanced = _clock.Elapsed;
+                _lastAdvance = _clock.Elapsed;
             }
         }
     }
 
-    private void Press(KeyPressed pressed)
+    private void HandleKey(KeyPressed pressed)
     {
         switch (pressed.Key)
         {
             case Key.H:
                 _overlay.ShowsKeys = !_overlay.ShowsKeys;
-                _isWindowStale = true;
+                _needsPresent = true;
                 break;
             case Key.I:
                 _overlay.ShowsStatistics = !_overlay.ShowsStatistics;
-                _isWindowStale = true;
+                _needsPresent = true;
                 break;
             case Key.T when _document is { Trail: { } trail } document:
                 document.ToggleTrail();
-                _overlay.Say(document.UsesTrail ? $"m becomes m·t, with a trail of {trail.Length}" : "parts of the fractal are chosen from all its levels", _clock.Elapsed);
-                _isDrawingStale = true;
+                _overlay.ShowMessage(document.IsTrailEnabled ? $"m becomes m·t, with a trail of {trail.Length}" : "parts of the fractal are chosen from all its levels", _clock.Elapsed);
+                _needsDraw = true;
                 break;
             case Key.F12 when _document is { } document:
-                Say(WindowFiles.SaveScreenshot(_pictures.Capture(document, _settings, _window.Width, _window.Height), document.File.Path));
-                _isDrawingStale = true;
+                ShowMessage(WindowFiles.SaveScreenshot(_windowRenderer.Capture(document, _settings, _window.Width, _window.Height), document.File.Path));
+                _needsDraw = true;
                 break;
             case Key.S when pressed.Modifiers.HasFlag(KeyModifiers.Control) && _document is { } document:
-                Say(WindowFiles.SaveScene(document));
+                ShowMessage(WindowFiles.SaveScene(document));
                 break;
             case var key when !pressed.Modifiers.HasFlag(KeyModifiers.Control) && _document is { } document && PhysicsKeys.Apply(document, key) is { } message:
-                _advanced = _clock.Elapsed;
-                _overlay.Physics = document.Physics.Description;
-                _overlay.Say(message, _clock.Elapsed);
-                _isDrawingStale = true;
+                _lastAdvance = _clock.Elapsed;
+                _overlay.PhysicsStatus = document.Physics.StatusText;
+                _overlay.ShowMessage(message, _clock.Elapsed);
+                _needsDraw = true;
                 break;
             default:
-                Change(SettingKeys.Apply(_settings, pressed.Key));
+                ApplySettings(SettingKeys.Apply(_settings, pressed.Key));
                 break;
         }
     }
 
-    private void Change((RenderSettings Settings, string? Message)? change)
+    private void ApplySettings((RenderSettings Settings, string? Message)? change)
     {
         if (change is var (settings, message))
         {
-            (_settings, _isDrawingStale) = (settings, true);
+            (_settings, _needsDraw) = (settings, true);
             if (message is not null)
             {
-                _overlay.Say(message, _clock.Elapsed);
+                _overlay.ShowMessage(message, _clock.Elapsed);
             }
         }
     }
@@ -247,63 +247,63 @@ internal sealed class SceneWindow : IDisposable
     private void Advance()
     {
         var now = _clock.Elapsed;
-        var time = now - _advanced;
+        var time = now - _lastAdvance;
         if (_document?.IsMoving == true && time >= FrameTime)
         {
-            _advanced = now;
-            _isDrawingStale |= _document.Advance(time < LongestStep ? time : LongestStep);
-            _overlay.Physics = _document.Physics.Description;
+            _lastAdvance = now;
+            _needsDraw |= _document.Advance(time < MaxTimeStep ? time : MaxTimeStep);
+            _overlay.PhysicsStatus = _document.Physics.StatusText;
         }
 
         if (_document?.Physics.TakeProblem() is { } problem)
         {
-            Say(problem);
+            ShowMessage(problem);
         }
 
         // What was drawn while moving was coarse, and one picture behind.
-        _isDrawingStale |= _pictures.IsCoarse && _document?.IsMoving != true;
-        _isDrawingStale |= !_options.SkipsStillPictures && now - _refreshed >= FrameTime;
+        _needsDraw |= _windowRenderer.IsReducedQuality && _document?.IsMoving != true;
+        _needsDraw |= !_options.IdleWhenUnchanged && now - _lastRefresh >= FrameTime;
     }
 
     private void Refresh()
     {
-        var start = _refreshed = _clock.Elapsed;
-        if (_isDrawingStale)
+        var start = _lastRefresh = _clock.Elapsed;
+        if (_needsDraw)
         {
             Draw();
         }
         else
         {
-            _pictures.ShowAgain();
+            _windowRenderer.CountPresentedAgain();
         }
 
-        _overlay.Pictures = _pictures.CountsOf((long)(start / FrameTime));
-        _frame.Present(_window, _overlay.Panels);
-        if (_isDrawingStale)
+        _overlay.FrameCounts = _windowRenderer.CountFrames((long)(start / FrameTime));
+        _frameRenderer.Present(_window, _overlay.Panels);
+        if (_needsDraw)
         {
-            _pictures.Measure(_clock.Elapsed - start);
+            _windowRenderer.RecordFrameTime(_clock.Elapsed - start);
         }
 
-        (_isDrawingStale, _isWindowStale) = (false, false);
+        (_needsDraw, _needsPresent) = (false, false);
     }
 
     private void Draw()
     {
         var start = _clock.Elapsed;
-        var drawn = _pictures.Draw(_document, _settings, _window.Width, _window.Height);
+        var usedSettings = _windowRenderer.Draw(_document, _settings, _window.Width, _window.Height);
         if (_document is { } document)
         {
-            document.Sight.Start(_pictures.Latest!, _window.Aspect);
-            var controls = document.Controls;
-            _overlay.Measure(new(document.Renderer, drawn.Detail, _clock.Elapsed - start, controls.Depth, controls.Enlargement, document.Physics));
+            document.FirstSightLoader.Start(_windowRenderer.LatestView!, _window.Aspect);
+            var controls = document.CameraControls;
+            _overlay.SetReport(new(document.Renderer, usedSettings.Culling, _clock.Elapsed - start, controls.Depth, controls.Log10Magnification, document.Physics));
         }
     }
 
     /// <summary>Says on the screen and the terminal what came of something.</summary>
-    private void Say(string message)
+    private void ShowMessage(string message)
     {
         Console.Error.WriteLine(message);
-        _overlay.Say(message, _clock.Elapsed);
-        _isWindowStale = true;
+        _overlay.ShowMessage(message, _clock.Elapsed);
+        _needsPresent = true;
     }
 }

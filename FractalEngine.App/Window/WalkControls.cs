@@ -9,80 +9,80 @@ namespace FractalEngine.App.Window;
 internal sealed class WalkControls
 {
     // Radians a pixel, as for the free camera.
-    private const double TurnPerPixel = 0.003;
+    private const double RadiansPerPixel = 0.003;
 
     // Of the height, below the top.
-    private const double EyesBelowTop = 0.08;
+    private const double EyeDepthFraction = 0.08;
 
-    private readonly HashSet<Key> _held = [];
-    private bool _looks;
+    private readonly HashSet<Key> _heldKeys = [];
+    private bool _isLooking;
 
     /// <summary>Where the player looks; its position is not used.</summary>
     public Camera Direction { get; set; } = Camera.Default;
 
     /// <summary>Lets go of all keys.</summary>
-    public void Release()
+    public void ReleaseKeys()
     {
-        _held.Clear();
-        _looks = false;
+        _heldKeys.Clear();
+        _isLooking = false;
     }
 
     /// <summary>Takes in an event.</summary>
     /// <returns>True when the player looks elsewhere.</returns>
-    public bool Handle(WindowEvent windowEvent, Walker walker)
+    public bool Handle(WindowEvent windowEvent, CharacterController controller)
     {
         var before = Direction;
         switch (windowEvent)
         {
             case KeyPressed { Key: Key.Space, IsRepeat: false }:
-                walker.Jump();
+                controller.Jump();
                 break;
             case KeyPressed pressed:
-                _held.Add(pressed.Key);
+                _heldKeys.Add(pressed.Key);
                 break;
             case KeyReleased released:
-                _held.Remove(released.Key);
+                _heldKeys.Remove(released.Key);
                 break;
             case MousePressed:
-                _looks = true;
+                _isLooking = true;
                 break;
             case MouseReleased:
-                _looks = false;
+                _isLooking = false;
                 break;
-            case MouseMoved moved when _looks:
-                Direction = CameraNavigation.Turn(Direction, TurnPerPixel * moved.DeltaX, -TurnPerPixel * moved.DeltaY);
+            case MouseMoved moved when _isLooking:
+                Direction = CameraNavigation.Turn(Direction, RadiansPerPixel * moved.DeltaX, -RadiansPerPixel * moved.DeltaY);
                 break;
             case FocusLost:
-                _held.Clear();
-                _looks = false;
+                _heldKeys.Clear();
+                _isLooking = false;
                 break;
         }
 
-        walker.Wish = Wish(walker.Up);
+        controller.MoveInput = ComputeMoveInput(controller.Up);
         return Direction != before;
     }
 
     /// <summary>The view from the player's eyes.</summary>
-    /// <param name="walker">The player.</param>
-    /// <param name="part">How far between two steps, see <see cref="Body.MapAt"/>.</param>
-    public Camera Eyes(Walker walker, double part)
+    /// <param name="controller">The player.</param>
+    /// <param name="alpha">How far between two steps, see <see cref="Body.InterpolatedMap"/>.</param>
+    public Camera EyeCamera(CharacterController controller, double alpha)
     {
-        var middle = walker.PreviousPosition + (part * (walker.Position - walker.PreviousPosition));
-        return Direction with { Position = middle + ((0.5 - EyesBelowTop) * walker.Description.Height * walker.Up) };
+        var centre = controller.PreviousPosition + (alpha * (controller.Position - controller.PreviousPosition));
+        return Direction with { Position = centre + ((0.5 - EyeDepthFraction) * controller.Description.Height * controller.Up) };
     }
 
-    private Vector Wish(Vector up)
+    private Vector ComputeMoveInput(Vector up)
     {
         var (right, _, forward) = Direction.LocalAxes;
         // Looking down does not slow down.
-        var ahead = Level(forward, up) is var level && level != Vector.Zero ? level : Level(Direction.LocalAxes.V2, up);
-        var wish = ((Axis(Key.W, Key.Up) - Axis(Key.S, Key.Down)) * ahead) + ((Axis(Key.D, Key.Right) - Axis(Key.A, Key.Left)) * Level(right, up));
-        return Unit(wish);
+        var groundForward = ProjectToGround(forward, up) is var groundDirection && groundDirection != Vector.Zero ? groundDirection : ProjectToGround(Direction.LocalAxes.V2, up);
+        var input = ((Axis(Key.W, Key.Up) - Axis(Key.S, Key.Down)) * groundForward) + ((Axis(Key.D, Key.Right) - Axis(Key.A, Key.Left)) * ProjectToGround(right, up));
+        return UnitOrZero(input);
     }
 
-    private static Vector Level(Vector vector, Vector up) => Unit(vector - (Vector.Dot(vector, up) * up));
+    private static Vector ProjectToGround(Vector vector, Vector up) => UnitOrZero(vector - (Vector.Dot(vector, up) * up));
 
-    private static Vector Unit(Vector vector) => vector == Vector.Zero ? vector : vector.UnitVector();
+    private static Vector UnitOrZero(Vector vector) => vector == Vector.Zero ? vector : vector.UnitVector();
 
-    private double Axis(Key letter, Key arrow) => _held.Contains(letter) || _held.Contains(arrow) ? 1 : 0;
+    private double Axis(Key letter, Key arrow) => _heldKeys.Contains(letter) || _heldKeys.Contains(arrow) ? 1 : 0;
 }

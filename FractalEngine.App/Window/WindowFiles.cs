@@ -30,7 +30,7 @@ internal static class WindowFiles
             throw new IOException($"{Path.GetFileName(output)} exists already and is another scene: it is not overwritten");
         }
 
-        SaveCommand.Save(document.File, document.SceneNow(), output);
+        SaveCommand.Save(document.File, document.GetCurrentScene(), output);
         return $"saved {Path.GetFileName(output)}";
     });
 

@@ -23,5 +23,5 @@ internal sealed record WindowOptions
     public (int Width, int Height) Size { get; init; } = (1280, 720);
 
     /// <summary>Draws nothing while nothing has changed or nobody sees the window. Where false, 60 pictures a second are drawn all the same, for comparison.</summary>
-    public bool SkipsStillPictures { get; init; } = true;
+    public bool IdleWhenUnchanged { get; init; } = true;
 }

@@ -15,7 +15,7 @@ internal static class ColliderQuality
     public static double[] Oracle(Mesh faces, Vector[] positions)
     {
         var simple = new SimpleCollider(faces);
-        return [.. positions.AsParallel().AsOrdered().Select(position => Distance(simple, position, double.PositiveInfinity, new QueryRecord()))];
+        return [.. positions.AsParallel().AsOrdered().Select(position => Distance(simple, position, double.PositiveInfinity, new QueryContext()))];
     }
 
     /// <summary>Builds a collider and asks all positions.</summary>
@@ -34,7 +34,7 @@ internal static class ColliderQuality
             best = Math.Min(best, watch.Elapsed.TotalMilliseconds);
         }
 
-        var record = new QueryRecord();
+        var record = new QueryContext();
         var distances = positions.Select(position => Distance(collider, position, within, record)).ToArray();
         AnswerErrors? errors = oracle is null ? null : AnswerErrors.Of(distances, oracle, size);
         return
@@ -49,6 +49,6 @@ internal static class ColliderQuality
         ];
     }
 
-    private static double Distance(Collider collider, Vector position, double within, QueryRecord record) =>
+    private static double Distance(Collider collider, Vector position, double within, QueryContext record) =>
         collider.TryFindClosest(position, within, record, out var closest) ? closest.Distance : double.PositiveInfinity;
 }

@@ -23,7 +23,7 @@ internal sealed class ColliderTable(int queries, int rounds, TextWriter output)
 
     private static readonly TimeSpan FirstWarmUp = TimeSpan.FromSeconds(3);
 
-    private readonly QueryRecord _record = new();
+    private readonly QueryContext _record = new();
     private readonly Stopwatch _sinceStart = Stopwatch.StartNew();
 
     /// <summary>Writes the head and a few rows for each fractal.</summary>

@@ -16,7 +16,7 @@ public class FractalColliderBenchmarks : IMeasuresMore
     private const int Queries = 4096;
     private const int ComparedQueries = 512;
 
-    private readonly QueryRecord _record = new();
+    private readonly QueryContext _record = new();
     private Fractal _fractal = null!;
     private Vector[] _near = null!;
     private Vector[] _far = null!;

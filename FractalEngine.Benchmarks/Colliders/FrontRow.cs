@@ -33,7 +33,7 @@ internal sealed record FrontRow(string Name, string? Knob, double? Value, Collid
             return rows;
         }
 
-        var bytes = (sizeof(double) * (long)faces.Positions.Length) + (sizeof(int) * (long)faces.Faces.Length);
+        var bytes = (sizeof(double) * (long)faces.Positions.Length) + (sizeof(int) * (long)faces.VertexIndices.Length);
         var expansion = shape.ExpansionMilliseconds;
         rows.AddRange(WithEpsilons("hierarchy", bytes, expansion, () => new HierarchyCollider(faces)));
         rows.AddRange(Depths.Append(BoundingBoxCollider.DefaultDepth(faces.FaceCount)).Distinct()

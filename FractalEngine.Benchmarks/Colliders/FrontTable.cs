@@ -29,7 +29,7 @@ internal sealed class FrontTable(int queries, int rounds, CsvTable table)
     private const double TestsOfRound = 1_000_000;
     private const int FewestTimed = 4;
 
-    private readonly QueryRecord _record = new();
+    private readonly QueryContext _record = new();
 
     /// <summary>Rounds are made for at least so long, so that the compiler has done its best in the last ones.</summary>
     public TimeSpan WarmUp { get; init; } = TimeSpan.FromSeconds(1);

@@ -19,7 +19,7 @@ public class MeshColliderBenchmarks : IMeasuresMore
     private const int SimpleQueries = 32;
     private const int ComparedQueries = 1024;
 
-    private readonly QueryRecord _record = new();
+    private readonly QueryContext _record = new();
     private Mesh _mesh = null!;
     private Vector[] _positions = null!;
     private SimpleCollider _simple = null!;

@@ -21,7 +21,7 @@ internal sealed record Flight(int Pictures, double Seconds, double Slowest, long
     /// <param name="size">Of the pictures, pixels.</param>
     public static Flight Of(FrameRenderer frame, SceneRenderer renderer, FrameCase item, RenderSettings settings, (int Width, int Height) size)
     {
-        var moving = new MovingDetail();
+        var moving = new AdaptiveQuality();
         var (camera, bounds) = (item.View.Camera, item.Scene.Bounds);
         var way = Math.Max(0.1 * bounds.Diagonal, (bounds.Centre - camera.Position).Length() - (0.1 * bounds.Diagonal)) * camera.LocalAxes.V3;
         var (pictures, slowest, instances) = (0, 0.0, 0L);
@@ -35,8 +35,8 @@ internal sealed record Flight(int Pictures, double Seconds, double Slowest, long
             frame.Draw(renderer, drawn, size.Width, size.Height, moving.Adapt(settings), view);
             frame.Finish();
             var time = clock.Elapsed - start;
-            moving.Measure(time);
-            instances += renderer.Statistics.Instances;
+            moving.RecordFrameTime(time);
+            instances += renderer.Statistics.InstanceCount;
             (pictures, slowest) = (pictures + 1, Math.Max(slowest, time.TotalMilliseconds));
         }
 

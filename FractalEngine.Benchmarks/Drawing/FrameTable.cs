@@ -49,23 +49,23 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
         var settings = new RenderSettings { Samples = samples };
         var (brute, truth, bruteTime) = Brute(item, context, frame, settings);
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(item.Scene, settings));
-        var detail = settings.Detail! with { InstanceBudget = 20_000_000 };
+        var detail = settings.Culling! with { InstanceBudget = 20_000_000 };
         (string Name, RenderSettings Settings)[] variants =
         [
-            ("detail", settings with { Detail = detail }),
-            ("- hidden", settings with { Detail = detail with { SkipsHidden = false } }),
-            ("- outside", settings with { Detail = detail with { SkipsOutside = false } }),
-            ("- backs", settings with { Detail = detail, SkipsBacks = false }),
-            ("- threads", settings with { Detail = detail with { Threads = 1 } }),
-            ("- size", settings with { Detail = detail with { PixelSize = 0 } }),
-            ("3 pixels", settings with { Detail = detail with { PixelSize = 3 } }),
+            ("detail", settings with { Culling = detail }),
+            ("- hidden", settings with { Culling = detail with { OcclusionCulling = false } }),
+            ("- outside", settings with { Culling = detail with { FrustumCulling = false } }),
+            ("- backs", settings with { Culling = detail, BackFaceCulling = false }),
+            ("- threads", settings with { Culling = detail with { ThreadCount = 1 } }),
+            ("- size", settings with { Culling = detail with { MinProjectedSize = 0 } }),
+            ("3 pixels", settings with { Culling = detail with { MinProjectedSize = 3 } }),
         ];
         foreach (var (name, chosen) in variants)
         {
             var time = Time(() => Draw(frame, renderer, item, chosen));
             var picture = frame.Capture();
             var statistics = renderer.Statistics;
-            Row(item.Name, name, statistics.Instances, time, bruteTime, brute, truth, picture, Choosing(renderer, item, chosen));
+            Row(item.Name, name, statistics.InstanceCount, time, bruteTime, brute, truth, picture, Choosing(renderer, item, chosen));
         }
 
         // Nothing has changed: only what is on the GPU already is drawn.
@@ -74,7 +74,7 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
             frame.Draw(renderer, item.View, Width, Height, settings);
             frame.Finish();
         });
-        Row(item.Name, "kept", renderer.Statistics.Instances, still, bruteTime, null, null, null, 0);
+        Row(item.Name, "kept", renderer.Statistics.InstanceCount, still, bruteTime, null, null, null, 0);
         var flight = Flight.Of(frame, renderer, item, settings, (Width, Height));
         output.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
@@ -85,7 +85,7 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
 
     private (PixelImage? Brute, PixelImage? Truth, double Time) Brute(FrameCase item, OffscreenContext context, FrameRenderer frame, RenderSettings settings)
     {
-        var all = settings with { Detail = null, InstanceBudget = 20_000_000 };
+        var all = settings with { Culling = null, InstanceBudget = 20_000_000 };
         var prepared = DrawableScene.Prepare(item.Scene, all);
         if (prepared.Notices.Length > 0)
         {
@@ -133,7 +133,7 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
 
     /// <summary>The time that choosing takes, without any drawing.</summary>
     private double Choosing(SceneRenderer renderer, FrameCase item, RenderSettings settings) =>
-        Time(() => renderer.Choose(
+        Time(() => renderer.Cull(
             item.View with { Camera = item.View.Camera with { Position = item.View.Camera.Position + (Step * (++_step % 2) * Vector.One) } }, Width, Height, settings));
 
     private void Row(

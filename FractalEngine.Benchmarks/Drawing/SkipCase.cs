@@ -17,13 +17,13 @@ internal sealed record SkipCase(string Name, LoadOptions Load, RenderSettings Se
     private static SkipCase[] List(LoadOptions load, RenderSettings settings) =>
     [
         new("everything skipped", load, settings, "", static _ => 0),
-        new("- backs", load, settings with { SkipsBacks = false }, "objects without backs", static sample => sample.Standing.Skips.OneSided),
-        new("- outside", load, settings with { Detail = new() { SkipsOutside = false } }, "parts outside", static sample => sample.Standing.Cost.Outside),
-        new("- hidden", load, settings with { Detail = new() { SkipsHidden = false } }, "parts hidden or covering nothing", static sample => sample.Standing.Cost.Hidden + sample.Standing.Cost.Uncovering),
-        new("- empty-faces", load, settings with { SkipsEmptyFaces = false }, "empty faces left out", static sample => sample.Standing.Skips.EmptyFaces),
-        new("- state", load, settings with { SkipsSameState = false }, "state changes a picture", static sample => sample.Standing.Skips.StateChanges.Made),
-        new("- buffers", load, settings with { KeepsBuffers = false }, "uploads a standing picture", static sample => sample.Standing.Skips.Uploads.Made),
-        new("- sharing", load with { SharesFiles = false }, settings with { SharesTextures = false }, "files and textures", static sample => sample.Standing.Skips.Models + sample.Standing.Skips.Textures),
-        new("- sight", load, settings with { PreparesOnSight = false }, "models not prepared", static sample => sample.Standing.Skips.Unprepared),
+        new("- backs", load, settings with { BackFaceCulling = false }, "objects without backs", static sample => sample.Standing.Optimisations.BackFaceCulledCount),
+        new("- outside", load, settings with { Culling = new() { FrustumCulling = false } }, "parts outside", static sample => sample.Standing.Culling.OutsideFrustum),
+        new("- hidden", load, settings with { Culling = new() { OcclusionCulling = false } }, "parts hidden or covering nothing", static sample => sample.Standing.Culling.Occluded + sample.Standing.Culling.ZeroCoverage),
+        new("- empty-faces", load, settings with { RemoveDegenerateTriangles = false }, "empty faces left out", static sample => sample.Standing.Optimisations.DegenerateTriangleCount),
+        new("- state", load, settings with { FilterRedundantState = false }, "state changes a picture", static sample => sample.Standing.Optimisations.StateChanges.Performed),
+        new("- buffers", load, settings with { ReuseBuffers = false }, "uploads a standing picture", static sample => sample.Standing.Optimisations.Uploads.Performed),
+        new("- sharing", load with { ShareModels = false }, settings with { ShareTextures = false }, "files and textures", static sample => sample.Standing.Optimisations.ModelCount + sample.Standing.Optimisations.TextureCount),
+        new("- sight", load, settings with { LazyLoading = false }, "models not prepared", static sample => sample.Standing.Optimisations.PlaceholderCount),
     ];
 }

@@ -65,9 +65,9 @@ internal sealed class SkipTable(int rounds, TextWriter output, CsvTable? table)
         var file = AssetLoader.Load(path, item.Load);
         var view = View.Of(file.Scene, Aspect);
         var preparation = new ScenePreparation(file.Scene, item.Settings);
-        if (item.Settings.PreparesOnSight)
+        if (item.Settings.LazyLoading)
         {
-            preparation.PrepareInSight(view, Aspect);
+            preparation.PrepareVisible(view, Aspect);
         }
         else
         {

@@ -14,32 +14,32 @@ namespace FractalEngine.Benchmarks.Drawing;
 public class VisibleSetBenchmarks
 {
     private readonly VisibleSet _set = new();
-    private DetailObject[] _objects = [];
-    private DetailView _view;
+    private CulledObject[] _objects = [];
+    private CullingView _view;
 
     [GlobalSetup]
     public void SetUp()
     {
         var fractal = FractalCase.Load("menger").Fractal;
         var camera = CameraFraming.Default(fractal.Bounds, FrameCase.Aspect);
-        _objects = [new(DetailTable.Of(fractal), AffineMap.Identity, fractal.BaseMesh.Bounds.Centre, 1)];
+        _objects = [new(LodHierarchy.Build(fractal), AffineMap.Identity, fractal.BaseMesh.Bounds.Centre, 1)];
         _view = new(
             camera.Position, camera.LocalAxes, true, camera.HalfHeightAtUnitDepth, 1280, 720, FrameCase.Aspect, 1e-3 * fractal.Bounds.Diagonal, double.PositiveInfinity);
     }
 
     /// <summary>The baseline: every instance.</summary>
     [Benchmark(Baseline = true)]
-    public int Everything() => Fill(new() { SkipsHidden = false, PixelSize = 0, InstanceBudget = 4_000_000, Threads = 1 });
+    public int Everything() => Fill(new() { OcclusionCulling = false, MinProjectedSize = 0, InstanceBudget = 4_000_000, ThreadCount = 1 });
 
     [Benchmark]
-    public int ViewAndSize() => Fill(new() { SkipsHidden = false, PixelSize = 8, InstanceBudget = 4_000_000, Threads = 1 });
+    public int ViewAndSize() => Fill(new() { OcclusionCulling = false, MinProjectedSize = 8, InstanceBudget = 4_000_000, ThreadCount = 1 });
 
     [Benchmark]
-    public int ViewSizeAndCoverage() => Fill(new() { Threads = 1 });
+    public int ViewSizeAndCoverage() => Fill(new() { ThreadCount = 1 });
 
-    private int Fill(DetailSettings settings)
+    private int Fill(CullingSettings settings)
     {
-        _set.Fill(in _view, _objects, settings);
+        _set.Cull(in _view, _objects, settings);
         return _set.InstanceCount;
     }
 }

@@ -15,7 +15,7 @@ public class DepthBenchmarks : IMeasuresMore
 {
     private const int Queries = 1024;
 
-    private readonly QueryRecord _record = new();
+    private readonly QueryContext _record = new();
     private Fractal _fractal = null!;
     private Vector[] _near = null!;
     private ExactFractalCollider _exact = null!;

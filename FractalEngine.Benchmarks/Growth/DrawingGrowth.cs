@@ -41,13 +41,13 @@ internal static class DrawingGrowth
     {
         var item = FrameCase.Parse(name);
         var chosen = new RenderSettings { Samples = 0 };
-        var all = chosen with { Detail = null, InstanceBudget = 20_000_000 };
+        var all = chosen with { Culling = null, InstanceBudget = 20_000_000 };
         using var chosenScene = new SceneRenderer(context, DrawableScene.Prepare(item.Scene, chosen));
         var everything = DrawableScene.Prepare(item.Scene, all);
         using var allScene = new SceneRenderer(context, everything);
         var times = TakeTurns.Best([() => Draw(frame, chosenScene, item, chosen), () => Draw(frame, allScene, item, all)], options.IsQuick ? 2 : 7);
         var faces = item.Scene.Objects[0].Model.FaceCount;
-        table.Add("menger", depth, faces, "chosen", chosenScene.Statistics.Instances, Math.Round(1e3 * times[0], 3), context.DriverName);
+        table.Add("menger", depth, faces, "chosen", chosenScene.Statistics.InstanceCount, Math.Round(1e3 * times[0], 3), context.DriverName);
         table.Add("menger", depth, faces, "all", everything.InstanceCount, Math.Round(1e3 * times[1], 3), context.DriverName);
     }
 

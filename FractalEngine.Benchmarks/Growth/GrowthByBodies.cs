@@ -87,7 +87,7 @@ internal static class GrowthByBodies
                 var start = Stopwatch.GetTimestamp();
                 world.Step();
                 _best[step] = Math.Min(_best[step], Stopwatch.GetElapsedTime(start).TotalMilliseconds);
-                (_faces, _bounds) = (_faces + world.Cost.FaceTests, _bounds + world.Cost.BoundTests);
+                (_faces, _bounds) = (_faces + world.LastStepCost.FaceTests, _bounds + world.LastStepCost.BoundTests);
             }
 
             _awake = PhysicsTable.Awake(world);

@@ -78,7 +78,7 @@ internal static class GrowthByFaces
     private static Mesh MeshOf(string name, int faces)
     {
         var mesh = faces == 1 ? new Mesh([-1, 0, -1, 1, 0, -1, 0, 0, 1], [0, 2, 1]) : MeshGenerators.Create(name, 1, faces);
-        var (centre, scale) = (mesh.Bounds.Centre, 2 / mesh.Bounds.Size.MaximumComponent());
+        var (centre, scale) = (mesh.Bounds.Centre, 2 / mesh.Bounds.Size.MaxAbsComponent());
         return mesh.Transform(vertex => scale * (vertex - centre));
     }
 }

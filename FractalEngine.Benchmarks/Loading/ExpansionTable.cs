@@ -37,7 +37,7 @@ internal static class ExpansionTable
         if (fractal.FaceCount <= MostFaces)
         {
             var mesh = FractalGenerator.Flatten(fractal, MostFaces);
-            AddRow("faces", mesh.FaceCount, () => FractalGenerator.Flatten(fractal, MostFaces), (sizeof(double) * (long)mesh.Positions.Length) + (sizeof(int) * (long)mesh.Faces.Length));
+            AddRow("faces", mesh.FaceCount, () => FractalGenerator.Flatten(fractal, MostFaces), (sizeof(double) * (long)mesh.Positions.Length) + (sizeof(int) * (long)mesh.VertexIndices.Length));
         }
 
         void AddRow(string what, long count, Action expand, long bytes)

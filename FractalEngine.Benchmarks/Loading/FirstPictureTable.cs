@@ -54,7 +54,7 @@ internal static class FirstPictureTable
         var load = watch.Elapsed.TotalMilliseconds;
         var (settings, view) = (new RenderSettings { Samples = 0 }, View.Of(loaded.Scene, FrameCase.Aspect));
         var preparation = new ScenePreparation(loaded.Scene, settings);
-        preparation.PrepareInSight(view, FrameCase.Aspect);
+        preparation.PrepareVisible(view, FrameCase.Aspect);
         var prepare = watch.Elapsed.TotalMilliseconds - load;
         using var renderer = new SceneRenderer(context, preparation.Scene);
         frame.Draw(renderer, view, Width, Height, settings);

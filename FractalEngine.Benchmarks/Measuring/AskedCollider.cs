@@ -10,7 +10,7 @@ namespace FractalEngine.Benchmarks.Measuring;
 /// </summary>
 internal sealed class AskedCollider
 {
-    private readonly QueryRecord _record = new();
+    private readonly QueryContext _record = new();
     private readonly Collider _collider;
     private readonly Vector[] _positions;
     private readonly int _run;

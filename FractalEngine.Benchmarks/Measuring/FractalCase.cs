@@ -29,7 +29,7 @@ internal sealed record FractalCase(string Name, Fractal Fractal)
     public static bool IsCase(string text) => text.Split(':') switch
     {
         [var name] => Names.Contains(name),
-        [var name, var depth] => Names.Contains(name) && CommandWords.TryCount(depth, out var count) && count <= FractalLimits.Depth,
+        [var name, var depth] => Names.Contains(name) && CommandWords.TryCount(depth, out var count) && count <= FractalLimits.MaxDepth,
         _ => false,
     };
 

@@ -47,10 +47,10 @@ internal sealed record PaperCollision(
 
     private static double PercentWrong(Collider collider, Collider exact, Vector[] positions, BoundingBox bounds)
     {
-        var record = new QueryRecord();
+        var record = new QueryContext();
         return Math.Round(100.0 * positions.Count(position => Math.Abs(Distance(collider, position, record) - Distance(exact, position, record)) > Wrong * bounds.Diagonal) / positions.Length, 3);
     }
 
-    private static double Distance(Collider collider, Vector position, QueryRecord record) =>
+    private static double Distance(Collider collider, Vector position, QueryContext record) =>
         collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest) ? closest.Distance : double.PositiveInfinity;
 }

@@ -17,7 +17,7 @@ internal static class PaperLoading
     public static double Seconds(string file) => Median(file, new());
 
     /// <summary>As the paper does it: every instance's matrix is made.</summary>
-    public static double SecondsForEveryInstance(string file) => Median(file, new() { Detail = null, InstanceBudget = AllInstances, TriangleBudget = AllTriangles });
+    public static double SecondsForEveryInstance(string file) => Median(file, new() { Culling = null, InstanceBudget = AllInstances, TriangleBudget = AllTriangles });
 
     private static double Median(string file, RenderSettings settings)
     {

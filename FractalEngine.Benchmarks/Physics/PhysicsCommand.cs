@@ -24,7 +24,7 @@ internal static class PhysicsCommand
             return 2;
         }
 
-        var command = FormattableString.Invariant($"physics{string.Concat(names.Select(name => " " + name))} --balls {balls} --collider {SceneParser.NameOf(collider)} --rounds {rounds}");
+        var command = FormattableString.Invariant($"physics{string.Concat(names.Select(name => " " + name))} --balls {balls} --collider {SceneParser.GetColliderName(collider)} --rounds {rounds}");
         var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "physics.csv"), command, PhysicsTable.Columns);
         var table = new PhysicsTable(rounds, Console.Out, csv);
         foreach (var name in names.Count > 0 ? names : ["menger:5"])
@@ -38,7 +38,7 @@ internal static class PhysicsCommand
 
     private static bool TryParse(string text, out ColliderKind collider)
     {
-        collider = Enum.GetValues<ColliderKind>().FirstOrDefault(kind => SceneParser.NameOf(kind) == text);
-        return SceneParser.NameOf(collider) == text;
+        collider = Enum.GetValues<ColliderKind>().FirstOrDefault(kind => SceneParser.GetColliderName(kind) == text);
+        return SceneParser.GetColliderName(collider) == text;
     }
 }

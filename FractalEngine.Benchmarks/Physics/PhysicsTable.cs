@@ -46,7 +46,7 @@ internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? tabl
                 world.Step();
                 // The first round is for the compiler.
                 best[step] = round > 0 ? Math.Min(best[step], Stopwatch.GetElapsedTime(start).TotalMilliseconds) : best[step];
-                bounds[step / StepsOfPhase] = (step % StepsOfPhase == 0 ? 0 : bounds[step / StepsOfPhase]) + (world.Cost.BoundTests / (double)StepsOfPhase);
+                bounds[step / StepsOfPhase] = (step % StepsOfPhase == 0 ? 0 : bounds[step / StepsOfPhase]) + (world.LastStepCost.BoundTests / (double)StepsOfPhase);
                 awake[step / StepsOfPhase] = Awake(world);
             }
 
@@ -87,7 +87,7 @@ internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? tabl
     internal static PhysicsWorld WorldOf(FractalCase fractal, int count, ColliderKind collider)
     {
         var box = fractal.Fractal.Bounds;
-        var scale = 1 / box.Size.MaximumComponent();
+        var scale = 1 / box.Size.MaxAbsComponent();
         var model = new FractalModel(fractal.Name, 0, fractal.Fractal);
         var floor = new MeshModel("floor", 0, new([-9, 0, -9, 9, 0, -9, 9, 0, 9, -9, 0, 9], [0, 2, 1, 0, 3, 2]));
         var scene = new LoadedScene(new Scene(),
@@ -95,7 +95,7 @@ internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? tabl
             new(new(fractal.Name, new Transformation(-scale * box.Centre, Vector.Zero, scale * Vector.One)), model),
             new(new("floor", new Transformation(new(0, -0.6, 0), Vector.Zero, Vector.One)), floor),
         ]);
-        var world = new PhysicsWorld(scene) { Collider = collider };
+        var world = new PhysicsWorld(scene) { ColliderOverride = collider };
         var random = new Random(Seed);
         world.AddRange(Enumerable.Range(0, count).Select(_ => new BodyDescription(
             new(random.NextDouble() - 0.5, 0.6 + (0.6 * random.NextDouble()), random.NextDouble() - 0.5), 0.004 + (0.006 * random.NextDouble()))

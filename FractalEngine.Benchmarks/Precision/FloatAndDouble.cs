@@ -62,7 +62,7 @@ internal static class FloatAndDouble
         var random = new Random(1);
         var faces = Enumerable.Range(0, Cases).Select(_ => RandomFace(random, set.Offset, set.Width)).ToArray();
         var (worst, above) = Errors(faces.Select(
-            face => (FaceKernel.ClosestPoint(face.P, face.A, face.B, face.C).DistanceSquared, ExactDistance.SquaredToFace(face.P, face.A, face.B, face.C))));
+            face => (TriangleKernel.ClosestPoint(face.P, face.A, face.B, face.C).DistanceSquared, ExactDistance.SquaredToFace(face.P, face.A, face.B, face.C))));
         return new("face, the engine's kernel", set.Name, "Double", () => Sum(faces), worst, above);
     }
 
@@ -72,7 +72,7 @@ internal static class FloatAndDouble
         var sum = 0.0;
         foreach (var (p, a, b, c) in faces)
         {
-            sum += FaceKernel.ClosestPoint(p, a, b, c).DistanceSquared;
+            sum += TriangleKernel.ClosestPoint(p, a, b, c).DistanceSquared;
         }
 
         _sink = sum;

@@ -4,7 +4,7 @@ using System.Runtime.CompilerServices;
 namespace FractalEngine.Benchmarks.Precision;
 
 /// <summary>
-/// <see cref="Core.Collision.FaceKernel"/>'s squared distance, the same operations in the same order, in float or in double: to compare the two. The engine itself
+/// <see cref="Core.Collision.TriangleKernel"/>'s squared distance, the same operations in the same order, in float or in double: to compare the two. The engine itself
 /// has no floats before the GPU.
 /// </summary>
 /// <typeparam name="T">The number.</typeparam>

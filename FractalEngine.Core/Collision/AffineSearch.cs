@@ -5,23 +5,23 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision;
 
 /// <summary>Search for any maps: bounds are taken into the frame of the whole, since distances there are not those of the copies' frames.</summary>
-internal sealed class AffineSearch(SubFractalTable table, FaceHierarchy faces)
+internal sealed class AffineSearch(SubFractalTable table, TriangleBvh bvh)
 {
     /// <summary>Looks at the whole fractal.</summary>
     /// <param name="position">In the frame of the query.</param>
     /// <param name="map">From the fractal's frame to that of the query.</param>
     /// <param name="search">What is found so far.</param>
-    public void Run(Vector position, AffineMap map, ref FractalSearch search)
+    public void Run(Vector position, AffineMap map, ref FractalSearchState search)
     {
-        AffineLanes lanes = new(map);
-        search.PrecisionSquared =
-            ExactFractalCollider.Precision * ExactFractalCollider.Precision * table.RadiusSquared * lanes.LengtheningSquared();
-        Visit(table.Root, table.Levels, AffineLanes.Of(position), in lanes, new(map.Inverse()), 0, 0, ref search);
+        SimdAffineMap simdMap = new(map);
+        search.MinRadiusSquared =
+            ExactFractalCollider.RelativePrecision * ExactFractalCollider.RelativePrecision * table.RadiusSquared * simdMap.FrobeniusNormSquared();
+        Visit(table.Root, table.Levels, SimdAffineMap.ToVector256(position), in simdMap, new(map.Inverse()), 0, 0, ref search);
     }
 
     /// <summary>Looks at a sub-fractal.</summary>
-    /// <param name="state">The sub-fractal.</param>
-    /// <param name="levels">The levels it has left.</param>
+    /// <param name="subFractal">The sub-fractal.</param>
+    /// <param name="remainingLevels">The levels it has left.</param>
     /// <param name="position">In the frame of the query: x, y, z, 0.</param>
     /// <param name="map">From the sub-fractal's frame to that of the query.</param>
     /// <param name="inverse">Back.</param>
@@ -29,69 +29,69 @@ internal sealed class AffineSearch(SubFractalTable table, FaceHierarchy faces)
     /// <param name="offset">Of free memory.</param>
     /// <param name="search">What is found so far.</param>
     private void Visit(
-        SubFractal state, long levels, Vector256<double> position, in AffineLanes map, in AffineLanes inverse, int depth, int offset, ref FractalSearch search)
+        SubFractal subFractal, long remainingLevels, Vector256<double> position, in SimdAffineMap map, in SimdAffineMap inverse, int depth, int offset, ref FractalSearchState search)
     {
-        if (levels == 0 || state.RadiusSquared * map.LengtheningSquared() <= search.PrecisionSquared)
+        if (remainingLevels == 0 || subFractal.RadiusSquared * map.FrobeniusNormSquared() <= search.MinRadiusSquared)
         {
-            LookAtFaces(position, in map, depth, ref search);
+            TestTriangles(position, in map, depth, ref search);
             return;
         }
 
-        if (!search.MayGoOn(depth))
+        if (!search.WithinBudget(depth))
         {
             return;
         }
 
-        var (copies, length) = (state.Copies, CopyQueue.Rows * state.Padded);
-        var queue = new CopyQueue(search.Numbers(offset, length));
-        ImageDistances.Fill(queue, state, position, in map);
-        search.BoundTests += copies.Length;
-        var limit = search.Limit / search.BoundFactor;
-        var isFound = queue.TryPeek(limit, out var nearest);
-        while (isFound)
+        var (children, length) = (subFractal.Children, ChildQueue.ValuesPerChild * subFractal.PaddedCount);
+        var queue = new ChildQueue(search.ScratchSlice(offset, length));
+        TransformedBoxDistance.FillQueue(queue, subFractal, position, in map);
+        search.BoundTests += children.Length;
+        var cutoffSquared = search.CutoffSquared / search.BoundFactor;
+        var hasNext = queue.TryPeek(cutoffSquared, out var closestChild);
+        while (hasNext)
         {
-            var copy = copies[nearest];
-            var below = copy.LevelsLeft(levels);
-            var inner = table.At(below);
-            var innerMap = AffineLanes.Compose(in map, in copy.Lanes);
-            var innerInverse = AffineLanes.Compose(in copy.InverseLanes, in inverse);
-            if (!queue.IsRefined(nearest))
+            var child = children[closestChild];
+            var childLevels = child.RemainingLevels(remainingLevels);
+            var childSubFractal = table.At(childLevels);
+            var childMap = SimdAffineMap.Compose(in map, in child.SimdMap);
+            var childInverse = SimdAffineMap.Compose(in child.InverseSimdMap, in inverse);
+            if (!queue.IsRefined(closestChild))
             {
-                var own = inner.ImageDistanceSquared(position, in innerMap);
+                var refinedBound = childSubFractal.TransformedBoxDistanceSquared(position, in childMap);
                 search.BoundTests++;
-                if (own < limit && inner.Hull is { } hull)
+                if (refinedBound < cutoffSquared && childSubFractal.Hull is { } hull)
                 {
-                    own = Math.Max(own, hull.ImageDistanceSquared(position, in innerMap, in innerInverse, limit));
+                    refinedBound = Math.Max(refinedBound, hull.TransformedLowerBoundSquared(position, in childMap, in childInverse, cutoffSquared));
                     search.BoundTests++;
                 }
 
-                if (queue.Refine(nearest, own))
+                if (queue.Refine(closestChild, refinedBound))
                 {
-                    isFound = queue.TryPeek(limit, out var next);
-                    if (!isFound || next != nearest)
+                    hasNext = queue.TryPeek(cutoffSquared, out var next);
+                    if (!hasNext || next != closestChild)
                     {
-                        nearest = next;
+                        closestChild = next;
                         continue;
                     }
                 }
             }
 
-            queue.Remove(nearest);
-            search.Enter(depth, nearest);
-            Visit(inner, below, position, in innerMap, in innerInverse, depth + 1, offset + length, ref search);
-            limit = search.Limit / search.BoundFactor;
-            isFound = queue.TryPeek(limit, out nearest);
+            queue.Remove(closestChild);
+            search.RecordChild(depth, closestChild);
+            Visit(childSubFractal, childLevels, position, in childMap, in childInverse, depth + 1, offset + length, ref search);
+            cutoffSquared = search.CutoffSquared / search.BoundFactor;
+            hasNext = queue.TryPeek(cutoffSquared, out closestChild);
         }
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private void LookAtFaces(Vector256<double> position, in AffineLanes map, int depth, ref FractalSearch search)
+    private void TestTriangles(Vector256<double> position, in SimdAffineMap map, int depth, ref FractalSearchState search)
     {
-        var (best, face) = (search.NearestSquared, -1);
-        faces.SearchImage(AffineLanes.ToVector(position), map.ToMap(), ref best, ref face, search.BoundFactor, ref search.FaceTests, ref search.BoundTests);
-        if (face >= 0)
+        var (closestDistanceSquared, closestFace) = (search.ClosestDistanceSquared, -1);
+        bvh.FindClosestTransformed(SimdAffineMap.ToVector(position), map.ToAffineMap(), ref closestDistanceSquared, ref closestFace, search.BoundFactor, ref search.FaceTests, ref search.BoundTests);
+        if (closestFace >= 0)
         {
-            search.Improve(best, face, depth);
+            search.UpdateClosest(closestDistanceSquared, closestFace, depth);
         }
     }
 }

@@ -6,14 +6,14 @@ namespace FractalEngine.Core.Collision;
 public static class BatchQuery
 {
     // Enough for a thread to be worth waking: from some microseconds to some milliseconds.
-    private const int PositionsOfTask = 256;
+    private const int PositionsPerTask = 256;
 
     /// <summary>Finds the nearest point for each position.</summary>
     /// <param name="collider">Any; its answers do not depend on the number of threads.</param>
     /// <param name="positions">In the shape's frame, scene units, finite.</param>
-    /// <param name="answers">As many as positions; receives the answers in the same order.</param>
-    /// <param name="record">Receives the sum of the costs. Its instance path is emptied: there is one for each position.</param>
-    /// <param name="within">As in <see cref="Collider.TryFindClosest"/>.</param>
+    /// <param name="results">As many as positions; receives the answers in the same order.</param>
+    /// <param name="context">Receives the sum of the costs. Its instance path is emptied: there is one for each position.</param>
+    /// <param name="maxDistance">As in <see cref="Collider.TryFindClosest"/>.</param>
     /// <param name="epsilon">As in <see cref="Collider.TryFindClosest"/>.</param>
     /// <param name="threads">At most so many; null for one a core.</param>
     /// <exception cref="ArgumentException">There are fewer or more answers than positions.</exception>
@@ -22,20 +22,20 @@ public static class BatchQuery
     public static void FindClosest(
         Collider collider,
         ReadOnlyMemory<Vector> positions,
-        Memory<BatchAnswer> answers,
-        QueryRecord record,
-        double within = double.PositiveInfinity,
+        Memory<BatchResult> results,
+        QueryContext context,
+        double maxDistance = double.PositiveInfinity,
         double epsilon = 0,
         int? threads = null) => FindClosest(
-            (Vector position, QueryRecord own, out ClosestPoint closest) => collider.TryFindClosest(position, within, own, out closest, epsilon),
-            positions, answers, record, within, epsilon, threads);
+            (Vector position, QueryContext threadContext, out ClosestPoint closest) => collider.TryFindClosest(position, maxDistance, threadContext, out closest, epsilon),
+            positions, results, context, maxDistance, epsilon, threads);
 
     /// <summary>Finds the nearest point of a scene for each position.</summary>
     /// <param name="scene">All objects are looked at.</param>
     /// <param name="positions">World space, finite.</param>
-    /// <param name="answers">As many as positions; receives the answers in the same order.</param>
-    /// <param name="record">Receives the sum of the costs. Its instance path is emptied.</param>
-    /// <param name="within">As in <see cref="Collider.TryFindClosest"/>.</param>
+    /// <param name="results">As many as positions; receives the answers in the same order.</param>
+    /// <param name="context">Receives the sum of the costs. Its instance path is emptied.</param>
+    /// <param name="maxDistance">As in <see cref="Collider.TryFindClosest"/>.</param>
     /// <param name="epsilon">As in <see cref="Collider.TryFindClosest"/>.</param>
     /// <param name="threads">At most so many; null for one a core.</param>
     /// <exception cref="ArgumentException">There are fewer or more answers than positions.</exception>
@@ -43,50 +43,50 @@ public static class BatchQuery
     public static void FindClosest(
         SceneCollider scene,
         ReadOnlyMemory<Vector> positions,
-        Memory<BatchAnswer> answers,
-        QueryRecord record,
-        double within = double.PositiveInfinity,
+        Memory<BatchResult> results,
+        QueryContext context,
+        double maxDistance = double.PositiveInfinity,
         double epsilon = 0,
         int? threads = null) => FindClosest(
-            (Vector position, QueryRecord own, out ClosestPoint closest) => scene.TryFindClosest(position, within, own, out closest, out _, epsilon: epsilon),
-            positions, answers, record, within, epsilon, threads);
+            (Vector position, QueryContext threadContext, out ClosestPoint closest) => scene.TryFindClosest(position, maxDistance, threadContext, out closest, out _, epsilon: epsilon),
+            positions, results, context, maxDistance, epsilon, threads);
 
-    private delegate bool Query(Vector position, QueryRecord record, out ClosestPoint closest);
+    private delegate bool Query(Vector position, QueryContext context, out ClosestPoint closest);
 
     private static void FindClosest(
-        Query query, ReadOnlyMemory<Vector> positions, Memory<BatchAnswer> answers, QueryRecord record, double within, double epsilon, int? threads)
+        Query query, ReadOnlyMemory<Vector> positions, Memory<BatchResult> results, QueryContext context, double maxDistance, double epsilon, int? threads)
     {
-        Check(positions.Span, answers.Length, within, epsilon, threads);
-        record.ClearPath();
-        var tasks = (positions.Length + PositionsOfTask - 1) / PositionsOfTask;
-        var total = new Lock();
+        ThrowIfInvalid(positions.Span, results.Length, maxDistance, epsilon, threads);
+        context.ClearPath();
+        var taskCount = (positions.Length + PositionsPerTask - 1) / PositionsPerTask;
+        var totalsLock = new Lock();
         Parallel.For(
             0,
-            tasks,
+            taskCount,
             new ParallelOptions { MaxDegreeOfParallelism = threads ?? -1 },
-            () => new QueryRecord(),
-            (task, _, own) =>
+            () => new QueryContext(),
+            (task, _, threadContext) =>
             {
-                var first = task * PositionsOfTask;
-                var count = Math.Min(PositionsOfTask, positions.Length - first);
-                Answer(query, positions.Span.Slice(first, count), answers.Span.Slice(first, count), own);
-                return own;
+                var first = task * PositionsPerTask;
+                var count = Math.Min(PositionsPerTask, positions.Length - first);
+                RunQueries(query, positions.Span.Slice(first, count), results.Span.Slice(first, count), threadContext);
+                return threadContext;
             },
-            own =>
+            threadContext =>
             {
-                lock (total)
+                lock (totalsLock)
                 {
-                    record.FaceTests += own.FaceTests;
-                    record.BoundTests += own.BoundTests;
+                    context.FaceTests += threadContext.FaceTests;
+                    context.BoundTests += threadContext.BoundTests;
                 }
             });
     }
 
-    private static void Check(ReadOnlySpan<Vector> positions, int answers, double within, double epsilon, int? threads)
+    private static void ThrowIfInvalid(ReadOnlySpan<Vector> positions, int results, double maxDistance, double epsilon, int? threads)
     {
-        if (answers != positions.Length)
+        if (results != positions.Length)
         {
-            throw new ArgumentException($"expected {positions.Length} answers, one for each position", nameof(answers));
+            throw new ArgumentException($"expected {positions.Length} answers, one for each position", nameof(results));
         }
 
         // Before any thread begins, so that the error is the caller's own and names the first.
@@ -98,9 +98,9 @@ public static class BatchQuery
             }
         }
 
-        if (!(within >= 0))
+        if (!(maxDistance >= 0))
         {
-            throw new ArgumentOutOfRangeException(nameof(within), within, "expected no negative number");
+            throw new ArgumentOutOfRangeException(nameof(maxDistance), maxDistance, "expected no negative number");
         }
 
         if (!(epsilon >= 0))
@@ -114,13 +114,13 @@ public static class BatchQuery
         }
     }
 
-    private static void Answer(Query query, ReadOnlySpan<Vector> positions, Span<BatchAnswer> answers, QueryRecord record)
+    private static void RunQueries(Query query, ReadOnlySpan<Vector> positions, Span<BatchResult> results, QueryContext context)
     {
         for (var i = 0; i < positions.Length; i++)
         {
-            var (faceTests, boundTests) = (record.FaceTests, record.BoundTests);
-            var isFound = query(positions[i], record, out var closest);
-            answers[i] = new(isFound, closest, record.FaceTests - faceTests, record.BoundTests - boundTests);
+            var (faceTests, boundTests) = (context.FaceTests, context.BoundTests);
+            var isFound = query(positions[i], context, out var closest);
+            results[i] = new(isFound, closest, context.FaceTests - faceTests, context.BoundTests - boundTests);
         }
     }
 }

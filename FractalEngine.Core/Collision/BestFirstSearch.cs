@@ -8,106 +8,106 @@ namespace FractalEngine.Core.Collision;
 /// Search that always goes on with the nearest copy of all, wherever it is. A search into the depth is faster on most fractals, but where levels
 /// hardly shrink it goes down thousands of them, perhaps once for each copy on its way back; this one then begins again, with what was found as its limit.
 /// </summary>
-internal sealed class BestFirstSearch(SubFractalTable table, FaceHierarchy faces)
+internal sealed class BestFirstSearch(SubFractalTable table, TriangleBvh bvh)
 {
     // What more sub-fractals there are is looked at depth first, so that memory stays within about 30 MB.
-    private const int MostNodes = 100_000;
+    private const int MaxNodes = 100_000;
 
     /// <summary>Looks at the whole fractal.</summary>
     /// <param name="position">In the frame of the query.</param>
     /// <param name="map">From the fractal's frame to that of the query.</param>
     /// <param name="search">What is found so far.</param>
-    public void Run(Vector position, in AffineMap map, ref FractalSearch search)
+    public void Run(Vector position, in AffineMap map, ref FractalSearchState search)
     {
-        var (lanes, memory) = (AffineLanes.Of(position), search.OpenCopies);
-        memory.Clear();
-        Open(new(table.Root, table.Levels, new(map), new(map.Inverse()), -1, 0, 0), lanes, memory, ref search);
-        while (memory.TryTake(out var open))
+        var (simdPosition, expandedChildren) = (SimdAffineMap.ToVector256(position), search.ExpandedChildren);
+        expandedChildren.Clear();
+        Expand(new(table.Root, table.Levels, new(map), new(map.Inverse()), -1, 0, 0), simdPosition, expandedChildren, ref search);
+        while (expandedChildren.TryTake(out var expandedChild))
         {
-            var limit = search.Limit / search.BoundFactor;
-            if (open.Bound < limit)
+            var cutoffSquared = search.CutoffSquared / search.BoundFactor;
+            if (expandedChild.Bound < cutoffSquared)
             {
-                Visit(in open, lanes, limit, memory, ref search);
+                Visit(in expandedChild, simdPosition, cutoffSquared, expandedChildren, ref search);
             }
 
-            memory.Release(open.Parent);
+            expandedChildren.Release(expandedChild.ParentNode);
         }
     }
 
-    private void Visit(in OpenCopy open, Vector256<double> position, double limit, OpenCopies memory, ref FractalSearch search)
+    private void Visit(in ExpandedChild expandedChild, Vector256<double> position, double cutoffSquared, ExpandedChildren expandedChildren, ref FractalSearchState search)
     {
-        ref readonly var parent = ref memory.Node(open.Parent);
-        var copy = parent.State.Copies[open.Copy];
-        var levels = copy.LevelsLeft(parent.Levels);
+        ref readonly var parent = ref expandedChildren.Node(expandedChild.ParentNode);
+        var child = parent.SubFractal.Children[expandedChild.ChildIndex];
+        var remainingLevels = child.RemainingLevels(parent.RemainingLevels);
         SearchNode node = new(
-            table.At(levels),
-            levels,
-            AffineLanes.Compose(in parent.Map, in copy.Lanes),
-            AffineLanes.Compose(in copy.InverseLanes, in parent.Inverse),
-            open.Parent,
-            open.Copy,
+            table.At(remainingLevels),
+            remainingLevels,
+            SimdAffineMap.Compose(in parent.Map, in child.SimdMap),
+            SimdAffineMap.Compose(in child.InverseSimdMap, in parent.Inverse),
+            expandedChild.ParentNode,
+            expandedChild.ChildIndex,
             parent.Depth + 1);
-        if (!open.IsRefined)
+        if (!expandedChild.IsRefined)
         {
             search.BoundTests++;
-            var bound = node.DistanceSquared(position, limit);
-            if (bound > open.Bound)
+            var bound = node.LowerBoundSquared(position, cutoffSquared);
+            if (bound > expandedChild.Bound)
             {
-                if (bound < limit)
+                if (bound < cutoffSquared)
                 {
-                    memory.Add(open with { Bound = bound, IsRefined = true }, open.Key + (bound - open.Bound));
+                    expandedChildren.Add(expandedChild with { Bound = bound, IsRefined = true }, expandedChild.Key + (bound - expandedChild.Bound));
                 }
 
                 return;
             }
         }
 
-        var isLast = levels == 0 || node.Depth >= FractalSearch.Deepest
-            || node.State.RadiusSquared * node.Map.LengtheningSquared() <= search.PrecisionSquared;
-        if (isLast)
+        var isLeaf = remainingLevels == 0 || node.Depth >= FractalSearchState.MaxDepth
+            || node.SubFractal.RadiusSquared * node.Map.FrobeniusNormSquared() <= search.MinRadiusSquared;
+        if (isLeaf)
         {
-            LookAtFaces(in node, position, memory, ref search);
+            TestTriangles(in node, position, expandedChildren, ref search);
         }
         else
         {
-            Open(in node, position, memory, ref search);
+            Expand(in node, position, expandedChildren, ref search);
         }
     }
 
-    private static void Open(in SearchNode node, Vector256<double> position, OpenCopies memory, ref FractalSearch search)
+    private static void Expand(in SearchNode node, Vector256<double> position, ExpandedChildren expandedChildren, ref FractalSearchState search)
     {
-        var state = node.State;
-        CopyQueue queue = new(search.Numbers(0, CopyQueue.Rows * state.Padded));
-        ImageDistances.Fill(queue, state, position, in node.Map);
-        search.BoundTests += state.Copies.Length;
-        var parent = memory.Add(in node, MostNodes);
-        for (var i = 0; i < state.Copies.Length; i++)
+        var subFractal = node.SubFractal;
+        ChildQueue queue = new(search.ScratchSlice(0, ChildQueue.ValuesPerChild * subFractal.PaddedCount));
+        TransformedBoxDistance.FillQueue(queue, subFractal, position, in node.Map);
+        search.BoundTests += subFractal.Children.Length;
+        var parent = expandedChildren.Add(in node, MaxNodes);
+        for (var i = 0; i < subFractal.Children.Length; i++)
         {
             if (!search.Excludes(queue.BoundOf(i)))
             {
-                memory.Add(new(queue.BoundOf(i), queue.KeyOf(i), parent, i, IsRefined: false), queue.KeyOf(i));
+                expandedChildren.Add(new(queue.BoundOf(i), queue.KeyOf(i), parent, i, IsRefined: false), queue.KeyOf(i));
             }
         }
 
-        memory.Release(parent);
+        expandedChildren.Release(parent);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private void LookAtFaces(in SearchNode node, Vector256<double> position, OpenCopies memory, ref FractalSearch search)
+    private void TestTriangles(in SearchNode node, Vector256<double> position, ExpandedChildren expandedChildren, ref FractalSearchState search)
     {
-        var (best, face) = (search.NearestSquared, -1);
-        faces.SearchImage(AffineLanes.ToVector(position), node.Map.ToMap(), ref best, ref face, search.BoundFactor, ref search.FaceTests, ref search.BoundTests);
-        if (face < 0)
+        var (closestDistanceSquared, closestFace) = (search.ClosestDistanceSquared, -1);
+        bvh.FindClosestTransformed(SimdAffineMap.ToVector(position), node.Map.ToAffineMap(), ref closestDistanceSquared, ref closestFace, search.BoundFactor, ref search.FaceTests, ref search.BoundTests);
+        if (closestFace < 0)
         {
             return;
         }
 
-        search.Enter(node.Depth - 1, node.Copy);
-        for (var index = node.Parent; memory.Node(index).Depth > 0; index = memory.Node(index).Parent)
+        search.RecordChild(node.Depth - 1, node.ChildIndex);
+        for (var index = node.ParentNode; expandedChildren.Node(index).Depth > 0; index = expandedChildren.Node(index).ParentNode)
         {
-            search.Enter(memory.Node(index).Depth - 1, memory.Node(index).Copy);
+            search.RecordChild(expandedChildren.Node(index).Depth - 1, expandedChildren.Node(index).ChildIndex);
         }
 
-        search.Improve(best, face, node.Depth);
+        search.UpdateClosest(closestDistanceSquared, closestFace, node.Depth);
     }
 }

@@ -20,31 +20,31 @@ namespace FractalEngine.Core.Collision;
 public sealed class BoundingBoxCollider : Collider
 {
     /// <summary>The most levels; a double can't be halved more often than that between its own neighbours.</summary>
-    public const int LargestDepth = 64;
+    public const int MaxDepth = 64;
 
     /// <summary>The faces of all children of a box, by the paper's way to count.</summary>
-    public const int CostOfLevel = 8 * 12;
+    public const int CostPerLevel = 8 * 12;
 
     private readonly Mesh _mesh;
-    private readonly BoundingBox _bounds;
+    private readonly BoundingBox _rootBox;
     private readonly List<Node> _nodes = [];
-    private readonly int[] _faces;
+    private readonly int[] _faceIndices;
 
     /// <summary>Divides a mesh's faces.</summary>
     /// <param name="mesh">Cost: O(faces · depth).</param>
-    /// <param name="depth">Levels below the root, to <see cref="LargestDepth"/>; null for <see cref="DefaultDepth"/>.</param>
+    /// <param name="depth">Levels below the root, to <see cref="MaxDepth"/>; null for <see cref="DefaultDepth"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">The depth is negative or too large.</exception>
     public BoundingBoxCollider(Mesh mesh, int? depth = null)
     {
         Depth = depth ?? DefaultDepth(mesh.FaceCount);
         ArgumentOutOfRangeException.ThrowIfNegative(Depth, nameof(depth));
-        ArgumentOutOfRangeException.ThrowIfGreaterThan(Depth, LargestDepth, nameof(depth));
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(Depth, MaxDepth, nameof(depth));
         _mesh = mesh;
-        _faces = [.. Enumerable.Range(0, mesh.FaceCount)];
-        var centroids = _faces.Select(face => mesh.Face(face) switch { var (a, b, c) => (a / 3) + (b / 3) + (c / 3) }).ToArray();
-        _bounds = centroids.Aggregate(BoundingBox.Empty, (box, centroid) => box.Including(centroid));
+        _faceIndices = [.. Enumerable.Range(0, mesh.FaceCount)];
+        var centroids = _faceIndices.Select(face => mesh.Face(face) switch { var (a, b, c) => (a / 3) + (b / 3) + (c / 3) }).ToArray();
+        _rootBox = centroids.Aggregate(BoundingBox.Empty, (box, centroid) => box.Including(centroid));
         _nodes.Add(default);
-        Divide(0, 0, _faces.Length, _bounds, Depth, centroids);
+        Subdivide(0, 0, _faceIndices.Length, _rootBox, Depth, centroids);
         _nodes.TrimExcess();
     }
 
@@ -55,50 +55,50 @@ public sealed class BoundingBoxCollider : Collider
     public override bool IsExact => false;
 
     /// <inheritdoc/>
-    public override long StorageBytes => (_nodes.Capacity * 12L) + (_faces.Length * sizeof(int));
+    public override long StorageBytes => (_nodes.Capacity * 12L) + (_faceIndices.Length * sizeof(int));
 
     /// <summary>The paper's depth, 3·log₈(faces), rounded; 0 for up to one face.</summary>
-    public static int DefaultDepth(int faces) => faces <= 1 ? 0 : (int)Math.Round(3 * Math.Log(faces, 8));
+    public static int DefaultDepth(int faceCount) => faceCount <= 1 ? 0 : (int)Math.Round(3 * Math.Log(faceCount, 8));
 
     /// <inheritdoc/>
-    private protected override bool Find(Vector position, double within, double epsilon, QueryRecord record, out ClosestPoint closest)
+    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
     {
-        record.ClearPath();
+        context.ClearPath();
         closest = default;
-        if (_faces.Length == 0)
+        if (_faceIndices.Length == 0)
         {
             return false;
         }
 
-        var (node, box) = (_nodes[0], _bounds);
-        while (node.Octants != 0)
+        var (node, box) = (_nodes[0], _rootBox);
+        while (node.ChildMask != 0)
         {
-            (node, box) = NearestChild(position, node, box, record);
+            (node, box) = ClosestChild(position, node, box, context);
         }
 
-        var (nearest, nearestFace) = (default(FacePoint), -1);
-        foreach (var face in _faces.AsSpan(node.First, node.Count))
+        var (closestPoint, closestFace) = (default(TrianglePoint), -1);
+        foreach (var face in _faceIndices.AsSpan(node.FirstFaceOrChild, node.FaceCount))
         {
             var (a, b, c) = _mesh.Face(face);
-            var point = FaceKernel.ClosestPoint(position, a, b, c);
-            if (nearestFace < 0 || point.DistanceSquared < nearest.DistanceSquared)
+            var point = TriangleKernel.ClosestPoint(position, a, b, c);
+            if (closestFace < 0 || point.DistanceSquared < closestPoint.DistanceSquared)
             {
-                (nearest, nearestFace) = (point, face);
+                (closestPoint, closestFace) = (point, face);
             }
         }
 
-        record.FaceTests += ((long)CostOfLevel * Depth) + node.Count;
-        closest = FaceAnswer.Of(_mesh, nearestFace, nearest);
-        return closest.Distance <= within;
+        context.FaceTests += ((long)CostPerLevel * Depth) + node.FaceCount;
+        closest = ClosestPointFactory.Create(_mesh, closestFace, closestPoint);
+        return closest.Distance <= maxDistance;
     }
 
     /// <summary>A box: a leaf with faces, or children that lie one after the other.</summary>
-    /// <param name="First">Place of the first face, or number of the first child.</param>
-    /// <param name="Count">Of the faces of a leaf.</param>
-    /// <param name="Octants">Which children there are, a bit each: 1 is right, 2 is up, 4 is forward; 0 for a leaf.</param>
-    private readonly record struct Node(int First, int Count, int Octants);
+    /// <param name="FirstFaceOrChild">Place of the first face, or number of the first child.</param>
+    /// <param name="FaceCount">Of the faces of a leaf.</param>
+    /// <param name="ChildMask">Which children there are, a bit each: 1 is right, 2 is up, 4 is forward; 0 for a leaf.</param>
+    private readonly record struct Node(int FirstFaceOrChild, int FaceCount, int ChildMask);
 
-    private static BoundingBox Child(BoundingBox box, int octant)
+    private static BoundingBox ChildBox(BoundingBox box, int octant)
     {
         var ((x0, y0, z0), (x1, y1, z1), (x, y, z)) = (box.Minimum, box.Maximum, box.Centre);
         return new(
@@ -108,57 +108,57 @@ public sealed class BoundingBoxCollider : Collider
 
     private static int OctantOf(Vector v, Vector centre) => (v.X >= centre.X ? 1 : 0) | (v.Y >= centre.Y ? 2 : 0) | (v.Z >= centre.Z ? 4 : 0);
 
-    private (Node Node, BoundingBox Box) NearestChild(Vector position, Node node, BoundingBox box, QueryRecord record)
+    private (Node Node, BoundingBox Box) ClosestChild(Vector position, Node node, BoundingBox box, QueryContext context)
     {
-        var (nearest, nearestBox, nearestSquared, child) = (default(Node), box, double.PositiveInfinity, node.First);
+        var (closestNode, closestBox, closestDistanceSquared, child) = (default(Node), box, double.PositiveInfinity, node.FirstFaceOrChild);
         for (var octant = 0; octant < 8; octant++)
         {
-            if ((node.Octants & (1 << octant)) == 0)
+            if ((node.ChildMask & (1 << octant)) == 0)
             {
                 continue;
             }
 
-            var childBox = Child(box, octant);
-            var squared = Vector.Max(Vector.Max(childBox.Minimum - position, position - childBox.Maximum), Vector.Zero).LengthSquared();
-            if (squared < nearestSquared || child == node.First)
+            var childBox = ChildBox(box, octant);
+            var distanceSquared = Vector.Max(Vector.Max(childBox.Minimum - position, position - childBox.Maximum), Vector.Zero).LengthSquared();
+            if (distanceSquared < closestDistanceSquared || child == node.FirstFaceOrChild)
             {
-                (nearest, nearestBox, nearestSquared) = (_nodes[child], childBox, squared);
+                (closestNode, closestBox, closestDistanceSquared) = (_nodes[child], childBox, distanceSquared);
             }
 
-            record.BoundTests++;
+            context.BoundTests++;
             child++;
         }
 
-        return (nearest, nearestBox);
+        return (closestNode, closestBox);
     }
 
-    private void Divide(int node, int first, int count, BoundingBox box, int levels, Vector[] centroids)
+    private void Subdivide(int node, int first, int count, BoundingBox box, int remainingDepth, Vector[] centroids)
     {
-        if (levels == 0 || count <= 1)
+        if (remainingDepth == 0 || count <= 1)
         {
             _nodes[node] = new(first, count, 0);
             return;
         }
 
         var centre = box.Centre;
-        Span<int> starts = stackalloc int[9];
-        SortByOctant(first, count, centre, centroids, starts);
-        var (child, octants) = (_nodes.Count, 0);
+        Span<int> octantStarts = stackalloc int[9];
+        SortByOctant(first, count, centre, centroids, octantStarts);
+        var (child, childMask) = (_nodes.Count, 0);
         for (var octant = 0; octant < 8; octant++)
         {
-            if (starts[octant + 1] > starts[octant])
+            if (octantStarts[octant + 1] > octantStarts[octant])
             {
-                octants |= 1 << octant;
+                childMask |= 1 << octant;
                 _nodes.Add(default);
             }
         }
 
-        _nodes[node] = new(child, 0, octants);
+        _nodes[node] = new(child, 0, childMask);
         for (var octant = 0; octant < 8; octant++)
         {
-            if ((octants & (1 << octant)) != 0)
+            if ((childMask & (1 << octant)) != 0)
             {
-                Divide(child++, first + starts[octant], starts[octant + 1] - starts[octant], Child(box, octant), levels - 1, centroids);
+                Subdivide(child++, first + octantStarts[octant], octantStarts[octant + 1] - octantStarts[octant], ChildBox(box, octant), remainingDepth - 1, centroids);
             }
         }
     }
@@ -168,29 +168,29 @@ public sealed class BoundingBoxCollider : Collider
     /// <param name="count">Of the run.</param>
     /// <param name="centre">Of the box.</param>
     /// <param name="centroids">In the order of the faces; sorted with them.</param>
-    /// <param name="starts">Where each octant's faces begin in the run.</param>
-    private void SortByOctant(int first, int count, Vector centre, Vector[] centroids, Span<int> starts)
+    /// <param name="octantStarts">Where each octant's faces begin in the run.</param>
+    private void SortByOctant(int first, int count, Vector centre, Vector[] centroids, Span<int> octantStarts)
     {
-        starts.Clear();
+        octantStarts.Clear();
         var octants = new byte[count];
         for (var i = 0; i < count; i++)
         {
             octants[i] = (byte)OctantOf(centroids[first + i], centre);
-            starts[octants[i] + 1]++;
+            octantStarts[octants[i] + 1]++;
         }
 
         for (var octant = 0; octant < 8; octant++)
         {
-            starts[octant + 1] += starts[octant];
+            octantStarts[octant + 1] += octantStarts[octant];
         }
 
-        var (oldFaces, oldCentroids) = (_faces.AsSpan(first, count).ToArray(), centroids.AsSpan(first, count).ToArray());
+        var (oldFaces, oldCentroids) = (_faceIndices.AsSpan(first, count).ToArray(), centroids.AsSpan(first, count).ToArray());
         Span<int> next = stackalloc int[8];
-        starts[..8].CopyTo(next);
+        octantStarts[..8].CopyTo(next);
         for (var i = 0; i < count; i++)
         {
-            var place = first + next[octants[i]]++;
-            (_faces[place], centroids[place]) = (oldFaces[i], oldCentroids[i]);
+            var target = first + next[octants[i]]++;
+            (_faceIndices[target], centroids[target]) = (oldFaces[i], oldCentroids[i]);
         }
     }
 }

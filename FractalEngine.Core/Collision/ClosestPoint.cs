@@ -11,6 +11,6 @@ namespace FractalEngine.Core.Collision;
 /// </param>
 /// <param name="Barycentrics">Weights of the face's corners.</param>
 /// <param name="Feature">Where on the face the point is.</param>
-/// <param name="Face">Number of the face in the mesh, from 0.</param>
+/// <param name="FaceIndex">Number of the face in the mesh, from 0.</param>
 public readonly record struct ClosestPoint(
-    double Distance, Vector Point, Vector Normal, Vector Barycentrics, FaceFeature Feature, int Face);
+    double Distance, Vector Point, Vector Normal, Vector Barycentrics, TriangleFeature Feature, int FaceIndex);

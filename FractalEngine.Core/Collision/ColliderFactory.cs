@@ -8,10 +8,10 @@ namespace FractalEngine.Core.Collision;
 public static class ColliderFactory
 {
     /// <summary>The most faces of an expanded fractal that the colliders of meshes are made for.</summary>
-    public const long ExpandedFaces = 20_000_000;
+    public const long MaxExpandedFaces = 20_000_000;
 
-    /// <summary>True for kinds whose colliders serve objects with any matrix, see <see cref="Collider.FindImage"/>.</summary>
-    internal static bool FindsImages(ColliderKind kind) => kind is ColliderKind.Exact or ColliderKind.Hierarchy or ColliderKind.Simple;
+    /// <summary>True for kinds whose colliders serve objects with any matrix, see <see cref="Collider.FindClosestTransformed"/>.</summary>
+    internal static bool SupportsTransformedQueries(ColliderKind kind) => kind is ColliderKind.Exact or ColliderKind.Hierarchy or ColliderKind.Simple;
 
     /// <summary>The collider for a model in its own frame.</summary>
     /// <exception cref="ColliderMismatchException">The kind does not fit the model; the message says which kinds do.</exception>
@@ -28,9 +28,9 @@ public static class ColliderFactory
     public static Collider Create(PlacedModel placed, ColliderKind kind) => placed.Model switch
     {
         FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } =>
-            Create(new Fractal(fractal.Description.Under(placed.Declaration.Placement), fractal.BaseMesh), kind),
-        FractalModel { Fractal: var fractal } => CreateExpanded(fractal, placed.Map, kind),
-        _ => Create(FractalGenerator.Flatten(placed.Model.Mesh, [placed.Map]), kind),
+            Create(new Fractal(fractal.Description.WithPlacement(placed.Declaration.Placement), fractal.BaseMesh), kind),
+        FractalModel { Fractal: var fractal } => CreateExpanded(fractal, placed.ObjectToWorld, kind),
+        _ => Create(FractalGenerator.Flatten(placed.Model.Mesh, [placed.ObjectToWorld]), kind),
     };
 
     private static Collider Create(Fractal fractal, ColliderKind kind) => (kind, fractal.Description.Composition) switch
@@ -40,15 +40,15 @@ public static class ColliderFactory
         _ => CreateExpanded(fractal, AffineMap.Identity, kind),
     };
 
-    private static Collider CreateExpanded(Fractal fractal, AffineMap placement, ColliderKind kind)
+    private static Collider CreateExpanded(Fractal fractal, AffineMap toWorld, ColliderKind kind)
     {
         if (kind == ColliderKind.Fractal)
         {
             throw new ColliderMismatchException("the collider 'fractal' descends by affine maps, which componentwise composition has not: expected exact, hierarchy, bounding-box or simple");
         }
 
-        var instances = FractalGenerator.Expand(fractal, ExpandedFaces / Math.Max(1, fractal.BaseMesh.FaceCount));
-        return Create(FractalGenerator.Flatten(fractal.BaseMesh, [.. instances.Select(instance => placement * instance)]), kind);
+        var instances = FractalGenerator.Expand(fractal, MaxExpandedFaces / Math.Max(1, fractal.BaseMesh.FaceCount));
+        return Create(FractalGenerator.Flatten(fractal.BaseMesh, [.. instances.Select(instance => toWorld * instance)]), kind);
     }
 
     private static Collider Create(Geometry.Mesh mesh, ColliderKind kind) => kind switch

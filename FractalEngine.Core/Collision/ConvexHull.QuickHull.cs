@@ -9,47 +9,47 @@ internal sealed partial class ConvexHull
     /// <summary>The work on a set of points that is not flat.</summary>
     private sealed class QuickHull(Vector[] points, double tolerance)
     {
-        private readonly int[] _next = new int[points.Length];
+        private readonly int[] _nextPoint = new int[points.Length];
         private readonly List<Facet> _facets = [];
         private readonly List<int> _vertices = [];
-        private double _missed;
+        private double _maxOutsideDistance;
 
-        public ConvexHull Solid(int i0, int i1, int i2, int i3, int mostVertices)
+        public ConvexHull Build(int i0, int i1, int i2, int i3, int maxVertices)
         {
-            if (Vector.Dot(FaceKernel.UnitNormal(points[i0], points[i1], points[i2]), points[i3] - points[i0]) > 0)
+            if (Vector.Dot(TriangleKernel.UnitNormal(points[i0], points[i1], points[i2]), points[i3] - points[i0]) > 0)
             {
                 (i1, i2) = (i2, i1);
             }
 
             _vertices.AddRange([i0, i1, i2, i3]);
-            _facets.AddRange([Make(i0, i1, i2), Make(i0, i3, i1), Make(i1, i3, i2), Make(i2, i3, i0)]);
+            _facets.AddRange([CreateFacet(i0, i1, i2), CreateFacet(i0, i3, i1), CreateFacet(i1, i3, i2), CreateFacet(i2, i3, i0)]);
             for (var point = 0; point < points.Length; point++)
             {
-                Assign(point, 0);
+                AssignToFacet(point, 0);
             }
 
-            while (_vertices.Count < mostVertices && _facets.MaxBy(facet => facet.FarthestHeight) is { First: >= 0 } highest)
+            while (_vertices.Count < maxVertices && _facets.MaxBy(facet => facet.FarthestHeight) is { FirstPoint: >= 0 } highest)
             {
-                Add(highest.Farthest);
+                AddVertex(highest.FarthestPoint);
             }
 
             foreach (var facet in _facets)
             {
-                for (var point = facet.First; point >= 0; point = _next[point])
+                for (var point = facet.FirstPoint; point >= 0; point = _nextPoint[point])
                 {
-                    Miss(point, facet);
+                    TrackOutsidePoint(point, facet);
                 }
             }
 
             return new ConvexHull(
                 [.. _vertices.Select(vertex => points[vertex])],
-                [.. Planes()],
-                _missed,
-                [.. _facets.Select(facet => (points[facet.A], points[facet.B], points[facet.C]))]).WithOffsets();
+                [.. MergePlanes()],
+                _maxOutsideDistance,
+                [.. _facets.Select(facet => (points[facet.A], points[facet.B], points[facet.C]))]).WithConservativeOffsets();
         }
 
         [MethodImpl(MethodImplOptions.AggressiveOptimization)]
-        private void Add(int apex)
+        private void AddVertex(int apex)
         {
             var removed = new List<Facet>();
             var edges = new HashSet<(int, int)>();
@@ -68,37 +68,37 @@ internal sealed partial class ConvexHull
             {
                 if (!edges.Contains((end, start)))
                 {
-                    _facets.Add(Make(start, end, apex));
+                    _facets.Add(CreateFacet(start, end, apex));
                 }
             }
 
             _vertices.Add(apex);
             foreach (var facet in removed)
             {
-                for (int point = facet.First, next; point >= 0; point = next)
+                for (int point = facet.FirstPoint, next; point >= 0; point = next)
                 {
-                    next = _next[point];
-                    Assign(point, firstNew);
+                    next = _nextPoint[point];
+                    AssignToFacet(point, firstNew);
                 }
             }
         }
 
-        private Facet Make(int a, int b, int c)
+        private Facet CreateFacet(int a, int b, int c)
         {
-            var normal = FaceKernel.UnitNormal(points[a], points[b], points[c]);
+            var normal = TriangleKernel.UnitNormal(points[a], points[b], points[c]);
             return new(a, b, c, normal, Vector.Dot(normal, points[a]));
         }
 
         /// <summary>Gives a point to the facet that it is farthest above, if it is above any.</summary>
         [MethodImpl(MethodImplOptions.AggressiveOptimization)]
-        private void Assign(int point, int firstFacet)
+        private void AssignToFacet(int point, int firstFacet)
         {
             Facet? highest = null;
-            var most = 0.0;
+            var maxHeight = 0.0;
             for (var i = firstFacet; i < _facets.Count; i++)
             {
                 var height = Vector.Dot(_facets[i].Normal, points[point]) - _facets[i].Offset;
-                (highest, most) = height > most ? (_facets[i], height) : (highest, most);
+                (highest, maxHeight) = height > maxHeight ? (_facets[i], height) : (highest, maxHeight);
             }
 
             if (highest is null || point == highest.A || point == highest.B || point == highest.C)
@@ -106,45 +106,45 @@ internal sealed partial class ConvexHull
                 return;
             }
 
-            if (most <= tolerance)
+            if (maxHeight <= tolerance)
             {
-                Miss(point, highest);
+                TrackOutsidePoint(point, highest);
                 return;
             }
 
-            _next[point] = highest.First;
-            highest.First = point;
-            if (most > highest.FarthestHeight)
+            _nextPoint[point] = highest.FirstPoint;
+            highest.FirstPoint = point;
+            if (maxHeight > highest.FarthestHeight)
             {
-                (highest.Farthest, highest.FarthestHeight) = (point, most);
+                (highest.FarthestPoint, highest.FarthestHeight) = (point, maxHeight);
             }
         }
 
-        private void Miss(int point, Facet facet) => _missed = Math.Max(
-            _missed, Math.Sqrt(FaceKernel.ClosestPoint(points[point], points[facet.A], points[facet.B], points[facet.C]).DistanceSquared));
+        private void TrackOutsidePoint(int point, Facet facet) => _maxOutsideDistance = Math.Max(
+            _maxOutsideDistance, Math.Sqrt(TriangleKernel.ClosestPoint(points[point], points[facet.A], points[facet.B], points[facet.C]).DistanceSquared));
 
         [MethodImpl(MethodImplOptions.AggressiveOptimization)]
-        private IEnumerable<HullPlane> Planes()
+        private IEnumerable<HullPlane> MergePlanes()
         {
             var planes = new List<HullPlane>();
             foreach (var facet in _facets)
             {
                 var area = Vector.Cross(points[facet.B] - points[facet.A], points[facet.C] - points[facet.A]).Length();
-                var same = 0;
-                while (same < planes.Count && !((planes[same].Normal - facet.Normal).MaximumComponent() < SamePlane))
+                var match = 0;
+                while (match < planes.Count && !((planes[match].Normal - facet.Normal).MaxAbsComponent() < SamePlaneTolerance))
                 {
-                    same++;
+                    match++;
                 }
 
-                if (same == planes.Count)
+                if (match == planes.Count)
                 {
                     planes.Add(new(facet.Normal, facet.Offset, area));
                 }
                 else
                 {
                     // Of parallel facets the larger one has the better normal.
-                    var (plane, larger) = (planes[same], planes[same].Area >= area);
-                    planes[same] = new(larger ? plane.Normal : facet.Normal, Math.Max(plane.Offset, facet.Offset), plane.Area + area);
+                    var (plane, larger) = (planes[match], planes[match].Area >= area);
+                    planes[match] = new(larger ? plane.Normal : facet.Normal, Math.Max(plane.Offset, facet.Offset), plane.Area + area);
                 }
             }
 
@@ -165,9 +165,9 @@ internal sealed partial class ConvexHull
         public double Offset { get; } = offset;
 
         /// <summary>The first point above it; the others follow.</summary>
-        public int First { get; set; } = -1;
+        public int FirstPoint { get; set; } = -1;
 
-        public int Farthest { get; set; } = -1;
+        public int FarthestPoint { get; set; } = -1;
 
         public double FarthestHeight { get; set; } = double.NegativeInfinity;
     }

@@ -16,14 +16,14 @@ namespace FractalEngine.Core.Collision;
 internal sealed partial class ConvexHull
 {
     // Of the size of the set. Nearer points count as on a facet, and facets that differ by less are one plane.
-    private const double Coplanar = 1e-12;
-    private const double SamePlane = 1e-9;
+    private const double CoplanarTolerance = 1e-12;
+    private const double SamePlaneTolerance = 1e-9;
 
     private readonly ImmutableArray<(Vector A, Vector B, Vector C)> _facets;
 
     private ConvexHull(
-        ImmutableArray<Vector> vertices, ImmutableArray<HullPlane> planes, double missed, ImmutableArray<(Vector A, Vector B, Vector C)> facets) =>
-        (Vertices, Planes, Missed, _facets) = (vertices, planes, missed, facets);
+        ImmutableArray<Vector> vertices, ImmutableArray<HullPlane> planes, double maxOutsideDistance, ImmutableArray<(Vector A, Vector B, Vector C)> facets) =>
+        (Vertices, Planes, MaxOutsideDistance, _facets) = (vertices, planes, maxOutsideDistance, facets);
 
     /// <summary>Its corners, some of the points.</summary>
     public ImmutableArray<Vector> Vertices { get; }
@@ -32,12 +32,12 @@ internal sealed partial class ConvexHull
     public ImmutableArray<HullPlane> Planes { get; }
 
     /// <summary>How far out of the hull of <see cref="Vertices"/> points may lie.</summary>
-    public double Missed { get; }
+    public double MaxOutsideDistance { get; }
 
     /// <summary>The hull of some points.</summary>
     /// <param name="points">Finite; at least one.</param>
-    /// <param name="mostVertices">At least 4. Beyond, points near the hull are left outside.</param>
-    public static ConvexHull Of(ReadOnlySpan<Vector> points, int mostVertices)
+    /// <param name="maxVertices">At least 4. Beyond, points near the hull are left outside.</param>
+    public static ConvexHull Build(ReadOnlySpan<Vector> points, int maxVertices)
     {
         var box = BoundingBox.Empty;
         foreach (var point in points)
@@ -46,36 +46,36 @@ internal sealed partial class ConvexHull
         }
 
         var size = box.Diagonal;
-        var (i0, i1) = FarthestPair(points);
+        var (i0, i1) = FindFarthestPair(points);
         if (points[i0] == points[i1])
         {
             return new([points[i0]], [], 0, [(points[i0], points[i0], points[i0])]);
         }
 
-        var along = (points[i1] - points[i0]).UnitVector();
-        var i2 = Farthest(points, points[i0], (point, origin) => Vector.Cross(along, point - origin).Length(), out var width);
-        if (!(width > Coplanar * size))
+        var direction = (points[i1] - points[i0]).UnitVector();
+        var i2 = FindFarthest(points, points[i0], (point, origin) => Vector.Cross(direction, point - origin).Length(), out var width);
+        if (!(width > CoplanarTolerance * size))
         {
             return new([points[i0], points[i1]], [], width, [(points[i0], points[i1], points[i1])]);
         }
 
-        var normal = FaceKernel.UnitNormal(points[i0], points[i1], points[i2]);
-        var i3 = Farthest(points, points[i0], (point, origin) => Math.Abs(Vector.Dot(normal, point - origin)), out var height);
-        return height > Coplanar * size
-            ? new QuickHull(points.ToArray(), Coplanar * size).Solid(i0, i1, i2, i3, mostVertices)
-            : FlatHull(points, along, normal, height, mostVertices);
+        var normal = TriangleKernel.UnitNormal(points[i0], points[i1], points[i2]);
+        var i3 = FindFarthest(points, points[i0], (point, origin) => Math.Abs(Vector.Dot(normal, point - origin)), out var height);
+        return height > CoplanarTolerance * size
+            ? new QuickHull(points.ToArray(), CoplanarTolerance * size).Build(i0, i1, i2, i3, maxVertices)
+            : BuildFlatHull(points, direction, normal, height, maxVertices);
     }
 
     /// <summary>The hull's image under a map, which is the hull of the images. Misses as much as this times the factor by which the map lengthens.</summary>
-    public ConvexHull Image(AffineMap map)
+    public ConvexHull Transform(AffineMap map)
     {
         // Normals go with the cofactors; a mirror turns them inside out.
-        var (normals, outwards) = (map.Linear.Cofactors(), map.Linear.Determinant() < 0 ? -1 : 1);
+        var (normals, orientation) = (map.Linear.Cofactors(), map.Linear.Determinant() < 0 ? -1 : 1);
         return new ConvexHull(
             [.. Vertices.Select(vertex => map * vertex)],
-            [.. Planes.Select(plane => plane with { Normal = outwards * (normals * plane.Normal).UnitVector(), Offset = double.NegativeInfinity })],
+            [.. Planes.Select(plane => plane with { Normal = orientation * (normals * plane.Normal).UnitVector(), Offset = double.NegativeInfinity })],
             0,
-            [.. _facets.Select(facet => (map * facet.A, map * facet.B, map * facet.C))]).WithOffsets();
+            [.. _facets.Select(facet => (map * facet.A, map * facet.B, map * facet.C))]).WithConservativeOffsets();
     }
 
     /// <summary>Cubic scene units; 0 where it is flat.</summary>
@@ -85,121 +85,121 @@ internal sealed partial class ConvexHull
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     public double Support(Vector direction)
     {
-        var most = double.NegativeInfinity;
+        var maxProduct = double.NegativeInfinity;
         foreach (var vertex in Vertices)
         {
-            most = Math.Max(most, Vector.Dot(direction, vertex));
+            maxProduct = Math.Max(maxProduct, Vector.Dot(direction, vertex));
         }
 
-        return most;
+        return maxProduct;
     }
 
     /// <summary>At most this far is a point from the hull: 0 inside.</summary>
-    public double DistanceBound(Vector point)
+    public double DistanceUpperBound(Vector point)
     {
         if (Planes.Length > 0 && Planes.All(plane => Vector.Dot(plane.Normal, point) <= plane.Offset))
         {
             return 0;
         }
 
-        var squared = double.PositiveInfinity;
+        var distanceSquared = double.PositiveInfinity;
         foreach (var (a, b, c) in _facets)
         {
-            squared = Math.Min(squared, FaceKernel.ClosestPoint(point, a, b, c).DistanceSquared);
+            distanceSquared = Math.Min(distanceSquared, TriangleKernel.ClosestPoint(point, a, b, c).DistanceSquared);
         }
 
-        return Math.Sqrt(squared);
+        return Math.Sqrt(distanceSquared);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
-    private static (int First, int Second) FarthestPair(ReadOnlySpan<Vector> points)
+    private static (int First, int Second) FindFarthestPair(ReadOnlySpan<Vector> points)
     {
         Span<int> extremes = stackalloc int[6];
         for (var i = 1; i < points.Length; i++)
         {
             for (var axis = 0; axis < 3; axis++)
             {
-                var coordinate = Coordinate(points[i], axis);
-                extremes[axis] = coordinate < Coordinate(points[extremes[axis]], axis) ? i : extremes[axis];
-                extremes[3 + axis] = coordinate > Coordinate(points[extremes[3 + axis]], axis) ? i : extremes[3 + axis];
+                var coordinate = Component(points[i], axis);
+                extremes[axis] = coordinate < Component(points[extremes[axis]], axis) ? i : extremes[axis];
+                extremes[3 + axis] = coordinate > Component(points[extremes[3 + axis]], axis) ? i : extremes[3 + axis];
             }
         }
 
-        var (first, second, most) = (0, 0, 0.0);
+        var (first, second, maxDistanceSquared) = (0, 0, 0.0);
         foreach (var i in extremes)
         {
             foreach (var j in extremes)
             {
-                var squared = (points[i] - points[j]).LengthSquared();
-                (first, second, most) = squared > most ? (i, j, squared) : (first, second, most);
+                var distanceSquared = (points[i] - points[j]).LengthSquared();
+                (first, second, maxDistanceSquared) = distanceSquared > maxDistanceSquared ? (i, j, distanceSquared) : (first, second, maxDistanceSquared);
             }
         }
 
         return (first, second);
     }
 
-    private static int Farthest(ReadOnlySpan<Vector> points, Vector origin, Func<Vector, Vector, double> measure, out double most)
+    private static int FindFarthest(ReadOnlySpan<Vector> points, Vector origin, Func<Vector, Vector, double> measure, out double maxDistance)
     {
         var farthest = 0;
-        most = 0;
+        maxDistance = 0;
         for (var i = 0; i < points.Length; i++)
         {
             var distance = measure(points[i], origin);
-            (farthest, most) = distance > most ? (i, distance) : (farthest, most);
+            (farthest, maxDistance) = distance > maxDistance ? (i, distance) : (farthest, maxDistance);
         }
 
         return farthest;
     }
 
-    private static double Coordinate(Vector v, int axis) => axis switch { 0 => v.X, 1 => v.Y, _ => v.Z };
+    private static double Component(Vector v, int axis) => axis switch { 0 => v.X, 1 => v.Y, _ => v.Z };
 
     /// <summary>The hull of points of one plane, by their extremes in evenly spread directions.</summary>
-    private static ConvexHull FlatHull(ReadOnlySpan<Vector> points, Vector along, Vector normal, double height, int mostVertices)
+    private static ConvexHull BuildFlatHull(ReadOnlySpan<Vector> points, Vector along, Vector normal, double height, int maxVertices)
     {
         var across = Vector.Cross(normal, along);
-        var corners = new List<Vector>();
-        for (var i = 0; i < mostVertices; i++)
+        var vertices = new List<Vector>();
+        for (var i = 0; i < maxVertices; i++)
         {
-            var (sine, cosine) = Math.SinCos(2 * Math.PI * i / mostVertices);
+            var (sine, cosine) = Math.SinCos(2 * Math.PI * i / maxVertices);
             var direction = (cosine * along) + (sine * across);
-            var most = double.NegativeInfinity;
-            var corner = points[0];
+            var maxProjection = double.NegativeInfinity;
+            var vertex = points[0];
             foreach (var point in points)
             {
-                var reach = Vector.Dot(direction, point);
-                (corner, most) = reach > most ? (point, reach) : (corner, most);
+                var projection = Vector.Dot(direction, point);
+                (vertex, maxProjection) = projection > maxProjection ? (point, projection) : (vertex, maxProjection);
             }
 
-            if (corners.Count == 0 || (corners[^1] != corner && corners[0] != corner))
+            if (vertices.Count == 0 || (vertices[^1] != vertex && vertices[0] != vertex))
             {
-                corners.Add(corner);
+                vertices.Add(vertex);
             }
         }
 
-        var missed = height;
+        var maxOutsideDistance = height;
         var planes = new List<HullPlane>();
-        for (var i = 0; i < corners.Count; i++)
+        for (var i = 0; i < vertices.Count; i++)
         {
-            var (start, end) = (corners[i], corners[(i + 1) % corners.Count]);
+            var (start, end) = (vertices[i], vertices[(i + 1) % vertices.Count]);
             var outwards = Vector.Cross(end - start, normal).UnitVector();
             planes.Add(new(outwards, Vector.Dot(outwards, start), 0));
             foreach (var point in points)
             {
                 if (Vector.Dot(outwards, point - start) > 0)
                 {
-                    missed = Math.Max(missed, Math.Sqrt(FaceKernel.ClosestPoint(point, start, end, end).DistanceSquared));
+                    maxOutsideDistance = Math.Max(maxOutsideDistance, Math.Sqrt(TriangleKernel.ClosestPoint(point, start, end, end).DistanceSquared));
                 }
             }
         }
 
-        var level = Vector.Dot(normal, points[0]);
-        var hull = new ConvexHull([.. corners], [new(normal, level, 1), new(-normal, -level, 1), .. planes], missed, [.. Enumerable.Range(1, Math.Max(1, corners.Count - 2)).Select(i => (corners[0], corners[i % corners.Count], corners[(i + 1) % corners.Count]))]);
-        return hull.WithOffsets();
+        var planeOffset = Vector.Dot(normal, points[0]);
+        var hull = new ConvexHull([.. vertices], [new(normal, planeOffset, 1), new(-normal, -planeOffset, 1), .. planes], maxOutsideDistance, [.. Enumerable.Range(1, Math.Max(1, vertices.Count - 2)).Select(i => (vertices[0], vertices[i % vertices.Count], vertices[(i + 1) % vertices.Count]))]);
+        return hull.WithConservativeOffsets();
     }
 
     /// <summary>The same hull, with no corner above its planes by rounding.</summary>
-    private ConvexHull WithOffsets() =>
-        new(Vertices, [.. Planes.Select(plane => plane with { Offset = Math.Max(plane.Offset, Support(plane.Normal)) })], Missed, _facets);
+    private ConvexHull WithConservativeOffsets() =>
+        new(Vertices, [.. Planes.Select(plane => plane with { Offset = Math.Max(plane.Offset, Support(plane.Normal)) })], MaxOutsideDistance, _facets);
 }
 
 /// <summary>A plane that a hull lies below: normal · point ≤ offset.</summary>

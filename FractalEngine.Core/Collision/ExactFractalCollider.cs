@@ -9,20 +9,20 @@ namespace FractalEngine.Core.Collision;
 /// faces; why the bounds hold stands in docs/colliders.md.
 /// </summary>
 /// <remarks>
-/// Sub-fractals smaller than <see cref="Precision"/> of the whole are answered by the base mesh in their place: that is the last place of a
+/// Sub-fractals smaller than <see cref="RelativePrecision"/> of the whole are answered by the base mesh in their place: that is the last place of a
 /// coordinate. Infinite fractals end there too.
 /// </remarks>
 public sealed class ExactFractalCollider : Collider
 {
     /// <summary>The part of a fractal's size below which no further level is looked at.</summary>
-    public const double Precision = 1e-15;
+    public const double RelativePrecision = 1e-15;
 
     private readonly Fractal _fractal;
     private readonly SubFractalTable _table;
-    private readonly FaceHierarchy _base;
-    private readonly SimilarSearch _similar;
-    private readonly AffineSearch _affine;
-    private readonly BestFirstSearch _bestFirst;
+    private readonly TriangleBvh _baseBvh;
+    private readonly SimilaritySearch _similaritySearch;
+    private readonly AffineSearch _affineSearch;
+    private readonly BestFirstSearch _bestFirstSearch;
 
     /// <summary>Prepares a fractal in affine composition for queries.</summary>
     /// <exception cref="FractalLimitException">The bounds of some level are beyond a double, or don't settle; the message names it.</exception>
@@ -36,100 +36,100 @@ public sealed class ExactFractalCollider : Collider
             throw new ArgumentException("expected affine composition: componentwise sums have no levels to search", nameof(fractal));
         }
 
-        (_fractal, _table, _base) = (fractal, SubFractalTable.Of(fractal), new(fractal.BaseMesh));
-        (_similar, _affine, _bestFirst) = (new(_table, _base), new(_table, _base), new(_table, _base));
+        (_fractal, _table, _baseBvh) = (fractal, SubFractalTable.Build(fractal), new(fractal.BaseMesh));
+        (_similaritySearch, _affineSearch, _bestFirstSearch) = (new(_table, _baseBvh), new(_table, _baseBvh), new(_table, _baseBvh));
     }
 
     /// <inheritdoc/>
     public override bool IsExact => true;
 
     /// <inheritdoc/>
-    public override long StorageBytes => _table.StorageBytes + _base.StorageBytes;
+    public override long StorageBytes => _table.StorageBytes + _baseBvh.StorageBytes;
 
     /// <inheritdoc/>
-    internal override bool FindsImages => true;
+    internal override bool SupportsTransformedQueries => true;
 
     /// <inheritdoc/>
-    internal override bool FindImage(Vector position, AffineMap map, double within, double epsilon, QueryRecord record, out ClosestPoint closest) =>
-        Find(position, map, isSimilar: false, within, epsilon, record, out closest);
+    internal override bool FindClosestTransformed(Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest) =>
+        FindClosestCore(position, map, isSimilarity: false, maxDistance, epsilon, context, out closest);
 
     /// <inheritdoc/>
-    private protected override bool Find(Vector position, double within, double epsilon, QueryRecord record, out ClosestPoint closest) =>
-        Find(position, AffineMap.Identity, _table.AreSimilar, within, epsilon, record, out closest);
+    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest) =>
+        FindClosestCore(position, AffineMap.Identity, _table.HasOnlySimilarities, maxDistance, epsilon, context, out closest);
 
-    private bool Find(
-        Vector position, in AffineMap map, bool isSimilar, double within, double epsilon, QueryRecord record, out ClosestPoint closest)
+    private bool FindClosestCore(
+        Vector position, in AffineMap map, bool isSimilarity, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
     {
-        record.ClearPath();
+        context.ClearPath();
         closest = default;
         if (_fractal.BaseMesh.FaceCount == 0 || _table.Root.Box.IsEmpty)
         {
             return false;
         }
 
-        var box = isSimilar ? _table.Root.Box : _table.Root.Box.Transform(map);
-        var magnitude = Math.Max(position.MaximumComponent(), Math.Max(box.Minimum.MaximumComponent(), box.Maximum.MaximumComponent()));
-        var search = new FractalSearch(within, epsilon, magnitude, record);
+        var box = isSimilarity ? _table.Root.Box : _table.Root.Box.Transform(map);
+        var magnitude = Math.Max(position.MaxAbsComponent(), Math.Max(box.Minimum.MaxAbsComponent(), box.Maximum.MaxAbsComponent()));
+        var search = new FractalSearchState(maxDistance, epsilon, magnitude, context);
         search.BoundTests++;
         if (!search.Excludes(box.DistanceSquared(position)))
         {
-            if (isSimilar)
+            if (isSimilarity)
             {
-                _similar.Run(position, ref search);
+                _similaritySearch.Run(position, ref search);
             }
             else
             {
-                _affine.Run(position, map, ref search);
+                _affineSearch.Run(position, map, ref search);
             }
 
-            if (search.HasGivenUp)
+            if (search.HasExceededBudget)
             {
-                search.Resume();
-                _bestFirst.Run(position, in map, ref search);
+                search.ResetBudget();
+                _bestFirstSearch.Run(position, in map, ref search);
             }
         }
 
-        record.FaceTests += search.FaceTests;
-        record.BoundTests += search.BoundTests;
-        if (search.Face < 0)
+        context.FaceTests += search.FaceTests;
+        context.BoundTests += search.BoundTests;
+        if (search.ClosestFace < 0)
         {
-            return NeedsExactness(within, epsilon) && Find(position, in map, isSimilar, within, 0, record, out closest);
+            return NeedsExactRetry(maxDistance, epsilon) && FindClosestCore(position, in map, isSimilarity, maxDistance, 0, context, out closest);
         }
 
-        closest = FaceAnswer.Of(_fractal.BaseMesh, search.Face, map * Follow(search.FaceTrail, record), position);
-        return closest.Distance <= within;
+        closest = ClosestPointFactory.Create(_fractal.BaseMesh, search.ClosestFace, map * ResolveInstance(search.ClosestPath, context), position);
+        return closest.Distance <= maxDistance;
     }
 
     /// <summary>Goes the way to the nearest face once more: the map of its instance, and its number at each level.</summary>
-    private AffineMap Follow(ReadOnlySpan<int> trail, QueryRecord record)
+    private AffineMap ResolveInstance(ReadOnlySpan<int> path, QueryContext context)
     {
-        var (map, levels) = (AffineMap.Identity, _table.Levels);
-        foreach (var index in trail)
+        var (map, remainingLevels) = (AffineMap.Identity, _table.Levels);
+        foreach (var childIndex in path)
         {
-            var copy = _table.At(levels).Copies[index];
-            map *= copy.Map;
-            foreach (var step in copy.Steps)
+            var child = _table.At(remainingLevels).Children[childIndex];
+            map *= child.Map;
+            foreach (var edge in child.Edges)
             {
-                var below = step.LevelsLeft(levels);
-                var isIdentity = step.Set == CopySet.Identity;
-                if (isIdentity && below == 0 && levels > FractalSearch.Deepest)
+                var childLevels = edge.RemainingLevels(remainingLevels);
+                var isIdentity = edge.Set == MapSet.Identity;
+                if (isIdentity && childLevels == 0 && remainingLevels > FractalSearchState.MaxDepth)
                 {
                     // A path that ends early goes on with identities.
                     return map;
                 }
 
                 // Levels that are passed over take their identity.
-                for (var level = levels; level > (isIdentity ? below : below + 1); level--)
+                for (var level = remainingLevels; level > (isIdentity ? childLevels : childLevels + 1); level--)
                 {
-                    record.AppendToPath(_table.SetAt(level)!.IdentityIndex);
+                    context.AppendToPath(_table.MapSetAt(level)!.IdentityIndex);
                 }
 
                 if (!isIdentity)
                 {
-                    record.AppendToPath(step.Index);
+                    context.AppendToPath(edge.MapIndex);
                 }
 
-                levels = below;
+                remainingLevels = childLevels;
             }
         }
 

@@ -7,73 +7,73 @@ namespace FractalEngine.Core.Collision;
 public sealed partial class FractalCollider
 {
     // Differs from §4.4.3: the paper goes on in one copy.
-    private bool FindWithBeam(Vector position, double within, QueryRecord record, out ClosestPoint closest)
+    private bool FindWithBeam(Vector position, double maxDistance, QueryContext context, out ClosestPoint closest)
     {
-        var (beam, face, squared, faceTests) = (record.Beam, -1, double.PositiveInfinity, 0L);
+        var (beam, closestFace, distanceSquared, faceTests) = (context.DescentBeam, -1, double.PositiveInfinity, 0L);
         if (_hasNoLevels)
         {
-            _faces.LookAtAll(position, ref squared, ref face, ref faceTests);
+            _baseBvh.TestAllTriangles(position, ref distanceSquared, ref closestFace, ref faceTests);
         }
 
-        beam.Begin(_width, new(AffineMap.Identity, position, 1, squared, face, -1));
+        beam.Begin(_beamWidth, new(AffineMap.Identity, position, 1, distanceSquared, closestFace, -1));
         foreach (var (set, rounds) in _levels)
         {
             for (var round = 0; round < rounds; round++)
             {
-                var goesOn = false;
+                var hasChildren = false;
                 for (var parent = 0; parent < beam.Entries.Count; parent++)
                 {
-                    goesOn |= OfferCopies(beam, parent, set, round > 0, position, ref faceTests);
+                    hasChildren |= OfferChildren(beam, parent, set, round > 0, position, ref faceTests);
                 }
 
-                beam.Descend(set, _isSimilar);
-                if (!goesOn)
+                beam.AdvanceLevel(set, _hasOnlySimilarities);
+                if (!hasChildren)
                 {
                     break;
                 }
             }
         }
 
-        record.FaceTests += faceTests;
-        if (beam.Entries.Count == 0 || beam.Entries[0].Face < 0)
+        context.FaceTests += faceTests;
+        if (beam.Entries.Count == 0 || beam.Entries[0].ClosestFace < 0)
         {
             closest = default;
             return false;
         }
 
-        beam.WritePath(record);
-        closest = FaceAnswer.Of(_base, beam.Entries[0].Face, beam.Entries[0].Map, position);
-        return closest.Distance <= within;
+        beam.WritePath(context);
+        closest = ClosestPointFactory.Create(_baseMesh, beam.Entries[0].ClosestFace, beam.Entries[0].Map, position);
+        return closest.Distance <= maxDistance;
     }
 
     /// <summary>False when the copy is too small for copies of its own, and goes on as it is.</summary>
-    private bool OfferCopies(DescentBeam beam, int parent, CopySet set, bool mayEnd, Vector position, ref long faceTests)
+    private bool OfferChildren(DescentBeam beam, int parent, MapSet set, bool canTerminate, Vector position, ref long faceTests)
     {
         var entry = beam.Entries[parent];
-        if (mayEnd && BoundingSphere.LengtheningBound(entry.Map.Linear) < Smallest)
+        if (canTerminate && BoundingSphere.OperatorNormBound(entry.Map.Linear) < MinScale)
         {
-            beam.Offer(entry.Squared, parent, -1, entry.Face);
+            beam.InsertIfCloser(entry.DistanceSquared, parent, -1, entry.ClosestFace);
             return false;
         }
 
-        for (var copy = 0; copy < set.Maps.Length; copy++)
+        for (var childIndex = 0; childIndex < set.Maps.Length; childIndex++)
         {
-            var (nearest, face) = (beam.Limit, -1);
-            if (_isSimilar)
+            var (distanceSquared, closestFace) = (beam.CutoffSquared, -1);
+            if (_hasOnlySimilarities)
             {
-                var scale = entry.ScaleSquared * set.ScaleSquared[copy];
-                nearest /= scale;
-                _faces.LookAtAll(set.Inverses[copy] * entry.Local, ref nearest, ref face, ref faceTests);
-                nearest *= scale;
+                var scaleSquared = entry.ScaleSquared * set.ScalesSquared[childIndex];
+                distanceSquared /= scaleSquared;
+                _baseBvh.TestAllTriangles(set.Inverses[childIndex] * entry.LocalPosition, ref distanceSquared, ref closestFace, ref faceTests);
+                distanceSquared *= scaleSquared;
             }
             else
             {
-                _faces.LookAtAllImages(position, entry.Map * set.Maps[copy], ref nearest, ref face, ref faceTests);
+                _baseBvh.TestAllTransformedTriangles(position, entry.Map * set.Maps[childIndex], ref distanceSquared, ref closestFace, ref faceTests);
             }
 
-            if (face >= 0)
+            if (closestFace >= 0)
             {
-                beam.Offer(nearest, parent, copy, face);
+                beam.InsertIfCloser(distanceSquared, parent, childIndex, closestFace);
             }
         }
 

@@ -16,49 +16,49 @@ namespace FractalEngine.Core.Collision;
 public sealed partial class FractalCollider : Collider
 {
     // A copy that is smaller than the last place of a coordinate has no parts that could be told apart.
-    private const double Smallest = 1e-15;
+    private const double MinScale = 1e-15;
 
-    private readonly List<(CopySet Set, int Rounds)> _levels = [];
-    private readonly bool _isSimilar;
-    private readonly Mesh _base;
-    private readonly FaceHierarchy _faces;
+    private readonly List<(MapSet Set, int Rounds)> _levels = [];
+    private readonly bool _hasOnlySimilarities;
+    private readonly Mesh _baseMesh;
+    private readonly TriangleBvh _baseBvh;
     private readonly bool _hasNoLevels;
-    private readonly int _width;
+    private readonly int _beamWidth;
 
     /// <summary>Prepares a fractal in affine composition.</summary>
     /// <param name="fractal">Of any depth.</param>
-    /// <param name="width">
+    /// <param name="beamWidth">
     /// In how many of the nearest copies of each level the search goes on: 1 is the paper's descent; more cost up to as many times as much and err less, but are not exact either.
     /// </param>
     /// <exception cref="ArgumentOutOfRangeException">The width is less than 1.</exception>
     /// <exception cref="ArgumentException">The fractal is composed componentwise.</exception>
     /// <exception cref="SingularMatrixException">A map flattens what it maps, as a scale of 0 does; fractal files with one are refused.</exception>
     /// <exception cref="FractalLimitException">A round, or the base object, has more than a million instances of its own.</exception>
-    public FractalCollider(Fractal fractal, int width = 1)
+    public FractalCollider(Fractal fractal, int beamWidth = 1)
     {
-        ArgumentOutOfRangeException.ThrowIfLessThan(width, 1);
+        ArgumentOutOfRangeException.ThrowIfLessThan(beamWidth, 1);
         if (fractal.Description.Composition != Composition.Affine)
         {
             throw new ArgumentException("expected affine composition: the descent follows maps", nameof(fractal));
         }
 
         var steps = fractal.Description.Steps;
-        var last = steps.Select((step, index) => step is Repetition ? index : -1).Append(-1).Max();
+        var lastRepetition = steps.Select((step, index) => step is Repetition ? index : -1).Append(-1).Max();
         // Without a recursion all sets are levels, over the base mesh itself.
-        var levels = last < 0 ? steps.Length : last + 1;
-        foreach (var step in steps[..levels])
+        var levelSteps = lastRepetition < 0 ? steps.Length : lastRepetition + 1;
+        foreach (var step in steps[..levelSteps])
         {
             _levels.Add(step is Repetition repetition
                 ? (new(Concatenate(repetition.Body)), repetition.Count ?? int.MaxValue)
                 : (new(Concatenate([step])), 1));
         }
 
-        var inner = Concatenate(steps[levels..]);
-        _base = inner is [var only] && only == AffineMap.Identity ? fractal.BaseMesh : FractalGenerator.Flatten(fractal.BaseMesh, [.. inner]);
-        _faces = new(_base);
-        _isSimilar = _levels.All(level => level.Set.AreSimilar);
+        var baseMaps = Concatenate(steps[levelSteps..]);
+        _baseMesh = baseMaps is [var only] && only == AffineMap.Identity ? fractal.BaseMesh : FractalGenerator.Flatten(fractal.BaseMesh, [.. baseMaps]);
+        _baseBvh = new(_baseMesh);
+        _hasOnlySimilarities = _levels.All(level => level.Set.AreSimilarities);
         _hasNoLevels = _levels.All(level => level.Rounds == 0);
-        _width = width;
+        _beamWidth = beamWidth;
     }
 
     /// <inheritdoc/>
@@ -66,83 +66,83 @@ public sealed partial class FractalCollider : Collider
 
     /// <inheritdoc/>
     public override long StorageBytes =>
-        _levels.Sum(level => level.Set.StorageBytes) + (sizeof(double) * (long)_base.Positions.Length) + (sizeof(int) * (long)_base.Faces.Length) + _faces.StorageBytes;
+        _levels.Sum(level => level.Set.StorageBytes) + (sizeof(double) * (long)_baseMesh.Positions.Length) + (sizeof(int) * (long)_baseMesh.VertexIndices.Length) + _baseBvh.StorageBytes;
 
     /// <inheritdoc/>
-    private protected override bool Find(Vector position, double within, double epsilon, QueryRecord record, out ClosestPoint closest)
+    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
     {
-        record.ClearPath();
-        if (_width > 1)
+        context.ClearPath();
+        if (_beamWidth > 1)
         {
-            return FindWithBeam(position, within, record, out closest);
+            return FindWithBeam(position, maxDistance, context, out closest);
         }
 
-        var (map, local, face) = (AffineMap.Identity, position, -1);
+        var (map, localPosition, closestFace) = (AffineMap.Identity, position, -1);
         var faceTests = 0L;
         if (_hasNoLevels)
         {
-            var squared = double.PositiveInfinity;
-            _faces.LookAtAll(position, ref squared, ref face, ref faceTests);
+            var distanceSquared = double.PositiveInfinity;
+            _baseBvh.TestAllTriangles(position, ref distanceSquared, ref closestFace, ref faceTests);
         }
 
         foreach (var (set, rounds) in _levels)
         {
-            for (var round = 0; round < rounds && !(round > 0 && BoundingSphere.LengtheningBound(map.Linear) < Smallest); round++)
+            for (var round = 0; round < rounds && !(round > 0 && BoundingSphere.OperatorNormBound(map.Linear) < MinScale); round++)
             {
-                var copy = NearestCopy(set, position, local, map, ref face, ref faceTests);
-                if (copy < 0)
+                var childIndex = ClosestChild(set, position, localPosition, map, ref closestFace, ref faceTests);
+                if (childIndex < 0)
                 {
-                    record.FaceTests += faceTests;
+                    context.FaceTests += faceTests;
                     closest = default;
                     return false;
                 }
 
-                map *= set.Maps[copy];
-                local = _isSimilar ? set.Inverses[copy] * local : local;
-                record.AppendToPath(copy);
+                map *= set.Maps[childIndex];
+                localPosition = _hasOnlySimilarities ? set.Inverses[childIndex] * localPosition : localPosition;
+                context.AppendToPath(childIndex);
             }
         }
 
-        record.FaceTests += faceTests;
-        closest = face < 0 ? default : FaceAnswer.Of(_base, face, map, position);
-        return face >= 0 && closest.Distance <= within;
+        context.FaceTests += faceTests;
+        closest = closestFace < 0 ? default : ClosestPointFactory.Create(_baseMesh, closestFace, map, position);
+        return closestFace >= 0 && closest.Distance <= maxDistance;
     }
 
     /// <summary>Looks at all faces of the base under each map of a set, and says under which the nearest is; −1 where there are no faces.</summary>
-    private int NearestCopy(CopySet set, Vector position, Vector local, in AffineMap map, ref int face, ref long faceTests)
+    private int ClosestChild(MapSet set, Vector position, Vector localPosition, in AffineMap map, ref int closestFace, ref long faceTests)
     {
-        var (nearest, nearestCopy) = (double.PositiveInfinity, -1);
-        for (var copy = 0; copy < set.Maps.Length; copy++)
+        var (closestDistanceSquared, closestChild) = (double.PositiveInfinity, -1);
+        for (var childIndex = 0; childIndex < set.Maps.Length; childIndex++)
         {
-            var nearestFace = -1;
+            var candidateFace = -1;
             // Where distances scale, the position goes into the copy's frame; else the base goes into the position's.
-            if (_isSimilar)
+            if (_hasOnlySimilarities)
             {
-                var squared = nearest / set.ScaleSquared[copy];
-                _faces.LookAtAll(set.Inverses[copy] * local, ref squared, ref nearestFace, ref faceTests);
-                nearest = nearestFace < 0 ? nearest : squared * set.ScaleSquared[copy];
+                var distanceSquared = closestDistanceSquared / set.ScalesSquared[childIndex];
+                _baseBvh.TestAllTriangles(set.Inverses[childIndex] * localPosition, ref distanceSquared, ref candidateFace, ref faceTests);
+                closestDistanceSquared = candidateFace < 0 ? closestDistanceSquared : distanceSquared * set.ScalesSquared[childIndex];
             }
             else
             {
-                _faces.LookAtAllImages(position, map * set.Maps[copy], ref nearest, ref nearestFace, ref faceTests);
+                _baseBvh.TestAllTransformedTriangles(position, map * set.Maps[childIndex], ref closestDistanceSquared, ref candidateFace, ref faceTests);
             }
 
-            if (nearestFace >= 0)
+            if (candidateFace >= 0)
             {
-                (nearestCopy, face) = (copy, nearestFace);
+                (closestChild, closestFace) = (childIndex, candidateFace);
             }
         }
 
-        return nearestCopy;
+        return closestChild;
     }
 
     /// <summary>All maps of some steps, one after the other, as one set.</summary>
     private static AffineMap[] Concatenate(ImmutableArray<FractalStep> steps)
     {
-        const int limit = 1_000_000;
-        if (!FractalSteps.HasAtMost(steps, limit))
+        const int maxMaps = 1_000_000;
+        if (!FractalSteps.HasAtMostInstances(steps, maxMaps))
         {
-            throw new FractalLimitException($"one level of the fractal, its sets concatenated, has more than {limit} transformations");
+            throw new FractalLimitException($"one level of the fractal, its sets concatenated, has more than {maxMaps} transformations");
         }
 
         AffineMap[] maps = [AffineMap.Identity];

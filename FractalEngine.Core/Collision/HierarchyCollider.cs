@@ -10,61 +10,61 @@ namespace FractalEngine.Core.Collision;
 /// <param name="mesh">Its tree is built here: O(n·log n), on all cores, and the same on any number of them.</param>
 public sealed class HierarchyCollider(Mesh mesh) : Collider
 {
-    private readonly FaceHierarchy _hierarchy = new(mesh);
+    private readonly TriangleBvh _bvh = new(mesh);
 
     /// <inheritdoc/>
     public override bool IsExact => true;
 
     /// <inheritdoc/>
-    public override long StorageBytes => _hierarchy.StorageBytes;
+    public override long StorageBytes => _bvh.StorageBytes;
 
     /// <inheritdoc/>
-    internal override bool FindsImages => true;
+    internal override bool SupportsTransformedQueries => true;
 
     /// <inheritdoc/>
-    internal override bool FindImage(Vector position, AffineMap map, double within, double epsilon, QueryRecord record, out ClosestPoint closest)
+    internal override bool FindClosestTransformed(Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
     {
-        var (nearestSquared, nearestFace, faceTests, boundTests) = (Limit(within), -1, 0L, 0L);
-        _hierarchy.SearchImage(position, in map, ref nearestSquared, ref nearestFace, (1 + epsilon) * (1 + epsilon), ref faceTests, ref boundTests);
-        if (nearestFace < 0 && NeedsExactness(within, epsilon))
+        var (closestDistanceSquared, closestFace, faceTests, boundTests) = (InitialCutoffSquared(maxDistance), -1, 0L, 0L);
+        _bvh.FindClosestTransformed(position, in map, ref closestDistanceSquared, ref closestFace, (1 + epsilon) * (1 + epsilon), ref faceTests, ref boundTests);
+        if (closestFace < 0 && NeedsExactRetry(maxDistance, epsilon))
         {
-            _hierarchy.SearchImage(position, in map, ref nearestSquared, ref nearestFace, 1, ref faceTests, ref boundTests);
+            _bvh.FindClosestTransformed(position, in map, ref closestDistanceSquared, ref closestFace, 1, ref faceTests, ref boundTests);
         }
 
-        Count(record, faceTests, boundTests);
-        closest = nearestFace < 0 ? default : FaceAnswer.Of(mesh, nearestFace, map, position);
-        return nearestFace >= 0 && closest.Distance <= within;
+        AddStatistics(context, faceTests, boundTests);
+        closest = closestFace < 0 ? default : ClosestPointFactory.Create(mesh, closestFace, map, position);
+        return closestFace >= 0 && closest.Distance <= maxDistance;
     }
 
     /// <inheritdoc/>
-    private protected override bool Find(Vector position, double within, double epsilon, QueryRecord record, out ClosestPoint closest)
+    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
     {
-        var (nearestSquared, nearestFace, faceTests, boundTests) = (Limit(within), -1, 0L, 0L);
-        _hierarchy.Search(position, ref nearestSquared, ref nearestFace, (1 + epsilon) * (1 + epsilon), ref faceTests, ref boundTests);
-        if (nearestFace < 0 && NeedsExactness(within, epsilon))
+        var (closestDistanceSquared, closestFace, faceTests, boundTests) = (InitialCutoffSquared(maxDistance), -1, 0L, 0L);
+        _bvh.FindClosest(position, ref closestDistanceSquared, ref closestFace, (1 + epsilon) * (1 + epsilon), ref faceTests, ref boundTests);
+        if (closestFace < 0 && NeedsExactRetry(maxDistance, epsilon))
         {
-            _hierarchy.Search(position, ref nearestSquared, ref nearestFace, 1, ref faceTests, ref boundTests);
+            _bvh.FindClosest(position, ref closestDistanceSquared, ref closestFace, 1, ref faceTests, ref boundTests);
         }
 
-        Count(record, faceTests, boundTests);
-        if (nearestFace < 0)
+        AddStatistics(context, faceTests, boundTests);
+        if (closestFace < 0)
         {
             closest = default;
             return false;
         }
 
-        var (a, b, c) = mesh.Face(nearestFace);
-        closest = FaceAnswer.Of(mesh, nearestFace, FaceKernel.ClosestPoint(position, a, b, c));
-        return closest.Distance <= within;
+        var (a, b, c) = mesh.Face(closestFace);
+        closest = ClosestPointFactory.Create(mesh, closestFace, TriangleKernel.ClosestPoint(position, a, b, c));
+        return closest.Distance <= maxDistance;
     }
 
     // The search excludes its limit, and squaring rounds: begin a little above, and compare the distance itself in the end.
-    private static double Limit(double within) => (within * within * (1 + 1e-15)) + double.Epsilon;
+    private static double InitialCutoffSquared(double maxDistance) => (maxDistance * maxDistance * (1 + 1e-15)) + double.Epsilon;
 
-    private static void Count(QueryRecord record, long faceTests, long boundTests)
+    private static void AddStatistics(QueryContext context, long faceTests, long boundTests)
     {
-        record.ClearPath();
-        record.FaceTests += faceTests;
-        record.BoundTests += boundTests;
+        context.ClearPath();
+        context.FaceTests += faceTests;
+        context.BoundTests += boundTests;
     }
 }

@@ -15,8 +15,8 @@ namespace FractalEngine.Core.Collision;
 /// </remarks>
 public sealed class SceneCollider
 {
-    private readonly ImmutableArray<Item> _items;
-    private readonly Dictionary<Model, Lazy<Collider>> _shared;
+    private readonly ImmutableArray<ColliderInstance> _instances;
+    private readonly Dictionary<Model, Lazy<Collider>> _sharedColliders;
     private readonly ColliderKind _kind;
 
     /// <summary>For a scene. Builds nothing yet.</summary>
@@ -25,32 +25,32 @@ public sealed class SceneCollider
     public SceneCollider(LoadedScene scene, ColliderKind kind = ColliderKind.Exact)
     {
         _kind = kind;
-        _shared = scene.Models.ToDictionary(model => model, model => new Lazy<Collider>(() => ColliderFactory.Create(model, kind)));
-        _items = [.. scene.Objects.Select(ItemOf)];
+        _sharedColliders = scene.Models.ToDictionary(model => model, model => new Lazy<Collider>(() => ColliderFactory.Create(model, kind)));
+        _instances = [.. scene.Objects.Select(CreateInstance)];
     }
 
-    private SceneCollider(ImmutableArray<Item> items, Dictionary<Model, Lazy<Collider>> shared, ColliderKind kind) => (_items, _shared, _kind) = (items, shared, kind);
+    private SceneCollider(ImmutableArray<ColliderInstance> instances, Dictionary<Model, Lazy<Collider>> sharedColliders, ColliderKind kind) => (_instances, _sharedColliders, _kind) = (instances, sharedColliders, kind);
 
     /// <summary>The same scene with one of its objects elsewhere. Colliders are shared; only the approximate ones of skewed objects are built anew.</summary>
     /// <param name="index">The object's place in the scene.</param>
     /// <param name="placed">The same model under another matrix.</param>
-    public SceneCollider WithObject(int index, PlacedModel placed) => new(_items.SetItem(index, ItemOf(placed)), _shared, _kind);
+    public SceneCollider WithObject(int index, PlacedModel placed) => new(_instances.SetItem(index, CreateInstance(placed)), _sharedColliders, _kind);
 
-    private Item ItemOf(PlacedModel placed) => Similarity.TryMake(placed.Map, out var similarity)
-        ? new(_shared[placed.Model], similarity, null, placed.Bounds)
-        : ColliderFactory.FindsImages(_kind)
-            ? new(_shared[placed.Model], Similarity.Identity, placed.Map, placed.Bounds)
+    private ColliderInstance CreateInstance(PlacedModel placed) => Similarity.TryCreate(placed.ObjectToWorld, out var similarity)
+        ? new(_sharedColliders[placed.Model], similarity, null, placed.Bounds)
+        : ColliderFactory.SupportsTransformedQueries(_kind)
+            ? new(_sharedColliders[placed.Model], Similarity.Identity, placed.ObjectToWorld, placed.Bounds)
             : new(new(() => ColliderFactory.Create(placed, _kind)), Similarity.Identity, null, placed.Bounds);
 
     /// <summary>Bytes of the colliders built so far, each once.</summary>
-    public long StorageBytes => _items.Select(item => item.Collider).Distinct().Where(collider => collider.IsValueCreated).Sum(collider => collider.Value.StorageBytes);
+    public long StorageBytes => _instances.Select(instance => instance.Collider).Distinct().Where(collider => collider.IsValueCreated).Sum(collider => collider.Value.StorageBytes);
 
     /// <summary>How many colliders there are, and how many of them have been built.</summary>
-    public (int Built, int All) Counts
+    public (int Built, int All) ColliderCounts
     {
         get
         {
-            var colliders = _items.Select(item => item.Collider).Distinct().ToArray();
+            var colliders = _instances.Select(instance => instance.Collider).Distinct().ToArray();
             return (colliders.Count(static collider => collider.IsValueCreated), colliders.Length);
         }
     }
@@ -58,75 +58,75 @@ public sealed class SceneCollider
     /// <summary>Builds all colliders now instead of at their first query.</summary>
     public void Build()
     {
-        foreach (var item in _items)
+        foreach (var instance in _instances)
         {
-            _ = item.Collider.Value;
+            _ = instance.Collider.Value;
         }
     }
 
     /// <summary>Finds the nearest point of all objects.</summary>
     /// <param name="position">World space, finite.</param>
-    /// <param name="within">Nothing farther away is looked at; may be infinite.</param>
-    /// <param name="record">Receives the costs and the instance.</param>
+    /// <param name="maxDistance">Nothing farther away is looked at; may be infinite.</param>
+    /// <param name="context">Receives the costs and the instance.</param>
     /// <param name="closest">The answer in world space, if there is one.</param>
     /// <param name="objectIndex">The number of the object in the scene, −1 for none.</param>
-    /// <param name="except">An object that is not looked at, such as the one that asks; −1 for none.</param>
+    /// <param name="excludedObject">An object that is not looked at, such as the one that asks; −1 for none.</param>
     /// <param name="epsilon">See <see cref="Collider.TryFindClosest"/>.</param>
     /// <returns>False when nothing lies within the distance.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the distance or ε is negative or NaN.</exception>
     public bool TryFindClosest(
-        Vector position, double within, QueryRecord record, out ClosestPoint closest, out int objectIndex, int except = -1, double epsilon = 0)
+        Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, out int objectIndex, int excludedObject = -1, double epsilon = 0)
     {
-        Collider.Check(position, within, epsilon);
+        Collider.ThrowIfInvalid(position, maxDistance, epsilon);
         (closest, objectIndex) = (default, -1);
-        var bounds = record.ObjectBounds(_items.Length);
-        for (var i = 0; i < _items.Length; i++)
+        var boundDistances = context.ObjectBoundsBuffer(_instances.Length);
+        for (var i = 0; i < _instances.Length; i++)
         {
-            bounds[i] = i == except ? double.PositiveInfinity : Math.Sqrt(_items[i].Bounds.DistanceSquared(position));
+            boundDistances[i] = i == excludedObject ? double.PositiveInfinity : Math.Sqrt(_instances[i].Bounds.DistanceSquared(position));
         }
 
-        record.BoundTests += _items.Length;
-        for (var left = _items.Length; left > 0; left--)
+        context.BoundTests += _instances.Length;
+        for (var remaining = _instances.Length; remaining > 0; remaining--)
         {
-            var nearest = 0;
-            for (var i = 1; i < bounds.Length; i++)
+            var nextObject = 0;
+            for (var i = 1; i < boundDistances.Length; i++)
             {
-                nearest = bounds[i] < bounds[nearest] ? i : nearest;
+                nextObject = boundDistances[i] < boundDistances[nextObject] ? i : nextObject;
             }
 
-            if (!(bounds[nearest] * (objectIndex < 0 ? 1 : 1 + epsilon) <= within) || double.IsPositiveInfinity(bounds[nearest]))
+            if (!(boundDistances[nextObject] * (objectIndex < 0 ? 1 : 1 + epsilon) <= maxDistance) || double.IsPositiveInfinity(boundDistances[nextObject]))
             {
                 break;
             }
 
-            bounds[nearest] = double.PositiveInfinity;
-            if (_items[nearest].TryFind(position, within, record, out var found, epsilon) && (objectIndex < 0 || found.Distance < closest.Distance))
+            boundDistances[nextObject] = double.PositiveInfinity;
+            if (_instances[nextObject].TryFindClosest(position, maxDistance, context, out var candidate, epsilon) && (objectIndex < 0 || candidate.Distance < closest.Distance))
             {
-                (closest, objectIndex, within) = (found, nearest, Math.Min(within, found.Distance));
-                record.KeepPath();
+                (closest, objectIndex, maxDistance) = (candidate, nextObject, Math.Min(maxDistance, candidate.Distance));
+                context.SavePath();
             }
         }
 
-        record.RestorePath();
+        context.RestorePath();
         return objectIndex >= 0;
     }
 
     /// <summary>An object.</summary>
     /// <param name="Collider">In the frame of its model.</param>
     /// <param name="Similarity">From that frame to world space.</param>
-    /// <param name="Skewing">Instead of the similarity, where the object's matrix is none.</param>
+    /// <param name="GeneralMap">Instead of the similarity, where the object's matrix is none.</param>
     /// <param name="Bounds">In world space.</param>
-    private sealed record Item(Lazy<Collider> Collider, Similarity Similarity, AffineMap? Skewing, BoundingBox Bounds)
+    private sealed record ColliderInstance(Lazy<Collider> Collider, Similarity Similarity, AffineMap? GeneralMap, BoundingBox Bounds)
     {
-        public bool TryFind(Vector position, double within, QueryRecord record, out ClosestPoint found, double epsilon)
+        public bool TryFindClosest(Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, double epsilon)
         {
-            if (Skewing is { } map)
+            if (GeneralMap is { } map)
             {
-                return Collider.Value.FindImage(position, map, within, epsilon, record, out found);
+                return Collider.Value.FindClosestTransformed(position, map, maxDistance, epsilon, context, out closest);
             }
 
-            var isFound = Collider.Value.TryFindClosest(Similarity.ToLocal(position), within / Similarity.Scale, record, out var local, epsilon);
-            found = isFound ? Similarity.ToWorld(local) : default;
+            var isFound = Collider.Value.TryFindClosest(Similarity.ToLocal(position), maxDistance / Similarity.Scale, context, out var localClosest, epsilon);
+            closest = isFound ? Similarity.ToWorld(localClosest) : default;
             return isFound;
         }
     }

@@ -14,21 +14,21 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
     public static Similarity Identity { get; } = new(AffineMap.Identity, AffineMap.Identity, 1);
 
     /// <summary>True for the linear parts of similarities.</summary>
-    public static bool IsSimilar(Matrix m)
+    public static bool IsSimilarity(Matrix m)
     {
-        var square = m.V1.LengthSquared();
-        var tolerance = Tolerance * square;
-        return Math.Abs(m.V2.LengthSquared() - square) <= tolerance && Math.Abs(m.V3.LengthSquared() - square) <= tolerance
+        var scaleSquared = m.V1.LengthSquared();
+        var tolerance = Tolerance * scaleSquared;
+        return Math.Abs(m.V2.LengthSquared() - scaleSquared) <= tolerance && Math.Abs(m.V3.LengthSquared() - scaleSquared) <= tolerance
             && Math.Abs(Vector.Dot(m.V1, m.V2)) <= tolerance && Math.Abs(Vector.Dot(m.V1, m.V3)) <= tolerance
             && Math.Abs(Vector.Dot(m.V2, m.V3)) <= tolerance;
     }
 
     /// <summary>False for maps that do not keep distances in proportion.</summary>
-    public static bool TryMake(AffineMap map, out Similarity similarity)
+    public static bool TryCreate(AffineMap map, out Similarity similarity)
     {
-        var isSimilar = IsSimilar(map.Linear);
-        similarity = isSimilar ? new(map, map.Inverse(), map.Linear.V1.Length()) : Identity;
-        return isSimilar;
+        var isSimilarity = IsSimilarity(map.Linear);
+        similarity = isSimilarity ? new(map, map.Inverse(), map.Linear.V1.Length()) : Identity;
+        return isSimilarity;
     }
 
     /// <summary>A position of the world in the local frame.</summary>

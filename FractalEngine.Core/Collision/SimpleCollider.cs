@@ -13,42 +13,42 @@ public sealed class SimpleCollider(Mesh mesh) : Collider
     public override long StorageBytes => 0;
 
     /// <inheritdoc/>
-    internal override bool FindsImages => true;
+    internal override bool SupportsTransformedQueries => true;
 
     /// <inheritdoc/>
-    internal override bool FindImage(Vector position, AffineMap map, double within, double epsilon, QueryRecord record, out ClosestPoint closest)
+    internal override bool FindClosestTransformed(Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
     {
-        record.ClearPath();
-        record.FaceTests += mesh.FaceCount;
-        var (nearest, nearestFace) = (double.PositiveInfinity, -1);
+        context.ClearPath();
+        context.FaceTests += mesh.FaceCount;
+        var (closestDistanceSquared, closestFace) = (double.PositiveInfinity, -1);
         for (var face = 0; face < mesh.FaceCount; face++)
         {
             var (a, b, c) = mesh.Face(face);
-            var squared = FaceKernel.ClosestPoint(position, map * a, map * b, map * c).DistanceSquared;
-            (nearest, nearestFace) = squared < nearest ? (squared, face) : (nearest, nearestFace);
+            var distanceSquared = TriangleKernel.ClosestPoint(position, map * a, map * b, map * c).DistanceSquared;
+            (closestDistanceSquared, closestFace) = distanceSquared < closestDistanceSquared ? (distanceSquared, face) : (closestDistanceSquared, closestFace);
         }
 
-        closest = nearestFace < 0 ? default : FaceAnswer.Of(mesh, nearestFace, map, position);
-        return nearestFace >= 0 && closest.Distance <= within;
+        closest = closestFace < 0 ? default : ClosestPointFactory.Create(mesh, closestFace, map, position);
+        return closestFace >= 0 && closest.Distance <= maxDistance;
     }
 
     /// <inheritdoc/>
-    private protected override bool Find(Vector position, double within, double epsilon, QueryRecord record, out ClosestPoint closest)
+    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
     {
-        record.ClearPath();
-        record.FaceTests += mesh.FaceCount;
-        var (nearest, nearestFace) = (default(FacePoint), -1);
+        context.ClearPath();
+        context.FaceTests += mesh.FaceCount;
+        var (closestPoint, closestFace) = (default(TrianglePoint), -1);
         for (var face = 0; face < mesh.FaceCount; face++)
         {
             var (a, b, c) = mesh.Face(face);
-            var point = FaceKernel.ClosestPoint(position, a, b, c);
-            if (nearestFace < 0 || point.DistanceSquared < nearest.DistanceSquared)
+            var point = TriangleKernel.ClosestPoint(position, a, b, c);
+            if (closestFace < 0 || point.DistanceSquared < closestPoint.DistanceSquared)
             {
-                (nearest, nearestFace) = (point, face);
+                (closestPoint, closestFace) = (point, face);
             }
         }
 
-        closest = nearestFace < 0 ? default : FaceAnswer.Of(mesh, nearestFace, nearest);
-        return nearestFace >= 0 && closest.Distance <= within;
+        closest = closestFace < 0 ? default : ClosestPointFactory.Create(mesh, closestFace, closestPoint);
+        return closestFace >= 0 && closest.Distance <= maxDistance;
     }
 }

@@ -12,60 +12,60 @@ internal sealed class SubFractal
     public const int Lanes = 4;
 
     /// <summary>Numbers kept for each copy: a box.</summary>
-    private const int Rows = 6;
+    private const int ValuesPerChild = 6;
 
-    private static readonly Vector Nowhere = 1e300 * Vector.One;
+    private static readonly Vector FarAwayPoint = 1e300 * Vector.One;
 
     private readonly Vector256<double> _halfSize;
 
     /// <summary>For a level.</summary>
     /// <param name="set">The set of the level; null for the base.</param>
-    /// <param name="copies">The copies it makes.</param>
-    /// <param name="boxes">Around the copies, in this frame.</param>
-    /// <param name="outline">Of everything.</param>
+    /// <param name="children">The copies it makes.</param>
+    /// <param name="childBoxes">Around the copies, in this frame.</param>
+    /// <param name="boundingVolume">Of everything.</param>
     /// <param name="baseBox">Of the base mesh.</param>
     /// <param name="hull">Of everything, if that is a bound better than the box.</param>
-    /// <param name="solid">The hull of what the first copy is of.</param>
-    public SubFractal(CopySet? set, Copy[] copies, ReadOnlySpan<BoundingBox> boxes, Outline outline, BoundingBox baseBox, HullBound? hull, HullBound? solid)
+    /// <param name="childHull">The hull of what the first copy is of.</param>
+    public SubFractal(MapSet? set, ChildInstance[] children, ReadOnlySpan<BoundingBox> childBoxes, BoundingVolume boundingVolume, BoundingBox baseBox, HullBound? hull, HullBound? childHull)
     {
-        (Set, Copies, Box, Centre, Hull) = (set, copies, outline.Box, AffineLanes.Of(outline.Box.Centre), hull);
-        _halfSize = AffineLanes.Of(0.5 * outline.Box.Size);
-        Padded = (copies.Length + Lanes - 1) / Lanes * Lanes;
-        Bounds = new double[Rows * Padded];
-        for (var i = 0; i < Padded; i++)
+        (Set, Children, Box, Centre, Hull) = (set, children, boundingVolume.Box, SimdAffineMap.ToVector256(boundingVolume.Box.Centre), hull);
+        _halfSize = SimdAffineMap.ToVector256(0.5 * boundingVolume.Box.Size);
+        PaddedCount = (children.Length + Lanes - 1) / Lanes * Lanes;
+        ChildBounds = new double[ValuesPerChild * PaddedCount];
+        for (var i = 0; i < PaddedCount; i++)
         {
             // What stands for no copy has no centre near anything.
-            var (x, y, z) = i < boxes.Length && !boxes[i].IsEmpty ? boxes[i].Centre : Nowhere;
-            var (halfX, halfY, halfZ) = i < boxes.Length ? 0.5 * boxes[i].Size : Vector.Zero;
+            var (x, y, z) = i < childBoxes.Length && !childBoxes[i].IsEmpty ? childBoxes[i].Centre : FarAwayPoint;
+            var (halfX, halfY, halfZ) = i < childBoxes.Length ? 0.5 * childBoxes[i].Size : Vector.Zero;
             ReadOnlySpan<double> rows = [x, y, z, halfX, halfY, halfZ];
-            for (var row = 0; row < Rows; row++)
+            for (var row = 0; row < ValuesPerChild; row++)
             {
-                Bounds[(row * Padded) + i] = rows[row];
+                ChildBounds[(row * PaddedCount) + i] = rows[row];
             }
         }
 
-        AreTurned = !CopyShifts.AreNone(copies);
-        Shifts = copies.Length > 0 ? CopyShifts.Of(solid, copies, Padded) : null;
+        HasRotatedChildren = !UnrotatedChildBounds.HasNoRotation(children);
+        UnrotatedBounds = children.Length > 0 ? UnrotatedChildBounds.CreateOrNull(childHull, children, PaddedCount) : null;
         RadiusSquared = 0.25 * BoundingBox.Union(Box, baseBox).Size.LengthSquared();
     }
 
     /// <summary>The set of this level; null for the base.</summary>
-    public CopySet? Set { get; }
+    public MapSet? Set { get; }
 
     /// <summary>What the level copies.</summary>
-    public Copy[] Copies { get; }
+    public ChildInstance[] Children { get; }
 
     /// <summary>The number of boxes, padding included.</summary>
-    public int Padded { get; }
+    public int PaddedCount { get; }
 
-    /// <summary>Boxes around the copies, [6 × <see cref="Padded"/>]: x, y, z of their centres, then of half their sizes.</summary>
-    public double[] Bounds { get; }
+    /// <summary>Boxes around the copies, [6 × <see cref="PaddedCount"/>]: x, y, z of their centres, then of half their sizes.</summary>
+    public double[] ChildBounds { get; }
 
     /// <summary>Bounds of all copies together; null where they are not alike.</summary>
-    public CopyShifts? Shifts { get; }
+    public UnrotatedChildBounds? UnrotatedBounds { get; }
 
     /// <summary>False where each copy's box is that of its sub-fractal, moved and scaled.</summary>
-    public bool AreTurned { get; }
+    public bool HasRotatedChildren { get; }
 
     /// <summary>Around everything, in this frame.</summary>
     public BoundingBox Box { get; }
@@ -81,7 +81,7 @@ internal sealed class SubFractal
 
     /// <summary>The squared distance of a position from the box.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public double DistanceSquared(Vector256<double> position)
+    public double BoxDistanceSquared(Vector256<double> position)
     {
         var outside = Vector256.MaxNative(Vector256.Abs(position - Centre) - _halfSize, Vector256<double>.Zero);
         return Vector256.Dot(outside, outside);
@@ -89,12 +89,12 @@ internal sealed class SubFractal
 
     /// <summary>The squared distance of a position from a box around the image of the box.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public double ImageDistanceSquared(Vector256<double> position, in AffineLanes map)
+    public double TransformedBoxDistanceSquared(Vector256<double> position, in SimdAffineMap map)
     {
-        var outside = Vector256.MaxNative(Vector256.Abs(position - map.Apply(Centre)) - map.HalfSizeOf(_halfSize), Vector256<double>.Zero);
+        var outside = Vector256.MaxNative(Vector256.Abs(position - map.Apply(Centre)) - map.TransformHalfSize(_halfSize), Vector256<double>.Zero);
         return Vector256.Dot(outside, outside);
     }
 
     /// <summary>Bytes of the arrays.</summary>
-    public long StorageBytes => (sizeof(double) * Bounds.Length) + (Shifts?.StorageBytes ?? 0) + (Copies.Length * 24) + (Hull?.StorageBytes ?? 0) + 160;
+    public long StorageBytes => (sizeof(double) * ChildBounds.Length) + (UnrotatedBounds?.StorageBytes ?? 0) + (Children.Length * 24) + (Hull?.StorageBytes ?? 0) + 160;
 }

@@ -8,18 +8,18 @@ namespace FractalEngine.Core.Collision;
 /// </summary>
 internal sealed class SubFractalTable
 {
-    private readonly SubFractal?[] _states;
-    private readonly CopySet?[] _sets;
-    private readonly StateRegion[] _regions;
+    private readonly SubFractal?[] _subFractals;
+    private readonly MapSet?[] _mapSets;
+    private readonly LevelRegion[] _regions;
 
     private SubFractalTable(SubFractalBuilder builder)
     {
         (_regions, Levels) = ([.. builder.Regions], builder.Levels);
-        var isReached = Reached(builder.States);
+        var isReachable = FindReachable(builder.SubFractals);
         // Levels that are only passed on the way to others, several at once, are never looked at.
-        _states = [.. builder.States.Select((state, i) => isReached[i] ? state : null)];
-        _sets = [.. builder.States.Select(state => state.Set)];
-        AreSimilar = builder.AreSimilar;
+        _subFractals = [.. builder.SubFractals.Select((subFractal, i) => isReachable[i] ? subFractal : null)];
+        _mapSets = [.. builder.SubFractals.Select(subFractal => subFractal.Set)];
+        HasOnlySimilarities = builder.HasOnlySimilarities;
         Root = At(Levels);
         RadiusSquared = 0.25 * Root.Box.Size.LengthSquared();
     }
@@ -34,39 +34,39 @@ internal sealed class SubFractalTable
     public double RadiusSquared { get; }
 
     /// <summary>True when all maps are multiples of rotations and mirrors, so that distances scale with them.</summary>
-    public bool AreSimilar { get; }
+    public bool HasOnlySimilarities { get; }
 
     /// <summary>Bytes of all that is kept.</summary>
-    public long StorageBytes => _states.Sum(state => state?.StorageBytes ?? 0)
-        + _states.SelectMany(state => state?.Copies ?? []).Distinct().Sum(copy => copy.StorageBytes)
-        + _sets.Distinct().Sum(set => set?.StorageBytes ?? 0) + (16 * (long)_states.Length);
+    public long StorageBytes => _subFractals.Sum(subFractal => subFractal?.StorageBytes ?? 0)
+        + _subFractals.SelectMany(subFractal => subFractal?.Children ?? []).Distinct().Sum(child => child.StorageBytes)
+        + _mapSets.Distinct().Sum(set => set?.StorageBytes ?? 0) + (16 * (long)_subFractals.Length);
 
     /// <summary>The table of a fractal in affine composition.</summary>
     /// <exception cref="FractalLimitException">Bounds overflow a double, or don't settle; the message names the level.</exception>
-    public static SubFractalTable Of(Fractal fractal)
+    public static SubFractalTable Build(Fractal fractal)
     {
         var builder = new SubFractalBuilder(fractal);
-        builder.AddAll();
+        builder.AddAllSteps();
         return new(builder);
     }
 
     /// <summary>The sub-fractal with so many levels left.</summary>
-    public SubFractal At(long levels) => _states[StateRegion.Find(_regions, levels)]!;
+    public SubFractal At(long levels) => _subFractals[LevelRegion.FindIndex(_regions, levels)]!;
 
     /// <summary>The set on top of the sub-fractal with so many levels left, which may be one that is never looked at; null for the base.</summary>
-    public CopySet? SetAt(long levels) => _sets[StateRegion.Find(_regions, levels)];
+    public MapSet? MapSetAt(long levels) => _mapSets[LevelRegion.FindIndex(_regions, levels)];
 
     /// <summary>Which states a search can come to; all, where finding that out would take long.</summary>
-    private bool[] Reached(IReadOnlyList<SubFractal> states)
+    private bool[] FindReachable(IReadOnlyList<SubFractal> subFractals)
     {
-        const int longest = 256;
-        var isReached = new bool[states.Count];
+        const int maxChainLength = 256;
+        var isReachable = new bool[subFractals.Count];
         var (seen, next) = (new HashSet<long>(), new HashSet<long> { Levels });
-        for (var copies = 0; next.Count > 0; copies++)
+        for (var chainLength = 0; next.Count > 0; chainLength++)
         {
-            if (copies == longest)
+            if (chainLength == maxChainLength)
             {
-                Array.Fill(isReached, true);
+                Array.Fill(isReachable, true);
                 break;
             }
 
@@ -74,34 +74,34 @@ internal sealed class SubFractalTable
             next.Clear();
             foreach (var level in levels)
             {
-                var state = StateRegion.Find(_regions, level);
-                isReached[state] = true;
-                next.UnionWith(states[state].Copies.Select(copy => copy.LevelsLeft(level)));
+                var index = LevelRegion.FindIndex(_regions, level);
+                isReachable[index] = true;
+                next.UnionWith(subFractals[index].Children.Select(child => child.RemainingLevels(level)));
             }
         }
 
-        return isReached;
+        return isReachable;
     }
 }
 
-/// <summary>Levels from <paramref name="First"/> on, whose states repeat with a period.</summary>
-/// <param name="First">Levels left in the first.</param>
-/// <param name="Count">Of levels.</param>
-/// <param name="State">The number of the first one's state.</param>
+/// <summary>Levels from <paramref name="FirstLevel"/> on, whose states repeat with a period.</summary>
+/// <param name="FirstLevel">Levels left in the first.</param>
+/// <param name="LevelCount">Of levels.</param>
+/// <param name="FirstIndex">The number of the first one's state.</param>
 /// <param name="Period">After so many levels the states are the same again.</param>
-internal readonly record struct StateRegion(long First, long Count, int State, int Period)
+internal readonly record struct LevelRegion(long FirstLevel, long LevelCount, int FirstIndex, int Period)
 {
     /// <summary>The number of a level's state.</summary>
-    public static int Find(ReadOnlySpan<StateRegion> regions, long levels)
+    public static int FindIndex(ReadOnlySpan<LevelRegion> regions, long levels)
     {
         // Most searches are in the outermost one.
         for (var i = regions.Length - 1; i >= 0; i--)
         {
             ref readonly var region = ref regions[i];
-            var offset = levels - region.First;
-            if (offset >= 0 && offset < region.Count)
+            var offset = levels - region.FirstLevel;
+            if (offset >= 0 && offset < region.LevelCount)
             {
-                return region.State + (int)(offset < region.Period ? offset : region.Period == 1 ? 0 : offset % region.Period);
+                return region.FirstIndex + (int)(offset < region.Period ? offset : region.Period == 1 ? 0 : offset % region.Period);
             }
         }
 

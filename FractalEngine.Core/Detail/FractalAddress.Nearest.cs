@@ -8,45 +8,45 @@ public sealed partial class FractalAddress
     /// <summary>
     /// About how far the nearest surface is, in the present unit: to a tenth, unless more than some thousand parts are about as near. To the box of the base mesh, where that is near.
     /// </summary>
-    public double NearestDistance()
+    public double ClosestSurfaceDistance()
     {
         // Asked for several times a picture; it changes with the place only.
-        if (_nearest is { } known)
+        if (_closestDistance is { } cached)
         {
-            return known;
+            return cached;
         }
 
-        var state = State;
-        var distance = state.Maps.Length == 0 ? Distance(state.Box.Transform(_about), Vector.Zero) : FindNearest(Fine, out _, out _);
+        var node = CurrentNode;
+        var distance = node.ChildMaps.Length == 0 ? DistanceToBox(node.Box.Transform(_frameToCamera), Vector.Zero) : FindClosestNode(RelativeDistanceTolerance, out _, out _);
         // Among parts that are never far, as in a solid: the scale of what is around.
-        _nearest = Math.Max(distance, 1e-3 * state.Box.Transform(_about).Diagonal);
-        return _nearest.Value;
+        _closestDistance = Math.Max(distance, 1e-3 * node.Box.Transform(_frameToCamera).Diagonal);
+        return _closestDistance.Value;
     }
 
     /// <summary>
     /// Where copies overlap, what is nearest may be in another one than that which the camera is in, and far smaller than it: then the camera is told relative to that one.
     /// </summary>
-    private void Change()
+    private void SwitchFrame()
     {
-        if (FindNearest(1, out var up, out var node) > Small * State.Box.Transform(_about).Diagonal || node < 0)
+        if (FindClosestNode(1, out var levelsUp, out var node) > SwitchDistanceRatio * CurrentNode.Box.Transform(_frameToCamera).Diagonal || node < 0)
         {
             return;
         }
 
-        var down = new List<int>();
-        for (; _nodes[node].Parent >= 0; node = _nodes[node].Parent)
+        var childPath = new List<int>();
+        for (; _searchNodes[node].Parent >= 0; node = _searchNodes[node].Parent)
         {
-            down.Insert(0, _nodes[node].Child);
+            childPath.Insert(0, _searchNodes[node].Child);
         }
 
-        for (; up > 0; up--)
+        for (; levelsUp > 0; levelsUp--)
         {
             Leave();
         }
 
-        foreach (var child in down)
+        foreach (var child in childPath)
         {
-            if (_table.At(Below(_levels[^1], State.Downs[child])).Maps.Length == 0 || !TryEnter(child))
+            if (_hierarchy.NodeAt(ChildRemainingLevels(_remainingLevels[^1], CurrentNode.ChildLevelSteps[child])).ChildMaps.Length == 0 || !TryEnter(child))
             {
                 break;
             }
@@ -54,59 +54,59 @@ public sealed partial class FractalAddress
     }
 
     /// <summary>Finds a part that is small compared with how near it is.</summary>
-    /// <param name="fine">What counts as small, as a part of the distance.</param>
-    /// <param name="up">How many copies to leave to come there.</param>
-    /// <param name="node">Its number among <see cref="_nodes"/>, which lead back to what was left for it; −1 for none.</param>
+    /// <param name="relativeTolerance">What counts as small, as a part of the distance.</param>
+    /// <param name="levelsUp">How many copies to leave to come there.</param>
+    /// <param name="node">Its number among <see cref="_searchNodes"/>, which lead back to what was left for it; −1 for none.</param>
     /// <returns>Its distance.</returns>
-    private double FindNearest(double fine, out int up, out int node)
+    private double FindClosestNode(double relativeTolerance, out int levelsUp, out int node)
     {
-        _nodes.Clear();
+        _searchNodes.Clear();
         _open.Clear();
-        var map = _about;
-        for (var i = _path.Count; i >= Math.Max(0, _path.Count - NearAncestors); i--)
+        var map = _frameToCamera;
+        for (var i = _path.Count; i >= Math.Max(0, _path.Count - MaxSearchedAncestors); i--)
         {
             // What was left is a part of what it was left for, and would be met twice.
-            var left = i == _path.Count ? -1 : _path[i];
-            map = i == _path.Count ? map : map * _table.At(_levels[i]).Maps[_path[i]].ToMap().Inverse();
-            if (!map.IsFinite() || map.Linear.MaximumEntry() > Outermost)
+            var excludedChild = i == _path.Count ? -1 : _path[i];
+            map = i == _path.Count ? map : map * _hierarchy.NodeAt(_remainingLevels[i]).ChildMaps[_path[i]].ToAffineMap().Inverse();
+            if (!map.IsFinite() || map.Linear.MaxAbsEntry() > MaxFrameScale)
             {
                 break;
             }
 
-            _nodes.Add((-1, -1, _levels[i], map));
-            Open(_path.Count - i, _nodes.Count - 1, left);
+            _searchNodes.Add((-1, -1, _remainingLevels[i], map));
+            ExpandNode(_path.Count - i, _searchNodes.Count - 1, excludedChild);
         }
 
-        var (nearest, found) = (0.0, (Up: 0, Node: -1));
-        for (var parts = 0; parts < MostParts && _open.TryDequeue(out found, out nearest); parts++)
+        var (closestDistance, found) = (0.0, (Up: 0, Node: -1));
+        for (var expandedCount = 0; expandedCount < MaxExpandedNodes && _open.TryDequeue(out found, out closestDistance); expandedCount++)
         {
-            var (_, _, levels, place) = _nodes[found.Node];
-            var state = _table.At(levels);
-            if (state.Maps.Length == 0 || state.Box.Transform(place).Diagonal <= fine * nearest)
+            var (_, _, remainingLevels, nodeToCamera) = _searchNodes[found.Node];
+            var lodNode = _hierarchy.NodeAt(remainingLevels);
+            if (lodNode.ChildMaps.Length == 0 || lodNode.Box.Transform(nodeToCamera).Diagonal <= relativeTolerance * closestDistance)
             {
                 break;
             }
 
-            Open(found.Up, found.Node, -1);
+            ExpandNode(found.Up, found.Node, -1);
         }
 
-        (up, node) = found;
-        return nearest;
+        (levelsUp, node) = found;
+        return closestDistance;
     }
 
     /// <summary>Puts the copies of a part into the queue, but for the one that was left.</summary>
-    private void Open(int up, int parent, int left)
+    private void ExpandNode(int levelsUp, int parent, int excludedChild)
     {
-        var (_, _, levels, map) = _nodes[parent];
-        var state = _table.At(levels);
-        for (var child = 0; child < state.Maps.Length; child++)
+        var (_, _, remainingLevels, map) = _searchNodes[parent];
+        var node = _hierarchy.NodeAt(remainingLevels);
+        for (var child = 0; child < node.ChildMaps.Length; child++)
         {
-            var below = Below(levels, state.Downs[child]);
-            if (child != left && !_table.At(below).IsEmpty)
+            var childLevels = ChildRemainingLevels(remainingLevels, node.ChildLevelSteps[child]);
+            if (child != excludedChild && !_hierarchy.NodeAt(childLevels).IsEmpty)
             {
-                var childMap = map * state.Maps[child].ToMap();
-                _nodes.Add((parent, child, below, childMap));
-                _open.Enqueue((up, _nodes.Count - 1), Distance(_table.At(below).Box.Transform(childMap), Vector.Zero));
+                var childMap = map * node.ChildMaps[child].ToAffineMap();
+                _searchNodes.Add((parent, child, childLevels, childMap));
+                _open.Enqueue((levelsUp, _searchNodes.Count - 1), DistanceToBox(_hierarchy.NodeAt(childLevels).Box.Transform(childMap), Vector.Zero));
             }
         }
     }

@@ -7,77 +7,77 @@ namespace FractalEngine.Core.Detail;
 public sealed class VisibleSet
 {
     // A number that does not depend on the machine, so that neither does the result.
-    private const int Strips = 8;
+    private const int StripCount = 8;
     // Steps are three times as long from the fifth on: what is far from fitting takes long to look at.
-    private const double Coarsening = 1.5;
-    private const int FineSteps = 4;
+    private const double CoarseningFactor = 1.5;
+    private const int FineStepCount = 4;
 
-    private readonly StripSearch[] _strips = new StripSearch[Strips];
-    private readonly InstanceRows _shared = new(hasPaths: false);
-    private readonly HashSet<(int, ulong)> _seen = [];
-    private readonly ParallelOptions _parallel = new();
-    private readonly Action<int> _fillStrip;
-    private int _coarsening;
+    private readonly StripCuller[] _strips = new StripCuller[StripCount];
+    private readonly InstanceRows _sharedInstances = new(hasPathHashes: false);
+    private readonly HashSet<(int, ulong)> _mergedKeys = [];
+    private readonly ParallelOptions _parallelOptions = new();
+    private readonly Action<int> _cullStrip;
+    private int _coarseningStep;
     private int[] _order = [];
-    private double[] _keys = [];
-    private int[] _ends = [];
-    private int[] _sharedEnds = [];
+    private double[] _sortKeys = [];
+    private int[] _instanceEnds = [];
+    private int[] _sharedInstanceEnds = [];
     private int[] _mergedEnds = [];
-    private bool[] _isCut = [];
-    private IReadOnlyList<DetailObject> _objects = [];
-    private DetailSettings _settings = new();
-    private DetailView _view;
-    private int _budget;
+    private bool[] _isNearClipped = [];
+    private IReadOnlyList<CulledObject> _objects = [];
+    private CullingSettings _settings = new();
+    private CullingView _view;
+    private int _instanceBudget;
     private volatile bool _isOverBudget;
-    private int _found;
+    private int _foundCount;
 
     /// <summary>An empty set.</summary>
     public VisibleSet()
     {
-        for (var i = 0; i < Strips; i++)
+        for (var i = 0; i < StripCount; i++)
         {
             _strips[i] = new();
         }
 
-        _fillStrip = FillStrip;
+        _cullStrip = CullStrip;
     }
 
     /// <summary>Floats of one instance: the three rows of a 3×4 map from the drawn mesh's frame to world axes about the camera.</summary>
-    public static int InstanceFloats => InstanceRows.Floats;
+    public static int FloatsPerInstance => InstanceRows.FloatsPerInstance;
 
     /// <summary>What it took.</summary>
-    public DetailCost Cost { get; private set; }
+    public CullingStatistics Statistics { get; private set; }
 
     /// <summary>How many instances are drawn.</summary>
     public int InstanceCount { get; private set; }
 
     /// <summary>What counted as small, pixels: that of the settings, or more where the budget asked for it.</summary>
-    public double PixelSize { get; private set; }
+    public double MinProjectedSize { get; private set; }
 
     /// <summary>Bytes of the instances' memory.</summary>
-    public long StorageBytes => _shared.StorageBytes + _strips.Sum(strip => strip.Rows.StorageBytes + strip.Shared.StorageBytes);
+    public long StorageBytes => _sharedInstances.StorageBytes + _strips.Sum(strip => strip.Instances.StorageBytes + strip.SharedInstances.StorageBytes);
 
     /// <summary>Chooses what is drawn.</summary>
     /// <param name="view">How the scene is looked at.</param>
     /// <param name="objects">Of the scene.</param>
     /// <param name="settings">What is left out.</param>
-    public void Fill(in DetailView view, IReadOnlyList<DetailObject> objects, DetailSettings settings)
+    public void Cull(in CullingView view, IReadOnlyList<CulledObject> objects, CullingSettings settings)
     {
         (_view, _objects, _settings) = (view, objects, settings);
         // However coarse, each object is one instance, or one for each of its roots.
-        var least = 0;
+        var minInstanceCount = 0;
         for (var i = 0; i < objects.Count; i++)
         {
-            least += objects[i].Roots?.Length ?? 1;
+            minInstanceCount += objects[i].Roots?.Length ?? 1;
         }
 
-        _budget = Math.Max(settings.InstanceBudget, least);
-        _parallel.MaxDegreeOfParallelism = Math.Max(1, settings.Threads);
-        Prepare();
+        _instanceBudget = Math.Max(settings.InstanceBudget, minInstanceCount);
+        _parallelOptions.MaxDegreeOfParallelism = Math.Max(1, settings.ThreadCount);
+        SortObjects();
         // Of a ladder of sizes the smallest that fits, looked for near the one of the picture before.
-        var step = Math.Max(0, _coarsening - 1);
-        var fits = TryFill(step);
-        while (fits && step > 0 && TryFill(step - 1))
+        var step = Math.Max(0, _coarseningStep - 1);
+        var fits = TryCull(step);
+        while (fits && step > 0 && TryCull(step - 1))
         {
             step--;
         }
@@ -85,63 +85,63 @@ public sealed class VisibleSet
         if (fits && step > 0)
         {
             // The smaller one did not fit, but is what there is now.
-            fits = TryFill(step);
+            fits = TryCull(step);
         }
 
         while (!fits)
         {
-            fits = TryFill(++step);
+            fits = TryCull(++step);
         }
 
-        _coarsening = step;
+        _coarseningStep = step;
     }
 
     /// <summary>The number of parts that an object's instances come in.</summary>
-    public static int PartCount => Strips + 1;
+    public static int ChunkCount => StripCount + 1;
 
     /// <summary>A part of an object's instances, [n × 12].</summary>
-    /// <param name="item">The object's place in the list.</param>
-    /// <param name="part">Less than <see cref="PartCount"/>.</param>
-    public ReadOnlySpan<float> Part(int item, int part)
+    /// <param name="objectIndex">The object's place in the list.</param>
+    /// <param name="chunk">Less than <see cref="ChunkCount"/>.</param>
+    public ReadOnlySpan<float> Instances(int objectIndex, int chunk)
     {
-        var (start, end) = RangeOf(item, part);
-        return (part < Strips ? _strips[part].Rows : _shared).Span[(start * InstanceRows.Floats)..(end * InstanceRows.Floats)];
+        var (start, end) = RangeOf(objectIndex, chunk);
+        return (chunk < StripCount ? _strips[chunk].Instances : _sharedInstances).Span[(start * InstanceRows.FloatsPerInstance)..(end * InstanceRows.FloatsPerInstance)];
     }
 
-    /// <summary>Numbers between two colours, one an instance of <see cref="Part"/>, of an object that has a gradient.</summary>
-    public ReadOnlySpan<float> Tints(int item, int part)
+    /// <summary>Numbers between two colours, one an instance of <see cref="Instances"/>, of an object that has a gradient.</summary>
+    public ReadOnlySpan<float> GradientFactors(int objectIndex, int chunk)
     {
-        var (start, end) = RangeOf(item, part);
+        var (start, end) = RangeOf(objectIndex, chunk);
         // Where there are none, the list may be shorter than what comes before them.
-        return start == end ? [] : (part < Strips ? _strips[part].Rows : _shared).Tints[start..end];
+        return start == end ? [] : (chunk < StripCount ? _strips[chunk].Instances : _sharedInstances).GradientFactors[start..end];
     }
 
     /// <summary>How many instances are drawn of an object.</summary>
-    public int CountOf(int item)
+    public int InstanceCountOf(int objectIndex)
     {
         var count = 0;
-        for (var part = 0; part < PartCount; part++)
+        for (var chunk = 0; chunk < ChunkCount; chunk++)
         {
-            count += Part(item, part).Length / InstanceRows.Floats;
+            count += Instances(objectIndex, chunk).Length / InstanceRows.FloatsPerInstance;
         }
 
         return count;
     }
 
-    private (int Start, int End) RangeOf(int item, int part)
+    private (int Start, int End) RangeOf(int objectIndex, int chunk)
     {
-        var ends = part < Strips ? _ends.AsSpan(part * _objects.Count, _objects.Count) : _mergedEnds;
-        var place = Array.IndexOf(_order, item, 0, _objects.Count);
-        return (place == 0 ? 0 : ends[place - 1], ends[place]);
+        var ends = chunk < StripCount ? _instanceEnds.AsSpan(chunk * _objects.Count, _objects.Count) : _mergedEnds;
+        var rank = Array.IndexOf(_order, objectIndex, 0, _objects.Count);
+        return (rank == 0 ? 0 : ends[rank - 1], ends[rank]);
     }
 
     /// <summary>True when the near plane cuts through an instance of an object: then the inner side of a solid may be seen.</summary>
-    public bool IsCut(int item)
+    public bool IsNearClipped(int objectIndex)
     {
-        var place = Array.IndexOf(_order, item, 0, _objects.Count);
-        for (var index = 0; index < Strips; index++)
+        var rank = Array.IndexOf(_order, objectIndex, 0, _objects.Count);
+        for (var stripIndex = 0; stripIndex < StripCount; stripIndex++)
         {
-            if (_isCut[(index * _objects.Count) + place])
+            if (_isNearClipped[(stripIndex * _objects.Count) + rank])
             {
                 return true;
             }
@@ -152,19 +152,19 @@ public sealed class VisibleSet
 
     /// <summary>Chooses with so many steps of coarsening.</summary>
     /// <returns>False when there is more than the budget.</returns>
-    private bool TryFill(int step)
+    private bool TryCull(int step)
     {
-        (_isOverBudget, _found) = (false, 0);
-        PixelSize = step == 0 ? _settings.PixelSize : Math.Max(_settings.PixelSize, 1) * Math.Pow(Coarsening, step + Math.Max(0, 2 * (step - FineSteps)));
-        if (_settings.Threads > 1)
+        (_isOverBudget, _foundCount) = (false, 0);
+        MinProjectedSize = step == 0 ? _settings.MinProjectedSize : Math.Max(_settings.MinProjectedSize, 1) * Math.Pow(CoarseningFactor, step + Math.Max(0, 2 * (step - FineStepCount)));
+        if (_settings.ThreadCount > 1)
         {
-            Parallel.For(0, Strips, _parallel, _fillStrip);
+            Parallel.For(0, StripCount, _parallelOptions, _cullStrip);
         }
         else
         {
-            for (var i = 0; i < Strips; i++)
+            for (var i = 0; i < StripCount; i++)
             {
-                FillStrip(i);
+                CullStrip(i);
             }
         }
 
@@ -173,35 +173,35 @@ public sealed class VisibleSet
             return false;
         }
 
-        Merge();
-        return InstanceCount <= _budget;
+        MergeSharedInstances();
+        return InstanceCount <= _instanceBudget;
     }
 
     /// <summary>Sorts the objects, the nearest first, so that they hide those behind.</summary>
-    private void Prepare()
+    private void SortObjects()
     {
         var count = _objects.Count;
         if (_order.Length < count)
         {
-            (_order, _keys) = (new int[count], new double[count]);
+            (_order, _sortKeys) = (new int[count], new double[count]);
         }
 
-        if (_ends.Length < Strips * count)
+        if (_instanceEnds.Length < StripCount * count)
         {
-            (_ends, _sharedEnds, _mergedEnds, _isCut) = (new int[Strips * count], new int[Strips * count], new int[count], new bool[Strips * count]);
+            (_instanceEnds, _sharedInstanceEnds, _mergedEnds, _isNearClipped) = (new int[StripCount * count], new int[StripCount * count], new int[count], new bool[StripCount * count]);
         }
 
         for (var i = 0; i < count; i++)
         {
             var item = _objects[i];
-            var box = item.Table.At(item.Table.Levels).Box;
-            (_order[i], _keys[i]) = (i, box.IsEmpty ? 0 : ((item.Map * box.Centre) - _view.Position).LengthSquared());
+            var box = item.Hierarchy.NodeAt(item.Hierarchy.LevelCount).Box;
+            (_order[i], _sortKeys[i]) = (i, box.IsEmpty ? 0 : ((item.ObjectToWorld * box.Centre) - _view.Position).LengthSquared());
         }
 
-        _keys.AsSpan(0, count).Sort(_order.AsSpan(0, count));
+        _sortKeys.AsSpan(0, count).Sort(_order.AsSpan(0, count));
     }
 
-    private void FillStrip(int index)
+    private void CullStrip(int stripIndex)
     {
         // One strip too many is enough to begin again.
         if (_isOverBudget)
@@ -209,53 +209,53 @@ public sealed class VisibleSet
             return;
         }
 
-        var (strip, count) = (_strips[index], _objects.Count);
-        strip.Begin(in _view, _settings, PixelSize, _budget, index * _view.Width / Strips, (index + 1) * _view.Width / Strips);
-        for (var place = 0; place < count; place++)
+        var (strip, count) = (_strips[stripIndex], _objects.Count);
+        strip.BeginFrame(in _view, _settings, MinProjectedSize, _instanceBudget, stripIndex * _view.Width / StripCount, (stripIndex + 1) * _view.Width / StripCount);
+        for (var rank = 0; rank < count; rank++)
         {
-            var item = _objects[_order[place]];
-            strip.Add(item);
-            _ends[(index * count) + place] = strip.Rows.Count;
-            _sharedEnds[(index * count) + place] = strip.Shared.Count;
-            _isCut[(index * count) + place] = strip.IsCut;
+            var item = _objects[_order[rank]];
+            strip.CullObject(item);
+            _instanceEnds[(stripIndex * count) + rank] = strip.Instances.Count;
+            _sharedInstanceEnds[(stripIndex * count) + rank] = strip.SharedInstances.Count;
+            _isNearClipped[(stripIndex * count) + rank] = strip.IsNearClipped;
         }
 
-        if (Interlocked.Add(ref _found, strip.Rows.Count) > _budget || strip.IsOverBudget)
+        if (Interlocked.Add(ref _foundCount, strip.Instances.Count) > _instanceBudget || strip.IsOverBudget)
         {
             _isOverBudget = true;
         }
     }
 
     /// <summary>Puts together what several strips have found, each instance once.</summary>
-    private void Merge()
+    private void MergeSharedInstances()
     {
-        _shared.Clear();
-        _seen.Clear();
-        (Cost, InstanceCount) = (default, 0);
+        _sharedInstances.Clear();
+        _mergedKeys.Clear();
+        (Statistics, InstanceCount) = (default, 0);
         var count = _objects.Count;
-        for (var place = 0; place < count; place++)
+        for (var rank = 0; rank < count; rank++)
         {
-            for (var index = 0; index < Strips; index++)
+            for (var stripIndex = 0; stripIndex < StripCount; stripIndex++)
             {
-                var strip = _strips[index];
-                var start = place == 0 ? 0 : _sharedEnds[(index * count) + place - 1];
-                for (var i = start; i < _sharedEnds[(index * count) + place]; i++)
+                var strip = _strips[stripIndex];
+                var start = rank == 0 ? 0 : _sharedInstanceEnds[(stripIndex * count) + rank - 1];
+                for (var i = start; i < _sharedInstanceEnds[(stripIndex * count) + rank]; i++)
                 {
-                    if (_seen.Add((place, strip.Shared.Paths[i])))
+                    if (_mergedKeys.Add((rank, strip.SharedInstances.PathHashes[i])))
                     {
-                        _shared.Add(strip.Shared, i);
+                        _sharedInstances.Add(strip.SharedInstances, i);
                     }
                 }
             }
 
-            _mergedEnds[place] = _shared.Count;
+            _mergedEnds[rank] = _sharedInstances.Count;
         }
 
-        InstanceCount = _shared.Count;
+        InstanceCount = _sharedInstances.Count;
         foreach (var strip in _strips)
         {
-            Cost += strip.Cost;
-            InstanceCount += strip.Rows.Count;
+            Statistics += strip.Statistics;
+            InstanceCount += strip.Instances.Count;
         }
     }
 }

@@ -12,12 +12,12 @@ namespace FractalEngine.Core.Fractals;
 public static class DistinctInstances
 {
     // A proof looks at every round until the boxes settle; sponges settle at once, others within a hundred.
-    private const int ProvedRounds = 1000;
+    private const int MaxProvedRounds = 1000;
 
     /// <summary>The exact number, or null where it is unknown (infinite, or too many to enumerate and not proved).</summary>
     /// <param name="fractal">Any fractal.</param>
     /// <param name="budget">The most instances that are enumerated.</param>
-    public static BigInteger? Count(Fractal fractal, long budget = FractalLimits.EnumeratedInstances)
+    public static BigInteger? Count(Fractal fractal, long budget = FractalLimits.MaxEnumeratedInstances)
     {
         if (fractal.Description.IsInfinite)
         {
@@ -27,13 +27,13 @@ public static class DistinctInstances
         if (fractal.Description.Composition == Composition.Affine)
         {
             return AreProvedDistinct(fractal) ? fractal.InstanceCount
-                : FractalSteps.HasAtMost(fractal.Description.Steps, budget) ? FractalGenerator.Expand(fractal, budget).Length
+                : FractalSteps.HasAtMostInstances(fractal.Description.Steps, budget) ? FractalGenerator.Expand(fractal, budget).Length
                 : null;
         }
 
         try
         {
-            return FractalGenerator.ComponentwiseSums(fractal, budget).Length;
+            return FractalGenerator.ExpandComponentwise(fractal, budget).Length;
         }
         catch (FractalLimitException)
         {
@@ -84,14 +84,14 @@ public static class DistinctInstances
     {
         for (var round = 0; round < repetition.Count; round++)
         {
-            var below = box;
-            if (round == ProvedRounds || !AreProvedDistinct(repetition.Body, ref box))
+            var previousBox = box;
+            if (round == MaxProvedRounds || !AreProvedDistinct(repetition.Body, ref box))
             {
                 return false;
             }
 
             // Once the boxes no longer change, every further round is the same.
-            if (Nearly(below, box))
+            if (AreNearlyEqual(previousBox, box))
             {
                 return true;
             }
@@ -102,7 +102,7 @@ public static class DistinctInstances
 
     private static bool AreProvedDistinct(TransformationSet set, ref BoundingBox box)
     {
-        if (set.Maps.Length == 0 || !set.Maps.All(SendsAxesToAxes) || !AreApart(set, box))
+        if (set.Maps.Length == 0 || !set.Maps.All(IsScaledAxisPermutation) || !AreDisjoint(set, box))
         {
             return false;
         }
@@ -111,24 +111,24 @@ public static class DistinctInstances
         return true;
     }
 
-    private static bool Nearly(BoundingBox box1, BoundingBox box2) =>
-        Math.Max((box1.Minimum - box2.Minimum).MaximumComponent(), (box1.Maximum - box2.Maximum).MaximumComponent())
+    private static bool AreNearlyEqual(BoundingBox box1, BoundingBox box2) =>
+        Math.Max((box1.Minimum - box2.Minimum).MaxAbsComponent(), (box1.Maximum - box2.Maximum).MaxAbsComponent())
         <= 1e-12 * box1.Diagonal;
 
-    private static bool SendsAxesToAxes(AffineMap map) =>
-        IsAlongAnAxis(map.Linear.V1) && IsAlongAnAxis(map.Linear.V2) && IsAlongAnAxis(map.Linear.V3)
+    private static bool IsScaledAxisPermutation(AffineMap map) =>
+        HasExactlyOneNonzero(map.Linear.V1) && HasExactlyOneNonzero(map.Linear.V2) && HasExactlyOneNonzero(map.Linear.V3)
         && map.Linear.Determinant() != 0;
 
-    private static bool IsAlongAnAxis(Vector v) => (v.X != 0 ? 1 : 0) + (v.Y != 0 ? 1 : 0) + (v.Z != 0 ? 1 : 0) == 1;
+    private static bool HasExactlyOneNonzero(Vector v) => (v.X != 0 ? 1 : 0) + (v.Y != 0 ? 1 : 0) + (v.Z != 0 ? 1 : 0) == 1;
 
-    private static bool AreApart(TransformationSet set, BoundingBox box)
+    private static bool AreDisjoint(TransformationSet set, BoundingBox box)
     {
         var images = set.Maps.Select(box.Transform).ToArray();
         for (var i = 0; i < images.Length; i++)
         {
             for (var j = 0; j < i; j++)
             {
-                if (!AreApart(images[i], images[j]))
+                if (!AreDisjoint(images[i], images[j]))
                 {
                     return false;
                 }
@@ -138,13 +138,13 @@ public static class DistinctInstances
         return true;
     }
 
-    private static bool AreApart(BoundingBox box1, BoundingBox box2)
+    private static bool AreDisjoint(BoundingBox box1, BoundingBox box2)
     {
         var overlap = Vector.Min(box1.Maximum, box2.Maximum) - Vector.Max(box1.Minimum, box2.Minimum);
         var (size1, size2) = (box1.Size, box2.Size);
-        return IsApart(overlap.X, size1.X, size2.X) || IsApart(overlap.Y, size1.Y, size2.Y) || IsApart(overlap.Z, size1.Z, size2.Z);
+        return AreIntervalsDisjoint(overlap.X, size1.X, size2.X) || AreIntervalsDisjoint(overlap.Y, size1.Y, size2.Y) || AreIntervalsDisjoint(overlap.Z, size1.Z, size2.Z);
     }
 
-    private static bool IsApart(double overlap, double size1, double size2) =>
+    private static bool AreIntervalsDisjoint(double overlap, double size1, double size2) =>
         size1 > 0 && size2 > 0 && overlap <= 1e-9 * Math.Min(size1, size2);
 }

@@ -18,63 +18,63 @@ internal static class DistinctMaps
     /// <summary>64 units in the last place: what a few dozen roundings can add up to.</summary>
     public const double RelativeTolerance = 64 * 2.220446049250313e-16;
 
-    private const int Entries = 12;
+    private const int EntryCount = 12;
 
     /// <summary>The maps in order, each one once.</summary>
-    public static AffineMap[] Of(AffineMap[] maps) => Distinct(maps, static (in AffineMap map, Span<double> entries) =>
+    public static AffineMap[] Deduplicate(AffineMap[] maps) => Distinct(maps, static (in AffineMap map, Span<double> entries) =>
     {
-        Write(map.Translation, entries);
-        Write(map.Linear.V1, entries[3..]);
-        Write(map.Linear.V2, entries[6..]);
-        Write(map.Linear.V3, entries[9..]);
+        WriteTriple(map.Translation, entries);
+        WriteTriple(map.Linear.V1, entries[3..]);
+        WriteTriple(map.Linear.V2, entries[6..]);
+        WriteTriple(map.Linear.V3, entries[9..]);
     });
 
     /// <summary>The transformations in order, each one once; angles are compared as numbers, so 360° differs from 0°.</summary>
-    public static Transformation[] Of(Transformation[] transformations) => Distinct(transformations, static (in Transformation transformation, Span<double> entries) =>
+    public static Transformation[] Deduplicate(Transformation[] transformations) => Distinct(transformations, static (in Transformation transformation, Span<double> entries) =>
     {
-        Write(transformation.Position, entries);
-        Write(transformation.Rotation, entries[3..]);
-        Write(transformation.Scale, entries[6..]);
-        Write(Vector.Zero, entries[9..]);
+        WriteTriple(transformation.Position, entries);
+        WriteTriple(transformation.Rotation, entries[3..]);
+        WriteTriple(transformation.Scale, entries[6..]);
+        WriteTriple(Vector.Zero, entries[9..]);
     });
 
     private delegate void EntryWriter<T>(in T item, Span<double> entries);
 
-    private static void Write(Vector v, Span<double> entries) => (entries[0], entries[1], entries[2]) = (v.X, v.Y, v.Z);
+    private static void WriteTriple(Vector v, Span<double> entries) => (entries[0], entries[1], entries[2]) = (v.X, v.Y, v.Z);
 
     private static T[] Distinct<T>(T[] items, EntryWriter<T> write)
     {
         // Triples of entries are of one kind: lengths, angles, factors, or the columns of a matrix.
-        Span<double> largest = stackalloc double[Entries];
-        Span<double> entries = stackalloc double[Entries];
+        Span<double> maxEntries = stackalloc double[EntryCount];
+        Span<double> entries = stackalloc double[EntryCount];
         foreach (ref readonly var item in items.AsSpan())
         {
             write(item, entries);
-            for (var i = 0; i < Entries; i++)
+            for (var i = 0; i < EntryCount; i++)
             {
-                largest[i] = Math.Max(largest[i], Math.Abs(entries[i]));
+                maxEntries[i] = Math.Max(maxEntries[i], Math.Abs(entries[i]));
             }
         }
 
-        for (var i = 0; i < Entries; i += 3)
+        for (var i = 0; i < EntryCount; i += 3)
         {
-            largest[i..(i + 3)].Fill(Math.Max(largest[i], Math.Max(largest[i + 1], largest[i + 2])));
+            maxEntries[i..(i + 3)].Fill(Math.Max(maxEntries[i], Math.Max(maxEntries[i + 1], maxEntries[i + 2])));
         }
 
-        return new Table<T>(items, write, largest).Distinct();
+        return new HashGrid<T>(items, write, maxEntries).Distinct();
     }
 
-    private ref struct Table<T>(T[] items, EntryWriter<T> write, ReadOnlySpan<double> largest)
+    private ref struct HashGrid<T>(T[] items, EntryWriter<T> write, ReadOnlySpan<double> maxEntries)
     {
-        private readonly ReadOnlySpan<double> _largest = largest;
+        private readonly ReadOnlySpan<double> _maxEntries = maxEntries;
         private readonly Dictionary<ulong, int> _firstOfCell = new(items.Length);
         private readonly int[] _nextOfCell = new int[items.Length];
         private readonly List<T> _distinct = new(items.Length);
 
         public T[] Distinct()
         {
-            Span<double> entries = stackalloc double[Entries];
-            Span<double> other = stackalloc double[Entries];
+            Span<double> entries = stackalloc double[EntryCount];
+            Span<double> other = stackalloc double[EntryCount];
             foreach (ref readonly var item in items.AsSpan())
             {
                 write(item, entries);
@@ -90,16 +90,16 @@ internal static class DistinctMaps
         private const ulong Seed = 14695981039346656037;
 
         /// <summary>The cell of an entry, and how far within it the entry lies, from −½ to ½ cells.</summary>
-        private readonly (long Cell, double Offset) Locate(double entry, int index)
+        private readonly (long Cell, double Offset) Quantize(double entry, int index)
         {
             // Not a power of two times the tolerance, so that round numbers do not lie on the cells' edges.
-            var size = 65521.7 * RelativeTolerance * _largest[index];
+            var size = 65521.7 * RelativeTolerance * _maxEntries[index];
             var position = size > 0 ? entry / size : 0;
             var cell = Math.Round(position);
             return ((long)cell, position - cell);
         }
 
-        private static ulong Mix(ulong hash, long cell)
+        private static ulong CombineHash(ulong hash, long cell)
         {
             hash = (hash ^ (ulong)cell) * 0x9E3779B97F4A7C15;
             return hash ^ (hash >> 29);
@@ -108,9 +108,9 @@ internal static class DistinctMaps
         private readonly ulong Hash(ReadOnlySpan<double> entries)
         {
             var hash = Seed;
-            for (var i = 0; i < Entries; i++)
+            for (var i = 0; i < EntryCount; i++)
             {
-                hash = Mix(hash, Locate(entries[i], i).Cell);
+                hash = CombineHash(hash, Quantize(entries[i], i).Cell);
             }
 
             return hash;
@@ -118,16 +118,16 @@ internal static class DistinctMaps
 
         private readonly bool Contains(ReadOnlySpan<double> entries, int index, ulong hash, Span<double> other)
         {
-            for (; index < Entries; index++)
+            for (; index < EntryCount; index++)
             {
-                var (cell, offset) = Locate(entries[index], index);
+                var (cell, offset) = Quantize(entries[index], index);
                 if (Math.Abs(offset) > 0.5 - (2.0 / 65521.7)
-                    && Contains(entries, index + 1, Mix(hash, cell + Math.Sign(offset)), other))
+                    && Contains(entries, index + 1, CombineHash(hash, cell + Math.Sign(offset)), other))
                 {
                     return true;
                 }
 
-                hash = Mix(hash, cell);
+                hash = CombineHash(hash, cell);
             }
 
             if (!_firstOfCell.TryGetValue(hash, out var candidate))
@@ -149,9 +149,9 @@ internal static class DistinctMaps
 
         private readonly bool AreEqual(ReadOnlySpan<double> entries, ReadOnlySpan<double> other)
         {
-            for (var i = 0; i < Entries; i++)
+            for (var i = 0; i < EntryCount; i++)
             {
-                if (Math.Abs(entries[i] - other[i]) > RelativeTolerance * _largest[i])
+                if (Math.Abs(entries[i] - other[i]) > RelativeTolerance * _maxEntries[i])
                 {
                     return false;
                 }

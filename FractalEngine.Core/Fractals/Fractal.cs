@@ -15,7 +15,7 @@ public sealed class Fractal
     {
         (Description, BaseMesh) = (description, baseMesh);
         _instanceCount = new(() => FractalSteps.InstanceCount(description.Steps));
-        _bounds = new(() => FractalBounds.BoxOf(this));
+        _bounds = new(() => FractalBounds.ComputeBox(this));
     }
 
     /// <summary>What the file says.</summary>
@@ -43,28 +43,28 @@ public sealed class Fractal
     public Fractal WithDepth(int depth) => new(Description.WithDepth(depth), BaseMesh);
 
     /// <summary>
-    /// The fractal itself where it has at most <paramref name="budget"/> instances, else the deepest version of it that
+    /// The fractal itself where it has at most <paramref name="maxInstances"/> instances, else the deepest version of it that
     /// has: repetitions are cut short, the outermost first; where that is not enough, the innermost sets are left out.
     /// </summary>
-    /// <param name="budget">At least 1.</param>
-    public Fractal Within(long budget)
+    /// <param name="maxInstances">At least 1.</param>
+    public Fractal WithMaxInstances(long maxInstances)
     {
-        ArgumentOutOfRangeException.ThrowIfNegativeOrZero(budget);
-        if (Fits(Description.Steps, budget))
+        ArgumentOutOfRangeException.ThrowIfNegativeOrZero(maxInstances);
+        if (Fits(Description.Steps, maxInstances))
         {
             return this;
         }
 
         var steps = Description.Steps;
-        for (var i = 0; i < steps.Length && !Fits(steps, budget); i++)
+        for (var i = 0; i < steps.Length && !Fits(steps, maxInstances); i++)
         {
             if (steps[i] is Repetition repetition)
             {
-                steps = steps.SetItem(i, repetition.WithCount(DeepestCount(steps, i, repetition, budget)));
+                steps = steps.SetItem(i, repetition.WithCount(MaxRepetitionCount(steps, i, repetition, maxInstances)));
             }
         }
 
-        while (!Fits(steps, budget))
+        while (!Fits(steps, maxInstances))
         {
             steps = steps.RemoveAt(steps.Length - 1);
         }
@@ -72,20 +72,20 @@ public sealed class Fractal
         return new(Description with { Steps = steps }, BaseMesh);
     }
 
-    private static bool Fits(ImmutableArray<FractalStep> steps, long budget) =>
-        FractalSteps.LevelCount(steps) is not null && FractalSteps.HasAtMost(steps, budget);
+    private static bool Fits(ImmutableArray<FractalStep> steps, long maxInstances) =>
+        FractalSteps.LevelCount(steps) is not null && FractalSteps.HasAtMostInstances(steps, maxInstances);
 
     /// <summary>The largest number of rounds with which the whole still fits; 0 where none does.</summary>
-    private static int DeepestCount(ImmutableArray<FractalStep> steps, int index, Repetition repetition, long budget)
+    private static int MaxRepetitionCount(ImmutableArray<FractalStep> steps, int index, Repetition repetition, long maxInstances)
     {
-        var (others, perRound) = (FractalSteps.CountUpTo(steps.RemoveAt(index), budget), FractalSteps.CountUpTo(repetition.Body, budget));
+        var (others, perRound) = (FractalSteps.CountUpTo(steps.RemoveAt(index), maxInstances), FractalSteps.CountUpTo(repetition.Body, maxInstances));
         if (perRound <= 1)
         {
-            return repetition.Count ?? FractalLimits.Depth;
+            return repetition.Count ?? FractalLimits.MaxDepth;
         }
 
         var count = 0;
-        for (var total = others * perRound; total <= budget && !(count >= repetition.Count); total *= perRound)
+        for (var total = others * perRound; total <= maxInstances && !(count >= repetition.Count); total *= perRound)
         {
             count++;
         }

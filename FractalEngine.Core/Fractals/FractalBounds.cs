@@ -9,91 +9,91 @@ namespace FractalEngine.Core.Fractals;
 /// </summary>
 /// <remarks>
 /// Exact to 1e-12 of the fractal's size in nearly all cases; where a search would visit more than
-/// <see cref="SearchedNodes"/> sub-fractals it stops and answers with the bound that it has, which holds the fractal but may be
+/// <see cref="MaxSearchedNodes"/> sub-fractals it stops and answers with the bound that it has, which holds the fractal but may be
 /// wider. Infinite fractals are bounded by their limit. Not finite where the maps grow beyond a double.
 /// </remarks>
 public static class FractalBounds
 {
-    private const int SearchedNodes = 20_000;
-    private const double Precision = 1e-13;
+    private const int MaxSearchedNodes = 20_000;
+    private const double RelativeTolerance = 1e-13;
 
     /// <summary>A box that holds all instances.</summary>
-    public static BoundingBox BoxOf(Fractal fractal) => fractal switch
+    public static BoundingBox ComputeBox(Fractal fractal) => fractal switch
     {
         { BaseMesh.VertexCount: 0 } => BoundingBox.Empty,
         _ when FractalSteps.CountUpTo(fractal.Description.Steps, 1).IsZero => BoundingBox.Empty,
-        { Description.Composition: Composition.Componentwise } => ComponentwiseBox(fractal),
-        _ => AffineBox(fractal, LevelBounds.Of(fractal)),
+        { Description.Composition: Composition.Componentwise } => ComputeComponentwiseBox(fractal),
+        _ => ComputeAffineBox(fractal, LevelBounds.Compute(fractal)),
     };
 
-    private static BoundingBox AffineBox(Fractal fractal, LevelBounds bounds)
+    private static BoundingBox ComputeAffineBox(Fractal fractal, LevelBounds bounds)
     {
         var whole = bounds.At(0);
-        if (!whole.Box.Size.IsFinite() || bounds.AreExact)
+        if (!whole.Box.Size.IsFinite() || bounds.HasExactBoxes)
         {
             return whole.Box;
         }
 
         var (maximum, minimum) = (whole.Box.Maximum, whole.Box.Minimum);
         return new(
-            new(0 - Farthest(fractal, bounds, -Vector.I, -minimum.X), 0 - Farthest(fractal, bounds, -Vector.J, -minimum.Y), 0 - Farthest(fractal, bounds, -Vector.K, -minimum.Z)),
-            new(Farthest(fractal, bounds, Vector.I, maximum.X), Farthest(fractal, bounds, Vector.J, maximum.Y), Farthest(fractal, bounds, Vector.K, maximum.Z)));
+            new(0 - ComputeSupport(fractal, bounds, -Vector.I, -minimum.X), 0 - ComputeSupport(fractal, bounds, -Vector.J, -minimum.Y), 0 - ComputeSupport(fractal, bounds, -Vector.K, -minimum.Z)),
+            new(ComputeSupport(fractal, bounds, Vector.I, maximum.X), ComputeSupport(fractal, bounds, Vector.J, maximum.Y), ComputeSupport(fractal, bounds, Vector.K, maximum.Z)));
     }
 
     /// <summary>The largest <c>Dot(direction, v)</c> over all points v of the fractal.</summary>
-    private static double Farthest(Fractal fractal, LevelBounds bounds, Vector direction, double bound)
+    private static double ComputeSupport(Fractal fractal, LevelBounds bounds, Vector direction, double bound)
     {
-        var tolerance = Precision * Math.Max(bounds.At(0).Box.Diagonal, Math.Abs(bound));
+        var tolerance = RelativeTolerance * Math.Max(bounds.At(0).Box.Diagonal, Math.Abs(bound));
         // Ties are common in symmetric fractals: among equal bounds (to the tolerance) the deeper one is taken first.
         var open = new PriorityQueue<(AffineMap Map, long Level, double Bound), (double, long)>();
         open.Enqueue((AffineMap.Identity, 0, bound), default);
-        for (var visited = 0; open.TryDequeue(out var node, out _); visited++)
+        for (var visitedCount = 0; open.TryDequeue(out var node, out _); visitedCount++)
         {
             if (node.Level == fractal.LevelCount)
             {
                 return node.Bound;
             }
 
-            if (visited > SearchedNodes || bounds.At(node.Level).Sphere.Transform(node.Map).Radius <= tolerance)
+            if (visitedCount > MaxSearchedNodes || bounds.At(node.Level).Sphere.Transform(node.Map).Radius <= tolerance)
             {
                 return open.UnorderedItems.Select(item => item.Element.Bound).Append(node.Bound).Max();
             }
 
             foreach (var map in fractal.LevelAt(node.Level).Maps)
             {
-                var child = node.Map * map;
-                var value = node.Level + 1 == fractal.LevelCount
-                    ? FarthestVertex(fractal.BaseMesh, child, direction)
-                    : Math.Min(node.Bound, bounds.At(node.Level + 1).Farthest(child, direction));
-                open.Enqueue((child, node.Level + 1, value), (-Math.Round(value / tolerance), -(node.Level + 1)));
+                var childMap = node.Map * map;
+                var childBound = node.Level + 1 == fractal.LevelCount
+                    ? ComputeMeshSupport(fractal.BaseMesh, childMap, direction)
+                    : Math.Min(node.Bound, bounds.At(node.Level + 1).SupportBound(childMap, direction));
+                open.Enqueue((childMap, node.Level + 1, childBound), (-Math.Round(childBound / tolerance), -(node.Level + 1)));
             }
         }
 
         return bound;
     }
 
-    private static double FarthestVertex(Mesh mesh, AffineMap map, Vector direction)
+    private static double ComputeMeshSupport(Mesh mesh, AffineMap map, Vector direction)
     {
         var local = map.Linear.Transpose() * direction;
-        var farthest = double.NegativeInfinity;
+        var support = double.NegativeInfinity;
         for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
         {
-            farthest = Math.Max(farthest, Vector.Dot(local, mesh.Vertex(vertex)));
+            support = Math.Max(support, Vector.Dot(local, mesh.Vertex(vertex)));
         }
 
-        return farthest + Vector.Dot(direction, map.Translation);
+        return support + Vector.Dot(direction, map.Translation);
     }
 
     /// <summary>
     /// The box of enumerated sums where they are few; else the box of the summed positions, widened by the base mesh's farthest
     /// vertex under the largest product of scales.
     /// </summary>
-    private static BoundingBox ComponentwiseBox(Fractal fractal)
+    private static BoundingBox ComputeComponentwiseBox(Fractal fractal)
     {
-        if (FractalSteps.HasAtMost(fractal.Description.Steps, 20L * FractalLimits.EnumeratedInstances / fractal.BaseMesh.VertexCount))
+        if (FractalSteps.HasAtMostInstances(fractal.Description.Steps, 20L * FractalLimits.MaxEnumeratedInstances / fractal.BaseMesh.VertexCount))
         {
             var box = BoundingBox.Empty;
-            foreach (var map in FractalGenerator.Expand(fractal, 20L * FractalLimits.EnumeratedInstances))
+            foreach (var map in FractalGenerator.Expand(fractal, 20L * FractalLimits.MaxEnumeratedInstances))
             {
                 for (var vertex = 0; vertex < fractal.BaseMesh.VertexCount; vertex++)
                 {
@@ -110,12 +110,12 @@ public static class FractalBounds
             var set = fractal.LevelAt(level).Transformations;
             minimum += set.Select(transformation => transformation.Position).Aggregate(Vector.Min);
             maximum += set.Select(transformation => transformation.Position).Aggregate(Vector.Max);
-            scale *= set.Max(transformation => transformation.Scale.MaximumComponent());
+            scale *= set.Max(transformation => transformation.Scale.MaxAbsComponent());
         }
 
-        var reach = scale * fractal.BaseMesh.Radius(AffineMap.Identity) * Vector.One;
+        var padding = scale * fractal.BaseMesh.Radius(AffineMap.Identity) * Vector.One;
         return fractal.LevelCount is null
             ? new(double.NegativeInfinity * Vector.One, double.PositiveInfinity * Vector.One)
-            : new(minimum - reach, maximum + reach);
+            : new(minimum - padding, maximum + padding);
     }
 }

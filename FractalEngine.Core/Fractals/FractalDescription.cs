@@ -20,7 +20,7 @@ public sealed record FractalDescription(
     public bool HasDepth => Steps.Any(step => step is Repetition);
 
     /// <summary>True when no transformation mirrors: then faces of all instances are wound as those of the base mesh.</summary>
-    public bool KeepsOrientation => Steps.All(KeepOrientation);
+    public bool PreservesOrientation => Steps.All(StepPreservesOrientation);
 
     /// <summary>
     /// The same fractal with the outermost repetition carried out <paramref name="depth"/> times, whatever the file says.
@@ -35,13 +35,13 @@ public sealed record FractalDescription(
 
     /// <summary>The same fractal moved as a whole: one more level above all others.</summary>
     /// <exception cref="InvalidOperationException">The composition is componentwise: an object's own matrix is affine in both.</exception>
-    public FractalDescription Under(Transformation placement) => Composition == Composition.Affine
+    public FractalDescription WithPlacement(Transformation placement) => Composition == Composition.Affine
         ? this with { Steps = Steps.Insert(0, TransformationSet.Of(placement)) }
         : throw new InvalidOperationException("a placement is no level of a fractal that is composed componentwise");
 
-    private static bool KeepOrientation(FractalStep step) => step switch
+    private static bool StepPreservesOrientation(FractalStep step) => step switch
     {
-        Repetition repetition => repetition.Body.All(KeepOrientation),
+        Repetition repetition => repetition.Body.All(StepPreservesOrientation),
         TransformationSet set => set.Maps.All(map => map.Linear.Determinant() > 0),
         _ => false,
     };

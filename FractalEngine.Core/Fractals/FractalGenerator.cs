@@ -18,25 +18,25 @@ public static class FractalGenerator
     /// The distinct instances of a fractal as maps from the base mesh's frame to the fractal's.
     /// </summary>
     /// <param name="fractal">Finite.</param>
-    /// <param name="budget">The most instances allowed, equal ones counted in affine mode, distinct ones in componentwise mode.</param>
+    /// <param name="maxInstances">The most instances allowed, equal ones counted in affine mode, distinct ones in componentwise mode.</param>
     /// <exception cref="FractalLimitException">The fractal has more instances.</exception>
     /// <remarks>
     /// Two maps count as equal when they differ by rounding only (see <see cref="DistinctMaps"/>); the first in the order of
     /// the file stays. Time and memory are proportional to the instances, 96 bytes each.
     /// </remarks>
-    public static ImmutableArray<AffineMap> Expand(Fractal fractal, long budget)
+    public static ImmutableArray<AffineMap> Expand(Fractal fractal, long maxInstances)
     {
         if (fractal.Description.Composition == Composition.Componentwise)
         {
-            return [.. ComponentwiseSums(fractal, budget).Select(transformation => transformation.ToAffineMap())];
+            return [.. ExpandComponentwise(fractal, maxInstances).Select(transformation => transformation.ToAffineMap())];
         }
 
-        if (!FractalSteps.HasAtMost(fractal.Description.Steps, budget) || fractal.Description.IsInfinite)
+        if (!FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances) || fractal.Description.IsInfinite)
         {
-            throw new FractalLimitException($"the fractal has {DecimalText.Approximate(fractal.InstanceCount)} instances, more than the limit of {DecimalText.Approximate(budget)}");
+            throw new FractalLimitException($"the fractal has {DecimalText.FormatApproximately(fractal.InstanceCount)} instances, more than the limit of {DecimalText.FormatApproximately(maxInstances)}");
         }
 
-        var distinct = DistinctInstances.AreProvedDistinct(fractal);
+        var isProvedDistinct = DistinctInstances.AreProvedDistinct(fractal);
         AffineMap[] instances = [AffineMap.Identity];
         for (var level = 0L; level < fractal.LevelCount; level++)
         {
@@ -45,7 +45,7 @@ public static class FractalGenerator
             if (set.Maps is not [var only] || only != AffineMap.Identity)
             {
                 var pairs = ConcatenatePair(instances, set.Maps.AsSpan(), static (m1, m2) => m1 * m2);
-                instances = distinct ? pairs : DistinctMaps.Of(pairs);
+                instances = isProvedDistinct ? pairs : DistinctMaps.Deduplicate(pairs);
             }
         }
 
@@ -54,16 +54,16 @@ public static class FractalGenerator
 
     /// <summary>The fractal as one mesh of all its faces, for who can't do with less.</summary>
     /// <param name="fractal">Finite.</param>
-    /// <param name="faceLimit">The most faces allowed.</param>
+    /// <param name="maxFaces">The most faces allowed.</param>
     /// <exception cref="FractalLimitException">The fractal has more faces.</exception>
     /// <remarks>Mirrored instances are inside out, as their maps make them: the normal of a face is that of its image.</remarks>
-    public static Mesh Flatten(Fractal fractal, long faceLimit) =>
-        Flatten(fractal.BaseMesh, Expand(fractal, faceLimit / Math.Max(1, fractal.BaseMesh.FaceCount)));
+    public static Mesh Flatten(Fractal fractal, long maxFaces) =>
+        Flatten(fractal.BaseMesh, Expand(fractal, maxFaces / Math.Max(1, fractal.BaseMesh.FaceCount)));
 
     /// <summary>Copies of a mesh as one mesh.</summary>
     public static Mesh Flatten(Mesh mesh, ImmutableArray<AffineMap> instances)
     {
-        var (positions, faces) = (new double[instances.Length * mesh.Positions.Length], new int[instances.Length * mesh.Faces.Length]);
+        var (positions, faces) = (new double[instances.Length * mesh.Positions.Length], new int[instances.Length * mesh.VertexIndices.Length]);
         var (nextPosition, nextFace) = (0, 0);
         for (var instance = 0; instance < instances.Length; instance++)
         {
@@ -74,7 +74,7 @@ public static class FractalGenerator
                 nextPosition += 3;
             }
 
-            foreach (var vertex in mesh.Faces)
+            foreach (var vertex in mesh.VertexIndices)
             {
                 faces[nextFace++] = (instance * mesh.VertexCount) + vertex;
             }
@@ -89,43 +89,43 @@ public static class FractalGenerator
     /// The distinct sums of componentwise composition. Since it commutes, their number grows like a power of the
     /// depth only.
     /// </summary>
-    /// <exception cref="FractalLimitException">There are more than <paramref name="budget"/>, or the fractal is infinite.</exception>
-    public static ImmutableArray<Transformation> ComponentwiseSums(Fractal fractal, long budget)
+    /// <exception cref="FractalLimitException">There are more than <paramref name="maxInstances"/>, or the fractal is infinite.</exception>
+    public static ImmutableArray<Transformation> ExpandComponentwise(Fractal fractal, long maxInstances)
     {
         if (fractal.LevelCount is not { } levels)
         {
             throw new FractalLimitException("an infinite fractal can't be composed componentwise: its positions don't shrink");
         }
 
-        budget = Math.Min(budget, FractalLimits.ComponentwiseSums);
+        maxInstances = Math.Min(maxInstances, FractalLimits.MaxComponentwiseSums);
         Transformation[] sums = [Transformation.Identity];
         for (var level = 0L; level < levels; level++)
         {
-            sums = Sums(sums, fractal.LevelAt(level).Transformations, budget);
+            sums = AddLevel(sums, fractal.LevelAt(level).Transformations, maxInstances);
         }
 
         return System.Runtime.InteropServices.ImmutableCollectionsMarshal.AsImmutableArray(sums);
     }
 
     /// <summary>Adds one level, a transformation at a time, so that there are never many more sums in memory than distinct ones.</summary>
-    private static Transformation[] Sums(Transformation[] sums, ImmutableArray<Transformation> set, long budget)
+    private static Transformation[] AddLevel(Transformation[] sums, ImmutableArray<Transformation> set, long maxInstances)
     {
         if (set is [{ IsIdentity: true }])
         {
             return sums;
         }
 
-        Transformation[] added = [];
+        Transformation[] extended = [];
         foreach (var transformation in set)
         {
-            added = DistinctMaps.Of([.. added, .. ConcatenatePair(sums, [transformation], Transformation.ComposeComponentwise)]);
-            if (added.Length > budget)
+            extended = DistinctMaps.Deduplicate([.. extended, .. ConcatenatePair(sums, [transformation], Transformation.ComposeComponentwise)]);
+            if (extended.Length > maxInstances)
             {
-                throw new FractalLimitException($"componentwise composition of the fractal has more than {budget} distinct sums");
+                throw new FractalLimitException($"componentwise composition of the fractal has more than {maxInstances} distinct sums");
             }
         }
 
-        return added;
+        return extended;
     }
 
     /// <summary>The paper's concatPair: [m1·m2 | ∀ m1 ∈ set1, ∀ m2 ∈ set2], in that order.</summary>

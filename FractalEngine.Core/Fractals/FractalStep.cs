@@ -19,7 +19,7 @@ public abstract class FractalStep
     public abstract BigInteger? InstanceCount { get; }
 
     /// <summary>How many repetitions stand inside each other, this one included.</summary>
-    public abstract int Nesting { get; }
+    public abstract int NestingDepth { get; }
 
     /// <summary>The set at one level of this step.</summary>
     /// <param name="level">From 0, the outermost; less than <see cref="LevelCount"/>.</param>

@@ -19,7 +19,7 @@ public static class FractalSteps
     /// True when there are at most <paramref name="limit"/> chains. Unlike the exact count, which may have millions of digits, this
     /// costs next to nothing.
     /// </summary>
-    public static bool HasAtMost(ImmutableArray<FractalStep> steps, long limit) => CountUpTo(steps, limit) <= limit;
+    public static bool HasAtMostInstances(ImmutableArray<FractalStep> steps, long limit) => CountUpTo(steps, limit) <= limit;
 
     /// <summary>How many chains there are, or, if they are more, some number above the limit.</summary>
     internal static BigInteger CountUpTo(ImmutableArray<FractalStep> steps, long limit)
@@ -42,15 +42,15 @@ public static class FractalSteps
     public static TransformationSet LevelAt(ImmutableArray<FractalStep> steps, long level)
     {
         ArgumentOutOfRangeException.ThrowIfNegative(level);
-        var rest = level;
+        var remainingLevel = level;
         foreach (var step in steps)
         {
-            if (step.LevelCount is not { } count || rest < count)
+            if (step.LevelCount is not { } count || remainingLevel < count)
             {
-                return step.LevelAt(rest);
+                return step.LevelAt(remainingLevel);
             }
 
-            rest -= count;
+            remainingLevel -= count;
         }
 
         throw new ArgumentOutOfRangeException(nameof(level), level, "the fractal has fewer levels");

@@ -15,7 +15,7 @@ namespace FractalEngine.Core.Fractals;
 public sealed class FractalTrail(Fractal fractal, int length)
 {
     /// <summary>Beyond this a double can't tell the parts of a fractal apart.</summary>
-    public const int Deepest = 1000;
+    public const int MaxDepth = 1000;
 
     private readonly Queue<AffineMap> _queue = new();
 
@@ -30,8 +30,8 @@ public sealed class FractalTrail(Fractal fractal, int length)
 
     /// <summary>The matrix that is drawn.</summary>
     /// <param name="placement">The object's own matrix m, which is left as it is.</param>
-    /// <param name="camera">World space.</param>
-    public AffineMap Follow(AffineMap placement, Vector camera)
+    /// <param name="cameraPosition">World space.</param>
+    public AffineMap Update(AffineMap placement, Vector cameraPosition)
     {
         _queue.Clear();
         for (var i = 0; i < length; i++)
@@ -40,8 +40,8 @@ public sealed class FractalTrail(Fractal fractal, int length)
         }
 
         var map = placement;
-        var most = Math.Min(fractal.LevelCount ?? Deepest, Deepest);
-        for (Depth = 0; Depth < most && Closest(map, fractal.LevelAt(Depth), camera) is { } closest && IsWithin(closest, camera); Depth++)
+        var maxDepth = Math.Min(fractal.LevelCount ?? MaxDepth, MaxDepth);
+        for (Depth = 0; Depth < maxDepth && FindClosest(map, fractal.LevelAt(Depth), cameraPosition) is { } closest && IsCameraWithinRadius(closest, cameraPosition); Depth++)
         {
             map = closest;
             _queue.Dequeue();
@@ -52,14 +52,14 @@ public sealed class FractalTrail(Fractal fractal, int length)
     }
 
     /// <summary>The paper's ClosestMatrix over a set: of all m·t the one whose position is nearest to the camera; null where there is only the identity.</summary>
-    private static AffineMap? Closest(AffineMap map, TransformationSet set, Vector camera)
+    private static AffineMap? FindClosest(AffineMap map, TransformationSet set, Vector cameraPosition)
     {
         AffineMap? closest = null;
         foreach (var transformation in set.Maps)
         {
             var candidate = map * transformation;
             if (transformation != AffineMap.Identity
-                && (closest is null || (candidate.Translation - camera).LengthSquared() < (closest.Value.Translation - camera).LengthSquared()))
+                && (closest is null || (candidate.Translation - cameraPosition).LengthSquared() < (closest.Value.Translation - cameraPosition).LengthSquared()))
             {
                 closest = candidate;
             }
@@ -68,5 +68,5 @@ public sealed class FractalTrail(Fractal fractal, int length)
         return closest;
     }
 
-    private bool IsWithin(AffineMap map, Vector camera) => (map.Translation - camera).Length() < fractal.BaseMesh.Radius(map);
+    private bool IsCameraWithinRadius(AffineMap map, Vector cameraPosition) => (map.Translation - cameraPosition).Length() < fractal.BaseMesh.Radius(map);
 }

@@ -11,71 +11,71 @@ internal sealed class LevelBounds
 {
     // Deeper levels are never looked at one by one: each halving of the scale uses up one of a double's 53 bits, so that
     // a search ends long before.
-    private const int KeptLevels = 4096;
-    private const int LimitRounds = 100_000;
+    private const int MaxKeptLevels = 4096;
+    private const int MaxRounds = 100_000;
 
     // Maps of a round that are also looked at as a whole.
-    private const int ComposedMaps = 256;
+    private const int MaxComposedMaps = 256;
 
-    private static readonly Bound Unknown = new(
+    private static readonly BoundingVolume Unbounded = new(
         new(Vector.Zero, double.PositiveInfinity),
         new(double.NegativeInfinity * Vector.One, double.PositiveInfinity * Vector.One));
 
-    private readonly Bound[] _levels;
+    private readonly BoundingVolume[] _levels;
 
-    private LevelBounds(Bound[] levels, bool areExact) => (_levels, AreExact) = (levels, areExact);
+    private LevelBounds(BoundingVolume[] levels, bool hasExactBoxes) => (_levels, HasExactBoxes) = (levels, hasExactBoxes);
 
     /// <summary>True when the boxes are exact: all maps send axes to axes.</summary>
-    public bool AreExact { get; }
+    public bool HasExactBoxes { get; }
 
     /// <summary>
     /// Around what stands below the sets of the levels before <paramref name="level"/>; 0 is the whole fractal. Below the
     /// levels that are kept nothing is known, and the bounds are infinite.
     /// </summary>
-    public Bound At(long level) => level < _levels.Length ? _levels[level] : Unknown;
+    public BoundingVolume At(long level) => level < _levels.Length ? _levels[level] : Unbounded;
 
     /// <summary>The bounds of a fractal in affine composition. Cost: one step a map and level, until the bounds settle.</summary>
-    public static LevelBounds Of(Fractal fractal)
+    public static LevelBounds Compute(Fractal fractal)
     {
-        var below = Bound.Of(fractal.BaseMesh);
-        var (exact, complete) = (true, true);
-        var kept = new List<Bound> { below };
+        var volume = BoundingVolume.FromMesh(fractal.BaseMesh);
+        var (isExact, isComplete) = (true, true);
+        var kept = new List<BoundingVolume> { volume };
         foreach (var step in fractal.Description.Steps.Reverse())
         {
             var body = step is Repetition repetition ? repetition : new([step], 1);
-            var rounds = body.Count ?? LimitRounds;
-            var settled = false;
-            var composed = ComposedRound(body);
+            var rounds = body.Count ?? MaxRounds;
+            var isConverged = false;
+            var composedMaps = ComposeRound(body);
             for (var round = 0; round < rounds; round++)
             {
-                var before = below;
+                var previous = volume;
                 for (var level = body.LevelsPerRound - 1; level >= 0; level--)
                 {
                     var set = body.LevelAt(level);
-                    exact &= set.Maps.All(map => SendsAxesToAxes(map.Linear));
-                    below = below.Under(set.Maps.AsSpan());
-                    kept.Add(below);
+                    isExact &= set.Maps.All(map => KeepsBoxesAxisAligned(map.Linear));
+                    volume = volume.UnionOfTransformed(set.Maps.AsSpan());
+                    kept.Add(volume);
                 }
 
-                if (composed.Length > 0)
+                if (composedMaps.Length > 0)
                 {
                     // Turned boxes and stretched balls grow from set to set, where the maps of a whole round may shrink.
-                    below = kept[^1] = Bound.Smaller(below, before.Under(composed));
+                    volume = kept[^1] = BoundingVolume.Tighter(volume, previous.UnionOfTransformed(composedMaps));
                 }
 
-                if (!below.IsFinite())
+                if (!volume.IsFinite())
                 {
                     // Beyond a double: all that is known of the levels above is that they are no smaller.
-                    return new([Unknown], false);
+                    return new([Unbounded], false);
                 }
 
-                if (IsSettled(before, below))
+                if (HasConverged(previous, volume))
                 {
                     // The rounds left have the same bounds, so only as many of them are listed as are ever looked at.
-                    settled = true;
-                    var left = (rounds - round - 1) * body.LevelsPerRound;
-                    complete &= left <= KeptLevels;
-                    for (var more = Math.Min(left, KeptLevels); more > 0; more--)
+                    isConverged = true;
+                    var remainingLevels = (rounds - round - 1) * body.LevelsPerRound;
+                    isComplete &= remainingLevels <= MaxKeptLevels;
+                    for (var copied = Math.Min(remainingLevels, MaxKeptLevels); copied > 0; copied--)
                     {
                         kept.Add(kept[^(int)body.LevelsPerRound]);
                     }
@@ -83,27 +83,27 @@ internal sealed class LevelBounds
                     break;
                 }
 
-                if (kept.Count > (4 * KeptLevels) + body.LevelsPerRound)
+                if (kept.Count > (4 * MaxKeptLevels) + body.LevelsPerRound)
                 {
-                    kept.RemoveRange(0, kept.Count - KeptLevels);
-                    complete = false;
+                    kept.RemoveRange(0, kept.Count - MaxKeptLevels);
+                    isComplete = false;
                 }
             }
 
-            if (body.Count is null && !settled)
+            if (body.Count is null && !isConverged)
             {
                 // The maps don't shrink, or by so little that there is no limit within reach.
-                below = Unknown;
-                kept.Add(below);
+                volume = Unbounded;
+                kept.Add(volume);
             }
         }
 
         kept.Reverse();
-        return new(complete ? [.. kept] : [.. kept.Take(KeptLevels)], exact);
+        return new(isComplete ? [.. kept] : [.. kept.Take(MaxKeptLevels)], isExact);
     }
 
     /// <summary>All maps of a round of several sets; none where boxes of each set are exact, or where there are too many.</summary>
-    private static AffineMap[] ComposedRound(Repetition body)
+    private static AffineMap[] ComposeRound(Repetition body)
     {
         if (body.LevelsPerRound == 1)
         {
@@ -111,40 +111,40 @@ internal sealed class LevelBounds
         }
 
         AffineMap[] maps = [AffineMap.Identity];
-        var exact = true;
+        var isExact = true;
         for (var level = 0L; level < body.LevelsPerRound; level++)
         {
             var set = body.LevelAt(level).Maps;
-            if ((long)maps.Length * set.Length > ComposedMaps)
+            if ((long)maps.Length * set.Length > MaxComposedMaps)
             {
                 return [];
             }
 
-            exact &= set.All(map => SendsAxesToAxes(map.Linear));
+            isExact &= set.All(map => KeepsBoxesAxisAligned(map.Linear));
             maps = [.. from outer in maps from inner in set select outer * inner];
         }
 
-        return exact ? [] : maps;
+        return isExact ? [] : maps;
     }
 
-    private static bool IsSettled(Bound before, Bound now) => Math.Max(
-        Math.Abs(before.Sphere.Radius - now.Sphere.Radius),
+    private static bool HasConverged(BoundingVolume previous, BoundingVolume current) => Math.Max(
+        Math.Abs(previous.Sphere.Radius - current.Sphere.Radius),
         Math.Max(
-            (before.Box.Minimum - now.Box.Minimum).MaximumComponent(),
-            (before.Box.Maximum - now.Box.Maximum).MaximumComponent())) <= 1e-15 * now.Box.Size.MaximumComponent();
+            (previous.Box.Minimum - current.Box.Minimum).MaxAbsComponent(),
+            (previous.Box.Maximum - current.Box.Maximum).MaxAbsComponent())) <= 1e-15 * current.Box.Size.MaxAbsComponent();
 
-    private static bool SendsAxesToAxes(Matrix linear) =>
-        IsAlongAnAxis(linear.V1) && IsAlongAnAxis(linear.V2) && IsAlongAnAxis(linear.V3);
+    private static bool KeepsBoxesAxisAligned(Matrix linear) =>
+        HasAtMostOneNonzero(linear.V1) && HasAtMostOneNonzero(linear.V2) && HasAtMostOneNonzero(linear.V3);
 
-    private static bool IsAlongAnAxis(Vector v) => (v.X != 0 ? 1 : 0) + (v.Y != 0 ? 1 : 0) + (v.Z != 0 ? 1 : 0) <= 1;
+    private static bool HasAtMostOneNonzero(Vector v) => (v.X != 0 ? 1 : 0) + (v.Y != 0 ? 1 : 0) + (v.Z != 0 ? 1 : 0) <= 1;
 
     /// <summary>A ball and a box around the same thing.</summary>
-    internal readonly record struct Bound(BoundingSphere Sphere, BoundingBox Box)
+    internal readonly record struct BoundingVolume(BoundingSphere Sphere, BoundingBox Box)
     {
         /// <summary>False beyond the range of a double.</summary>
         public bool IsFinite() => Box.Size.IsFinite() && Box.Minimum.IsFinite();
 
-        public static Bound Of(Mesh mesh)
+        public static BoundingVolume FromMesh(Mesh mesh)
         {
             var (centre, radius) = (mesh.Bounds.Centre, 0.0);
             for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
@@ -156,34 +156,34 @@ internal sealed class LevelBounds
         }
 
         /// <summary>Around the copies that maps make of what this is around.</summary>
-        public Bound Under(ReadOnlySpan<AffineMap> maps)
+        public BoundingVolume UnionOfTransformed(ReadOnlySpan<AffineMap> maps)
         {
-            var (box, ballBox) = (BoundingBox.Empty, BoundingBox.Empty);
+            var (box, sphereBox) = (BoundingBox.Empty, BoundingBox.Empty);
             foreach (var map in maps)
             {
                 box = BoundingBox.Union(box, Box.Transform(map));
-                var ball = Sphere.Transform(map);
-                ballBox = ballBox.Including(ball.Centre - (ball.Radius * Vector.One)).Including(ball.Centre + (ball.Radius * Vector.One));
+                var sphere = Sphere.Transform(map);
+                sphereBox = sphereBox.Including(sphere.Centre - (sphere.Radius * Vector.One)).Including(sphere.Centre + (sphere.Radius * Vector.One));
             }
 
-            box = new(Vector.Max(box.Minimum, ballBox.Minimum), Vector.Min(box.Maximum, ballBox.Maximum));
+            box = new(Vector.Max(box.Minimum, sphereBox.Minimum), Vector.Min(box.Maximum, sphereBox.Maximum));
             var radius = 0.0;
             foreach (var map in maps)
             {
-                var ball = Sphere.Transform(map);
-                radius = Math.Max(radius, (ball.Centre - box.Centre).Length() + ball.Radius);
+                var sphere = Sphere.Transform(map);
+                radius = Math.Max(radius, (sphere.Centre - box.Centre).Length() + sphere.Radius);
             }
 
             return new(new(box.Centre, radius), box);
         }
 
         /// <summary>Around the same thing as both are.</summary>
-        public static Bound Smaller(in Bound bound1, in Bound bound2) => new(
-            bound1.Sphere.Radius <= bound2.Sphere.Radius ? bound1.Sphere : bound2.Sphere,
-            new(Vector.Max(bound1.Box.Minimum, bound2.Box.Minimum), Vector.Min(bound1.Box.Maximum, bound2.Box.Maximum)));
+        public static BoundingVolume Tighter(in BoundingVolume volume1, in BoundingVolume volume2) => new(
+            volume1.Sphere.Radius <= volume2.Sphere.Radius ? volume1.Sphere : volume2.Sphere,
+            new(Vector.Max(volume1.Box.Minimum, volume2.Box.Minimum), Vector.Min(volume1.Box.Maximum, volume2.Box.Maximum)));
 
         /// <summary>An upper bound of <c>Dot(direction, v)</c> over the image of what this is around.</summary>
-        public double Farthest(AffineMap map, Vector direction)
+        public double SupportBound(AffineMap map, Vector direction)
         {
             if (double.IsPositiveInfinity(Sphere.Radius))
             {
@@ -191,9 +191,9 @@ internal sealed class LevelBounds
             }
 
             var local = map.Linear.Transpose() * direction;
-            var ball = Vector.Dot(local, Sphere.Centre) + (local.Length() * Sphere.Radius);
-            var box = Vector.Dot(local, Box.Centre) + (0.5 * Vector.Dot(local.Absolute(), Box.Size));
-            return Math.Min(ball, box) + Vector.Dot(direction, map.Translation);
+            var sphereSupport = Vector.Dot(local, Sphere.Centre) + (local.Length() * Sphere.Radius);
+            var boxSupport = Vector.Dot(local, Box.Centre) + (0.5 * Vector.Dot(local.Absolute(), Box.Size));
+            return Math.Min(sphereSupport, boxSupport) + Vector.Dot(direction, map.Translation);
         }
     }
 }

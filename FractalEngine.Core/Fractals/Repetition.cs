@@ -24,7 +24,7 @@ public sealed class Repetition : FractalStep
 
         (Body, Count) = (body, count);
         LevelsPerRound = FractalSteps.LevelCount(body)!.Value;
-        Nesting = 1 + body.Max(step => step.Nesting);
+        NestingDepth = 1 + body.Max(step => step.NestingDepth);
     }
 
     /// <summary>The steps of one round, outermost first.</summary>
@@ -40,7 +40,7 @@ public sealed class Repetition : FractalStep
     public override long? LevelCount => Count * LevelsPerRound;
 
     /// <inheritdoc/>
-    public override int Nesting { get; }
+    public override int NestingDepth { get; }
 
     /// <inheritdoc/>
     /// <remarks>Exact at any size: a million rounds of 25 maps give a number of 1.4 million digits in about a second.</remarks>

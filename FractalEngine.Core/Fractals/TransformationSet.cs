@@ -30,7 +30,7 @@ public sealed class TransformationSet : FractalStep
     public override BigInteger? InstanceCount => Transformations.Length;
 
     /// <inheritdoc/>
-    public override int Nesting => 0;
+    public override int NestingDepth => 0;
 
     /// <inheritdoc/>
     public override TransformationSet LevelAt(long level) => this;

@@ -23,7 +23,7 @@ public readonly record struct BoundingBox(Vector Minimum, Vector Maximum)
     public Vector Size => IsEmpty ? Vector.Zero : Maximum - Minimum;
 
     /// <summary>The length of the diagonal.</summary>
-    public double Diagonal => Size.MaximumComponent() switch
+    public double Diagonal => Size.MaxAbsComponent() switch
     {
         > 0 and < double.PositiveInfinity and var largest => largest * (Size / largest).Length(),
         var largest => largest,

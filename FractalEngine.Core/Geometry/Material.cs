@@ -5,7 +5,7 @@ namespace FractalEngine.Core.Geometry;
 public sealed record Material(string Name)
 {
     // Neither the white of paper nor so dark that shading is lost on it.
-    private const double MissingPictureGrey = 0.6;
+    private const double MissingTextureGrey = 0.6;
 
     /// <summary><c>Kd</c>: the colour under light from one direction, sRGB; a texture multiplies it.</summary>
     public Colour Diffuse { get; init; } = Colour.White;
@@ -29,9 +29,9 @@ public sealed record Material(string Name)
     public bool IsGlossy => Specular != Colour.Black;
 
     /// <summary>The same material where its picture can't be had: an even grey takes its place.</summary>
-    public Material WithoutPicture() => this with
+    public Material WithoutTexture() => this with
     {
         Texture = null,
-        Diffuse = new(MissingPictureGrey * Diffuse.Red, MissingPictureGrey * Diffuse.Green, MissingPictureGrey * Diffuse.Blue),
+        Diffuse = new(MissingTextureGrey * Diffuse.Red, MissingTextureGrey * Diffuse.Green, MissingTextureGrey * Diffuse.Blue),
     };
 }

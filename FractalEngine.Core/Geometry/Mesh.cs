@@ -12,14 +12,14 @@ public sealed class Mesh
 {
     /// <summary>A mesh of positions and faces.</summary>
     /// <param name="positions">Coordinates, [vertices × 3].</param>
-    /// <param name="faces">Vertex numbers from 0, [faces × 3].</param>
+    /// <param name="vertexIndices">Vertex numbers from 0, [faces × 3].</param>
     /// <exception cref="ArgumentException">A length is not a multiple of three, or a vertex number is out of range.</exception>
-    public Mesh(ImmutableArray<double> positions, ImmutableArray<int> faces)
+    public Mesh(ImmutableArray<double> positions, ImmutableArray<int> vertexIndices)
     {
         Require(positions.Length % 3 == 0, nameof(positions), "three coordinates a vertex");
         Positions = positions;
-        Faces = faces;
-        RequireIndices(faces, faces.Length, positions.Length / 3, 0, nameof(faces));
+        VertexIndices = vertexIndices;
+        RequireIndices(vertexIndices, vertexIndices.Length, positions.Length / 3, 0, nameof(vertexIndices));
         Bounds = BoundsOf(positions.AsSpan());
     }
 
@@ -30,19 +30,19 @@ public sealed class Mesh
     public ImmutableArray<double> Positions { get; }
 
     /// <summary>Vertex numbers from 0, [<see cref="FaceCount"/> × 3].</summary>
-    public ImmutableArray<int> Faces { get; }
+    public ImmutableArray<int> VertexIndices { get; }
 
     /// <summary>Texture coordinates (u, v), v upwards, [n × 2]; empty when the mesh has none.</summary>
     public ImmutableArray<double> TextureCoordinates { get; private init; } = [];
 
     /// <summary>Numbers into <see cref="TextureCoordinates"/>, −1 for none, [<see cref="FaceCount"/> × 3], or empty.</summary>
-    public ImmutableArray<int> TextureFaces { get; private init; } = [];
+    public ImmutableArray<int> TextureIndices { get; private init; } = [];
 
     /// <summary>Normals as the file gives them, of any length, [n × 3]; empty when the mesh has none.</summary>
     public ImmutableArray<double> Normals { get; private init; } = [];
 
     /// <summary>Numbers into <see cref="Normals"/>, −1 for none, [<see cref="FaceCount"/> × 3], or empty.</summary>
-    public ImmutableArray<int> NormalFaces { get; private init; } = [];
+    public ImmutableArray<int> NormalIndices { get; private init; } = [];
 
     /// <summary>The faces in runs of one name and material, in order; together they cover all faces, or there are none.</summary>
     public ImmutableArray<MeshGroup> Groups { get; private init; } = [];
@@ -54,29 +54,29 @@ public sealed class Mesh
     public int VertexCount => Positions.Length / 3;
 
     /// <summary>How many triangles the mesh has.</summary>
-    public int FaceCount => Faces.Length / 3;
+    public int FaceCount => VertexIndices.Length / 3;
 
     /// <summary>The box of all vertices, unused ones included.</summary>
     public BoundingBox Bounds { get; }
 
     /// <summary>The same mesh with texture coordinates.</summary>
     /// <param name="coordinates">(u, v), [n × 2].</param>
-    /// <param name="faces">Numbers into them, −1 for none, [faces × 3].</param>
-    public Mesh WithTextureCoordinates(ImmutableArray<double> coordinates, ImmutableArray<int> faces)
+    /// <param name="indices">Numbers into them, −1 for none, [faces × 3].</param>
+    public Mesh WithTextureCoordinates(ImmutableArray<double> coordinates, ImmutableArray<int> indices)
     {
         Require(coordinates.Length % 2 == 0, nameof(coordinates), "two coordinates each");
-        RequireIndices(faces, Faces.Length, coordinates.Length / 2, -1, nameof(faces));
-        return new(this) { TextureCoordinates = coordinates, TextureFaces = faces };
+        RequireIndices(indices, VertexIndices.Length, coordinates.Length / 2, -1, nameof(indices));
+        return new(this) { TextureCoordinates = coordinates, TextureIndices = indices };
     }
 
     /// <summary>The same mesh with normals.</summary>
     /// <param name="normals">[n × 3].</param>
-    /// <param name="faces">Numbers into them, −1 for none, [faces × 3].</param>
-    public Mesh WithNormals(ImmutableArray<double> normals, ImmutableArray<int> faces)
+    /// <param name="indices">Numbers into them, −1 for none, [faces × 3].</param>
+    public Mesh WithNormals(ImmutableArray<double> normals, ImmutableArray<int> indices)
     {
         Require(normals.Length % 3 == 0, nameof(normals), "three components each");
-        RequireIndices(faces, Faces.Length, normals.Length / 3, -1, nameof(faces));
-        return new(this) { Normals = normals, NormalFaces = faces };
+        RequireIndices(indices, VertexIndices.Length, normals.Length / 3, -1, nameof(indices));
+        return new(this) { Normals = normals, NormalIndices = indices };
     }
 
     /// <summary>The same mesh with named runs of faces.</summary>
@@ -93,7 +93,7 @@ public sealed class Mesh
     /// <param name="face">From 0.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public (Vector A, Vector B, Vector C) Face(int face) =>
-        (Vertex(Faces[3 * face]), Vertex(Faces[(3 * face) + 1]), Vertex(Faces[(3 * face) + 2]));
+        (Vertex(VertexIndices[3 * face]), Vertex(VertexIndices[(3 * face) + 1]), Vertex(VertexIndices[(3 * face) + 2]));
 
     /// <summary>
     /// A function applied to every vertex: the paper's T(t) (§4.2.3). Normals are dropped, since a general function
@@ -110,10 +110,10 @@ public sealed class Mesh
             positions.Add(z);
         }
 
-        return new(positions.MoveToImmutable(), Faces)
+        return new(positions.MoveToImmutable(), VertexIndices)
         {
             TextureCoordinates = TextureCoordinates,
-            TextureFaces = TextureFaces,
+            TextureIndices = TextureIndices,
             Groups = Groups,
             MaterialLibraries = MaterialLibraries,
         };
@@ -125,20 +125,20 @@ public sealed class Mesh
     /// </summary>
     public double Radius(AffineMap map)
     {
-        var largest = 0.0;
+        var maxDistance = 0.0;
         for (var vertex = 0; vertex < VertexCount; vertex++)
         {
-            largest = Math.Max(largest, (map.Linear * Vertex(vertex)).Length());
+            maxDistance = Math.Max(maxDistance, (map.Linear * Vertex(vertex)).Length());
         }
 
-        return largest;
+        return maxDistance;
     }
 
     private Mesh(Mesh other)
     {
-        (Positions, Faces, Bounds) = (other.Positions, other.Faces, other.Bounds);
-        (TextureCoordinates, TextureFaces) = (other.TextureCoordinates, other.TextureFaces);
-        (Normals, NormalFaces) = (other.Normals, other.NormalFaces);
+        (Positions, VertexIndices, Bounds) = (other.Positions, other.VertexIndices, other.Bounds);
+        (TextureCoordinates, TextureIndices) = (other.TextureCoordinates, other.TextureIndices);
+        (Normals, NormalIndices) = (other.Normals, other.NormalIndices);
         (Groups, MaterialLibraries) = (other.Groups, other.MaterialLibraries);
     }
 
@@ -153,12 +153,12 @@ public sealed class Mesh
         return box;
     }
 
-    private static void RequireIndices(ImmutableArray<int> indices, int length, int count, int smallest, string name)
+    private static void RequireIndices(ImmutableArray<int> indices, int length, int count, int minIndex, string name)
     {
         Require(indices.Length % 3 == 0 && indices.Length == length, name, "three numbers a face");
         foreach (var index in indices)
         {
-            Require(index >= smallest && index < count, name, "numbers of elements that exist");
+            Require(index >= minIndex && index < count, name, "numbers of elements that exist");
         }
     }
 

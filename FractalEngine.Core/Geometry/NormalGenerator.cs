@@ -18,68 +18,68 @@ public static class NormalGenerator
     public const double DefaultCreaseAngle = 40;
 
     // Around a position with more corners (the tip of a finely cut cone) pairs are not compared one by one.
-    private const int PairwiseCorners = 64;
+    private const int MaxPairwiseCorners = 64;
 
     /// <summary>The same mesh with generated normals, whatever normals it had.</summary>
     /// <param name="mesh">Any mesh; vertices at the same position are taken as one.</param>
     /// <param name="creaseAngle">Degrees, from 0 (every face flat) to 180 (everything smooth).</param>
     /// <returns>Unit normals; a corner whose face has no area has the number −1 where no neighbour gives it a direction.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The angle is outside 0..180.</exception>
-    public static Mesh WithNormals(Mesh mesh, double creaseAngle = DefaultCreaseAngle)
+    public static Mesh Generate(Mesh mesh, double creaseAngle = DefaultCreaseAngle)
     {
         ArgumentOutOfRangeException.ThrowIfNegative(creaseAngle);
         ArgumentOutOfRangeException.ThrowIfGreaterThan(creaseAngle, 180);
-        var corners = Corners.Of(mesh);
-        var builder = new Builder(corners, Math.Cos(creaseAngle * Math.PI / 180) - 1e-12);
+        var corners = MeshCorners.FromMesh(mesh);
+        var builder = new NormalBuilder(corners, Math.Cos(creaseAngle * Math.PI / 180) - 1e-12);
         for (var position = 0; position < corners.PositionCount; position++)
         {
-            builder.AddPosition(corners.Around(position));
+            builder.AddPosition(corners.CornersAt(position));
         }
 
         return mesh.WithNormals(
             [.. MemoryMarshal.Cast<Vector, double>(CollectionsMarshal.AsSpan(builder.Normals))],
-            ImmutableCollectionsMarshal.AsImmutableArray(builder.NormalOfCorner));
+            ImmutableCollectionsMarshal.AsImmutableArray(builder.NormalIndices));
     }
 
     /// <summary>What every corner of every face contributes, and which corners share a position.</summary>
-    private sealed class Corners(Vector[] faceNormals, double[] angles, int[] starts, int[] sorted)
+    private sealed class MeshCorners(Vector[] faceNormals, double[] angles, int[] starts, int[] sorted)
     {
         public int PositionCount => starts.Length - 1;
 
         public int Count => angles.Length;
 
-        public static Corners Of(Mesh mesh)
+        public static MeshCorners FromMesh(Mesh mesh)
         {
-            var faces = mesh.Faces.AsSpan();
+            var vertexIndices = mesh.VertexIndices.AsSpan();
             var representatives = Weld(mesh);
-            var (normals, angles) = (new Vector[mesh.FaceCount], new double[faces.Length]);
+            var (normals, angles) = (new Vector[mesh.FaceCount], new double[vertexIndices.Length]);
             for (var face = 0; face < normals.Length; face++)
             {
                 var (a, b, c) = mesh.Face(face);
-                var (ab, bc, ca) = (Direction(b - a), Direction(c - b), Direction(a - c));
-                if (IsProper(ab, bc, ca))
+                var (ab, bc, ca) = (NormalizeOrZero(b - a), NormalizeOrZero(c - b), NormalizeOrZero(a - c));
+                if (IsNonDegenerate(ab, bc, ca))
                 {
-                    normals[face] = Direction(Vector.Cross(b - a, c - a));
-                    angles[3 * face] = Angle(ab, -ca);
-                    angles[(3 * face) + 1] = Angle(bc, -ab);
-                    angles[(3 * face) + 2] = Angle(ca, -bc);
+                    normals[face] = NormalizeOrZero(Vector.Cross(b - a, c - a));
+                    angles[3 * face] = AngleBetween(ab, -ca);
+                    angles[(3 * face) + 1] = AngleBetween(bc, -ab);
+                    angles[(3 * face) + 2] = AngleBetween(ca, -bc);
                 }
             }
 
-            var (starts, sorted) = SortByPosition(faces, representatives);
+            var (starts, sorted) = SortByPosition(vertexIndices, representatives);
             return new(normals, angles, starts, sorted);
         }
 
-        public ReadOnlySpan<int> Around(int position) => sorted.AsSpan(starts[position]..starts[position + 1]);
+        public ReadOnlySpan<int> CornersAt(int position) => sorted.AsSpan(starts[position]..starts[position + 1]);
 
         public Vector FaceNormal(int corner) => faceNormals[corner / 3];
 
-        public Vector Weighted(int corner) => angles[corner] * faceNormals[corner / 3];
+        public Vector WeightedNormal(int corner) => angles[corner] * faceNormals[corner / 3];
 
-        private static (int[] Starts, int[] Sorted) SortByPosition(ReadOnlySpan<int> faces, int[] representatives)
+        private static (int[] Starts, int[] Sorted) SortByPosition(ReadOnlySpan<int> vertexIndices, int[] representatives)
         {
             var starts = new int[representatives.Length + 1];
-            foreach (var vertex in faces)
+            foreach (var vertex in vertexIndices)
             {
                 starts[representatives[vertex] + 1]++;
             }
@@ -89,10 +89,10 @@ public static class NormalGenerator
                 starts[i] += starts[i - 1];
             }
 
-            var (next, sorted) = (starts.ToArray(), new int[faces.Length]);
-            for (var corner = 0; corner < faces.Length; corner++)
+            var (next, sorted) = (starts.ToArray(), new int[vertexIndices.Length]);
+            for (var corner = 0; corner < vertexIndices.Length; corner++)
             {
-                sorted[next[representatives[faces[corner]]]++] = corner;
+                sorted[next[representatives[vertexIndices[corner]]]++] = corner;
             }
 
             return (starts, sorted);
@@ -113,58 +113,58 @@ public static class NormalGenerator
         }
 
         /// <summary>A unit vector, or zero where there is no direction: robust for very large and very small faces.</summary>
-        private static Vector Direction(Vector v) => v.LengthSquared() switch
+        private static Vector NormalizeOrZero(Vector v) => v.LengthSquared() switch
         {
-            > 1e-280 and < 1e280 and var squared => v / Math.Sqrt(squared),
+            > 1e-280 and < 1e280 and var lengthSquared => v / Math.Sqrt(lengthSquared),
             _ when v.IsFinite() && v != Vector.Zero => v.UnitVector(),
             _ => Vector.Zero,
         };
 
         /// <summary>False for slivers and points, whose direction is decided by the rounding of their corners.</summary>
-        private static bool IsProper(Vector ab, Vector bc, Vector ca)
+        private static bool IsNonDegenerate(Vector ab, Vector bc, Vector ca)
         {
-            const double SmallestSine = 1e-9;
-            return Vector.Cross(ab, bc).LengthSquared() > SmallestSine * SmallestSine
-                && Vector.Cross(bc, ca).LengthSquared() > SmallestSine * SmallestSine
-                && Vector.Cross(ca, ab).LengthSquared() > SmallestSine * SmallestSine;
+            const double MinSine = 1e-9;
+            return Vector.Cross(ab, bc).LengthSquared() > MinSine * MinSine
+                && Vector.Cross(bc, ca).LengthSquared() > MinSine * MinSine
+                && Vector.Cross(ca, ab).LengthSquared() > MinSine * MinSine;
         }
 
         /// <summary>Between unit vectors, radians.</summary>
-        private static double Angle(Vector v1, Vector v2) => Math.Atan2(Vector.Cross(v1, v2).Length(), Vector.Dot(v1, v2));
+        private static double AngleBetween(Vector v1, Vector v2) => Math.Atan2(Vector.Cross(v1, v2).Length(), Vector.Dot(v1, v2));
     }
 
-    private sealed class Builder(Corners corners, double creaseCosine)
+    private sealed class NormalBuilder(MeshCorners corners, double creaseCosine)
     {
         private readonly List<(Vector Direction, Vector Sum)> _clusters = [];
 
         public List<Vector> Normals { get; } = new(corners.PositionCount);
 
-        public int[] NormalOfCorner { get; } = new int[corners.Count];
+        public int[] NormalIndices { get; } = new int[corners.Count];
 
         public void AddPosition(ReadOnlySpan<int> around)
         {
-            var firstHere = Normals.Count;
-            var isCrowded = around.Length > PairwiseCorners;
+            var firstIndex = Normals.Count;
+            var isCrowded = around.Length > MaxPairwiseCorners;
             if (isCrowded)
             {
-                Cluster(around);
+                ClusterDirections(around);
             }
 
             foreach (var corner in around)
             {
-                var sum = isCrowded ? SumOfClusters(corners.FaceNormal(corner)) : SumOfPairs(around, corners.FaceNormal(corner));
-                NormalOfCorner[corner] = NumberOf(sum, firstHere);
+                var sum = isCrowded ? SumOfClusters(corners.FaceNormal(corner)) : SumPairwise(around, corners.FaceNormal(corner));
+                NormalIndices[corner] = FindOrAddNormal(sum, firstIndex);
             }
         }
 
-        private Vector SumOfPairs(ReadOnlySpan<int> around, Vector direction)
+        private Vector SumPairwise(ReadOnlySpan<int> around, Vector direction)
         {
             var sum = Vector.Zero;
             foreach (var other in around)
             {
-                if (IsWithin(direction, corners.FaceNormal(other)))
+                if (IsWithinCreaseAngle(direction, corners.FaceNormal(other)))
                 {
-                    sum += corners.Weighted(other);
+                    sum += corners.WeightedNormal(other);
                 }
             }
 
@@ -172,14 +172,14 @@ public static class NormalGenerator
         }
 
         /// <summary>Puts directions within a few degrees of each other together; there are never more than some hundred such groups.</summary>
-        private void Cluster(ReadOnlySpan<int> around)
+        private void ClusterDirections(ReadOnlySpan<int> around)
         {
-            const double Together = 0.985; // 10°
+            const double MinClusterCosine = 0.985; // 10°
             _clusters.Clear();
             foreach (var corner in around)
             {
-                var (direction, weighted) = (corners.FaceNormal(corner), corners.Weighted(corner));
-                var index = _clusters.FindIndex(cluster => Vector.Dot(cluster.Direction, direction) >= Together);
+                var (direction, weighted) = (corners.FaceNormal(corner), corners.WeightedNormal(corner));
+                var index = _clusters.FindIndex(cluster => Vector.Dot(cluster.Direction, direction) >= MinClusterCosine);
                 if (index < 0)
                 {
                     _clusters.Add((direction, weighted));
@@ -196,7 +196,7 @@ public static class NormalGenerator
             var sum = Vector.Zero;
             foreach (var (other, weighted) in _clusters)
             {
-                if (IsWithin(direction, other))
+                if (IsWithinCreaseAngle(direction, other))
                 {
                     sum += weighted;
                 }
@@ -206,11 +206,11 @@ public static class NormalGenerator
         }
 
         /// <summary>A face without area has no direction of its own and takes that of everything around.</summary>
-        private bool IsWithin(Vector direction, Vector other) =>
+        private bool IsWithinCreaseAngle(Vector direction, Vector other) =>
             direction == Vector.Zero || Vector.Dot(direction, other) >= creaseCosine;
 
         /// <summary>The number of a normal, shared by the corners of a position that have the same one.</summary>
-        private int NumberOf(Vector sum, int firstHere)
+        private int FindOrAddNormal(Vector sum, int firstIndex)
         {
             if (!(sum.LengthSquared() > 1e-24))
             {
@@ -218,7 +218,7 @@ public static class NormalGenerator
             }
 
             var normal = sum / sum.Length();
-            for (var i = firstHere; i < Normals.Count; i++)
+            for (var i = firstIndex; i < Normals.Count; i++)
             {
                 if (Normals[i] == normal)
                 {

@@ -31,7 +31,7 @@ public sealed class PolygonTriangulator
         }
 
         Project(corners);
-        Link(corners.Length);
+        LinkCorners(corners.Length);
         CollectReflexCorners(corners.Length);
         ClipEars(corners.Length, triangles);
     }
@@ -57,7 +57,7 @@ public sealed class PolygonTriangulator
         }
     }
 
-    private void Link(int count)
+    private void LinkCorners(int count)
     {
         _previous.Clear();
         _next.Clear();
@@ -81,34 +81,34 @@ public sealed class PolygonTriangulator
         }
     }
 
-    private bool IsReflex(int corner) => Area(_points[_previous[corner]], _points[corner], _points[_next[corner]]) <= 0;
+    private bool IsReflex(int corner) => TwiceSignedArea(_points[_previous[corner]], _points[corner], _points[_next[corner]]) <= 0;
 
     private void ClipEars(int count, List<int> triangles)
     {
         var corner = 0;
-        var tried = 0;
-        for (var left = count; left > 3;)
+        var attempts = 0;
+        for (var remaining = count; remaining > 3;)
         {
             // A corner is cut when it is an ear, or, where the polygon is not simple, once nothing else is left to try.
-            if (tried < left && !IsEar(corner))
+            if (attempts < remaining && !IsEar(corner))
             {
                 corner = _next[corner];
-                tried++;
+                attempts++;
                 continue;
             }
 
-            var (before, after) = (_previous[corner], _next[corner]);
-            triangles.AddRange([before, corner, after]);
-            (_next[before], _previous[after]) = (after, before);
+            var (previous, next) = (_previous[corner], _next[corner]);
+            triangles.AddRange([previous, corner, next]);
+            (_next[previous], _previous[next]) = (next, previous);
             if (_reflex.Count > 0)
             {
-                _reflex.RemoveAll(reflex => reflex == corner || ((reflex == before || reflex == after) && !IsReflex(reflex)));
+                _reflex.RemoveAll(reflex => reflex == corner || ((reflex == previous || reflex == next) && !IsReflex(reflex)));
             }
 
             // Going on two corners later spreads the cuts and avoids long thin fans.
             corner = _next[_next[corner]];
-            tried = 0;
-            left--;
+            attempts = 0;
+            remaining--;
         }
 
         triangles.AddRange([_previous[corner], corner, _next[corner]]);
@@ -116,10 +116,10 @@ public sealed class PolygonTriangulator
 
     private bool IsEar(int corner)
     {
-        var (before, after) = (_previous[corner], _next[corner]);
+        var (previous, next) = (_previous[corner], _next[corner]);
         var points = CollectionsMarshal.AsSpan(_points);
-        var (a, b, c) = (points[before], points[corner], points[after]);
-        if (Area(a, b, c) <= 0)
+        var (a, b, c) = (points[previous], points[corner], points[next]);
+        if (TwiceSignedArea(a, b, c) <= 0)
         {
             return false;
         }
@@ -127,7 +127,7 @@ public sealed class PolygonTriangulator
         foreach (var other in CollectionsMarshal.AsSpan(_reflex))
         {
             if (points[other] != a && points[other] != b && points[other] != c
-                && Area(a, b, points[other]) >= 0 && Area(b, c, points[other]) >= 0 && Area(c, a, points[other]) >= 0)
+                && TwiceSignedArea(a, b, points[other]) >= 0 && TwiceSignedArea(b, c, points[other]) >= 0 && TwiceSignedArea(c, a, points[other]) >= 0)
             {
                 return false;
             }
@@ -137,6 +137,6 @@ public sealed class PolygonTriangulator
     }
 
     /// <summary>Twice the signed area of a triangle; positive when it turns the way the polygon does.</summary>
-    private static double Area((double X, double Y) a, (double X, double Y) b, (double X, double Y) c) =>
+    private static double TwiceSignedArea((double X, double Y) a, (double X, double Y) b, (double X, double Y) c) =>
         ((b.X - a.X) * (c.Y - a.Y)) - ((b.Y - a.Y) * (c.X - a.X));
 }

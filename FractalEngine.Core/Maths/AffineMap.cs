@@ -19,12 +19,12 @@ public readonly record struct AffineMap(Matrix Linear, Vector Translation)
     /// <summary>v ↦ p + LocalAxes(r)·(v − p): a rotation about a pivot (paper §4.2.3).</summary>
     /// <param name="rotation">Euler angles in degrees.</param>
     /// <param name="pivot">The point that stays where it is.</param>
-    public static AffineMap Rotate(Vector rotation, Vector pivot) => About(pivot, rotation.LocalAxesFromDegrees());
+    public static AffineMap Rotate(Vector rotation, Vector pivot) => AboutPivot(pivot, rotation.LocalAxesFromDegrees());
 
     /// <summary>v ↦ p + stretch(v − p, s): a scale about a pivot (paper §4.2.3).</summary>
     /// <param name="scale">Factors along x, y and z.</param>
     /// <param name="pivot">The point that stays where it is.</param>
-    public static AffineMap Scale(Vector scale, Vector pivot) => About(pivot, Matrix.Diagonal(scale));
+    public static AffineMap Scale(Vector scale, Vector pivot) => AboutPivot(pivot, Matrix.Diagonal(scale));
 
     /// <summary>The image of a point.</summary>
     public static Vector operator *(AffineMap map, Vector point) => (map.Linear * point) + map.Translation;
@@ -43,5 +43,5 @@ public readonly record struct AffineMap(Matrix Linear, Vector Translation)
     /// <summary>Linear part and translation, invariant culture.</summary>
     public override string ToString() => string.Create(CultureInfo.InvariantCulture, $"{Linear} + {Translation}");
 
-    private static AffineMap About(Vector pivot, Matrix linear) => new(linear, pivot - (linear * pivot));
+    private static AffineMap AboutPivot(Vector pivot, Matrix linear) => new(linear, pivot - (linear * pivot));
 }

@@ -13,7 +13,7 @@ public static class DecimalText
 
     /// <summary>The digits of a number, without separators.</summary>
     /// <param name="number">Not negative.</param>
-    public static string Of(BigInteger number)
+    public static string Format(BigInteger number)
     {
         ArgumentOutOfRangeException.ThrowIfNegative(number);
         if (number.GetBitLength() < 4096)
@@ -36,7 +36,7 @@ public static class DecimalText
 
     /// <summary>A number for people: with separators, or as a power of ten once it is longer than a line.</summary>
     /// <param name="number">Null for infinitely many.</param>
-    public static string Approximate(BigInteger? number) => number switch
+    public static string FormatApproximately(BigInteger? number) => number switch
     {
         null => "infinitely many",
         { } count when count < 1_000_000_000_000_000 => count.ToString("N0", CultureInfo.InvariantCulture),

@@ -12,7 +12,7 @@ namespace FractalEngine.Core.Maths;
 public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
 {
     // The cosine of the yaw from which on the lock counts as complete: above the roundings of a few products, and an error of at most twice as much in an entry.
-    private const double Locked = 1e-13;
+    private const double MinYawCosine = 1e-13;
 
     /// <summary>The neutral matrix (i j k).</summary>
     public static Matrix Identity => new(Vector.I, Vector.J, Vector.K);
@@ -26,26 +26,26 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
 
     /// <summary>Rotation about the x axis, by rows [1 0 0; 0 c s; 0 −s c].</summary>
     /// <param name="angle">Radians.</param>
-    public static Matrix Pitch(double angle) => Pitch(SineCosine.OfRadians(angle));
+    public static Matrix Pitch(double angle) => Pitch(SineCosine.FromRadians(angle));
 
     /// <summary>Rotation about the y axis, by rows [c 0 −s; 0 1 0; s 0 c].</summary>
     /// <param name="angle">Radians.</param>
-    public static Matrix Yaw(double angle) => Yaw(SineCosine.OfRadians(angle));
+    public static Matrix Yaw(double angle) => Yaw(SineCosine.FromRadians(angle));
 
     /// <summary>Rotation about the z axis, by rows [c s 0; −s c 0; 0 0 1].</summary>
     /// <param name="angle">Radians.</param>
-    public static Matrix Roll(double angle) => Roll(SineCosine.OfRadians(angle));
+    public static Matrix Roll(double angle) => Roll(SineCosine.FromRadians(angle));
 
     /// <summary>Rotation by <paramref name="angle"/> about a unit <paramref name="axis"/> (Rodrigues' formula).</summary>
     /// <param name="axis">Of length 1.</param>
     /// <param name="angle">Radians, in the direction in which <see cref="Pitch(double)"/> turns for a negative angle: i → j about k.</param>
-    public static Matrix Rotation(Vector axis, double angle) => SineCosine.OfRadians(angle) switch
+    public static Matrix Rotation(Vector axis, double angle) => SineCosine.FromRadians(angle) switch
     {
-        var (s, c) => (c * Identity) + (s * CrossProduct(axis)) + ((1 - c) * Outer(axis, axis)),
+        var (s, c) => (c * Identity) + (s * SkewSymmetric(axis)) + ((1 - c) * Outer(axis, axis)),
     };
 
     /// <summary>The matrix that sends v to <c>Cross(axis, v)</c>.</summary>
-    public static Matrix CrossProduct(Vector axis) =>
+    public static Matrix SkewSymmetric(Vector axis) =>
         new(Vector.Cross(axis, Vector.I), Vector.Cross(axis, Vector.J), Vector.Cross(axis, Vector.K));
 
     /// <summary>The matrix that sends v to <c>Dot(v2, v)·v1</c>.</summary>
@@ -75,7 +75,7 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
     /// <summary>The matrix that undoes this one: the transposed cofactors divided by the determinant.</summary>
     /// <exception cref="SingularMatrixException">The determinant is zero, or an entry of the inverse is beyond the range of a double.</exception>
     /// <remarks>The relative error is about 1e-16 times the condition number.</remarks>
-    public Matrix Inverse() => (PowerOfTwo(V1), PowerOfTwo(V2), PowerOfTwo(V3)) switch
+    public Matrix Inverse() => (PowerOfTwoBelow(V1), PowerOfTwoBelow(V2), PowerOfTwoBelow(V3)) switch
     {
         // Dividing each column by a power of two near its largest entry is exact, and keeps products of three entries from
         // under- or overflowing.
@@ -97,8 +97,8 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
     public Matrix Cofactors() => new(AccurateCross(V2, V3), AccurateCross(V3, V1), AccurateCross(V1, V2));
 
     /// <summary>The largest absolute entry.</summary>
-    public double MaximumEntry() =>
-        Math.Max(V1.MaximumComponent(), Math.Max(V2.MaximumComponent(), V3.MaximumComponent()));
+    public double MaxAbsEntry() =>
+        Math.Max(V1.MaxAbsComponent(), Math.Max(V2.MaxAbsComponent(), V3.MaxAbsComponent()));
 
     /// <summary>Every entry replaced by its absolute value.</summary>
     public Matrix Absolute() => new(V1.Absolute(), V2.Absolute(), V3.Absolute());
@@ -126,10 +126,10 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
     /// </remarks>
     public Vector EulerAngles()
     {
-        var cosineOfYaw = Math.Sqrt((V1.X * V1.X) + (V2.X * V2.X));
-        var pitch = cosineOfYaw > Locked ? Math.Atan2(V3.Y, V3.Z) : 0;
+        var yawCosine = Math.Sqrt((V1.X * V1.X) + (V2.X * V2.X));
+        var pitch = yawCosine > MinYawCosine ? Math.Atan2(V3.Y, V3.Z) : 0;
         var unpitched = Pitch(-pitch) * this;
-        return new(pitch, Math.Atan2(-V3.X, cosineOfYaw), Math.Atan2(-unpitched.V1.Y, unpitched.V2.Y));
+        return new(pitch, Math.Atan2(-V3.X, yawCosine), Math.Atan2(-unpitched.V1.Y, unpitched.V2.Y));
     }
 
     /// <summary>True when no entry is NaN or infinite.</summary>
@@ -160,7 +160,7 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
     };
 
     /// <summary>The power of two next below the largest entry; null for a zero or infinite vector.</summary>
-    private static double? PowerOfTwo(Vector v) => v.MaximumComponent() switch
+    private static double? PowerOfTwoBelow(Vector v) => v.MaxAbsComponent() switch
     {
         > 0 and < double.PositiveInfinity and var largest => Math.ScaleB(1, Math.Max(Math.ILogB(largest), -1021)),
         _ => null,

@@ -5,7 +5,7 @@ public sealed class SingularMatrixException : ArithmeticException
 {
     /// <summary>For the given matrix.</summary>
     public SingularMatrixException(Matrix matrix)
-        : base($"the matrix {matrix} has no inverse: its determinant is {Text(matrix)}") => Matrix = matrix;
+        : base($"the matrix {matrix} has no inverse: its determinant is {FormatDeterminant(matrix)}") => Matrix = matrix;
 
     /// <summary>With a message of one's own.</summary>
     public SingularMatrixException(string message)
@@ -27,6 +27,6 @@ public sealed class SingularMatrixException : ArithmeticException
     /// <summary>The matrix that has no inverse.</summary>
     public Matrix Matrix { get; }
 
-    private static string Text(Matrix matrix) =>
+    private static string FormatDeterminant(Matrix matrix) =>
         matrix.Determinant().ToString("R", System.Globalization.CultureInfo.InvariantCulture);
 }

@@ -85,11 +85,11 @@ public readonly record struct Vector(double X, double Y, double Z)
     public double LengthSquared() => Dot(this, this);
 
     /// <summary>The largest absolute component.</summary>
-    public double MaximumComponent() => Math.Max(Math.Abs(X), Math.Max(Math.Abs(Y), Math.Abs(Z)));
+    public double MaxAbsComponent() => Math.Max(Math.Abs(X), Math.Max(Math.Abs(Y), Math.Abs(Z)));
 
     /// <summary>The vector of length 1 in the same direction; exact to a few ulps for lengths from 1e-308 to 1e308.</summary>
     /// <exception cref="InvalidOperationException">The vector is zero, infinite or NaN and has no direction.</exception>
-    public Vector UnitVector() => MaximumComponent() switch
+    public Vector UnitVector() => MaxAbsComponent() switch
     {
         // Dividing by the largest component first keeps the square of the length within range.
         > 0 and < double.PositiveInfinity and var largest => Normalize(this / largest),
@@ -107,7 +107,7 @@ public readonly record struct Vector(double X, double Y, double Z)
     /// so that quarter turns keep coordinates exact.
     /// </summary>
     public Matrix LocalAxesFromDegrees() =>
-        Matrix.Pitch(SineCosine.OfDegrees(X)) * Matrix.Yaw(SineCosine.OfDegrees(Y)) * Matrix.Roll(SineCosine.OfDegrees(Z));
+        Matrix.Pitch(SineCosine.FromDegrees(X)) * Matrix.Yaw(SineCosine.FromDegrees(Y)) * Matrix.Roll(SineCosine.FromDegrees(Z));
 
     /// <summary>True when no component is NaN or infinite.</summary>
     public bool IsFinite() => double.IsFinite(X) && double.IsFinite(Y) && double.IsFinite(Z);

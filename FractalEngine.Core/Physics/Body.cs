@@ -59,30 +59,30 @@ public sealed class Body
     public string Name => _description.Name ?? string.Create(System.Globalization.CultureInfo.InvariantCulture, $"#{Index}");
 
     /// <summary>How the object is drawn that the body carries: moved and shrunk.</summary>
-    /// <param name="part">Of the last step that has passed, from 0 to 1: steps and pictures have different rates.</param>
-    public AffineMap MapAt(double part)
+    /// <param name="alpha">Of the last step that has passed, from 0 to 1: steps and pictures have different rates.</param>
+    public AffineMap InterpolatedMap(double alpha)
     {
-        var scale = PreviousScale + (part * (Scale - PreviousScale));
-        return new(scale * _description.Axes, PreviousPosition + (part * (Position - PreviousPosition)));
+        var scale = PreviousScale + (alpha * (Scale - PreviousScale));
+        return new(scale * _description.LinearPart, PreviousPosition + (alpha * (Position - PreviousPosition)));
     }
 
     /// <summary>What is touched.</summary>
     internal ContactSet Contacts { get; } = new();
 
     /// <summary>What is known of the surfaces near it.</summary>
-    internal Clearance Clearance { get; } = new();
+    internal SafeDistance SafeDistance { get; } = new();
 
     /// <summary>How long it has barely moved, seconds.</summary>
-    internal double RestTime { get; set; }
+    internal double SleepTimer { get; set; }
 
     /// <summary>True when it has been looked at whether it begins inside of something.</summary>
-    internal bool IsPlaced { get; set; }
+    internal bool IsOverlapResolved { get; set; }
 
     /// <summary>The acceleration that is left after what it rests on has taken its part.</summary>
-    internal Vector FreeAcceleration { get; set; }
+    internal Vector NetAcceleration { get; set; }
 
     /// <summary>The change of velocity by what other bodies press with, until the body's own turn.</summary>
-    internal Vector Pressed { get; set; }
+    internal Vector PendingLoadVelocity { get; set; }
 
     /// <summary>True while the scale has not reached its minimum.</summary>
     internal bool IsShrinking => _description.Shrinkage > 0 && Scale > _description.MinimumScale;
@@ -91,12 +91,12 @@ public sealed class Body
     internal void Reset(Vector acceleration)
     {
         (Position, PreviousPosition, Velocity, Force) = (_description.Position, _description.Position, _description.Velocity, Vector.Zero);
-        (Scale, PreviousScale, IsAsleep, IsStuck, RestTime, IsPlaced) = (1, 1, false, false, 0, false);
-        (FaceTests, BoundTests, FreeAcceleration, Pressed) = (0, 0, acceleration, Vector.Zero);
+        (Scale, PreviousScale, IsAsleep, IsStuck, SleepTimer, IsOverlapResolved) = (1, 1, false, false, 0, false);
+        (FaceTests, BoundTests, NetAcceleration, PendingLoadVelocity) = (0, 0, acceleration, Vector.Zero);
         Contacts.Clear();
-        Clearance.Forget();
+        SafeDistance.Invalidate();
     }
 
     /// <summary>Ends its sleep.</summary>
-    internal void Wake() => (IsAsleep, RestTime) = (false, 0);
+    internal void Wake() => (IsAsleep, SleepTimer) = (false, 0);
 }

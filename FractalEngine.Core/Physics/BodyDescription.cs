@@ -39,14 +39,14 @@ public sealed record BodyDescription(Vector Position, double Radius)
     public int ObjectIndex { get; init; } = -1;
 
     /// <summary>The linear part of that object's matrix m: turn and scale.</summary>
-    public Matrix Axes { get; init; } = Matrix.Identity;
+    public Matrix LinearPart { get; init; } = Matrix.Identity;
 
     /// <summary>The body of a physics object: the ball about m's position that holds all vertices (paper §4.3.3).</summary>
     /// <param name="placed">The object with its model.</param>
     /// <param name="declared">What the scene says of it.</param>
     /// <param name="index">Its place in the scene.</param>
     /// <exception cref="ArgumentException">The object has no size.</exception>
-    public static BodyDescription Of(PlacedModel placed, PhysicsObject declared, int index) => new(placed.Map.Translation, BodyRadius.Of(placed))
+    public static BodyDescription FromPhysicsObject(PlacedModel placed, PhysicsObject declared, int index) => new(placed.ObjectToWorld.Translation, BodyRadius.Compute(placed))
     {
         Name = declared.Name,
         Velocity = declared.Velocity,
@@ -58,14 +58,14 @@ public sealed record BodyDescription(Vector Position, double Radius)
         MinimumScale = declared.MinimumScale,
         Collider = declared.Collider,
         ObjectIndex = index,
-        Axes = placed.Map.Linear,
+        LinearPart = placed.ObjectToWorld.Linear,
     };
 
     /// <summary>Throws for what no body can be.</summary>
     /// <exception cref="ArgumentException">A number is not finite, or outside of its range; the message names it.</exception>
-    internal void Check()
+    internal void Validate()
     {
-        Require(Position.IsFinite() && Velocity.IsFinite() && Axes.IsFinite(), "position, velocity and axes must be finite");
+        Require(Position.IsFinite() && Velocity.IsFinite() && LinearPart.IsFinite(), "position, velocity and axes must be finite");
         Require(Radius > 0 && double.IsFinite(Radius), "the radius must be positive");
         Require(Mass > 0 && double.IsFinite(Mass), "the mass must be positive");
         Require(Restitution is >= 0 and <= 1, "the coefficient of restitution must lie between 0 and 1");

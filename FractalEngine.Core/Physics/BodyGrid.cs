@@ -9,27 +9,27 @@ namespace FractalEngine.Core.Physics;
 /// </summary>
 internal sealed class BodyGrid
 {
-    private readonly List<int> _large = [];
+    private readonly List<int> _largeBodies = [];
     private int[] _heads = [];
     private int[] _next = [];
     private int[] _previous = [];
-    private int[] _cells = [];
+    private int[] _buckets = [];
     private double _cellSize = 1;
-    private double _largestRadius;
+    private double _maxGridRadius;
     private List<Body> _bodies = [];
 
     /// <summary>Begins with other bodies, or with more. O(n·log n).</summary>
     public void Build(List<Body> bodies)
     {
         _bodies = bodies;
-        _large.Clear();
-        var length = 16;
-        while (length < 2 * bodies.Count)
+        _largeBodies.Clear();
+        var bucketCount = 16;
+        while (bucketCount < 2 * bodies.Count)
         {
-            length *= 2;
+            bucketCount *= 2;
         }
 
-        (_heads, _next, _previous, _cells) = (new int[length], new int[bodies.Count], new int[bodies.Count], new int[bodies.Count]);
+        (_heads, _next, _previous, _buckets) = (new int[bucketCount], new int[bodies.Count], new int[bodies.Count], new int[bodies.Count]);
         Array.Fill(_heads, -1);
         if (bodies.Count == 0)
         {
@@ -39,18 +39,18 @@ internal sealed class BodyGrid
         var radii = bodies.Select(body => body.Radius).Order().ToArray();
         // Nine of ten bodies fit.
         _cellSize = 3 * radii[9 * (radii.Length - 1) / 10];
-        _largestRadius = 0;
+        _maxGridRadius = 0;
         for (var i = 0; i < bodies.Count; i++)
         {
             if (2 * bodies[i].Radius > _cellSize)
             {
-                _large.Add(i);
-                _cells[i] = -1;
+                _largeBodies.Add(i);
+                _buckets[i] = -1;
             }
             else
             {
-                _largestRadius = Math.Max(_largestRadius, bodies[i].Radius);
-                Insert(i, CellOf(bodies[i].Position));
+                _maxGridRadius = Math.Max(_maxGridRadius, bodies[i].Radius);
+                Insert(i, BucketOf(bodies[i].Position));
             }
         }
     }
@@ -58,60 +58,60 @@ internal sealed class BodyGrid
     /// <summary>Follows a body that has moved.</summary>
     public void Update(int index)
     {
-        if (_cells[index] < 0)
+        if (_buckets[index] < 0)
         {
             return;
         }
 
-        var cell = CellOf(_bodies[index].Position);
-        if (cell != _cells[index])
+        var bucket = BucketOf(_bodies[index].Position);
+        if (bucket != _buckets[index])
         {
             Remove(index);
-            Insert(index, cell);
+            Insert(index, bucket);
         }
     }
 
     /// <summary>Collects the bodies that a ball can meet on its way.</summary>
-    /// <param name="way">A box that holds the way of its centre.</param>
+    /// <param name="pathBounds">A box that holds the way of its centre.</param>
     /// <param name="radius">Of the ball.</param>
-    /// <param name="except">The ball itself, −1 for none.</param>
-    /// <param name="found">Receives their numbers, in no particular but always the same order.</param>
-    public void Collect(in BoundingBox way, double radius, int except, List<int> found)
+    /// <param name="excludedIndex">The ball itself, −1 for none.</param>
+    /// <param name="results">Receives their numbers, in no particular but always the same order.</param>
+    public void CollectOverlaps(in BoundingBox pathBounds, double radius, int excludedIndex, List<int> results)
     {
-        foreach (var index in _large)
+        foreach (var index in _largeBodies)
         {
-            Add(index, in way, radius, except, found);
+            AddIfOverlapping(index, in pathBounds, radius, excludedIndex, results);
         }
 
-        var wide = (radius + _largestRadius) * Vector.One;
-        var (minimum, maximum) = (Cell(way.Minimum - wide), Cell(way.Maximum + wide));
-        var count = (maximum.X - minimum.X + 1.0) * (maximum.Y - minimum.Y + 1.0) * (maximum.Z - minimum.Z + 1.0);
-        if (!(count <= _bodies.Count))
+        var margin = (radius + _maxGridRadius) * Vector.One;
+        var (minCell, maxCell) = (CellAt(pathBounds.Minimum - margin), CellAt(pathBounds.Maximum + margin));
+        var cellCount = (maxCell.X - minCell.X + 1.0) * (maxCell.Y - minCell.Y + 1.0) * (maxCell.Z - minCell.Z + 1.0);
+        if (!(cellCount <= _bodies.Count))
         {
             // More cells than bodies.
             for (var i = 0; i < _bodies.Count; i++)
             {
-                if (_cells[i] >= 0)
+                if (_buckets[i] >= 0)
                 {
-                    Add(i, in way, radius, except, found);
+                    AddIfOverlapping(i, in pathBounds, radius, excludedIndex, results);
                 }
             }
 
             return;
         }
 
-        for (var x = minimum.X; x <= maximum.X; x++)
+        for (var x = minCell.X; x <= maxCell.X; x++)
         {
-            for (var y = minimum.Y; y <= maximum.Y; y++)
+            for (var y = minCell.Y; y <= maxCell.Y; y++)
             {
-                for (var z = minimum.Z; z <= maximum.Z; z++)
+                for (var z = minCell.Z; z <= maxCell.Z; z++)
                 {
                     for (var i = _heads[Hash(x, y, z)]; i >= 0; i = _next[i])
                     {
                         // Other cells may have the same hash.
-                        if (Cell(_bodies[i].Position) == (x, y, z))
+                        if (CellAt(_bodies[i].Position) == (x, y, z))
                         {
-                            Add(i, in way, radius, except, found);
+                            AddIfOverlapping(i, in pathBounds, radius, excludedIndex, results);
                         }
                     }
                 }
@@ -119,32 +119,32 @@ internal sealed class BodyGrid
         }
     }
 
-    private void Add(int index, in BoundingBox way, double radius, int except, List<int> found)
+    private void AddIfOverlapping(int index, in BoundingBox pathBounds, double radius, int excludedIndex, List<int> results)
     {
-        var distance = radius + _bodies[index].Radius;
-        if (index != except && way.DistanceSquared(_bodies[index].Position) <= distance * distance)
+        var maxDistance = radius + _bodies[index].Radius;
+        if (index != excludedIndex && pathBounds.DistanceSquared(_bodies[index].Position) <= maxDistance * maxDistance)
         {
-            found.Add(index);
+            results.Add(index);
         }
     }
 
-    private (long X, long Y, long Z) Cell(Vector position) => (Cell(position.X), Cell(position.Y), Cell(position.Z));
+    private (long X, long Y, long Z) CellAt(Vector position) => (CellAt(position.X), CellAt(position.Y), CellAt(position.Z));
 
     // Saturates: bodies far away share a cell.
-    private long Cell(double coordinate) => (long)Math.Clamp(Math.Floor(coordinate / _cellSize), -1e15, 1e15);
+    private long CellAt(double coordinate) => (long)Math.Clamp(Math.Floor(coordinate / _cellSize), -1e15, 1e15);
 
-    private int CellOf(Vector position) => Cell(position) switch { var (x, y, z) => Hash(x, y, z) };
+    private int BucketOf(Vector position) => CellAt(position) switch { var (x, y, z) => Hash(x, y, z) };
 
     private int Hash(long x, long y, long z) =>
         (int)(((ulong)((x * 73856093) ^ (y * 19349663) ^ (z * 83492791)) * 0x9E3779B97F4A7C15) >> 40) & (_heads.Length - 1);
 
-    private void Insert(int index, int cell)
+    private void Insert(int index, int bucket)
     {
-        var first = _heads[cell];
-        (_cells[index], _next[index], _previous[index], _heads[cell]) = (cell, first, -1, index);
-        if (first >= 0)
+        var head = _heads[bucket];
+        (_buckets[index], _next[index], _previous[index], _heads[bucket]) = (bucket, head, -1, index);
+        if (head >= 0)
         {
-            _previous[first] = index;
+            _previous[head] = index;
         }
     }
 
@@ -157,7 +157,7 @@ internal sealed class BodyGrid
         }
         else
         {
-            _heads[_cells[index]] = next;
+            _heads[_buckets[index]] = next;
         }
 
         if (next >= 0)

@@ -10,71 +10,71 @@ namespace FractalEngine.Core.Physics;
 internal static class BodyRadius
 {
     // Of the radius: fractals are searched until the rest can't add more.
-    private const double Precision = 1e-9;
-    private const int MostNodes = 50_000;
+    private const double RelativeTolerance = 1e-9;
+    private const int MaxNodes = 50_000;
 
     /// <summary>For a mesh exactly the farthest vertex; for a fractal no less than it, by a billionth more, or further where 50,000 sub-fractals do not tell.</summary>
-    public static double Of(PlacedModel placed) => placed.Model switch
+    public static double Compute(PlacedModel placed) => placed.Model switch
     {
-        FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } => Of(fractal, placed.Map.Linear),
-        FractalModel { Fractal: var fractal } => FractalGenerator.Expand(fractal, FractalLimits.DrawnInstances)
-            .Max(instance => Farthest(fractal.BaseMesh, new AffineMap(placed.Map.Linear, Vector.Zero) * instance)),
-        _ => Farthest(placed.Model.Mesh, new(placed.Map.Linear, Vector.Zero)),
+        FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } => Compute(fractal, placed.ObjectToWorld.Linear),
+        FractalModel { Fractal: var fractal } => FractalGenerator.Expand(fractal, FractalLimits.MaxDrawnInstances)
+            .Max(instance => MaxVertexDistance(fractal.BaseMesh, new AffineMap(placed.ObjectToWorld.Linear, Vector.Zero) * instance)),
+        _ => MaxVertexDistance(placed.Model.Mesh, new(placed.ObjectToWorld.Linear, Vector.Zero)),
     };
 
-    private static double Of(Fractal fractal, Matrix axes)
+    private static double Compute(Fractal fractal, Matrix linear)
     {
-        var table = SubFractalTable.Of(fractal);
+        var table = SubFractalTable.Build(fractal);
         var queue = new PriorityQueue<(SubFractal State, long Levels, AffineMap Map), double>();
-        var farthest = 0.0;
-        Enqueue(table.Root, table.Levels, new(axes, Vector.Zero));
-        for (var nodes = 0; queue.TryDequeue(out var node, out var negative); nodes++)
+        var maxDistance = 0.0;
+        Enqueue(table.Root, table.Levels, new(linear, Vector.Zero));
+        for (var nodes = 0; queue.TryDequeue(out var node, out var negatedBound); nodes++)
         {
-            if (-negative <= farthest * (1 + Precision) || nodes == MostNodes)
+            if (-negatedBound <= maxDistance * (1 + RelativeTolerance) || nodes == MaxNodes)
             {
-                return Math.Max(farthest, -negative);
+                return Math.Max(maxDistance, -negatedBound);
             }
 
-            farthest = Math.Max(farthest, node.Levels == 0 ? Farthest(fractal.BaseMesh, node.Map) : 0);
-            foreach (var copy in node.Levels == 0 ? [] : node.State.Copies)
+            maxDistance = Math.Max(maxDistance, node.Levels == 0 ? MaxVertexDistance(fractal.BaseMesh, node.Map) : 0);
+            foreach (var childInstance in node.Levels == 0 ? [] : node.State.Children)
             {
-                var below = copy.LevelsLeft(node.Levels);
-                Enqueue(table.At(below), below, node.Map * copy.Map);
+                var childLevels = childInstance.RemainingLevels(node.Levels);
+                Enqueue(table.At(childLevels), childLevels, node.Map * childInstance.Map);
             }
         }
 
-        return farthest;
+        return maxDistance;
 
-        void Enqueue(SubFractal state, long levels, AffineMap map)
+        void Enqueue(SubFractal subFractal, long levels, AffineMap map)
         {
-            if (!state.Box.IsEmpty)
+            if (!subFractal.Box.IsEmpty)
             {
-                queue.Enqueue((state, levels, map), -FarthestCorner(state.Box, map));
+                queue.Enqueue((subFractal, levels, map), -MaxCornerDistance(subFractal.Box, map));
             }
         }
     }
 
-    private static double FarthestCorner(BoundingBox box, AffineMap map)
+    private static double MaxCornerDistance(BoundingBox box, AffineMap map)
     {
-        var farthest = 0.0;
+        var maxDistance = 0.0;
         for (var corner = 0; corner < 8; corner++)
         {
             var point = new Vector(
                 (corner & 1) == 0 ? box.Minimum.X : box.Maximum.X, (corner & 2) == 0 ? box.Minimum.Y : box.Maximum.Y, (corner & 4) == 0 ? box.Minimum.Z : box.Maximum.Z);
-            farthest = Math.Max(farthest, (map * point).Length());
+            maxDistance = Math.Max(maxDistance, (map * point).Length());
         }
 
-        return farthest;
+        return maxDistance;
     }
 
-    private static double Farthest(Mesh mesh, AffineMap map)
+    private static double MaxVertexDistance(Mesh mesh, AffineMap map)
     {
-        var farthest = 0.0;
+        var maxDistance = 0.0;
         for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
         {
-            farthest = Math.Max(farthest, (map * mesh.Vertex(vertex)).Length());
+            maxDistance = Math.Max(maxDistance, (map * mesh.Vertex(vertex)).Length());
         }
 
-        return farthest;
+        return maxDistance;
     }
 }

@@ -6,19 +6,19 @@ namespace FractalEngine.Core.Physics;
 internal sealed class ContactSet
 {
     // Relative to the speed: what rounding leaves of a velocity along the normal.
-    private const double Rounding = 1e-13;
+    private const double RelativeTolerance = 1e-13;
 
     // Squared sine of the angle below which two surfaces are one.
-    private const double Parallel = 1e-10;
+    private const double MinSineSquared = 1e-10;
 
     // Of the reach: a gap that differs by less needs no other point.
-    private const double Unmoved = 1e-13;
+    private const double GapTolerance = 1e-13;
 
     // Radians: by how much a way over another body turns before it is looked at anew.
-    private const double Turn = 1.0 / 64;
+    private const double MaxTurnAngle = 1.0 / 64;
 
     // Contacts whose directions differ by less are the same.
-    private const double SameDirection = 1e-12;
+    private const double SameNormalToleranceSquared = 1e-12;
 
     private readonly Contact[] _contacts = new Contact[HalfSpaces.Capacity];
 
@@ -37,9 +37,9 @@ internal sealed class ContactSet
         var normal = contact.Normal(position);
         for (var i = 0; i < Count; i++)
         {
-            if (_contacts[i].Body == contact.Body && (_contacts[i].Normal(position) - normal).LengthSquared() < SameDirection)
+            if (_contacts[i].BodyIndex == contact.BodyIndex && (_contacts[i].Normal(position) - normal).LengthSquared() < SameNormalToleranceSquared)
             {
-                _contacts[i] = contact with { Direction = normal };
+                _contacts[i] = contact with { CachedNormal = normal };
                 return;
             }
         }
@@ -49,15 +49,15 @@ internal sealed class ContactSet
             RemoveAt(0);
         }
 
-        _contacts[Count++] = contact with { Direction = normal };
+        _contacts[Count++] = contact with { CachedNormal = normal };
     }
 
     /// <summary>True where a body is touched that does not sleep.</summary>
-    public bool HasMoving(List<Body> bodies)
+    public bool HasAwakeBody(List<Body> bodies)
     {
         for (var i = 0; i < Count; i++)
         {
-            if (_contacts[i].Body >= 0 && !bodies[_contacts[i].Body].IsAsleep)
+            if (_contacts[i].BodyIndex >= 0 && !bodies[_contacts[i].BodyIndex].IsAsleep)
             {
                 return true;
             }
@@ -68,14 +68,14 @@ internal sealed class ContactSet
 
     /// <summary>Forgets those that are not touched any more, and those with other bodies, which move.</summary>
     /// <param name="position">Of the body.</param>
-    /// <param name="hold">See <see cref="Obstacles.Hold"/>.</param>
+    /// <param name="contactSlop">See <see cref="Obstacles.ContactSlop"/>.</param>
     /// <param name="radius">Of the body, which may have shrunk.</param>
-    public void Refresh(Vector position, double hold, double radius)
+    public void Refresh(Vector position, double contactSlop, double radius)
     {
         for (var i = Count - 1; i >= 0; i--)
         {
-            _contacts[i] = _contacts[i] with { Reach = radius };
-            if (_contacts[i].Body >= 0 || _contacts[i].Gap(position) > hold)
+            _contacts[i] = _contacts[i] with { CombinedRadius = radius };
+            if (_contacts[i].BodyIndex >= 0 || _contacts[i].Gap(position) > contactSlop)
             {
                 RemoveAt(i);
             }
@@ -83,17 +83,17 @@ internal sealed class ContactSet
     }
 
     /// <summary>After a move: keeps those surfaces that are still touched, perhaps at another point, and forgets the others.</summary>
-    public void Follow(Vector position, double hold, Obstacles obstacles)
+    public void UpdateAfterMove(Vector position, double contactSlop, Obstacles obstacles)
     {
         for (var i = Count - 1; i >= 0; i--)
         {
-            if (_contacts[i].Body < 0 && _contacts[i].Gap(position) is var gap && Math.Abs(gap) > Unmoved * _contacts[i].Reach
-                && obstacles.TryFollow(position, in _contacts[i], out var followed))
+            if (_contacts[i].BodyIndex < 0 && _contacts[i].Gap(position) is var gap && Math.Abs(gap) > GapTolerance * _contacts[i].CombinedRadius
+                && obstacles.TryUpdateContact(position, in _contacts[i], out var updated))
             {
-                _contacts[i] = followed;
+                _contacts[i] = updated;
             }
 
-            if (_contacts[i].Gap(position) > hold)
+            if (_contacts[i].Gap(position) > contactSlop)
             {
                 RemoveAt(i);
             }
@@ -104,56 +104,56 @@ internal sealed class ContactSet
     /// <param name="position">Of the body.</param>
     /// <param name="velocity">Of the body.</param>
     /// <param name="bodies">The others.</param>
-    /// <param name="slow">
+    /// <param name="negligibleSpeed">
     /// What leaves a surface more slowly does not leave: it would be back at once, and several edges could pass a body to and fro. It loses that speed, since
     /// gravity would have taken it.
     /// </param>
-    /// <param name="areFirm">Bodies are left, too, only by what moves away from where they are.</param>
+    /// <param name="treatBodiesAsStatic">Bodies are left, too, only by what moves away from where they are.</param>
     /// <returns>The velocity without what was too slow.</returns>
-    public Vector RemoveSeparating(Vector position, Vector velocity, List<Body> bodies, double slow, bool areFirm)
+    public Vector RemoveSeparating(Vector position, Vector velocity, List<Body> bodies, double negligibleSpeed, bool treatBodiesAsStatic)
     {
-        var leavesSlowly = false;
+        var isSeparatingSlowly = false;
         for (var i = Count - 1; i >= 0; i--)
         {
-            var isSurface = _contacts[i].Body < 0;
-            var relative = isSurface ? velocity : velocity - bodies[_contacts[i].Body].Velocity;
+            var isSurface = _contacts[i].BodyIndex < 0;
+            var relative = isSurface ? velocity : velocity - bodies[_contacts[i].BodyIndex].Velocity;
             var normal = _contacts[i].Normal(position);
-            var (speed, rounding) = (Vector.Dot(relative, normal), Rounding * relative.MaximumComponent());
-            speed = areFirm ? Math.Min(speed, Vector.Dot(velocity, normal)) : speed;
-            if (speed > slow + rounding)
+            var (separationSpeed, rounding) = (Vector.Dot(relative, normal), RelativeTolerance * relative.MaxAbsComponent());
+            separationSpeed = treatBodiesAsStatic ? Math.Min(separationSpeed, Vector.Dot(velocity, normal)) : separationSpeed;
+            if (separationSpeed > negligibleSpeed + rounding)
             {
                 RemoveAt(i);
             }
             else
             {
-                leavesSlowly |= isSurface && speed > rounding;
+                isSeparatingSlowly |= isSurface && separationSpeed > rounding;
             }
         }
 
-        return leavesSlowly ? Along(velocity, position) : velocity;
+        return isSeparatingSlowly ? ProjectOntoSurfaces(velocity, position) : velocity;
     }
 
     /// <summary>The part of a velocity along all surfaces at once: none where there are three.</summary>
-    private Vector Along(Vector velocity, Vector position)
+    private Vector ProjectOntoSurfaces(Vector velocity, Vector position)
     {
-        var (first, second) = (Vector.Zero, Vector.Zero);
+        var (firstAxis, secondAxis) = (Vector.Zero, Vector.Zero);
         for (var i = 0; i < Count; i++)
         {
-            if (_contacts[i].Body >= 0)
+            if (_contacts[i].BodyIndex >= 0)
             {
                 continue;
             }
 
             var normal = _contacts[i].Normal(position);
-            normal -= (Vector.Dot(normal, first) * first) + (Vector.Dot(normal, second) * second);
-            if (normal.LengthSquared() <= Parallel)
+            normal -= (Vector.Dot(normal, firstAxis) * firstAxis) + (Vector.Dot(normal, secondAxis) * secondAxis);
+            if (normal.LengthSquared() <= MinSineSquared)
             {
                 continue;
             }
 
             var direction = normal.UnitVector();
             velocity -= Vector.Dot(velocity, direction) * direction;
-            (first, second) = first == Vector.Zero ? (direction, second) : (first, direction);
+            (firstAxis, secondAxis) = firstAxis == Vector.Zero ? (direction, secondAxis) : (firstAxis, direction);
         }
 
         return velocity;
@@ -164,18 +164,18 @@ internal sealed class ContactSet
     /// <param name="position">Of the body.</param>
     /// <param name="planes">Lends memory.</param>
     /// <param name="onlySurfaces">Leaves other bodies out.</param>
-    public Vector Allow(Vector velocity, Vector position, HalfSpaces planes, bool onlySurfaces = false)
+    public Vector ProjectVelocity(Vector velocity, Vector position, HalfSpaces planes, bool onlySurfaces = false)
     {
         planes.Clear();
         for (var i = 0; i < Count; i++)
         {
-            if (!onlySurfaces || _contacts[i].Body < 0)
+            if (!onlySurfaces || _contacts[i].BodyIndex < 0)
             {
                 planes.Add(_contacts[i].Normal(position), 0);
             }
         }
 
-        return Nearest(velocity, planes);
+        return ProjectOrZero(velocity, planes);
     }
 
     /// <summary>The part of an acceleration that leads into none of the contacts. Other bodies give way by their own, and who slides over one is held to its sphere: a = −v²/r along the normal.</summary>
@@ -184,40 +184,40 @@ internal sealed class ContactSet
     /// <param name="velocity">Of the body.</param>
     /// <param name="bodies">The others.</param>
     /// <param name="planes">Lends memory.</param>
-    /// <param name="areFirm">Other bodies do not give way.</param>
-    /// <param name="turnTime">How long it holds: until the way over another body has turned by 1/64.</param>
-    public Vector AllowAcceleration(Vector acceleration, Vector position, Vector velocity, List<Body> bodies, HalfSpaces planes, bool areFirm, out double turnTime)
+    /// <param name="treatBodiesAsStatic">Other bodies do not give way.</param>
+    /// <param name="validDuration">How long it holds: until the way over another body has turned by 1/64.</param>
+    public Vector ProjectAcceleration(Vector acceleration, Vector position, Vector velocity, List<Body> bodies, HalfSpaces planes, bool treatBodiesAsStatic, out double validDuration)
     {
-        turnTime = double.PositiveInfinity;
+        validDuration = double.PositiveInfinity;
         planes.Clear();
         for (var i = 0; i < Count; i++)
         {
             var normal = _contacts[i].Normal(position);
-            var least = 0.0;
-            if (_contacts[i].Body >= 0)
+            var minNormalAcceleration = 0.0;
+            if (_contacts[i].BodyIndex >= 0)
             {
-                var other = bodies[_contacts[i].Body];
-                var relative = areFirm ? velocity : velocity - other.Velocity;
-                var along = relative - (Vector.Dot(relative, normal) * normal);
-                least = (areFirm ? 0 : Vector.Dot(normal, other.FreeAcceleration)) - (along.LengthSquared() / _contacts[i].Reach);
-                turnTime = Math.Min(turnTime, Turn * _contacts[i].Reach / along.Length());
+                var other = bodies[_contacts[i].BodyIndex];
+                var relative = treatBodiesAsStatic ? velocity : velocity - other.Velocity;
+                var tangentialVelocity = relative - (Vector.Dot(relative, normal) * normal);
+                minNormalAcceleration = (treatBodiesAsStatic ? 0 : Vector.Dot(normal, other.NetAcceleration)) - (tangentialVelocity.LengthSquared() / _contacts[i].CombinedRadius);
+                validDuration = Math.Min(validDuration, MaxTurnAngle * _contacts[i].CombinedRadius / tangentialVelocity.Length());
             }
 
-            planes.Add(normal, least);
+            planes.Add(normal, minNormalAcceleration);
         }
 
-        return Nearest(acceleration, planes);
+        return ProjectOrZero(acceleration, planes);
     }
 
-    private static Vector Nearest(Vector vector, HalfSpaces planes)
+    private static Vector ProjectOrZero(Vector vector, HalfSpaces planes)
     {
-        if (!planes.TryNearest(vector, out var allowed))
+        if (!planes.TryProject(vector, out var projected))
         {
             return Vector.Zero;
         }
 
         // What rounding leaves of a vector is nothing: a body in a corner rests.
-        return allowed.MaximumComponent() <= Rounding * vector.MaximumComponent() ? Vector.Zero : allowed;
+        return projected.MaxAbsComponent() <= RelativeTolerance * vector.MaxAbsComponent() ? Vector.Zero : projected;
     }
 
     private void RemoveAt(int index)

@@ -15,10 +15,10 @@ internal sealed class HalfSpaces
     public const int Capacity = 8;
 
     // Of the size of the numbers: what rounding may violate a plane by.
-    private const double Rounding = 1e-13;
+    private const double RelativeTolerance = 1e-13;
 
     // Planes whose normals span less are taken for parallel.
-    private const double Parallel = 1e-9;
+    private const double ParallelTolerance = 1e-9;
 
     private readonly Vector[] _normals = new Vector[Capacity];
     private readonly double[] _offsets = new double[Capacity];
@@ -34,63 +34,63 @@ internal sealed class HalfSpaces
     /// <param name="offset">The b of n·x ≥ b.</param>
     public void Add(Vector normal, double offset)
     {
-        var place = Count < Capacity ? Count++ : 0;
-        (_normals[place], _offsets[place]) = (normal, offset);
+        var index = Count < Capacity ? Count++ : 0;
+        (_normals[index], _offsets[index]) = (normal, offset);
     }
 
     /// <summary>Finds the nearest point that satisfies all planes.</summary>
     /// <param name="target">Any point.</param>
-    /// <param name="nearest">The answer, or the target where there is none.</param>
+    /// <param name="closest">The answer, or the target where there is none.</param>
     /// <returns>False when no point satisfies all.</returns>
-    public bool TryNearest(Vector target, out Vector nearest)
+    public bool TryProject(Vector target, out Vector closest)
     {
-        nearest = target;
+        closest = target;
         if (Satisfies(target, target))
         {
             return true;
         }
 
-        var (best, found) = (double.PositiveInfinity, target);
+        var (bestDistanceSquared, bestPoint) = (double.PositiveInfinity, target);
         for (var i = 0; i < Count; i++)
         {
-            Try(OnPlane(target, i), target, ref best, ref found);
+            UpdateIfCloser(ProjectOntoPlane(target, i), target, ref bestDistanceSquared, ref bestPoint);
             for (var j = i + 1; j < Count; j++)
             {
-                if (!TryLine(target, i, j, out var onLine))
+                if (!TryProjectOntoLine(target, i, j, out var onLine))
                 {
                     continue;
                 }
 
-                Try(onLine, target, ref best, ref found);
+                UpdateIfCloser(onLine, target, ref bestDistanceSquared, ref bestPoint);
                 for (var k = j + 1; k < Count; k++)
                 {
-                    if (TryCorner(i, j, k, out var corner))
+                    if (TryIntersect(i, j, k, out var corner))
                     {
-                        Try(corner, target, ref best, ref found);
+                        UpdateIfCloser(corner, target, ref bestDistanceSquared, ref bestPoint);
                     }
                 }
             }
         }
 
-        nearest = found;
-        return best < double.PositiveInfinity;
+        closest = bestPoint;
+        return bestDistanceSquared < double.PositiveInfinity;
     }
 
-    private void Try(Vector candidate, Vector target, ref double best, ref Vector found)
+    private void UpdateIfCloser(Vector candidate, Vector target, ref double bestDistanceSquared, ref Vector bestPoint)
     {
-        var squared = (candidate - target).LengthSquared();
-        if (squared < best && Satisfies(candidate, target))
+        var distanceSquared = (candidate - target).LengthSquared();
+        if (distanceSquared < bestDistanceSquared && Satisfies(candidate, target))
         {
-            (best, found) = (squared, candidate);
+            (bestDistanceSquared, bestPoint) = (distanceSquared, candidate);
         }
     }
 
     private bool Satisfies(Vector point, Vector target)
     {
-        var size = Math.Max(point.MaximumComponent(), target.MaximumComponent());
+        var magnitude = Math.Max(point.MaxAbsComponent(), target.MaxAbsComponent());
         for (var i = 0; i < Count; i++)
         {
-            if (!(Vector.Dot(_normals[i], point) >= _offsets[i] - (Rounding * Math.Max(size, Math.Abs(_offsets[i])))))
+            if (!(Vector.Dot(_normals[i], point) >= _offsets[i] - (RelativeTolerance * Math.Max(magnitude, Math.Abs(_offsets[i])))))
             {
                 return false;
             }
@@ -99,26 +99,26 @@ internal sealed class HalfSpaces
         return true;
     }
 
-    private Vector OnPlane(Vector target, int i) => target + ((_offsets[i] - Vector.Dot(_normals[i], target)) * _normals[i]);
+    private Vector ProjectOntoPlane(Vector target, int i) => target + ((_offsets[i] - Vector.Dot(_normals[i], target)) * _normals[i]);
 
     /// <summary>The nearest point of the line where two planes meet.</summary>
-    private bool TryLine(Vector target, int i, int j, out Vector point)
+    private bool TryProjectOntoLine(Vector target, int i, int j, out Vector point)
     {
         var (n1, n2) = (_normals[i], _normals[j]);
         var cosine = Vector.Dot(n1, n2);
         var sineSquared = Vector.Cross(n1, n2).LengthSquared();
         var (d1, d2) = (_offsets[i] - Vector.Dot(n1, target), _offsets[j] - Vector.Dot(n2, target));
         point = target + ((((d1 - (cosine * d2)) * n1) + ((d2 - (cosine * d1)) * n2)) / sineSquared);
-        return sineSquared > Parallel * Parallel;
+        return sineSquared > ParallelTolerance * ParallelTolerance;
     }
 
     /// <summary>The point where three planes meet.</summary>
-    private bool TryCorner(int i, int j, int k, out Vector point)
+    private bool TryIntersect(int i, int j, int k, out Vector point)
     {
         var (n1, n2, n3) = (_normals[i], _normals[j], _normals[k]);
         var (c1, c2, c3) = (Vector.Cross(n2, n3), Vector.Cross(n3, n1), Vector.Cross(n1, n2));
         var volume = Vector.Dot(n1, c1);
         point = ((_offsets[i] * c1) + (_offsets[j] * c2) + (_offsets[k] * c3)) / volume;
-        return Math.Abs(volume) > Parallel;
+        return Math.Abs(volume) > ParallelTolerance;
     }
 }

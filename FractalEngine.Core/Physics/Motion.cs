@@ -10,23 +10,23 @@ namespace FractalEngine.Core.Physics;
 internal readonly record struct Motion(Vector Start, Vector Velocity, Vector Acceleration)
 {
     /// <summary>The place after some seconds.</summary>
-    public Vector At(double time) => Start + (time * (Velocity + (0.5 * time * Acceleration)));
+    public Vector PositionAt(double time) => Start + (time * (Velocity + (0.5 * time * Acceleration)));
 
     /// <summary>The velocity after some seconds.</summary>
     public Vector VelocityAt(double time) => Velocity + (time * Acceleration);
 
     /// <summary>No less than the distance between any two places of the first seconds.</summary>
-    public double LengthWithin(double time) => time * (Velocity.Length() + (0.5 * time * Acceleration.Length()));
+    public double MaxTravelDistance(double time) => time * (Velocity.Length() + (0.5 * time * Acceleration.Length()));
 
     /// <summary>A box that holds the way of the first seconds: a parabola lies within the triangle of its control points.</summary>
-    public BoundingBox BoxWithin(double time)
+    public BoundingBox SweptBox(double time)
     {
-        var (middle, end) = (Start + (0.5 * time * Velocity), At(time));
-        return new(Vector.Min(Start, Vector.Min(middle, end)), Vector.Max(Start, Vector.Max(middle, end)));
+        var (controlPoint, end) = (Start + (0.5 * time * Velocity), PositionAt(time));
+        return new(Vector.Min(Start, Vector.Min(controlPoint, end)), Vector.Max(Start, Vector.Max(controlPoint, end)));
     }
 
     /// <summary>A time within which no more than a distance is gone; infinite at rest.</summary>
-    public double TimeFor(double distance)
+    public double MinTimeToTravel(double distance)
     {
         var (speed, acceleration) = (Velocity.Length(), Acceleration.Length());
         // v·t + a·t²/2 = s, in the form that loses nothing where a is small.

@@ -5,89 +5,89 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>What one mover can run into: the surfaces of the scene, and those other bodies that are within its reach. Set up anew for each mover and step.</summary>
-internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryRecord record)
+internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext queryContext)
 {
     private readonly List<int> _candidates = new(256);
-    private Surfaces? _surfaces;
-    private Clearance _clearance = new();
-    private Vector[] _spheres = [Vector.Zero];
+    private StaticObjects? _staticObjects;
+    private SafeDistance _safeDistance = new();
+    private Vector[] _sphereOffsets = [Vector.Zero];
     private double _radius;
-    private double _lookahead;
-    private Walker? _walker;
+    private double _searchMargin;
+    private CharacterController? _character;
 
-    /// <summary>The numbers of the bodies that may be run into, see <see cref="Collect"/>.</summary>
+    /// <summary>The numbers of the bodies that may be run into, see <see cref="CollectNearbyBodies"/>.</summary>
     public List<int> Candidates => _candidates;
 
     /// <summary>The mover's radius, scene units.</summary>
     public double Radius => _radius;
 
     /// <summary>Begins with another mover.</summary>
-    /// <param name="surfaces">As its colliders see them; null where there are none.</param>
-    /// <param name="spheres">The centres of its spheres beside its position.</param>
+    /// <param name="staticObjects">As its colliders see them; null where there are none.</param>
+    /// <param name="sphereOffsets">The centres of its spheres beside its position.</param>
     /// <param name="radius">Of the spheres.</param>
-    /// <param name="clearance">What is known already of what is near.</param>
-    /// <param name="lookahead">How far surfaces are looked for beyond what is asked, so that the next steps need not ask.</param>
-    /// <param name="walker">A player who is in the way; null for none.</param>
-    public void Begin(Surfaces? surfaces, Vector[] spheres, double radius, Clearance clearance, double lookahead, Walker? walker = null)
+    /// <param name="safeDistance">What is known already of what is near.</param>
+    /// <param name="searchMargin">How far surfaces are looked for beyond what is asked, so that the next steps need not ask.</param>
+    /// <param name="character">A player who is in the way; null for none.</param>
+    public void SetMover(StaticObjects? staticObjects, Vector[] sphereOffsets, double radius, SafeDistance safeDistance, double searchMargin, CharacterController? character = null)
     {
-        (_surfaces, _spheres, _radius, _clearance, _lookahead, _walker) = (surfaces, spheres, radius, clearance, lookahead, walker);
+        (_staticObjects, _sphereOffsets, _radius, _safeDistance, _searchMargin, _character) = (staticObjects, sphereOffsets, radius, safeDistance, searchMargin, character);
         _candidates.Clear();
     }
 
     /// <summary>Looks which other bodies are near a way.</summary>
     /// <param name="motion">The way of the mover.</param>
-    /// <param name="time">How long it goes.</param>
-    /// <param name="except">The mover's own number, −1 for none.</param>
-    public void Collect(in Motion motion, double time, int except)
+    /// <param name="duration">How long it goes.</param>
+    /// <param name="excludedIndex">The mover's own number, −1 for none.</param>
+    public void CollectNearbyBodies(in Motion motion, double duration, int excludedIndex)
     {
         _candidates.Clear();
-        var box = motion.BoxWithin(time);
-        foreach (var sphere in _spheres)
+        var box = motion.SweptBox(duration);
+        foreach (var sphere in _sphereOffsets)
         {
             box = BoundingBox.Union(box, new(box.Minimum + sphere, box.Maximum + sphere));
         }
 
         // A little more, for what touches.
-        grid.Collect(in box, _radius * (1 + 1e-6), except, _candidates);
+        grid.CollectOverlaps(in box, _radius * (1 + 1e-6), excludedIndex, _candidates);
     }
 
     /// <summary>What counts as touching: the free distances that rounding can't tell from 0.</summary>
-    public double Touch(Vector position) => (1e-9 * _radius) + (1e-14 * position.MaximumComponent());
+    public double TouchTolerance(Vector position) => (1e-9 * _radius) + (1e-14 * position.MaxAbsComponent());
 
     /// <summary>
-    /// Free distances at which what was touched still holds a mover: more than <see cref="Touch"/>, so that one which lies on several edges is not passed
+    /// Free distances at which what was touched still holds a mover: more than <see cref="TouchTolerance"/>, so that one which lies on several edges is not passed
     /// from one to the next by the curve of its way.
     /// </summary>
-    public double Hold(Vector position) => (1e-6 * _radius) + (1e-14 * position.MaximumComponent());
+    public double ContactSlop(Vector position) => (1e-6 * _radius) + (1e-14 * position.MaxAbsComponent());
 
     /// <summary>No more than the free distance at a place; nothing above a limit is looked for.</summary>
-    public double FreeDistance(Vector position, double limit)
+    public double FreeDistance(Vector position, double maxDistance)
     {
-        if (_clearance.At(position) - _radius >= limit)
+        if (_safeDistance.LowerBoundAt(position) - _radius >= maxDistance)
         {
-            return Math.Min(limit, FreeOfBodies(position, limit));
+            return Math.Min(maxDistance, FreeDistanceToBodies(position, maxDistance));
         }
 
-        return TryFind(position, limit, out var nearest) ? nearest.Gap(position) : limit;
+        return TryFindClosestContact(position, maxDistance, out var closestContact) ? closestContact.Gap(position) : maxDistance;
     }
 
     /// <summary>Finds what is nearest.</summary>
     /// <param name="position">Of the mover.</param>
-    /// <param name="within">Free distances above are of no interest.</param>
-    /// <param name="nearest">What is nearest.</param>
+    /// <param name="maxDistance">Free distances above are of no interest.</param>
+    /// <param name="closestContact">What is nearest.</param>
     /// <returns>False where nothing is so near.</returns>
-    public bool TryFind(Vector position, double within, out Contact nearest)
+    public bool TryFindClosestContact(Vector position, double maxDistance, out Contact closestContact)
     {
-        var isFound = TryFindBody(position, ref within, out nearest);
+        var isFound = TryFindClosestBody(position, ref maxDistance, out closestContact);
         // A body that is overlapped by more than the radius hides all surfaces.
-        if (_clearance.At(position) - _radius > within || within < -_radius)
+        if (_safeDistance.LowerBoundAt(position) - _radius > maxDistance || maxDistance < -_radius)
         {
             return isFound;
         }
 
-        if (TryFindSurface(position, within, out var surface))
+        if (TryFindClosestSurface(position, maxDistance, out var surface))
         {
-            nearest = surface;
+            closestContact = surface;
             return true;
         }
 
@@ -95,12 +95,12 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryRecord re
     }
 
     /// <summary>Adds all bodies that are touched.</summary>
-    public void AddTouchedBodies(Vector position, double touch, ContactSet contacts)
+    public void AddTouchedBodies(Vector position, double tolerance, ContactSet contacts)
     {
         foreach (var candidate in _candidates)
         {
-            var contact = ContactWith(candidate, Vector.Zero);
-            if (contact.Gap(position) <= touch)
+            var contact = CreateBodyContact(candidate, Vector.Zero);
+            if (contact.Gap(position) <= tolerance)
             {
                 contacts.Add(contact, position);
             }
@@ -108,126 +108,126 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryRecord re
     }
 
     /// <summary>Finds the surface nearest to a point.</summary>
-    public bool TryFindFace(Vector point, double within, out ClosestPoint closest)
+    public bool TryFindClosestPoint(Vector point, double maxDistance, out ClosestPoint closest)
     {
         closest = default;
-        return _surfaces is not null && _surfaces.Collider.TryFindClosest(point, within, record, out closest, out _);
+        return _staticObjects is not null && _staticObjects.Collider.TryFindClosest(point, maxDistance, queryContext, out closest, out _);
     }
 
     /// <summary>The distance of a centre from the nearest surface; nothing above a limit is looked for.</summary>
-    public double SurfaceDistance(Vector position, double limit)
+    public double SurfaceDistance(Vector position, double maxDistance)
     {
-        foreach (var sphere in _spheres)
+        foreach (var sphere in _sphereOffsets)
         {
-            limit = _surfaces is not null && _surfaces.Collider.TryFindClosest(position + sphere, limit, record, out var closest, out _) ? closest.Distance : limit;
+            maxDistance = _staticObjects is not null && _staticObjects.Collider.TryFindClosest(position + sphere, maxDistance, queryContext, out var closest, out _) ? closest.Distance : maxDistance;
         }
 
-        return limit;
+        return maxDistance;
     }
 
     /// <summary>Finds where a surface that was touched is nearest now: looked for from half-way to it, where nothing else is as near.</summary>
     /// <param name="position">Of the mover.</param>
     /// <param name="contact">With a surface, as it was.</param>
-    /// <param name="followed">As it is.</param>
+    /// <param name="updated">As it is.</param>
     /// <returns>False when the surface is not there any more.</returns>
-    public bool TryFollow(Vector position, in Contact contact, out Contact followed)
+    public bool TryUpdateContact(Vector position, in Contact contact, out Contact updated)
     {
-        followed = contact;
-        var halfway = position + contact.Offset - (0.5 * _radius * contact.Direction);
-        if (_surfaces is null || !_surfaces.Collider.TryFindClosest(halfway, 0.6 * _radius, record, out var closest, out _))
+        updated = contact;
+        var halfway = position + contact.SphereOffset - (0.5 * _radius * contact.CachedNormal);
+        if (_staticObjects is null || !_staticObjects.Collider.TryFindClosest(halfway, 0.6 * _radius, queryContext, out var closest, out _))
         {
             return false;
         }
 
-        followed = contact with { Point = closest.Point, IsFlat = closest.Feature == FaceFeature.Interior };
-        followed = followed with { Direction = followed.Normal(position) };
+        updated = contact with { Point = closest.Point, IsFlat = closest.Feature == TriangleFeature.Interior };
+        updated = updated with { CachedNormal = updated.Normal(position) };
         return true;
     }
 
     /// <summary>Finds the surface that is nearest to a position, and on which side of it that is.</summary>
     /// <param name="position">Of the mover.</param>
     /// <param name="closest">The nearest point, if it is within the radius; its normal looks out of the object.</param>
-    /// <param name="isBehind">True within a closed solid. Seen from within, the nearest point of a solid is inside of a face.</param>
+    /// <param name="isInside">True within a closed solid. Seen from within, the nearest point of a solid is inside of a face.</param>
     /// <returns>False when no surface is within the radius.</returns>
-    public bool TryFindSide(Vector position, out ClosestPoint closest, out bool isBehind)
+    public bool TryFindSurfaceSide(Vector position, out ClosestPoint closest, out bool isInside)
     {
-        (closest, isBehind) = (default, false);
-        if (_surfaces is null || !_surfaces.Collider.TryFindClosest(position, _radius, record, out closest, out var index))
+        (closest, isInside) = (default, false);
+        if (_staticObjects is null || !_staticObjects.Collider.TryFindClosest(position, _radius, queryContext, out closest, out var index))
         {
             return false;
         }
 
-        var orientation = _surfaces.Orientation(index);
-        closest = orientation < 0 ? closest with { Normal = -closest.Normal } : closest;
-        isBehind = orientation != 0 && closest.Feature == FaceFeature.Interior && Vector.Dot(position - closest.Point, closest.Normal) < 0 && _surfaces.IsSolid(index);
+        var windingSign = _staticObjects.WindingSign(index);
+        closest = windingSign < 0 ? closest with { Normal = -closest.Normal } : closest;
+        isInside = windingSign != 0 && closest.Feature == TriangleFeature.Interior && Vector.Dot(position - closest.Point, closest.Normal) < 0 && _staticObjects.IsSolid(index);
         return true;
     }
 
-    private double FreeOfBodies(Vector position, double limit) =>
-        TryFindBody(position, ref limit, out var nearest) ? nearest.Gap(position) : limit;
+    private double FreeDistanceToBodies(Vector position, double maxDistance) =>
+        TryFindClosestBody(position, ref maxDistance, out var closestContact) ? closestContact.Gap(position) : maxDistance;
 
-    private bool TryFindBody(Vector position, ref double within, out Contact nearest)
+    private bool TryFindClosestBody(Vector position, ref double maxDistance, out Contact closestContact)
     {
-        (nearest, var isFound) = (default, false);
+        (closestContact, var isFound) = (default, false);
         foreach (var candidate in _candidates)
         {
-            foreach (var sphere in _spheres)
+            foreach (var sphere in _sphereOffsets)
             {
-                isFound |= IsNearer(ContactWith(candidate, sphere), position, ref within, ref nearest);
+                isFound |= TryUpdateClosest(CreateBodyContact(candidate, sphere), position, ref maxDistance, ref closestContact);
             }
         }
 
-        if (_walker is { } walker)
+        if (_character is { } character)
         {
             // As firm as a wall.
-            foreach (var sphere in walker.Spheres)
+            foreach (var sphere in character.SphereOffsets)
             {
-                isFound |= IsNearer(new(walker.Position + sphere, _radius + walker.Description.Radius, Vector.Zero, -1, false), position, ref within, ref nearest);
+                isFound |= TryUpdateClosest(new(character.Position + sphere, _radius + character.Description.Radius, Vector.Zero, -1, false), position, ref maxDistance, ref closestContact);
             }
         }
 
         return isFound;
     }
 
-    private static bool IsNearer(in Contact contact, Vector position, ref double within, ref Contact nearest)
+    private static bool TryUpdateClosest(in Contact contact, Vector position, ref double maxDistance, ref Contact closestContact)
     {
         var gap = contact.Gap(position);
-        if (!(gap <= within))
+        if (!(gap <= maxDistance))
         {
             return false;
         }
 
-        (nearest, within) = (contact, gap);
+        (closestContact, maxDistance) = (contact, gap);
         return true;
     }
 
-    private bool TryFindSurface(Vector position, double within, out Contact nearest)
+    private bool TryFindClosestSurface(Vector position, double maxDistance, out Contact closestContact)
     {
-        nearest = default;
-        if (_surfaces is null)
+        closestContact = default;
+        if (_staticObjects is null)
         {
             return false;
         }
 
-        var (isFound, limit) = (false, within + _radius);
-        var distance = limit + _lookahead;
-        foreach (var sphere in _spheres)
+        var (isFound, maxCentreDistance) = (false, maxDistance + _radius);
+        var searchDistance = maxCentreDistance + _searchMargin;
+        foreach (var sphere in _sphereOffsets)
         {
-            if (_surfaces.Collider.TryFindClosest(position + sphere, distance, record, out var closest, out _))
+            if (_staticObjects.Collider.TryFindClosest(position + sphere, searchDistance, queryContext, out var closest, out _))
             {
-                distance = closest.Distance;
-                if (distance <= limit)
+                searchDistance = closest.Distance;
+                if (searchDistance <= maxCentreDistance)
                 {
-                    (nearest, isFound) = (new(closest.Point, _radius, sphere, -1, closest.Feature == FaceFeature.Interior), true);
+                    (closestContact, isFound) = (new(closest.Point, _radius, sphere, -1, closest.Feature == TriangleFeature.Interior), true);
                 }
             }
         }
 
-        _clearance.Learn(position, distance);
+        _safeDistance.Store(position, searchDistance);
         return isFound;
     }
 
-    private Contact ContactWith(int candidate, Vector sphere)
+    private Contact CreateBodyContact(int candidate, Vector sphere)
     {
         var other = bodies[candidate];
         return new(other.Position, _radius + other.Radius, sphere, candidate, false);

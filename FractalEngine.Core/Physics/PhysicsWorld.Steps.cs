@@ -7,9 +7,9 @@ namespace FractalEngine.Core.Physics;
 public sealed partial class PhysicsWorld
 {
     // Of the radii: what slept on a body touched it to some rounding.
-    private const double Touching = 1 + 1e-6;
+    private const double TouchRadiusFactor = 1 + 1e-6;
 
-    private static readonly Vector[] OneSphere = [Vector.Zero];
+    private static readonly Vector[] SingleSphereOffset = [Vector.Zero];
 
     /// <summary>Lets time pass: as many steps as fit.</summary>
     /// <param name="seconds">Since the last call.</param>
@@ -22,11 +22,11 @@ public sealed partial class PhysicsWorld
             throw new ArgumentException("expected a finite time", nameof(seconds));
         }
 
-        _pending = Math.Min(_pending + Math.Max(0, seconds), Settings.MostStepsAtOnce * Settings.Step);
+        _accumulatedTime = Math.Min(_accumulatedTime + Math.Max(0, seconds), Settings.MaxStepsPerAdvance * Settings.TimeStep);
         var steps = 0;
-        for (; _pending >= Settings.Step; steps++)
+        for (; _accumulatedTime >= Settings.TimeStep; steps++)
         {
-            _pending -= Settings.Step;
+            _accumulatedTime -= Settings.TimeStep;
             Step();
         }
 
@@ -37,7 +37,7 @@ public sealed partial class PhysicsWorld
     /// <exception cref="InvalidOperationException">A body has left the range of a double; the message names it.</exception>
     public void Step()
     {
-        var (faceTests, boundTests) = (_record.FaceTests, _record.BoundTests);
+        var (faceTestsBefore, boundTestsBefore) = (_queryContext.FaceTests, _queryContext.BoundTests);
         for (var i = 0; i < _bodies.Count; i++)
         {
             var body = _bodies[i];
@@ -48,30 +48,30 @@ public sealed partial class PhysicsWorld
             }
         }
 
-        if (Walker is { IsActive: true } walker)
+        if (Character is { IsActive: true } character)
         {
-            walker.Step(Settings.Step);
+            character.Step(Settings.TimeStep);
         }
 
         StepCount++;
-        Cost = (_record.FaceTests - faceTests, _record.BoundTests - boundTests);
+        LastStepCost = (_queryContext.FaceTests - faceTestsBefore, _queryContext.BoundTests - boundTestsBefore);
     }
 
     /// <summary>Ends the sleep of a body and of all that touch it.</summary>
-    internal void Wake(Body body)
+    internal void WakeIsland(Body body)
     {
         body.Wake();
-        _waking.Push(body);
-        while (_waking.TryPop(out var next))
+        _wakeStack.Push(body);
+        while (_wakeStack.TryPop(out var next))
         {
-            _touching.Clear();
-            _grid.Collect(new(next.Position, next.Position), next.Radius * Touching, next.Index, _touching);
-            foreach (var index in _touching)
+            _wakeNeighbours.Clear();
+            _grid.CollectOverlaps(new(next.Position, next.Position), next.Radius * TouchRadiusFactor, next.Index, _wakeNeighbours);
+            foreach (var index in _wakeNeighbours)
             {
                 if (_bodies[index].IsAsleep)
                 {
                     _bodies[index].Wake();
-                    _waking.Push(_bodies[index]);
+                    _wakeStack.Push(_bodies[index]);
                 }
             }
         }
@@ -79,7 +79,7 @@ public sealed partial class PhysicsWorld
 
     private void Step(Body body)
     {
-        var (faceTests, boundTests, step) = (_record.FaceTests, _record.BoundTests, Settings.Step);
+        var (faceTestsBefore, boundTestsBefore, step) = (_queryContext.FaceTests, _queryContext.BoundTests, Settings.TimeStep);
         var description = body.Description;
         if (body.IsShrinking)
         {
@@ -92,10 +92,10 @@ public sealed partial class PhysicsWorld
             body.Velocity *= Math.Exp(-description.Damping * step);
         }
 
-        var reach = new Motion(body.Position, body.Velocity, acceleration).LengthWithin(step);
-        _obstacles.Begin(SurfacesOf(_collider ?? description.Collider), OneSphere, body.Radius, body.Clearance, 2 * reach, Walker is { IsActive: true } ? Walker : null);
-        var size = acceleration.Length();
-        _mover.Move(body, acceleration, step, Settings.RestSpeed ?? 0.5 * size * step);
+        var maxTravel = new Motion(body.Position, body.Velocity, acceleration).MaxTravelDistance(step);
+        _obstacles.SetMover(GetStaticObjects(_colliderOverride ?? description.Collider), SingleSphereOffset, body.Radius, body.SafeDistance, 2 * maxTravel, Character is { IsActive: true } ? Character : null);
+        var accelerationMagnitude = acceleration.Length();
+        _mover.Move(body, acceleration, step, Settings.RestitutionThreshold ?? 0.5 * accelerationMagnitude * step);
         if (!body.Position.IsFinite() || !body.Velocity.IsFinite())
         {
             throw new InvalidOperationException(string.Create(
@@ -103,41 +103,41 @@ public sealed partial class PhysicsWorld
         }
 
         _grid.Update(body.Index);
-        (body.FaceTests, body.BoundTests) = (_record.FaceTests - faceTests, _record.BoundTests - boundTests);
-        LetRest(body, Settings.SleepSpeed ?? 0.02 * Math.Sqrt(size * body.Radius));
+        (body.FaceTests, body.BoundTests) = (_queryContext.FaceTests - faceTestsBefore, _queryContext.BoundTests - boundTestsBefore);
+        UpdateSleep(body, Settings.SleepSpeed ?? 0.02 * Math.Sqrt(accelerationMagnitude * body.Radius));
     }
 
     /// <summary>Bodies that barely move fall asleep after a while.</summary>
-    private void LetRest(Body body, double sleepSpeed)
+    private void UpdateSleep(Body body, double sleepSpeed)
     {
         // By how far it gets: what is jammed may be pushed about and go nowhere.
-        var way = sleepSpeed * Settings.Step;
-        var isSlow = (body.Position - body.PreviousPosition).LengthSquared() < way * way && body.Contacts.Count > 0;
-        var rests = sleepSpeed > 0 && !body.IsShrinking && (isSlow || body.IsStuck);
-        body.RestTime = rests ? body.RestTime + Settings.Step : 0;
-        if (body.RestTime >= Settings.SleepTime && rests)
+        var maxDistance = sleepSpeed * Settings.TimeStep;
+        var isSlow = (body.Position - body.PreviousPosition).LengthSquared() < maxDistance * maxDistance && body.Contacts.Count > 0;
+        var isResting = sleepSpeed > 0 && !body.IsShrinking && (isSlow || body.IsStuck);
+        body.SleepTimer = isResting ? body.SleepTimer + Settings.TimeStep : 0;
+        if (body.SleepTimer >= Settings.TimeBeforeSleep && isResting)
         {
-            (body.IsAsleep, body.Velocity, body.FreeAcceleration) = (true, Vector.Zero, Vector.Zero);
+            (body.IsAsleep, body.Velocity, body.NetAcceleration) = (true, Vector.Zero, Vector.Zero);
         }
-        else if (!rests)
+        else if (!isResting)
         {
             // What slept on it may have nothing under it any more.
-            WakeTouching(body);
+            WakeTouchingBodies(body);
         }
     }
 
-    private void WakeTouching(Body body) => WakeAt(body.PreviousPosition, body.PreviousScale * body.Description.Radius, body.Index);
+    private void WakeTouchingBodies(Body body) => WakeOverlapping(body.PreviousPosition, body.PreviousScale * body.Description.Radius, body.Index);
 
     /// <summary>Wakes what touched a ball.</summary>
-    internal void WakeAt(Vector centre, double radius, int except = -1)
+    internal void WakeOverlapping(Vector centre, double radius, int excludedIndex = -1)
     {
-        _left.Clear();
-        _grid.Collect(new(centre, centre), radius * Touching, except, _left);
-        foreach (var index in _left)
+        _wakeCandidates.Clear();
+        _grid.CollectOverlaps(new(centre, centre), radius * TouchRadiusFactor, excludedIndex, _wakeCandidates);
+        foreach (var index in _wakeCandidates)
         {
             if (_bodies[index].IsAsleep)
             {
-                Wake(_bodies[index]);
+                WakeIsland(_bodies[index]);
             }
         }
     }

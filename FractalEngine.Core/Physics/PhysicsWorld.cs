@@ -14,23 +14,23 @@ namespace FractalEngine.Core.Physics;
 public sealed partial class PhysicsWorld
 {
     // Room for so many bodies near one; more are a matter of a larger list.
-    private const int Neighbours = 256;
+    private const int InitialNeighbourCapacity = 256;
 
     private readonly LoadedScene _scene;
-    private readonly int[] _surfaceIndices;
-    private readonly PlacedModel[] _placed;
-    private readonly Dictionary<ColliderKind, Surfaces> _surfaces = [];
+    private readonly int[] _staticIndices;
+    private readonly PlacedModel[] _staticModels;
+    private readonly Dictionary<ColliderKind, StaticObjects> _staticObjects = [];
     private readonly List<Body> _bodies = [];
-    private readonly List<int> _touching = new(Neighbours);
-    private readonly List<int> _left = new(Neighbours);
-    private readonly Stack<Body> _waking = new(Neighbours);
+    private readonly List<int> _wakeNeighbours = new(InitialNeighbourCapacity);
+    private readonly List<int> _wakeCandidates = new(InitialNeighbourCapacity);
+    private readonly Stack<Body> _wakeStack = new(InitialNeighbourCapacity);
     private readonly BodyGrid _grid = new();
-    private readonly QueryRecord _record = new();
+    private readonly QueryContext _queryContext = new();
     private readonly Obstacles _obstacles;
     private readonly BodyMover _mover;
-    private readonly int _sceneBodies;
-    private ColliderKind? _collider;
-    private double _pending;
+    private readonly int _sceneBodyCount;
+    private ColliderKind? _colliderOverride;
+    private double _accumulatedTime;
 
     /// <summary>A world with a body for each physics object of a scene. Colliders are built when they are first asked.</summary>
     /// <param name="scene">With its files loaded. Objects that are no physics objects stand still.</param>
@@ -39,27 +39,27 @@ public sealed partial class PhysicsWorld
     public PhysicsWorld(LoadedScene scene, PhysicsSettings? settings = null)
     {
         (_scene, Settings, Gravity) = (scene, settings ?? new(), scene.Scene.Gravity);
-        Settings.Check();
-        _obstacles = new(_bodies, _grid, _record);
-        _mover = new(_bodies, _obstacles, Wake);
-        _surfaceIndices = new int[scene.Objects.Length];
-        var placed = new List<PlacedModel>();
+        Settings.Validate();
+        _obstacles = new(_bodies, _grid, _queryContext);
+        _mover = new(_bodies, _obstacles, WakeIsland);
+        _staticIndices = new int[scene.Objects.Length];
+        var staticModels = new List<PlacedModel>();
         for (var i = 0; i < scene.Objects.Length; i++)
         {
             if (scene.Objects[i].Declaration is PhysicsObject declared)
             {
-                _surfaceIndices[i] = -1;
-                AddBody(BodyDescription.Of(scene.Objects[i], declared, i));
+                _staticIndices[i] = -1;
+                AddBody(BodyDescription.FromPhysicsObject(scene.Objects[i], declared, i));
             }
             else
             {
-                _surfaceIndices[i] = placed.Count;
-                placed.Add(scene.Objects[i]);
+                _staticIndices[i] = staticModels.Count;
+                staticModels.Add(scene.Objects[i]);
             }
         }
 
-        (_placed, _sceneBodies) = ([.. placed], _bodies.Count);
-        Walker = scene.Scene.Player is { } player ? new(this, _obstacles, player) : null;
+        (_staticModels, _sceneBodyCount) = ([.. staticModels], _bodies.Count);
+        Character = scene.Scene.Player is { } player ? new(this, _obstacles, player) : null;
         _grid.Build(_bodies);
     }
 
@@ -70,7 +70,7 @@ public sealed partial class PhysicsWorld
     public Vector Gravity { get; }
 
     /// <summary>Who walks in the scene; null for nobody. Not active at first.</summary>
-    public Walker? Walker { get; private set; }
+    public CharacterController? Character { get; private set; }
 
     /// <summary>In the order of the scene's objects, then of <see cref="Add"/>.</summary>
     public IReadOnlyList<Body> Bodies => _bodies;
@@ -79,27 +79,27 @@ public sealed partial class PhysicsWorld
     public long StepCount { get; private set; }
 
     /// <summary>Seconds so far.</summary>
-    public double Time => StepCount * Settings.Step;
+    public double Time => StepCount * Settings.TimeStep;
 
-    /// <summary>How far the time that has passed reaches into the step that comes next, from 0 to 1; see <see cref="Body.MapAt"/>.</summary>
-    public double Fraction => Math.Clamp(_pending / Settings.Step, 0, 1);
+    /// <summary>How far the time that has passed reaches into the step that comes next, from 0 to 1; see <see cref="Body.InterpolatedMap"/>.</summary>
+    public double InterpolationAlpha => Math.Clamp(_accumulatedTime / Settings.TimeStep, 0, 1);
 
     /// <summary>True while a body is awake.</summary>
     public bool IsMoving => _bodies.Exists(static body => !body.IsAsleep && (!body.IsStuck || body.IsShrinking));
 
     /// <summary>What the last step cost, all bodies together: faces and bounding volumes looked at.</summary>
-    public (long FaceTests, long BoundTests) Cost { get; private set; }
+    public (long FaceTests, long BoundTests) LastStepCost { get; private set; }
 
     /// <summary>The collider of all bodies instead of their own; null for their own.</summary>
-    public ColliderKind? Collider
+    public ColliderKind? ColliderOverride
     {
-        get => _collider;
+        get => _colliderOverride;
         set
         {
-            if (_collider != value)
+            if (_colliderOverride != value)
             {
-                _collider = value;
-                WakeAll(placesAnew: false);
+                _colliderOverride = value;
+                WakeAll(resolveOverlaps: false);
             }
         }
     }
@@ -126,19 +126,19 @@ public sealed partial class PhysicsWorld
     }
 
     /// <summary>The scene with its objects where they are now.</summary>
-    public LoadedScene SceneNow()
+    public LoadedScene GetCurrentScene()
     {
         var objects = _scene.Objects.ToBuilder();
         foreach (var body in _bodies.Where(body => body.Description.ObjectIndex >= 0))
         {
-            var (index, before) = (body.Description.ObjectIndex, _scene.Objects[body.Description.ObjectIndex]);
-            var placement = before.Declaration.Placement;
-            objects[index] = new(before.Declaration with { Placement = placement with { Position = body.Position, Scale = body.Scale * placement.Scale } }, before.Model);
+            var (index, original) = (body.Description.ObjectIndex, _scene.Objects[body.Description.ObjectIndex]);
+            var originalPlacement = original.Declaration.Placement;
+            objects[index] = new(original.Declaration with { Placement = originalPlacement with { Position = body.Position, Scale = body.Scale * originalPlacement.Scale } }, original.Model);
         }
 
-        for (var i = 0; i < _surfaceIndices.Length; i++)
+        for (var i = 0; i < _staticIndices.Length; i++)
         {
-            objects[i] = _surfaceIndices[i] < 0 ? objects[i] : _placed[_surfaceIndices[i]];
+            objects[i] = _staticIndices[i] < 0 ? objects[i] : _staticModels[_staticIndices[i]];
         }
 
         return new(_scene.Scene with { Objects = [.. objects.Select(placed => placed.Declaration)] }, objects.ToImmutable());
@@ -160,7 +160,7 @@ public sealed partial class PhysicsWorld
         var all = descriptions.ToArray();
         foreach (var description in all)
         {
-            description.Check();
+            description.Validate();
         }
 
         foreach (var description in all)
@@ -174,28 +174,28 @@ public sealed partial class PhysicsWorld
     /// <summary>Lets a player walk in the world, instead of the one before.</summary>
     /// <param name="player">Place and sizes in world space, scene units.</param>
     /// <exception cref="ArgumentException">The place is not finite, or the radius not positive, or the height less than twice as much.</exception>
-    public Walker AddWalker(Player player)
+    public CharacterController AddCharacter(Player player)
     {
         if (!player.Position.IsFinite() || !(player.Radius > 0) || !(player.Height >= 2 * player.Radius) || !double.IsFinite(player.Height))
         {
             throw new ArgumentException("expected a finite place, a positive radius and a height of at least twice the radius", nameof(player));
         }
 
-        return Walker = new(this, _obstacles, player);
+        return Character = new(this, _obstacles, player);
     }
 
     /// <summary>How many colliders have been built, of those of all objects that stand still.</summary>
-    public (int Built, int All) ColliderCounts => _surfaces.TryGetValue(_collider ?? ColliderKind.Exact, out var surfaces)
-        ? surfaces.Collider.Counts : (0, _placed.Select(static placed => placed.Model).Distinct().Count());
+    public (int Built, int All) ColliderCounts => _staticObjects.TryGetValue(_colliderOverride ?? ColliderKind.Exact, out var staticObjects)
+        ? staticObjects.Collider.ColliderCounts : (0, _staticModels.Select(static placed => placed.Model).Distinct().Count());
 
     /// <summary>Builds all colliders that bodies will ask, instead of at their first query.</summary>
     /// <exception cref="ColliderMismatchException">A collider does not fit an object.</exception>
     /// <exception cref="FractalLimitException">A fractal is too large for its collider.</exception>
     public void BuildColliders()
     {
-        foreach (var kind in _bodies.Select(body => _collider ?? body.Description.Collider).Append(_collider ?? ColliderKind.Exact).Distinct())
+        foreach (var kind in _bodies.Select(body => _colliderOverride ?? body.Description.Collider).Append(_colliderOverride ?? ColliderKind.Exact).Distinct())
         {
-            SurfacesOf(kind)?.Build();
+            GetStaticObjects(kind)?.Build();
         }
     }
 
@@ -204,7 +204,7 @@ public sealed partial class PhysicsWorld
     public void SetVelocity(Body body, Vector velocity)
     {
         RequireFinite(body, velocity, nameof(velocity));
-        Wake(body);
+        WakeIsland(body);
         body.Velocity = velocity;
     }
 
@@ -215,7 +215,7 @@ public sealed partial class PhysicsWorld
     public void SetForce(Body body, Vector force)
     {
         RequireFinite(body, force, nameof(force));
-        Wake(body);
+        WakeIsland(body);
         body.Force = force;
     }
 
@@ -225,33 +225,33 @@ public sealed partial class PhysicsWorld
     /// <exception cref="ArgumentException">The object is a body.</exception>
     public void MoveObject(int objectIndex, Transformation placement)
     {
-        var index = _surfaceIndices[objectIndex];
+        var index = _staticIndices[objectIndex];
         if (index < 0)
         {
             throw new ArgumentException("the object is a body: it moves by itself", nameof(objectIndex));
         }
 
-        var before = _placed[index];
-        Place(index, new(before.Declaration with { Placement = placement }, before.Model));
-        WakeAll(placesAnew: true);
+        var original = _staticModels[index];
+        ReplaceStaticObject(index, new(original.Declaration with { Placement = placement }, original.Model));
+        WakeAll(resolveOverlaps: true);
     }
 
-    /// <summary>Bodies and objects are where the scene has them, and bodies that were added are gone. A <see cref="Collider"/> and a player who were chosen stay.</summary>
+    /// <summary>Bodies and objects are where the scene has them, and bodies that were added are gone. A <see cref="ColliderOverride"/> and a player who were chosen stay.</summary>
     public void Reset()
     {
-        _bodies.RemoveRange(_sceneBodies, _bodies.Count - _sceneBodies);
-        for (var i = 0; i < _surfaceIndices.Length; i++)
+        _bodies.RemoveRange(_sceneBodyCount, _bodies.Count - _sceneBodyCount);
+        for (var i = 0; i < _staticIndices.Length; i++)
         {
-            if (_surfaceIndices[i] >= 0 && !ReferenceEquals(_placed[_surfaceIndices[i]], _scene.Objects[i]))
+            if (_staticIndices[i] >= 0 && !ReferenceEquals(_staticModels[_staticIndices[i]], _scene.Objects[i]))
             {
-                Place(_surfaceIndices[i], _scene.Objects[i]);
+                ReplaceStaticObject(_staticIndices[i], _scene.Objects[i]);
             }
         }
 
         _bodies.ForEach(body => body.Reset(Gravity));
-        Walker?.Reset();
+        Character?.Reset();
         _grid.Build(_bodies);
-        (StepCount, _pending, Cost) = (0, 0, default);
+        (StepCount, _accumulatedTime, LastStepCost) = (0, 0, default);
     }
 
     /// <summary>Finds the nearest point of all that bodies run into, as a body's collider sees it.</summary>
@@ -261,57 +261,57 @@ public sealed partial class PhysicsWorld
     public bool TryFindClosest(Vector position, ColliderKind kind, out ClosestPoint closest)
     {
         closest = default;
-        return SurfacesOf(kind) is { } surfaces && surfaces.Collider.TryFindClosest(position, double.PositiveInfinity, _record, out closest, out _);
+        return GetStaticObjects(kind) is { } staticObjects && staticObjects.Collider.TryFindClosest(position, double.PositiveInfinity, _queryContext, out closest, out _);
     }
 
     /// <summary>Prepares the obstacles for something that moves and is no body.</summary>
-    internal void Begin(Vector[] spheres, double radius, Clearance clearance, double lookahead) =>
-        _obstacles.Begin(SurfacesOf(_collider ?? ColliderKind.Exact), spheres, radius, clearance, lookahead);
+    internal void PrepareObstacles(Vector[] sphereOffsets, double radius, SafeDistance safeDistance, double searchMargin) =>
+        _obstacles.SetMover(GetStaticObjects(_colliderOverride ?? ColliderKind.Exact), sphereOffsets, radius, safeDistance, searchMargin);
 
-    private void Place(int index, PlacedModel placed)
+    private void ReplaceStaticObject(int index, PlacedModel placed)
     {
-        _placed[index] = placed;
-        foreach (var surfaces in _surfaces.Values)
+        _staticModels[index] = placed;
+        foreach (var staticObjects in _staticObjects.Values)
         {
-            surfaces.Move(index, placed);
+            staticObjects.Move(index, placed);
         }
     }
 
     private Body AddBody(BodyDescription description)
     {
-        description.Check();
+        description.Validate();
         var body = new Body(description, _bodies.Count, Gravity);
         _bodies.Add(body);
         return body;
     }
 
-    private Surfaces? SurfacesOf(ColliderKind kind)
+    private StaticObjects? GetStaticObjects(ColliderKind kind)
     {
-        if (_placed.Length == 0)
+        if (_staticModels.Length == 0)
         {
             return null;
         }
 
-        if (!_surfaces.TryGetValue(kind, out var surfaces))
+        if (!_staticObjects.TryGetValue(kind, out var staticObjects))
         {
-            _surfaces[kind] = surfaces = new(_placed, _scene.Scene, kind);
+            _staticObjects[kind] = staticObjects = new(_staticModels, _scene.Scene, kind);
         }
 
-        return surfaces;
+        return staticObjects;
     }
 
-    private void WakeAll(bool placesAnew)
+    private void WakeAll(bool resolveOverlaps)
     {
         foreach (var body in _bodies)
         {
             body.Wake();
-            body.FreeAcceleration = Gravity;
-            body.Clearance.Forget();
+            body.NetAcceleration = Gravity;
+            body.SafeDistance.Invalidate();
             body.Contacts.Clear();
-            body.IsPlaced &= !placesAnew;
+            body.IsOverlapResolved &= !resolveOverlaps;
         }
 
-        Walker?.Forget();
+        Character?.Invalidate();
     }
 
     private static void RequireFinite(Body body, Vector vector, string name)

@@ -50,7 +50,7 @@ public sealed record Camera
     /// <summary>
     /// The paper's map(v) = LocalAxes⁻¹·(v − position): how far right of, above and before the camera a point is.
     /// </summary>
-    public Vector Map(Vector point) => LocalAxesInverse * (point - Position);
+    public Vector ToCameraSpace(Vector point) => LocalAxesInverse * (point - Position);
 
     /// <inheritdoc/>
     public bool Equals(Camera? other) =>

@@ -16,9 +16,9 @@ public static class CameraFraming
     public static Vector LookRotation(Vector direction)
     {
         var forward = direction.UnitVector();
-        var level = Vector.Cross(Vector.J, forward);
+        var horizontal = Vector.Cross(Vector.J, forward);
         // Looking straight up or down, any direction may be right: the x axis is taken.
-        var right = level.Length() > 1e-12 ? level.UnitVector() : Vector.I;
+        var right = horizontal.Length() > 1e-12 ? horizontal.UnitVector() : Vector.I;
         return new Matrix(right, Vector.Cross(forward, right), forward).EulerAngles();
     }
 
@@ -33,15 +33,15 @@ public static class CameraFraming
             box = new(Vector.Zero, Vector.Zero);
         }
 
-        var half = camera.HalfHeightAtUnitDepth;
+        var halfHeight = camera.HalfHeightAtUnitDepth;
         // A point at (right, up, forward) from the box's centre is in view from a distance d before it when
         // |right| ≤ aspect·half·(d + forward) and |up| ≤ half·(d + forward).
         var distance = Corners(box).Max(corner => (camera.LocalAxesInverse * (corner - box.Centre)) switch
         {
-            var (right, up, forward) => (Math.Max(Math.Abs(right) / aspect, Math.Abs(up)) / half) - forward,
+            var (right, up, forward) => (Math.Max(Math.Abs(right) / aspect, Math.Abs(up)) / halfHeight) - forward,
         });
-        var smallest = Math.Max(0.5 * box.Diagonal, 1e-9 * (1 + box.Centre.MaximumComponent()));
-        return camera with { Position = box.Centre - (Margin * Math.Max(distance, smallest) * camera.LocalAxes.V3) };
+        var minDistance = Math.Max(0.5 * box.Diagonal, 1e-9 * (1 + box.Centre.MaxAbsComponent()));
+        return camera with { Position = box.Centre - (Margin * Math.Max(distance, minDistance) * camera.LocalAxes.V3) };
     }
 
     private static IEnumerable<Vector> Corners(BoundingBox box) =>

@@ -9,21 +9,21 @@ namespace FractalEngine.Core.Scenes;
 public static class CameraNavigation
 {
     // Just short of straight up and down, where "left" would change sides.
-    private const double HighestElevation = 89.9 * Math.PI / 180;
+    private const double MaxElevation = 89.9 * Math.PI / 180;
 
     /// <summary>Turns in place: left and right about the world's up, up and down about the camera's own right.</summary>
     /// <param name="camera">The camera.</param>
     /// <param name="right">Radians to the right.</param>
     /// <param name="up">Radians upwards; ends just short of the zenith and the nadir.</param>
     public static Camera Turn(Camera camera, double right, double up) =>
-        camera with { Rotation = (TurnBy(camera, right, up) * camera.LocalAxes).Orthonormalized().EulerAngles() };
+        camera with { Rotation = (ComputeTurn(camera, right, up) * camera.LocalAxes).Orthonormalized().EulerAngles() };
 
     /// <summary>Moves around a point, which stays where it is in the picture.</summary>
     /// <param name="camera">The camera.</param>
     /// <param name="pivot">World space.</param>
     /// <param name="right">Radians by which the view turns to the right.</param>
     /// <param name="up">Radians by which it turns upwards.</param>
-    public static Camera Orbit(Camera camera, Vector pivot, double right, double up) => TurnBy(camera, right, up) switch
+    public static Camera Orbit(Camera camera, Vector pivot, double right, double up) => ComputeTurn(camera, right, up) switch
     {
         var turn => Turn(camera, right, up) with { Position = pivot + (turn * (camera.Position - pivot)) },
     };
@@ -41,12 +41,12 @@ public static class CameraNavigation
     public static Camera Zoom(Camera camera, Vector pivot, double factor) =>
         camera with { Position = pivot + (factor * (camera.Position - pivot)) };
 
-    private static Matrix TurnBy(Camera camera, double right, double up)
+    private static Matrix ComputeTurn(Camera camera, double right, double up)
     {
         var elevation = Math.Asin(Math.Clamp(camera.LocalAxes.V3.Y, -1, 1));
-        var target = Math.Clamp(elevation + up, -HighestElevation, HighestElevation);
+        var target = Math.Clamp(elevation + up, -MaxElevation, MaxElevation);
         // A camera that starts beyond the limit (the view from the top) is not pulled back by a turn to the side.
-        var climb = up == 0 ? 0 : target - elevation;
-        return Matrix.Rotation(Vector.J, right) * Matrix.Rotation(camera.LocalAxes.V1, -climb);
+        var elevationChange = up == 0 ? 0 : target - elevation;
+        return Matrix.Rotation(Vector.J, right) * Matrix.Rotation(camera.LocalAxes.V1, -elevationChange);
     }
 }

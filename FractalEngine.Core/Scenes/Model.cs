@@ -8,13 +8,13 @@ namespace FractalEngine.Core.Scenes;
 /// <summary>The contents of one file, loaded once however many objects show it: a mesh or a fractal.</summary>
 public abstract class Model
 {
-    private protected Model(string path, long storageBytes) => (Path, StorageBytes) = (path, storageBytes);
+    private protected Model(string path, long fileBytes) => (Path, FileBytes) = (path, fileBytes);
 
     /// <summary>The full path of the file.</summary>
     public string Path { get; }
 
     /// <summary>The size of the files it was read from, the base mesh's included.</summary>
-    public long StorageBytes { get; }
+    public long FileBytes { get; }
 
     /// <summary>The mesh that is drawn: once for a mesh, once for each instance of a fractal.</summary>
     public abstract Mesh Mesh { get; }
@@ -38,7 +38,7 @@ public abstract class Model
 }
 
 /// <summary>A mesh loaded from a file.</summary>
-public sealed class MeshModel(string path, long storageBytes, Mesh mesh) : Model(path, storageBytes)
+public sealed class MeshModel(string path, long fileBytes, Mesh mesh) : Model(path, fileBytes)
 {
     /// <inheritdoc/>
     public override Mesh Mesh { get; } = mesh;
@@ -51,7 +51,7 @@ public sealed class MeshModel(string path, long storageBytes, Mesh mesh) : Model
 }
 
 /// <summary>A fractal loaded from a file.</summary>
-public sealed class FractalModel(string path, long storageBytes, Fractal fractal) : Model(path, storageBytes)
+public sealed class FractalModel(string path, long fileBytes, Fractal fractal) : Model(path, fileBytes)
 {
     /// <summary>The fractal.</summary>
     public Fractal Fractal { get; } = fractal;

@@ -14,8 +14,8 @@ public sealed class PlacedModel
     /// <param name="model">Shared by all objects of the same file.</param>
     public PlacedModel(SceneObject declaration, Model model)
     {
-        (Declaration, Model, Map) = (declaration, model, declaration.Placement.ToAffineMap());
-        _bounds = new(() => WorldBounds(declaration, Map, model));
+        (Declaration, Model, ObjectToWorld) = (declaration, model, declaration.Placement.ToAffineMap());
+        _bounds = new(() => ComputeWorldBounds(declaration, ObjectToWorld, model));
     }
 
     /// <summary>What the scene says of the object.</summary>
@@ -25,25 +25,25 @@ public sealed class PlacedModel
     public Model Model { get; }
 
     /// <summary>From the model's frame to world space: the paper's global matrix m.</summary>
-    public AffineMap Map { get; }
+    public AffineMap ObjectToWorld { get; }
 
     /// <summary>A box that holds the object in world space; as tight as the model's own.</summary>
     public BoundingBox Bounds => _bounds.Value;
 
-    private static BoundingBox WorldBounds(SceneObject declaration, AffineMap map, Model model) => model switch
+    private static BoundingBox ComputeWorldBounds(SceneObject declaration, AffineMap objectToWorld, Model model) => model switch
     {
         FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } =>
-            FractalBounds.BoxOf(new(fractal.Description.Under(declaration.Placement), fractal.BaseMesh)),
-        MeshModel => WorldBounds(map, model.Mesh),
-        _ => model.Bounds.Transform(map),
+            FractalBounds.ComputeBox(new(fractal.Description.WithPlacement(declaration.Placement), fractal.BaseMesh)),
+        MeshModel => ComputeWorldBounds(objectToWorld, model.Mesh),
+        _ => model.Bounds.Transform(objectToWorld),
     };
 
-    private static BoundingBox WorldBounds(AffineMap map, Mesh mesh)
+    private static BoundingBox ComputeWorldBounds(AffineMap objectToWorld, Mesh mesh)
     {
         var box = BoundingBox.Empty;
         for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
         {
-            box = box.Including(map * mesh.Vertex(vertex));
+            box = box.Including(objectToWorld * mesh.Vertex(vertex));
         }
 
         return box;

@@ -9,35 +9,35 @@ namespace FractalEngine.Core.Scenes;
 public sealed record Player(Vector Position, double Radius, double Height)
 {
     /// <summary>The steepest ground that is walked on unless the scene says so, degrees from the horizontal.</summary>
-    public const double DefaultSlope = 50;
+    public const double DefaultMaxSlopeAngle = 50;
 
-    /// <summary>The most that <see cref="Slope"/> may be, degrees: on a wall nobody walks.</summary>
-    public const double SteepestSlope = 89;
+    /// <summary>The most that <see cref="MaxSlopeAngle"/> may be, degrees: on a wall nobody walks.</summary>
+    public const double MaxSlopeAngleLimit = 89;
 
     // Of the height: how fast, how high and over what people of that size go.
-    private const double SpeedByHeight = 2.5;
-    private const double JumpByHeight = 0.6;
-    private const double StepByHeight = 0.25;
+    private const double WalkingSpeedPerHeight = 2.5;
+    private const double JumpHeightPerHeight = 0.6;
+    private const double StepHeightPerHeight = 0.25;
 
     /// <summary>How fast the player walks, units a second, not negative; null for <see cref="WalkingSpeed"/>'s own.</summary>
-    public double? Speed { get; init; }
+    public double? WalkingSpeedOverride { get; init; }
 
     /// <summary>The speed upwards with which a jump begins, units a second, not negative; null for <see cref="JumpSpeed"/>'s own.</summary>
-    public double? Jump { get; init; }
+    public double? JumpSpeedOverride { get; init; }
 
-    /// <summary>The steepest ground that is walked on, degrees from the horizontal, from 0 to <see cref="SteepestSlope"/>.</summary>
-    public double Slope { get; init; } = DefaultSlope;
+    /// <summary>The steepest ground that is walked on, degrees from the horizontal, from 0 to <see cref="MaxSlopeAngleLimit"/>.</summary>
+    public double MaxSlopeAngle { get; init; } = DefaultMaxSlopeAngle;
 
     /// <summary>The highest step that is climbed without a jump, scene units, not negative and less than the height; null for <see cref="StepHeight"/>'s own.</summary>
-    public double? Step { get; init; }
+    public double? StepHeightOverride { get; init; }
 
     /// <summary>How fast the player walks, units a second: 2.5 heights unless stated.</summary>
-    public double WalkingSpeed => Speed ?? (SpeedByHeight * Height);
+    public double WalkingSpeed => WalkingSpeedOverride ?? (WalkingSpeedPerHeight * Height);
 
     /// <summary>The highest step that is climbed without a jump, scene units: a quarter of the height unless stated.</summary>
-    public double StepHeight => Step ?? (StepByHeight * Height);
+    public double StepHeight => StepHeightOverride ?? (StepHeightPerHeight * Height);
 
     /// <summary>The speed upwards with which a jump begins, units a second: what carries the player 0.6 heights up unless stated, √(2·g·0.6·height).</summary>
     /// <param name="gravity">The size g of the acceleration, units a second².</param>
-    public double JumpSpeed(double gravity) => Jump ?? Math.Sqrt(2 * gravity * JumpByHeight * Height);
+    public double JumpSpeed(double gravity) => JumpSpeedOverride ?? Math.Sqrt(2 * gravity * JumpHeightPerHeight * Height);
 }

@@ -9,7 +9,7 @@ public sealed class AssetFolder
     /// <summary>Put into a folder, it lets all files below refer to each other.</summary>
     public const string MarkerName = ".asset-root";
 
-    private const int MostLinks = 40;
+    private const int MaxLinks = 40;
 
     private AssetFolder(string path) => Path = path;
 
@@ -18,10 +18,10 @@ public sealed class AssetFolder
 
     /// <summary>The folder of a file.</summary>
     /// <param name="file">Full path.</param>
-    public static AssetFolder Of(string file)
+    public static AssetFolder ForFile(string file)
     {
-        var own = System.IO.Path.GetDirectoryName(FollowLinks(file, MostLinks))!;
-        for (var folder = own; folder is not null; folder = System.IO.Path.GetDirectoryName(folder))
+        var ownFolder = System.IO.Path.GetDirectoryName(ResolveLinks(file, MaxLinks))!;
+        for (var folder = ownFolder; folder is not null; folder = System.IO.Path.GetDirectoryName(folder))
         {
             if (File.Exists(System.IO.Path.Combine(folder, MarkerName)))
             {
@@ -29,32 +29,32 @@ public sealed class AssetFolder
             }
         }
 
-        return new(own);
+        return new(ownFolder);
     }
 
     /// <summary>True when a file lies in the folder or below it, wherever links lead.</summary>
     /// <param name="file">Full path.</param>
     public bool Contains(string file)
     {
-        var relative = System.IO.Path.GetRelativePath(Path, FollowLinks(file, MostLinks));
+        var relative = System.IO.Path.GetRelativePath(Path, ResolveLinks(file, MaxLinks));
         return !System.IO.Path.IsPathRooted(relative)
             && relative != ".."
             && !relative.StartsWith(".." + System.IO.Path.DirectorySeparatorChar, StringComparison.Ordinal);
     }
 
-    private static string FollowLinks(string path, int linksLeft)
+    private static string ResolveLinks(string path, int linksLeft)
     {
-        var full = System.IO.Path.GetFullPath(path);
-        var followed = System.IO.Path.GetPathRoot(full)!;
-        foreach (var part in full[followed.Length..].Split(System.IO.Path.DirectorySeparatorChar, StringSplitOptions.RemoveEmptyEntries))
+        var fullPath = System.IO.Path.GetFullPath(path);
+        var resolved = System.IO.Path.GetPathRoot(fullPath)!;
+        foreach (var segment in fullPath[resolved.Length..].Split(System.IO.Path.DirectorySeparatorChar, StringSplitOptions.RemoveEmptyEntries))
         {
-            followed = System.IO.Path.Combine(followed, part);
-            if (linksLeft > 0 && new FileInfo(followed) is { LinkTarget: { } target })
+            resolved = System.IO.Path.Combine(resolved, segment);
+            if (linksLeft > 0 && new FileInfo(resolved) is { LinkTarget: { } target })
             {
-                followed = FollowLinks(System.IO.Path.Combine(System.IO.Path.GetDirectoryName(followed)!, target), linksLeft - 1);
+                resolved = ResolveLinks(System.IO.Path.Combine(System.IO.Path.GetDirectoryName(resolved)!, target), linksLeft - 1);
             }
         }
 
-        return followed;
+        return resolved;
     }
 }

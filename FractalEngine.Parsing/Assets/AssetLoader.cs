@@ -22,7 +22,7 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
     private readonly List<Diagnostic> _warnings = [];
     private readonly List<Diagnostic> _errors = [];
     private long _textBytes;
-    private FileReferences? _references;
+    private FileReferenceResolver? _references;
     private MaterialLoader? _materials;
 
     /// <summary>Loads a file.</summary>
@@ -57,38 +57,38 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
 
     private LoadedFile LoadFile(string path)
     {
-        var full = Path.GetFullPath(path);
-        _references = new(AssetFolder.Of(full), options.AllowOutside);
+        var fullPath = Path.GetFullPath(path);
+        _references = new(AssetFolder.ForFile(fullPath), options.AllowOutsideFiles);
         _materials = new(_references, _warnings);
         return Path.GetExtension(path).ToUpperInvariant() switch
         {
-            ".SDO" => LoadScene(full, path),
-            ".FDO" => Single(full, FileKind.Fractal, LoadFractal(full, path)),
-            ".OBJ" => Single(full, FileKind.Mesh, LoadMesh(full, path)),
+            ".SDO" => LoadScene(fullPath, path),
+            ".FDO" => CreateSingleObjectFile(fullPath, FileKind.Fractal, LoadFractal(fullPath, path)),
+            ".OBJ" => CreateSingleObjectFile(fullPath, FileKind.Mesh, LoadMesh(fullPath, path)),
             // What is missing is said to be missing first, whatever it is called.
-            _ when !File.Exists(full) && !Directory.Exists(full) => throw new SourceException(path, "file not found"),
+            _ when !File.Exists(fullPath) && !Directory.Exists(fullPath) => throw new SourceException(path, "file not found"),
             _ => throw new SourceException(path, "the ending says nothing of the contents, expected .obj, .fdo or .sdo"),
         };
     }
 
-    private LoadedFile Single(string full, FileKind kind, Model model)
+    private LoadedFile CreateSingleObjectFile(string fullPath, FileKind kind, Model model)
     {
-        var declared = new SceneObject(Path.GetFileName(full), Transformation.Identity);
-        return Finish(full, kind, new(new() { Objects = [declared] }, [new(declared, model)]), null);
+        var declared = new SceneObject(Path.GetFileName(fullPath), Transformation.Identity);
+        return CreateLoadedFile(fullPath, kind, new(new() { Objects = [declared] }, [new(declared, model)]), null);
     }
 
-    private LoadedFile Finish(string full, FileKind kind, LoadedScene scene, SceneFile? sceneFile) =>
-        new(full, kind, scene, sceneFile, StorageBytes, options.SharesFiles ? [.. _warnings] : [.. _warnings.Distinct()]);
+    private LoadedFile CreateLoadedFile(string fullPath, FileKind kind, LoadedScene scene, SceneFile? sceneFile) =>
+        new(fullPath, kind, scene, sceneFile, StorageBytes, options.ShareModels ? [.. _warnings] : [.. _warnings.Distinct()]);
 
-    private LoadedFile LoadScene(string full, string name)
+    private LoadedFile LoadScene(string fullPath, string displayName)
     {
-        var file = SceneParser.Parse(Read(full, name, ParsingLimits.DescriptionBytes));
+        var file = SceneParser.Parse(ReadText(fullPath, displayName, ParsingLimits.DescriptionBytes));
         var placed = ImmutableArray.CreateBuilder<PlacedModel>();
-        foreach (var (declared, offset) in file.Scene.Objects.Zip(file.FileOffsets))
+        foreach (var (declared, offset) in file.Scene.Objects.Zip(file.FileNameOffsets))
         {
             try
             {
-                placed.Add(new(declared, LoadReferenced(file.Source, offset, full, declared.File)));
+                placed.Add(new(declared, LoadReferenced(file.Source, offset, fullPath, declared.File)));
             }
             catch (SourceException exception)
             {
@@ -100,33 +100,33 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
             }
         }
 
-        return Finish(full, FileKind.Scene, new(file.Scene, placed.ToImmutable()), file);
+        return CreateLoadedFile(fullPath, FileKind.Scene, new(file.Scene, placed.ToImmutable()), file);
     }
 
     private Model LoadReferenced(SourceText source, int offset, string referrer, string file)
     {
-        var (full, name) = _references!.Resolve(source, offset, referrer, file);
-        if (options.SharesFiles && _models.TryGetValue(full, out var known))
+        var (fullPath, displayName) = _references!.Resolve(source, offset, referrer, file);
+        if (options.ShareModels && _models.TryGetValue(fullPath, out var cached))
         {
-            return known;
+            return cached;
         }
 
-        return _models[full] = file.EndsWith(".fdo", StringComparison.OrdinalIgnoreCase) ? LoadFractal(full, name) : LoadMesh(full, name);
+        return _models[fullPath] = file.EndsWith(".fdo", StringComparison.OrdinalIgnoreCase) ? LoadFractal(fullPath, displayName) : LoadMesh(fullPath, displayName);
     }
 
-    private MeshModel LoadMesh(string full, string name)
+    private MeshModel LoadMesh(string fullPath, string displayName)
     {
-        var (mesh, materials, bytes) = ReadMesh(full, name);
-        return new(full, bytes, mesh) { Materials = materials };
+        var (mesh, materials, bytes) = ReadMesh(fullPath, displayName);
+        return new(fullPath, bytes, mesh) { Materials = materials };
     }
 
-    private FractalModel LoadFractal(string full, string name)
+    private FractalModel LoadFractal(string fullPath, string displayName)
     {
-        var before = StorageBytes;
-        var file = FractalParser.Parse(Read(full, name, ParsingLimits.DescriptionBytes));
-        var ownBytes = StorageBytes - before;
-        var (baseFull, baseName) = _references!.Resolve(file.Source, file.BaseFileOffset, full, file.Description.BaseFile);
-        var fractal = FractalGenerator.Create(Adapt(file), _ => ReadMesh(baseFull, baseName).Mesh);
+        var bytesBefore = StorageBytes;
+        var file = FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.DescriptionBytes));
+        var ownBytes = StorageBytes - bytesBefore;
+        var (baseFullPath, baseDisplayName) = _references!.Resolve(file.Source, file.BaseFileNameOffset, fullPath, file.Description.BaseFile);
+        var fractal = FractalGenerator.Create(ApplyOptions(file), _ => ReadMesh(baseFullPath, baseDisplayName).Mesh);
         if (fractal.Bounds != BoundingBox.Empty && !fractal.Bounds.Size.IsFinite())
         {
             throw file.Source.Error(file.ResultOffset, fractal.Description.IsInfinite
@@ -134,11 +134,11 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
                 : "the fractal grows beyond the range of a double");
         }
 
-        return new(full, ownBytes + _meshes[baseFull].Bytes, fractal) { Materials = _meshes[baseFull].Materials };
+        return new(fullPath, ownBytes + _meshes[baseFullPath].Bytes, fractal) { Materials = _meshes[baseFullPath].Materials };
     }
 
     /// <summary>What the file says, changed as the options ask.</summary>
-    private FractalDescription Adapt(FractalFile file)
+    private FractalDescription ApplyOptions(FractalFile file)
     {
         var description = file.Description with { Composition = options.Composition ?? file.Description.Composition };
         if (options.Depth is { } depth && description.HasDepth)
@@ -151,25 +151,25 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
             : description;
     }
 
-    private (Mesh Mesh, ImmutableDictionary<string, Material> Materials, long Bytes) ReadMesh(string full, string name)
+    private (Mesh Mesh, ImmutableDictionary<string, Material> Materials, long Bytes) ReadMesh(string fullPath, string displayName)
     {
-        if (options.SharesFiles && _meshes.TryGetValue(full, out var known))
+        if (options.ShareModels && _meshes.TryGetValue(fullPath, out var cached))
         {
-            return known;
+            return cached;
         }
 
-        var before = StorageBytes;
-        var source = Read(full, name, ParsingLimits.ObjBytes, acceptLatin1: true);
-        var file = ObjParser.Parse(source, progress is null ? null : new FileProgress(name, progress));
+        var bytesBefore = StorageBytes;
+        var source = ReadText(fullPath, displayName, ParsingLimits.ObjBytes, acceptLatin1: true);
+        var file = ObjParser.Parse(source, progress is null ? null : new FileProgress(displayName, progress));
         _warnings.AddRange(file.Warnings);
-        var materials = _materials!.Load(file, source, full);
-        return _meshes[full] = (file.Mesh, materials, StorageBytes - before);
+        var materials = _materials!.Load(file, source, fullPath);
+        return _meshes[fullPath] = (file.Mesh, materials, StorageBytes - bytesBefore);
     }
 
-    private SourceText Read(string full, string name, long byteLimit, bool acceptLatin1 = false)
+    private SourceText ReadText(string fullPath, string displayName, long maxBytes, bool acceptLatin1 = false)
     {
-        var source = SourceText.Read(full, name, byteLimit, acceptLatin1);
-        _textBytes += new FileInfo(full) is { Exists: true } info ? info.Length : 0;
+        var source = SourceText.Read(fullPath, displayName, maxBytes, acceptLatin1);
+        _textBytes += new FileInfo(fullPath) is { Exists: true } info ? info.Length : 0;
         return source;
     }
 

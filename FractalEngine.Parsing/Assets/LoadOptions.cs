@@ -6,7 +6,7 @@ namespace FractalEngine.Parsing.Assets;
 public sealed record LoadOptions
 {
     /// <summary>Whether files may name others outside their folder, see <see cref="AssetFolder"/>.</summary>
-    public bool AllowOutside { get; init; }
+    public bool AllowOutsideFiles { get; init; }
 
     /// <summary>The composition of all fractals; null for what each file says.</summary>
     public Composition? Composition { get; init; }
@@ -15,5 +15,5 @@ public sealed record LoadOptions
     public int? Depth { get; init; }
 
     /// <summary>Whether meshes and fractals are read once however many objects name them; otherwise once for each, for comparison.</summary>
-    public bool SharesFiles { get; init; } = true;
+    public bool ShareModels { get; init; } = true;
 }

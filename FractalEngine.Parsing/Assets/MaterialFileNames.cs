@@ -6,16 +6,16 @@ namespace FractalEngine.Parsing.Assets;
 /// </summary>
 internal static class MaterialFileNames
 {
-    private const string Ending = ".mtl";
+    private const string Extension = ".mtl";
 
     /// <summary>The single names, in order.</summary>
-    public static IEnumerable<string> In(string names)
+    public static IEnumerable<string> Split(string names)
     {
         var start = 0;
         for (var i = 0; i <= names.Length; i++)
         {
             var isEnd = i == names.Length
-                || (names[i] is ' ' or '\t' && names.AsSpan(start, i - start).EndsWith(Ending, StringComparison.OrdinalIgnoreCase));
+                || (names[i] is ' ' or '\t' && names.AsSpan(start, i - start).EndsWith(Extension, StringComparison.OrdinalIgnoreCase));
             if (isEnd && names[start..i].Trim() is { Length: > 0 } name)
             {
                 yield return name.Replace("\\ ", " ", StringComparison.Ordinal);

@@ -5,15 +5,15 @@ namespace FractalEngine.Parsing.Fractals;
 
 /// <summary>An object under a name: a base mesh and the steps applied to it so far (paper §4.2.2).</summary>
 /// <param name="BaseFile">As the file names it.</param>
-/// <param name="BaseFileOffset">Where it does.</param>
+/// <param name="BaseFileNameOffset">Where it does.</param>
 /// <param name="Steps">Outermost first.</param>
-internal record DeclaredObject(string BaseFile, int BaseFileOffset, ImmutableArray<FractalStep> Steps)
+internal record DeclaredObject(string BaseFile, int BaseFileNameOffset, ImmutableArray<FractalStep> Steps)
 {
     /// <summary>The object that this one was made from; null for a base mesh.</summary>
     public DeclaredObject? Origin { get; init; }
 
     /// <summary>True when this object is <paramref name="other"/>, or was made from it in any number of declarations.</summary>
-    public bool IsBuiltOn(DeclaredObject other)
+    public bool IsDerivedFrom(DeclaredObject other)
     {
         for (var origin = this; origin is not null; origin = origin.Origin)
         {
@@ -31,11 +31,11 @@ internal record DeclaredObject(string BaseFile, int BaseFileOffset, ImmutableArr
 /// An object without end: its own steps over its base, repeated for ever. Giving it a depth makes a finite object.
 /// </summary>
 /// <param name="Base">What the recursion starts from.</param>
-/// <param name="Round">The steps that one round adds, outermost first.</param>
-internal sealed record DeclaredRecursive(DeclaredObject Base, ImmutableArray<FractalStep> Round)
-    : DeclaredObject(Base.BaseFile, Base.BaseFileOffset, Base.Steps.Insert(0, new Repetition(Round, null)))
+/// <param name="IterationSteps">The steps that one round adds, outermost first.</param>
+internal sealed record DeclaredRecursive(DeclaredObject Base, ImmutableArray<FractalStep> IterationSteps)
+    : DeclaredObject(Base.BaseFile, Base.BaseFileNameOffset, Base.Steps.Insert(0, new Repetition(IterationSteps, null)))
 {
     /// <summary>The recursion carried out a number of times: Sⁿ after A; depth 0 is the base.</summary>
-    public DeclaredObject Flatten(int depth) =>
-        new(BaseFile, BaseFileOffset, Base.Steps.Insert(0, new Repetition(Round, depth))) { Origin = Base };
+    public DeclaredObject WithDepth(int depth) =>
+        new(BaseFile, BaseFileNameOffset, Base.Steps.Insert(0, new Repetition(IterationSteps, depth))) { Origin = Base };
 }

@@ -8,7 +8,7 @@ namespace FractalEngine.Parsing.Fractals;
 /// <content>Transformation functions, and the sets that call them.</content>
 public sealed partial class FractalParser
 {
-    private const int MostParameters = 3;
+    private const int MaxParameters = 3;
 
     /// <summary><c>t.a.b. (out, out, out)</c>; each output is a parameter, the number of a vector, or '#'.</summary>
     private bool ParseFunction(Cursor cursor, out Cursor rest)
@@ -33,7 +33,7 @@ public sealed partial class FractalParser
         parameters = [];
         for (rest = cursor; char.IsLetter(rest.Current) || rest.Current == '_';)
         {
-            var place = rest;
+            var parameterStart = rest;
             if (!ParseName(rest, "a parameter", out var parameter, out rest) || !ParseChar(rest, '.', out rest))
             {
                 return false;
@@ -41,12 +41,12 @@ public sealed partial class FractalParser
 
             if (parameters.Contains(parameter))
             {
-                throw Error(place, $"the parameter '{parameter}' is named twice");
+                throw Error(parameterStart, $"the parameter '{parameter}' is named twice");
             }
 
-            if (parameters.Count == MostParameters)
+            if (parameters.Count == MaxParameters)
             {
-                throw Error(place, $"a transformation has at most {MostParameters} parameters");
+                throw Error(parameterStart, $"a transformation has at most {MaxParameters} parameters");
             }
 
             parameters.Add(parameter);
@@ -56,9 +56,9 @@ public sealed partial class FractalParser
     }
 
     private bool ParseOutput(
-        Cursor cursor, List<string> parameters, Vector neutral, out Func<ImmutableArray<Vector>, Vector> output, out Cursor rest)
+        Cursor cursor, List<string> parameters, Vector defaultValue, out Func<ImmutableArray<Vector>, Vector> output, out Cursor rest)
     {
-        output = _ => neutral;
+        output = _ => defaultValue;
         rest = cursor;
         if (char.IsAsciiDigit(cursor.Current))
         {
@@ -71,10 +71,10 @@ public sealed partial class FractalParser
             return true;
         }
 
-        if (char.IsLetter(cursor.Current) && ParseName(cursor, "a parameter", out var name, out var behind) && parameters.IndexOf(name) is >= 0 and var index)
+        if (char.IsLetter(cursor.Current) && ParseName(cursor, "a parameter", out var name, out var afterName) && parameters.IndexOf(name) is >= 0 and var index)
         {
             output = arguments => arguments[index];
-            rest = behind;
+            rest = afterName;
             return true;
         }
 
@@ -97,7 +97,7 @@ public sealed partial class FractalParser
         }
 
         vector = number >= 1 && number <= _vectors.Count ? _vectors[number - 1]
-            : throw Error(cursor, $"vector {Written(cursor, rest)} of {_vectors.Count}: {(number == 0 ? "vectors are numbered from 1" : "it is not declared above")}");
+            : throw Error(cursor, $"vector {TextBetween(cursor, rest)} of {_vectors.Count}: {(number == 0 ? "vectors are numbered from 1" : "it is not declared above")}");
         return true;
     }
 
@@ -147,7 +147,7 @@ public sealed partial class FractalParser
 
         var function = _functions.TryGetValue(name, out var found) ? found
             : throw Error(cursor, $"the transformation '{name}' is not declared above");
-        var arguments = ImmutableArray.CreateBuilder<Vector>(MostParameters);
+        var arguments = ImmutableArray.CreateBuilder<Vector>(MaxParameters);
         if (!ParseChar(rest, '.', out rest))
         {
             return false;
@@ -171,12 +171,12 @@ public sealed partial class FractalParser
 
         if (arguments.Count != function.ParameterCount)
         {
-            throw Error(cursor, $"'{name}' takes {Arguments(function.ParameterCount)}, not {arguments.Count}");
+            throw Error(cursor, $"'{name}' takes {ArgumentCountText(function.ParameterCount)}, not {arguments.Count}");
         }
 
         transformation = function.Apply(arguments.ToImmutable());
-        return ScaleCheck.IsRegular(transformation.Scale) ? true : throw Error(cursor, ScaleCheck.Message(transformation.Scale));
+        return ScaleCheck.IsInvertible(transformation.Scale) ? true : throw Error(cursor, ScaleCheck.SingularScaleMessage(transformation.Scale));
     }
 
-    private static string Arguments(int count) => count == 1 ? "1 argument" : $"{count} arguments";
+    private static string ArgumentCountText(int count) => count == 1 ? "1 argument" : $"{count} arguments";
 }

@@ -11,7 +11,7 @@ namespace FractalEngine.Parsing.Fractals;
 /// </summary>
 public sealed partial class FractalParser : Parser
 {
-    private static readonly DeclaredObject Nothing = new("", 0, []);
+    private static readonly DeclaredObject EmptyObject = new("", 0, []);
 
     private readonly List<Vector> _vectors = [];
     private readonly Dictionary<string, TransformationFunction> _functions = [];
@@ -52,7 +52,7 @@ public sealed partial class FractalParser : Parser
             throw Source.Error(result.Offset, "an infinite fractal can't be composed componentwise: its positions don't shrink; give it a depth");
         }
 
-        return new(Source, description, result.Object.BaseFileOffset, result.Offset);
+        return new(Source, description, result.Object.BaseFileNameOffset, result.Offset);
     }
 
     private bool ParseLine(Cursor cursor, out Cursor rest)
@@ -129,7 +129,7 @@ public sealed partial class FractalParser : Parser
             throw Error(cursor, $"the result '<$>' is declared twice, first in line {Source.Diagnose(first.Offset, "").Line}");
         }
 
-        CheckDepth(value.Steps, cursor);
+        RequireLevelLimit(value.Steps, cursor);
         _result = (value, cursor.Offset);
         return true;
     }
@@ -137,33 +137,33 @@ public sealed partial class FractalParser : Parser
     /// <summary><c>z&lt;x&gt;. object</c>: the object must be built on x; what it adds to x is one round.</summary>
     private bool ParseRecursive(Cursor cursor, out Cursor rest)
     {
-        if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '<', out var basePlace)
-            || !ParseName(basePlace, "the name of the base object", out var baseName, out rest) || !ParseChar(rest, '>', out rest)
-            || !ParseChar(rest, '.', out rest) || !ParseBlanks(rest, out var bodyPlace) || !ParseObject(bodyPlace, out var body, out rest))
+        if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '<', out var baseStart)
+            || !ParseName(baseStart, "the name of the base object", out var baseName, out rest) || !ParseChar(rest, '>', out rest)
+            || !ParseChar(rest, '.', out rest) || !ParseBlanks(rest, out var bodyStart) || !ParseObject(bodyStart, out var body, out rest))
         {
             return false;
         }
 
-        var origin = Find(basePlace, baseName);
-        RequireFinite(basePlace, baseName, origin);
-        if (!body.IsBuiltOn(origin))
+        var baseObject = FindObject(baseStart, baseName);
+        RequireFinite(baseStart, baseName, baseObject);
+        if (!body.IsDerivedFrom(baseObject))
         {
-            throw Error(bodyPlace, $"the body of the recursive '{name}' is not built on its base '{baseName}'");
+            throw Error(bodyStart, $"the body of the recursive '{name}' is not built on its base '{baseName}'");
         }
 
-        var round = body.Steps[..^origin.Steps.Length];
-        if (round.Length == 0)
+        var iterationSteps = body.Steps[..^baseObject.Steps.Length];
+        if (iterationSteps.Length == 0)
         {
-            throw Error(bodyPlace, $"the recursive '{name}' adds no transformations to its base '{baseName}'");
+            throw Error(bodyStart, $"the recursive '{name}' adds no transformations to its base '{baseName}'");
         }
 
-        if (round.Any(step => step.LevelCount is null))
+        if (iterationSteps.Any(step => step.LevelCount is null))
         {
-            throw Error(bodyPlace, $"the body of the recursive '{name}' is infinite: give the recursive in it a depth");
+            throw Error(bodyStart, $"the body of the recursive '{name}' is infinite: give the recursive in it a depth");
         }
 
-        CheckDepth(round, bodyPlace);
-        Declare(cursor, name, new DeclaredRecursive(origin, round));
+        RequireLevelLimit(iterationSteps, bodyStart);
+        DeclareObject(cursor, name, new DeclaredRecursive(baseObject, iterationSteps));
         return true;
     }
 
@@ -176,7 +176,7 @@ public sealed partial class FractalParser : Parser
             return false;
         }
 
-        Declare(cursor, name, value);
+        DeclareObject(cursor, name, value);
         return true;
     }
 
@@ -192,7 +192,7 @@ public sealed partial class FractalParser : Parser
         {
             if (!ParseSet(rest, out set, out rest) || !ParseBlanks(rest, out rest))
             {
-                value = Nothing;
+                value = EmptyObject;
                 return false;
             }
         }
@@ -205,10 +205,10 @@ public sealed partial class FractalParser : Parser
 
         if (sets.Count > 0)
         {
-            value = new(value.BaseFile, value.BaseFileOffset, value.Steps.InsertRange(0, sets)) { Origin = value };
+            value = new(value.BaseFile, value.BaseFileNameOffset, value.Steps.InsertRange(0, sets)) { Origin = value };
         }
 
-        CheckSteps(value.Steps, cursor);
+        RequireStepLimits(value.Steps, cursor);
         return true;
     }
 
@@ -223,71 +223,71 @@ public sealed partial class FractalParser : Parser
 
     private bool ParseReference(Cursor cursor, out DeclaredObject value, out Cursor rest)
     {
-        value = Nothing;
+        value = EmptyObject;
         if (!ParseName(cursor, "the name of an object", out var name, out rest))
         {
             return false;
         }
 
         // The line may still turn out to be another kind of declaration, so names are looked up only once its syntax fits.
-        ParseBlanks(rest, out var depthPlace);
-        if (IsAtEndOfLine(depthPlace))
+        ParseBlanks(rest, out var depthStart);
+        if (IsAtEndOfLine(depthStart))
         {
-            value = Find(cursor, name);
+            value = FindObject(cursor, name);
             return true;
         }
 
-        if (depthPlace.Current == '-' && char.IsAsciiDigit(depthPlace.Peek(1)))
+        if (depthStart.Current == '-' && char.IsAsciiDigit(depthStart.Peek(1)))
         {
-            throw Error(depthPlace, "the depth of a recursive must not be negative");
+            throw Error(depthStart, "the depth of a recursive must not be negative");
         }
 
-        if (depthPlace.Offset == rest.Offset || !ParseInteger(depthPlace, "a depth", out var depth, out rest))
+        if (depthStart.Offset == rest.Offset || !ParseInteger(depthStart, "a depth", out var depth, out rest))
         {
-            return Fail(depthPlace, "the end of the line");
+            return Fail(depthStart, "the end of the line");
         }
 
-        value = Find(cursor, name) is not DeclaredRecursive recursive ? throw Error(depthPlace, $"'{name}' is no recursive, so it has no depth")
-            : depth > FractalLimits.Depth
-                ? throw Error(depthPlace, $"the depth is more than the limit of {FractalLimits.Depth}", isLimit: true)
-                : recursive.Flatten(depth);
+        value = FindObject(cursor, name) is not DeclaredRecursive recursive ? throw Error(depthStart, $"'{name}' is no recursive, so it has no depth")
+            : depth > FractalLimits.MaxDepth
+                ? throw Error(depthStart, $"the depth is more than the limit of {FractalLimits.MaxDepth}", isLimitExceeded: true)
+                : recursive.WithDepth(depth);
         return true;
     }
 
-    private DeclaredObject Find(Cursor place, string name) =>
+    private DeclaredObject FindObject(Cursor cursor, string name) =>
         _objects.TryGetValue(name, out var value) ? value
-        : throw Error(place, $"the object '{name}' is not declared above");
+        : throw Error(cursor, $"the object '{name}' is not declared above");
 
-    private void RequireFinite(Cursor place, string name, DeclaredObject value)
+    private void RequireFinite(Cursor cursor, string name, DeclaredObject value)
     {
         if (value.Steps.Any(step => step.LevelCount is null))
         {
-            throw Error(place, $"the base '{name}' is infinite: give it a depth");
+            throw Error(cursor, $"the base '{name}' is infinite: give it a depth");
         }
     }
 
-    private void CheckSteps(ImmutableArray<FractalStep> steps, Cursor place)
+    private void RequireStepLimits(ImmutableArray<FractalStep> steps, Cursor cursor)
     {
-        if (steps.Length > FractalLimits.Steps || steps.Any(step => step.Nesting > FractalLimits.Nesting))
+        if (steps.Length > FractalLimits.MaxSteps || steps.Any(step => step.NestingDepth > FractalLimits.MaxNesting))
         {
             throw Error(
-                place, $"the object has more than the limit of {FractalLimits.Steps} steps, or of {FractalLimits.Nesting} recursives inside each other", isLimit: true);
+                cursor, $"the object has more than the limit of {FractalLimits.MaxSteps} steps, or of {FractalLimits.MaxNesting} recursives inside each other", isLimitExceeded: true);
         }
     }
 
-    private void CheckDepth(ImmutableArray<FractalStep> steps, Cursor place)
+    private void RequireLevelLimit(ImmutableArray<FractalStep> steps, Cursor cursor)
     {
-        if (FractalSteps.LevelCount(steps) > FractalLimits.Levels)
+        if (FractalSteps.LevelCount(steps) > FractalLimits.MaxLevels)
         {
-            throw Error(place, $"the fractal passes through more than the limit of {FractalLimits.Levels} sets of transformations", isLimit: true);
+            throw Error(cursor, $"the fractal passes through more than the limit of {FractalLimits.MaxLevels} sets of transformations", isLimitExceeded: true);
         }
     }
 
-    private void Declare(Cursor place, string name, DeclaredObject value)
+    private void DeclareObject(Cursor cursor, string name, DeclaredObject value)
     {
         if (!_objects.TryAdd(name, value))
         {
-            throw Error(place, $"the object '{name}' is declared twice");
+            throw Error(cursor, $"the object '{name}' is declared twice");
         }
     }
 }

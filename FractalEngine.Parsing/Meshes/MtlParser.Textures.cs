@@ -13,7 +13,7 @@ public sealed partial class MtlParser
         var rest = cursor;
         while (rest.Current == '-')
         {
-            if (!ParseOption(rest, ref texture, out rest))
+            if (!ParseTextureOption(rest, ref texture, out rest))
             {
                 return false;
             }
@@ -22,25 +22,25 @@ public sealed partial class MtlParser
         }
 
         // Windows takes both slashes, all others take this one only.
-        var file = NameAt(rest, out _).Replace('\\', '/');
+        var file = ReadName(rest, out _).Replace('\\', '/');
         if (file.Length == 0)
         {
             return Fail(rest, "a file name");
         }
 
-        return Change(statement, material =>
+        return UpdateMaterial(statement, material =>
         {
             // Of materials with the same name the first stays, see Finish.
             if (!_materials.ContainsKey(material.Name))
             {
-                _textureOffsets[material.Name] = rest.Offset;
+                _textureNameOffsets[material.Name] = rest.Offset;
             }
 
             return material with { Texture = texture with { Path = file } };
         });
     }
 
-    private bool ParseOption(Cursor cursor, ref MaterialTexture texture, out Cursor rest)
+    private bool ParseTextureOption(Cursor cursor, ref MaterialTexture texture, out Cursor rest)
     {
         rest = cursor;
         var length = cursor.Rest.IndexOfAny(" \t\r\n");
@@ -49,21 +49,21 @@ public sealed partial class MtlParser
         switch (option)
         {
             case "-clamp":
-                var isParsed = ParseSwitch(arguments, out var isOn, out rest);
+                var isParsed = ParseOnOff(arguments, out var isOn, out rest);
                 texture = texture with { IsClamped = isOn };
                 return isParsed;
             case "-blendu" or "-blendv" or "-cc":
-                return ParseSwitch(arguments, out _, out rest);
+                return ParseOnOff(arguments, out _, out rest);
             case "-s":
-                var scaled = ParseUpToThree(arguments, Vector.One, out var scale, out rest);
+                var isScaleParsed = ParseUpToThreeNumbers(arguments, Vector.One, out var scale, out rest);
                 texture = texture with { Scale = (scale.X, scale.Y) };
-                return scaled;
+                return isScaleParsed;
             case "-o":
-                var moved = ParseUpToThree(arguments, Vector.Zero, out var offset, out rest);
+                var isOffsetParsed = ParseUpToThreeNumbers(arguments, Vector.Zero, out var offset, out rest);
                 texture = texture with { Offset = (offset.X, offset.Y) };
-                return moved;
+                return isOffsetParsed;
             case "-t":
-                return ParseUpToThree(arguments, Vector.Zero, out _, out rest);
+                return ParseUpToThreeNumbers(arguments, Vector.Zero, out _, out rest);
             case "-bm" or "-boost" or "-texres":
                 return ParseNumber(arguments, out _, out rest);
             case "-mm":
@@ -75,28 +75,28 @@ public sealed partial class MtlParser
         }
     }
 
-    private bool ParseSwitch(Cursor cursor, out bool isOn, out Cursor rest)
+    private bool ParseOnOff(Cursor cursor, out bool isOn, out Cursor rest)
     {
         isOn = ParseWord(cursor, "on", out rest);
         return isOn || ParseWord(cursor, "off", out rest);
     }
 
     /// <summary>One to three numbers; those that are left out keep their usual value. A word that only begins with digits is a file's name.</summary>
-    private bool ParseUpToThree(Cursor cursor, Vector usual, out Vector numbers, out Cursor rest)
+    private bool ParseUpToThreeNumbers(Cursor cursor, Vector defaults, out Vector numbers, out Cursor rest)
     {
-        numbers = usual;
+        numbers = defaults;
         if (!ParseNumber(cursor, out var x, out rest))
         {
             return false;
         }
 
-        var (_, y, z) = usual;
-        _ = ParseFurther(rest, ref y, out rest) && ParseFurther(rest, ref z, out rest);
+        var (_, y, z) = defaults;
+        _ = ParseOptionalNumber(rest, ref y, out rest) && ParseOptionalNumber(rest, ref z, out rest);
         numbers = new(x, y, z);
         return true;
     }
 
-    private bool ParseFurther(Cursor cursor, ref double number, out Cursor rest)
+    private bool ParseOptionalNumber(Cursor cursor, ref double number, out Cursor rest)
     {
         rest = cursor;
         ParseBlanks(cursor, out var start);

@@ -11,14 +11,14 @@ namespace FractalEngine.Parsing.Meshes;
 public sealed partial class MtlParser : Parser
 {
     // Each fault costs a look through the text for its line; what has more of them is no material file.
-    private const int MostFaults = 100;
+    private const int MaxFaults = 100;
 
     private readonly ImmutableDictionary<string, Material>.Builder _materials = ImmutableDictionary.CreateBuilder<string, Material>();
-    private readonly ImmutableDictionary<string, int>.Builder _textureOffsets = ImmutableDictionary.CreateBuilder<string, int>();
+    private readonly ImmutableDictionary<string, int>.Builder _textureNameOffsets = ImmutableDictionary.CreateBuilder<string, int>();
     private Material? _current;
-    private bool _statesOpacity;
+    private bool _hasOpacity;
     private Diagnostic? _firstFault;
-    private int _faults;
+    private int _faultCount;
 
     private MtlParser(SourceText source)
         : base(source)
@@ -30,44 +30,44 @@ public sealed partial class MtlParser : Parser
 
     private MtlFile ParseFile()
     {
-        for (var cursor = Source.Start; !cursor.IsAtEnd && _faults < MostFaults; cursor = SkipLine(cursor))
+        for (var cursor = Source.Start; !cursor.IsAtEnd && _faultCount < MaxFaults; cursor = SkipLine(cursor))
         {
             try
             {
                 if (!ParseLine(cursor))
                 {
-                    Note(SyntaxError());
+                    RecordFault(SyntaxError());
                 }
             }
             catch (SourceException fault)
             {
-                Note(fault);
+                RecordFault(fault);
             }
         }
 
-        Finish();
-        return new(Source, _materials.ToImmutable(), _textureOffsets.ToImmutable(), _firstFault is null ? [] : [Warning(_firstFault)]);
+        CommitMaterial();
+        return new(Source, _materials.ToImmutable(), _textureNameOffsets.ToImmutable(), _firstFault is null ? [] : [CreateWarning(_firstFault)]);
     }
 
-    private void Note(SourceException fault)
+    private void RecordFault(SourceException fault)
     {
         _firstFault ??= fault.Diagnostic;
-        _faults++;
+        _faultCount++;
     }
 
-    private Diagnostic Warning(Diagnostic fault) => fault with
+    private Diagnostic CreateWarning(Diagnostic fault) => fault with
     {
         Severity = DiagnosticSeverity.Warning,
-        Message = _faults switch
+        Message = _faultCount switch
         {
             1 => $"{fault.Message}: the statement is passed over",
-            MostFaults => $"{fault.Message}: the statement is passed over (after {MostFaults} such statements the rest of the file is, too)",
-            _ => $"{fault.Message}: the statement is passed over ({_faults} such statements in all)",
+            MaxFaults => $"{fault.Message}: the statement is passed over (after {MaxFaults} such statements the rest of the file is, too)",
+            _ => $"{fault.Message}: the statement is passed over ({_faultCount} such statements in all)",
         },
     };
 
     /// <summary>What was declared first under a name stays.</summary>
-    private void Finish()
+    private void CommitMaterial()
     {
         if (_current is { } material)
         {
@@ -101,43 +101,43 @@ public sealed partial class MtlParser : Parser
 
     private bool ParseDeclaration(Cursor cursor)
     {
-        var name = NameAt(cursor, out _);
+        var name = ReadName(cursor, out _);
         if (name.Length == 0)
         {
             return Fail(cursor, "a name");
         }
 
-        Finish();
-        (_current, _statesOpacity) = (new(name), false);
+        CommitMaterial();
+        (_current, _hasOpacity) = (new(name), false);
         return true;
     }
 
-    private bool Change(Cursor statement, Func<Material, Material> change)
+    private bool UpdateMaterial(Cursor statement, Func<Material, Material> update)
     {
-        _current = change(_current ?? throw Error(statement, "no material is declared above"));
+        _current = update(_current ?? throw Error(statement, "no material is declared above"));
         return true;
     }
 
     /// <summary>Three components, or one for all three.</summary>
-    private bool ParseColour(Cursor statement, Cursor cursor, Func<Material, Colour, Material> change)
+    private bool ParseColour(Cursor statement, Cursor cursor, Func<Material, Colour, Material> update)
     {
         if (!ParseNumber(cursor, out var red, out var rest) || !ParseBlanks(rest, out rest))
         {
             return false;
         }
 
-        if (EndsAt(rest))
+        if (IsAtEndOfStatement(rest))
         {
-            return Change(statement, material => change(material, new(red, red, red)));
+            return UpdateMaterial(statement, material => update(material, new(red, red, red)));
         }
 
         return ParseNumber(rest, out var green, out rest) && ParseBlanks(rest, out rest)
-            && ParseNumber(rest, out var blue, out rest) && ParseStatementEnd(rest)
-            && Change(statement, material => change(material, new(red, green, blue)));
+            && ParseNumber(rest, out var blue, out rest) && ParseEndOfStatement(rest)
+            && UpdateMaterial(statement, material => update(material, new(red, green, blue)));
     }
 
-    private bool ParseScalar(Cursor statement, Cursor cursor, Func<Material, double, Material> change) =>
-        ParseNumber(cursor, out var number, out var rest) && ParseStatementEnd(rest) && Change(statement, material => change(material, number));
+    private bool ParseScalar(Cursor statement, Cursor cursor, Func<Material, double, Material> update) =>
+        ParseNumber(cursor, out var number, out var rest) && ParseEndOfStatement(rest) && UpdateMaterial(statement, material => update(material, number));
 
     /// <summary><c>d</c> counts more than <c>Tr</c>, wherever they stand: programs disagree about what <c>Tr</c> means.</summary>
     private bool ParseOpacity(Cursor statement, Cursor cursor)
@@ -149,17 +149,17 @@ public sealed partial class MtlParser : Parser
 
         return ParseScalar(statement, cursor, (material, number) =>
         {
-            _statesOpacity = true;
+            _hasOpacity = true;
             return material with { Opacity = Math.Clamp(number, 0, 1) };
         });
     }
 
     /// <summary>A surface that <c>Tr</c> alone calls wholly transparent is opaque: the programs that write this mean so.</summary>
     private bool ParseTransparency(Cursor statement, Cursor cursor) => ParseScalar(statement, cursor, (material, number) =>
-        _statesOpacity ? material : material with { Opacity = number >= 1 ? 1 : Math.Clamp(1 - number, 0, 1) });
+        _hasOpacity ? material : material with { Opacity = number >= 1 ? 1 : Math.Clamp(1 - number, 0, 1) });
 
     /// <summary>All to the end of the line or to a comment, blanks at the ends taken off. Names may have blanks in them.</summary>
-    private static string NameAt(Cursor cursor, out Cursor rest)
+    private static string ReadName(Cursor cursor, out Cursor rest)
     {
         rest = cursor;
         while (!IsAtEndOfLine(rest) && !(rest.Current == '#' && rest.Offset > 0 && rest.Peek(-1) is ' ' or '\t'))
@@ -170,11 +170,11 @@ public sealed partial class MtlParser : Parser
         return cursor.Rest[..(rest.Offset - cursor.Offset)].Trim().ToString();
     }
 
-    private static bool EndsAt(Cursor cursor) => IsAtEndOfLine(cursor) || cursor.Current == '#';
+    private static bool IsAtEndOfStatement(Cursor cursor) => IsAtEndOfLine(cursor) || cursor.Current == '#';
 
-    private bool ParseStatementEnd(Cursor cursor)
+    private bool ParseEndOfStatement(Cursor cursor)
     {
         ParseBlanks(cursor, out var rest);
-        return EndsAt(rest) || Fail(rest, "the end of the line");
+        return IsAtEndOfStatement(rest) || Fail(rest, "the end of the line");
     }
 }

@@ -11,17 +11,17 @@ internal sealed class ObjMeshBuilder
     private readonly List<double> _positions = [];
     private readonly List<double> _textureCoordinates = [];
     private readonly List<double> _normals = [];
-    private readonly List<int> _faces = [];
-    private readonly List<int> _textureFaces = [];
-    private readonly List<int> _normalFaces = [];
+    private readonly List<int> _positionIndices = [];
+    private readonly List<int> _textureIndices = [];
+    private readonly List<int> _normalIndices = [];
     private readonly List<MeshGroup> _groups = [];
     private readonly List<string> _materialLibraries = [];
     private readonly HashSet<string> _knownLibraries = [];
     private readonly PolygonTriangulator _triangulator = new();
-    private readonly List<int> _triangles = [];
-    private readonly List<Vector> _polygon = [];
-    private (string Object, string Group, string Material, int Smoothing) _names = ("", "", "", 0);
-    private int _groupStart;
+    private readonly List<int> _triangleCorners = [];
+    private readonly List<Vector> _polygonPositions = [];
+    private (string Object, string Group, string Material, int Smoothing) _groupState = ("", "", "", 0);
+    private int _firstGroupFace;
 
     public int PositionCount => _positions.Count / 3;
 
@@ -31,22 +31,22 @@ internal sealed class ObjMeshBuilder
 
     public string ObjectName
     {
-        set => ChangeNames(_names with { Object = value });
+        set => ChangeGroupState(_groupState with { Object = value });
     }
 
     public string GroupName
     {
-        set => ChangeNames(_names with { Group = value });
+        set => ChangeGroupState(_groupState with { Group = value });
     }
 
     public string Material
     {
-        set => ChangeNames(_names with { Material = value });
+        set => ChangeGroupState(_groupState with { Material = value });
     }
 
     public int SmoothingGroup
     {
-        set => ChangeNames(_names with { Smoothing = value });
+        set => ChangeGroupState(_groupState with { Smoothing = value });
     }
 
     /// <summary>Returns false where the file was named before, or has no name.</summary>
@@ -79,32 +79,32 @@ internal sealed class ObjMeshBuilder
             return;
         }
 
-        _polygon.Clear();
-        _triangles.Clear();
+        _polygonPositions.Clear();
+        _triangleCorners.Clear();
         foreach (var corner in corners)
         {
-            _polygon.Add(Position(corner.Position));
+            _polygonPositions.Add(Position(corner.PositionIndex));
         }
 
-        _triangulator.Triangulate(CollectionsMarshal.AsSpan(_polygon), _triangles);
-        for (var i = 0; i < _triangles.Count; i += 3)
+        _triangulator.Triangulate(CollectionsMarshal.AsSpan(_polygonPositions), _triangleCorners);
+        for (var i = 0; i < _triangleCorners.Count; i += 3)
         {
-            AddTriangle(corners[_triangles[i]], corners[_triangles[i + 1]], corners[_triangles[i + 2]]);
+            AddTriangle(corners[_triangleCorners[i]], corners[_triangleCorners[i + 1]], corners[_triangleCorners[i + 2]]);
         }
     }
 
     public Mesh Build()
     {
         EndGroup();
-        var mesh = new Mesh(ToImmutable(_positions), ToImmutable(_faces));
-        if (_textureFaces.Count > 0)
+        var mesh = new Mesh(ToImmutable(_positions), ToImmutable(_positionIndices));
+        if (_textureIndices.Count > 0)
         {
-            mesh = mesh.WithTextureCoordinates(ToImmutable(_textureCoordinates), ToImmutable(_textureFaces));
+            mesh = mesh.WithTextureCoordinates(ToImmutable(_textureCoordinates), ToImmutable(_textureIndices));
         }
 
-        if (_normalFaces.Count > 0)
+        if (_normalIndices.Count > 0)
         {
-            mesh = mesh.WithNormals(ToImmutable(_normals), ToImmutable(_normalFaces));
+            mesh = mesh.WithNormals(ToImmutable(_normals), ToImmutable(_normalIndices));
         }
 
         return mesh.WithGroups([.. _groups], [.. _materialLibraries]);
@@ -119,30 +119,30 @@ internal sealed class ObjMeshBuilder
         list.Add(v.Z);
     }
 
-    private Vector Position(int number) =>
-        new(_positions[3 * number], _positions[(3 * number) + 1], _positions[(3 * number) + 2]);
+    private Vector Position(int index) =>
+        new(_positions[3 * index], _positions[(3 * index) + 1], _positions[(3 * index) + 2]);
 
     private void AddTriangle(ObjCorner a, ObjCorner b, ObjCorner c)
     {
-        AddOptional(_textureFaces, a.TextureCoordinate, b.TextureCoordinate, c.TextureCoordinate);
-        AddOptional(_normalFaces, a.Normal, b.Normal, c.Normal);
-        Add(_faces, a.Position, b.Position, c.Position);
+        AddOptionalIndices(_textureIndices, a.TextureCoordinateIndex, b.TextureCoordinateIndex, c.TextureCoordinateIndex);
+        AddOptionalIndices(_normalIndices, a.NormalIndex, b.NormalIndex, c.NormalIndex);
+        Add(_positionIndices, a.PositionIndex, b.PositionIndex, c.PositionIndex);
     }
 
     /// <summary>The list stays empty until a face has such numbers; then the faces before it get none.</summary>
-    private void AddOptional(List<int> list, int a, int b, int c)
+    private void AddOptionalIndices(List<int> indices, int a, int b, int c)
     {
-        if (list.Count == 0)
+        if (indices.Count == 0)
         {
             if (a == ObjCorner.None && b == ObjCorner.None && c == ObjCorner.None)
             {
                 return;
             }
 
-            list.AddRange(Enumerable.Repeat(ObjCorner.None, _faces.Count));
+            indices.AddRange(Enumerable.Repeat(ObjCorner.None, _positionIndices.Count));
         }
 
-        Add(list, a, b, c);
+        Add(indices, a, b, c);
     }
 
     private static void Add(List<int> list, int a, int b, int c)
@@ -152,22 +152,22 @@ internal sealed class ObjMeshBuilder
         list.Add(c);
     }
 
-    private void ChangeNames((string Object, string Group, string Material, int Smoothing) names)
+    private void ChangeGroupState((string Object, string Group, string Material, int Smoothing) state)
     {
-        if (names != _names)
+        if (state != _groupState)
         {
             EndGroup();
-            _names = names;
+            _groupState = state;
         }
     }
 
     private void EndGroup()
     {
-        var end = _faces.Count / 3;
-        if (end > _groupStart)
+        var end = _positionIndices.Count / 3;
+        if (end > _firstGroupFace)
         {
-            _groups.Add(new(_groupStart, end - _groupStart, _names.Object, _names.Group, _names.Material, _names.Smoothing));
-            _groupStart = end;
+            _groups.Add(new(_firstGroupFace, end - _firstGroupFace, _groupState.Object, _groupState.Group, _groupState.Material, _groupState.Smoothing));
+            _firstGroupFace = end;
         }
     }
 }

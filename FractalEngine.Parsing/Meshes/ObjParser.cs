@@ -13,17 +13,17 @@ namespace FractalEngine.Parsing.Meshes;
 public sealed class ObjParser : Parser
 {
     // Progress is reported at most once for so many characters.
-    private const int ProgressStep = 1 << 20;
+    private const int ProgressInterval = 1 << 20;
 
-    private readonly ObjMeshBuilder _mesh = new();
+    private readonly ObjMeshBuilder _builder = new();
     private readonly List<ObjCorner> _corners = [];
     private readonly List<int> _libraryOffsets = [];
     private readonly Dictionary<string, int> _materialOffsets = [];
     private bool _hasDeclaration;
-    private int _unknownLines;
-    private Cursor? _firstUnknown;
-    private int _missingNumbers;
-    private (Cursor Place, string What)? _firstMissing;
+    private int _unknownLineCount;
+    private Cursor? _firstUnknownKeyword;
+    private int _invalidIndexCount;
+    private (Cursor Place, string What)? _firstInvalidIndex;
 
     private ObjParser(SourceText source)
         : base(source)
@@ -51,7 +51,7 @@ public sealed class ObjParser : Parser
 
     private ObjFile ParseFile(IProgress<double>? progress)
     {
-        var nextReport = ProgressStep;
+        var nextReport = ProgressInterval;
         for (var cursor = Source.Start; !cursor.IsAtEnd;)
         {
             if (!ParseLine(cursor, out cursor))
@@ -62,7 +62,7 @@ public sealed class ObjParser : Parser
             if (cursor.Offset >= nextReport)
             {
                 progress?.Report((double)cursor.Offset / Source.Text.Length);
-                nextReport = cursor.Offset + ProgressStep;
+                nextReport = cursor.Offset + ProgressInterval;
             }
         }
 
@@ -72,26 +72,26 @@ public sealed class ObjParser : Parser
             throw Error(Source.Start, "the file declares nothing: it has no vertex, face, group or material");
         }
 
-        return new(_mesh.Build(), Warnings())
+        return new(_builder.Build(), CreateWarnings())
         {
             MaterialLibraryOffsets = [.. _libraryOffsets],
             MaterialOffsets = _materialOffsets.ToImmutableDictionary(),
         };
     }
 
-    private ImmutableArray<Diagnostic> Warnings()
+    private ImmutableArray<Diagnostic> CreateWarnings()
     {
         var warnings = ImmutableArray.CreateBuilder<Diagnostic>();
-        if (_firstUnknown is { } unknown)
+        if (_firstUnknownKeyword is { } keyword)
         {
-            var all = _unknownLines == 1 ? "" : $" ({_unknownLines} lines with unknown keywords in all)";
-            warnings.Add(Source.Diagnose(unknown.Offset, $"unknown keyword {Describe(unknown)} skipped{all}", DiagnosticSeverity.Warning));
+            var totalNote = _unknownLineCount == 1 ? "" : $" ({_unknownLineCount} lines with unknown keywords in all)";
+            warnings.Add(Source.Diagnose(keyword.Offset, $"unknown keyword {Describe(keyword)} skipped{totalNote}", DiagnosticSeverity.Warning));
         }
 
-        if (_firstMissing is var (place, what))
+        if (_firstInvalidIndex is var (cursor, message))
         {
-            var all = _missingNumbers == 1 ? "" : $" ({_missingNumbers} such corners in all)";
-            warnings.Add(Source.Diagnose(place.Offset, $"{what}: the corner goes without{all}", DiagnosticSeverity.Warning));
+            var totalNote = _invalidIndexCount == 1 ? "" : $" ({_invalidIndexCount} such corners in all)";
+            warnings.Add(Source.Diagnose(cursor.Offset, $"{message}: the corner goes without{totalNote}", DiagnosticSeverity.Warning));
         }
 
         return warnings.ToImmutable();
@@ -102,19 +102,19 @@ public sealed class ObjParser : Parser
         ParseBlanks(cursor, out var start);
         return (start.Current, start.Peek(1), start.Peek(2)) switch
         {
-            ('v', ' ' or '\t', _) => ParsePosition(start.Advance(1), out rest) && Declare(),
-            ('f', ' ' or '\t', _) => ParseFace(start, out rest) && Declare(),
-            ('v', 'n', ' ' or '\t') => ParseNormal(start.Advance(2), out rest) && Declare(),
-            ('v', 't', ' ' or '\t') => ParseTextureCoordinate(start.Advance(2), out rest) && Declare(),
-            _ => ParseOther(start, out rest),
+            ('v', ' ' or '\t', _) => ParsePosition(start.Advance(1), out rest) && MarkDeclared(),
+            ('f', ' ' or '\t', _) => ParseFace(start, out rest) && MarkDeclared(),
+            ('v', 'n', ' ' or '\t') => ParseNormal(start.Advance(2), out rest) && MarkDeclared(),
+            ('v', 't', ' ' or '\t') => ParseTextureCoordinate(start.Advance(2), out rest) && MarkDeclared(),
+            _ => ParseOtherStatement(start, out rest),
         };
     }
 
-    private bool ParseOther(Cursor start, out Cursor rest)
+    private bool ParseOtherStatement(Cursor start, out Cursor rest)
     {
         if (IsAtEndOfLine(start) || start.Current == '#')
         {
-            return ParseLineEnd(start, out rest);
+            return ParseCommentAndEndOfLine(start, out rest);
         }
 
         rest = start;
@@ -125,12 +125,12 @@ public sealed class ObjParser : Parser
 
         return keyword switch
         {
-            "o" => ParseNames(rest, out var name, out rest) && Declare(() => _mesh.ObjectName = name),
-            "g" => ParseNames(rest, out var name, out rest) && Declare(() => _mesh.GroupName = name),
-            "usemtl" => ParseMaterial(rest, out rest) && Declare(),
-            "mtllib" => ParseMaterialLibrary(rest, out rest) && Declare(),
-            "s" => ParseSmoothingGroup(rest, out rest) && Declare(),
-            "l" or "p" => ParseNames(rest, out _, out rest) && Declare(),
+            "o" => ParseRestOfLine(rest, out var name, out rest) && MarkDeclared(() => _builder.ObjectName = name),
+            "g" => ParseRestOfLine(rest, out var name, out rest) && MarkDeclared(() => _builder.GroupName = name),
+            "usemtl" => ParseMaterial(rest, out rest) && MarkDeclared(),
+            "mtllib" => ParseMaterialLibrary(rest, out rest) && MarkDeclared(),
+            "s" => ParseSmoothingGroup(rest, out rest) && MarkDeclared(),
+            "l" or "p" => ParseRestOfLine(rest, out _, out rest) && MarkDeclared(),
             // A keyword with nothing behind it stands here because the branches above want a blank.
             "v" or "vn" or "vt" => ParseComponents(rest, out _, out rest),
             "f" => ParseFace(start, out rest),
@@ -141,25 +141,25 @@ public sealed class ObjParser : Parser
     private bool ParseMaterial(Cursor cursor, out Cursor rest)
     {
         ParseBlanks(cursor, out var start);
-        if (!ParseNames(start, out var name, out rest))
+        if (!ParseRestOfLine(start, out var name, out rest))
         {
             return false;
         }
 
         _materialOffsets.TryAdd(name, start.Offset);
-        _mesh.Material = name;
+        _builder.Material = name;
         return true;
     }
 
     private bool ParseMaterialLibrary(Cursor cursor, out Cursor rest)
     {
         ParseBlanks(cursor, out var start);
-        if (!ParseNames(start, out var file, out rest))
+        if (!ParseRestOfLine(start, out var file, out rest))
         {
             return false;
         }
 
-        if (_mesh.AddMaterialLibrary(file))
+        if (_builder.AddMaterialLibrary(file))
         {
             _libraryOffsets.Add(start.Offset);
         }
@@ -167,7 +167,7 @@ public sealed class ObjParser : Parser
         return true;
     }
 
-    private bool Declare(Action? effect = null)
+    private bool MarkDeclared(Action? effect = null)
     {
         effect?.Invoke();
         return _hasDeclaration = true;
@@ -175,29 +175,29 @@ public sealed class ObjParser : Parser
 
     private bool SkipUnknown(Cursor start, out Cursor rest)
     {
-        _firstUnknown ??= start;
-        _unknownLines++;
-        return ParseNames(start, out _, out rest);
+        _firstUnknownKeyword ??= start;
+        _unknownLineCount++;
+        return ParseRestOfLine(start, out _, out rest);
     }
 
     /// <summary>x y z, then a weight or a colour or both, which are not used.</summary>
     private bool ParsePosition(Cursor cursor, out Cursor rest) =>
-        ParseNumbers(cursor, out var position, out rest) && Add(position) && ParseOptionalNumbers(rest, out rest) && ParseLineEnd(rest, out rest);
+        ParseThreeNumbers(cursor, out var position, out rest) && AddPosition(position) && ParseOptionalNumbers(rest, out rest) && ParseCommentAndEndOfLine(rest, out rest);
 
-    private bool Add(Vector position)
+    private bool AddPosition(Vector position)
     {
-        _mesh.AddPosition(position);
+        _builder.AddPosition(position);
         return true;
     }
 
     private bool ParseNormal(Cursor cursor, out Cursor rest)
     {
-        if (!ParseNumbers(cursor, out var normal, out rest) || !ParseLineEnd(rest, out rest))
+        if (!ParseThreeNumbers(cursor, out var normal, out rest) || !ParseCommentAndEndOfLine(rest, out rest))
         {
             return false;
         }
 
-        _mesh.AddNormal(normal);
+        _builder.AddNormal(normal);
         return true;
     }
 
@@ -211,16 +211,16 @@ public sealed class ObjParser : Parser
         }
 
         var v = 0.0;
-        if (ParseBlanks(rest, out var next) && NumberStandsAt(next) && ParseNumber(next, out v, out rest))
+        if (ParseBlanks(rest, out var next) && IsNumberStart(next) && ParseNumber(next, out v, out rest))
         {
             ParseOptionalNumbers(rest, out rest);
         }
 
-        _mesh.AddTextureCoordinate(u, v);
-        return ParseLineEnd(rest, out rest);
+        _builder.AddTextureCoordinate(u, v);
+        return ParseCommentAndEndOfLine(rest, out rest);
     }
 
-    private bool ParseNumbers(Cursor cursor, out Vector numbers, out Cursor rest)
+    private bool ParseThreeNumbers(Cursor cursor, out Vector numbers, out Cursor rest)
     {
         numbers = default;
         ParseBlanks(cursor, out rest);
@@ -238,7 +238,7 @@ public sealed class ObjParser : Parser
     private bool ParseOptionalNumbers(Cursor cursor, out Cursor rest)
     {
         rest = cursor;
-        while (ParseBlanks(rest, out var next) && NumberStandsAt(next) && ParseNumber(next, out _, out next))
+        while (ParseBlanks(rest, out var next) && IsNumberStart(next) && ParseNumber(next, out _, out next))
         {
             rest = next;
         }
@@ -246,7 +246,7 @@ public sealed class ObjParser : Parser
         return true;
     }
 
-    private static bool NumberStandsAt(Cursor cursor) => char.IsAsciiDigit(cursor.Current) || cursor.Current is '-' or '+' or '.';
+    private static bool IsNumberStart(Cursor cursor) => char.IsAsciiDigit(cursor.Current) || cursor.Current is '-' or '+' or '.';
 
     private bool ParseFace(Cursor start, out Cursor rest)
     {
@@ -269,11 +269,11 @@ public sealed class ObjParser : Parser
 
         if (_corners.Count > ParsingLimits.PolygonCorners)
         {
-            throw Error(start, $"the polygon has {_corners.Count} corners, more than the limit of {ParsingLimits.PolygonCorners}", isLimit: true);
+            throw Error(start, $"the polygon has {_corners.Count} corners, more than the limit of {ParsingLimits.PolygonCorners}", isLimitExceeded: true);
         }
 
-        _mesh.AddPolygon(CollectionsMarshal.AsSpan(_corners));
-        return ParseLineEnd(rest, out rest);
+        _builder.AddPolygon(CollectionsMarshal.AsSpan(_corners));
+        return ParseCommentAndEndOfLine(rest, out rest);
     }
 
     /// <summary><c>v</c>, <c>v/vt</c>, <c>v//vn</c> or <c>v/vt/vn</c>.</summary>
@@ -281,7 +281,7 @@ public sealed class ObjParser : Parser
     {
         var (texture, normal) = (ObjCorner.None, ObjCorner.None);
         corner = default;
-        if (!ParseIndex(cursor, "vertex", _mesh.PositionCount, isRequired: true, out var position, out rest))
+        if (!ParseIndex(cursor, "vertex", _builder.PositionCount, isRequired: true, out var position, out rest))
         {
             return false;
         }
@@ -289,12 +289,12 @@ public sealed class ObjParser : Parser
         if (rest.Current == '/')
         {
             rest = rest.Advance(1);
-            if (rest.Current != '/' && !ParseIndex(rest, "texture coordinate", _mesh.TextureCoordinateCount, isRequired: false, out texture, out rest))
+            if (rest.Current != '/' && !ParseIndex(rest, "texture coordinate", _builder.TextureCoordinateCount, isRequired: false, out texture, out rest))
             {
                 return false;
             }
 
-            if (rest.Current == '/' && !ParseIndex(rest.Advance(1), "normal", _mesh.NormalCount, isRequired: false, out normal, out rest))
+            if (rest.Current == '/' && !ParseIndex(rest.Advance(1), "normal", _builder.NormalCount, isRequired: false, out normal, out rest))
             {
                 return false;
             }
@@ -305,19 +305,19 @@ public sealed class ObjParser : Parser
     }
 
     /// <summary>A number of an element from 1, or back from the last one as −1; the result counts from 0.</summary>
-    private bool ParseIndex(Cursor cursor, string element, int count, bool isRequired, out int index, out Cursor rest)
+    private bool ParseIndex(Cursor cursor, string elementName, int count, bool isRequired, out int index, out Cursor rest)
     {
-        var backwards = cursor.Current == '-';
-        if (!ParseInteger(backwards ? cursor.Advance(1) : cursor, $"a {element} number", out var number, out rest))
+        var isRelative = cursor.Current == '-';
+        if (!ParseInteger(isRelative ? cursor.Advance(1) : cursor, $"a {elementName} number", out var number, out rest))
         {
             index = 0;
             return false;
         }
 
-        index = backwards ? count - number : number - 1;
+        index = isRelative ? count - number : number - 1;
         if (number == 0)
         {
-            throw Error(cursor, $"{element} number 0: numbers start at 1");
+            throw Error(cursor, $"{elementName} number 0: numbers start at 1");
         }
 
         if (index >= 0 && index < count)
@@ -325,18 +325,18 @@ public sealed class ObjParser : Parser
             return true;
         }
 
-        var written = Written(cursor, rest);
-        var message = backwards
-            ? $"{element} {written} of {count} so far: it is before the first"
-            : $"{element} {written} of {count} so far: it is beyond the last";
+        var written = TextBetween(cursor, rest);
+        var message = isRelative
+            ? $"{elementName} {written} of {count} so far: it is before the first"
+            : $"{elementName} {written} of {count} so far: it is beyond the last";
         if (isRequired)
         {
             throw Error(cursor, message);
         }
 
         // A face needs no normals or texture coordinates, and some programs write the numbers of ones that they left out.
-        _firstMissing ??= (cursor, message);
-        _missingNumbers++;
+        _firstInvalidIndex ??= (cursor, message);
+        _invalidIndexCount++;
         index = ObjCorner.None;
         return true;
     }
@@ -346,15 +346,15 @@ public sealed class ObjParser : Parser
         ParseBlanks(cursor, out rest);
         if (ParseInteger(rest, "a number or 'off'", out var number, out var next) || ParseWord(rest, "off", out next) || ParseWord(rest, "on", out next))
         {
-            _mesh.SmoothingGroup = rest.Current == 'o' ? (rest.Peek(1) == 'n' ? 1 : 0) : number;
-            return ParseLineEnd(next, out rest);
+            _builder.SmoothingGroup = rest.Current == 'o' ? (rest.Peek(1) == 'n' ? 1 : 0) : number;
+            return ParseCommentAndEndOfLine(next, out rest);
         }
 
         return false;
     }
 
     /// <summary>All to the end of the line or to a comment, blanks at the ends taken off. Names may have blanks in them.</summary>
-    private bool ParseNames(Cursor cursor, out string names, out Cursor rest)
+    private bool ParseRestOfLine(Cursor cursor, out string text, out Cursor rest)
     {
         ParseBlanks(cursor, out var start);
         rest = start;
@@ -364,12 +364,12 @@ public sealed class ObjParser : Parser
             rest = next.Offset > rest.Offset ? next : rest.Advance(1);
         }
 
-        names = start.Rest[..(rest.Offset - start.Offset)].Trim().ToString();
-        return ParseLineEnd(rest, out rest);
+        text = start.Rest[..(rest.Offset - start.Offset)].Trim().ToString();
+        return ParseCommentAndEndOfLine(rest, out rest);
     }
 
     /// <summary>A comment, if any, and the end of the line.</summary>
-    private bool ParseLineEnd(Cursor cursor, out Cursor rest)
+    private bool ParseCommentAndEndOfLine(Cursor cursor, out Cursor rest)
     {
         ParseBlanks(cursor, out rest);
         if (rest.Current == '#')

@@ -14,37 +14,37 @@ namespace FractalEngine.Parsing.Meshes;
 /// </summary>
 public sealed class ObjWriter
 {
-    private const int LongestNumber = 32;
+    private const int MaxNumberLength = 32;
 
     private readonly Stream _stream;
     private readonly byte[] _buffer = new byte[1 << 16];
-    private int _used;
-    private long _positions;
-    private long _textureCoordinates;
-    private long _normals;
+    private int _bufferedBytes;
+    private long _positionCount;
+    private long _textureCoordinateCount;
+    private long _normalCount;
 
     private ObjWriter(Stream stream) => _stream = stream;
 
     /// <summary>Writes all objects of a scene.</summary>
     /// <param name="scene">Whose fractals are finite.</param>
     /// <param name="stream">Receives UTF-8 text.</param>
-    /// <param name="faceLimit">The most faces written.</param>
+    /// <param name="maxFaces">The most faces written.</param>
     /// <exception cref="FractalLimitException">The scene has more faces. Nothing was written then.</exception>
-    public static void Write(LoadedScene scene, Stream stream, long faceLimit)
+    public static void Write(LoadedScene scene, Stream stream, long maxFaces)
     {
         var writer = new ObjWriter(stream);
-        var objects = scene.Objects.Select(placed => (Placed: placed, Instances: Instances(placed.Model, faceLimit))).ToArray();
-        var faces = objects.Sum(item => (long)item.Instances.Length * item.Placed.Model.Mesh.FaceCount);
-        if (faces > faceLimit)
+        var objects = scene.Objects.Select(placed => (Placed: placed, Instances: ExpandInstances(placed.Model, maxFaces))).ToArray();
+        var faceCount = objects.Sum(item => (long)item.Instances.Length * item.Placed.Model.Mesh.FaceCount);
+        if (faceCount > maxFaces)
         {
-            throw new FractalLimitException(string.Create(CultureInfo.InvariantCulture, $"the scene has {faces} faces, more than the limit of {faceLimit}"));
+            throw new FractalLimitException(string.Create(CultureInfo.InvariantCulture, $"the scene has {faceCount} faces, more than the limit of {maxFaces}"));
         }
 
-        writer.Text(string.Create(CultureInfo.InvariantCulture, $"# Mesh count: {faces}\n"));
+        writer.WriteText(string.Create(CultureInfo.InvariantCulture, $"# Mesh count: {faceCount}\n"));
         foreach (var (placed, instances) in objects)
         {
-            writer.Text($"o {Name(placed)}\n");
-            writer.WriteObject(placed.Map, placed.Model.Mesh, instances);
+            writer.WriteText($"o {ObjectName(placed)}\n");
+            writer.WriteObject(placed.ObjectToWorld, placed.Model.Mesh, instances);
         }
 
         writer.Flush();
@@ -57,17 +57,17 @@ public sealed class ObjWriter
     public static void Write(Mesh mesh, string name, Stream stream)
     {
         var writer = new ObjWriter(stream);
-        writer.Text(string.Create(CultureInfo.InvariantCulture, $"# Mesh count: {mesh.FaceCount}\n"));
-        writer.Text($"o {name}\n");
+        writer.WriteText(string.Create(CultureInfo.InvariantCulture, $"# Mesh count: {mesh.FaceCount}\n"));
+        writer.WriteText($"o {name}\n");
         writer.WriteTextureCoordinates(mesh);
-        writer.WriteInstance(AffineMap.Identity, mesh, textureStart: 0, writeGroups: true);
+        writer.WriteInstance(AffineMap.Identity, mesh, firstTextureCoordinate: 0, writeGroups: true);
         writer.Flush();
     }
 
-    private static string Name(PlacedModel placed) =>
+    private static string ObjectName(PlacedModel placed) =>
         placed.Declaration.Name ?? Path.GetFileNameWithoutExtension(placed.Declaration.File);
 
-    private static ImmutableArray<AffineMap> Instances(Model model, long faceLimit)
+    private static ImmutableArray<AffineMap> ExpandInstances(Model model, long maxFaces)
     {
         if (model is not FractalModel { Fractal: var fractal })
         {
@@ -76,23 +76,23 @@ public sealed class ObjWriter
 
         try
         {
-            return FractalGenerator.Expand(fractal, faceLimit / Math.Max(1, fractal.BaseMesh.FaceCount));
+            return FractalGenerator.Expand(fractal, maxFaces / Math.Max(1, fractal.BaseMesh.FaceCount));
         }
         catch (FractalLimitException exception)
         {
             throw new FractalLimitException(
-                string.Create(CultureInfo.InvariantCulture, $"{Path.GetFileName(model.Path)} has more faces than the limit of {faceLimit}: {exception.Message}"),
+                string.Create(CultureInfo.InvariantCulture, $"{Path.GetFileName(model.Path)} has more faces than the limit of {maxFaces}: {exception.Message}"),
                 exception);
         }
     }
 
     private void WriteObject(AffineMap placement, Mesh mesh, ImmutableArray<AffineMap> instances)
     {
-        var textureStart = _textureCoordinates;
+        var firstTextureCoordinate = _textureCoordinateCount;
         WriteTextureCoordinates(mesh);
         foreach (var instance in instances)
         {
-            WriteInstance(placement * instance, mesh, textureStart);
+            WriteInstance(placement * instance, mesh, firstTextureCoordinate);
         }
     }
 
@@ -100,113 +100,113 @@ public sealed class ObjWriter
     {
         for (var i = 0; i < mesh.TextureCoordinates.Length; i += 2)
         {
-            Text("vt");
-            Number(mesh.TextureCoordinates[i]);
-            Number(mesh.TextureCoordinates[i + 1]);
-            Text("\n");
+            WriteText("vt");
+            WriteNumber(mesh.TextureCoordinates[i]);
+            WriteNumber(mesh.TextureCoordinates[i + 1]);
+            WriteText("\n");
         }
 
-        _textureCoordinates += mesh.TextureCoordinates.Length / 2;
+        _textureCoordinateCount += mesh.TextureCoordinates.Length / 2;
     }
 
-    private void WriteInstance(AffineMap map, Mesh mesh, long textureStart, bool writeGroups = false)
+    private void WriteInstance(AffineMap map, Mesh mesh, long firstTextureCoordinate, bool writeGroups = false)
     {
         for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
         {
-            Line("v", map * mesh.Vertex(vertex));
+            WriteVector("v", map * mesh.Vertex(vertex));
         }
 
-        var mirrored = map.Linear.Determinant() < 0;
-        WriteNormals(map.Linear, mirrored, mesh);
+        var isMirrored = map.Linear.Determinant() < 0;
+        WriteNormals(map.Linear, isMirrored, mesh);
         var nextGroup = 0;
         for (var face = 0; face < mesh.FaceCount; face++)
         {
             if (writeGroups && nextGroup < mesh.Groups.Length && mesh.Groups[nextGroup].FirstFace == face)
             {
-                Text($"g {mesh.Groups[nextGroup++].GroupName}\n");
+                WriteText($"g {mesh.Groups[nextGroup++].GroupName}\n");
             }
 
-            Text("f");
-            Corner(mesh, 3 * face, textureStart);
+            WriteText("f");
+            WriteCorner(mesh, 3 * face, firstTextureCoordinate);
             // A mirror turns faces inside out; two corners exchanged turn them back.
-            Corner(mesh, (3 * face) + (mirrored ? 2 : 1), textureStart);
-            Corner(mesh, (3 * face) + (mirrored ? 1 : 2), textureStart);
-            Text("\n");
+            WriteCorner(mesh, (3 * face) + (isMirrored ? 2 : 1), firstTextureCoordinate);
+            WriteCorner(mesh, (3 * face) + (isMirrored ? 1 : 2), firstTextureCoordinate);
+            WriteText("\n");
         }
 
-        _positions += mesh.VertexCount;
-        _normals += mesh.Normals.Length / 3;
+        _positionCount += mesh.VertexCount;
+        _normalCount += mesh.Normals.Length / 3;
     }
 
-    private void WriteNormals(Matrix linear, bool mirrored, Mesh mesh)
+    private void WriteNormals(Matrix linear, bool isMirrored, Mesh mesh)
     {
         // Normals go with the inverse transpose, of which the cofactors are a multiple; its sign is that of the determinant.
-        var cofactors = (mirrored ? -1 : 1) * linear.Cofactors();
+        var cofactors = (isMirrored ? -1 : 1) * linear.Cofactors();
         for (var i = 0; i < mesh.Normals.Length; i += 3)
         {
             var normal = cofactors * new Vector(mesh.Normals[i], mesh.Normals[i + 1], mesh.Normals[i + 2]);
-            Line("vn", normal.MaximumComponent() is > 0 and < double.PositiveInfinity ? normal.UnitVector() : Vector.Zero);
+            WriteVector("vn", normal.MaxAbsComponent() is > 0 and < double.PositiveInfinity ? normal.UnitVector() : Vector.Zero);
         }
     }
 
-    private void Corner(Mesh mesh, int corner, long textureStart)
+    private void WriteCorner(Mesh mesh, int corner, long firstTextureCoordinate)
     {
-        Integer(' ', _positions + mesh.Faces[corner] + 1);
-        var texture = mesh.TextureFaces.Length > 0 ? mesh.TextureFaces[corner] : -1;
-        var normal = mesh.NormalFaces.Length > 0 ? mesh.NormalFaces[corner] : -1;
-        if (texture >= 0)
+        WriteInteger(' ', _positionCount + mesh.VertexIndices[corner] + 1);
+        var textureIndex = mesh.TextureIndices.Length > 0 ? mesh.TextureIndices[corner] : -1;
+        var normalIndex = mesh.NormalIndices.Length > 0 ? mesh.NormalIndices[corner] : -1;
+        if (textureIndex >= 0)
         {
-            Integer('/', textureStart + texture + 1);
+            WriteInteger('/', firstTextureCoordinate + textureIndex + 1);
         }
 
-        if (normal >= 0)
+        if (normalIndex >= 0)
         {
-            Text(texture >= 0 ? "" : "/");
-            Integer('/', _normals + normal + 1);
+            WriteText(textureIndex >= 0 ? "" : "/");
+            WriteInteger('/', _normalCount + normalIndex + 1);
         }
     }
 
-    private void Line(string keyword, Vector vector)
+    private void WriteVector(string keyword, Vector vector)
     {
-        Text(keyword);
-        Number(vector.X);
-        Number(vector.Y);
-        Number(vector.Z);
-        Text("\n");
+        WriteText(keyword);
+        WriteNumber(vector.X);
+        WriteNumber(vector.Y);
+        WriteNumber(vector.Z);
+        WriteText("\n");
     }
 
-    private void Number(double number)
+    private void WriteNumber(double number)
     {
-        Reserve();
-        _buffer[_used++] = (byte)' ';
-        Utf8Formatter.TryFormat(number, _buffer.AsSpan(_used), out var length);
-        _used += length;
+        EnsureBufferSpace();
+        _buffer[_bufferedBytes++] = (byte)' ';
+        Utf8Formatter.TryFormat(number, _buffer.AsSpan(_bufferedBytes), out var length);
+        _bufferedBytes += length;
     }
 
-    private void Integer(char before, long number)
+    private void WriteInteger(char prefix, long number)
     {
-        Reserve();
-        _buffer[_used++] = (byte)before;
-        Utf8Formatter.TryFormat(number, _buffer.AsSpan(_used), out var length);
-        _used += length;
+        EnsureBufferSpace();
+        _buffer[_bufferedBytes++] = (byte)prefix;
+        Utf8Formatter.TryFormat(number, _buffer.AsSpan(_bufferedBytes), out var length);
+        _bufferedBytes += length;
     }
 
-    private void Text(string text)
+    private void WriteText(string text)
     {
-        if (text.Length > LongestNumber)
+        if (text.Length > MaxNumberLength)
         {
             Flush();
             _stream.Write(System.Text.Encoding.UTF8.GetBytes(text));
             return;
         }
 
-        Reserve();
-        _used += System.Text.Encoding.UTF8.GetBytes(text, _buffer.AsSpan(_used));
+        EnsureBufferSpace();
+        _bufferedBytes += System.Text.Encoding.UTF8.GetBytes(text, _buffer.AsSpan(_bufferedBytes));
     }
 
-    private void Reserve()
+    private void EnsureBufferSpace()
     {
-        if (_buffer.Length - _used < 4 * LongestNumber)
+        if (_buffer.Length - _bufferedBytes < 4 * MaxNumberLength)
         {
             Flush();
         }
@@ -214,7 +214,7 @@ public sealed class ObjWriter
 
     private void Flush()
     {
-        _stream.Write(_buffer.AsSpan(0, _used));
-        _used = 0;
+        _stream.Write(_buffer.AsSpan(0, _bufferedBytes));
+        _bufferedBytes = 0;
     }
 }

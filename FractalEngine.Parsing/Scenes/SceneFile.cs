@@ -11,6 +11,6 @@ namespace FractalEngine.Parsing.Scenes;
 public sealed record SceneFile(SourceText Source, Scene Scene, ImmutableArray<SceneLine> Lines)
 {
     /// <summary>Where the file names of the objects stand in the text, in the order of the objects; for messages about those files.</summary>
-    public IEnumerable<int> FileOffsets =>
-        Lines.Where(line => line.Kind == SceneDeclarationKind.SceneObject).Select(line => line.FileOffset);
+    public IEnumerable<int> FileNameOffsets =>
+        Lines.Where(line => line.Kind == SceneDeclarationKind.SceneObject).Select(line => line.FileNameOffset);
 }

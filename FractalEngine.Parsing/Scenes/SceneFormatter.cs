@@ -11,7 +11,7 @@ internal static class SceneFormatter
     public static IReadOnlyList<SceneDeclarationKind> Kinds { get; } = Enum.GetValues<SceneDeclarationKind>();
 
     /// <summary>How many declarations of a kind a scene needs.</summary>
-    public static int Count(Scene scene, SceneDeclarationKind kind) => kind switch
+    public static int DeclarationCount(Scene scene, SceneDeclarationKind kind) => kind switch
     {
         SceneDeclarationKind.Light => scene.Lights.Length,
         SceneDeclarationKind.SceneObject => scene.Objects.Length,
@@ -22,17 +22,17 @@ internal static class SceneFormatter
     public static string? Format(Scene scene, SceneDeclarationKind kind, int index) => kind switch
     {
         SceneDeclarationKind.Camera => scene.Camera is { } camera
-            ? $"c {camera.Position} {camera.Rotation} {Text(camera.FieldOfView)}" : null,
+            ? $"c {camera.Position} {camera.Rotation} {FormatNumber(camera.FieldOfView)}" : null,
         SceneDeclarationKind.Projection => scene switch
         {
             { Projection: Projection.Perspective } => null,
-            { OrthographicHeight: { } height } => $"projection orthographic {Text(height)}",
+            { OrthographicHeight: { } height } => $"projection orthographic {FormatNumber(height)}",
             _ => "projection orthographic",
         },
-        SceneDeclarationKind.Aspect => scene.Aspect is { } aspect ? $"aspect {Text(aspect)}" : null,
-        SceneDeclarationKind.Clip => scene.Clip is var (near, far) ? $"clip {Text(near)} {Text(far)}" : null,
+        SceneDeclarationKind.Aspect => scene.Aspect is { } aspect ? $"aspect {FormatNumber(aspect)}" : null,
+        SceneDeclarationKind.Clip => scene.Clip is var (near, far) ? $"clip {FormatNumber(near)} {FormatNumber(far)}" : null,
         SceneDeclarationKind.Background => scene.Background is { } background ? $"background {background}" : null,
-        SceneDeclarationKind.Gravity => AreSame(scene.Gravity, Scene.DefaultGravity) ? null : $"gravity {scene.Gravity}",
+        SceneDeclarationKind.Gravity => AreBitEqual(scene.Gravity, Scene.DefaultGravity) ? null : $"gravity {scene.Gravity}",
         SceneDeclarationKind.Player => scene.Player is { } player ? Format(player) : null,
         SceneDeclarationKind.Light => index < scene.Lights.Length ? Format(scene.Lights[index]) : null,
         SceneDeclarationKind.SceneObject => index < scene.Objects.Length ? Format(scene.Objects[index]) : null,
@@ -41,19 +41,19 @@ internal static class SceneFormatter
 
     private static string Format(Light light) => light switch
     {
-        AmbientLight => $"light ambient {light.Colour} {Text(light.Intensity)}",
-        DirectionalLight directional => $"light directional {directional.Direction} {light.Colour} {Text(light.Intensity)}",
-        SpotLight spot => $"light spot {spot.Position} {spot.Direction} {Text(spot.Angle)} {light.Colour} {Text(light.Intensity)} {Text(spot.Range)}",
-        PointLight point => $"light point {point.Position} {light.Colour} {Text(light.Intensity)} {Text(point.Range)}",
+        AmbientLight => $"light ambient {light.Colour} {FormatNumber(light.Intensity)}",
+        DirectionalLight directional => $"light directional {directional.Direction} {light.Colour} {FormatNumber(light.Intensity)}",
+        SpotLight spot => $"light spot {spot.Position} {spot.Direction} {FormatNumber(spot.Angle)} {light.Colour} {FormatNumber(light.Intensity)} {FormatNumber(spot.Range)}",
+        PointLight point => $"light point {point.Position} {light.Colour} {FormatNumber(light.Intensity)} {FormatNumber(point.Range)}",
         _ => throw new ArgumentOutOfRangeException(nameof(light)),
     };
 
     private static string Format(Player player) => Join(
-        $"player {player.Position} {Text(player.Radius)} {Text(player.Height)}",
-        player.Speed is { } speed ? $"speed {Text(speed)}" : null,
-        player.Jump is { } jump ? $"jump {Text(jump)}" : null,
-        AreSame(player.Slope, Player.DefaultSlope) ? null : $"slope {Text(player.Slope)}",
-        player.Step is { } step ? $"step {Text(step)}" : null);
+        $"player {player.Position} {FormatNumber(player.Radius)} {FormatNumber(player.Height)}",
+        player.WalkingSpeedOverride is { } speed ? $"speed {FormatNumber(speed)}" : null,
+        player.JumpSpeedOverride is { } jump ? $"jump {FormatNumber(jump)}" : null,
+        AreBitEqual(player.MaxSlopeAngle, Player.DefaultMaxSlopeAngle) ? null : $"slope {FormatNumber(player.MaxSlopeAngle)}",
+        player.StepHeightOverride is { } step ? $"step {FormatNumber(step)}" : null);
 
     private static string Format(SceneObject declared)
     {
@@ -62,23 +62,23 @@ internal static class SceneFormatter
             body is not null ? "p" : "o",
             $"\"{declared.File}\"",
             Format(declared.Placement),
-            body is { Restitution: var restitution } ? Text(restitution) : null,
+            body is { Restitution: var restitution } ? FormatNumber(restitution) : null,
             declared.Name is { } name ? $"name \"{name}\"" : null,
             declared.Colour is { } colour ? $"colour {colour}" : null,
-            declared.Gradient is { } gradient ? $"gradient {(gradient.By == GradientKind.Level ? "level" : "path")} {gradient.To}" : null,
-            body is { Velocity: var velocity } && !AreSame(velocity, Vector.Zero) ? $"velocity {velocity}" : null,
-            body is { Mass: not 1.0 and var mass } ? $"mass {Text(mass)}" : null,
-            body is { Friction: var friction } && !AreSame(friction, 0) ? $"friction {Text(friction)}" : null,
-            body is { Damping: var damping } && !AreSame(damping, 0) ? $"damping {Text(damping)}" : null,
+            declared.Gradient is { } gradient ? $"gradient {(gradient.Kind == GradientKind.Level ? "level" : "path")} {gradient.EndColour}" : null,
+            body is { Velocity: var velocity } && !AreBitEqual(velocity, Vector.Zero) ? $"velocity {velocity}" : null,
+            body is { Mass: not 1.0 and var mass } ? $"mass {FormatNumber(mass)}" : null,
+            body is { Friction: var friction } && !AreBitEqual(friction, 0) ? $"friction {FormatNumber(friction)}" : null,
+            body is { Damping: var damping } && !AreBitEqual(damping, 0) ? $"damping {FormatNumber(damping)}" : null,
             body is not null ? FormatShrinkage(body.Shrinkage, body.MinimumScale) : null,
-            body is { Collider: not ColliderKind.Exact and var collider } ? $"collider {SceneParser.NameOf(collider)}" : null);
+            body is { Collider: not ColliderKind.Exact and var collider } ? $"collider {SceneParser.GetColliderName(collider)}" : null);
     }
 
-    private static string? FormatShrinkage(double rate, double minimum) => (AreSame(rate, 0), AreSame(minimum, PhysicsObject.DefaultMinimumScale)) switch
+    private static string? FormatShrinkage(double rate, double minimum) => (AreBitEqual(rate, 0), AreBitEqual(minimum, PhysicsObject.DefaultMinimumScale)) switch
     {
         (true, true) => null,
-        (false, true) => $"shrink {Text(rate)}",
-        (_, false) => $"shrink {Text(rate)} {Text(minimum)}",
+        (false, true) => $"shrink {FormatNumber(rate)}",
+        (_, false) => $"shrink {FormatNumber(rate)} {FormatNumber(minimum)}",
     };
 
     private static string Join(params string?[] parts) => string.Join(' ', parts.Where(part => part is not null));
@@ -90,12 +90,12 @@ internal static class SceneFormatter
             var (position, rotation, scale) => $"({position}, {rotation}, {scale})",
         };
 
-    private static string Format(Vector vector, Vector neutral) => AreSame(vector, neutral) ? "#" : vector.ToString();
+    private static string Format(Vector vector, Vector defaultValue) => AreBitEqual(vector, defaultValue) ? "#" : vector.ToString();
 
     /// <summary>Bit for bit: −0 is not 0 here.</summary>
-    private static bool AreSame(Vector v1, Vector v2) => v1.ToString() == v2.ToString();
+    private static bool AreBitEqual(Vector v1, Vector v2) => v1.ToString() == v2.ToString();
 
-    private static bool AreSame(double number1, double number2) => BitConverter.DoubleToInt64Bits(number1) == BitConverter.DoubleToInt64Bits(number2);
+    private static bool AreBitEqual(double number1, double number2) => BitConverter.DoubleToInt64Bits(number1) == BitConverter.DoubleToInt64Bits(number2);
 
-    private static string Text(double number) => number.ToString("R", CultureInfo.InvariantCulture);
+    private static string FormatNumber(double number) => number.ToString("R", CultureInfo.InvariantCulture);
 }

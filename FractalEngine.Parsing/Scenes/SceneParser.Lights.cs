@@ -9,8 +9,8 @@ namespace FractalEngine.Parsing.Scenes;
 public sealed partial class SceneParser
 {
     private bool ParseLight(Cursor cursor, out Cursor rest) =>
-        (ParseLightKind(cursor, "ambient", out rest) && ParseColourAndIntensity(rest, out var ambient, out var strength, out rest)
-            && AddLight(new AmbientLight(ambient, strength)))
+        (ParseLightKind(cursor, "ambient", out rest) && ParseColourAndIntensity(rest, out var ambientColour, out var ambientIntensity, out rest)
+            && AddLight(new AmbientLight(ambientColour, ambientIntensity)))
         || (ParseLightKind(cursor, "directional", out rest) && ParseDirection(rest, out var direction, out rest)
             && ParseColourAndIntensity(rest, out var colour, out var intensity, out rest)
             && AddLight(new DirectionalLight(direction, colour, intensity)))
@@ -43,7 +43,7 @@ public sealed partial class SceneParser
 
     private bool ParseAngle(Cursor cursor, out double angle, out Cursor rest)
     {
-        if (!ParseNumber(cursor, out angle, out rest) || !ParseSeparatorOrNothing(rest, out rest))
+        if (!ParseNumber(cursor, out angle, out rest) || !ParseOptionalSeparator(rest, out rest))
         {
             return false;
         }
@@ -61,20 +61,20 @@ public sealed partial class SceneParser
             return false;
         }
 
-        ParseSeparatorOrNothing(rest, out var place);
-        return IsAtEndOfLine(place) || ParseIntensity(place, out intensity, out rest);
+        ParseOptionalSeparator(rest, out var intensityStart);
+        return IsAtEndOfLine(intensityStart) || ParseIntensity(intensityStart, out intensity, out rest);
     }
 
     private bool ParseColourIntensityAndRange(Cursor cursor, out Colour colour, out double intensity, out double range, out Cursor rest)
     {
         (intensity, range) = (0, 0);
-        if (!ParseColour(cursor, out colour, out rest) || !ParseSeparatorOrNothing(rest, out rest)
-            || !ParseIntensity(rest, out intensity, out rest) || !ParseSeparator(rest, out var place) || !ParseNumber(place, out range, out rest))
+        if (!ParseColour(cursor, out colour, out rest) || !ParseOptionalSeparator(rest, out rest)
+            || !ParseIntensity(rest, out intensity, out rest) || !ParseSeparator(rest, out var rangeStart) || !ParseNumber(rangeStart, out range, out rest))
         {
             return false;
         }
 
-        Require(range > 0, place, "the range of a light must be positive");
+        Require(range > 0, rangeStart, "the range of a light must be positive");
         return true;
     }
 

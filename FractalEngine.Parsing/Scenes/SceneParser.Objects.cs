@@ -9,7 +9,7 @@ public sealed partial class SceneParser
     private static readonly string[] ColliderNames = ["exact", "fractal", "hierarchy", "bounding-box", "simple"];
 
     /// <summary>The name by which scene files and the command line call a collider.</summary>
-    public static string NameOf(ColliderKind collider) => ColliderNames[(int)collider];
+    public static string GetColliderName(ColliderKind collider) => ColliderNames[(int)collider];
 
     private bool ParseObject(Cursor cursor, out Cursor rest)
     {
@@ -19,7 +19,7 @@ public sealed partial class SceneParser
         }
 
         var declared = new SceneObject(file, placement);
-        while (ParseOption(rest, ref declared, out rest))
+        while (ParseObjectOption(rest, ref declared, out rest))
         {
         }
 
@@ -30,14 +30,14 @@ public sealed partial class SceneParser
     private bool ParsePhysicsObject(Cursor cursor, out Cursor rest)
     {
         if (!ParseFileName(cursor, out var file, out rest) || !ParseMatrix(rest, out var placement, out rest)
-            || !ParseSeparatorOrNothing(rest, out var place) || !ParseNumber(place, out var restitution, out rest))
+            || !ParseOptionalSeparator(rest, out var restitutionStart) || !ParseNumber(restitutionStart, out var restitution, out rest))
         {
             return false;
         }
 
-        Require(restitution is >= 0 and <= 1, place, "the coefficient of restitution must lie between 0 and 1");
+        Require(restitution is >= 0 and <= 1, restitutionStart, "the coefficient of restitution must lie between 0 and 1");
         SceneObject declared = new PhysicsObject(file, placement, restitution);
-        while (ParseOption(rest, ref declared, out rest))
+        while (ParseObjectOption(rest, ref declared, out rest))
         {
         }
 
@@ -56,15 +56,15 @@ public sealed partial class SceneParser
         Require(
             file.EndsWith(".obj", StringComparison.OrdinalIgnoreCase) || file.EndsWith(".fdo", StringComparison.OrdinalIgnoreCase),
             cursor, "expected the name of a .obj or .fdo file");
-        _fileOffset = cursor.Offset;
-        return ParseSeparatorOrNothing(rest, out rest);
+        _fileNameOffset = cursor.Offset;
+        return ParseOptionalSeparator(rest, out rest);
     }
 
     /// <summary>One of the trailing parts of an object; false, and the cursor unmoved, when there is none.</summary>
-    private bool ParseOption(Cursor cursor, ref SceneObject declared, out Cursor rest)
+    private bool ParseObjectOption(Cursor cursor, ref SceneObject declared, out Cursor rest)
     {
         rest = cursor;
-        if (!ParseBlankOrEnd(cursor, out var start))
+        if (!ParseBlankOrEndOfLine(cursor, out var start))
         {
             return false;
         }
@@ -96,7 +96,7 @@ public sealed partial class SceneParser
     }
 
     /// <summary>What stands before a trailing part: a blank, unless the line ends there.</summary>
-    private bool ParseBlankOrEnd(Cursor cursor, out Cursor rest) =>
+    private bool ParseBlankOrEndOfLine(Cursor cursor, out Cursor rest) =>
         ParseBlanks(cursor, out rest) && (rest.Offset > cursor.Offset || IsAtEndOfLine(rest) || Fail(rest, "a blank"));
 
     private bool ParseGradient(Cursor cursor, out Gradient gradient, out Cursor rest)
@@ -109,7 +109,7 @@ public sealed partial class SceneParser
         }
 
         var success = ParseColour(rest, out var colour, out rest);
-        gradient = gradient with { To = colour };
+        gradient = gradient with { EndColour = colour };
         return success;
     }
 
@@ -124,23 +124,23 @@ public sealed partial class SceneParser
 
         if (ParseKeyword(start, "mass", out rest))
         {
-            var place = rest;
-            var success = ParseNumber(place, out var mass, out rest);
-            Require(!success || mass > 0, place, "the mass must be positive");
+            var valueStart = rest;
+            var success = ParseNumber(valueStart, out var mass, out rest);
+            Require(!success || mass > 0, valueStart, "the mass must be positive");
             body = body with { Mass = mass };
             return success;
         }
 
         if (ParseKeyword(start, "friction", out rest))
         {
-            var success = ParseNotNegative(rest, "the friction", out var friction, out rest);
+            var success = ParseNonNegative(rest, "the friction", out var friction, out rest);
             body = body with { Friction = friction };
             return success;
         }
 
         if (ParseKeyword(start, "damping", out rest))
         {
-            var success = ParseNotNegative(rest, "the damping", out var damping, out rest);
+            var success = ParseNonNegative(rest, "the damping", out var damping, out rest);
             body = body with { Damping = damping };
             return success;
         }
@@ -152,10 +152,10 @@ public sealed partial class SceneParser
 
         if (ParseKeyword(start, "collider", out rest))
         {
-            var place = rest;
+            var valueStart = rest;
             for (var kind = 0; kind < ColliderNames.Length; kind++)
             {
-                if (ParseWord(place, ColliderNames[kind], out rest))
+                if (ParseWord(valueStart, ColliderNames[kind], out rest))
                 {
                     body = body with { Collider = (ColliderKind)kind };
                     return true;
@@ -169,23 +169,23 @@ public sealed partial class SceneParser
     /// <summary>A rate, and the scale at which shrinking ends where one is written.</summary>
     private bool ParseShrinkage(Cursor cursor, ref PhysicsObject body, out Cursor rest)
     {
-        var success = ParseNotNegative(cursor, "the rate of shrinking", out var rate, out rest);
+        var success = ParseNonNegative(cursor, "the rate of shrinking", out var rate, out rest);
         var minimum = PhysicsObject.DefaultMinimumScale;
         // What is no number begins the next option.
-        if (success && ParseSeparator(rest, out var place) && ParseNumber(place, out var stated, out var end))
+        if (success && ParseSeparator(rest, out var minimumStart) && ParseNumber(minimumStart, out var statedMinimum, out var minimumEnd))
         {
-            Require(stated is > 0 and <= 1, place, "the smallest scale must be more than 0 and no more than 1");
-            (minimum, rest) = (stated, end);
+            Require(statedMinimum is > 0 and <= 1, minimumStart, "the smallest scale must be more than 0 and no more than 1");
+            (minimum, rest) = (statedMinimum, minimumEnd);
         }
 
         body = body with { Shrinkage = rate, MinimumScale = minimum };
         return success;
     }
 
-    private bool ParseNotNegative(Cursor cursor, string what, out double number, out Cursor rest)
+    private bool ParseNonNegative(Cursor cursor, string quantity, out double number, out Cursor rest)
     {
         var success = ParseNumber(cursor, out number, out rest);
-        Require(!success || number >= 0, cursor, $"{what} must not be negative");
+        Require(!success || number >= 0, cursor, $"{quantity} must not be negative");
         return success;
     }
 }

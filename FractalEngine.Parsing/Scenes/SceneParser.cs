@@ -8,11 +8,11 @@ namespace FractalEngine.Parsing.Scenes;
 /// <summary>Reads scene files (paper §4.1.5). The grammar stands in docs/manual.md.</summary>
 public sealed partial class SceneParser : SceneValueParser
 {
-    private readonly Dictionary<SceneDeclarationKind, int> _declared = [];
+    private readonly Dictionary<SceneDeclarationKind, int> _declarationOffsets = [];
     private readonly List<Light> _lights = [];
     private readonly List<SceneObject> _objects = [];
     private Scene _scene = new();
-    private int _fileOffset;
+    private int _fileNameOffset;
 
     private SceneParser(SourceText source)
         : base(source)
@@ -36,7 +36,7 @@ public sealed partial class SceneParser : SceneValueParser
             }
 
             var text = Source.Text[cursor.Offset..rest.Offset];
-            lines.Add(new(text, kind, kind is { } declared ? IndexOfLast(declared) : 0, _fileOffset));
+            lines.Add(new(text, kind, kind is { } declared ? IndexOfLast(declared) : 0, _fileNameOffset));
             cursor = rest;
         }
 
@@ -63,10 +63,10 @@ public sealed partial class SceneParser : SceneValueParser
         }
 
         return (IsAtEndOfLine(start) || ParseDeclaration(start, out kind, out start)) && ParseEndOfLine(start, out rest)
-            || Failed(start, out rest);
+            || Backtrack(start, out rest);
     }
 
-    private static bool Failed(Cursor cursor, out Cursor rest)
+    private static bool Backtrack(Cursor cursor, out Cursor rest)
     {
         rest = cursor;
         return false;
@@ -94,9 +94,9 @@ public sealed partial class SceneParser : SceneValueParser
             return false;
         }
 
-        if (declared is not (SceneDeclarationKind.Light or SceneDeclarationKind.SceneObject) && !_declared.TryAdd(declared, cursor.Offset))
+        if (declared is not (SceneDeclarationKind.Light or SceneDeclarationKind.SceneObject) && !_declarationOffsets.TryAdd(declared, cursor.Offset))
         {
-            throw Error(cursor, $"'{keyword}' is declared twice, first in line {Source.Diagnose(_declared[declared], "").Line}");
+            throw Error(cursor, $"'{keyword}' is declared twice, first in line {Source.Diagnose(_declarationOffsets[declared], "").Line}");
         }
 
         ParseBlanks(rest, out rest);
@@ -106,22 +106,22 @@ public sealed partial class SceneParser : SceneValueParser
 
     private bool ParseCamera(Cursor cursor, out Cursor rest)
     {
-        if (!ParseVectorOr(cursor, Vector.Zero, out var position, out rest) || !ParseSeparatorOrNothing(rest, out rest)
-            || !ParseVectorOr(rest, Vector.Zero, out var rotation, out rest) || !ParseSeparatorOrNothing(rest, out var fieldOfViewPlace)
-            || !ParseNumber(fieldOfViewPlace, out var fieldOfView, out rest))
+        if (!ParseVectorOrDefault(cursor, Vector.Zero, out var position, out rest) || !ParseOptionalSeparator(rest, out rest)
+            || !ParseVectorOrDefault(rest, Vector.Zero, out var rotation, out rest) || !ParseOptionalSeparator(rest, out var fieldOfViewStart)
+            || !ParseNumber(fieldOfViewStart, out var fieldOfView, out rest))
         {
             return false;
         }
 
-        Require(fieldOfView is > 0 and < 180, fieldOfViewPlace, "the angle of view must lie between 0 and 180 degrees");
-        return Declare(_scene with { Camera = new(position, rotation, fieldOfView) });
+        Require(fieldOfView is > 0 and < 180, fieldOfViewStart, "the angle of view must lie between 0 and 180 degrees");
+        return UpdateScene(_scene with { Camera = new(position, rotation, fieldOfView) });
     }
 
     private bool ParseProjection(Cursor cursor, out Cursor rest)
     {
         if (ParseWord(cursor, "perspective", out rest))
         {
-            return Declare(_scene with { Projection = Projection.Perspective });
+            return UpdateScene(_scene with { Projection = Projection.Perspective });
         }
 
         if (!ParseWord(cursor, "orthographic", out rest))
@@ -129,20 +129,20 @@ public sealed partial class SceneParser : SceneValueParser
             return false;
         }
 
-        ParseBlanks(rest, out var place);
+        ParseBlanks(rest, out var heightStart);
         double? height = null;
-        if (!IsAtEndOfLine(place))
+        if (!IsAtEndOfLine(heightStart))
         {
-            if (!ParseNumber(place, out var number, out rest))
+            if (!ParseNumber(heightStart, out var number, out rest))
             {
                 return false;
             }
 
-            Require(number > 0, place, "the visible height must be positive");
+            Require(number > 0, heightStart, "the visible height must be positive");
             height = number;
         }
 
-        return Declare(_scene with { Projection = Projection.Orthographic, OrthographicHeight = height });
+        return UpdateScene(_scene with { Projection = Projection.Orthographic, OrthographicHeight = height });
     }
 
     private bool ParseAspect(Cursor cursor, out Cursor rest)
@@ -159,7 +159,7 @@ public sealed partial class SceneParser : SceneValueParser
         }
 
         Require(width > 0 && height > 0 && width / height is >= 0.01 and <= 100, cursor, "the aspect ratio must lie between 1:100 and 100:1");
-        return Declare(_scene with { Aspect = width / height });
+        return UpdateScene(_scene with { Aspect = width / height });
     }
 
     private bool ParseClip(Cursor cursor, out Cursor rest)
@@ -170,16 +170,16 @@ public sealed partial class SceneParser : SceneValueParser
         }
 
         Require(near > 0 && far > near, cursor, "the clip planes must satisfy 0 < near < far");
-        return Declare(_scene with { Clip = (near, far) });
+        return UpdateScene(_scene with { Clip = (near, far) });
     }
 
     private bool ParseBackground(Cursor cursor, out Cursor rest) =>
-        ParseColour(cursor, out var colour, out rest) && Declare(_scene with { Background = colour });
+        ParseColour(cursor, out var colour, out rest) && UpdateScene(_scene with { Background = colour });
 
     private bool ParseGravity(Cursor cursor, out Cursor rest) =>
-        ParseVectorOr(cursor, Vector.Zero, out var gravity, out rest) && Declare(_scene with { Gravity = gravity });
+        ParseVectorOrDefault(cursor, Vector.Zero, out var gravity, out rest) && UpdateScene(_scene with { Gravity = gravity });
 
-    private bool Declare(Scene scene)
+    private bool UpdateScene(Scene scene)
     {
         _scene = scene;
         return true;

@@ -30,23 +30,23 @@ public abstract class SceneValueParser : Parser
         }
 
         ParseBlanks(cursor.Advance(1), out rest);
-        if (!ParseVectorOr(rest, Vector.Zero, out var position, out rest) || !ParseSeparator(rest, out rest)
-            || !ParseVectorOr(rest, Vector.Zero, out var rotation, out rest) || !ParseSeparator(rest, out var scalePlace)
-            || !ParseVectorOr(scalePlace, Vector.One, out var scale, out rest)
+        if (!ParseVectorOrDefault(rest, Vector.Zero, out var position, out rest) || !ParseSeparator(rest, out rest)
+            || !ParseVectorOrDefault(rest, Vector.Zero, out var rotation, out rest) || !ParseSeparator(rest, out var scaleStart)
+            || !ParseVectorOrDefault(scaleStart, Vector.One, out var scale, out rest)
             || !ParseBlanks(rest, out rest) || !ParseChar(rest, ')', out rest))
         {
             return false;
         }
 
         placement = new(position, rotation, scale);
-        Require(ScaleCheck.IsRegular(scale), scalePlace, ScaleCheck.Message(scale));
+        Require(ScaleCheck.IsInvertible(scale), scaleStart, ScaleCheck.SingularScaleMessage(scale));
         return true;
     }
 
     /// <summary>A vector, or '#' for the neutral one.</summary>
-    protected bool ParseVectorOr(Cursor cursor, Vector neutral, out Vector vector, out Cursor rest)
+    protected bool ParseVectorOrDefault(Cursor cursor, Vector defaultValue, out Vector vector, out Cursor rest)
     {
-        vector = neutral;
+        vector = defaultValue;
         if (cursor.Current == '#')
         {
             rest = cursor.Advance(1);
@@ -74,21 +74,21 @@ public abstract class SceneValueParser : Parser
 
     /// <summary>A vector and what separates it from the next part.</summary>
     protected bool ParseVectorAndSeparator(Cursor cursor, out Vector vector, out Cursor rest) =>
-        ParseVector(cursor, out vector, out rest) && ParseSeparatorOrNothing(rest, out rest);
+        ParseVector(cursor, out vector, out rest) && ParseOptionalSeparator(rest, out rest);
 
     /// <summary>Between parts that end in a bracket and begin with one, nothing need stand.</summary>
-    protected bool ParseSeparatorOrNothing(Cursor cursor, out Cursor rest)
+    protected bool ParseOptionalSeparator(Cursor cursor, out Cursor rest)
     {
         ParseBlanks(cursor, out rest);
         return rest.Current != ',' || ParseBlanks(rest.Advance(1), out rest);
     }
 
     /// <summary>Throws for what was parsed but makes no sense.</summary>
-    protected void Require(bool condition, Cursor place, string message)
+    protected void Require(bool condition, Cursor cursor, string message)
     {
         if (!condition)
         {
-            throw Error(place, message);
+            throw Error(cursor, message);
         }
     }
 }

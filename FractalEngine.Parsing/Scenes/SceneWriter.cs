@@ -29,17 +29,17 @@ public static class SceneWriter
             }
 
             written.Add((kind, line.Index));
-            var (before, now) = (SceneFormatter.Format(original!.Scene, kind, line.Index), SceneFormatter.Format(scene, kind, line.Index));
-            text.Append(before == now ? line.Text : now is null ? "" : now + lineBreak);
+            var (originalText, currentText) = (SceneFormatter.Format(original!.Scene, kind, line.Index), SceneFormatter.Format(scene, kind, line.Index));
+            text.Append(originalText == currentText ? line.Text : currentText is null ? "" : currentText + lineBreak);
         }
 
         foreach (var kind in SceneFormatter.Kinds)
         {
-            for (var index = 0; index < SceneFormatter.Count(scene, kind); index++)
+            for (var index = 0; index < SceneFormatter.DeclarationCount(scene, kind); index++)
             {
                 if (written.Add((kind, index)))
                 {
-                    EndLine(text, lineBreak);
+                    EnsureLineBreak(text, lineBreak);
                     text.Append(SceneFormatter.Format(scene, kind, index)).Append(lineBreak);
                 }
             }
@@ -48,7 +48,7 @@ public static class SceneWriter
         return text.ToString();
     }
 
-    private static void EndLine(StringBuilder text, string lineBreak)
+    private static void EnsureLineBreak(StringBuilder text, string lineBreak)
     {
         if (text.Length > 0 && text[^1] is not ('\n' or '\r'))
         {

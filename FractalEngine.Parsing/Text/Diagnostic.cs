@@ -16,10 +16,10 @@ public sealed record Diagnostic(
     string File, int Line, int Column, DiagnosticSeverity Severity, string Message, string? SourceLine = null)
 {
     // A file of one line of a million characters gives a message of one screen line all the same.
-    private const int ShownWidth = 100;
+    private const int MaxShownWidth = 100;
 
     /// <summary>True when the file is well-formed but asks for more than a stated limit.</summary>
-    public bool IsLimit { get; init; }
+    public bool IsLimitExceeded { get; init; }
 
     /// <summary><c>file:line:column: error: message</c>, then the source line and a caret, indented by two blanks.</summary>
     public override string ToString()
@@ -33,8 +33,8 @@ public sealed record Diagnostic(
         }
 
         var caret = Math.Min(Column - 1, SourceLine.Length);
-        var start = caret < ShownWidth ? 0 : caret - (ShownWidth / 2);
-        var shown = SourceLine[start..Math.Min(start + ShownWidth, SourceLine.Length)];
+        var start = caret < MaxShownWidth ? 0 : caret - (MaxShownWidth / 2);
+        var shown = SourceLine[start..Math.Min(start + MaxShownWidth, SourceLine.Length)];
         // Tabs stay tabs under the caret, so that both lines shift alike; other control characters would spoil the terminal.
         var line = string.Concat(shown.Select(c => char.IsControl(c) && c != '\t' ? '?' : c));
         var padding = string.Concat(shown.Take(caret - start).Select(c => c == '\t' ? '\t' : ' '));

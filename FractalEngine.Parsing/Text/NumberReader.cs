@@ -12,9 +12,9 @@ namespace FractalEngine.Parsing.Text;
 public static class NumberReader
 {
     // Powers of ten up to 10²² are exact in a double, and so are integers up to 2⁵³.
-    private const int LargestExactPower = 22;
-    private const ulong LargestExactInteger = 1UL << 53;
-    private const int LongestMantissa = 18;
+    private const int MaxExactPower = 22;
+    private const ulong MaxExactInteger = 1UL << 53;
+    private const int MaxMantissaDigits = 18;
 
     private static readonly double[] PowersOfTen =
     [
@@ -30,30 +30,30 @@ public static class NumberReader
     public static bool TryRead(ReadOnlySpan<char> text, out double value, out int length)
     {
         var position = text.Length > 0 && text[0] is '-' or '+' ? 1 : 0;
-        var start = position;
+        var digitsStart = position;
         var mantissa = 0UL;
         ReadDigits(text, ref position, ref mantissa);
-        var digits = position - start;
+        var digitCount = position - digitsStart;
         var exponent = 0;
         if (position < text.Length && text[position] == '.')
         {
             position++;
-            var point = position;
+            var fractionStart = position;
             ReadDigits(text, ref position, ref mantissa);
-            exponent = point - position;
-            digits -= exponent;
+            exponent = fractionStart - position;
+            digitCount -= exponent;
         }
 
         (value, length) = (0, 0);
-        if (digits == 0)
+        if (digitCount == 0)
         {
             return false;
         }
 
-        var exactExponent = ReadExponent(text, ref position, ref exponent);
+        var isExponentUsable = TryReadExponent(text, ref position, ref exponent);
         length = position;
-        if (digits <= LongestMantissa && exactExponent && mantissa <= LargestExactInteger
-            && exponent is >= -LargestExactPower and <= LargestExactPower)
+        if (digitCount <= MaxMantissaDigits && isExponentUsable && mantissa <= MaxExactInteger
+            && exponent is >= -MaxExactPower and <= MaxExactPower)
         {
             value = exponent < 0 ? mantissa / PowersOfTen[-exponent] : mantissa * PowersOfTen[exponent];
             value = text[0] == '-' ? -value : value;
@@ -74,31 +74,31 @@ public static class NumberReader
     }
 
     /// <summary>Adds a written exponent; false when it has too many digits to be used here.</summary>
-    private static bool ReadExponent(ReadOnlySpan<char> text, ref int position, ref int exponent)
+    private static bool TryReadExponent(ReadOnlySpan<char> text, ref int position, ref int exponent)
     {
         if (position >= text.Length || text[position] is not ('e' or 'E'))
         {
             return true;
         }
 
-        var first = position + (position + 1 < text.Length && text[position + 1] is '-' or '+' ? 2 : 1);
-        var last = first;
-        var written = 0UL;
-        ReadDigits(text, ref last, ref written);
-        if (last == first)
+        var digitsStart = position + (position + 1 < text.Length && text[position + 1] is '-' or '+' ? 2 : 1);
+        var digitsEnd = digitsStart;
+        var magnitude = 0UL;
+        ReadDigits(text, ref digitsEnd, ref magnitude);
+        if (digitsEnd == digitsStart)
         {
             // "2em" is the number 2 and something else.
             return true;
         }
 
-        var negative = text[position + 1] == '-';
-        position = last;
-        if (last - first > 6)
+        var isNegative = text[position + 1] == '-';
+        position = digitsEnd;
+        if (digitsEnd - digitsStart > 6)
         {
             return false;
         }
 
-        exponent += negative ? -(int)written : (int)written;
+        exponent += isNegative ? -(int)magnitude : (int)magnitude;
         return true;
     }
 }

@@ -10,7 +10,7 @@ namespace FractalEngine.Parsing.Text;
 public abstract class Parser
 {
     private readonly List<string> _expected = [];
-    private int _farthest = -1;
+    private int _furthestFailure = -1;
 
     /// <summary>A parser of one text.</summary>
     protected Parser(SourceText source) => Source = source;
@@ -19,35 +19,35 @@ public abstract class Parser
     protected SourceText Source { get; }
 
     /// <summary>An exception for what was parsed but makes no sense.</summary>
-    /// <param name="place">Where it stands.</param>
+    /// <param name="cursor">Where it stands.</param>
     /// <param name="message">What is wrong with it.</param>
-    /// <param name="isLimit">True when it makes sense but goes beyond a stated limit.</param>
-    protected SourceException Error(Cursor place, string message, bool isLimit = false) =>
-        Source.Error(place.Offset, message, isLimit);
+    /// <param name="isLimitExceeded">True when it makes sense but goes beyond a stated limit.</param>
+    protected SourceException Error(Cursor cursor, string message, bool isLimitExceeded = false) =>
+        Source.Error(cursor.Offset, message, isLimitExceeded);
 
     /// <summary>The exception for the farthest failure: what stands there, and what was expected instead.</summary>
     protected SourceException SyntaxError()
     {
-        var place = new Cursor(Source.Text, Math.Max(_farthest, 0));
+        var failure = new Cursor(Source.Text, Math.Max(_furthestFailure, 0));
         var expected = _expected.Count switch
         {
             0 => "",
             1 => $", expected {_expected[0]}",
             _ => $", expected {string.Join(", ", _expected.SkipLast(1))} or {_expected[^1]}",
         };
-        return Source.Error(place.Offset, $"unexpected {Describe(place)}{expected}");
+        return Source.Error(failure.Offset, $"unexpected {Describe(failure)}{expected}");
     }
 
     /// <summary>Notes that something else was expected, and fails.</summary>
-    protected bool Fail(Cursor place, string expected)
+    protected bool Fail(Cursor cursor, string expected)
     {
-        if (place.Offset > _farthest)
+        if (cursor.Offset > _furthestFailure)
         {
-            _farthest = place.Offset;
+            _furthestFailure = cursor.Offset;
             _expected.Clear();
         }
 
-        if (place.Offset == _farthest && !_expected.Contains(expected))
+        if (cursor.Offset == _furthestFailure && !_expected.Contains(expected))
         {
             _expected.Add(expected);
         }
@@ -86,7 +86,7 @@ public abstract class Parser
     protected bool ParseWord(Cursor cursor, string word, out Cursor rest)
     {
         rest = cursor;
-        if (!cursor.Rest.StartsWith(word, StringComparison.Ordinal) || IsNamePart(cursor.Peek(word.Length)))
+        if (!cursor.Rest.StartsWith(word, StringComparison.Ordinal) || IsNameCharacter(cursor.Peek(word.Length)))
         {
             return Fail(cursor, $"'{word}'");
         }
@@ -105,7 +105,7 @@ public abstract class Parser
         }
 
         var length = 1;
-        while (IsNamePart(cursor.Peek(length)))
+        while (IsNameCharacter(cursor.Peek(length)))
         {
             length++;
         }
@@ -126,7 +126,7 @@ public abstract class Parser
 
         rest = cursor.Advance(length);
         return double.IsFinite(number) ? true
-            : throw Error(cursor, $"the number {Shorten(cursor.Rest[..length])} is beyond the range of a double");
+            : throw Error(cursor, $"the number {Truncate(cursor.Rest[..length])} is beyond the range of a double");
     }
 
     /// <summary>A whole number without sign; saturates at <see cref="int.MaxValue"/>.</summary>
@@ -149,7 +149,7 @@ public abstract class Parser
     }
 
     /// <summary>What stands between two places, for a message.</summary>
-    protected static string Written(Cursor start, Cursor end) => Shorten(start.Rest[..(end.Offset - start.Offset)]);
+    protected static string TextBetween(Cursor start, Cursor end) => Truncate(start.Rest[..(end.Offset - start.Offset)]);
 
     /// <summary>Text between double quotes, on one line.</summary>
     protected bool ParseString(Cursor cursor, string expected, out string value, out Cursor rest)
@@ -238,30 +238,30 @@ public abstract class Parser
     }
 
     /// <summary>What stands at a place, for a message: a word, a character, or the end.</summary>
-    protected static string Describe(Cursor place)
+    protected static string Describe(Cursor cursor)
     {
-        if (place.IsAtEnd)
+        if (cursor.IsAtEnd)
         {
             return "end of file";
         }
 
-        if (IsAtEndOfLine(place))
+        if (IsAtEndOfLine(cursor))
         {
             return "end of line";
         }
 
         var length = 0;
-        while (IsNamePart(place.Peek(length)))
+        while (IsNameCharacter(cursor.Peek(length)))
         {
             length++;
         }
 
-        return char.IsControl(place.Current) ? $"character U+{(int)place.Current:X4}"
-            : char.IsHighSurrogate(place.Current) ? $"'{place.Text.AsSpan(place.Offset, Math.Min(2, place.Rest.Length))}'"
-            : $"'{Shorten(place.Rest[..Math.Max(length, 1)])}'";
+        return char.IsControl(cursor.Current) ? $"character U+{(int)cursor.Current:X4}"
+            : char.IsHighSurrogate(cursor.Current) ? $"'{cursor.Text.AsSpan(cursor.Offset, Math.Min(2, cursor.Rest.Length))}'"
+            : $"'{Truncate(cursor.Rest[..Math.Max(length, 1)])}'";
     }
 
-    private static string Shorten(ReadOnlySpan<char> text) => text.Length <= 40 ? text.ToString() : $"{text[..37]}...";
+    private static string Truncate(ReadOnlySpan<char> text) => text.Length <= 40 ? text.ToString() : $"{text[..37]}...";
 
-    private static bool IsNamePart(char character) => char.IsLetterOrDigit(character) || character == '_';
+    private static bool IsNameCharacter(char character) => char.IsLetterOrDigit(character) || character == '_';
 }

@@ -8,8 +8,8 @@ public sealed class SourceException : Exception
         : base(diagnostic.ToString()) => Diagnostic = diagnostic;
 
     /// <summary>For a file as a whole.</summary>
-    public SourceException(string file, string message, bool isLimit = false)
-        : this(new(file, 1, 1, DiagnosticSeverity.Error, message) { IsLimit = isLimit })
+    public SourceException(string file, string message, bool isLimitExceeded = false)
+        : this(new(file, 1, 1, DiagnosticSeverity.Error, message) { IsLimitExceeded = isLimitExceeded })
     {
     }
 

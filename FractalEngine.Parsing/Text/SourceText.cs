@@ -22,12 +22,12 @@ public sealed class SourceText
     /// <summary>Reads a file of UTF-8 text.</summary>
     /// <param name="path">Where the file is.</param>
     /// <param name="fileName">What messages call it.</param>
-    /// <param name="byteLimit">Longer files are refused before anything is read.</param>
+    /// <param name="maxBytes">Longer files are refused before anything is read.</param>
     /// <param name="acceptLatin1">Whether bytes that are no UTF-8 are read as Latin-1, as old exporters wrote their comments.</param>
     /// <exception cref="SourceException">The file is missing, unreadable, too long, or no text of that encoding.</exception>
-    public static SourceText Read(string path, string fileName, long byteLimit, bool acceptLatin1 = false)
+    public static SourceText Read(string path, string fileName, long maxBytes, bool acceptLatin1 = false)
     {
-        var bytes = ReadBytes(path, fileName, byteLimit);
+        var bytes = ReadBytes(path, fileName, maxBytes);
         return Decode(bytes, fileName, acceptLatin1);
     }
 
@@ -47,7 +47,7 @@ public sealed class SourceText
         // No text has NUL bytes; UTF-16 without a byte order mark and all binary formats do.
         if (bytes.IndexOf((byte)0) is >= 0 and var position)
         {
-            throw Binary(bytes, position, fileName, "the file is binary (it has a NUL byte), expected UTF-8 text");
+            throw BinaryFileError(bytes, position, fileName, "the file is binary (it has a NUL byte), expected UTF-8 text");
         }
 
         try
@@ -60,7 +60,7 @@ public sealed class SourceText
         }
         catch (DecoderFallbackException exception)
         {
-            throw Binary(bytes, Math.Max(exception.Index, 0), fileName, "the file has a byte that is no UTF-8 text");
+            throw BinaryFileError(bytes, Math.Max(exception.Index, 0), fileName, "the file has a byte that is no UTF-8 text");
         }
     }
 
@@ -89,10 +89,10 @@ public sealed class SourceText
     }
 
     /// <summary>An exception for a place in this text.</summary>
-    public SourceException Error(int offset, string message, bool isLimit = false) =>
-        new(Diagnose(offset, message) with { IsLimit = isLimit });
+    public SourceException Error(int offset, string message, bool isLimitExceeded = false) =>
+        new(Diagnose(offset, message) with { IsLimitExceeded = isLimitExceeded });
 
-    private static byte[] ReadBytes(string path, string fileName, long byteLimit)
+    private static byte[] ReadBytes(string path, string fileName, long maxBytes)
     {
         try
         {
@@ -107,9 +107,9 @@ public sealed class SourceText
             }
 
             using var stream = new FileStream(path, FileMode.Open, FileAccess.Read, FileShare.Read, bufferSize: 0, FileOptions.SequentialScan);
-            if (stream.CanSeek && stream.Length > byteLimit)
+            if (stream.CanSeek && stream.Length > maxBytes)
             {
-                throw new SourceException(fileName, $"the file has {stream.Length} bytes, more than the limit of {byteLimit}", isLimit: true);
+                throw new SourceException(fileName, $"the file has {stream.Length} bytes, more than the limit of {maxBytes}", isLimitExceeded: true);
             }
 
             return stream.Length == 0 && stream.ReadByte() >= 0
@@ -151,7 +151,7 @@ public sealed class SourceText
         return bytes;
     }
 
-    private static SourceException Binary(ReadOnlySpan<byte> bytes, int position, string fileName, string message)
+    private static SourceException BinaryFileError(ReadOnlySpan<byte> bytes, int position, string fileName, string message)
     {
         var before = bytes[..position];
         return new(new Diagnostic(

@@ -15,18 +15,18 @@ internal sealed class Framebuffer : GlObject
     /// <param name="width">Pixels, at least 1.</param>
     /// <param name="height">Pixels, at least 1.</param>
     /// <param name="samples">Samples a pixel; 0 for a plain picture.</param>
-    /// <param name="withDepth">Whether there is a depth buffer.</param>
+    /// <param name="hasDepth">Whether there is a depth buffer.</param>
     /// <exception cref="GlException">The size or the memory is beyond the driver.</exception>
-    public Framebuffer(GlResources resources, string label, int width, int height, int samples, bool withDepth)
+    public Framebuffer(GlResources resources, string label, int width, int height, int samples, bool hasDepth)
         : base(resources, label)
     {
         (Width, Height) = (width, height);
         _name = GL.GenFramebuffer();
-        _colour = Storage(RenderbufferStorage.Srgb8Alpha8, samples);
-        _depth = withDepth ? Storage(RenderbufferStorage.DepthComponent32f, samples) : 0;
+        _colour = CreateRenderbuffer(RenderbufferStorage.Srgb8Alpha8, samples);
+        _depth = hasDepth ? CreateRenderbuffer(RenderbufferStorage.DepthComponent32f, samples) : 0;
         GL.BindFramebuffer(FramebufferTarget.Framebuffer, _name);
         Attach(FramebufferAttachment.ColorAttachment0, _colour);
-        if (withDepth)
+        if (hasDepth)
         {
             Attach(FramebufferAttachment.DepthAttachment, _depth);
         }
@@ -71,7 +71,7 @@ internal sealed class Framebuffer : GlObject
 
     /// <summary>Reads the colours back, bottom row first.</summary>
     /// <param name="pixels">RGBA, [height × width × 4].</param>
-    public void Read(Span<byte> pixels)
+    public void ReadPixels(Span<byte> pixels)
     {
         GL.Disable(EnableCap.FramebufferSrgb);
         GL.BindFramebuffer(FramebufferTarget.ReadFramebuffer, _name);
@@ -98,7 +98,7 @@ internal sealed class Framebuffer : GlObject
     private static void Attach(FramebufferAttachment attachment, int renderbuffer) =>
         GL.FramebufferRenderbuffer(FramebufferTarget.Framebuffer, attachment, RenderbufferTarget.Renderbuffer, renderbuffer);
 
-    private int Storage(RenderbufferStorage format, int samples)
+    private int CreateRenderbuffer(RenderbufferStorage format, int samples)
     {
         var name = GL.GenRenderbuffer();
         GL.BindRenderbuffer(RenderbufferTarget.Renderbuffer, name);

@@ -9,18 +9,18 @@ namespace FractalEngine.Render.Gl;
 internal sealed class GlResources
 {
     private readonly Lock _lock = new();
-    private readonly HashSet<GlObject> _live = [];
-    private readonly List<GlObject> _pending = [];
-    private readonly int _thread = Environment.CurrentManagedThreadId;
+    private readonly HashSet<GlObject> _liveObjects = [];
+    private readonly List<GlObject> _pendingDeletion = [];
+    private readonly int _threadId = Environment.CurrentManagedThreadId;
 
     /// <summary>What is bound.</summary>
     public GlState State { get; } = new();
 
     /// <summary>Uploads of what changes from picture to picture: made, and not needed.</summary>
-    public ChangeCounter Uploads { get; } = new();
+    public RedundancyFilter UploadFilter { get; } = new();
 
     /// <summary>True on the thread that may call GL.</summary>
-    public bool IsGlThread => Environment.CurrentManagedThreadId == _thread;
+    public bool IsGlThread => Environment.CurrentManagedThreadId == _threadId;
 
     /// <summary>The labels of all objects that are not disposed, sorted.</summary>
     public IReadOnlyList<string> LiveObjects
@@ -29,7 +29,7 @@ internal sealed class GlResources
         {
             lock (_lock)
             {
-                return [.. _live.Select(item => item.ToString()).Order(StringComparer.Ordinal)];
+                return [.. _liveObjects.Select(item => item.ToString()).Order(StringComparer.Ordinal)];
             }
         }
     }
@@ -40,12 +40,12 @@ internal sealed class GlResources
         RequireGlThread();
         lock (_lock)
         {
-            foreach (var item in _pending)
+            foreach (var item in _pendingDeletion)
             {
                 item.DeleteNow();
             }
 
-            _pending.Clear();
+            _pendingDeletion.Clear();
         }
     }
 
@@ -55,7 +55,7 @@ internal sealed class GlResources
     {
         DeletePending();
         var leaks = LiveObjects;
-        foreach (var item in _live.ToArray())
+        foreach (var item in _liveObjects.ToArray())
         {
             item.Dispose();
         }
@@ -88,7 +88,7 @@ internal sealed class GlResources
         RequireGlThread();
         lock (_lock)
         {
-            _live.Add(item);
+            _liveObjects.Add(item);
         }
     }
 
@@ -96,10 +96,10 @@ internal sealed class GlResources
     {
         lock (_lock)
         {
-            _live.Remove(item);
+            _liveObjects.Remove(item);
             if (!IsGlThread)
             {
-                _pending.Add(item);
+                _pendingDeletion.Add(item);
                 return;
             }
         }

@@ -17,7 +17,7 @@ internal static class GlShim
     }
 
     /// <summary>Leaves out the triangles of one side: of the front, or of the back.</summary>
-    public static void SetCulledSide(bool front)
+    public static void SetCulledFace(bool front)
     {
 #if OPENTK_DEBIAN
         GL.CullFace(front ? CullFaceMode.Front : CullFaceMode.Back);

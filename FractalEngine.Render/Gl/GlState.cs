@@ -9,24 +9,24 @@ namespace FractalEngine.Render.Gl;
 internal sealed class GlState
 {
     /// <summary>Binding points of uniform buffers.</summary>
-    public const int UniformBindings = 2;
+    public const int UniformBindingCount = 2;
 
     // No object has this name: the next binding is made.
     private const int Unknown = -1;
 
-    private readonly int[] _uniformBuffers = [.. Enumerable.Repeat(Unknown, UniformBindings)];
+    private readonly int[] _uniformBuffers = [.. Enumerable.Repeat(Unknown, UniformBindingCount)];
     private int _program = Unknown;
     private int _vertexArray = Unknown;
     private int _texture = Unknown;
-    private (bool IsKnown, bool? Front) _leftOut;
+    private (bool IsKnown, bool? Front) _culledFace;
 
     /// <summary>Made and not needed: bindings, and uniforms of programs.</summary>
-    public ChangeCounter Changes { get; } = new();
+    public RedundancyFilter Filter { get; } = new();
 
     /// <summary>Makes a program current.</summary>
     public void UseProgram(int name)
     {
-        if (Changes.IsNew(ref _program, name))
+        if (Filter.Update(ref _program, name))
         {
             GL.UseProgram(name);
         }
@@ -35,7 +35,7 @@ internal sealed class GlState
     /// <summary>Makes a vertex array current; 0 for none.</summary>
     public void BindVertexArray(int name)
     {
-        if (Changes.IsNew(ref _vertexArray, name))
+        if (Filter.Update(ref _vertexArray, name))
         {
             GL.BindVertexArray(name);
         }
@@ -44,7 +44,7 @@ internal sealed class GlState
     /// <summary>Binds a texture of two dimensions to the first texture unit.</summary>
     public void BindTexture(int name)
     {
-        if (Changes.IsNew(ref _texture, name))
+        if (Filter.Update(ref _texture, name))
         {
             GL.ActiveTexture(TextureUnit.Texture0);
             GL.BindTexture(TextureTarget.Texture2D, name);
@@ -52,29 +52,29 @@ internal sealed class GlState
     }
 
     /// <summary>Binds a uniform buffer.</summary>
-    /// <param name="bindingPoint">Below <see cref="UniformBindings"/>.</param>
+    /// <param name="bindingPoint">Below <see cref="UniformBindingCount"/>.</param>
     /// <param name="name">Of the buffer.</param>
     public void BindUniformBuffer(int bindingPoint, int name)
     {
-        if (Changes.IsNew(ref _uniformBuffers[bindingPoint], name))
+        if (Filter.Update(ref _uniformBuffers[bindingPoint], name))
         {
             GL.BindBufferBase(BufferRangeTarget.UniformBuffer, bindingPoint, name);
         }
     }
 
     /// <summary>Chooses which side of triangles is not drawn.</summary>
-    /// <param name="front">True for the front, false for the back; null to draw both.</param>
-    public void LeaveOut(bool? front)
+    /// <param name="culledFace">True for the front, false for the back; null to draw both.</param>
+    public void Cull(bool? culledFace)
     {
-        if (!Changes.IsNew(ref _leftOut, (true, front)))
+        if (!Filter.Update(ref _culledFace, (true, culledFace)))
         {
             return;
         }
 
-        if (front is { } side)
+        if (culledFace is { } isFront)
         {
             GL.Enable(EnableCap.CullFace);
-            GlShim.SetCulledSide(side);
+            GlShim.SetCulledFace(isFront);
         }
         else
         {
@@ -86,21 +86,21 @@ internal sealed class GlState
     public void DeleteProgram(int name)
     {
         GL.DeleteProgram(name);
-        Forget(ref _program, name);
+        Invalidate(ref _program, name);
     }
 
     /// <summary>Deletes a vertex array.</summary>
     public void DeleteVertexArray(int name)
     {
         GL.DeleteVertexArray(name);
-        Forget(ref _vertexArray, name);
+        Invalidate(ref _vertexArray, name);
     }
 
     /// <summary>Deletes a texture.</summary>
     public void DeleteTexture(int name)
     {
         GL.DeleteTexture(name);
-        Forget(ref _texture, name);
+        Invalidate(ref _texture, name);
     }
 
     /// <summary>Deletes a buffer of any kind.</summary>
@@ -109,9 +109,9 @@ internal sealed class GlState
         GL.DeleteBuffer(name);
         foreach (ref var bound in _uniformBuffers.AsSpan())
         {
-            Forget(ref bound, name);
+            Invalidate(ref bound, name);
         }
     }
 
-    private static void Forget(ref int bound, int name) => bound = bound == name ? Unknown : bound;
+    private static void Invalidate(ref int bound, int name) => bound = bound == name ? Unknown : bound;
 }

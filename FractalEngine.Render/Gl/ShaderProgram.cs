@@ -38,7 +38,7 @@ internal sealed class ShaderProgram : GlObject
     public void Use() => Resources.State.UseProgram(_name);
 
     /// <summary>The location of a uniform; −1 where the compiler left it out, which GL ignores.</summary>
-    public int Uniform(string name) => GL.GetUniformLocation(_name, name);
+    public int UniformLocation(string name) => GL.GetUniformLocation(_name, name);
 
     /// <summary>Connects a uniform block to a binding point.</summary>
     /// <exception cref="GlException">The program has no such block.</exception>

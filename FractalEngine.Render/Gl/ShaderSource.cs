@@ -9,7 +9,7 @@ namespace FractalEngine.Render.Gl;
 /// </summary>
 internal static class ShaderSource
 {
-    private const string Include = "#include \"";
+    private const string IncludeDirective = "#include \"";
 
     /// <summary>Reads <c>Shaders/file</c>.</summary>
     /// <param name="file">Its first line gives the version.</param>
@@ -17,13 +17,13 @@ internal static class ShaderSource
     public static string Read(string file, IReadOnlyList<string> symbols)
     {
         var text = new StringBuilder();
-        var lines = EmbeddedFile.ReadText($"Shaders/{file}").Split('\n');
+        var lines = EmbeddedResource.ReadText($"Shaders/{file}").Split('\n');
         for (var i = 0; i < lines.Length; i++)
         {
-            if (lines[i].StartsWith(Include, StringComparison.Ordinal))
+            if (lines[i].StartsWith(IncludeDirective, StringComparison.Ordinal))
             {
-                text.Append(EmbeddedFile.ReadText($"Shaders/{lines[i][Include.Length..].TrimEnd('\r', '"')}"));
-                ContinueWith(text, i + 2);
+                text.Append(EmbeddedResource.ReadText($"Shaders/{lines[i][IncludeDirective.Length..].TrimEnd('\r', '"')}"));
+                AppendLineDirective(text, i + 2);
                 continue;
             }
 
@@ -35,7 +35,7 @@ internal static class ShaderSource
                     text.Append("#define ").Append(symbol).Append('\n');
                 }
 
-                ContinueWith(text, 2);
+                AppendLineDirective(text, 2);
             }
         }
 
@@ -43,5 +43,5 @@ internal static class ShaderSource
     }
 
     /// <summary>Lets the driver's messages count lines as the file does.</summary>
-    private static void ContinueWith(StringBuilder text, int line) => text.Append(CultureInfo.InvariantCulture, $"#line {line}\n");
+    private static void AppendLineDirective(StringBuilder text, int line) => text.Append(CultureInfo.InvariantCulture, $"#line {line}\n");
 }

@@ -12,17 +12,17 @@ namespace FractalEngine.Render.Passes;
 internal sealed class LightBlock : IDisposable
 {
     /// <summary>The most lights with a direction or a place; ambient ones are added up and don't count.</summary>
-    public const int MaximumLights = 16;
+    public const int MaxLights = 16;
 
     private const int HeaderFloats = 12;
-    private const int LightFloats = 16;
+    private const int FloatsPerLight = 16;
 
     private readonly ImmutableArray<Light> _lights;
-    private readonly bool _isDefault;
-    private readonly ChangeCounter _uploads;
+    private readonly bool _usesDefaultLights;
+    private readonly RedundancyFilter _uploadFilter;
     private readonly GlBuffer _buffer;
-    private readonly float[] _data = new float[HeaderFloats + (MaximumLights * LightFloats)];
-    private (Vector, double)? _lastCamera;
+    private readonly float[] _data = new float[HeaderFloats + (MaxLights * FloatsPerLight)];
+    private (Vector, double)? _lastKey;
 
     /// <summary>For the lights of a scene, or the default ones where it has none.</summary>
     /// <param name="resources">Of the current context.</param>
@@ -30,9 +30,9 @@ internal sealed class LightBlock : IDisposable
     /// <param name="bounds">Of the scene: the default lights stand around it.</param>
     public LightBlock(GlResources resources, ImmutableArray<Light> lights, BoundingBox bounds)
     {
-        _uploads = resources.Uploads;
-        _isDefault = lights.IsEmpty;
-        _lights = [.. (_isDefault ? DefaultLights(bounds) : lights).Where(light => light is not AmbientLight).Take(MaximumLights)];
+        _uploadFilter = resources.UploadFilter;
+        _usesDefaultLights = lights.IsEmpty;
+        _lights = [.. (_usesDefaultLights ? DefaultLights(bounds) : lights).Where(light => light is not AmbientLight).Take(MaxLights)];
         _buffer = new(resources, "lights", BufferTarget.UniformBuffer);
         WriteAmbient(lights);
         MemoryMarshal.Cast<float, int>(_data.AsSpan(8))[0] = _lights.Length;
@@ -56,20 +56,20 @@ internal sealed class LightBlock : IDisposable
 
     /// <summary>Binds the block; uploads it only at first and, where a light has a place, when the camera has moved.</summary>
     /// <param name="bindingPoint">As the program connects it.</param>
-    /// <param name="camera">World space: places are written relative to it.</param>
+    /// <param name="cameraPosition">World space: places are written relative to it.</param>
     /// <param name="unitsPerSceneUnit">1, or more where what is drawn is told in a smaller unit.</param>
-    public void Bind(int bindingPoint, Vector camera, double unitsPerSceneUnit)
+    public void Bind(int bindingPoint, Vector cameraPosition, double unitsPerSceneUnit)
     {
-        var isSame = _lastCamera is { } last && (last == (camera, unitsPerSceneUnit) || !_lights.Any(static light => light is PointLight));
-        if (_uploads.IsNeeded(isSame))
+        var isRedundant = _lastKey is { } last && (last == (cameraPosition, unitsPerSceneUnit) || !_lights.Any(static light => light is PointLight));
+        if (_uploadFilter.ShouldPerform(isRedundant))
         {
             for (var i = 0; i < _lights.Length; i++)
             {
-                Write(_lights[i], camera, unitsPerSceneUnit, _data.AsSpan(HeaderFloats + (i * LightFloats), LightFloats));
+                Write(_lights[i], cameraPosition, unitsPerSceneUnit, _data.AsSpan(HeaderFloats + (i * FloatsPerLight), FloatsPerLight));
             }
 
             _buffer.Upload<float>(_data, BufferUsageHint.DynamicDraw);
-            _lastCamera = (camera, unitsPerSceneUnit);
+            _lastKey = (cameraPosition, unitsPerSceneUnit);
         }
 
         _buffer.BindTo(bindingPoint);
@@ -78,13 +78,13 @@ internal sealed class LightBlock : IDisposable
     /// <inheritdoc/>
     public void Dispose() => _buffer.Dispose();
 
-    private static void Write(Light light, Vector camera, double unitsPerSceneUnit, Span<float> target)
+    private static void Write(Light light, Vector cameraPosition, double unitsPerSceneUnit, Span<float> target)
     {
         var (red, green, blue) = light.Colour.ToLinear();
         Write(light.Intensity * new Vector(red, green, blue), KindOf(light), target);
         if (light is PointLight point)
         {
-            Write(unitsPerSceneUnit * (point.Position - camera), unitsPerSceneUnit * point.Range, target[4..]);
+            Write(unitsPerSceneUnit * (point.Position - cameraPosition), unitsPerSceneUnit * point.Range, target[4..]);
         }
         else if (light is DirectionalLight directional)
         {
@@ -93,9 +93,9 @@ internal sealed class LightBlock : IDisposable
 
         if (light is SpotLight spot)
         {
-            var half = 0.5 * spot.Angle * Math.PI / 180;
-            Write(spot.Direction.UnitVector(), Math.Cos(0.9 * half), target[8..]);
-            target[12] = (float)Math.Cos(half);
+            var halfAngle = 0.5 * spot.Angle * Math.PI / 180;
+            Write(spot.Direction.UnitVector(), Math.Cos(0.9 * halfAngle), target[8..]);
+            target[12] = (float)Math.Cos(halfAngle);
         }
     }
 
@@ -107,8 +107,8 @@ internal sealed class LightBlock : IDisposable
         _ => throw new ArgumentException($"a light of an unknown kind: {light}", nameof(light)),
     };
 
-    private static void Write(Vector v, double fourth, Span<float> target) =>
-        (target[0], target[1], target[2], target[3]) = ((float)v.X, (float)v.Y, (float)v.Z, (float)fourth);
+    private static void Write(Vector v, double w, Span<float> target) =>
+        (target[0], target[1], target[2], target[3]) = ((float)v.X, (float)v.Y, (float)v.Z, (float)w);
 
     private void WriteAmbient(ImmutableArray<Light> lights)
     {
@@ -120,7 +120,7 @@ internal sealed class LightBlock : IDisposable
             sum += light.Intensity * new Vector(red, green, blue);
         }
 
-        Write(_isDefault ? new(0.23, 0.245, 0.28) : sum, 0, _data);
-        Write(_isDefault ? new(0.11, 0.10, 0.095) : sum, 0, _data.AsSpan(4));
+        Write(_usesDefaultLights ? new(0.23, 0.245, 0.28) : sum, 0, _data);
+        Write(_usesDefaultLights ? new(0.11, 0.10, 0.095) : sum, 0, _data.AsSpan(4));
     }
 }

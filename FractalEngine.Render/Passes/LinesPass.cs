@@ -10,67 +10,67 @@ namespace FractalEngine.Render.Passes;
 /// <summary>The ground grid on y = 0 and the three axes, where they are asked for.</summary>
 internal sealed class LinesPass : IDisposable
 {
-    private const int Floats = 7;
+    private const int FloatsPerVertex = 7;
 
     // Lines to each side of the middle; every tenth is stronger.
-    private const int GridLines = 20;
+    private const int GridLinesPerSide = 20;
 
-    private readonly ChangeCounter _uploads;
+    private readonly RedundancyFilter _uploadFilter;
     private readonly ShaderProgram _program;
-    private readonly ViewUniforms _view;
-    private readonly int _offset;
-    private readonly GlBuffer _lines;
-    private readonly VertexArray _array;
+    private readonly ViewUniforms _viewUniforms;
+    private readonly int _offsetLocation;
+    private readonly GlBuffer _vertices;
+    private readonly VertexArray _vertexArray;
     private readonly List<float> _data = [];
-    private (bool Grid, bool Axes, double Spacing, Vector Middle)? _last;
+    private (bool Grid, bool Axes, double Spacing, Vector Middle)? _lastKey;
 
     /// <summary>Builds the program.</summary>
     public LinesPass(RenderContext context)
     {
-        _uploads = context.Resources.Uploads;
+        _uploadFilter = context.Resources.UploadFilter;
         _program = ShaderProgram.Load(context.Resources, "lines");
-        _view = new(_program, context.Resources.State.Changes, context.HasReversedDepth);
-        _offset = _program.Uniform("offset");
-        _lines = new(context.Resources, "grid and axes", BufferTarget.ArrayBuffer);
-        _array = new(context.Resources, "grid and axes");
-        _array.Attribute(_lines, 0, 3, Floats, 0);
-        _array.Attribute(_lines, 1, 4, Floats, 3);
-        _array.Unbind();
+        _viewUniforms = new(_program, context.Resources.State.Filter, context.HasReversedDepth);
+        _offsetLocation = _program.UniformLocation("offset");
+        _vertices = new(context.Resources, "grid and axes", BufferTarget.ArrayBuffer);
+        _vertexArray = new(context.Resources, "grid and axes");
+        _vertexArray.Attribute(_vertices, 0, 3, FloatsPerVertex, 0);
+        _vertexArray.Attribute(_vertices, 1, 4, FloatsPerVertex, 3);
+        _vertexArray.Unbind();
     }
 
     /// <summary>What the lines reach beyond the scene, for planes that hold both.</summary>
-    public static BoundingBox BoundsWith(BoundingBox scene, RenderSettings settings)
+    public static BoundingBox BoundsIncludingLines(BoundingBox sceneBounds, RenderSettings settings)
     {
         if (!settings.Grid && !settings.Axes)
         {
-            return scene;
+            return sceneBounds;
         }
 
-        var (spacing, middle) = Layout(scene);
-        var reach = GridLines * spacing;
-        return BoundingBox.Union(scene, new(middle - new Vector(reach, 0, reach), middle + new Vector(reach, 0, reach)))
-            .Including(reach * Vector.I).Including(reach * Vector.J).Including(reach * Vector.K).Including(Vector.Zero);
+        var (spacing, gridCentre) = GridLayout(sceneBounds);
+        var gridHalfSize = GridLinesPerSide * spacing;
+        return BoundingBox.Union(sceneBounds, new(gridCentre - new Vector(gridHalfSize, 0, gridHalfSize), gridCentre + new Vector(gridHalfSize, 0, gridHalfSize)))
+            .Including(gridHalfSize * Vector.I).Including(gridHalfSize * Vector.J).Including(gridHalfSize * Vector.K).Including(Vector.Zero);
     }
 
     /// <summary>Draws what the settings ask for over the scene's depths.</summary>
     /// <param name="view">Camera and projection.</param>
     /// <param name="aspect">Width divided by height of the viewport.</param>
-    /// <param name="scene">Bounds of the scene: they decide the spacing.</param>
+    /// <param name="sceneBounds">Bounds of the scene: they decide the spacing.</param>
     /// <param name="settings">Which lines.</param>
-    public void Draw(View view, double aspect, BoundingBox scene, RenderSettings settings)
+    public void Draw(View view, double aspect, BoundingBox sceneBounds, RenderSettings settings)
     {
         if (!settings.Grid && !settings.Axes)
         {
             return;
         }
 
-        var (spacing, middle) = Layout(scene);
-        if (_uploads.IsNew(ref _last, (settings.Grid, settings.Axes, spacing, middle)))
+        var (spacing, gridCentre) = GridLayout(sceneBounds);
+        if (_uploadFilter.Update(ref _lastKey, (settings.Grid, settings.Axes, spacing, gridCentre)))
         {
-            Build(settings, spacing, middle);
+            BuildVertices(settings, spacing, gridCentre);
         }
 
-        Draw(view, aspect, BoundsWith(scene, settings), middle - view.Camera.Position);
+        Draw(view, aspect, BoundsIncludingLines(sceneBounds, settings), gridCentre - view.Camera.Position);
     }
 
     /// <summary>Draws some lines in front of everything.</summary>
@@ -86,14 +86,14 @@ internal sealed class LinesPass : IDisposable
         }
 
         // In the buffer of the grid, which is built again when it is asked for next.
-        _last = null;
+        _lastKey = null;
         _data.Clear();
         foreach (var (from, to, colour) in segments)
         {
             Add(from - view.Camera.Position, to - view.Camera.Position, colour, 1, 1);
         }
 
-        _lines.Upload<float>(CollectionsMarshal.AsSpan(_data), BufferUsageHint.StreamDraw);
+        _vertices.Upload<float>(CollectionsMarshal.AsSpan(_data), BufferUsageHint.StreamDraw);
         // They lead through what they tell of.
         GL.Disable(EnableCap.DepthTest);
         Draw(view, aspect, bounds, Vector.Zero);
@@ -103,36 +103,36 @@ internal sealed class LinesPass : IDisposable
     /// <inheritdoc/>
     public void Dispose()
     {
-        _array.Dispose();
-        _lines.Dispose();
+        _vertexArray.Dispose();
+        _vertices.Dispose();
         _program.Dispose();
     }
 
     private void Draw(View view, double aspect, BoundingBox bounds, Vector offset)
     {
         _program.Use();
-        _view.Set(view, aspect, bounds);
-        GL.Uniform3(_offset, (float)offset.X, (float)offset.Y, (float)offset.Z);
+        _viewUniforms.Set(view, aspect, bounds);
+        GL.Uniform3(_offsetLocation, (float)offset.X, (float)offset.Y, (float)offset.Z);
         GL.Enable(EnableCap.Blend);
         GL.BlendFuncSeparate(
             BlendingFactorSrc.SrcAlpha, BlendingFactorDest.OneMinusSrcAlpha, BlendingFactorSrc.Zero, BlendingFactorDest.One);
         GL.DepthMask(false);
-        _array.Bind();
-        GL.DrawArrays(PrimitiveType.Lines, 0, _data.Count / Floats);
+        _vertexArray.Bind();
+        GL.DrawArrays(PrimitiveType.Lines, 0, _data.Count / FloatsPerVertex);
         GL.DepthMask(true);
         GL.Disable(EnableCap.Blend);
     }
 
     /// <summary>A power of ten as spacing, so that the grid reaches beyond the scene, and a grid point near its middle.</summary>
-    private static (double Spacing, Vector Middle) Layout(BoundingBox scene)
+    private static (double Spacing, Vector Middle) GridLayout(BoundingBox sceneBounds)
     {
-        var size = scene.Diagonal is > 0 and < double.PositiveInfinity and var diagonal ? diagonal : 10;
-        var spacing = Math.Pow(10, Math.Ceiling(Math.Log10(size / GridLines)));
-        var centre = scene.Centre.IsFinite() ? scene.Centre : Vector.Zero;
+        var size = sceneBounds.Diagonal is > 0 and < double.PositiveInfinity and var diagonal ? diagonal : 10;
+        var spacing = Math.Pow(10, Math.Ceiling(Math.Log10(size / GridLinesPerSide)));
+        var centre = sceneBounds.Centre.IsFinite() ? sceneBounds.Centre : Vector.Zero;
         return (spacing, new(10 * spacing * Math.Round(centre.X / (10 * spacing)), 0, 10 * spacing * Math.Round(centre.Z / (10 * spacing))));
     }
 
-    private void Build(RenderSettings settings, double spacing, Vector middle)
+    private void BuildVertices(RenderSettings settings, double spacing, Vector gridCentre)
     {
         _data.Clear();
         if (settings.Grid)
@@ -142,27 +142,27 @@ internal sealed class LinesPass : IDisposable
 
         if (settings.Axes)
         {
-            var length = GridLines * spacing;
-            Add(-middle, (length * Vector.I) - middle, new(0.92, 0.30, 0.30), 1, 1);
-            Add(-middle, (length * Vector.J) - middle, new(0.45, 0.80, 0.35), 1, 1);
-            Add(-middle, (length * Vector.K) - middle, new(0.35, 0.55, 0.95), 1, 1);
+            var length = GridLinesPerSide * spacing;
+            Add(-gridCentre, (length * Vector.I) - gridCentre, new(0.92, 0.30, 0.30), 1, 1);
+            Add(-gridCentre, (length * Vector.J) - gridCentre, new(0.45, 0.80, 0.35), 1, 1);
+            Add(-gridCentre, (length * Vector.K) - gridCentre, new(0.35, 0.55, 0.95), 1, 1);
         }
 
-        _lines.Upload<float>(CollectionsMarshal.AsSpan(_data), BufferUsageHint.StaticDraw);
+        _vertices.Upload<float>(CollectionsMarshal.AsSpan(_data), BufferUsageHint.StaticDraw);
     }
 
     /// <summary>Lines that fade out towards the edge, in two halves each.</summary>
     private void AddGrid(double spacing)
     {
         var grey = new Colour(0.72, 0.76, 0.82);
-        for (var i = -GridLines; i <= GridLines; i++)
+        for (var i = -GridLinesPerSide; i <= GridLinesPerSide; i++)
         {
-            var opacity = (i % 10 == 0 ? 0.42 : 0.16) * (1 - (Math.Abs(i) / (GridLines + 1.0)));
-            var (at, end) = (i * spacing, GridLines * spacing);
+            var opacity = (i % 10 == 0 ? 0.42 : 0.16) * (1 - (Math.Abs(i) / (GridLinesPerSide + 1.0)));
+            var (coordinate, end) = (i * spacing, GridLinesPerSide * spacing);
             foreach (var side in (ReadOnlySpan<double>)[-end, end])
             {
-                Add(new(at, 0, 0), new(at, 0, side), grey, opacity, 0);
-                Add(new(0, 0, at), new(side, 0, at), grey, opacity, 0);
+                Add(new(coordinate, 0, 0), new(coordinate, 0, side), grey, opacity, 0);
+                Add(new(0, 0, coordinate), new(side, 0, coordinate), grey, opacity, 0);
             }
         }
     }

@@ -17,8 +17,8 @@ internal enum MeshFeatures
     Glossy = 4,
 
     /// <summary>Instances lead to world axes about the camera: the object's own map is in them.</summary>
-    InWorld = 8,
+    CameraRelative = 8,
 
     /// <summary>Only fronts are drawn, so that backs need no light.</summary>
-    FrontOnly = 16,
+    FrontFacesOnly = 16,
 }

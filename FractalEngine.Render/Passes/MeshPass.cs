@@ -15,15 +15,15 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     /// <summary>Where the programs expect the lights.</summary>
     public const int LightBinding = 1;
 
-    private static readonly Colour WireColour = new(0.80, 0.83, 0.87);
+    private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);
 
     // By features; each is built when it is needed first.
     private readonly MeshProgram?[] _programs = new MeshProgram?[32];
 
     // The frame for which each has the view.
-    private readonly long[] _frameOf = new long[32];
+    private readonly long[] _lastFrameOfProgram = new long[32];
     private long _frameNumber;
-    private (View View, double Aspect, BoundingBox Bounds, bool Wireframe, Shading Shading)? _frame;
+    private (View View, double Aspect, BoundingBox Bounds, bool Wireframe, Shading Shading)? _frameState;
 
     /// <summary>Begins a frame.</summary>
     /// <param name="view">Camera and projection.</param>
@@ -33,7 +33,7 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     /// <param name="shading">Where the lights act.</param>
     public void Begin(View view, double aspect, BoundingBox bounds, bool wireframe, Shading shading)
     {
-        _frame = (view, aspect, bounds, wireframe, shading);
+        _frameState = (view, aspect, bounds, wireframe, shading);
         _frameNumber++;
         GlShim.SetWireframe(wireframe);
     }
@@ -41,19 +41,19 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     /// <summary>Makes the program for a material current, and brings its uniforms up to date.</summary>
     /// <param name="material">Null for the object's own colour.</param>
     /// <param name="tint">Multiplies the material's colour, sRGB.</param>
-    /// <param name="instances"><see cref="MeshFeatures.InWorld"/> and <see cref="MeshFeatures.FrontOnly"/>, where they hold.</param>
+    /// <param name="instanceFeatures"><see cref="MeshFeatures.CameraRelative"/> and <see cref="MeshFeatures.FrontFacesOnly"/>, where they hold.</param>
     /// <exception cref="InvalidOperationException">No frame was begun.</exception>
     /// <exception cref="GlException">The driver refuses the program.</exception>
-    public void Use(DrawableMaterial? material, Colour tint, MeshFeatures instances)
+    public void UseMaterial(DrawableMaterial? material, Colour tint, MeshFeatures instanceFeatures)
     {
-        var (view, aspect, bounds, wireframe, shading) = _frame ?? throw new InvalidOperationException("no frame was begun");
-        var features = instances | (wireframe ? MeshFeatures.None : FeaturesOf(material, shading));
+        var (view, aspect, bounds, wireframe, shading) = _frameState ?? throw new InvalidOperationException("no frame was begun");
+        var features = instanceFeatures | (wireframe ? MeshFeatures.None : FeaturesOf(material, shading));
         var program = _programs[(int)features] ??= new(context, features);
         program.Use();
-        if (context.Resources.State.Changes.IsNew(ref _frameOf[(int)features], _frameNumber))
+        if (context.Resources.State.Filter.Update(ref _lastFrameOfProgram[(int)features], _frameNumber))
         {
             program.View.Set(view, aspect, bounds);
-            program.SetWireframe(wireframe, WireColour);
+            program.SetWireframe(wireframe, WireframeColour);
         }
 
         // The object's own colour is not tinted: objects of different tints then share what is set.
@@ -61,8 +61,8 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     }
 
     /// <summary>Chooses which side of the triangles is not drawn.</summary>
-    /// <param name="front">True for the front, false for the back; null to draw both.</param>
-    public void LeaveOut(bool? front) => context.Resources.State.LeaveOut(front);
+    /// <param name="culledFace">True for the front, false for the back; null to draw both.</param>
+    public void Cull(bool? culledFace) => context.Resources.State.Cull(culledFace);
 
     /// <summary>From here on what is drawn mixes with what is there, and hides nothing. Colours come multiplied by their opacity.</summary>
     public static void BeginTransparent()
@@ -82,7 +82,7 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     /// <summary>Leaves filled triangles with both sides for whoever draws next.</summary>
     public void End()
     {
-        LeaveOut(null);
+        Cull(null);
         GlShim.SetWireframe(false);
     }
 

@@ -9,32 +9,32 @@ namespace FractalEngine.Render.Passes;
 /// <summary>One combination of <see cref="MeshFeatures"/> as a program, with its uniforms.</summary>
 internal sealed class MeshProgram : IDisposable
 {
-    private readonly ChangeCounter _changes;
+    private readonly RedundancyFilter _filter;
     private readonly ShaderProgram _program;
-    private readonly int _flatColour;
-    private readonly MaterialUniforms _material;
+    private readonly int _flatColourLocation;
+    private readonly MaterialUniforms _materialUniforms;
     private bool? _lastWireframe;
 
     /// <summary>Compiles and links it.</summary>
     public MeshProgram(RenderContext context, MeshFeatures features)
     {
-        _changes = context.Resources.State.Changes;
+        _filter = context.Resources.State.Filter;
         string[] symbols =
         [
             .. features.HasFlag(MeshFeatures.PerPixel) ? ["PER_PIXEL"] : Array.Empty<string>(),
             .. features.HasFlag(MeshFeatures.Textured) ? ["TEXTURED"] : Array.Empty<string>(),
             .. features.HasFlag(MeshFeatures.Glossy) ? ["GLOSSY"] : Array.Empty<string>(),
-            .. features.HasFlag(MeshFeatures.InWorld) ? ["IN_WORLD"] : Array.Empty<string>(),
-            .. features.HasFlag(MeshFeatures.FrontOnly) ? ["FRONT_ONLY"] : Array.Empty<string>(),
+            .. features.HasFlag(MeshFeatures.CameraRelative) ? ["IN_WORLD"] : Array.Empty<string>(),
+            .. features.HasFlag(MeshFeatures.FrontFacesOnly) ? ["FRONT_ONLY"] : Array.Empty<string>(),
         ];
         _program = ShaderProgram.Load(context.Resources, "mesh", symbols);
         _program.BindBlock("ObjectBlock", MeshPass.ObjectBinding);
         _program.BindBlock("LightBlock", MeshPass.LightBinding);
-        View = new(_program, _changes, context.HasReversedDepth);
-        _flatColour = _program.Uniform("flatColour");
+        View = new(_program, _filter, context.HasReversedDepth);
+        _flatColourLocation = _program.UniformLocation("flatColour");
         _program.Use();
-        GL.Uniform1(_program.Uniform("picture"), 0);
-        _material = new(_program, _changes);
+        GL.Uniform1(_program.UniformLocation("picture"), 0);
+        _materialUniforms = new(_program, _filter);
     }
 
     /// <summary>The camera as this program sees it.</summary>
@@ -46,17 +46,17 @@ internal sealed class MeshProgram : IDisposable
     /// <summary>Sets the colour of lines, or that there are none. The program must be in use.</summary>
     public void SetWireframe(bool wireframe, Colour colour)
     {
-        if (_changes.IsNew(ref _lastWireframe, wireframe))
+        if (_filter.Update(ref _lastWireframe, wireframe))
         {
             var (red, green, blue) = colour.ToLinear();
-            GL.Uniform4(_flatColour, (float)red, (float)green, (float)blue, wireframe ? 1 : 0);
+            GL.Uniform4(_flatColourLocation, (float)red, (float)green, (float)blue, wireframe ? 1 : 0);
         }
     }
 
     /// <summary>Sets the material. The program must be in use.</summary>
     /// <param name="material">Null for the object's own colour.</param>
     /// <param name="tint">Multiplies the material's colours, sRGB.</param>
-    public void SetMaterial(DrawableMaterial? material, Colour tint) => _material.Set(material?.Material, tint);
+    public void SetMaterial(DrawableMaterial? material, Colour tint) => _materialUniforms.Set(material?.Material, tint);
 
     /// <inheritdoc/>
     public void Dispose() => _program.Dispose();

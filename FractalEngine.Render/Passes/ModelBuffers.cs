@@ -7,16 +7,16 @@ namespace FractalEngine.Render.Passes;
 /// <summary>A model on the GPU: one vertex array with its vertices, indices and instances (paper §4.3.1). Uploaded once.</summary>
 internal sealed class ModelBuffers : IDisposable
 {
-    private const int Position = 0;
-    private const int Normal = 1;
-    private const int InstanceRows = 2;
-    private const int TexturePosition = 6;
+    private const int PositionLocation = 0;
+    private const int NormalLocation = 1;
+    private const int InstanceRowsLocation = 2;
+    private const int TextureCoordinatesLocation = 6;
 
     private readonly GlBuffer _vertices;
     private readonly GlBuffer _indices;
     private readonly GlBuffer _instances;
     private readonly GlBuffer? _textureCoordinates;
-    private readonly VertexArray _array;
+    private readonly VertexArray _vertexArray;
     private readonly int _indexCount;
     private readonly int _instanceCount;
 
@@ -25,7 +25,7 @@ internal sealed class ModelBuffers : IDisposable
     public ModelBuffers(GlResources resources, DrawableModel model)
     {
         (_indexCount, _instanceCount) = (model.Indices.Length, model.InstanceCount);
-        _array = new(resources, model.Name);
+        _vertexArray = new(resources, model.Name);
         _vertices = new(resources, $"vertices of {model.Name}", BufferTarget.ArrayBuffer);
         _indices = new(resources, $"indices of {model.Name}", BufferTarget.ElementArrayBuffer);
         _instances = new(resources, $"instances of {model.Name}", BufferTarget.ArrayBuffer);
@@ -46,14 +46,14 @@ internal sealed class ModelBuffers : IDisposable
     }
 
     /// <summary>The whole mesh.</summary>
-    public DrawableBatch Everything => new(0, _indexCount, null);
+    public DrawableBatch WholeMesh => new(0, _indexCount, null);
 
     /// <summary>Draws the triangles of one material of all instances in one call.</summary>
     public void Draw(DrawableBatch batch)
     {
         if (_instanceCount > 0 && batch.IndexCount > 0)
         {
-            _array.Bind();
+            _vertexArray.Bind();
             GL.DrawElementsInstanced(
                 PrimitiveType.Triangles, batch.IndexCount, DrawElementsType.UnsignedInt, (nint)batch.FirstIndex * sizeof(uint), _instanceCount);
         }
@@ -62,7 +62,7 @@ internal sealed class ModelBuffers : IDisposable
     /// <inheritdoc/>
     public void Dispose()
     {
-        _array.Dispose();
+        _vertexArray.Dispose();
         _vertices.Dispose();
         _indices.Dispose();
         _instances.Dispose();
@@ -70,32 +70,32 @@ internal sealed class ModelBuffers : IDisposable
     }
 
     /// <summary>Lets another vertex array show the same mesh with instances of its own.</summary>
-    public void Attach(VertexArray array, GlBuffer instances)
+    public void Attach(VertexArray vertexArray, GlBuffer instances)
     {
-        array.Bind();
+        vertexArray.Bind();
         _indices.Bind();
-        array.Attribute(_vertices, Position, 3, DrawableModel.VertexFloats, 0);
-        array.Attribute(_vertices, Normal, 3, DrawableModel.VertexFloats, 3);
+        vertexArray.Attribute(_vertices, PositionLocation, 3, DrawableModel.FloatsPerVertex, 0);
+        vertexArray.Attribute(_vertices, NormalLocation, 3, DrawableModel.FloatsPerVertex, 3);
         if (_textureCoordinates is not null)
         {
-            array.Attribute(_textureCoordinates, TexturePosition, 2, 2, 0);
+            vertexArray.Attribute(_textureCoordinates, TextureCoordinatesLocation, 2, 2, 0);
         }
 
         for (var row = 0; row < 3; row++)
         {
-            array.Attribute(instances, InstanceRows + row, 4, DrawableModel.InstanceFloats, 4 * row, divisor: 1);
+            vertexArray.Attribute(instances, InstanceRowsLocation + row, 4, DrawableModel.FloatsPerInstance, 4 * row, divisor: 1);
         }
 
-        array.Unbind();
+        vertexArray.Unbind();
     }
 
     private void Upload(DrawableModel model)
     {
-        _array.Bind();
+        _vertexArray.Bind();
         _vertices.Upload(model.Vertices.Span, BufferUsageHint.StaticDraw);
         _indices.Upload(model.Indices.Span, BufferUsageHint.StaticDraw);
         _instances.Upload(model.Instances.Span, BufferUsageHint.StaticDraw);
         _textureCoordinates?.Upload(model.TextureCoordinates.Span, BufferUsageHint.StaticDraw);
-        Attach(_array, _instances);
+        Attach(_vertexArray, _instances);
     }
 }

@@ -13,24 +13,24 @@ internal sealed class ObjectBlock(GlResources resources, string name) : IDisposa
 {
     private readonly GlBuffer _buffer = new(resources, $"matrix of {name}", BufferTarget.UniformBuffer);
     private readonly float[] _data = new float[36];
-    private (AffineMap Map, Colour Colour, Colour Far, Vector Camera)? _last;
+    private (AffineMap Map, Colour Colour, Colour Far, Vector Camera)? _lastKey;
 
     /// <summary>Binds the block, uploading it first where object or camera have moved since the last time.</summary>
     /// <param name="bindingPoint">As the program connects it.</param>
     /// <param name="map">From the drawn model's shifted frame to world space.</param>
     /// <param name="colour">sRGB.</param>
-    /// <param name="far">The other end of a gradient, sRGB; the same colour where there is none.</param>
-    /// <param name="camera">World space.</param>
-    public void Bind(int bindingPoint, AffineMap map, Colour colour, Colour far, Vector camera)
+    /// <param name="gradientEnd">The other end of a gradient, sRGB; the same colour where there is none.</param>
+    /// <param name="cameraPosition">World space.</param>
+    public void Bind(int bindingPoint, AffineMap map, Colour colour, Colour gradientEnd, Vector cameraPosition)
     {
-        if (resources.Uploads.IsNew(ref _last, (map, colour, far, camera)))
+        if (resources.UploadFilter.Update(ref _lastKey, (map, colour, gradientEnd, cameraPosition)))
         {
             Write(map.Linear, 0);
-            Write(CofactorsOf(map.Linear), 12);
-            Write(map.Translation - camera, 24);
+            Write(NormalisedCofactors(map.Linear), 12);
+            Write(map.Translation - cameraPosition, 24);
             var (red, green, blue) = colour.ToLinear();
             Write(new Vector(red, green, blue), 28);
-            (red, green, blue) = far.ToLinear();
+            (red, green, blue) = gradientEnd.ToLinear();
             Write(new Vector(red, green, blue), 32);
             _buffer.Upload<float>(_data, BufferUsageHint.DynamicDraw);
         }
@@ -42,11 +42,11 @@ internal sealed class ObjectBlock(GlResources resources, string name) : IDisposa
     public void Dispose() => _buffer.Dispose();
 
     /// <summary>Scaled to entries of at most 1: only the direction of what it gives counts, and floats end at 1e38.</summary>
-    private static Matrix CofactorsOf(Matrix linear)
+    private static Matrix NormalisedCofactors(Matrix linear)
     {
-        var largest = linear.MaximumEntry();
-        var cofactors = largest > 0 ? (linear / largest).Cofactors() : linear;
-        return cofactors.MaximumEntry() is > 0 and var scale ? cofactors / scale : cofactors;
+        var maxEntry = linear.MaxAbsEntry();
+        var cofactors = maxEntry > 0 ? (linear / maxEntry).Cofactors() : linear;
+        return cofactors.MaxAbsEntry() is > 0 and var scale ? cofactors / scale : cofactors;
     }
 
     private void Write(Matrix matrix, int start)

@@ -11,31 +11,31 @@ internal sealed class OverlayPass : IDisposable
     private readonly GlResources _resources;
     private readonly GlyphAtlas _atlas = GlyphAtlas.Load();
     private readonly ShaderProgram _program;
-    private readonly int _pictureSize;
-    private readonly int _cell;
-    private readonly GlBuffer _quads;
-    private readonly VertexArray _array;
-    private AlphaTexture? _glyphs;
-    private int _sheet = -1;
+    private readonly int _frameSizeLocation;
+    private readonly int _cellSizeLocation;
+    private readonly GlBuffer _quadBuffer;
+    private readonly VertexArray _vertexArray;
+    private AlphaTexture? _glyphTexture;
+    private int _sheetIndex = -1;
     private int _quadCount;
-    private (OverlayPanel[] Panels, int Width, int Height)? _last;
+    private (OverlayPanel[] Panels, int Width, int Height)? _lastKey;
 
     /// <summary>Builds the program and reads the font.</summary>
     public OverlayPass(GlResources resources)
     {
         _resources = resources;
         _program = ShaderProgram.Load(resources, "overlay");
-        _pictureSize = _program.Uniform("pictureSize");
-        _cell = _program.Uniform("cell");
+        _frameSizeLocation = _program.UniformLocation("pictureSize");
+        _cellSizeLocation = _program.UniformLocation("cell");
         _program.Use();
-        GL.Uniform1(_program.Uniform("glyphs"), 0);
-        GL.Uniform1(_program.Uniform("columns"), GlyphSheet.Columns);
-        _quads = new(resources, "overlay", BufferTarget.ArrayBuffer);
-        _array = new(resources, "overlay");
-        _array.Attribute(_quads, 0, 4, OverlayQuad.Floats, 0, divisor: 1);
-        _array.Attribute(_quads, 1, 4, OverlayQuad.Floats, 4, divisor: 1);
-        _array.Attribute(_quads, 2, 2, OverlayQuad.Floats, 8, divisor: 1);
-        _array.Unbind();
+        GL.Uniform1(_program.UniformLocation("glyphs"), 0);
+        GL.Uniform1(_program.UniformLocation("columns"), GlyphSheet.Columns);
+        _quadBuffer = new(resources, "overlay", BufferTarget.ArrayBuffer);
+        _vertexArray = new(resources, "overlay");
+        _vertexArray.Attribute(_quadBuffer, 0, 4, OverlayQuad.FloatsPerQuad, 0, divisor: 1);
+        _vertexArray.Attribute(_quadBuffer, 1, 4, OverlayQuad.FloatsPerQuad, 4, divisor: 1);
+        _vertexArray.Attribute(_quadBuffer, 2, 2, OverlayQuad.FloatsPerQuad, 8, divisor: 1);
+        _vertexArray.Unbind();
     }
 
     /// <summary>Draws panels into the bound framebuffer.</summary>
@@ -51,13 +51,13 @@ internal sealed class OverlayPass : IDisposable
 
         Update(panels, width, height);
         _program.Use();
-        _glyphs!.Bind();
+        _glyphTexture!.Bind();
         // Blended as the eye compares: text blended in linear light looks too thin on dark ground.
         GL.Disable(EnableCap.FramebufferSrgb);
         GL.Enable(EnableCap.Blend);
         GL.BlendFuncSeparate(
             BlendingFactorSrc.SrcAlpha, BlendingFactorDest.OneMinusSrcAlpha, BlendingFactorSrc.Zero, BlendingFactorDest.One);
-        _array.Bind();
+        _vertexArray.Bind();
         GL.DrawArraysInstanced(PrimitiveType.TriangleStrip, 0, 4, _quadCount);
         GL.Disable(EnableCap.Blend);
     }
@@ -65,15 +65,15 @@ internal sealed class OverlayPass : IDisposable
     /// <inheritdoc/>
     public void Dispose()
     {
-        _glyphs?.Dispose();
-        _array.Dispose();
-        _quads.Dispose();
+        _glyphTexture?.Dispose();
+        _vertexArray.Dispose();
+        _quadBuffer.Dispose();
         _program.Dispose();
     }
 
     private void Update(IReadOnlyList<OverlayPanel> panels, int width, int height)
     {
-        if (_last is { } last && (last.Width, last.Height) == (width, height) && last.Panels.SequenceEqual(panels))
+        if (_lastKey is { } last && (last.Width, last.Height) == (width, height) && last.Panels.SequenceEqual(panels))
         {
             return;
         }
@@ -81,17 +81,17 @@ internal sealed class OverlayPass : IDisposable
         var layout = OverlayLayout.Of(_atlas, panels, width, height);
         var sheet = _atlas.Sheets[layout.SheetIndex];
         _program.Use();
-        GL.Uniform2(_pictureSize, (float)width, height);
-        if (_sheet != layout.SheetIndex)
+        GL.Uniform2(_frameSizeLocation, (float)width, height);
+        if (_sheetIndex != layout.SheetIndex)
         {
-            _glyphs?.Dispose();
-            _glyphs = new(_resources, "glyphs", GlyphSheet.Columns * sheet.CellWidth, sheet.Rows * sheet.CellHeight, sheet.Arranged());
-            _sheet = layout.SheetIndex;
-            GL.Uniform2(_cell, sheet.CellWidth, sheet.CellHeight);
+            _glyphTexture?.Dispose();
+            _glyphTexture = new(_resources, "glyphs", GlyphSheet.Columns * sheet.CellWidth, sheet.Rows * sheet.CellHeight, sheet.ToTexels());
+            _sheetIndex = layout.SheetIndex;
+            GL.Uniform2(_cellSizeLocation, sheet.CellWidth, sheet.CellHeight);
         }
 
         _quadCount = layout.Quads.Count;
-        _quads.Upload<OverlayQuad>(CollectionsMarshal.AsSpan(layout.Quads), BufferUsageHint.DynamicDraw);
-        _last = ([.. panels], width, height);
+        _quadBuffer.Upload<OverlayQuad>(CollectionsMarshal.AsSpan(layout.Quads), BufferUsageHint.DynamicDraw);
+        _lastKey = ([.. panels], width, height);
     }
 }

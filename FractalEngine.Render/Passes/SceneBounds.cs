@@ -11,38 +11,38 @@ namespace FractalEngine.Render.Passes;
 internal static class SceneBounds
 {
     // Of the scene's size: bodies within this of it are drawn wherever they are.
-    private const double Margin = 0.5;
+    private const double DynamicMargin = 0.5;
 
     // Of the scene's size: balls farther out do not matter, and places of others are rounded to this.
-    private const double FarBalls = 2;
-    private const double BallGrid = 0.25;
+    private const double SphereLimit = 2;
+    private const double SphereGrid = 0.25;
 
     /// <summary>World space.</summary>
     /// <param name="scene">As it was loaded.</param>
-    /// <param name="boxes">Of its objects, where they are now.</param>
-    /// <param name="balls">Beside them.</param>
-    public static BoundingBox Of(DrawableScene scene, ReadOnlySpan<BoundingBox> boxes, IReadOnlyList<LooseBall> balls)
+    /// <param name="objectBounds">Of its objects, where they are now.</param>
+    /// <param name="spheres">Beside them.</param>
+    public static BoundingBox Compute(DrawableScene scene, ReadOnlySpan<BoundingBox> objectBounds, IReadOnlyList<SphereInstance> spheres)
     {
-        var (box, moves) = (BoundingBox.Empty, false);
-        for (var i = 0; i < boxes.Length; i++)
+        var (bounds, hasDynamicObjects) = (BoundingBox.Empty, false);
+        for (var i = 0; i < objectBounds.Length; i++)
         {
-            moves |= scene.Objects[i].IsMoving;
-            box = scene.Objects[i].IsMoving ? box : BoundingBox.Union(box, boxes[i]);
+            hasDynamicObjects |= scene.Objects[i].IsDynamic;
+            bounds = scene.Objects[i].IsDynamic ? bounds : BoundingBox.Union(bounds, objectBounds[i]);
         }
 
-        var whole = scene.Source.Bounds;
-        box = moves ? BoundingBox.Union(box, Around(whole, Margin)) : box;
-        var (far, grid) = (Around(whole, FarBalls), BallGrid * whole.Diagonal);
-        foreach (var (centre, radius) in balls)
+        var sceneBounds = scene.Source.Bounds;
+        bounds = hasDynamicObjects ? BoundingBox.Union(bounds, Enlarge(sceneBounds, DynamicMargin)) : bounds;
+        var (sphereLimits, grid) = (Enlarge(sceneBounds, SphereLimit), SphereGrid * sceneBounds.Diagonal);
+        foreach (var (centre, radius) in spheres)
         {
-            var reach = radius * Vector.One;
-            box = far.DistanceSquared(centre) > 0 || !(grid > 0) ? box : BoundingBox.Union(box, new(Down(centre - reach, grid), -Down(-centre - reach, grid)));
+            var extent = radius * Vector.One;
+            bounds = sphereLimits.DistanceSquared(centre) > 0 || !(grid > 0) ? bounds : BoundingBox.Union(bounds, new(RoundDown(centre - extent, grid), -RoundDown(-centre - extent, grid)));
         }
 
-        return box;
+        return bounds;
     }
 
-    private static BoundingBox Around(BoundingBox box, double sizes) => new(box.Minimum - (sizes * box.Size), box.Maximum + (sizes * box.Size));
+    private static BoundingBox Enlarge(BoundingBox box, double factor) => new(box.Minimum - (factor * box.Size), box.Maximum + (factor * box.Size));
 
-    private static Vector Down(Vector v, double grid) => new(grid * Math.Floor(v.X / grid), grid * Math.Floor(v.Y / grid), grid * Math.Floor(v.Z / grid));
+    private static Vector RoundDown(Vector v, double grid) => new(grid * Math.Floor(v.X / grid), grid * Math.Floor(v.Y / grid), grid * Math.Floor(v.Z / grid));
 }

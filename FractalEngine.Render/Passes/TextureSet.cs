@@ -6,7 +6,7 @@ namespace FractalEngine.Render.Passes;
 /// <summary>The pictures of a scene on the GPU, each once.</summary>
 internal sealed class TextureSet : IDisposable
 {
-    private readonly Dictionary<DrawableTexture, PictureTexture> _textures = new(ReferenceEqualityComparer.Instance);
+    private readonly Dictionary<DrawableTexture, SrgbTexture> _textures = new(ReferenceEqualityComparer.Instance);
 
     /// <summary>Uploads the pictures that are not there yet.</summary>
     /// <exception cref="GlException">One is beyond the driver, or the memory does not suffice. Those before it stay until all are disposed.</exception>

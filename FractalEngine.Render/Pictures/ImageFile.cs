@@ -5,7 +5,7 @@ namespace FractalEngine.Render.Pictures;
 /// <summary>Reads and writes pictures with SDL2_image.</summary>
 public static class ImageFile
 {
-    private const string Advice =
+    private const string InstallHint =
         "pictures need SDL2_image (Debian: libsdl2-image-2.0-0; Windows: SDL2.dll and SDL2_image.dll beside the program; macOS: brew install sdl2_image)";
 
     /// <summary>Writes a PNG file. An existing file is replaced only once the new one is complete.</summary>
@@ -14,22 +14,22 @@ public static class ImageFile
     /// <exception cref="IOException">The file can't be written, or SDL2_image is missing.</exception>
     public static void SavePng(PixelImage image, string path)
     {
-        var temporary = $"{path}.{Guid.NewGuid():N}.tmp";
+        var temporaryPath = $"{path}.{Guid.NewGuid():N}.tmp";
         try
         {
-            Write(image, path, temporary);
-            File.Move(temporary, path, overwrite: true);
+            Write(image, path, temporaryPath);
+            File.Move(temporaryPath, path, overwrite: true);
         }
         catch (Exception exception) when (exception is DllNotFoundException or EntryPointNotFoundException)
         {
-            throw new IOException($"{path} can't be written: {Advice}", exception);
+            throw new IOException($"{path} can't be written: {InstallHint}", exception);
         }
         finally
         {
             // Gone after the move; not there at all where its directory is missing.
-            if (File.Exists(temporary))
+            if (File.Exists(temporaryPath))
             {
-                File.Delete(temporary);
+                File.Delete(temporaryPath);
             }
         }
     }
@@ -44,25 +44,25 @@ public static class ImageFile
         }
         catch (Exception exception) when (exception is DllNotFoundException or EntryPointNotFoundException)
         {
-            throw new IOException($"{path} can't be read: {Advice}", exception);
+            throw new IOException($"{path} can't be read: {InstallHint}", exception);
         }
     }
 
-    private static unsafe void Write(PixelImage image, string path, string temporary)
+    private static unsafe void Write(PixelImage image, string path, string temporaryPath)
     {
         fixed (byte* pixels = image.Pixels)
         {
-            var surface = SdlImage.CreateSurfaceFrom((IntPtr)pixels, image.Width, image.Height, 32, 4 * image.Width, SdlImage.Rgba);
+            var surface = SdlImage.CreateSurfaceFrom((IntPtr)pixels, image.Width, image.Height, 32, 4 * image.Width, SdlImage.RgbaFormat);
             if (surface == IntPtr.Zero)
             {
-                throw new IOException($"{path} can't be written: {SdlImage.ErrorText().Replace(temporary, path, StringComparison.Ordinal)}");
+                throw new IOException($"{path} can't be written: {SdlImage.ErrorText().Replace(temporaryPath, path, StringComparison.Ordinal)}");
             }
 
             try
             {
-                if (SdlImage.SavePng(surface, temporary) != 0)
+                if (SdlImage.SavePng(surface, temporaryPath) != 0)
                 {
-                    throw new IOException($"{path} can't be written: {SdlImage.ErrorText().Replace(temporary, path, StringComparison.Ordinal)}");
+                    throw new IOException($"{path} can't be written: {SdlImage.ErrorText().Replace(temporaryPath, path, StringComparison.Ordinal)}");
                 }
             }
             finally
@@ -80,7 +80,7 @@ public static class ImageFile
             throw new IOException($"{path} can't be read: {SdlImage.ErrorText()}");
         }
 
-        var surface = SdlImage.ConvertSurface(loaded, SdlImage.Rgba, 0);
+        var surface = SdlImage.ConvertSurface(loaded, SdlImage.RgbaFormat, 0);
         SdlImage.FreeSurface(loaded);
         if (surface == IntPtr.Zero)
         {

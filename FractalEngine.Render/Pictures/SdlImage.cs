@@ -6,7 +6,7 @@ namespace FractalEngine.Render.Pictures;
 internal static partial class SdlImage
 {
     /// <summary>SDL's format whose bytes are red, green, blue, alpha in memory on little-endian machines (SDL_PIXELFORMAT_ABGR8888).</summary>
-    public const uint Rgba = 0x16762004;
+    public const uint RgbaFormat = 0x16762004;
 
     [LibraryImport("SDL2", EntryPoint = "SDL_CreateRGBSurfaceWithFormatFrom")]
     public static partial IntPtr CreateSurfaceFrom(IntPtr pixels, int width, int height, int depth, int pitch, uint format);

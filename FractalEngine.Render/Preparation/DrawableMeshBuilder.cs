@@ -17,35 +17,35 @@ internal static class DrawableMeshBuilder
     public static (float[] Vertices, float[] TextureCoordinates, uint[] Indices) Build(
         Mesh mesh, Vector origin, double creaseAngle, FaceBatches batches)
     {
-        var given = mesh.NormalFaces.Length == 0 ? [] : mesh.NormalFaces.AsSpan();
-        var generated = given.Length > 0 && !given.Contains(-1) ? mesh : NormalGenerator.WithNormals(mesh, creaseAngle);
-        var vertices = new List<float>(mesh.VertexCount * DrawableModel.VertexFloats);
+        var fileNormalIndices = mesh.NormalIndices.Length == 0 ? [] : mesh.NormalIndices.AsSpan();
+        var meshWithNormals = fileNormalIndices.Length > 0 && !fileNormalIndices.Contains(-1) ? mesh : NormalGenerator.Generate(mesh, creaseAngle);
+        var vertices = new List<float>(mesh.VertexCount * DrawableModel.FloatsPerVertex);
         var (textureCoordinates, hasTextures) = (new List<float>(), batches.HasTextures);
         var indices = new uint[3 * batches.FaceCount];
-        var next = 0;
+        var nextIndex = 0;
         // The vertices made of one position are few: a list through this array, searched from its first.
-        var firstOfPosition = new int[mesh.VertexCount];
-        Array.Fill(firstOfPosition, -1);
-        var made = new List<((Vector Normal, (double U, double V) Texture) Key, int Next)>(mesh.VertexCount);
-        for (var place = 0; place < indices.Length / 3; place++)
+        var firstVertexOfPosition = new int[mesh.VertexCount];
+        Array.Fill(firstVertexOfPosition, -1);
+        var builtVertices = new List<((Vector Normal, (double U, double V) Texture) Key, int Next)>(mesh.VertexCount);
+        for (var drawIndex = 0; drawIndex < indices.Length / 3; drawIndex++)
         {
-            var face = batches.FaceAt(place);
+            var face = batches.FaceAt(drawIndex);
             var (a, b, c) = mesh.Face(face);
             var faceNormal = Vector.Cross(b - a, c - a);
             for (var corner = 3 * face; corner < (3 * face) + 3; corner++)
             {
-                var normal = given.Length > 0 && given[corner] >= 0
-                    ? Given(mesh, given[corner], faceNormal)
-                    : NormalAt(generated, generated.NormalFaces[corner]);
-                var texture = hasTextures ? TextureAt(mesh, corner) : default;
-                ref var first = ref firstOfPosition[mesh.Faces[corner]];
-                var vertex = Find(made, first, (normal, texture));
+                var normal = fileNormalIndices.Length > 0 && fileNormalIndices[corner] >= 0
+                    ? OrientedNormal(mesh, fileNormalIndices[corner], faceNormal)
+                    : NormalAt(meshWithNormals, meshWithNormals.NormalIndices[corner]);
+                var texture = hasTextures ? TextureCoordinatesAt(mesh, corner) : default;
+                ref var first = ref firstVertexOfPosition[mesh.VertexIndices[corner]];
+                var vertex = FindVertex(builtVertices, first, (normal, texture));
                 if (vertex < 0)
                 {
-                    vertex = made.Count;
-                    made.Add(((normal, texture), first));
+                    vertex = builtVertices.Count;
+                    builtVertices.Add(((normal, texture), first));
                     first = vertex;
-                    Write(vertices, mesh.Vertex(mesh.Faces[corner]) - origin);
+                    Write(vertices, mesh.Vertex(mesh.VertexIndices[corner]) - origin);
                     Write(vertices, normal);
                     if (hasTextures)
                     {
@@ -54,25 +54,25 @@ internal static class DrawableMeshBuilder
                     }
                 }
 
-                indices[next++] = (uint)vertex;
+                indices[nextIndex++] = (uint)vertex;
             }
         }
 
         return ([.. vertices], [.. textureCoordinates], indices);
     }
 
-    private static (double U, double V) TextureAt(Mesh mesh, int corner) =>
-        mesh.TextureFaces.Length > 0 && mesh.TextureFaces[corner] is >= 0 and var number
-            ? (mesh.TextureCoordinates[2 * number], mesh.TextureCoordinates[(2 * number) + 1])
+    private static (double U, double V) TextureCoordinatesAt(Mesh mesh, int corner) =>
+        mesh.TextureIndices.Length > 0 && mesh.TextureIndices[corner] is >= 0 and var index
+            ? (mesh.TextureCoordinates[2 * index], mesh.TextureCoordinates[(2 * index) + 1])
             : default;
 
-    private static int Find(
-        List<((Vector Normal, (double U, double V) Texture) Key, int Next)> made, int first, (Vector Normal, (double U, double V) Texture) key)
+    private static int FindVertex(
+        List<((Vector Normal, (double U, double V) Texture) Key, int Next)> builtVertices, int first, (Vector Normal, (double U, double V) Texture) key)
     {
         var vertex = first;
-        while (vertex >= 0 && made[vertex].Key != key)
+        while (vertex >= 0 && builtVertices[vertex].Key != key)
         {
-            vertex = made[vertex].Next;
+            vertex = builtVertices[vertex].Next;
         }
 
         return vertex;
@@ -82,14 +82,14 @@ internal static class DrawableMeshBuilder
     /// A normal of the file as a unit vector. Some files hold normals that oppose the winding; which side of a face is lit follows
     /// the winding, so they are turned round.
     /// </summary>
-    private static Vector Given(Mesh mesh, int number, Vector faceNormal)
+    private static Vector OrientedNormal(Mesh mesh, int index, Vector faceNormal)
     {
-        var normal = NormalAt(mesh, number);
+        var normal = NormalAt(mesh, index);
         return Vector.Dot(normal, faceNormal) < 0 ? -normal : normal;
     }
 
-    private static Vector NormalAt(Mesh mesh, int number) => number < 0 ? Vector.Zero
-        : new Vector(mesh.Normals[3 * number], mesh.Normals[(3 * number) + 1], mesh.Normals[(3 * number) + 2]) switch
+    private static Vector NormalAt(Mesh mesh, int index) => index < 0 ? Vector.Zero
+        : new Vector(mesh.Normals[3 * index], mesh.Normals[(3 * index) + 1], mesh.Normals[(3 * index) + 2]) switch
         {
             var normal when normal.IsFinite() && normal != Vector.Zero => normal.UnitVector(),
             _ => Vector.Zero,

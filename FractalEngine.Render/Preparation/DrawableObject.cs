@@ -18,7 +18,7 @@ public sealed record DrawableObject(string Name, DrawableModel Model, AffineMap 
     /// True for a mesh that physics moves. It is drawn whole wherever it is: what is chosen of all other objects does not depend on it, and stays as it is while
     /// only such objects move.
     /// </summary>
-    public bool IsMoving { get; init; }
+    public bool IsDynamic { get; init; }
 
     /// <summary>How the instances of a fractal differ from <see cref="Colour"/>; null for not at all.</summary>
     public Gradient? Gradient { get; init; }

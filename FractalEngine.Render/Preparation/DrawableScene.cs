@@ -14,8 +14,8 @@ namespace FractalEngine.Render.Preparation;
 public sealed class DrawableScene
 {
     // With fewer copies, leaving out what is not seen saves less than finding out that it is not.
-    private const int CheckedInstances = 100;
-    private const int CheckedFaces = 256;
+    private const int MinInstancesForSolidTest = 100;
+    private const int MaxFacesForSolidTest = 256;
 
     private DrawableScene(
         LoadedScene source, ImmutableArray<DrawableModel> models, ImmutableArray<DrawableObject> objects, ImmutableArray<string> notices) =>
@@ -61,30 +61,30 @@ public sealed class DrawableScene
     }
 
     /// <summary>A scene whose models are boxes.</summary>
-    internal static DrawableScene Outline(LoadedScene scene)
+    internal static DrawableScene CreateWithPlaceholders(LoadedScene scene)
     {
-        var models = scene.Models.ToDictionary(model => model, Placeholder, ReferenceEqualityComparer.Instance as IEqualityComparer<Model>);
+        var models = scene.Models.ToDictionary(model => model, CreatePlaceholder, ReferenceEqualityComparer.Instance as IEqualityComparer<Model>);
         return new(
             scene,
             [.. scene.Models.Select(model => models[model])],
-            [.. scene.Objects.Select((placed, index) => new DrawableObject(
-                placed.Declaration.Name ?? models[placed.Model].Name,
-                models[placed.Model],
-                placed.Map,
-                placed.Declaration.Colour ?? ObjectPalette.ColourOf(index))
+            [.. scene.Objects.Select((instance, index) => new DrawableObject(
+                instance.Declaration.Name ?? models[instance.Model].Name,
+                models[instance.Model],
+                instance.ObjectToWorld,
+                instance.Declaration.Colour ?? ObjectPalette.ColourOf(index))
             {
-                Tint = placed.Declaration.Colour ?? Colour.White,
-                Gradient = placed.Declaration.Gradient,
-                IsMoving = placed is { Declaration: PhysicsObject, Model: MeshModel },
+                Tint = instance.Declaration.Colour ?? Colour.White,
+                Gradient = instance.Declaration.Gradient,
+                IsDynamic = instance is { Declaration: PhysicsObject, Model: MeshModel },
             })],
             []);
     }
 
     /// <summary>The scene with one of its models in the place of another.</summary>
-    internal DrawableScene With(DrawableModel before, DrawableModel now, ImmutableArray<DrawableTexture> textures, ImmutableArray<string> notices) => new(
+    internal DrawableScene WithModel(DrawableModel oldModel, DrawableModel newModel, ImmutableArray<DrawableTexture> textures, ImmutableArray<string> notices) => new(
         Source,
-        [.. Models.Select(model => model == before ? now : model)],
-        [.. Objects.Select(item => item.Model == before ? item with { Model = now } : item)],
+        [.. Models.Select(model => model == oldModel ? newModel : model)],
+        [.. Objects.Select(item => item.Model == oldModel ? item with { Model = newModel } : item)],
         notices)
     {
         Textures = textures,
@@ -100,38 +100,38 @@ public sealed class DrawableScene
             return new(name, Vector.Zero, BoundingBox.Empty, [], [], []);
         }
 
-        var detail = settings.Detail is null ? null : TableOf(name, model, notices);
+        var hierarchy = settings.Culling is null ? null : TryBuildHierarchy(name, model, notices);
         var maps = ImmutableArray.Create(AffineMap.Identity);
-        if (detail is null && model is FractalModel { Fractal: var fractal })
+        if (hierarchy is null && model is FractalModel { Fractal: var fractal })
         {
-            (maps, var notice) = FractalInstances.Of(name, fractal, settings);
+            (maps, var notice) = FractalInstances.Expand(name, fractal, settings);
             if (notice is not null)
             {
                 notices.Add(notice);
             }
         }
 
-        var (origin, meshOrigin) = (MiddleOf(model.Bounds), MiddleOf(mesh.Bounds));
-        var batches = FaceBatches.Of(model, textures, settings.SkipsEmptyFaces);
+        var (origin, meshOrigin) = (CentreOrOrigin(model.Bounds), CentreOrOrigin(mesh.Bounds));
+        var batches = FaceBatches.Of(model, textures, settings.RemoveDegenerateTriangles);
         var (vertices, textureCoordinates, indices) = DrawableMeshBuilder.Build(mesh, meshOrigin, settings.CreaseAngle, batches);
         // What is transparent lets the inner sides of a solid be seen.
-        var isWorthIt = detail is not null ? model is FractalModel || mesh.FaceCount <= CheckedFaces : maps.Length >= CheckedInstances;
-        var meshSign = isWorthIt && !batches.Batches.Any(static batch => batch.IsTransparent) && ClosedSurface.IsSolid(mesh) ? 1 : 0;
-        var commonSign = detail is null ? CommonSign(maps) : CommonSign(model);
-        return new(name, origin, model.Bounds, vertices, indices, detail is null || model is MeshModel ? Rows(maps, meshOrigin, origin) : [])
+        var testsSolidity = hierarchy is not null ? model is FractalModel || mesh.FaceCount <= MaxFacesForSolidTest : maps.Length >= MinInstancesForSolidTest;
+        var meshWindingSign = testsSolidity && !batches.Batches.Any(static batch => batch.IsTransparent) && ClosedSurface.IsSolid(mesh) ? 1 : 0;
+        var instanceSign = hierarchy is null ? CommonDeterminantSign(maps) : CommonDeterminantSign(model);
+        return new(name, origin, model.Bounds, vertices, indices, hierarchy is null || model is MeshModel ? ToInstanceRows(maps, meshOrigin, origin) : [])
         {
-            Detail = detail,
+            LodHierarchy = hierarchy,
             MeshOrigin = meshOrigin,
             TextureCoordinates = textureCoordinates,
             Batches = batches.Batches,
-            EmptyFaces = batches.EmptyFaces,
-            MeshSolidSign = meshSign,
-            SolidSign = meshSign * commonSign,
+            DegenerateTriangleCount = batches.DegenerateTriangleCount,
+            MeshWindingSign = meshWindingSign,
+            WindingSign = meshWindingSign * instanceSign,
         };
     }
 
     /// <summary>The box that stands for a model until it is prepared.</summary>
-    private static DrawableModel Placeholder(Model model)
+    private static DrawableModel CreatePlaceholder(Model model)
     {
         var (name, box) = (Path.GetFileName(model.Path), model.Bounds);
         if (model.Mesh.FaceCount == 0 || box.IsEmpty || !box.Size.IsFinite())
@@ -139,13 +139,13 @@ public sealed class DrawableScene
             return new(name, Vector.Zero, BoundingBox.Empty, [], [], []) { IsPlaceholder = true };
         }
 
-        var mesh = BoxMesh(box);
+        var mesh = CreateBoxMesh(box);
         var batches = FaceBatches.Of(mesh);
         var (vertices, _, indices) = DrawableMeshBuilder.Build(mesh, box.Centre, 0, batches);
-        return new(name, box.Centre, box, vertices, indices, Rows([AffineMap.Identity], box.Centre, box.Centre)) { Batches = batches.Batches, IsPlaceholder = true };
+        return new(name, box.Centre, box, vertices, indices, ToInstanceRows([AffineMap.Identity], box.Centre, box.Centre)) { Batches = batches.Batches, IsPlaceholder = true };
     }
 
-    private static Mesh BoxMesh(BoundingBox box)
+    private static Mesh CreateBoxMesh(BoundingBox box)
     {
         var ((x1, y1, z1), (x2, y2, z2)) = (box.Minimum, box.Maximum);
         return new(
@@ -154,11 +154,11 @@ public sealed class DrawableScene
     }
 
     /// <summary>The levels that instances are chosen from; null where they have no bounds, so that instances must be written out.</summary>
-    private static DetailTable? TableOf(string name, Model model, ImmutableArray<string>.Builder notices)
+    private static LodHierarchy? TryBuildHierarchy(string name, Model model, ImmutableArray<string>.Builder notices)
     {
         try
         {
-            return model is FractalModel { Fractal: var fractal } ? DetailTable.Of(fractal) : DetailTable.Of(model.Mesh);
+            return model is FractalModel { Fractal: var fractal } ? LodHierarchy.Build(fractal) : LodHierarchy.Build(model.Mesh);
         }
         catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
         {
@@ -168,10 +168,10 @@ public sealed class DrawableScene
     }
 
     /// <summary>The sign that the determinants of all instances' maps have; 0 where it differs or depends on the depth.</summary>
-    private static int CommonSign(Model model) => model is not FractalModel { Fractal.Description.KeepsOrientation: false } ? 1 : 0;
+    private static int CommonDeterminantSign(Model model) => model is not FractalModel { Fractal.Description.PreservesOrientation: false } ? 1 : 0;
 
     /// <summary>The sign that the determinants of all maps have; 0 when they differ or one is flat.</summary>
-    private static int CommonSign(ImmutableArray<AffineMap> maps)
+    private static int CommonDeterminantSign(ImmutableArray<AffineMap> maps)
     {
         var sign = Math.Sign(maps[0].Linear.Determinant());
         foreach (ref readonly var map in maps.AsSpan())
@@ -186,21 +186,21 @@ public sealed class DrawableScene
     }
 
     /// <summary>The origin where there is no middle: an unbounded fractal has none.</summary>
-    private static Vector MiddleOf(BoundingBox box) => box.Centre is var centre && centre.IsFinite() ? centre : Vector.Zero;
+    private static Vector CentreOrOrigin(BoundingBox box) => box.Centre is var centre && centre.IsFinite() ? centre : Vector.Zero;
 
     /// <summary>The maps between the shifted frames, by rows. Shifted in double precision, before anything is rounded.</summary>
-    private static float[] Rows(ImmutableArray<AffineMap> maps, Vector meshOrigin, Vector origin)
+    private static float[] ToInstanceRows(ImmutableArray<AffineMap> maps, Vector meshOrigin, Vector origin)
     {
-        var rows = new float[maps.Length * DrawableModel.InstanceFloats];
-        var next = rows.AsSpan();
+        var rows = new float[maps.Length * DrawableModel.FloatsPerInstance];
+        var remaining = rows.AsSpan();
         foreach (ref readonly var map in maps.AsSpan())
         {
             var (v1, v2, v3) = map.Linear;
-            var t = (map * meshOrigin) - origin;
-            (next[0], next[1], next[2], next[3]) = ((float)v1.X, (float)v2.X, (float)v3.X, (float)t.X);
-            (next[4], next[5], next[6], next[7]) = ((float)v1.Y, (float)v2.Y, (float)v3.Y, (float)t.Y);
-            (next[8], next[9], next[10], next[11]) = ((float)v1.Z, (float)v2.Z, (float)v3.Z, (float)t.Z);
-            next = next[DrawableModel.InstanceFloats..];
+            var translation = (map * meshOrigin) - origin;
+            (remaining[0], remaining[1], remaining[2], remaining[3]) = ((float)v1.X, (float)v2.X, (float)v3.X, (float)translation.X);
+            (remaining[4], remaining[5], remaining[6], remaining[7]) = ((float)v1.Y, (float)v2.Y, (float)v3.Y, (float)translation.Y);
+            (remaining[8], remaining[9], remaining[10], remaining[11]) = ((float)v1.Z, (float)v2.Z, (float)v3.Z, (float)translation.Z);
+            remaining = remaining[DrawableModel.FloatsPerInstance..];
         }
 
         return rows;

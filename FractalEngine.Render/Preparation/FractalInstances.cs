@@ -13,7 +13,7 @@ internal sealed record FractalInstances(ImmutableArray<AffineMap> Maps, string? 
     /// <param name="name">The file's name, for the notice.</param>
     /// <param name="fractal">Any fractal, infinite ones too.</param>
     /// <param name="settings">Instance and triangle budget.</param>
-    public static FractalInstances Of(string name, Fractal fractal, RenderSettings settings)
+    public static FractalInstances Expand(string name, Fractal fractal, RenderSettings settings)
     {
         var faces = fractal.BaseMesh.FaceCount;
         if (faces == 0)
@@ -22,19 +22,19 @@ internal sealed record FractalInstances(ImmutableArray<AffineMap> Maps, string? 
         }
 
         var budget = Math.Clamp(settings.TriangleBudget / faces, 1, Math.Max(1, settings.InstanceBudget));
-        if (TryExpandComponentwise(fractal, budget) is { } sums)
+        if (TryExpandComponentwise(fractal, budget) is { } componentwiseMaps)
         {
-            return new(sums, null);
+            return new(componentwiseMaps, null);
         }
 
-        var within = fractal.Within(budget);
+        var truncated = fractal.WithMaxInstances(budget);
         return new(
-            FractalGenerator.Expand(within, budget),
-            ReferenceEquals(within, fractal) ? null : NoticeOf(name, fractal, within, budget));
+            FractalGenerator.Expand(truncated, budget),
+            ReferenceEquals(truncated, fractal) ? null : FormatNotice(name, fractal, truncated, budget));
     }
 
     /// <summary>
-    /// Componentwise sums are far fewer than the chains that <see cref="Fractal.Within"/> counts, so the whole fractal is tried first.
+    /// Componentwise sums are far fewer than the chains that <see cref="Fractal.WithMaxInstances"/> counts, so the whole fractal is tried first.
     /// </summary>
     private static ImmutableArray<AffineMap>? TryExpandComponentwise(Fractal fractal, long budget)
     {
@@ -54,22 +54,22 @@ internal sealed record FractalInstances(ImmutableArray<AffineMap> Maps, string? 
         }
     }
 
-    private static string NoticeOf(string name, Fractal fractal, Fractal within, long budget) =>
-        $"{name}: {DecimalText.Approximate(fractal.InstanceCount)} instances are more than the budget of {DecimalText.Approximate(budget)}: drawn at {Depth(fractal, within)}";
+    private static string FormatNotice(string name, Fractal fractal, Fractal truncated, long budget) =>
+        $"{name}: {DecimalText.FormatApproximately(fractal.InstanceCount)} instances are more than the budget of {DecimalText.FormatApproximately(budget)}: drawn at {FormatDepth(fractal, truncated)}";
 
     /// <summary>In rounds where one repetition was cut short, else in levels.</summary>
-    private static string Depth(Fractal fractal, Fractal within)
+    private static string FormatDepth(Fractal fractal, Fractal truncated)
     {
-        var (before, after) = (fractal.Description.Steps, within.Description.Steps);
-        if (before.Length == after.Length)
+        var (fullSteps, truncatedSteps) = (fractal.Description.Steps, truncated.Description.Steps);
+        if (fullSteps.Length == truncatedSteps.Length)
         {
-            var changed = Enumerable.Range(0, before.Length).Where(i => !ReferenceEquals(before[i], after[i])).ToArray();
-            if (changed is [var only] && (before[only], after[only]) is (Repetition { Count: var whole }, Repetition { Count: var part }))
+            var changedSteps = Enumerable.Range(0, fullSteps.Length).Where(i => !ReferenceEquals(fullSteps[i], truncatedSteps[i])).ToArray();
+            if (changedSteps is [var changedStep] && (fullSteps[changedStep], truncatedSteps[changedStep]) is (Repetition { Count: var fullCount }, Repetition { Count: var truncatedCount }))
             {
-                return $"depth {DecimalText.Approximate(part)} of {DecimalText.Approximate(whole)}";
+                return $"depth {DecimalText.FormatApproximately(truncatedCount)} of {DecimalText.FormatApproximately(fullCount)}";
             }
         }
 
-        return $"{DecimalText.Approximate(within.LevelCount)} of {DecimalText.Approximate(fractal.LevelCount)} levels";
+        return $"{DecimalText.FormatApproximately(truncated.LevelCount)} of {DecimalText.FormatApproximately(fractal.LevelCount)} levels";
     }
 }

@@ -22,7 +22,7 @@ public sealed class ScenePreparation
     public ScenePreparation(LoadedScene scene, RenderSettings settings)
     {
         (_scene, _settings, _models) = (scene, settings, [.. scene.Models]);
-        (_textures, _prepared, Scene) = (new(_notices, settings.SharesTextures), new DrawableModel?[_models.Length], DrawableScene.Outline(scene));
+        (_textures, _prepared, Scene) = (new(_notices, settings.ShareTextures), new DrawableModel?[_models.Length], DrawableScene.CreateWithPlaceholders(scene));
     }
 
     /// <summary>As far as it is prepared.</summary>
@@ -44,15 +44,15 @@ public sealed class ScenePreparation
     /// <param name="cancellation">Looked at between models.</param>
     /// <exception cref="OperationCanceledException">Preparation was cancelled.</exception>
     /// <returns>True when there was any.</returns>
-    public bool PrepareInSight(View view, double aspect, IProgress<PreparationProgress>? progress = null, CancellationToken cancellation = default) =>
-        Prepare(model => IsInSight(model, view, aspect), progress, cancellation);
+    public bool PrepareVisible(View view, double aspect, IProgress<PreparationProgress>? progress = null, CancellationToken cancellation = default) =>
+        Prepare(model => IsVisible(model, view, aspect), progress, cancellation);
 
     /// <summary>True when an object is in sight whose model is not prepared yet.</summary>
-    public bool NeedsPreparation(View view, double aspect)
+    public bool HasUnpreparedVisibleModels(View view, double aspect)
     {
         for (var i = 0; i < _models.Length; i++)
         {
-            if (_prepared[i] is null && IsInSight(_models[i], view, aspect))
+            if (_prepared[i] is null && IsVisible(_models[i], view, aspect))
             {
                 return true;
             }
@@ -61,11 +61,11 @@ public sealed class ScenePreparation
         return false;
     }
 
-    private bool IsInSight(Model model, View view, double aspect)
+    private bool IsVisible(Model model, View view, double aspect)
     {
         foreach (var placed in _scene.Objects)
         {
-            if (ReferenceEquals(placed.Model, model) && view.MaySee(placed.Bounds, aspect))
+            if (ReferenceEquals(placed.Model, model) && view.MayIntersectFrustum(placed.Bounds, aspect))
             {
                 return true;
             }
@@ -74,21 +74,21 @@ public sealed class ScenePreparation
         return false;
     }
 
-    private bool Prepare(Func<Model, bool> isWanted, IProgress<PreparationProgress>? progress, CancellationToken cancellation)
+    private bool Prepare(Func<Model, bool> isSelected, IProgress<PreparationProgress>? progress, CancellationToken cancellation)
     {
-        int[] wanted = [.. Enumerable.Range(0, _models.Length).Where(i => _prepared[i] is null && isWanted(_models[i]))];
-        for (var done = 0; done < wanted.Length; done++)
+        int[] selectedIndices = [.. Enumerable.Range(0, _models.Length).Where(i => _prepared[i] is null && isSelected(_models[i]))];
+        for (var completed = 0; completed < selectedIndices.Length; completed++)
         {
             cancellation.ThrowIfCancellationRequested();
-            var index = wanted[done];
+            var index = selectedIndices[completed];
             var name = Path.GetFileName(_models[index].Path);
-            progress?.Report(new(name, (double)done / wanted.Length));
-            var before = Scene.Models[index];
-            var now = DrawableScene.PrepareModel(_models[index], _settings, _textures, _notices);
-            (_prepared[index], Scene) = (now, Scene.With(before, now, [.. _textures.Textures], _notices.ToImmutable()));
-            progress?.Report(new(name, (done + 1.0) / wanted.Length));
+            progress?.Report(new(name, (double)completed / selectedIndices.Length));
+            var placeholder = Scene.Models[index];
+            var prepared = DrawableScene.PrepareModel(_models[index], _settings, _textures, _notices);
+            (_prepared[index], Scene) = (prepared, Scene.WithModel(placeholder, prepared, [.. _textures.Textures], _notices.ToImmutable()));
+            progress?.Report(new(name, (completed + 1.0) / selectedIndices.Length));
         }
 
-        return wanted.Length > 0;
+        return selectedIndices.Length > 0;
     }
 }

@@ -6,8 +6,8 @@ namespace FractalEngine.Render.Preparation;
 
 /// <summary>Decodes the pictures of materials, each file once unless told otherwise. What can't be decoded is drawn grey, and said so.</summary>
 /// <param name="notices">Receives what can't be decoded.</param>
-/// <param name="isShared">Whether models share pictures; otherwise each material of each model has one of its own.</param>
-internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool isShared)
+/// <param name="shareTextures">Whether models share pictures; otherwise each material of each model has one of its own.</param>
+internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool shareTextures)
 {
     private readonly List<DrawableTexture> _decoded = [];
     private readonly Dictionary<string, DrawableTexture?> _textures = [];
@@ -17,23 +17,23 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
     public IReadOnlyList<DrawableTexture> Textures => _decoded;
 
     /// <summary>A material with its picture; the same one for equal materials.</summary>
-    public DrawableMaterial Of(Material material)
+    public DrawableMaterial GetMaterial(Material material)
     {
-        if (isShared && _materials.TryGetValue(material, out var known))
+        if (shareTextures && _materials.TryGetValue(material, out var cached))
         {
-            return known;
+            return cached;
         }
 
         var texture = material.Texture is { Path: var path } ? Load(path) : null;
-        return _materials[material] = new(material.Texture is not null && texture is null ? material.WithoutPicture() : material, texture);
+        return _materials[material] = new(material.Texture is not null && texture is null ? material.WithoutTexture() : material, texture);
     }
 
     private DrawableTexture? Load(string path)
     {
         // What can't be decoded is said once.
-        if (_textures.TryGetValue(path, out var known) && (isShared || known is null))
+        if (_textures.TryGetValue(path, out var cached) && (shareTextures || cached is null))
         {
-            return known;
+            return cached;
         }
 
         try

@@ -17,7 +17,7 @@ internal sealed class GlyphAtlas
     /// <exception cref="InvalidDataException">The file is not such an atlas.</exception>
     public static GlyphAtlas Load()
     {
-        using var file = EmbeddedFile.Open("Ui/mono.atlas");
+        using var file = EmbeddedResource.Open("Ui/mono.atlas");
         Span<byte> magic = stackalloc byte[4];
         file.ReadExactly(magic);
         if (!magic.SequenceEqual("FGA1"u8))

@@ -7,23 +7,23 @@ namespace FractalEngine.Render.Ui;
 /// <param name="Coverage">One cell under the other, [glyphs × height × width].</param>
 internal sealed record GlyphSheet(int CellWidth, int CellHeight, int Baseline, byte[] Coverage)
 {
-    /// <summary>Cells side by side in <see cref="Arranged"/>.</summary>
+    /// <summary>Cells side by side in <see cref="ToTexels"/>.</summary>
     public const int Columns = 16;
 
-    /// <summary>Rows of cells in <see cref="Arranged"/>.</summary>
+    /// <summary>Rows of cells in <see cref="ToTexels"/>.</summary>
     public int Rows => ((Coverage.Length / (CellWidth * CellHeight)) + Columns - 1) / Columns;
 
     /// <summary>The cells in rows of <see cref="Columns"/>, as a texture that no driver finds too tall.</summary>
-    public byte[] Arranged()
+    public byte[] ToTexels()
     {
-        var (stride, cell) = (Columns * CellWidth, CellWidth * CellHeight);
+        var (stride, cellSize) = (Columns * CellWidth, CellWidth * CellHeight);
         var texels = new byte[stride * Rows * CellHeight];
-        for (var glyph = 0; glyph < Coverage.Length / cell; glyph++)
+        for (var glyph = 0; glyph < Coverage.Length / cellSize; glyph++)
         {
             var corner = (glyph / Columns * CellHeight * stride) + (glyph % Columns * CellWidth);
             for (var y = 0; y < CellHeight; y++)
             {
-                Coverage.AsSpan((glyph * cell) + (y * CellWidth), CellWidth).CopyTo(texels.AsSpan(corner + (y * stride)));
+                Coverage.AsSpan((glyph * cellSize) + (y * CellWidth), CellWidth).CopyTo(texels.AsSpan(corner + (y * stride)));
             }
         }
 

@@ -4,19 +4,19 @@ namespace FractalEngine.Render.Ui;
 internal sealed class OverlayLayout
 {
     // At 720 rows of pixels the text is 16 pixels high; it grows with the picture.
-    private const double RowsOfText = 45;
-    private const double ColumnsOfText = 78;
+    private const double TextRows = 45;
+    private const double TextColumns = 78;
 
     private static readonly (float, float, float, float) PanelColour = (0.055f, 0.065f, 0.085f, 0.74f);
     private static readonly (float, float, float, float) TrackColour = (1, 1, 1, 0.14f);
     private static readonly (float, float, float, float) BarColour = (0.42f, 0.71f, 0.93f, 1);
 
     private readonly GlyphAtlas _atlas;
-    private readonly (int Width, int Height) _size;
-    private readonly Dictionary<OverlayAnchor, int> _stacked = [];
+    private readonly (int Width, int Height) _frameSize;
+    private readonly Dictionary<OverlayAnchor, int> _stackedHeights = [];
 
     private OverlayLayout(GlyphAtlas atlas, int sheet, int width, int height) =>
-        (_atlas, SheetIndex, _size) = (atlas, sheet, (width, height));
+        (_atlas, SheetIndex, _frameSize) = (atlas, sheet, (width, height));
 
     /// <summary>The number of the sheet that the glyphs are taken from.</summary>
     public int SheetIndex { get; }
@@ -43,7 +43,7 @@ internal sealed class OverlayLayout
             var fits = true;
             foreach (var panel in panels)
             {
-                fits &= layout.Add(panel);
+                fits &= layout.AddPanel(panel);
             }
 
             // What does not fit at the smallest size either is cut off by the picture's edge.
@@ -56,17 +56,17 @@ internal sealed class OverlayLayout
 
     private static int PreferredSheet(GlyphAtlas atlas, int width, int height)
     {
-        var lineHeight = 1.2 * Math.Min(height / RowsOfText, width / ColumnsOfText);
-        var best = 0;
+        var lineHeight = 1.2 * Math.Min(height / TextRows, width / TextColumns);
+        var closest = 0;
         for (var i = 1; i < atlas.Sheets.Count; i++)
         {
-            if (Math.Abs(atlas.Sheets[i].CellHeight - lineHeight) < Math.Abs(atlas.Sheets[best].CellHeight - lineHeight))
+            if (Math.Abs(atlas.Sheets[i].CellHeight - lineHeight) < Math.Abs(atlas.Sheets[closest].CellHeight - lineHeight))
             {
-                best = i;
+                closest = i;
             }
         }
 
-        return best;
+        return closest;
     }
 
     private static (float, float, float, float) ColourOf(OverlayTone tone) => tone switch
@@ -78,40 +78,40 @@ internal sealed class OverlayLayout
     };
 
     /// <returns>False when the panel is larger than the picture.</returns>
-    private bool Add(OverlayPanel panel)
+    private bool AddPanel(OverlayPanel panel)
     {
-        var (cell, line) = (Sheet.CellWidth, Sheet.CellHeight);
+        var (cellWidth, lineHeight) = (Sheet.CellWidth, Sheet.CellHeight);
         var lines = Wrap(panel.Lines);
-        var firstColumn = lines.Where(item => item.Second is not null).Select(item => item.Text.Length + 2).DefaultIfEmpty(0).Max();
-        var columns = lines.Select(item => item.Second is null ? item.Text.Length : firstColumn + item.Second.Length)
+        var firstColumn = lines.Where(row => row.SecondColumn is not null).Select(row => row.Text.Length + 2).DefaultIfEmpty(0).Max();
+        var columns = lines.Select(row => row.SecondColumn is null ? row.Text.Length : firstColumn + row.SecondColumn.Length)
             .Append(panel.Title?.Length ?? 0).Append(panel.Progress is null ? 0 : 32).Max();
-        var width = (columns * cell) + (2 * Padding);
-        var titleHeight = panel.Title is null ? 0 : line + (line / 3);
-        var barHeight = panel.Progress is null ? 0 : line;
-        var height = titleHeight + (lines.Count * line) + barHeight + (2 * Padding * 3 / 4);
+        var width = (columns * cellWidth) + (2 * Padding);
+        var titleHeight = panel.Title is null ? 0 : lineHeight + (lineHeight / 3);
+        var barHeight = panel.Progress is null ? 0 : lineHeight;
+        var height = titleHeight + (lines.Count * lineHeight) + barHeight + (2 * Padding * 3 / 4);
 
-        var (x, y) = Place(panel.Anchor, width, height);
-        Quads.Add(new(x, y, width, height, PanelColour, -1, 0.4f * line));
+        var (x, y) = AllocatePosition(panel.Anchor, width, height);
+        Quads.Add(new(x, y, width, height, PanelColour, -1, 0.4f * lineHeight));
         var (left, top) = (x + Padding, y + (Padding * 3 / 4));
         if (panel.Title is not null)
         {
-            Write(panel.Title, left, top, OverlayTone.Accent);
+            AddText(panel.Title, left, top, OverlayTone.Accent);
             top += titleHeight;
         }
 
-        foreach (var item in lines)
+        foreach (var row in lines)
         {
-            Write(item.Text, left, top, item.Second is null ? item.Tone : OverlayTone.Accent);
-            Write(item.Second ?? "", left + (firstColumn * cell), top, item.Tone);
-            top += line;
+            AddText(row.Text, left, top, row.SecondColumn is null ? row.Tone : OverlayTone.Accent);
+            AddText(row.SecondColumn ?? "", left + (firstColumn * cellWidth), top, row.Tone);
+            top += lineHeight;
         }
 
         if (panel.Progress is { } progress)
         {
-            AddBar(left, top + (line / 2), width - (2 * Padding), Math.Max(3, line / 4), progress);
+            AddBar(left, top + (lineHeight / 2), width - (2 * Padding), Math.Max(3, lineHeight / 4), progress);
         }
 
-        return width + (2 * Margin) <= _size.Width && _stacked[panel.Anchor] <= _size.Height;
+        return width + (2 * Margin) <= _frameSize.Width && _stackedHeights[panel.Anchor] <= _frameSize.Height;
     }
 
     private void AddBar(int x, int y, int width, int height, double progress)
@@ -125,21 +125,21 @@ internal sealed class OverlayLayout
     }
 
     /// <summary>The upper left corner of the next panel at an anchor.</summary>
-    private (int X, int Y) Place(OverlayAnchor anchor, int width, int height)
+    private (int X, int Y) AllocatePosition(OverlayAnchor anchor, int width, int height)
     {
-        var before = _stacked.GetValueOrDefault(anchor, Margin);
-        _stacked[anchor] = before + height + (Margin / 2);
+        var stackedHeight = _stackedHeights.GetValueOrDefault(anchor, Margin);
+        _stackedHeights[anchor] = stackedHeight + height + (Margin / 2);
         var x = anchor switch
         {
             OverlayAnchor.TopLeft or OverlayAnchor.BottomLeft => Margin,
-            OverlayAnchor.TopRight or OverlayAnchor.BottomRight => _size.Width - width - Margin,
-            _ => (_size.Width - width) / 2,
+            OverlayAnchor.TopRight or OverlayAnchor.BottomRight => _frameSize.Width - width - Margin,
+            _ => (_frameSize.Width - width) / 2,
         };
         var y = anchor switch
         {
-            OverlayAnchor.TopLeft or OverlayAnchor.TopRight => before,
-            OverlayAnchor.Centre => ((_size.Height - height) / 2) + before - Margin,
-            _ => _size.Height - height - before,
+            OverlayAnchor.TopLeft or OverlayAnchor.TopRight => stackedHeight,
+            OverlayAnchor.Centre => ((_frameSize.Height - height) / 2) + stackedHeight - Margin,
+            _ => _frameSize.Height - height - stackedHeight,
         };
         return (x, y);
     }
@@ -147,14 +147,14 @@ internal sealed class OverlayLayout
     /// <summary>Breaks lines of one column at blanks so that they fit the picture; a longer word is broken anywhere.</summary>
     private List<OverlayLine> Wrap(IReadOnlyList<OverlayLine> lines)
     {
-        var columns = Math.Max(8, (_size.Width - (2 * Margin) - (2 * Padding)) / Sheet.CellWidth);
+        var columns = Math.Max(8, (_frameSize.Width - (2 * Margin) - (2 * Padding)) / Sheet.CellWidth);
         var wrapped = new List<OverlayLine>();
-        foreach (var line in lines.SelectMany(line => line.Second is null
-            ? line.Text.Split('\n').Select(part => line with { Text = part })
+        foreach (var line in lines.SelectMany(line => line.SecondColumn is null
+            ? line.Text.Split('\n').Select(textLine => line with { Text = textLine })
             : [line]))
         {
             var rest = line.Text;
-            while (line.Second is null && rest.Length > columns)
+            while (line.SecondColumn is null && rest.Length > columns)
             {
                 var end = rest.LastIndexOf(' ', columns) is > 0 and var blank ? blank : columns;
                 wrapped.Add(line with { Text = rest[..end] });
@@ -167,7 +167,7 @@ internal sealed class OverlayLayout
         return wrapped;
     }
 
-    private void Write(string text, int x, int y, OverlayTone tone)
+    private void AddText(string text, int x, int y, OverlayTone tone)
     {
         for (var i = 0; i < text.Length; i++)
         {

@@ -9,11 +9,11 @@ namespace FractalEngine.Render.Ui;
 /// <param name="Height">Pixels.</param>
 /// <param name="Colour">sRGB and opacity.</param>
 /// <param name="Glyph">The glyph's number, or −1 for a plain rectangle.</param>
-/// <param name="Radius">Of the corners of a plain rectangle, pixels.</param>
+/// <param name="CornerRadius">Of the corners of a plain rectangle, pixels.</param>
 [StructLayout(LayoutKind.Sequential)]
 internal readonly record struct OverlayQuad(
-    float X, float Y, float Width, float Height, (float Red, float Green, float Blue, float Alpha) Colour, float Glyph, float Radius)
+    float X, float Y, float Width, float Height, (float Red, float Green, float Blue, float Alpha) Colour, float Glyph, float CornerRadius)
 {
     /// <summary>Floats of one quad.</summary>
-    public const int Floats = 10;
+    public const int FloatsPerQuad = 10;
 }

@@ -19,7 +19,7 @@ internal interface IPlatformWindow : IDisposable
     bool RelativeMouse { get; set; }
 
     /// <summary>Lets depths in the window's context end at 0 and 1 rather than −1 and 1 (glClipControl). The context must be current.</summary>
-    void UseDepthFromZero();
+    void UseZeroToOneDepth();
 
     /// <summary>Makes the window's context the thread's current one.</summary>
     void MakeCurrent();

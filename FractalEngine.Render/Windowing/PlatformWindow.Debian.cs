@@ -76,7 +76,7 @@ internal sealed class PlatformWindow : IPlatformWindow
         }
     }
 
-    public unsafe void UseDepthFromZero()
+    public unsafe void UseZeroToOneDepth()
     {
         // OpenTK 1.1 ends at OpenGL 4.4 and does not know this one.
         const uint lowerLeft = 0x8CA1;

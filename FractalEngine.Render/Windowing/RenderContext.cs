@@ -21,7 +21,7 @@ public abstract class RenderContext : IDisposable
         GL.GetInteger(GetPName.MinorVersion, out int minor);
         GL.GetInteger(GetPName.MaxRenderbufferSize, out int size);
         GL.GetInteger(GetPName.MaxSamples, out int samples);
-        (Version, MaximumSize, MaximumSamples) = (new(major, minor), size, samples);
+        (Version, MaxFrameSize, MaxSampleCount) = (new(major, minor), size, samples);
         DriverName = string.Create(CultureInfo.InvariantCulture, $"OpenGL {major}.{minor}, {GL.GetString(StringName.Renderer)}");
         if (Version < new Version(3, 3))
         {
@@ -32,7 +32,7 @@ public abstract class RenderContext : IDisposable
         HasReversedDepth = Version >= new Version(4, 5) || HasExtension("GL_ARB_clip_control");
         if (HasReversedDepth)
         {
-            window.UseDepthFromZero();
+            window.UseZeroToOneDepth();
         }
     }
 
@@ -43,10 +43,10 @@ public abstract class RenderContext : IDisposable
     public string DriverName { get; }
 
     /// <summary>The largest width and height of a picture, pixels.</summary>
-    public int MaximumSize { get; }
+    public int MaxFrameSize { get; }
 
     /// <summary>The most samples a pixel.</summary>
-    public int MaximumSamples { get; }
+    public int MaxSampleCount { get; }
 
     /// <summary>The labels of the GL objects that are not disposed, sorted.</summary>
     public IReadOnlyList<string> LiveObjects => Resources.LiveObjects;
@@ -77,8 +77,8 @@ public abstract class RenderContext : IDisposable
     }
 
     /// <summary>Takes over which GL calls are left out.</summary>
-    internal void Follow(RenderSettings settings) =>
-        (Resources.State.Changes.SkipsSame, Resources.Uploads.SkipsSame) = (settings.SkipsSameState, settings.KeepsBuffers);
+    internal void ApplySettings(RenderSettings settings) =>
+        (Resources.State.Filter.IsEnabled, Resources.UploadFilter.IsEnabled) = (settings.FilterRedundantState, settings.ReuseBuffers);
 
     /// <summary>Reports what is still alive by name, deletes it and ends the context. Harmless when repeated.</summary>
     public void Dispose()

@@ -10,7 +10,7 @@ internal static class SdlEventTranslator
     /// <summary>Our word for an event, or null for one that concerns nobody or another window.</summary>
     public static WindowEvent? Translate(in SdlEvent item, uint windowId) => item.Type switch
     {
-        0x1000 when item.DropWindowId == windowId || item.DropWindowId == 0 => Dropped(item.DroppedFile),
+        0x1000 when item.DropWindowId == windowId || item.DropWindowId == 0 => TranslateDrop(item.DroppedFile),
         _ when item.WindowId != windowId => null,
         0x200 => TranslateWindow(item),
         0x300 => new KeyPressed(KeyOf(item.KeyCode, item.ScanCode), ModifiersOf(item.Modifiers), item.IsRepeat != 0),
@@ -39,11 +39,11 @@ internal static class SdlEventTranslator
         '[' => Key.LeftBracket,
         ']' => Key.RightBracket,
         // Keys without a character carry the scan code of their layout (arrows, F keys, the keypad).
-        _ when (keyCode & ScanCodeMask) != 0 => KeyAt(keyCode & ~ScanCodeMask),
-        _ => KeyAt(scanCode),
+        _ when (keyCode & ScanCodeMask) != 0 => KeyOfScanCode(keyCode & ~ScanCodeMask),
+        _ => KeyOfScanCode(scanCode),
     };
 
-    private static Key KeyAt(int scanCode) => scanCode switch
+    private static Key KeyOfScanCode(int scanCode) => scanCode switch
     {
         >= 4 and <= 29 => Key.A + (scanCode - 4),
         >= 30 and <= 38 => Key.Digit1 + (scanCode - 30),
@@ -96,7 +96,7 @@ internal static class SdlEventTranslator
         _ => null,
     };
 
-    private static FileDropped? Dropped(IntPtr file) =>
+    private static FileDropped? TranslateDrop(IntPtr file) =>
         Marshal.PtrToStringUTF8(file) is { Length: > 0 } path ? new(path) : null;
 
     private static MouseButton ButtonOf(byte button) => button switch

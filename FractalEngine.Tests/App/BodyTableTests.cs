@@ -13,5 +13,5 @@ public class BodyTableTests
     [InlineData("the \"big\" one", "\"the \"\"big\"\" one\"")]
     [InlineData("two\nlines", "\"two\nlines\"")]
     [InlineData("two\rlines", "\"two\rlines\"")]
-    public void Quote_IsOnlyUsedWhereAFieldNeedsIt(string text, string expected) => Assert.Equal(expected, BodyTable.Quote(text));
+    public void Quote_IsOnlyUsedWhereAFieldNeedsIt(string text, string expected) => Assert.Equal(expected, BodyCsvWriter.Quote(text));
 }

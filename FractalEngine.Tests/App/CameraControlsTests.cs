@@ -16,7 +16,7 @@ public class CameraControlsTests
     private const double Aspect = 4.0 / 3;
 
     private static readonly TimeSpan Frame = TimeSpan.FromSeconds(1.0 / 60);
-    private static readonly DetailTable Menger = DetailTable.Of(DetailViews.Menger(null));
+    private static readonly LodHierarchy Menger = LodHierarchy.Build(DetailViews.Menger(null));
 
     // Before a corner, looking at it.
     private static readonly Vector Corner = new(-1, 1, -1);
@@ -25,7 +25,7 @@ public class CameraControlsTests
 
     private static CameraControls Controls(Camera? camera = null, AffineMap? placement = null) => (placement ?? AffineMap.Identity) switch
     {
-        var map => new(Menger.At(Menger.Levels).Box.Transform(map), camera ?? Start, Projection.Perspective, null, new(0, Menger, map)),
+        var map => new(Menger.NodeAt(Menger.LevelCount).Box.Transform(map), camera ?? Start, Projection.Perspective, null, new(0, Menger, map)),
     };
 
     private static KeyPressed Press(Key key) => new(key, KeyModifiers.None, false);
@@ -34,10 +34,10 @@ public class CameraControlsTests
     public void Start_Outside_IsAtTheTop()
     {
         var controls = Controls();
-        Assert.Equal((0, 0.0), (controls.Depth, controls.Enlargement));
+        Assert.Equal((0, 0.0), (controls.Depth, controls.Log10Magnification));
         Near.Equal(Start.Position, controls.Camera.Position, 1e-12);
         var view = new View(controls.Camera, Projection.Perspective);
-        Assert.Same(view, controls.Deepened(view));
+        Assert.Same(view, controls.WithDeepZoom(view));
     }
 
     [Fact]
@@ -46,7 +46,7 @@ public class CameraControlsTests
         var placement = random.Next(2) == 0 ? AffineMap.Identity : random.Transformation().ToAffineMap();
         var camera = new Camera(placement * random.Vector(1.3), random.Vector(), 40);
         var controls = Controls(camera, placement);
-        Near.Equal(camera.Position, controls.Camera.Position, 1e-12 * (1 + camera.Position.MaximumComponent()));
+        Near.Equal(camera.Position, controls.Camera.Position, 1e-12 * (1 + camera.Position.MaxAbsComponent()));
         Assert.Equal((camera.Rotation, camera.FieldOfView), (controls.Camera.Rotation, controls.Camera.FieldOfView));
     });
 
@@ -65,14 +65,14 @@ public class CameraControlsTests
         }
 
         Assert.True(deepest >= 20, Text($"only {deepest} levels"));
-        Assert.True(controls.Enlargement >= 0.47 * controls.Depth, Text($"{controls.Enlargement} at depth {controls.Depth}"));
+        Assert.True(controls.Log10Magnification >= 0.47 * controls.Depth, Text($"{controls.Log10Magnification} at depth {controls.Depth}"));
         for (var i = 0; i < notches; i++)
         {
             controls.Handle(new WheelTurned(-1, KeyModifiers.None), Aspect);
             AssertSound(controls);
         }
 
-        Assert.Equal((0, 0.0), (controls.Depth, controls.Enlargement));
+        Assert.Equal((0, 0.0), (controls.Depth, controls.Log10Magnification));
         // On the line of sight, about as far away as before.
         Assert.InRange((controls.Camera.Position - Corner).Length(), 0.3, 300);
     }
@@ -133,7 +133,7 @@ public class CameraControlsTests
         var controls = Deep(150);
         Assert.True(controls.Depth > 5);
         Assert.True(controls.Handle(Press(key), Aspect));
-        Assert.Equal((0, 0.0), (controls.Depth, controls.Enlargement));
+        Assert.Equal((0, 0.0), (controls.Depth, controls.Log10Magnification));
         Near.Equal(Start.Position, controls.Camera.Position, 1e-12);
         Assert.Equal(Start.Rotation, controls.Camera.Rotation);
         // Everything after that is as at the beginning.
@@ -156,7 +156,7 @@ public class CameraControlsTests
     {
         var controls = Deep(150);
         Assert.True(controls.Handle(Press(key), Aspect));
-        Assert.Equal((0, 0.0), (controls.Depth, controls.Enlargement));
+        Assert.Equal((0, 0.0), (controls.Depth, controls.Log10Magnification));
         var view = new View(controls.Camera, controls.Projection);
         foreach (var corner in from x in (double[])[-1, 1] from y in (double[])[-1, 1] from z in (double[])[-1, 1] select new Vector(x, y, z))
         {
@@ -174,12 +174,12 @@ public class CameraControlsTests
         Assert.True(controls.Handle(Press(Key.Digit5), Aspect));
         Assert.Equal(Projection.Orthographic, controls.Projection);
         var view = new View(controls.Camera, controls.Projection);
-        Assert.Same(view, controls.Deepened(view));
+        Assert.Same(view, controls.WithDeepZoom(view));
         Near.Equal(place, controls.Camera.Position, 1e-12);
         AssertSound(controls);
         controls.Handle(Press(Key.Digit5), Aspect);
         Assert.Equal(depth, controls.Depth);
-        Assert.NotNull(controls.Deepened(new View(controls.Camera, controls.Projection)).Zoom);
+        Assert.NotNull(controls.WithDeepZoom(new View(controls.Camera, controls.Projection)).DeepZoom);
     }
 
     [Fact]
@@ -189,7 +189,7 @@ public class CameraControlsTests
         for (var notches = 0; notches < 200; notches++)
         {
             controls.Handle(new WheelTurned(1, KeyModifiers.None), Aspect);
-            var view = controls.Deepened(new View(controls.Camera, Projection.Perspective));
+            var view = controls.WithDeepZoom(new View(controls.Camera, Projection.Perspective));
             if (controls.Depth == 0)
             {
                 continue;
@@ -197,10 +197,10 @@ public class CameraControlsTests
 
             var (near, far) = view.Clip!.Value;
             Assert.True(0 < near && near < far && double.IsFinite(far), Text($"planes {near}, {far} at depth {controls.Depth}"));
-            Assert.Equal(0, view.Zoom!.Index);
-            Near.Equal(-controls.Enlargement * Math.Log(10), view.Zoom.LogUnit, 1e-9);
-            Assert.True(view.Zoom.Roots.Length >= 1 + (19 * Math.Min(20, controls.Depth)));
-            Assert.All(view.Zoom.Roots, root => Assert.True(root.Map.IsFinite()));
+            Assert.Equal(0, view.DeepZoom!.ObjectIndex);
+            Near.Equal(-controls.Log10Magnification * Math.Log(10), view.DeepZoom.LogUnit, 1e-9);
+            Assert.True(view.DeepZoom.Roots.Length >= 1 + (19 * Math.Min(20, controls.Depth)));
+            Assert.All(view.DeepZoom.Roots, root => Assert.True(root.FrameToCamera.IsFinite()));
         }
     }
 
@@ -245,9 +245,9 @@ public class CameraControlsTests
     [Fact]
     public void KeyW_TowardsACorner_IsAsFastAsItIsFarAway()
     {
-        var table = DetailTable.Of(FractalAddressTests.Infinite("sierpinski"));
+        var table = LodHierarchy.Build(FractalAddressTests.Infinite("sierpinski"));
         var camera = new Camera(new(-1, -1, -1), CameraFraming.LookRotation(Vector.One), 50);
-        var controls = new CameraControls(table.At(table.Levels).Box, camera, Projection.Perspective, null, new(0, table, AffineMap.Identity));
+        var controls = new CameraControls(table.NodeAt(table.LevelCount).Box, camera, Projection.Perspective, null, new(0, table, AffineMap.Identity));
         controls.Handle(Press(Key.W), Aspect);
         var left = controls.Camera.Position.Length();
         for (var i = 0; i < 600; i++)
@@ -277,8 +277,8 @@ public class CameraControlsTests
     {
         var camera = controls.Camera;
         Assert.True(
-            camera.Position.IsFinite() && camera.Rotation.IsFinite() && double.IsFinite(controls.Enlargement) && camera.Position.Length() < reach,
-            Text($"at depth {controls.Depth}, {controls.Enlargement}: {camera.Position}, {camera.Rotation}"));
+            camera.Position.IsFinite() && camera.Rotation.IsFinite() && double.IsFinite(controls.Log10Magnification) && camera.Position.Length() < reach,
+            Text($"at depth {controls.Depth}, {controls.Log10Magnification}: {camera.Position}, {camera.Rotation}"));
         if (controls.Depth > 0)
         {
             Assert.True(camera.Position.Length() < Math.Max(10, 1e-6 * reach), Text($"{camera.Position} at depth {controls.Depth}"));

@@ -28,28 +28,28 @@ public sealed class WindowPicturesTests : IDisposable
         using var window = Open();
         using var frame = new FrameRenderer(window);
         using var document = Load(window);
-        var pictures = new WindowPictures(frame);
+        var pictures = new WindowRenderer(frame);
         var expected = new List<PixelImage>();
-        document.Controls.Handle(new KeyPressed(Key.D, KeyModifiers.None, false), window.Aspect);
+        document.CameraControls.Handle(new KeyPressed(Key.D, KeyModifiers.None, false), window.Aspect);
         for (var i = 0; i < 3; i++)
         {
-            document.Controls.Advance(Time);
-            frame.Draw(document.Renderer, document.ViewNow((double)Width / Height), Width, Height, Settings);
+            document.CameraControls.Advance(Time);
+            frame.Draw(document.Renderer, document.UpdateView((double)Width / Height), Width, Height, Settings);
             expected.Add(frame.Capture());
             pictures.Draw(document, Settings, Width, Height);
-            Assert.True(pictures.IsCoarse);
+            Assert.True(pictures.IsReducedQuality);
             // One behind, but for the first.
             Assert.Equal(expected[Math.Max(0, i - 1)].Pixels, pictures.Capture(document, Settings, Width, Height).Pixels);
         }
 
         Assert.NotEqual(expected[0].Pixels, expected[1].Pixels);
         // When the camera stands, it is that of its place, drawn or not.
-        document.Controls.Handle(new KeyReleased(Key.D, KeyModifiers.None), window.Aspect);
+        document.CameraControls.Handle(new KeyReleased(Key.D, KeyModifiers.None), window.Aspect);
         Assert.Equal(expected[2].Pixels, pictures.Capture(document, Settings, Width, Height).Pixels);
         pictures.Draw(document, Settings, Width, Height);
-        Assert.False(pictures.IsCoarse);
+        Assert.False(pictures.IsReducedQuality);
         Assert.Equal(expected[2].Pixels, frame.Capture().Pixels);
-        Assert.Equal((4, 0, 6), pictures.CountsOf(10));
+        Assert.Equal((4, 0, 6), pictures.CountFrames(10));
     }
 
     [SkippableFact]
@@ -58,11 +58,11 @@ public sealed class WindowPicturesTests : IDisposable
         using var window = Open();
         using var frame = new FrameRenderer(window);
         using var document = Load(window);
-        var pictures = new WindowPictures(frame);
+        var pictures = new WindowRenderer(frame);
         pictures.Draw(document, Settings, Width, Height);
         pictures.Draw(document, Settings, Width, Height);
-        pictures.ShowAgain();
-        var rows = new PictureReport(document.Renderer, Settings.Detail, Time, 0, 0, document.Physics).ToPanels(pictures.CountsOf(60)).SelectMany(panel => panel.Lines).ToDictionary(line => line.Text, line => line.Second);
+        pictures.CountPresentedAgain();
+        var rows = new FrameReport(document.Renderer, Settings.Culling, Time, 0, 0, document.Physics).ToPanels(pictures.CountFrames(60)).SelectMany(panel => panel.Lines).ToDictionary(line => line.Text, line => line.SecondColumn);
         Assert.Equal("2 objects, 2 files, 0 textures", rows["shared"]);
         Assert.Equal("1 of 2 models", rows["not in sight yet"]);
         Assert.Equal("2 of 2 colliders", rows["not asked yet"]);
@@ -78,20 +78,20 @@ public sealed class WindowPicturesTests : IDisposable
         using var window = Open();
         using var document = Load(window);
         Assert.Equal(1, document.Renderer.Scene.Models.Count(model => model.IsPlaceholder));
-        document.Sight.Start(document.ViewNow(window.Aspect), window.Aspect);
-        Assert.False(document.Sight.IsRunning);
+        document.FirstSightLoader.Start(document.UpdateView(window.Aspect), window.Aspect);
+        Assert.False(document.FirstSightLoader.IsRunning);
         // All of the scene.
-        document.Controls.Handle(new KeyPressed(Key.F, KeyModifiers.None, false), window.Aspect);
-        document.Sight.Start(document.ViewNow(window.Aspect), window.Aspect);
-        Assert.True(document.Sight.IsRunning);
+        document.CameraControls.Handle(new KeyPressed(Key.F, KeyModifiers.None, false), window.Aspect);
+        document.FirstSightLoader.Start(document.UpdateView(window.Aspect), window.Aspect);
+        Assert.True(document.FirstSightLoader.IsRunning);
         DrawableScene? scene;
-        while ((scene = document.Sight.Take()) is null)
+        while ((scene = document.FirstSightLoader.TakeScene()) is null)
         {
             Thread.Sleep(1);
         }
 
         Assert.DoesNotContain(scene.Models, model => model.IsPlaceholder);
-        Assert.Equal((false, null), (document.Sight.IsRunning, document.Sight.Progress));
+        Assert.Equal((false, null), (document.FirstSightLoader.IsRunning, document.FirstSightLoader.Progress));
     }
 
     private static RenderWindow Open()
@@ -112,7 +112,7 @@ public sealed class WindowPicturesTests : IDisposable
         _folder.Write("far.obj", Files.Cube);
         var file = AssetLoader.Load(_folder.Write("scene.sdo", "c (0.6, 0.9, -3) (-0.2, -0.2, 0) 60\no \"near.obj\" #\no \"far.obj\" ((0, 0, -9), #, #)\n"));
         var preparation = new ScenePreparation(file.Scene, Settings);
-        preparation.PrepareInSight(View.Of(file.Scene, window.Aspect), window.Aspect);
+        preparation.PrepareVisible(View.Of(file.Scene, window.Aspect), window.Aspect);
         return new(window, file, preparation, new() { Settings = Settings });
     }
 }

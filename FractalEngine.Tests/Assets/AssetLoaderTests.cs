@@ -40,7 +40,7 @@ public sealed class AssetLoaderTests : IDisposable
         _folder.Write("SampleAsset2.obj", Triangle);
         var loaded = AssetLoader.Load(_folder.Write("a.sdo", Samples.AppendixA));
         Assert.Equal(FileKind.Scene, loaded.Kind);
-        Assert.Equal(new(1, 1, 1), loaded.Scene.Objects[0].Map.Translation);
+        Assert.Equal(new(1, 1, 1), loaded.Scene.Objects[0].ObjectToWorld.Translation);
         Assert.Equal(2, loaded.Scene.Objects.Length);
     }
 
@@ -51,7 +51,7 @@ public sealed class AssetLoaderTests : IDisposable
         _folder.Write("f.fdo", "<$>. \"a.obj\"");
         var scene = _folder.Write("s.sdo", "o \"a.obj\" #\no \"a.obj\" ((1, 0, 0), #, #)\no \"a.obj\" ((2, 0, 0), #, #)\no \"f.fdo\" #\no \"f.fdo\" #");
         Assert.Equal(2, AssetLoader.Load(scene).Scene.Models.Count());
-        var models = AssetLoader.Load(scene, new() { SharesFiles = false }).Scene.Models.ToArray();
+        var models = AssetLoader.Load(scene, new() { ShareModels = false }).Scene.Models.ToArray();
         Assert.Equal((5, 5), (models.Length, models.Select(model => model.Mesh).Distinct().Count()));
     }
 
@@ -130,7 +130,7 @@ public sealed class AssetLoaderTests : IDisposable
         Directory.CreateSymbolicLink(_folder["scene/linked"], _folder.Path);
         Assert.Contains("s.sdo:1:3: error: \"", Fails("scene/s.sdo"), StringComparison.Ordinal);
         Assert.Contains("--allow-outside", Fails("scene/s.sdo"), StringComparison.Ordinal);
-        Assert.Single(AssetLoader.Load(_folder["scene/s.sdo"], new() { AllowOutside = true }).Scene.Objects);
+        Assert.Single(AssetLoader.Load(_folder["scene/s.sdo"], new() { AllowOutsideFiles = true }).Scene.Objects);
     }
 
     [Fact]

@@ -70,7 +70,7 @@ public sealed class AssetTests
         var fractal = Fractal("infinite-menger");
         Assert.Null(fractal.InstanceCount);
         // The attractor is the unit cube; the bounds are found to 1e-12 of its size.
-        Assert.True((fractal.Bounds.Size - Vector.One).MaximumComponent() < 1e-11, fractal.Bounds.ToString());
+        Assert.True((fractal.Bounds.Size - Vector.One).MaxAbsComponent() < 1e-11, fractal.Bounds.ToString());
     }
 
     [Theory]
@@ -103,7 +103,7 @@ public sealed class AssetTests
         {
             // Every distance shrinks after a few rounds: the map's spectral radius is that of its linear part's powers.
             var power = Enumerable.Repeat(map.Linear, 64).Aggregate((m1, m2) => m1 * m2);
-            Assert.True(power.MaximumEntry() < 1e-1, $"{name}: {map}");
+            Assert.True(power.MaxAbsEntry() < 1e-1, $"{name}: {map}");
         }
     }
 
@@ -114,7 +114,7 @@ public sealed class AssetTests
         var mesh = AssetLoader.Load(Full(file)).Scene.Objects[0].Model.Mesh;
         var header = File.ReadLines(Full(file)).First();
         Assert.Equal(string.Create(CultureInfo.InvariantCulture, $"# Mesh count: {mesh.FaceCount}"), header);
-        Assert.Equal(mesh.VertexCount, mesh.Faces.Distinct().Count());
+        Assert.Equal(mesh.VertexCount, mesh.VertexIndices.Distinct().Count());
         for (var face = 0; face < mesh.FaceCount; face++)
         {
             var (a, b, c) = mesh.Face(face);
@@ -128,9 +128,9 @@ public sealed class AssetTests
     {
         var mesh = AssetLoader.Load(Full(file)).Scene.Objects[0].Model.Mesh;
         var edges = new HashSet<(int From, int To)>();
-        for (var corner = 0; corner < mesh.Faces.Length; corner++)
+        for (var corner = 0; corner < mesh.VertexIndices.Length; corner++)
         {
-            Assert.True(edges.Add((mesh.Faces[corner], mesh.Faces[corner % 3 == 2 ? corner - 2 : corner + 1])), "two faces run the same way along an edge");
+            Assert.True(edges.Add((mesh.VertexIndices[corner], mesh.VertexIndices[corner % 3 == 2 ? corner - 2 : corner + 1])), "two faces run the same way along an edge");
         }
 
         // A floor needs no underside.
@@ -145,7 +145,7 @@ public sealed class AssetTests
     {
         var scene = AssetLoader.Load(Full(file)).Scene;
         Assert.NotNull(scene.Scene.Camera);
-        Assert.Contains(scene.Objects, placed => scene.Scene.Camera.Map(placed.Bounds.Centre).Z > 0);
+        Assert.Contains(scene.Objects, placed => scene.Scene.Camera.ToCameraSpace(placed.Bounds.Centre).Z > 0);
     }
 
     [Fact]

@@ -165,7 +165,7 @@ public sealed class MaterialLoaderTests : IDisposable
         WritePng("a.png", 1, 1);
         using (var stream = File.OpenWrite(_folder["a.png"]))
         {
-            stream.SetLength(ParsingLimits.PictureBytes + 1);
+            stream.SetLength(ParsingLimits.ImageBytes + 1);
         }
 
         AssertPictureIsRefused("the picture \"a.png\" is larger than the limit of 67108864 bytes");
@@ -198,7 +198,7 @@ public sealed class MaterialLoaderTests : IDisposable
         var loaded = AssetLoader.Load(path);
         Assert.Contains("lies outside the folder of the file that was opened: allow that with --allow-outside", Assert.Single(loaded.Warnings).Message, StringComparison.Ordinal);
         Assert.True(loaded.Scene.Objects[0].Model.Materials.GetValueOrDefault("m") is null or { Texture: null });
-        var allowed = AssetLoader.Load(path, new() { AllowOutside = true });
+        var allowed = AssetLoader.Load(path, new() { AllowOutsideFiles = true });
         Assert.Empty(allowed.Warnings);
         Assert.Equal(_folder["outside.png"], MaterialOf(allowed).Texture!.Path);
     }

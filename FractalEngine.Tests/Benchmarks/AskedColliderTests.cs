@@ -11,7 +11,7 @@ public class AskedColliderTests
     public void Counts_AreMeansOfTheQueriesAndDoNotGrowWithRounds()
     {
         var mesh = CollisionMeshes.Soup(1, 300, 0.1);
-        var (hierarchy, record, random) = (new HierarchyCollider(mesh), new QueryRecord(), new Random(1));
+        var (hierarchy, record, random) = (new HierarchyCollider(mesh), new QueryContext(), new Random(1));
         Vector[] positions = [.. Enumerable.Range(0, 100).Select(_ => CollisionMeshes.Position(random, mesh))];
         var asked = new AskedCollider(hierarchy, positions);
         asked.Ask();

@@ -14,7 +14,7 @@ public class FloatAndDoubleTests
     {
         var (position, a, b, c) = NastyFace.Random(random);
         Assert.Equal(
-            BitConverter.DoubleToInt64Bits(FaceKernel.ClosestPoint(position, a, b, c).DistanceSquared),
+            BitConverter.DoubleToInt64Bits(TriangleKernel.ClosestPoint(position, a, b, c).DistanceSquared),
             BitConverter.DoubleToInt64Bits(GenericFaceKernel<double>.DistanceSquared(Triple(position), Triple(a), Triple(b), Triple(c))));
     });
 

@@ -101,7 +101,7 @@ public sealed class FrontTableTests : IDisposable
     public void Bytes_OfCollidersOfFaces_CountTheFaces()
     {
         var shape = Tree(3);
-        var faces = (8 * shape.Faces!.Positions.Length) + (4 * shape.Faces.Faces.Length);
+        var faces = (8 * shape.Faces!.Positions.Length) + (4 * shape.Faces.VertexIndices.Length);
         Assert.All(FrontRow.All(shape), row => Assert.Equal(row.Collider.StorageBytes + (row.Name is "exact" or "fractal" ? 0 : faces), row.Bytes));
     }
 
@@ -195,7 +195,7 @@ public sealed class FrontTableTests : IDisposable
     /// <summary>Of the descent of width 1: largest, mean, percent missed; with the exact distances of <see cref="FaceOracle"/>.</summary>
     private static (double Largest, double Mean, double Missed) Errors(FrontShape shape, Func<Random, Vector> make)
     {
-        var (random, record, descent) = (new Random(1), new QueryRecord(), new FractalCollider(shape.Fractal!));
+        var (random, record, descent) = (new Random(1), new QueryContext(), new FractalCollider(shape.Fractal!));
         var (largest, sum, missed) = (0.0, 0.0, 0);
         for (var i = 0; i < Queries; i++)
         {

@@ -13,9 +13,9 @@ internal sealed class LyingCollider(Collider truth, bool isExact, Func<double, d
 
     public override long StorageBytes => truth.StorageBytes;
 
-    private protected override bool Find(Vector position, double within, double epsilon, QueryRecord record, out ClosestPoint closest)
+    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
     {
-        var found = truth.TryFindClosest(position, within, record, out closest);
+        var found = truth.TryFindClosest(position, maxDistance, context, out closest);
         var distance = lie(closest.Distance);
         closest = closest with { Distance = distance ?? 0 };
         return found && distance is not null;

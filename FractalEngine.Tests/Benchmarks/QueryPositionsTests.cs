@@ -33,13 +33,13 @@ public class QueryPositionsTests
     public void OnSurface_OfAFractal_IsOnAFaceOfEveryInstance()
     {
         var mesh = FractalGenerator.Flatten(Sponge, 10_000);
-        var (simple, record, instances) = (new SimpleCollider(mesh), new QueryRecord(), new HashSet<int>());
+        var (simple, record, instances) = (new SimpleCollider(mesh), new QueryContext(), new HashSet<int>());
         foreach (var position in Draw(random => QueryPositions.OnSurface(random, Sponge)))
         {
             simple.TryFindClosest(position, double.PositiveInfinity, record, out var closest);
             // Rounding of a few coordinates.
             Assert.InRange(closest.Distance, 0, 1e-14 * mesh.Bounds.Diagonal);
-            instances.Add(closest.Face / Sponge.BaseMesh.FaceCount);
+            instances.Add(closest.FaceIndex / Sponge.BaseMesh.FaceCount);
         }
 
         Assert.Equal(49, instances.Count);
@@ -84,7 +84,7 @@ public class QueryPositionsTests
 
     private static void AssertNear(Vector[] positions, Mesh mesh)
     {
-        var (simple, record) = (new SimpleCollider(mesh), new QueryRecord());
+        var (simple, record) = (new SimpleCollider(mesh), new QueryContext());
         var most = 0.01 * mesh.Bounds.Diagonal;
         var distances = positions.Select(position => simple.TryFindClosest(position, double.PositiveInfinity, record, out var closest) ? closest.Distance : double.NaN).ToArray();
         // A cube's corner is the farthest from its centre. Who is always on the surface, or always far, is not near.

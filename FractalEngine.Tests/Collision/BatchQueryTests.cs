@@ -15,10 +15,10 @@ public class BatchQueryTests
     public void FindClosest_OnAnyNumberOfThreads_AnswersAsOneByOne(int count)
     {
         var positions = Positions(count);
-        var (expected, sum) = (new BatchAnswer[count], new QueryRecord());
+        var (expected, sum) = (new BatchResult[count], new QueryContext());
         for (var i = 0; i < count; i++)
         {
-            var record = new QueryRecord();
+            var record = new QueryContext();
             var isFound = Collider.TryFindClosest(positions[i], 0.3, record, out var closest);
             expected[i] = new(isFound, closest, record.FaceTests, record.BoundTests);
             sum.FaceTests += record.FaceTests;
@@ -27,8 +27,8 @@ public class BatchQueryTests
 
         foreach (var threads in new int?[] { null, 1, 2, 7 })
         {
-            var (answers, record) = (new BatchAnswer[count], new QueryRecord());
-            BatchQuery.FindClosest(Collider, positions, answers, record, within: 0.3, threads: threads);
+            var (answers, record) = (new BatchResult[count], new QueryContext());
+            BatchQuery.FindClosest(Collider, positions, answers, record, maxDistance: 0.3, threads: threads);
             Assert.Equal(expected, answers);
             Assert.Equal((sum.FaceTests, sum.BoundTests), (record.FaceTests, record.BoundTests));
         }
@@ -40,7 +40,7 @@ public class BatchQueryTests
     public void FindClosest_OfManyPositions_AllocatesNoMoreThanOfFew()
     {
         var (few, many) = (Positions(1000), Positions(20_000));
-        var (answers, record) = (new BatchAnswer[many.Length], new QueryRecord());
+        var (answers, record) = (new BatchResult[many.Length], new QueryContext());
         Allocated(few);
         // What starts the threads; a byte a position would be more. One thread, so that it is the one that is measured.
         Assert.InRange(Allocated(many) - Allocated(few), -10_000, 10_000);
@@ -56,10 +56,10 @@ public class BatchQueryTests
     [Fact]
     public void FindClosest_OfBadArguments_Throws()
     {
-        var (answers, record) = (new BatchAnswer[3], new QueryRecord());
+        var (answers, record) = (new BatchResult[3], new QueryContext());
         var positions = new Vector[3];
         Assert.Throws<ArgumentException>("answers", () => BatchQuery.FindClosest(Collider, positions, answers.AsMemory(1), record));
-        Assert.Throws<ArgumentOutOfRangeException>("within", () => BatchQuery.FindClosest(Collider, positions, answers, record, within: -1));
+        Assert.Throws<ArgumentOutOfRangeException>("within", () => BatchQuery.FindClosest(Collider, positions, answers, record, maxDistance: -1));
         Assert.Throws<ArgumentOutOfRangeException>("epsilon", () => BatchQuery.FindClosest(Collider, positions, answers, record, epsilon: double.NaN));
         Assert.Throws<ArgumentOutOfRangeException>("threads", () => BatchQuery.FindClosest(Collider, positions, answers, record, threads: 0));
         positions[2] = new(0, double.NaN, 0);

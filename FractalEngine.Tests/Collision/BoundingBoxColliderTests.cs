@@ -19,9 +19,9 @@ public class BoundingBoxColliderTests
     [InlineData(38_400_000, 2419)]
     public void CostOfLevel_TimesThePapersDepth_IsThePapersCost(int faces, int cost)
     {
-        Assert.Equal(cost, Math.Round(BoundingBoxCollider.CostOfLevel * 3 * Math.Log(faces, 8)));
+        Assert.Equal(cost, Math.Round(BoundingBoxCollider.CostPerLevel * 3 * Math.Log(faces, 8)));
         // Whole levels: within half a level.
-        Assert.InRange(BoundingBoxCollider.CostOfLevel * BoundingBoxCollider.DefaultDepth(faces), cost - 48, cost + 48);
+        Assert.InRange(BoundingBoxCollider.CostPerLevel * BoundingBoxCollider.DefaultDepth(faces), cost - 48, cost + 48);
     }
 
     [Theory]
@@ -29,7 +29,7 @@ public class BoundingBoxColliderTests
     public void TryFindClosest_OnAnyMesh_FindsAFaceNoNearerThanTheNearest(string name)
     {
         var mesh = CollisionMeshes.All[name]();
-        var (simple, boxes, record) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh), new QueryRecord());
+        var (simple, boxes, record) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh), new QueryContext());
         Seeded.Run(100, random =>
         {
             var position = CollisionMeshes.Position(random, mesh);
@@ -45,7 +45,7 @@ public class BoundingBoxColliderTests
     public void TryFindClosest_OfDepthZero_IsExact()
     {
         var mesh = CollisionMeshes.Soup(1, 50, 0.5);
-        var (simple, boxes, record) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh, depth: 0), new QueryRecord());
+        var (simple, boxes, record) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh, depth: 0), new QueryContext());
         Seeded.Run(100, random =>
         {
             var position = CollisionMeshes.Position(random, mesh);
@@ -61,7 +61,7 @@ public class BoundingBoxColliderTests
     [Fact]
     public void TryFindClosest_CountsTwelveFacesForEachOfEightBoxesALevelAndTheLeaf()
     {
-        var record = new QueryRecord();
+        var record = new QueryContext();
         var boxes = new BoundingBoxCollider(MeshGenerators.Create("icosphere", 1, 1280));
         Assert.Equal(10, boxes.Depth);
         boxes.TryFindClosest(2 * Vector.One, double.PositiveInfinity, record, out _);
@@ -74,7 +74,7 @@ public class BoundingBoxColliderTests
     public void TryFindClosest_MayMissTheNearestFace()
     {
         var mesh = MeshGenerators.Create("terrain", 1, 5000);
-        var (simple, boxes, record) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh), new QueryRecord());
+        var (simple, boxes, record) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh), new QueryContext());
         var wrong = 0;
         Seeded.Run(200, random =>
         {
@@ -94,7 +94,7 @@ public class BoundingBoxColliderTests
         var mesh = new Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0, 9, 9, 9, 10, 9, 9, 9, 10, 9], [0, 1, 2, 3, 4, 5]);
         var boxes = new BoundingBoxCollider(mesh, depth: 3);
         Assert.True(boxes.TryFindClosest(new(9, 0, 0), double.PositiveInfinity, new(), out var closest));
-        Assert.Equal(0, closest.Face);
+        Assert.Equal(0, closest.FaceIndex);
     }
 
     [Fact]
@@ -110,7 +110,7 @@ public class BoundingBoxColliderTests
     [Fact]
     public void TryFindClosest_AllocatesNothing()
     {
-        var (boxes, record) = (new BoundingBoxCollider(CollisionMeshes.Soup(1, 500, 0.1)), new QueryRecord());
+        var (boxes, record) = (new BoundingBoxCollider(CollisionMeshes.Soup(1, 500, 0.1)), new QueryContext());
         boxes.TryFindClosest(Vector.One, double.PositiveInfinity, record, out _);
         var before = GC.GetAllocatedBytesForCurrentThread();
         for (var i = 0; i < 100; i++)

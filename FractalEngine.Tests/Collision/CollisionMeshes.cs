@@ -75,7 +75,7 @@ internal static class CollisionMeshes
             .Take(faces).Select(face => (face.A, face.B, face.C))),
     };
 
-    private static Mesh Repeat(Mesh mesh, int times) => new(mesh.Positions, [.. Enumerable.Repeat(mesh.Faces, times).SelectMany(faces => faces)]);
+    private static Mesh Repeat(Mesh mesh, int times) => new(mesh.Positions, [.. Enumerable.Repeat(mesh.VertexIndices, times).SelectMany(faces => faces)]);
 
     private static Mesh FromFaces(IEnumerable<(Vector A, Vector B, Vector C)> faces)
     {

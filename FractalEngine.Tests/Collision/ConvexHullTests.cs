@@ -17,19 +17,19 @@ public class ConvexHullTests
     public void Of_AnyPoints_HoldsThemButForWhatItMissed(string name) => Seeded.Run(60, random =>
     {
         var points = PointClouds.Draw(name, random);
-        var hull = ConvexHull.Of(points, random.Next(4, 60));
+        var hull = ConvexHull.Build(points, random.Next(4, 60));
         var rounding = Rounding * PointClouds.SizeOf(points);
-        Assert.True(hull.Missed >= 0);
+        Assert.True(hull.MaxOutsideDistance >= 0);
         Assert.All(hull.Vertices, vertex => Assert.Contains(vertex, points));
         foreach (var point in points)
         {
-            var distance = hull.DistanceBound(point);
-            Assert.True(distance <= hull.Missed + rounding, FormattableString.Invariant($"{point} lies {distance} out of the hull, which says {hull.Missed}"));
+            var distance = hull.DistanceUpperBound(point);
+            Assert.True(distance <= hull.MaxOutsideDistance + rounding, FormattableString.Invariant($"{point} lies {distance} out of the hull, which says {hull.MaxOutsideDistance}"));
             foreach (var plane in hull.Planes)
             {
                 // Beyond a plane by no more than beyond the hull.
                 var height = Vector.Dot(plane.Normal, point) - plane.Offset;
-                Assert.True(height <= hull.Missed + rounding, FormattableString.Invariant($"{point} lies {height} above a plane, {hull.Missed} is missed"));
+                Assert.True(height <= hull.MaxOutsideDistance + rounding, FormattableString.Invariant($"{point} lies {height} above a plane, {hull.MaxOutsideDistance} is missed"));
             }
         }
     });
@@ -38,7 +38,7 @@ public class ConvexHullTests
     [MemberData(nameof(Names))]
     public void Of_AnyPoints_HasNoCornerAboveAPlane(string name) => Seeded.Run(60, random =>
     {
-        var hull = ConvexHull.Of(PointClouds.Draw(name, random), random.Next(4, 60));
+        var hull = ConvexHull.Build(PointClouds.Draw(name, random), random.Next(4, 60));
         foreach (var plane in hull.Planes)
         {
             Assert.Equal(1, plane.Normal.Length(), 1e-12);
@@ -51,22 +51,22 @@ public class ConvexHullTests
     public void Of_FewPoints_MissesNothing() => Seeded.Run(100, random =>
     {
         var points = Enumerable.Range(0, 30).Select(_ => random.Vector()).ToArray();
-        Assert.InRange(ConvexHull.Of(points, 60).Missed, 0, 1e-11);
+        Assert.InRange(ConvexHull.Build(points, 60).MaxOutsideDistance, 0, 1e-11);
     });
 
     [Fact]
     public void Of_ACubeOfPoints_IsTheCube()
     {
         var points = PointClouds.All["grid"](new(1));
-        var hull = ConvexHull.Of(points, 48);
-        Assert.Equal((8, 6, 0), (hull.Vertices.Length, hull.Planes.Length, hull.Missed));
+        var hull = ConvexHull.Build(points, 48);
+        Assert.Equal((8, 6, 0), (hull.Vertices.Length, hull.Planes.Length, hull.MaxOutsideDistance));
         Assert.Equal(64, hull.Volume(), 1e-12 * 64);
     }
 
     [Fact]
     public void Of_ATurnedCube_HasItsVolume() => Seeded.Run(40, random =>
     {
-        var hull = ConvexHull.Of(PointClouds.All["turned grid"](random), 48);
+        var hull = ConvexHull.Build(PointClouds.All["turned grid"](random), 48);
         // Points in the sides may be corners by rounding, and flat facets may lean.
         Assert.Equal(64, hull.Volume(), 1e-9);
     });
@@ -76,14 +76,14 @@ public class ConvexHullTests
     {
         var points = Enumerable.Range(0, 4).Select(_ => random.Vector()).ToArray();
         var volume = Math.Abs(Vector.Dot(points[1] - points[0], Vector.Cross(points[2] - points[0], points[3] - points[0]))) / 6;
-        Assert.Equal(volume, ConvexHull.Of(points, 4).Volume(), 1e-12);
+        Assert.Equal(volume, ConvexHull.Build(points, 4).Volume(), 1e-12);
     });
 
     [Fact]
     public void Volume_OfABall_IsNearThatOfTheSphere()
     {
         var random = new Random(1);
-        var hull = ConvexHull.Of(Enumerable.Range(0, 3000).Select(_ => random.Direction()).ToArray(), 400);
+        var hull = ConvexHull.Build(Enumerable.Range(0, 3000).Select(_ => random.Direction()).ToArray(), 400);
         Assert.InRange(hull.Volume(), 0.95 * 4 / 3 * Math.PI, 4 / 3.0 * Math.PI);
     }
 }

@@ -46,7 +46,7 @@ public class DeepExactnessTests
     public void Oracle_WhereFacesCanBeListed_EqualsThem(string name)
     {
         var fractal = AssetFractals.Load(name, 2);
-        var (oracle, simple, record) = (new DeepOracle(fractal), FractalProbe.BruteForce(fractal), new QueryRecord());
+        var (oracle, simple, record) = (new DeepOracle(fractal), FractalProbe.BruteForce(fractal), new QueryContext());
         Seeded.Run(60, random =>
         {
             var position = FractalPositions.Draw(random, fractal);
@@ -65,7 +65,7 @@ public class DeepExactnessTests
         // The descent takes the identity as often as it can, so that it does not end; a shallower fractal is part of a deeper one there.
         var greedy = new FractalCollider(oracle.HasIdentity && depth is not <= 60 ? AssetFractals.Load(name, 60) : fractal);
         var compared = 0;
-        Parallel.For(1, queries + 1, () => new QueryRecord(), (seed, _, record) =>
+        Parallel.For(1, queries + 1, () => new QueryContext(), (seed, _, record) =>
         {
             Seeded.RunOne(seed, random =>
             {

@@ -126,7 +126,7 @@ internal sealed class DeepOracle
     });
 
     private double NearestOfBase(Vector position, AffineMap map) =>
-        Math.Sqrt(_base.Min(face => FaceKernel.ClosestPoint(position, map * face.A, map * face.B, map * face.C).DistanceSquared));
+        Math.Sqrt(_base.Min(face => TriangleKernel.ClosestPoint(position, map * face.A, map * face.B, map * face.C).DistanceSquared));
 
     /// <summary>All maps of some steps, each with a factor by which it lengthens at most: a transformation stretches along axes, then turns.</summary>
     private static (AffineMap Map, double Ratio)[] Chains(ImmutableArray<FractalStep> steps)
@@ -136,7 +136,7 @@ internal sealed class DeepOracle
         {
             var set = FractalSteps.LevelAt(steps, level);
             chains = [.. chains.SelectMany(chain => set.Maps.Zip(set.Transformations, (map, transformation) =>
-                (chain.Map * map, Math.Min(chain.Ratio * transformation.Scale.MaximumComponent(), LengthOf(chain.Map * map)))))];
+                (chain.Map * map, Math.Min(chain.Ratio * transformation.Scale.MaxAbsComponent(), LengthOf(chain.Map * map)))))];
         }
 
         return chains;

@@ -15,7 +15,7 @@ public class ExactFractalAttackTests
     public void Find_OnAnUnusualFractal_EqualsEveryFace(string name)
     {
         var fractal = AttackFractals.All[name]();
-        var (probe, oracle, record) = (new FractalProbe(name, fractal), FractalProbe.BruteForce(fractal), new QueryRecord());
+        var (probe, oracle, record) = (new FractalProbe(name, fractal), FractalProbe.BruteForce(fractal), new QueryContext());
         Seeded.Run(150, random =>
         {
             var position = FractalPositions.Draw(random, fractal);
@@ -30,7 +30,7 @@ public class ExactFractalAttackTests
     public void Find_WithEpsilon_IsWithinTheFactor(string name)
     {
         var fractal = AttackFractals.All[name]();
-        var (probe, record) = (new FractalProbe(name, fractal), new QueryRecord());
+        var (probe, record) = (new FractalProbe(name, fractal), new QueryContext());
         Seeded.Run(60, random =>
         {
             var position = FractalPositions.Draw(random, fractal);
@@ -50,7 +50,7 @@ public class ExactFractalAttackTests
     public void Find_WithinAlmostTheDistance_FindsWhatIsThere(string name)
     {
         var fractal = AttackFractals.All[name]();
-        var (probe, record) = (new FractalProbe(name, fractal), new QueryRecord());
+        var (probe, record) = (new FractalProbe(name, fractal), new QueryContext());
         Seeded.Run(60, random =>
         {
             var position = FractalPositions.Draw(random, fractal);

@@ -40,7 +40,7 @@ public class ExactFractalColliderTests
     {
         var fractal = RandomFractals.Draw(random);
         var collider = new ExactFractalCollider(fractal);
-        var (record, size) = (new QueryRecord(), fractal.Bounds.Diagonal);
+        var (record, size) = (new QueryContext(), fractal.Bounds.Diagonal);
         foreach (var map in FractalGenerator.Expand(fractal, 10_000).Take(20))
         {
             Assert.True(collider.TryFindClosest(map * fractal.BaseMesh.Vertex(0), double.PositiveInfinity, record, out var closest));
@@ -54,7 +54,7 @@ public class ExactFractalColliderTests
     {
         var fractal = RandomFractals.Draw(random);
         var collider = new ExactFractalCollider(fractal);
-        var record = new QueryRecord();
+        var record = new QueryContext();
         var position = Position(random, fractal);
         if (!collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest) || closest.Distance == 0)
         {
@@ -71,7 +71,7 @@ public class ExactFractalColliderTests
     {
         var fractal = RandomFractals.Draw(random);
         var collider = new ExactFractalCollider(fractal);
-        var record = new QueryRecord();
+        var record = new QueryContext();
         var position = Position(random, fractal);
         if (collider.TryFindClosest(position, double.PositiveInfinity, record, out var exact))
         {
@@ -84,7 +84,7 @@ public class ExactFractalColliderTests
     public void Find_NamesTheInstanceThatItFound() => Seeded.Run(200, random =>
     {
         var fractal = RandomFractals.Draw(random);
-        var record = new QueryRecord();
+        var record = new QueryContext();
         var position = Position(random, fractal);
         if (!new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var closest))
         {
@@ -98,8 +98,8 @@ public class ExactFractalColliderTests
             map *= fractal.LevelAt(level).Maps[record.InstancePath[level]];
         }
 
-        var (a, b, c) = fractal.BaseMesh.Face(closest.Face);
-        var point = FaceKernel.ClosestPoint(position, map * a, map * b, map * c);
+        var (a, b, c) = fractal.BaseMesh.Face(closest.FaceIndex);
+        var point = TriangleKernel.ClosestPoint(position, map * a, map * b, map * c);
         Assert.Equal(closest.Distance, Math.Sqrt(point.DistanceSquared), Tolerance * fractal.Bounds.Diagonal);
     });
 
@@ -113,7 +113,7 @@ public class ExactFractalColliderTests
     {
         // Depth 8 is within 3⁻⁸ of every deeper one; the difference of the distances can't be more.
         var (deep, shallow) = (new ExactFractalCollider(Sponge(depth)), new ExactFractalCollider(Sponge(8)));
-        var record = new QueryRecord();
+        var record = new QueryContext();
         Seeded.Run(200, random =>
         {
             var position = new Vector(Draw(random), Draw(random), Draw(random));
@@ -131,7 +131,7 @@ public class ExactFractalColliderTests
     public void Find_AllocatesNothing()
     {
         var collider = new ExactFractalCollider(Sponge(6));
-        var record = new QueryRecord();
+        var record = new QueryContext();
         collider.TryFindClosest(new(0.1, 0.2, 0.3), double.PositiveInfinity, record, out _);
         var before = GC.GetAllocatedBytesForCurrentThread();
         for (var i = 0; i < 100; i++)
@@ -184,12 +184,12 @@ public class ExactFractalColliderTests
 
     private static void Check(Collider collider, Collider oracle, Fractal fractal, Vector position)
     {
-        var record = new QueryRecord();
+        var record = new QueryContext();
         var found = collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest);
         Assert.Equal(oracle.TryFindClosest(position, double.PositiveInfinity, new(), out var expected), found);
         if (found)
         {
-            var size = Math.Max(fractal.Bounds.Diagonal, position.MaximumComponent());
+            var size = Math.Max(fractal.Bounds.Diagonal, position.MaxAbsComponent());
             Assert.True(Math.Abs(closest.Distance - expected.Distance) <= Tolerance * size, $"{closest.Distance} instead of {expected.Distance} from {position}");
             Assert.Equal(closest.Distance, (closest.Point - position).Length(), Tolerance * size);
             Assert.Equal(1, closest.Normal.Length(), 1e-12);

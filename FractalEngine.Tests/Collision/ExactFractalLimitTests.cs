@@ -16,7 +16,7 @@ public class ExactFractalLimitTests
     public void Find_WithEpsilonAndADistance_FindsWhatIsThere(string name)
     {
         var fractal = AttackFractals.All[name]();
-        var (probe, record) = (new FractalProbe(name, fractal), new QueryRecord());
+        var (probe, record) = (new FractalProbe(name, fractal), new QueryContext());
         Seeded.Run(60, random =>
         {
             var position = FractalPositions.Draw(random, fractal);
@@ -50,7 +50,7 @@ public class ExactFractalLimitTests
         for (var depth = 3; depth <= 40; depth++)
         {
             var fractal = new Fractal(Samples.Repeated(depth, Samples.MoveAndScale(0, 0, 0, ratio), Samples.MoveAndScale(1 - ratio, 0, 0, ratio)).Description, mesh);
-            var (probe, oracle, record) = (new FractalProbe($"two of {ratio} at depth {depth}", fractal), new DeepOracle(fractal), new QueryRecord());
+            var (probe, oracle, record) = (new FractalProbe($"two of {ratio} at depth {depth}", fractal), new DeepOracle(fractal), new QueryContext());
             Seeded.Run(40, random =>
             {
                 var position = random.Next(2) == 0 ? random.Vector(2) : FractalPositions.Draw(random, fractal);
@@ -72,7 +72,7 @@ public class ExactFractalLimitTests
     {
         var mesh = Samples.Tetrahedron.Transform(v => larger * v);
         var fractal = new Fractal(Samples.Repeated(9, Samples.MoveAndScale(0, 0, 0, 0.002), Samples.MoveAndScale(1, 0, 0, 0.002), Samples.MoveAndScale(0, 1, 0, 0.002)).Description, mesh);
-        var (probe, oracle, record) = (new FractalProbe($"a base {larger} times larger", fractal), FractalProbe.BruteForce(fractal), new QueryRecord());
+        var (probe, oracle, record) = (new FractalProbe($"a base {larger} times larger", fractal), FractalProbe.BruteForce(fractal), new QueryContext());
         Seeded.Run(200, random =>
         {
             var position = FractalPositions.Draw(random, fractal);
@@ -91,9 +91,9 @@ public class ExactFractalLimitTests
         var maps = Enumerable.Range(0, 5).Select(i => Samples.MoveAndScale(10, i, 0, 0.01)).Prepend(Samples.MoveAndScale(0, 0, 0, ratio)).ToArray();
         // Away from the fixed point, so that each level comes nearer to it.
         var fractal = new Fractal(Samples.Repeated(depth, maps).Description, Samples.Triangle.Transform(v => v + Vector.One));
-        var (probe, record) = (new FractalProbe($"ratio {ratio} at depth {depth}", fractal), new QueryRecord());
+        var (probe, record) = (new FractalProbe($"ratio {ratio} at depth {depth}", fractal), new QueryContext());
         var (a, b, c) = fractal.BaseMesh.Face(0);
-        var expected = Math.Pow(ratio, depth) * Math.Sqrt(FaceKernel.ClosestPoint(Vector.Zero, a, b, c).DistanceSquared);
+        var expected = Math.Pow(ratio, depth) * Math.Sqrt(TriangleKernel.ClosestPoint(Vector.Zero, a, b, c).DistanceSquared);
         probe.Check(Vector.Zero, record, expected);
     }
 
@@ -120,7 +120,7 @@ public class ExactFractalLimitTests
     public void Find_OnABaseOfOnePoint_EqualsEveryFace() => Seeded.Run(40, random =>
     {
         var fractal = new Fractal(RandomFractals.Draw(random).Description, new([1, 1, 1, 1, 1, 1, 1, 1, 1], [0, 1, 2]));
-        var (probe, oracle, record) = (new FractalProbe("point", fractal), FractalProbe.BruteForce(fractal), new QueryRecord());
+        var (probe, oracle, record) = (new FractalProbe("point", fractal), FractalProbe.BruteForce(fractal), new QueryContext());
         var position = FractalPositions.Draw(random, fractal);
         Assert.True(oracle.TryFindClosest(position, double.PositiveInfinity, record, out var expected));
         probe.Check(position, record, expected.Distance);
@@ -131,8 +131,8 @@ public class ExactFractalLimitTests
     {
         foreach (var points in new Vector[][] { [Vector.Zero], [Vector.One, Vector.One, Vector.One] })
         {
-            var hull = ConvexHull.Of(points, 48);
-            Assert.Equal((0, 0, 0), (hull.DistanceBound(points[0]), hull.Missed, hull.Volume()));
+            var hull = ConvexHull.Build(points, 48);
+            Assert.Equal((0, 0, 0), (hull.DistanceUpperBound(points[0]), hull.MaxOutsideDistance, hull.Volume()));
         }
     }
 

@@ -33,7 +33,7 @@ public class ExactnessTests
     public void Find_OnAnAsset_EqualsEveryFace(string name, int depth)
     {
         var (probe, oracle, simple) = Load(name, depth);
-        var record = new QueryRecord();
+        var record = new QueryContext();
         Seeded.Run(300, random =>
         {
             var position = FractalPositions.Draw(random, probe.Fractal);
@@ -54,7 +54,7 @@ public class ExactnessTests
     public void Find_OnAnAssetForLong_EqualsEveryFace(string name, int depth)
     {
         var (probe, oracle, simple) = Load(name, depth);
-        Parallel.For(1, 1 + (SoakQueries / ExpandedForSoak.Count / 100), () => new QueryRecord(), (seed, _, record) =>
+        Parallel.For(1, 1 + (SoakQueries / ExpandedForSoak.Count / 100), () => new QueryContext(), (seed, _, record) =>
         {
             Seeded.RunOne(seed, random =>
             {
@@ -85,7 +85,7 @@ public class ExactnessTests
     public void Find_OnAMesh_EqualsEveryFace(string name)
     {
         var mesh = name == "stump" ? MeshGenerators.Create("tree-stump", 1, 3000) : CollisionMeshes.All[name]();
-        var (hierarchy, simple, record) = (new HierarchyCollider(mesh), new SimpleCollider(mesh), new QueryRecord());
+        var (hierarchy, simple, record) = (new HierarchyCollider(mesh), new SimpleCollider(mesh), new QueryContext());
         Seeded.Run(300, random =>
         {
             var position = CollisionMeshes.Position(random, mesh);
@@ -109,6 +109,6 @@ public class ExactnessTests
         return (new($"{name} of depth {depth}", fractal), new HierarchyCollider(mesh), new SimpleCollider(mesh));
     }
 
-    private static double Nearest(Collider collider, Vector position, QueryRecord record) =>
+    private static double Nearest(Collider collider, Vector position, QueryContext record) =>
         collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest) ? closest.Distance : double.PositiveInfinity;
 }

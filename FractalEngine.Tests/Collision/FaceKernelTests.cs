@@ -25,7 +25,7 @@ public class FaceKernelTests
         {
             var face = NastyFace.Random(random);
             var (position, a, b, c) = face;
-            var point = FaceKernel.ClosestPoint(position, a, b, c);
+            var point = TriangleKernel.ClosestPoint(position, a, b, c);
             var (weightA, weightB, weightC) = point.Barycentrics;
             Assert.True(weightA >= 0 && weightB >= 0 && weightC >= 0, $"{face}: {point}");
             // Three numbers below 1, rounded once each.
@@ -42,14 +42,14 @@ public class FaceKernelTests
         for (var i = 0; i < 1000; i++)
         {
             var (_, a, b, c) = NastyFace.Random(random);
-            var normal = FaceKernel.UnitNormal(a, b, c);
+            var normal = TriangleKernel.UnitNormal(a, b, c);
             Near.Equal(1, normal.Length(), 1e-15);
             var (ab, ac, bc) = (b - a, c - a, c - b);
-            var longest = new[] { ab, ac, bc }.MaxBy(edge => edge.MaximumComponent());
-            if (longest.MaximumComponent() > 0)
+            var longest = new[] { ab, ac, bc }.MaxBy(edge => edge.MaxAbsComponent());
+            if (longest.MaxAbsComponent() > 0)
             {
                 // The sine from which on a face counts as thin is 1e-6.
-                Near.Equal(0, Vector.Dot(normal, longest / longest.MaximumComponent()), 1e-9);
+                Near.Equal(0, Vector.Dot(normal, longest / longest.MaxAbsComponent()), 1e-9);
             }
         }
     });
@@ -57,10 +57,10 @@ public class FaceKernelTests
     [Fact]
     public void UnitNormal_FollowsTheWinding()
     {
-        Assert.Equal(Vector.K, FaceKernel.UnitNormal(Vector.Zero, Vector.I, Vector.J));
-        Assert.Equal(-Vector.K, FaceKernel.UnitNormal(Vector.Zero, Vector.J, Vector.I));
-        Assert.Equal(Vector.K, FaceKernel.UnitNormal(Vector.Zero, 1e-90 * Vector.I, 1e-90 * Vector.J));
-        Assert.Equal(Vector.J, FaceKernel.UnitNormal(Vector.One, Vector.One, Vector.One));
+        Assert.Equal(Vector.K, TriangleKernel.UnitNormal(Vector.Zero, Vector.I, Vector.J));
+        Assert.Equal(-Vector.K, TriangleKernel.UnitNormal(Vector.Zero, Vector.J, Vector.I));
+        Assert.Equal(Vector.K, TriangleKernel.UnitNormal(Vector.Zero, 1e-90 * Vector.I, 1e-90 * Vector.J));
+        Assert.Equal(Vector.J, TriangleKernel.UnitNormal(Vector.One, Vector.One, Vector.One));
     }
 
     [Fact]
@@ -72,21 +72,21 @@ public class FaceKernelTests
         var quarters = random.Next(5);
         var (weightB, weightC) = (quarters / 4.0, random.Next(5 - quarters) / 4.0);
         var position = a + (weightB * (b - a)) + (weightC * (c - a));
-        var point = FaceKernel.ClosestPoint(position, a, b, c);
+        var point = TriangleKernel.ClosestPoint(position, a, b, c);
         Assert.Equal(0, point.DistanceSquared);
         Near.Equal(position, point.Point, 1e-12 * 400);
     });
 
     [Theory]
-    [InlineData(-1, -1, 0, FaceFeature.CornerA)]
-    [InlineData(9, -1, 0, FaceFeature.CornerB)]
-    [InlineData(-1, 9, 1, FaceFeature.CornerC)]
-    [InlineData(2, -1, 1, FaceFeature.EdgeAB)]
-    [InlineData(3, 3, 1, FaceFeature.EdgeBC)]
-    [InlineData(-1, 2, 1, FaceFeature.EdgeCA)]
-    [InlineData(1, 1, 1, FaceFeature.Interior)]
-    public void ClosestPoint_NamesTheFeature(double x, double y, double z, FaceFeature feature) =>
-        Assert.Equal(feature, FaceKernel.ClosestPoint(new(x, y, z), Vector.Zero, 4 * Vector.I, 4 * Vector.J).Feature);
+    [InlineData(-1, -1, 0, TriangleFeature.VertexA)]
+    [InlineData(9, -1, 0, TriangleFeature.VertexB)]
+    [InlineData(-1, 9, 1, TriangleFeature.VertexC)]
+    [InlineData(2, -1, 1, TriangleFeature.EdgeAB)]
+    [InlineData(3, 3, 1, TriangleFeature.EdgeBC)]
+    [InlineData(-1, 2, 1, TriangleFeature.EdgeCA)]
+    [InlineData(1, 1, 1, TriangleFeature.Interior)]
+    public void ClosestPoint_NamesTheFeature(double x, double y, double z, TriangleFeature feature) =>
+        Assert.Equal(feature, TriangleKernel.ClosestPoint(new(x, y, z), Vector.Zero, 4 * Vector.I, 4 * Vector.J).Feature);
 
     [Fact]
     public void SquaredDistances_OfFourFaces_EqualTheKernelsBitForBit() => Seeded.Run(100, random =>
@@ -94,31 +94,31 @@ public class FaceKernelTests
         for (var i = 0; i < 500; i++)
         {
             var faces = Enumerable.Range(0, 4).Select(_ => NastyFace.Random(random)).ToArray();
-            var quartet = new FaceQuartet(Four(faces, face => face.A), Four(faces, face => face.B), Four(faces, face => face.C));
+            var quartet = new TriangleX4(Four(faces, face => face.A), Four(faces, face => face.B), Four(faces, face => face.C));
             var position = faces[random.Next(4)].Position;
-            var squared = FaceQuartet.SquaredDistances(in quartet, in position, double.PositiveInfinity);
+            var squared = TriangleX4.DistancesSquared(in quartet, in position, double.PositiveInfinity);
             for (var lane = 0; lane < 4; lane++)
             {
                 var (_, a, b, c) = faces[lane];
-                var expected = FaceKernel.ClosestPoint(position, a, b, c).DistanceSquared;
+                var expected = TriangleKernel.ClosestPoint(position, a, b, c).DistanceSquared;
                 Assert.True(squared[lane] == expected, string.Create(CultureInfo.InvariantCulture, $"{faces[lane]} from {position}: {squared[lane]:R}, not {expected:R}"));
             }
         }
     });
 
-    private static VectorQuartet Four(NastyFace[] faces, Func<NastyFace, Vector> corner) => new(
+    private static VectorX4 Four(NastyFace[] faces, Func<NastyFace, Vector> corner) => new(
         Vector256.Create([.. faces.Select(face => corner(face).X)]),
         Vector256.Create([.. faces.Select(face => corner(face).Y)]),
         Vector256.Create([.. faces.Select(face => corner(face).Z)]));
 
-    private static bool IsOn(FaceFeature feature, Vector weights) => feature switch
+    private static bool IsOn(TriangleFeature feature, Vector weights) => feature switch
     {
-        FaceFeature.CornerA => weights == Vector.I,
-        FaceFeature.CornerB => weights == Vector.J,
-        FaceFeature.CornerC => weights == Vector.K,
-        FaceFeature.EdgeAB => weights.Z == 0,
-        FaceFeature.EdgeBC => weights.X == 0,
-        FaceFeature.EdgeCA => weights.Y == 0,
+        TriangleFeature.VertexA => weights == Vector.I,
+        TriangleFeature.VertexB => weights == Vector.J,
+        TriangleFeature.VertexC => weights == Vector.K,
+        TriangleFeature.EdgeAB => weights.Z == 0,
+        TriangleFeature.EdgeBC => weights.X == 0,
+        TriangleFeature.EdgeCA => weights.Y == 0,
         _ => true,
     };
 
@@ -128,7 +128,7 @@ public class FaceKernelTests
         {
             var face = NastyFace.Random(random);
             var (position, a, b, c) = face;
-            var distance = Math.Sqrt(FaceKernel.ClosestPoint(position, a, b, c).DistanceSquared);
+            var distance = Math.Sqrt(TriangleKernel.ClosestPoint(position, a, b, c).DistanceSquared);
             var exact = FaceOracle.Distance(position, a, b, c);
             Assert.True(Math.Abs(distance - exact) <= Tolerance * face.Magnitude, string.Create(
                 CultureInfo.InvariantCulture, $"{face}: {distance:R}, exactly {exact:R}, off by {(distance - exact) / face.Magnitude:R} of the size"));

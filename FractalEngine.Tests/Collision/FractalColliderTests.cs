@@ -19,7 +19,7 @@ public class FractalColliderTests
     {
         var set = Enumerable.Range(0, transformations).Select(i => Samples.MoveAndScale(i, 0.5 * i, 0, 0.3));
         var fractal = new Fractal(new("base.obj", [new Repetition([new TransformationSet([.. set])], depth)]), Fan(faces));
-        var record = new QueryRecord();
+        var record = new QueryContext();
         Assert.True(new FractalCollider(fractal).TryFindClosest(new(1, 2, 3), double.PositiveInfinity, record, out _));
         Assert.Equal((cost, depth), (record.FaceTests, record.InstancePath.Length));
         Assert.Equal(cost, (long)faces * transformations * depth);
@@ -29,7 +29,7 @@ public class FractalColliderTests
     public void Find_WithTwoSetsInABody_ConcatenatesThem()
     {
         // Appendix B: 5·5 transformations a level.
-        var record = new QueryRecord();
+        var record = new QueryContext();
         Assert.True(new FractalCollider(Samples.AppendixBAt(6)).TryFindClosest(new(1, 2, 3), double.PositiveInfinity, record, out _));
         Assert.Equal(1 * 25 * 6, record.FaceTests);
     }
@@ -39,7 +39,7 @@ public class FractalColliderTests
     {
         var fractal = RandomFractals.Draw(random);
         var position = random.Vector(4);
-        var record = new QueryRecord();
+        var record = new QueryContext();
         if (new FractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var greedy))
         {
             Assert.True(new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var exact));
@@ -57,7 +57,7 @@ public class FractalColliderTests
             new TransformationSet([Transformation.Identity, Samples.Move(4, 0, 0)]),
             new TransformationSet([Samples.Move(1.5, 0, 0), Samples.Move(9, 9, 9)]),
         ]), Samples.Triangle);
-        var record = new QueryRecord();
+        var record = new QueryContext();
         var position = new Vector(2.6, 0, 0);
         new FractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var greedy);
         new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var exact);
@@ -71,7 +71,7 @@ public class FractalColliderTests
         var fractal = AssetFractals.Load("appendix-b", 3);
         var exact = new ExactFractalCollider(fractal);
         var colliders = new[] { 1, 2, 4, 16, 64 }.Select(width => new FractalCollider(fractal, width)).ToArray();
-        var (record, random) = (new QueryRecord(), new Random(1));
+        var (record, random) = (new QueryContext(), new Random(1));
         var errors = new double[colliders.Length];
         for (var query = 0; query < 200; query++)
         {
@@ -98,7 +98,7 @@ public class FractalColliderTests
             return;
         }
 
-        var (record, position, size) = (new QueryRecord(), random.Vector(4), fractal.Bounds.Diagonal);
+        var (record, position, size) = (new QueryContext(), random.Vector(4), fractal.Bounds.Diagonal);
         var found = new FractalCollider(fractal, 2000).TryFindClosest(position, double.PositiveInfinity, record, out var wide);
         var path = record.InstancePath.ToArray();
         Assert.Equal(new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var exact), found);
@@ -111,7 +111,7 @@ public class FractalColliderTests
     public void Width_OfMoreCopies_AllocatesNothingAndKeepsWithin()
     {
         var collider = new FractalCollider(AssetFractals.Load("tree", null), 8);
-        var record = new QueryRecord();
+        var record = new QueryContext();
         Assert.True(collider.TryFindClosest(new(1, 2, 3), double.PositiveInfinity, record, out var closest));
         var before = GC.GetAllocatedBytesForCurrentThread();
         Assert.True(collider.TryFindClosest(new(1, 2, 3), closest.Distance, record, out _));

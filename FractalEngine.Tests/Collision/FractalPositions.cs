@@ -50,8 +50,8 @@ internal static class FractalPositions
 
     /// <summary>As exact as coordinates are: points further away round more.</summary>
     public static double SizeOf(Fractal fractal, Vector position) => Math.Max(
-        position.MaximumComponent(),
-        Math.Max(fractal.Bounds.Diagonal, Math.Max(fractal.Bounds.Minimum.MaximumComponent(), fractal.Bounds.Maximum.MaximumComponent())));
+        position.MaxAbsComponent(),
+        Math.Max(fractal.Bounds.Diagonal, Math.Max(fractal.Bounds.Minimum.MaxAbsComponent(), fractal.Bounds.Maximum.MaxAbsComponent())));
 
     private static Vector Inside(Random random, BoundingBox box, double factor) =>
         box.Centre + box.Size.Stretch(factor * new Vector(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5));
@@ -67,7 +67,7 @@ internal static class FractalPositions
         var level = random.Next(levels);
         var map = Chain(random, fractal, level, level + 1);
         var point = fractal.Bounds.Centre;
-        for (var i = 0; i < 100 && (map * point).MaximumComponent() < 10 * SizeOf(fractal, Vector.Zero); i++)
+        for (var i = 0; i < 100 && (map * point).MaxAbsComponent() < 10 * SizeOf(fractal, Vector.Zero); i++)
         {
             point = map * point;
         }

@@ -30,7 +30,7 @@ internal sealed class FractalProbe(string name, Fractal fractal)
     /// <param name="position">Finite.</param>
     /// <param name="record">Of the thread.</param>
     /// <param name="expected">The nearest distance.</param>
-    public ClosestPoint Check(Vector position, QueryRecord record, double expected)
+    public ClosestPoint Check(Vector position, QueryContext record, double expected)
     {
         var size = FractalPositions.SizeOf(Fractal, position);
         var found = Exact.TryFindClosest(position, double.PositiveInfinity, record, out var closest);
@@ -41,13 +41,13 @@ internal sealed class FractalProbe(string name, Fractal fractal)
     }
 
     /// <summary>Fails unless the point, the normal, the weights and the instance of an answer belong together.</summary>
-    public void CheckAnswer(Vector position, QueryRecord record, ClosestPoint closest)
+    public void CheckAnswer(Vector position, QueryContext record, ClosestPoint closest)
     {
         var size = FractalPositions.SizeOf(Fractal, position);
         Require(Math.Abs((closest.Point - position).Length() - closest.Distance) <= PointTolerance * size, position, $"point {closest.Point} is not at distance {closest.Distance:R}");
         Require(Math.Abs(closest.Normal.Length() - 1) <= 1e-12, position, $"normal {closest.Normal}");
         var map = InstanceOf(position, record);
-        var (a, b, c) = Fractal.BaseMesh.Face(closest.Face);
+        var (a, b, c) = Fractal.BaseMesh.Face(closest.FaceIndex);
         var (weightA, weightB, weightC) = closest.Barycentrics;
         var isWeight = Math.Min(weightA, Math.Min(weightB, weightC)) >= 0 && Math.Abs(weightA + weightB + weightC - 1) <= 1e-12;
         Require(isWeight, position, $"weights {closest.Barycentrics}");
@@ -64,7 +64,7 @@ internal sealed class FractalProbe(string name, Fractal fractal)
     /// Asks again with little more than the distance that is known to be right. A bound that is too large by far less than copies are apart leaves the
     /// nearest copy out here, while else it mostly changes no more than the order of copies.
     /// </summary>
-    public void CheckWithin(Vector position, QueryRecord record, double distance)
+    public void CheckWithin(Vector position, QueryContext record, double distance)
     {
         var size = FractalPositions.SizeOf(Fractal, position);
         var within = distance + (Tolerance * size);
@@ -84,7 +84,7 @@ internal sealed class FractalProbe(string name, Fractal fractal)
 
     private void Require(bool holds, Vector position, string message) => Require(holds, position, (FormattableString)$"{message}");
 
-    private AffineMap InstanceOf(Vector position, QueryRecord record)
+    private AffineMap InstanceOf(Vector position, QueryContext record)
     {
         var map = AffineMap.Identity;
         for (var level = 0; level < record.InstancePath.Length; level++)
@@ -93,12 +93,12 @@ internal sealed class FractalProbe(string name, Fractal fractal)
         }
 
         // It may end early where what is left is below the precision, and else go on with identities only.
-        var isSmall = BoundingSphere.LengtheningBound(map.Linear) * Fractal.BaseMesh.Bounds.Diagonal <= Tolerance * Fractal.Bounds.Diagonal;
+        var isSmall = BoundingSphere.OperatorNormBound(map.Linear) * Fractal.BaseMesh.Bounds.Diagonal <= Tolerance * Fractal.Bounds.Diagonal;
         var rest = record.InstancePath.Length;
         var hasIdentities = Fractal.LevelCount is not { } count || Enumerable.Range(rest, (int)Math.Min(100, count - rest)).All(level => Fractal.LevelAt(level).Maps.Contains(AffineMap.Identity));
         Require(isSmall || rest == Fractal.LevelCount || (Fractal.LevelCount is null or > 2000 && hasIdentities), position, $"the path ends at {Path(record)}");
         return map;
     }
 
-    private static string Path(QueryRecord record) => $"[{string.Join(", ", record.InstancePath.ToArray())}]";
+    private static string Path(QueryContext record) => $"[{string.Join(", ", record.InstancePath.ToArray())}]";
 }

@@ -36,7 +36,7 @@ public class HierarchyColliderTests
     public void TryFindClosest_WithinARadius_FindsWhatIsNotFarther(string name)
     {
         var mesh = CollisionMeshes.All[name]();
-        var (simple, hierarchy, record) = (new SimpleCollider(mesh), new HierarchyCollider(mesh), new QueryRecord());
+        var (simple, hierarchy, record) = (new SimpleCollider(mesh), new HierarchyCollider(mesh), new QueryContext());
         Seeded.Run(40, random =>
         {
             var position = CollisionMeshes.Position(random, mesh);
@@ -58,7 +58,7 @@ public class HierarchyColliderTests
     public void TryFindClosest_WithEpsilon_IsNoFartherThanItSays(string name)
     {
         var mesh = CollisionMeshes.All[name]();
-        var (simple, hierarchy, record) = (new SimpleCollider(mesh), new HierarchyCollider(mesh), new QueryRecord());
+        var (simple, hierarchy, record) = (new SimpleCollider(mesh), new HierarchyCollider(mesh), new QueryContext());
         Seeded.Run(60, random =>
         {
             var position = CollisionMeshes.Position(random, mesh);
@@ -74,7 +74,7 @@ public class HierarchyColliderTests
     public void TryFindClosest_WithEpsilon_CostsLess()
     {
         var mesh = MeshGenerators.Create("terrain", 1, 20_000);
-        var (exact, rough) = (new QueryRecord(), new QueryRecord());
+        var (exact, rough) = (new QueryContext(), new QueryContext());
         var hierarchy = new HierarchyCollider(mesh);
         Seeded.Run(200, random =>
         {
@@ -89,7 +89,7 @@ public class HierarchyColliderTests
     public void TryFindClosest_OnALargeMesh_LooksAtFewFaces()
     {
         var mesh = MeshGenerators.Create("icosphere", 1, 20_480);
-        var record = new QueryRecord();
+        var record = new QueryContext();
         var hierarchy = new HierarchyCollider(mesh);
         Seeded.Run(200, random => hierarchy.TryFindClosest(1.05 * NastyFace.Cube(random).UnitVector(), double.PositiveInfinity, record, out _));
         Assert.InRange(record.FaceTests, 200, 200 * 60);
@@ -126,7 +126,7 @@ public class HierarchyColliderTests
     public void TryFindClosest_AllocatesNothing(int faces)
     {
         var mesh = CollisionMeshes.Soup(1, faces, 0.1);
-        var (hierarchy, record, random) = (new HierarchyCollider(mesh), new QueryRecord(), new Random(1));
+        var (hierarchy, record, random) = (new HierarchyCollider(mesh), new QueryContext(), new Random(1));
         var positions = Enumerable.Range(0, 200).Select(_ => CollisionMeshes.Position(random, mesh)).ToArray();
         var sum = AskAll();
         var before = GC.GetAllocatedBytesForCurrentThread();
@@ -160,12 +160,12 @@ public class HierarchyColliderTests
     public void Build_OnAnyNumberOfThreads_GivesTheSameTree()
     {
         var mesh = MeshGenerators.Create("tree-stump", 1, 120_000);
-        var expected = FaceHierarchyBuilder.Build(mesh, Vector.Zero, 1, threads: 1);
+        var expected = TriangleBvhBuilder.Build(mesh, Vector.Zero, 1, threads: 1);
         foreach (var threads in new[] { 2, 3, 16 })
         {
-            var actual = FaceHierarchyBuilder.Build(mesh, Vector.Zero, 1, threads);
+            var actual = TriangleBvhBuilder.Build(mesh, Vector.Zero, 1, threads);
             Assert.Equal(expected.Children, actual.Children);
-            Assert.Equal(expected.Boxes, actual.Boxes);
+            Assert.Equal(expected.NodeBounds, actual.NodeBounds);
             Assert.Equal(expected.Leaves, actual.Leaves);
         }
     }
@@ -175,12 +175,12 @@ public class HierarchyColliderTests
     public void Build_OfAnyMesh_HasEachFaceOnceAndFewLevels(string name)
     {
         var mesh = CollisionMeshes.All[name]();
-        var layout = FaceHierarchyBuilder.Build(mesh, mesh.Bounds.Centre, 1 / Math.Max(1e-100, mesh.Bounds.Diagonal), threads: 2);
+        var layout = TriangleBvhBuilder.Build(mesh, mesh.Bounds.Centre, 1 / Math.Max(1e-100, mesh.Bounds.Diagonal), threads: 2);
         var faces = new List<int>();
         Assert.InRange(Visit(0), 1, 40);
         Assert.Equal(Enumerable.Range(0, mesh.FaceCount), faces.Order());
 
-        int Visit(int node) => layout.Children.Slice(8 * node, 8).Where(child => child != HierarchyLayout.NoChild).Max(child =>
+        int Visit(int node) => layout.Children.Slice(8 * node, 8).Where(child => child != BvhLayout.NoChild).Max(child =>
         {
             if (child >= 0)
             {
@@ -189,7 +189,7 @@ public class HierarchyColliderTests
 
             for (var i = 0; i <= (~child % 4); i++)
             {
-                faces.Add(layout.Leaves[~child / 4].Face[i]);
+                faces.Add(layout.Leaves[~child / 4].FaceIndices[i]);
             }
 
             return 1;
@@ -198,7 +198,7 @@ public class HierarchyColliderTests
 
     private static void Compare(Mesh mesh, int queries)
     {
-        var (simple, hierarchy, record) = (new SimpleCollider(mesh), new HierarchyCollider(mesh), new QueryRecord());
+        var (simple, hierarchy, record) = (new SimpleCollider(mesh), new HierarchyCollider(mesh), new QueryContext());
         Seeded.Run(queries, random =>
         {
             var position = CollisionMeshes.Position(random, mesh);
@@ -206,8 +206,8 @@ public class HierarchyColliderTests
             Assert.True(hierarchy.TryFindClosest(position, double.PositiveInfinity, record, out var actual));
             // The same kernel on the same face, so the same bits; of faces equally near any will do.
             Assert.True(expected.Distance == actual.Distance, string.Create(
-                CultureInfo.InvariantCulture, $"{position}: {actual.Distance:R} at face {actual.Face}, not {expected.Distance:R} at face {expected.Face}"));
-            Assert.Equal(actual.Distance, (position - actual.Point).Length(), 1e-12 * (position.MaximumComponent() + mesh.Bounds.Diagonal));
+                CultureInfo.InvariantCulture, $"{position}: {actual.Distance:R} at face {actual.FaceIndex}, not {expected.Distance:R} at face {expected.FaceIndex}"));
+            Assert.Equal(actual.Distance, (position - actual.Point).Length(), 1e-12 * (position.MaxAbsComponent() + mesh.Bounds.Diagonal));
         });
     }
 }

@@ -25,7 +25,7 @@ public class HullBoundTests
         {
             var position = Position(random, points);
             var enough = random.Next(3) == 0 ? Math.Pow(PointClouds.SizeOf(points), 2) * random.NextDouble() : double.PositiveInfinity;
-            Check(bound.DistanceSquared(AffineLanes.Of(position), enough), position, points, position.MaximumComponent());
+            Check(bound.LowerBoundSquared(SimdAffineMap.ToVector256(position), enough), position, points, position.MaxAbsComponent());
         }
     });
 
@@ -40,8 +40,8 @@ public class HullBoundTests
             var map = Map(random, size);
             var images = points.Select(point => map * point).ToArray();
             var position = Position(random, images);
-            var actual = bound.ImageDistanceSquared(AffineLanes.Of(position), new(map), new(map.Inverse()), double.PositiveInfinity);
-            Check(actual, position, images, Math.Max(position.MaximumComponent(), size * map.Linear.MaximumEntry()));
+            var actual = bound.TransformedLowerBoundSquared(SimdAffineMap.ToVector256(position), new(map), new(map.Inverse()), double.PositiveInfinity);
+            Check(actual, position, images, Math.Max(position.MaxAbsComponent(), size * map.Linear.MaxAbsEntry()));
         }
     });
 
@@ -49,14 +49,14 @@ public class HullBoundTests
     public void DistanceSquared_InFrontOfAFacet_IsExact() => Seeded.Run(60, random =>
     {
         var points = Enumerable.Range(0, random.Next(4, 12)).Select(_ => random.Vector()).ToArray();
-        var hull = ConvexHull.Of(points, 48);
-        var bound = new HullBound(hull, Box(points), 0, withAxes: true);
+        var hull = ConvexHull.Build(points, 48);
+        var bound = new HullBound(hull, Box(points), 0, includeAxisPlanes: true);
         foreach (var plane in hull.Planes)
         {
             var corners = hull.Vertices.OrderByDescending(vertex => Vector.Dot(plane.Normal, vertex)).Take(3).ToArray();
             var height = random.Between(0.01, 0.5);
             var position = ((corners[0] + corners[1] + corners[2]) / 3) + (height * plane.Normal);
-            Assert.Equal(height, Math.Sqrt(bound.DistanceSquared(AffineLanes.Of(position), double.PositiveInfinity)), 1e-9);
+            Assert.Equal(height, Math.Sqrt(bound.LowerBoundSquared(SimdAffineMap.ToVector256(position), double.PositiveInfinity)), 1e-9);
         }
     });
 
@@ -68,7 +68,7 @@ public class HullBoundTests
         var position = 1000 * random.Direction();
         var nearest = points.Min(point => (position - point).Length());
         // Seen from so far, the corner that reaches farthest is off the line from the centre by at most 2, so nearer by 2²/2000.
-        Assert.InRange(Math.Sqrt(bound.DistanceSquared(AffineLanes.Of(position), double.PositiveInfinity)), nearest - 0.01, nearest + 1e-9);
+        Assert.InRange(Math.Sqrt(bound.LowerBoundSquared(SimdAffineMap.ToVector256(position), double.PositiveInfinity)), nearest - 0.01, nearest + 1e-9);
     });
 
     [Fact]
@@ -78,17 +78,17 @@ public class HullBoundTests
         var bound = BoundOf(points, random, margin: 0);
         // Where no other direction could be nearer: the corner's own cone.
         var position = -random.Between(1, 50) * random.Direction().Absolute();
-        Assert.Equal(position.Length(), Math.Sqrt(bound.DistanceSquared(AffineLanes.Of(position), double.PositiveInfinity)), 1e-12 * position.Length());
+        Assert.Equal(position.Length(), Math.Sqrt(bound.LowerBoundSquared(SimdAffineMap.ToVector256(position), double.PositiveInfinity)), 1e-12 * position.Length());
     });
 
     [Fact]
     public void DistanceSquared_WithAMargin_IsLessByNoMoreThanThat() => Seeded.Run(60, random =>
     {
         var points = Enumerable.Range(0, 20).Select(_ => random.Vector()).ToArray();
-        var hull = ConvexHull.Of(points, 48);
+        var hull = ConvexHull.Build(points, 48);
         var (exact, wide) = (new HullBound(hull, Box(points), 0, true), new HullBound(hull, Box(points), 0.1, true));
-        var position = AffineLanes.Of(random.Vector(4));
-        var difference = Math.Sqrt(exact.DistanceSquared(position, double.PositiveInfinity)) - Math.Sqrt(wide.DistanceSquared(position, double.PositiveInfinity));
+        var position = SimdAffineMap.ToVector256(random.Vector(4));
+        var difference = Math.Sqrt(exact.LowerBoundSquared(position, double.PositiveInfinity)) - Math.Sqrt(wide.LowerBoundSquared(position, double.PositiveInfinity));
         Assert.InRange(difference, -1e-12, 0.1 + 1e-12);
     });
 
@@ -103,9 +103,9 @@ public class HullBoundTests
 
     private static HullBound BoundOf(Vector[] points, Random random, double? margin = null)
     {
-        var hull = ConvexHull.Of(points, margin == 0 ? 60 : random.Next(4, 60));
+        var hull = ConvexHull.Build(points, margin == 0 ? 60 : random.Next(4, 60));
         // As outlines have it: what the hull misses, and rounding.
-        return new(hull, Box(points), margin ?? (hull.Missed + (2e-15 * PointClouds.SizeOf(points))), random.Next(2) == 0 || margin == 0);
+        return new(hull, Box(points), margin ?? (hull.MaxOutsideDistance + (2e-15 * PointClouds.SizeOf(points))), random.Next(2) == 0 || margin == 0);
     }
 
     private static BoundingBox Box(Vector[] points) => points.Aggregate(BoundingBox.Empty, (box, point) => box.Including(point));

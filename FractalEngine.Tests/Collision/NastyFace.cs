@@ -6,7 +6,7 @@ namespace FractalEngine.Tests.Collision;
 internal readonly record struct NastyFace(Vector Position, Vector A, Vector B, Vector C)
 {
     /// <summary>What errors are measured against: the largest coordinate.</summary>
-    public double Magnitude => Math.Max(Math.Max(Position.MaximumComponent(), A.MaximumComponent()), Math.Max(B.MaximumComponent(), C.MaximumComponent()));
+    public double Magnitude => Math.Max(Math.Max(Position.MaxAbsComponent(), A.MaxAbsComponent()), Math.Max(B.MaxAbsComponent(), C.MaxAbsComponent()));
 
     public static NastyFace Random(Random random)
     {

@@ -38,7 +38,7 @@ internal static class PointClouds
     };
 
     /// <summary>The largest coordinate, which rounding is measured against.</summary>
-    public static double SizeOf(Vector[] points) => points.Max(point => point.MaximumComponent());
+    public static double SizeOf(Vector[] points) => points.Max(point => point.MaxAbsComponent());
 
     private static Vector[] OnPlane(Random random, double noise)
     {

@@ -43,7 +43,7 @@ public class SceneColliderTests
             new(new("f.fdo", Samples.Move(0, 0, 0)), model),
             new(new("f.fdo", Samples.Move(0, 40, 0)), model),
         ]);
-        var record = new QueryRecord();
+        var record = new QueryContext();
         // Instance 1 at both levels starts at 5 + ½·5.
         Assert.True(new SceneCollider(scene).TryFindClosest(new(7.5, 40, 0), double.PositiveInfinity, record, out var closest, out var index));
         Assert.Equal((0.0, 1), (closest.Distance, index));
@@ -79,6 +79,6 @@ public class SceneColliderTests
     private static Core.Geometry.Mesh FlattenInWorld(PlacedModel placed) => FractalGenerator.Flatten(
         placed.Model.Mesh,
         placed.Model is FractalModel { Fractal: var fractal }
-            ? [.. FractalGenerator.Expand(fractal, 1_000_000).Select(map => placed.Map * map)]
-            : [placed.Map]);
+            ? [.. FractalGenerator.Expand(fractal, 1_000_000).Select(map => placed.ObjectToWorld * map)]
+            : [placed.ObjectToWorld]);
 }

@@ -23,52 +23,52 @@ public class CoverageBufferTests
     [InlineData(3, 16, 17)]
     public void Clear_AfterAnotherSize_LeavesNothing(int left, int right, int height)
     {
-        var buffer = new CoverageBuffer();
+        var buffer = new OcclusionBuffer();
         buffer.Clear(0, 200, 100);
-        Assert.True(buffer.Draw(-1000, -1000, 5, 3000, -1000, 5, -1000, 3000, 5));
-        Assert.True(buffer.IsHidden(0, 0, 199, 99, 5));
+        Assert.True(buffer.RasterizeTriangle(-1000, -1000, 5, 3000, -1000, 5, -1000, 3000, 5));
+        Assert.True(buffer.IsOccluded(0, 0, 199, 99, 5));
         buffer.Clear(left, right, height);
         for (var y = 0; y < height; y++)
         {
             for (var x = left; x < right; x++)
             {
-                Assert.False(buffer.IsHidden(x, y, x, y, float.MinValue));
+                Assert.False(buffer.IsOccluded(x, y, x, y, float.MinValue));
             }
         }
 
-        Assert.True(buffer.Draw(-1000, -1000, 5, 3000, -1000, 5, -1000, 3000, 5));
-        Assert.True(buffer.IsHidden(left, 0, right - 1, height - 1, 5));
-        Assert.False(buffer.IsHidden(left, 0, right - 1, height - 1, 5.001f));
+        Assert.True(buffer.RasterizeTriangle(-1000, -1000, 5, 3000, -1000, 5, -1000, 3000, 5));
+        Assert.True(buffer.IsOccluded(left, 0, right - 1, height - 1, 5));
+        Assert.False(buffer.IsOccluded(left, 0, right - 1, height - 1, 5.001f));
     }
 
     [Fact]
     public void Draw_WithNoPixelsMiddle_CoversNothing()
     {
-        var buffer = new CoverageBuffer();
+        var buffer = new OcclusionBuffer();
         buffer.Clear(8, 24, 16);
         // Within a pixel beside its middle; degenerate; outside on each side; on the border to the next strip.
-        Assert.False(buffer.Draw(10.6f, 4.6f, 1, 10.9f, 4.6f, 1, 10.6f, 4.9f, 1));
-        Assert.False(buffer.Draw(10, 4, 1, 20, 14, 1, 15, 9, 1));
-        Assert.False(buffer.Draw(0, 4, 1, 7, 4, 1, 0, 14, 1));
-        Assert.False(buffer.Draw(24.4f, 4, 1, 40, 4, 1, 24.4f, 14, 1));
-        Assert.False(buffer.Draw(10, -8, 1, 20, -8, 1, 10, 0, 1));
-        Assert.False(buffer.Draw(10, 16, 1, 20, 16, 1, 10, 30, 1));
-        Assert.False(buffer.IsHidden(8, 0, 23, 15, float.MinValue));
+        Assert.False(buffer.RasterizeTriangle(10.6f, 4.6f, 1, 10.9f, 4.6f, 1, 10.6f, 4.9f, 1));
+        Assert.False(buffer.RasterizeTriangle(10, 4, 1, 20, 14, 1, 15, 9, 1));
+        Assert.False(buffer.RasterizeTriangle(0, 4, 1, 7, 4, 1, 0, 14, 1));
+        Assert.False(buffer.RasterizeTriangle(24.4f, 4, 1, 40, 4, 1, 24.4f, 14, 1));
+        Assert.False(buffer.RasterizeTriangle(10, -8, 1, 20, -8, 1, 10, 0, 1));
+        Assert.False(buffer.RasterizeTriangle(10, 16, 1, 20, 16, 1, 10, 30, 1));
+        Assert.False(buffer.IsOccluded(8, 0, 23, 15, float.MinValue));
     }
 
     [Fact]
     public void Draw_OfNumbersThatAreNone_CoversNothingAndEnds()
     {
-        var buffer = new CoverageBuffer();
+        var buffer = new OcclusionBuffer();
         buffer.Clear(0, 20, 20);
         foreach (var bad in (float[])[float.NaN, float.PositiveInfinity, float.NegativeInfinity])
         {
-            Assert.False(buffer.Draw(bad, 0, 1, 20, 0, 1, 0, 20, 1));
-            Assert.False(buffer.Draw(0, bad, 1, 20, 0, 1, 0, 20, 1));
+            Assert.False(buffer.RasterizeTriangle(bad, 0, 1, 20, 0, 1, 0, 20, 1));
+            Assert.False(buffer.RasterizeTriangle(0, bad, 1, 20, 0, 1, 0, 20, 1));
         }
 
-        Assert.False(buffer.Draw(0, 0, float.NaN, 20, 0, float.NaN, 0, 20, float.NaN));
-        Assert.False(buffer.IsHidden(0, 0, 0, 0, float.MinValue));
+        Assert.False(buffer.RasterizeTriangle(0, 0, float.NaN, 20, 0, float.NaN, 0, 20, float.NaN));
+        Assert.False(buffer.IsOccluded(0, 0, 0, 0, float.MinValue));
     }
 
     private delegate (float X, float Y, float Nearness)[] TriangleSource(Random random, int width, int height);
@@ -115,12 +115,12 @@ public class CoverageBufferTests
     {
         var (left, width, height) = (random.Next(0, 40), random.Next(1, 70), random.Next(1, 70));
         var (right, picture) = (left + width, new Oracle(left, left + width, height));
-        var buffer = new CoverageBuffer();
+        var buffer = new OcclusionBuffer();
         if (random.Next(2) == 0)
         {
             // Memory of another picture is used again.
             buffer.Clear(0, random.Next(1, 150), random.Next(1, 100));
-            buffer.Draw(-1000, -1000, 9, 3000, -1000, 9, -1000, 3000, 9);
+            buffer.RasterizeTriangle(-1000, -1000, 9, 3000, -1000, 9, -1000, 3000, 9);
         }
 
         buffer.Clear(left, right, height);
@@ -128,7 +128,7 @@ public class CoverageBufferTests
         {
             var corners = source(random, right, height);
             var ((ax, ay, an), (bx, by, bn), (cx, cy, cn)) = (corners[0], corners[1], corners[2]);
-            var covers = buffer.Draw(ax, ay, an, bx, by, bn, cx, cy, cn);
+            var covers = buffer.RasterizeTriangle(ax, ay, an, bx, by, bn, cx, cy, cn);
             var (certainly, possibly) = picture.Draw(corners);
             Assert.True(covers || !certainly, $"triangle {string.Join(" ", corners)} is said to be nowhere the nearest");
             Assert.True(!covers || possibly, $"triangle {string.Join(" ", corners)} is said to be the nearest somewhere");
@@ -138,7 +138,7 @@ public class CoverageBufferTests
                 (x1, x2, y1, y2) = query < 3 ? (x1, x1, y1, y1) : (Math.Min(x1, x2), Math.Max(x1, x2), Math.Min(y1, y2), Math.Max(y1, y2));
                 var (least, most) = picture.FarthestIn(x1, y1, x2, y2);
                 var nearness = query % 2 == 0 || !double.IsFinite(least) ? (float)random.Between(0.1, 1) : (float)(least * random.Between(0.98, 1.02));
-                var isHidden = buffer.IsHidden(x1, y1, x2, y2, nearness);
+                var isHidden = buffer.IsOccluded(x1, y1, x2, y2, nearness);
                 Assert.True(!isHidden || most >= nearness, FormattableString.Invariant($"({x1}, {y1}) to ({x2}, {y2}) of columns {left} to {right} is said to be hidden at {nearness}; a pixel there has {most}"));
                 Assert.True(isHidden || least < nearness, FormattableString.Invariant($"({x1}, {y1}) to ({x2}, {y2}) of columns {left} to {right} is said not to be hidden at {nearness}; all pixels have {least}"));
             }

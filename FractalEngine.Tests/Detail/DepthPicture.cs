@@ -7,7 +7,7 @@ namespace FractalEngine.Tests.Detail;
 /// <summary>The nearest surface at the middle of each pixel, in double precision: every face of every instance, cut at the near and the far plane.</summary>
 internal sealed class DepthPicture
 {
-    private readonly DetailView _view;
+    private readonly CullingView _view;
     private readonly bool _hasSamples;
     private readonly double[] _depth;
     private readonly double[] _place = new double[3 * 4];
@@ -15,7 +15,7 @@ internal sealed class DepthPicture
     /// <summary>Without any surface.</summary>
     /// <param name="view">How it is looked at.</param>
     /// <param name="hasSamples">True for four samples a pixel, where graphics hardware has them: the picture then has twice the size.</param>
-    public DepthPicture(DetailView view, bool hasSamples = false)
+    public DepthPicture(CullingView view, bool hasSamples = false)
     {
         view = hasSamples ? view with { Width = 2 * view.Width, Height = 2 * view.Height } : view;
         _hasSamples = hasSamples;
@@ -40,14 +40,14 @@ internal sealed class DepthPicture
             corners[i] = inverse * (map * mesh.Vertex(i));
         }
 
-        for (var i = 0; i < mesh.Faces.Length; i += 3)
+        for (var i = 0; i < mesh.VertexIndices.Length; i += 3)
         {
-            Cut(corners[mesh.Faces[i]], corners[mesh.Faces[i + 1]], corners[mesh.Faces[i + 2]], number);
+            Cut(corners[mesh.VertexIndices[i]], corners[mesh.VertexIndices[i + 1]], corners[mesh.VertexIndices[i + 2]], number);
         }
     }
 
     /// <summary>Where a point in view space appears: pixels from the upper left.</summary>
-    public static (double X, double Y) Project(in DetailView view, Vector point)
+    public static (double X, double Y) Project(in CullingView view, Vector point)
     {
         var per = view.IsPerspective ? 1 / point.Z : 1;
         return ((0.5 * view.Width) + (view.PixelsPerUnitX * point.X * per), (0.5 * view.Height) - (view.PixelsPerUnitY * point.Y * per));

@@ -60,10 +60,10 @@ public class DetailTableTests
     {
         // Nothing tells their places apart.
         var maps = Enumerable.Range(1, count).Select(i => new AffineMap(i * Matrix.Identity, Vector.Zero)).ToArray();
-        var tree = new InstanceTree(new(-Vector.One, Vector.One), maps);
-        var table = tree.States;
+        var tree = new InstanceBvh(new(-Vector.One, Vector.One), maps);
+        var table = tree.Nodes;
         var found = new List<AffineMap>();
-        Expand(levels => table[levels], tree.Root, AffineMap.Identity, found);
+        Expand(levels => table[levels], tree.RootIndex, AffineMap.Identity, found);
         Naive.AssertSameMaps([.. maps.Select(Naive.Rows)], found, 0);
     }
 
@@ -79,29 +79,29 @@ public class DetailTableTests
         ];
         foreach (var fractal in nothing)
         {
-            var table = DetailTable.Of(fractal);
-            Assert.True(table.At(table.Levels).IsEmpty);
+            var table = LodHierarchy.Build(fractal);
+            Assert.True(table.NodeAt(table.LevelCount).IsEmpty);
             Assert.Empty(Expand(table));
         }
 
-        Assert.True(DetailTable.Of(Mesh.Empty) is var mesh && mesh.At(mesh.Levels).IsEmpty);
+        Assert.True(LodHierarchy.Build(Mesh.Empty) is var mesh && mesh.NodeAt(mesh.LevelCount).IsEmpty);
     }
 
     [Fact]
     public void Table_OfOnePoint_HoldsIt()
     {
         var point = new Mesh([1, 2, 3], [0, 0, 0]);
-        var table = DetailTable.Of(new Fractal(Samples.Repeated(4, Samples.MoveAndScale(1, 0, 0, 0.5), Samples.MoveAndScale(0, 1, 0, -0.5)).Description, point));
+        var table = LodHierarchy.Build(new Fractal(Samples.Repeated(4, Samples.MoveAndScale(1, 0, 0, 0.5), Samples.MoveAndScale(0, 1, 0, -0.5)).Description, point));
         Assert.Equal(16, Expand(table).Count);
-        Assert.True(table.At(table.Levels).Box.Size.IsFinite());
+        Assert.True(table.NodeAt(table.LevelCount).Box.Size.IsFinite());
     }
 
     [Fact]
     public void Table_OfAFractalThatGrowsWithoutEnd_IsRefused()
     {
-        Assert.Throws<FractalLimitException>(() => DetailTable.Of(Samples.Repeated(null, Samples.MoveAndScale(1, 0, 0, 2), Samples.MoveAndScale(0, 1, 0, 0.5))));
-        Assert.Throws<FractalLimitException>(() => DetailTable.Of(Samples.Repeated(null, Samples.Move(1, 0, 0), Samples.MoveAndScale(0, 1, 0, 0.5))));
-        Assert.Throws<FractalLimitException>(() => DetailTable.Of(Samples.Repeated(10_000, Samples.MoveAndScale(1, 0, 0, 2))));
+        Assert.Throws<FractalLimitException>(() => LodHierarchy.Build(Samples.Repeated(null, Samples.MoveAndScale(1, 0, 0, 2), Samples.MoveAndScale(0, 1, 0, 0.5))));
+        Assert.Throws<FractalLimitException>(() => LodHierarchy.Build(Samples.Repeated(null, Samples.Move(1, 0, 0), Samples.MoveAndScale(0, 1, 0, 0.5))));
+        Assert.Throws<FractalLimitException>(() => LodHierarchy.Build(Samples.Repeated(10_000, Samples.MoveAndScale(1, 0, 0, 2))));
     }
 
     [Fact]
@@ -120,9 +120,9 @@ public class DetailTableTests
 
     private static void Check(Fractal fractal)
     {
-        var table = DetailTable.Of(fractal);
+        var table = LodHierarchy.Build(fractal);
         var expected = FractalGenerator.Expand(fractal, 1_000_000);
-        var size = expected.Length == 0 ? 1 : expected.Max(map => Math.Max(map.Translation.MaximumComponent(), map.Linear.MaximumEntry()));
+        var size = expected.Length == 0 ? 1 : expected.Max(map => Math.Max(map.Translation.MaxAbsComponent(), map.Linear.MaxAbsEntry()));
         var found = Expand(table);
         // The same products in another order.
         var counts = DetailViews.Count([.. expected], found, 1e-11 * size, 1e-11 * size);
@@ -133,21 +133,21 @@ public class DetailTableTests
             Assert.True(expected.Length == found.Count, $"{found.Count} instances for {expected.Length} distinct ones of {fractal.InstanceCount}");
         }
         var seen = new HashSet<long>();
-        CheckBoxes(table, table.Levels, seen);
+        CheckBoxes(table, table.LevelCount, seen);
     }
 
     /// <summary>True where a set with the identity comes again after its repetition has ended, as in repetitions of repetitions.</summary>
     private static bool RepeatsIdentities(FractalDescription description) => description.Composition == Composition.Affine
-        && description.Steps.OfType<Repetition>().Any(repetition => repetition.Nesting > 1 && Naive.Levels([repetition]).Any(level => level.Any(map => map.IsIdentity)));
+        && description.Steps.OfType<Repetition>().Any(repetition => repetition.NestingDepth > 1 && Naive.Levels([repetition]).Any(level => level.Any(map => map.IsIdentity)));
 
-    private static List<AffineMap> Expand(DetailTable table)
+    private static List<AffineMap> Expand(LodHierarchy table)
     {
         var found = new List<AffineMap>();
-        Expand(table.At, table.Levels, AffineMap.Identity, found);
+        Expand(table.NodeAt, table.LevelCount, AffineMap.Identity, found);
         return found;
     }
 
-    private static void Expand(Func<long, DetailState> at, long levels, AffineMap map, List<AffineMap> found)
+    private static void Expand(Func<long, LodNode> at, long levels, AffineMap map, List<AffineMap> found)
     {
         var state = at(levels);
         if (state.IsEmpty)
@@ -155,41 +155,41 @@ public class DetailTableTests
             return;
         }
 
-        if (state.Maps.Length == 0)
+        if (state.ChildMaps.Length == 0)
         {
-            found.Add(map * state.StandIn.ToMap());
+            found.Add(map * state.ProxyMap.ToAffineMap());
         }
 
-        for (var i = 0; i < state.Maps.Length; i++)
+        for (var i = 0; i < state.ChildMaps.Length; i++)
         {
-            Expand(at, Below(state, i, levels), map * state.Maps[i].ToMap(), found);
+            Expand(at, Below(state, i, levels), map * state.ChildMaps[i].ToAffineMap(), found);
         }
     }
 
-    private static long Below(DetailState state, int child, long levels) => state.Downs[child] < 0 ? ~state.Downs[child] : levels - state.Downs[child];
+    private static long Below(LodNode state, int child, long levels) => state.ChildLevelSteps[child] < 0 ? ~state.ChildLevelSteps[child] : levels - state.ChildLevelSteps[child];
 
     /// <summary>Each state's box holds all vertices of what it is expanded to, and its children's boxes those of the children.</summary>
-    private static void CheckBoxes(DetailTable table, long levels, HashSet<long> seen)
+    private static void CheckBoxes(LodHierarchy table, long levels, HashSet<long> seen)
     {
-        var state = table.At(levels);
+        var state = table.NodeAt(levels);
         if (!seen.Add(levels) || state.IsEmpty)
         {
             return;
         }
 
         var everything = new List<AffineMap>();
-        Expand(table.At, levels, AffineMap.Identity, everything);
-        var rounding = 1e-12 * (state.Box.Diagonal + state.Box.Centre.MaximumComponent());
+        Expand(table.NodeAt, levels, AffineMap.Identity, everything);
+        var rounding = 1e-12 * (state.Box.Diagonal + state.Box.Centre.MaxAbsComponent());
         AssertHeld(table.Mesh, everything, state.Box, rounding, $"with {levels} levels left");
-        Near.Equal(state.Box.Centre, AffineLanes.ToVector(state.Centre), rounding);
-        Near.Equal(0.5 * state.Box.Size, AffineLanes.ToVector(state.HalfSize), rounding);
-        for (var i = 0; i < state.Maps.Length; i++)
+        Near.Equal(state.Box.Centre, SimdAffineMap.ToVector(state.Centre), rounding);
+        Near.Equal(0.5 * state.Box.Size, SimdAffineMap.ToVector(state.HalfSize), rounding);
+        for (var i = 0; i < state.ChildMaps.Length; i++)
         {
             var child = new List<AffineMap>();
             var below = Below(state, i, levels);
-            Expand(table.At, below, state.Maps[i].ToMap(), child);
-            var start = (i / DetailState.Lanes * DetailState.Lanes * DetailState.Rows) + (i % DetailState.Lanes);
-            Vector Row(int row) => new(state.Boxes[start + (row * 8)], state.Boxes[start + ((row + 1) * 8)], state.Boxes[start + ((row + 2) * 8)]);
+            Expand(table.NodeAt, below, state.ChildMaps[i].ToAffineMap(), child);
+            var start = (i / LodNode.Lanes * LodNode.Lanes * LodNode.BoxRows) + (i % LodNode.Lanes);
+            Vector Row(int row) => new(state.ChildBoxes[start + (row * 8)], state.ChildBoxes[start + ((row + 1) * 8)], state.ChildBoxes[start + ((row + 2) * 8)]);
             var centre = state.Box.Centre + Row(0);
             // Documented to hold the copies as they are, in single precision: no tolerance but that of the sums here.
             AssertHeld(table.Mesh, child, new(centre - Row(3), centre + Row(3)), rounding, $"copy {i} with {levels} levels left");
@@ -201,7 +201,7 @@ public class DetailTableTests
 
     private static void AssertHeld(Mesh mesh, List<AffineMap> maps, BoundingBox box, double rounding, string where)
     {
-        Vector[] corners = [.. mesh.Faces.Distinct().Select(mesh.Vertex)];
+        Vector[] corners = [.. mesh.VertexIndices.Distinct().Select(mesh.Vertex)];
         foreach (var map in maps)
         {
             foreach (var corner in corners)

@@ -11,26 +11,26 @@ namespace FractalEngine.Tests.Detail;
 internal static class DetailViews
 {
     /// <summary>Everything is drawn.</summary>
-    public static readonly DetailSettings Everything = new() { PixelSize = 0, SkipsOutside = false, SkipsHidden = false, Threads = 1 };
+    public static readonly CullingSettings Everything = new() { MinProjectedSize = 0, FrustumCulling = false, OcclusionCulling = false, ThreadCount = 1 };
 
-    public static DetailObject Object(Fractal fractal) => Object(fractal, AffineMap.Identity);
+    public static CulledObject Object(Fractal fractal) => Object(fractal, AffineMap.Identity);
 
-    public static DetailObject Object(Fractal fractal, AffineMap map, int solidSign = 0) =>
-        new(DetailTable.Of(fractal), map, fractal.BaseMesh.FaceCount == 0 ? Vector.Zero : fractal.BaseMesh.Bounds.Centre, solidSign);
+    public static CulledObject Object(Fractal fractal, AffineMap map, int solidSign = 0) =>
+        new(LodHierarchy.Build(fractal), map, fractal.BaseMesh.FaceCount == 0 ? Vector.Zero : fractal.BaseMesh.Bounds.Centre, solidSign);
 
     /// <summary>From a place towards another.</summary>
-    public static DetailView Look(Vector from, Vector to, bool isPerspective = true, int width = 160, int height = 120, double near = 0.01, double far = 1e4, double halfHeight = 0.5) => new(
+    public static CullingView Look(Vector from, Vector to, bool isPerspective = true, int width = 160, int height = 120, double near = 0.01, double far = 1e4, double halfHeight = 0.5) => new(
         from, CameraFraming.LookRotation(to - from).LocalAxes(), isPerspective, halfHeight, width, height, (double)width / height, near, far);
 
     /// <summary>Shows a whole box from some side.</summary>
-    public static DetailView Around(BoundingBox box, Vector direction, bool isPerspective = true, int width = 160, int height = 120)
+    public static CullingView Around(BoundingBox box, Vector direction, bool isPerspective = true, int width = 160, int height = 120)
     {
         var size = Math.Max(box.Diagonal, 1e-300);
         return Look(box.Centre - (1.5 * size * direction.UnitVector()), box.Centre, isPerspective, width, height, 0.5 * size, 3 * size, isPerspective ? 0.5 : 0.6 * size);
     }
 
     /// <summary>A view of a fractal from anywhere: around it, near it, within it; both projections; planes that often cut it.</summary>
-    public static DetailView Random(Random random, BoundingBox box, int width = 160, int height = 120)
+    public static CullingView Random(Random random, BoundingBox box, int width = 160, int height = 120)
     {
         var size = box.Diagonal;
         var from = random.Next(4) switch
@@ -47,16 +47,16 @@ internal static class DetailViews
     }
 
     /// <summary>What was chosen of an object: maps from the frame of the base mesh to world axes about the camera.</summary>
-    public static List<AffineMap> Chosen(VisibleSet set, DetailObject item, int index = 0)
+    public static List<AffineMap> Chosen(VisibleSet set, CulledObject item, int index = 0)
     {
         var maps = new List<AffineMap>();
-        for (var part = 0; part < VisibleSet.PartCount; part++)
+        for (var part = 0; part < VisibleSet.ChunkCount; part++)
         {
-            var rows = set.Part(index, part);
-            for (var i = 0; i < rows.Length; i += VisibleSet.InstanceFloats)
+            var rows = set.Instances(index, part);
+            for (var i = 0; i < rows.Length; i += VisibleSet.FloatsPerInstance)
             {
                 var linear = Matrix.FromRows(new(rows[i], rows[i + 1], rows[i + 2]), new(rows[i + 4], rows[i + 5], rows[i + 6]), new(rows[i + 8], rows[i + 9], rows[i + 10]));
-                maps.Add(new(linear, new Vector(rows[i + 3], rows[i + 7], rows[i + 11]) - (linear * item.Origin)));
+                maps.Add(new(linear, new Vector(rows[i + 3], rows[i + 7], rows[i + 11]) - (linear * item.VertexOrigin)));
             }
         }
 
@@ -65,10 +65,10 @@ internal static class DetailViews
 
     /// <summary>All bits of what was chosen, object after object and part after part.</summary>
     public static float[] Bits(VisibleSet set, int objects) =>
-        [.. from item in Enumerable.Range(0, objects) from part in Enumerable.Range(0, VisibleSet.PartCount) from number in set.Part(item, part).ToArray() select number];
+        [.. from item in Enumerable.Range(0, objects) from part in Enumerable.Range(0, VisibleSet.ChunkCount) from number in set.Instances(item, part).ToArray() select number];
 
     /// <summary>The distinct instances of an object as maps to world axes about the camera.</summary>
-    public static AffineMap[] Expected(Fractal fractal, AffineMap map, in DetailView view)
+    public static AffineMap[] Expected(Fractal fractal, AffineMap map, in CullingView view)
     {
         var shift = AffineMap.Translate(-view.Position) * map;
         return [.. FractalGenerator.Expand(fractal, 2_000_000).Select(instance => shift * instance)];
@@ -85,7 +85,7 @@ internal static class DetailViews
         var (length, factor) = (1e-300, 1e-300);
         foreach (var map in expected)
         {
-            (length, factor) = (Math.Max(length, map.Translation.MaximumComponent()), Math.Max(factor, map.Linear.MaximumEntry()));
+            (length, factor) = (Math.Max(length, map.Translation.MaxAbsComponent()), Math.Max(factor, map.Linear.MaxAbsEntry()));
         }
 
         return Count(expected, chosen, 3e-6 * Math.Max(length, factor), 2e-6 * factor);

@@ -36,7 +36,7 @@ public class FractalAddressTests
     [InlineData("menger", 0)]
     [InlineData("turned", 0)]
     [Trait("Category", "Soak")]
-    public void Move_ThroughAMillionLevels_EndsWhereItBegan(string name, int copy) => CheckDive(name, copy, Aside, FractalLimits.Depth, 1e-9);
+    public void Move_ThroughAMillionLevels_EndsWhereItBegan(string name, int copy) => CheckDive(name, copy, Aside, FractalLimits.MaxDepth, 1e-9);
 
     [Theory]
     [InlineData(100)]
@@ -47,7 +47,7 @@ public class FractalAddressTests
         dive.GoTo(depth);
         // A sum of so many numbers of the same kind, each rounded.
         Near.Equal(-dive.Address.Depth * Math.Log(3), dive.Address.LogUnit, 1e-12 * depth * Math.Log(3));
-        Near.Equal(1, Math.Abs(dive.Address.About.Linear.Determinant()), 1e-9);
+        Near.Equal(1, Math.Abs(dive.Address.FrameToCamera.Linear.Determinant()), 1e-9);
     }
 
     [Fact]
@@ -57,7 +57,7 @@ public class FractalAddressTests
             null, new(new(-1, 0, 0), new(10, 20, 30), new(0.5, 0.5, 0.5)), new(new(1, 0, 0), Vector.Zero, new(0.3, 0.35, 0.4)), new(new(0, 1, 0), Vector.Zero, new(0.6, 0.5, -0.55)));
         Seeded.Run(30, random =>
         {
-            var address = new FractalAddress(DetailTable.Of(fractal), Aside, Aside * random.Vector(3));
+            var address = new FractalAddress(LodHierarchy.Build(fractal), Aside, Aside * random.Vector(3));
             Wander(random, address, 200);
             var maps = address.Path.Select(copy => fractal.LevelAt(0).Maps[copy].Linear).Prepend(Aside.Linear).ToArray();
             var expected = address.Depth == 0 ? 0 : maps.Sum(linear => Math.Log(Math.Abs(linear.Determinant())) / 3);
@@ -83,17 +83,17 @@ public class FractalAddressTests
     [InlineData("menger-4")]
     public void WorldPosition_NotDeep_IsThatOfTheCamera(string name)
     {
-        var table = DetailTable.Of(name == "menger-4" ? DetailViews.Menger(4) : Infinite(name));
-        var size = (Aside * table.At(table.Levels).Box.Centre).Length() + table.At(table.Levels).Box.Transform(Aside).Diagonal;
+        var table = LodHierarchy.Build(name == "menger-4" ? DetailViews.Menger(4) : Infinite(name));
+        var size = (Aside * table.NodeAt(table.LevelCount).Box.Centre).Length() + table.NodeAt(table.LevelCount).Box.Transform(Aside).Diagonal;
         Seeded.Run(100, random =>
         {
-            var position = Aside * (table.At(table.Levels).Box.Centre + random.Vector(table.At(table.Levels).Box.Diagonal));
+            var position = Aside * (table.NodeAt(table.LevelCount).Box.Centre + random.Vector(table.NodeAt(table.LevelCount).Box.Diagonal));
             var address = new FractalAddress(table, Aside, position);
             address.Move(Vector.Zero);
             Near.Equal(position, address.WorldPosition(Aside), 1e-12 * size);
             for (var i = 0; i < 10; i++)
             {
-                var step = 0.5 * (address.About * (table.At(table.Levels).Box.Centre + random.Vector(table.At(table.Levels).Box.Diagonal)));
+                var step = 0.5 * (address.FrameToCamera * (table.NodeAt(table.LevelCount).Box.Centre + random.Vector(table.NodeAt(table.LevelCount).Box.Diagonal)));
                 position += Math.Exp(address.LogUnit) * step;
                 address.Move(step);
                 Near.Equal(position, address.WorldPosition(Aside), 1e-12 * size);
@@ -106,7 +106,7 @@ public class FractalAddressTests
     {
         // After 300 levels a 10,000th of the size: as a double tells it, that is a long way.
         var map = Samples.MoveAndScale(0.03, 0, 0, 0.97);
-        var table = DetailTable.Of(Samples.Repeated(null, map, Samples.MoveAndScale(3, 0, 0, 0.1)));
+        var table = LodHierarchy.Build(Samples.Repeated(null, map, Samples.MoveAndScale(3, 0, 0, 0.1)));
         var address = new FractalAddress(table, AffineMap.Identity, new(5, 5, 5));
         var position = new Vector(5, 5, 5);
         var fixedPoint = new Vector(1, 0, 0);
@@ -145,10 +145,10 @@ public class FractalAddressTests
         dive.GoTo(12);
         for (var ancestors = 0; ancestors <= 15; ancestors++)
         {
-            var roots = dive.Address.Roots(ancestors);
+            var roots = dive.Address.CollectRoots(ancestors);
             Assert.Equal(1 + (19 * Math.Min(ancestors, dive.Address.Depth)), roots.Length);
-            Assert.Contains(roots, root => root.Map == dive.Address.About);
-            Assert.All(roots, root => Assert.True(root.Map.IsFinite()));
+            Assert.Contains(roots, root => root.FrameToCamera == dive.Address.FrameToCamera);
+            Assert.All(roots, root => Assert.True(root.FrameToCamera.IsFinite()));
         }
     }
 
@@ -159,7 +159,7 @@ public class FractalAddressTests
     [InlineData("turned", 4)]
     [InlineData("skewed", 5)]
     [InlineData("fern", 6)]
-    public void Move_ALongRandomWalk_KeepsNearAndDoesNotDrift(string name, int seed) => Seeded.RunOne(seed, random => CheckWalk(random, DetailTable.Of(Infinite(name)), 15_000));
+    public void Move_ALongRandomWalk_KeepsNearAndDoesNotDrift(string name, int seed) => Seeded.RunOne(seed, random => CheckWalk(random, LodHierarchy.Build(Infinite(name)), 15_000));
 
     [Theory]
     [InlineData("menger", 1)]
@@ -167,7 +167,7 @@ public class FractalAddressTests
     [InlineData("tree", 3)]
     [InlineData("turned", 4)]
     [Trait("Category", "Soak")]
-    public void Move_AHundredThousandSteps_KeepsNearAndDoesNotDrift(string name, int seed) => Seeded.RunOne(seed, random => CheckWalk(random, DetailTable.Of(Infinite(name)), 100_000));
+    public void Move_AHundredThousandSteps_KeepsNearAndDoesNotDrift(string name, int seed) => Seeded.RunOne(seed, random => CheckWalk(random, LodHierarchy.Build(Infinite(name)), 100_000));
 
     [Theory]
     [InlineData("menger")]
@@ -177,8 +177,8 @@ public class FractalAddressTests
     public void NearestDistance_NotDeep_IsThatOfExactSearch(string name)
     {
         var fractal = Infinite(name);
-        var (table, collider) = (DetailTable.Of(fractal), new ExactFractalCollider(fractal));
-        var (box, record) = (table.At(table.Levels).Box, new QueryRecord());
+        var (table, collider) = (LodHierarchy.Build(fractal), new ExactFractalCollider(fractal));
+        var (box, record) = (table.NodeAt(table.LevelCount).Box, new QueryContext());
         var worst = new List<string>();
         Seeded.Run(300, random =>
         {
@@ -189,8 +189,8 @@ public class FractalAddressTests
                 var exact = (closest.Point - position).Length();
                 var address = new FractalAddress(table, AffineMap.Identity, position);
                 address.Move(Vector.Zero);
-                var (unit, size) = (Math.Exp(address.LogUnit), State(table, address).Box.Transform(address.About).Diagonal);
-                var found = unit * address.NearestDistance();
+                var (unit, size) = (Math.Exp(address.LogUnit), State(table, address).Box.Transform(address.FrameToCamera).Diagonal);
+                var found = unit * address.ClosestSurfaceDistance();
                 // To a tenth, and never less than a thousandth of what is around.
                 if (!(found >= 0.85 * exact && found <= Math.Max(1.15 * exact, 1.01e-3 * unit * size)))
                 {
@@ -209,7 +209,7 @@ public class FractalAddressTests
     {
         foreach (var depth in (int[])[0, 1, 2, 3, 6])
         {
-            var address = new FractalAddress(DetailTable.Of(DetailViews.Menger(depth)), AffineMap.Identity, new(-3, -3, -3));
+            var address = new FractalAddress(LodHierarchy.Build(DetailViews.Menger(depth)), AffineMap.Identity, new(-3, -3, -3));
             var position = new Vector(-3, -3, -3);
             for (var i = 0; i < 100; i++)
             {
@@ -228,15 +228,15 @@ public class FractalAddressTests
     public void Move_AtTheDeepestLevel_GoesNoDeeper()
     {
         var dive = Dive("menger", 0, AffineMap.Identity);
-        dive.GoTo(FractalLimits.Depth);
+        dive.GoTo(FractalLimits.MaxDepth);
         for (var i = 0; i < 1000; i++)
         {
             dive.Move(0.5 * dive.Target(Vector.Zero));
-            Assert.Equal(FractalLimits.Depth, dive.Address.Depth);
-            Assert.True(dive.Address.About.IsFinite());
+            Assert.Equal(FractalLimits.MaxDepth, dive.Address.Depth);
+            Assert.True(dive.Address.FrameToCamera.IsFinite());
         }
 
-        Assert.True(double.IsFinite(dive.Address.NearestDistance()));
+        Assert.True(double.IsFinite(dive.Address.ClosestSurfaceDistance()));
         Assert.True(dive.Address.WorldPosition(AffineMap.Identity).IsFinite());
     }
 
@@ -247,17 +247,17 @@ public class FractalAddressTests
     public void Move_WhereMapsSkewWithoutBound_StopsEntering(string name)
     {
         var fractal = Infinite(name);
-        var table = DetailTable.Of(fractal);
+        var table = LodHierarchy.Build(fractal);
         var depths = new List<int>();
-        for (var copy = 0; copy < table.At(table.Levels).Maps.Length; copy++)
+        for (var copy = 0; copy < table.NodeAt(table.LevelCount).ChildMaps.Length; copy++)
         {
-            if (table.At(Below(table, table.Levels, copy)).Maps.Length == 0 || table.At(table.Levels).Downs[copy] != 1)
+            if (table.NodeAt(Below(table, table.LevelCount, copy)).ChildMaps.Length == 0 || table.NodeAt(table.LevelCount).ChildLevelSteps[copy] != 1)
             {
                 continue;
             }
 
             var address = new FractalAddress(table, Aside, Aside * new Vector(3, 4, 5));
-            var map = table.At(table.Levels).Maps[copy].ToMap();
+            var map = table.NodeAt(table.LevelCount).ChildMaps[copy].ToAffineMap();
             var target = Aside * ((Matrix.Identity + (-1 * map.Linear)).Inverse() * map.Translation);
             for (var i = 0; i < 300; i++)
             {
@@ -324,7 +324,7 @@ public class FractalAddressTests
         _ => AssetFractals.Load(name, null),
     };
 
-    internal static FractalDive Dive(string name, int copy, AffineMap placement) => new(DetailTable.Of(Infinite(name)), copy, placement, name switch
+    internal static FractalDive Dive(string name, int copy, AffineMap placement) => new(LodHierarchy.Build(Infinite(name)), copy, placement, name switch
     {
         "menger" => copy == 0 ? -Vector.One : new(-1, 1, 0.8),
         _ => new(-1, -0.7, -0.9),
@@ -333,7 +333,7 @@ public class FractalAddressTests
     private static void CheckDive(string name, int copy, AffineMap placement, int depth, double tolerance)
     {
         var dive = Dive(name, copy, placement);
-        var (about, size) = (dive.Address.About, dive.Start.Length() + placement.Linear.MaximumEntry());
+        var (about, size) = (dive.Address.FrameToCamera, dive.Start.Length() + placement.Linear.MaxAbsEntry());
         Assert.Equal((0, 0.0), (dive.Address.Depth, dive.Address.LogUnit));
         dive.GoTo(depth);
         AssertFinite(dive.Address);
@@ -341,13 +341,13 @@ public class FractalAddressTests
         Assert.Equal(0, dive.Address.Depth);
         Assert.Empty(dive.Address.Path);
         Assert.Equal(0.0, dive.Address.LogUnit);
-        Near.Equal(0, Near.Difference(about, dive.Address.About) / size, tolerance);
+        Near.Equal(0, Near.Difference(about, dive.Address.FrameToCamera) / size, tolerance);
     }
 
     private static void CheckRoots(Random random, Fractal fractal, AffineMap placement)
     {
-        var table = DetailTable.Of(fractal);
-        var top = table.At(table.Levels);
+        var table = LodHierarchy.Build(fractal);
+        var top = table.NodeAt(table.LevelCount);
         if (top.IsEmpty)
         {
             return;
@@ -359,30 +359,30 @@ public class FractalAddressTests
         // Deeper: to a corner of some sub-fractal, several times.
         for (var i = 0; i < 5; i++)
         {
-            var step = 0.9 * (address.About * (State(table, address).Box.Centre + (0.5 * State(table, address).Box.Size.Stretch(random.Vector()))));
+            var step = 0.9 * (address.FrameToCamera * (State(table, address).Box.Centre + (0.5 * State(table, address).Box.Size.Stretch(random.Vector()))));
             position += Math.Exp(address.LogUnit) * step;
             address.Move(step);
         }
 
         var unit = Math.Exp(address.LogUnit);
         var found = new List<AffineMap>();
-        foreach (var root in address.Roots(int.MaxValue))
+        foreach (var root in address.CollectRoots(int.MaxValue))
         {
-            AddInstances(found, table, root.Levels, new(unit * root.Map.Linear, unit * root.Map.Translation));
+            AddInstances(found, table, root.RemainingLevels, new(unit * root.FrameToCamera.Linear, unit * root.FrameToCamera.Translation));
         }
 
         // Of the table: of what overlaps beyond the end of a repetition, it has some twice (docs/colliders.md).
         var (expected, shift) = (new List<AffineMap>(), AffineMap.Translate(-position) * placement);
-        AddInstances(expected, table, table.Levels, shift);
+        AddInstances(expected, table, table.LevelCount, shift);
         DetailViews.AssertEachOnce([.. expected], found);
         var distinct = FractalGenerator.Expand(fractal, 2_000_000).Select(instance => shift * instance).ToArray();
         Assert.All(DetailViews.Count(distinct, found), count => Assert.True(count >= 1));
     }
 
-    private static void AddInstances(List<AffineMap> found, DetailTable table, long levels, AffineMap map)
+    private static void AddInstances(List<AffineMap> found, LodHierarchy table, long levels, AffineMap map)
     {
-        var state = table.At(levels);
-        if (state.Maps.Length == 0)
+        var state = table.NodeAt(levels);
+        if (state.ChildMaps.Length == 0)
         {
             if (!state.IsEmpty)
             {
@@ -392,16 +392,16 @@ public class FractalAddressTests
             return;
         }
 
-        for (var child = 0; child < state.Maps.Length; child++)
+        for (var child = 0; child < state.ChildMaps.Length; child++)
         {
-            AddInstances(found, table, state.Downs[child] < 0 ? ~state.Downs[child] : levels - state.Downs[child], map * state.Maps[child].ToMap());
+            AddInstances(found, table, state.ChildLevelSteps[child] < 0 ? ~state.ChildLevelSteps[child] : levels - state.ChildLevelSteps[child], map * state.ChildMaps[child].ToAffineMap());
         }
     }
 
     /// <summary>Goes into sub-fractals and out of them; wherever it is not deep, its place is compared with the sum of the steps.</summary>
-    private static void CheckWalk(Random random, DetailTable table, int steps)
+    private static void CheckWalk(Random random, LodHierarchy table, int steps)
     {
-        var (position, size) = (Aside * new Vector(2, 1, -2), table.At(table.Levels).Box.Transform(Aside).Diagonal);
+        var (position, size) = (Aside * new Vector(2, 1, -2), table.NodeAt(table.LevelCount).Box.Transform(Aside).Diagonal);
         var address = new FractalAddress(table, Aside, position);
         address.Move(Vector.Zero);
         var (deepest, compared, isGoingIn) = (0, 0, true);
@@ -411,14 +411,14 @@ public class FractalAddressTests
             // In for some levels, then out again.
             isGoingIn = isGoingIn ? address.Depth < 30 && random.Next(200) > 0 : address.Depth == 0 || random.Next(500) == 0;
             var step = isGoingIn
-                ? random.Between(0.1, 0.6) * (address.About * (state.Box.Centre + (0.5 * state.Box.Size.Stretch(random.Vector()))))
+                ? random.Between(0.1, 0.6) * (address.FrameToCamera * (state.Box.Centre + (0.5 * state.Box.Size.Stretch(random.Vector()))))
                 // Away from what is near, to some side.
-                : random.Between(0.2, 2) * state.Box.Transform(address.About).Diagonal * ((0.7 * random.Direction()) - (address.About * state.Box.Centre).UnitVector());
+                : random.Between(0.2, 2) * state.Box.Transform(address.FrameToCamera).Diagonal * ((0.7 * random.Direction()) - (address.FrameToCamera * state.Box.Centre).UnitVector());
             position += Math.Exp(address.LogUnit) * step;
             address.Move(step);
             AssertFinite(address);
             state = State(table, address);
-            var camera = address.About.Inverse() * Vector.Zero;
+            var camera = address.FrameToCamera.Inverse() * Vector.Zero;
             Assert.True(
                 address.Depth == 0 || Math.Sqrt(state.Box.DistanceSquared(camera)) <= 1.001 * Left * state.Box.Diagonal, Text($"step {i}: too far away at depth {address.Depth}"));
             deepest = Math.Max(deepest, address.Depth);
@@ -443,25 +443,25 @@ public class FractalAddressTests
     {
         for (var i = 0; i < steps; i++)
         {
-            address.Move(random.Between(0, 0.5) * (address.About * random.Vector()));
+            address.Move(random.Between(0, 0.5) * (address.FrameToCamera * random.Vector()));
         }
     }
 
-    private static DetailState State(DetailTable table, FractalAddress address)
+    private static LodNode State(LodHierarchy table, FractalAddress address)
     {
-        var levels = table.Levels;
+        var levels = table.LevelCount;
         foreach (var copy in address.Path)
         {
             levels = Below(table, levels, copy);
         }
 
-        return table.At(levels);
+        return table.NodeAt(levels);
     }
 
-    private static long Below(DetailTable table, long levels, int copy) => table.At(levels).Downs[copy] switch { < 0 and var down => ~down, var down => levels - down };
+    private static long Below(LodHierarchy table, long levels, int copy) => table.NodeAt(levels).ChildLevelSteps[copy] switch { < 0 and var down => ~down, var down => levels - down };
 
     private static void AssertFinite(FractalAddress address) => Assert.True(
-        address.About.IsFinite() && double.IsFinite(address.LogUnit) && address.About.Linear.Determinant() != 0, Text($"at depth {address.Depth}: {address.About}, {address.LogUnit}"));
+        address.FrameToCamera.IsFinite() && double.IsFinite(address.LogUnit) && address.FrameToCamera.Linear.Determinant() != 0, Text($"at depth {address.Depth}: {address.FrameToCamera}, {address.LogUnit}"));
 
     private static string Text(FormattableString text) => text.ToString(CultureInfo.InvariantCulture);
 }

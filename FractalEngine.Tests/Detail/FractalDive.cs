@@ -6,7 +6,7 @@ namespace FractalEngine.Tests.Detail;
 /// <summary>A camera that goes towards the fixed point of one of a fractal's maps, by way of an address.</summary>
 internal sealed class FractalDive
 {
-    private readonly DetailTable _table;
+    private readonly LodHierarchy _table;
     private readonly int _copy;
     private int _right;
 
@@ -16,11 +16,11 @@ internal sealed class FractalDive
     /// <param name="placement">Of the fractal.</param>
     /// <param name="direction">From the fixed point to the camera, in the fractal's frame.</param>
     /// <param name="distance">Of the box's diagonal.</param>
-    public FractalDive(DetailTable table, int copy, AffineMap placement, Vector direction, double distance = 3)
+    public FractalDive(LodHierarchy table, int copy, AffineMap placement, Vector direction, double distance = 3)
     {
         (_table, _copy) = (table, copy);
-        var top = table.At(table.Levels);
-        var map = top.Maps[copy].ToMap();
+        var top = table.NodeAt(table.LevelCount);
+        var map = top.ChildMaps[copy].ToAffineMap();
         Point = (Matrix.Identity + (-1 * map.Linear)).Inverse() * map.Translation;
         Start = placement * (Point + (distance * top.Box.Diagonal * direction.UnitVector()));
         Address = new(table, placement, Start);
@@ -51,10 +51,10 @@ internal sealed class FractalDive
         var point = Point + offset;
         for (var i = _right; i < Address.Path.Count; i++)
         {
-            point = _table.At(_table.Levels).Maps[Address.Path[i]].ToMap().Inverse() * point;
+            point = _table.NodeAt(_table.LevelCount).ChildMaps[Address.Path[i]].ToAffineMap().Inverse() * point;
         }
 
-        return Address.About * point;
+        return Address.FrameToCamera * point;
     }
 
     public void Move(Vector step)

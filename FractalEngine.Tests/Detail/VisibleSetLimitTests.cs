@@ -13,7 +13,7 @@ namespace FractalEngine.Tests.Detail;
 [Collection(TimedTests.Name)]
 public class VisibleSetLimitTests
 {
-    private static readonly DetailSettings Ordinary = new() { Threads = 2 };
+    private static readonly CullingSettings Ordinary = new() { ThreadCount = 2 };
 
     [Theory]
     [InlineData("menger", 20)]
@@ -33,7 +33,7 @@ public class VisibleSetLimitTests
             var watch = Stopwatch.StartNew();
             var item = DetailViews.Object(AssetFractals.Load(name, levels));
             var set = new VisibleSet();
-            set.Fill(in view, [item], Ordinary);
+            set.Cull(in view, [item], Ordinary);
             counts.Add(set.InstanceCount);
             Assert.True(watch.Elapsed.TotalSeconds < 10, $"{levels} levels took {watch.Elapsed}");
             Assert.DoesNotContain(DetailViews.Bits(set, 1), number => !float.IsFinite(number));
@@ -62,10 +62,10 @@ public class VisibleSetLimitTests
     private static void FillHardlyShrinking(double factor, int maps, int depth, int budget, double seconds)
     {
         var set = Enumerable.Range(0, maps).Select(i => new Transformation(new(0.02 * i, 0.1, 0.03 * i), new(0, 20 * i, 7), factor * Vector.One)).ToArray();
-        DetailTable table;
+        LodHierarchy table;
         try
         {
-            table = DetailTable.Of(Samples.Repeated(depth, set));
+            table = LodHierarchy.Build(Samples.Repeated(depth, set));
         }
         catch (FractalLimitException)
         {
@@ -73,8 +73,8 @@ public class VisibleSetLimitTests
             return;
         }
 
-        var box = table.At(table.Levels).Box;
-        var item = new DetailObject(table, AffineMap.Identity, Vector.Zero, 0);
+        var box = table.NodeAt(table.LevelCount).Box;
+        var item = new CulledObject(table, AffineMap.Identity, Vector.Zero, 0);
         var view = DetailViews.Around(box, new(0.3, -0.4, 1), true, 400, 300);
         Run(() => FillTimed(item, view, Ordinary with { InstanceBudget = budget }, seconds));
     }
@@ -133,14 +133,14 @@ public class VisibleSetLimitTests
         // Powers of two change no digit; the sizes here are near them.
         size = Math.Pow(2, Math.Round(Math.Log2(size)));
         var fractal = DetailViews.Menger(4);
-        var (table, sizes) = (DetailTable.Of(fractal), (double[])[1, size]);
+        var (table, sizes) = (LodHierarchy.Build(fractal), (double[])[1, size]);
         foreach (var isPerspective in (bool[])[true, false])
         {
             var sets = sizes.Select(factor =>
             {
                 var view = DetailViews.Look(factor * new Vector(1.3, 0.9, -2.4), Vector.Zero, isPerspective, 400, 300, 0.3 * factor, 10 * factor, isPerspective ? 0.5 : 1.2 * factor);
                 var set = new VisibleSet();
-                set.Fill(in view, [new(table, new(factor * Matrix.Identity, Vector.Zero), Vector.Zero, 1)], Ordinary);
+                set.Cull(in view, [new(table, new(factor * Matrix.Identity, Vector.Zero), Vector.Zero, 1)], Ordinary);
                 return set;
             }).ToArray();
             Assert.DoesNotContain(DetailViews.Bits(sets[1], 1), number => !float.IsFinite(number));
@@ -154,12 +154,12 @@ public class VisibleSetLimitTests
     {
         // A million units away; the camera goes along. Rounding of the places moves edges over middles of pixels.
         var fractal = DetailViews.Menger(3);
-        var table = DetailTable.Of(fractal);
+        var table = LodHierarchy.Build(fractal);
         var counts = ((Vector[])[Vector.Zero, new(1e6, -1e6, 1e6)]).Select(place =>
         {
             var set = new VisibleSet();
             var view = DetailViews.Look(place + new Vector(1.3, 0.9, -2.4), place, true, 400, 300) with { Axes = DetailViews.Look(new(1.3, 0.9, -2.4), Vector.Zero).Axes };
-            set.Fill(in view, [new(table, AffineMap.Translate(place), Vector.Zero, 1)], Ordinary);
+            set.Cull(in view, [new(table, AffineMap.Translate(place), Vector.Zero, 1)], Ordinary);
             return set.InstanceCount;
         }).ToArray();
         Assert.InRange(counts[1], 0.99 * counts[0], 1.01 * counts[0]);
@@ -169,23 +169,23 @@ public class VisibleSetLimitTests
     public void Fill_OfRandomFractalsInRandomViews_IsFiniteAndQuick() => Seeded.Run(60, random =>
     {
         var fractal = RandomFractals.Draw(random, infinite: random.Next(2) == 0);
-        DetailTable table;
+        LodHierarchy table;
         try
         {
-            table = DetailTable.Of(fractal);
+            table = LodHierarchy.Build(fractal);
         }
         catch (FractalLimitException)
         {
             return;
         }
 
-        var box = table.At(table.Levels).Box;
+        var box = table.NodeAt(table.LevelCount).Box;
         if (box.IsEmpty || box.Diagonal is 0 or > 1e6)
         {
             return;
         }
 
-        var set = FillTimed(new(table, random.Transformation(0.5, 2).ToAffineMap(), Vector.Zero, 0), DetailViews.Random(random, box, 400, 300), Ordinary with { InstanceBudget = 50_000, HasSamples = random.Next(2) == 0 }, 5);
+        var set = FillTimed(new(table, random.Transformation(0.5, 2).ToAffineMap(), Vector.Zero, 0), DetailViews.Random(random, box, 400, 300), Ordinary with { InstanceBudget = 50_000, IsMultisampled = random.Next(2) == 0 }, 5);
         Assert.InRange(set.InstanceCount, 0, 50_000);
     });
 
@@ -213,12 +213,12 @@ public class VisibleSetLimitTests
         Assert.True(failure is null, failure?.Message);
     }
 
-    private static VisibleSet FillTimed(DetailObject item, DetailView view, DetailSettings settings, double seconds)
+    private static VisibleSet FillTimed(CulledObject item, CullingView view, CullingSettings settings, double seconds)
     {
         var set = new VisibleSet();
         var watch = Stopwatch.StartNew();
-        set.Fill(in view, [item], settings);
-        Assert.True(watch.Elapsed.TotalSeconds < seconds, $"took {watch.Elapsed}: {set.InstanceCount} instances, {set.Cost}, {set.PixelSize} pixels");
+        set.Cull(in view, [item], settings);
+        Assert.True(watch.Elapsed.TotalSeconds < seconds, $"took {watch.Elapsed}: {set.InstanceCount} instances, {set.Statistics}, {set.MinProjectedSize} pixels");
         Assert.DoesNotContain(DetailViews.Bits(set, 1), number => !float.IsFinite(number));
         return set;
     }

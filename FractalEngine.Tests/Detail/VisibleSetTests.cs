@@ -32,7 +32,7 @@ public class VisibleSetTests
         var item = DetailViews.Object(fractal, map);
         var view = DetailViews.Random(random, fractal.Bounds.Transform(map));
         var set = new VisibleSet();
-        set.Fill(in view, [item], DetailViews.Everything with { SkipsOutside = true });
+        set.Cull(in view, [item], DetailViews.Everything with { FrustumCulling = true });
         var expected = DetailViews.Expected(fractal, map, in view);
         var counts = DetailViews.Count(expected, DetailViews.Chosen(set, item));
         for (var i = 0; i < expected.Length; i++)
@@ -53,9 +53,9 @@ public class VisibleSetTests
         var view = DetailViews.Random(random, fractal.Bounds.Transform(map), random.Next(8, 200), random.Next(1, 160));
         CheckPicture(fractal.BaseMesh, DetailViews.Object(fractal, map, sign), DetailViews.Expected(fractal, map, in view), in view, DetailViews.Everything with
         {
-            SkipsHidden = true,
-            SkipsOutside = random.Next(2) == 0,
-            HasSamples = hasSamples,
+            OcclusionCulling = true,
+            FrustumCulling = random.Next(2) == 0,
+            IsMultisampled = hasSamples,
         });
     });
 
@@ -63,7 +63,7 @@ public class VisibleSetTests
     public void Fill_OfObjectsThatHideEachOther_LeavesOutWhatShowsNoPixel() => Seeded.Run(30, random =>
     {
         // Each an instance of one fractal for the oracle; opaque and transparent ones among them.
-        var (objects, all, isOpaque) = (new List<DetailObject>(), new List<(int Item, AffineMap Map)>(), new List<bool>());
+        var (objects, all, isOpaque) = (new List<CulledObject>(), new List<(int Item, AffineMap Map)>(), new List<bool>());
         var menger = DetailViews.Menger(1);
         var view = DetailViews.Look(new(0, 0, -8), Vector.Zero, random.Next(2) == 0, 120, 90, 0.1, 100, random.Next(2) == 0 ? 0.5 : 3);
         for (var i = 0; i < 4; i++)
@@ -74,7 +74,7 @@ public class VisibleSetTests
         }
 
         var set = new VisibleSet();
-        set.Fill(in view, objects, new() { PixelSize = 0, Threads = 1 });
+        set.Cull(in view, objects, new() { MinProjectedSize = 0, ThreadCount = 1 });
         var (truth, picture) = (new DepthPicture(view), new DepthPicture(view));
         foreach (var (item, map) in all.Where(instance => objects[instance.Item].IsOpaque))
         {
@@ -84,7 +84,7 @@ public class VisibleSetTests
         for (var i = 0; i < objects.Count; i++)
         {
             var chosen = DetailViews.Chosen(set, objects[i], i);
-            Assert.Equal(chosen.Count, set.CountOf(i));
+            Assert.Equal(chosen.Count, set.InstanceCountOf(i));
             if (objects[i].IsOpaque)
             {
                 chosen.ForEach(map => picture.Draw(DetailViews.Cube, map, i));
@@ -110,25 +110,25 @@ public class VisibleSetTests
     {
         var fractals = new[] { DetailViews.Menger(4), RandomFractal(random), AssetFractals.Load("tree", 6) };
         var objects = fractals.Select(fractal => DetailViews.Object(fractal, random.Transformation(0.5, 2).ToAffineMap(), random.Next(2))).ToArray();
-        var view = DetailViews.Random(random, objects.Select((item, i) => fractals[i].Bounds.Transform(item.Map)).Aggregate(BoundingBox.Union), 400, 300);
-        var settings = new DetailSettings { Threads = 1, HasSamples = random.Next(2) == 0, SkipsHidden = random.Next(4) > 0, InstanceBudget = random.Next(2) == 0 ? 1_000_000 : 500 };
+        var view = DetailViews.Random(random, objects.Select((item, i) => fractals[i].Bounds.Transform(item.ObjectToWorld)).Aggregate(BoundingBox.Union), 400, 300);
+        var settings = new CullingSettings { ThreadCount = 1, IsMultisampled = random.Next(2) == 0, OcclusionCulling = random.Next(4) > 0, InstanceBudget = random.Next(2) == 0 ? 1_000_000 : 500 };
         var set = new VisibleSet();
-        set.Fill(in view, objects, settings);
-        var (first, cost) = (DetailViews.Bits(set, 3), set.Cost);
+        set.Cull(in view, objects, settings);
+        var (first, cost) = (DetailViews.Bits(set, 3), set.Statistics);
         Assert.DoesNotContain(first, number => !float.IsFinite(number));
         foreach (var threads in (int[])[2, 5, 1, 1])
         {
-            set.Fill(in view, objects, settings with { Threads = threads });
+            set.Cull(in view, objects, settings with { ThreadCount = threads });
             Assert.Equal(first, DetailViews.Bits(set, 3));
-            Assert.Equal(cost, set.Cost);
+            Assert.Equal(cost, set.Statistics);
         }
 
         // Nothing is left of another view, nor in a new set.
-        set.Fill(DetailViews.Random(random, fractals[0].Bounds), [objects[1]], settings);
-        set.Fill(in view, objects, settings);
+        set.Cull(DetailViews.Random(random, fractals[0].Bounds), [objects[1]], settings);
+        set.Cull(in view, objects, settings);
         Assert.Equal(first, DetailViews.Bits(set, 3));
         var other = new VisibleSet();
-        other.Fill(in view, objects, settings with { Threads = 3 });
+        other.Cull(in view, objects, settings with { ThreadCount = 3 });
         Assert.Equal(first, DetailViews.Bits(other, 3));
     });
 
@@ -145,7 +145,7 @@ public class VisibleSetTests
         foreach (var hasSamples in (bool[])[false, true])
         {
             var set = new VisibleSet();
-            set.Fill(in view, [item], DetailViews.Everything with { SkipsOutside = true, SkipsHidden = skipsHidden, HasSamples = hasSamples });
+            set.Cull(in view, [item], DetailViews.Everything with { FrustumCulling = true, OcclusionCulling = skipsHidden, IsMultisampled = hasSamples });
             DetailViews.AssertEachOnce(DetailViews.Expected(fractal, AffineMap.Identity, in view), DetailViews.Chosen(set, item));
         }
     }
@@ -158,14 +158,14 @@ public class VisibleSetTests
             var fractal = DetailViews.Menger(3);
             var view = DetailViews.Look(new(0, 0, -5), new(0, 0, -6), isPerspective);
             var set = new VisibleSet();
-            set.Fill(in view, [DetailViews.Object(fractal)], new());
+            set.Cull(in view, [DetailViews.Object(fractal)], new());
             Assert.Equal(0, set.InstanceCount);
             // Beside, beyond the far plane, nearer than the near plane.
-            set.Fill(DetailViews.Look(new(0, 0, -5), new(-5, 0, -5), isPerspective), [DetailViews.Object(fractal)], new());
+            set.Cull(DetailViews.Look(new(0, 0, -5), new(-5, 0, -5), isPerspective), [DetailViews.Object(fractal)], new());
             Assert.Equal(0, set.InstanceCount);
-            set.Fill(DetailViews.Look(new(0, 0, -5), Vector.Zero, isPerspective, far: 3.9), [DetailViews.Object(fractal)], new());
+            set.Cull(DetailViews.Look(new(0, 0, -5), Vector.Zero, isPerspective, far: 3.9), [DetailViews.Object(fractal)], new());
             Assert.Equal(0, set.InstanceCount);
-            set.Fill(DetailViews.Look(new(0, 0, -5), Vector.Zero, isPerspective, near: 6.1), [DetailViews.Object(fractal)], new());
+            set.Cull(DetailViews.Look(new(0, 0, -5), Vector.Zero, isPerspective, near: 6.1), [DetailViews.Object(fractal)], new());
             Assert.Equal(0, set.InstanceCount);
         }
     }
@@ -180,11 +180,11 @@ public class VisibleSetTests
             var set = new VisibleSet();
             // The middle of a corner cube.
             var view = DetailViews.Look(new(-8.0 / 9, -8.0 / 9, -8.0 / 9), Vector.Zero, isPerspective, near: 0.001);
-            set.Fill(in view, [item], new() { PixelSize = 0 });
-            Assert.True(set.IsCut(0));
-            Assert.Contains(DetailViews.Chosen(set, item), map => map.Translation.MaximumComponent() < 1e-6);
-            set.Fill(DetailViews.Look(new(0, 0, -5), Vector.Zero, isPerspective), [item], new());
-            Assert.False(set.IsCut(0));
+            set.Cull(in view, [item], new() { MinProjectedSize = 0 });
+            Assert.True(set.IsNearClipped(0));
+            Assert.Contains(DetailViews.Chosen(set, item), map => map.Translation.MaxAbsComponent() < 1e-6);
+            set.Cull(DetailViews.Look(new(0, 0, -5), Vector.Zero, isPerspective), [item], new());
+            Assert.False(set.IsNearClipped(0));
         }
     }
 
@@ -200,11 +200,11 @@ public class VisibleSetTests
             var set = new VisibleSet();
             foreach (var skips in (bool[])[true, false])
             {
-                var settings = new DetailSettings { InstanceBudget = budget, SkipsHidden = skips, Threads = 1 };
-                set.Fill(in view, [DetailViews.Object(fractal)], settings);
+                var settings = new CullingSettings { InstanceBudget = budget, OcclusionCulling = skips, ThreadCount = 1 };
+                set.Cull(in view, [DetailViews.Object(fractal)], settings);
                 Assert.InRange(set.InstanceCount, 1, budget);
-                Assert.True(set.PixelSize > settings.PixelSize || budget == 1000, $"pixel size {set.PixelSize}");
-                Assert.True(set.PixelSize >= settings.PixelSize);
+                Assert.True(set.MinProjectedSize > settings.MinProjectedSize || budget == 1000, $"pixel size {set.MinProjectedSize}");
+                Assert.True(set.MinProjectedSize >= settings.MinProjectedSize);
             }
         }
     }
@@ -213,12 +213,12 @@ public class VisibleSetTests
     public async Task Fill_WithMoreObjectsThanTheBudget_Ends()
     {
         // Each object is one instance at least, however coarse: the budget can only be approached ("avoided by raising").
-        var objects = Enumerable.Range(0, 10).Select(i => new DetailObject(DetailTable.Of(DetailViews.Cube), AffineMap.Translate(new(3 * i, 0, 0)), Vector.Zero, 1)).ToArray();
+        var objects = Enumerable.Range(0, 10).Select(i => new CulledObject(LodHierarchy.Build(DetailViews.Cube), AffineMap.Translate(new(3 * i, 0, 0)), Vector.Zero, 1)).ToArray();
         var view = DetailViews.Look(new(15, 0, -40), new(15, 0, 0));
         var fill = Task.Run(() =>
         {
             var set = new VisibleSet();
-            set.Fill(in view, objects, new() { InstanceBudget = 3, Threads = 1 });
+            set.Cull(in view, objects, new() { InstanceBudget = 3, ThreadCount = 1 });
             return set.InstanceCount;
         });
         Assert.True(await Task.WhenAny(fill, Task.Delay(TimeSpan.FromSeconds(30))) == fill, "still choosing after 30 s");
@@ -229,14 +229,14 @@ public class VisibleSetTests
     public void Fill_AfterTheFirstPictures_AllocatesNothing()
     {
         var objects = new[] { DetailViews.Object(DetailViews.Menger(5), AffineMap.Identity, 1), DetailViews.Object(AssetFractals.Load("tree"), AffineMap.Translate(new(0, 0, 3))) };
-        var settings = new DetailSettings { Threads = 1 };
+        var settings = new CullingSettings { ThreadCount = 1 };
         var views = Enumerable.Range(0, 6).Select(i => DetailViews.Look(new(3 * Math.Sin(i), 1, -3 * Math.Cos(i)), Vector.Zero, i % 3 > 0, 320, 240, halfHeight: i % 3 > 0 ? 0.5 : 2)).ToArray();
         var set = new VisibleSet();
         void FillAll()
         {
             foreach (ref readonly var view in views.AsSpan())
             {
-                set.Fill(in view, objects, settings);
+                set.Cull(in view, objects, settings);
             }
         }
 
@@ -260,7 +260,7 @@ public class VisibleSetTests
                 foreach (var isPerspective in (bool[])[false, true])
                 {
                     var view = DetailViews.Look(new(1.1, 0.9, -3), Vector.Zero, isPerspective, width, height, halfHeight: 0.4 * Math.Min(1, (double)height / width));
-                    set.Fill(in view, [item], new() { HasSamples = hasSamples, Threads = 1 });
+                    set.Cull(in view, [item], new() { IsMultisampled = hasSamples, ThreadCount = 1 });
                     // The samples of a single row may all miss what is smaller than a pixel.
                     Assert.True(set.InstanceCount > 0 || Math.Min(width, height) == 1, $"{width}×{height}: nothing was chosen");
                 }
@@ -272,8 +272,8 @@ public class VisibleSetTests
     public void Fill_OfNoObjects_ChoosesNothing()
     {
         var set = new VisibleSet();
-        set.Fill(DetailViews.Look(new(0, 0, -5), Vector.Zero), [], new());
-        Assert.Equal((0, default), (set.InstanceCount, set.Cost));
+        set.Cull(DetailViews.Look(new(0, 0, -5), Vector.Zero), [], new());
+        Assert.Equal((0, default), (set.InstanceCount, set.Statistics));
     }
 
     private static Fractal RandomFractal(Random random)
@@ -295,11 +295,11 @@ public class VisibleSetTests
         for (var i = 0; i < 3; i++)
         {
             var view = DetailViews.Random(random, fractal.Bounds.Transform(map));
-            set.Fill(in view, [item], DetailViews.Everything);
+            set.Cull(in view, [item], DetailViews.Everything);
             var chosen = DetailViews.Chosen(set, item);
-            Assert.Equal((set.InstanceCount, set.CountOf(0)), (chosen.Count, chosen.Count));
+            Assert.Equal((set.InstanceCount, set.InstanceCountOf(0)), (chosen.Count, chosen.Count));
             var expected = DetailViews.Expected(fractal, map, in view);
-            if (fractal.Description.Steps.Any(step => step.Nesting > 1))
+            if (fractal.Description.Steps.Any(step => step.NestingDepth > 1))
             {
                 // The table holds some of them more than once, see its tests.
                 Assert.All(DetailViews.Count(expected, chosen), count => Assert.True(count > 0));
@@ -312,10 +312,10 @@ public class VisibleSetTests
     }
 
     /// <summary>True when all vertices are beyond one of the planes that bound what is shown, but for a hundredth of a pixel.</summary>
-    private static bool IsOutside(in DetailView view, Mesh mesh, AffineMap map)
+    private static bool IsOutside(in CullingView view, Mesh mesh, AffineMap map)
     {
         var inverse = view.Axes.Inverse();
-        var corners = mesh.Faces.Distinct().Select(vertex => inverse * (map * mesh.Vertex(vertex))).ToArray();
+        var corners = mesh.VertexIndices.Distinct().Select(vertex => inverse * (map * mesh.Vertex(vertex))).ToArray();
         var (halfX, halfY) = (0.5 * view.Width / view.PixelsPerUnitX, 0.5 * view.Height / view.PixelsPerUnitY);
         var (isPerspective, near, far) = (view.IsPerspective, view.Near, view.Far);
         var slack = 1e-2 * Math.Max(1 / view.PixelsPerUnitX, 1 / view.PixelsPerUnitY);
@@ -325,11 +325,11 @@ public class VisibleSetTests
             || corners.All(corner => corner.Y > (halfY - slack) * Reach(corner)) || corners.All(corner => -corner.Y > (halfY - slack) * Reach(corner));
     }
 
-    private static void CheckPicture(Mesh mesh, DetailObject item, AffineMap[] expected, in DetailView view, DetailSettings settings)
+    private static void CheckPicture(Mesh mesh, CulledObject item, AffineMap[] expected, in CullingView view, CullingSettings settings)
     {
         var set = new VisibleSet();
-        set.Fill(in view, [item], settings);
-        var (truth, picture) = (new DepthPicture(view, settings.HasSamples), new DepthPicture(view, settings.HasSamples));
+        set.Cull(in view, [item], settings);
+        var (truth, picture) = (new DepthPicture(view, settings.IsMultisampled), new DepthPicture(view, settings.IsMultisampled));
         for (var i = 0; i < expected.Length; i++)
         {
             truth.Draw(mesh, expected[i], i);
@@ -345,7 +345,7 @@ public class VisibleSetTests
         AssertSameDepths(truth, picture, in view, $"{chosen.Count} of {expected.Length} instances");
     }
 
-    private static void AssertSameDepths(DepthPicture truth, DepthPicture picture, in DetailView view, string what)
+    private static void AssertSameDepths(DepthPicture truth, DepthPicture picture, in CullingView view, string what)
     {
         var different = 0;
         for (var i = 0; i < truth.Winner.Length; i++)
@@ -359,7 +359,7 @@ public class VisibleSetTests
     }
 
     /// <summary>Pixels at which an instance is clearly nearer than everything in a picture.</summary>
-    private static int VisiblePixels(DepthPicture truth, in DetailView view, AffineMap map)
+    private static int VisiblePixels(DepthPicture truth, in CullingView view, AffineMap map)
     {
         var alone = new DepthPicture(view);
         alone.Draw(DetailViews.Cube, map, 0);

@@ -99,20 +99,20 @@ public class FractalCountTests
     [InlineData(100_000, 100_000)]
     [InlineData(long.MaxValue, 1_000_000_000_000_000_000)]
     public void Within_ABudget_IsTheDeepestThatFits(long budget, long expected) =>
-        Assert.Equal(expected, Samples.Repeated(100, Row(10)).Within(budget).InstanceCount);
+        Assert.Equal(expected, Samples.Repeated(100, Row(10)).WithMaxInstances(budget).InstanceCount);
 
     [Fact]
-    public void Within_ABudgetThatIsEnough_IsTheFractalItself() => Assert.Equal(1000, Samples.Repeated(3, Row(10)).Within(1000).InstanceCount);
+    public void Within_ABudgetThatIsEnough_IsTheFractalItself() => Assert.Equal(1000, Samples.Repeated(3, Row(10)).WithMaxInstances(1000).InstanceCount);
 
     [Fact]
     public void Within_AnyBudget_IsKept() => Seeded.Run(300, random =>
     {
         var budget = random.Next(1, 200);
         var fractal = RandomFractals.Draw(random, infinite: random.Next(3) == 0);
-        var cut = fractal.Within(budget);
+        var cut = fractal.WithMaxInstances(budget);
         Assert.True(cut.InstanceCount is { } count && count >= 1 && count <= budget, $"{cut.InstanceCount} of {budget}");
     });
 
     [Fact]
-    public void Within_OfTheInfinite_IsFinite() => Assert.Equal(1024, Samples.Repeated(null, Row(2)).Within(2000).InstanceCount);
+    public void Within_OfTheInfinite_IsFinite() => Assert.Equal(1024, Samples.Repeated(null, Row(2)).WithMaxInstances(2000).InstanceCount);
 }

@@ -125,8 +125,8 @@ public class FractalExpansionTests
     public void ComponentwiseSums_AreEachOnceAndWithinTheBudget()
     {
         var fractal = Samples.AppendixBAt(6, Composition.Componentwise);
-        Assert.Equal(19_600, FractalGenerator.ComponentwiseSums(fractal, 19_600).Distinct().Count());
-        Assert.Contains("19599", Assert.Throws<FractalLimitException>(() => FractalGenerator.ComponentwiseSums(fractal, 19_599)).Message, StringComparison.Ordinal);
+        Assert.Equal(19_600, FractalGenerator.ExpandComponentwise(fractal, 19_600).Distinct().Count());
+        Assert.Contains("19599", Assert.Throws<FractalLimitException>(() => FractalGenerator.ExpandComponentwise(fractal, 19_599)).Message, StringComparison.Ordinal);
     }
 
     [Fact]
@@ -135,7 +135,7 @@ public class FractalExpansionTests
         var (fractal, placement) = (RandomFractals.Draw(random), random.Transformation());
         Naive.AssertSameMaps(
             [.. FractalGenerator.Expand(fractal, Budget).Select(map => Naive.Compose(Naive.Map(placement), Naive.Rows(map)))],
-            FractalGenerator.Expand(new(fractal.Description.Under(placement), fractal.BaseMesh), Budget), Tolerance);
+            FractalGenerator.Expand(new(fractal.Description.WithPlacement(placement), fractal.BaseMesh), Budget), Tolerance);
     });
 
     [Fact]

@@ -129,11 +129,11 @@ public class FractalParserErrorTests
     public void Depth_BeyondTheLimit_NamesIt(string depth)
     {
         Fails(Head + $"<$>. z {depth}", $"""
-            test.fdo:6:8: error: the depth is more than the limit of {FractalLimits.Depth}
+            test.fdo:6:8: error: the depth is more than the limit of {FractalLimits.MaxDepth}
               <$>. z {depth}
                      ^
             """);
-        Assert.True(Errors.Thrown(() => Samples.ParseFractal(Head + $"<$>. z {depth}")).Diagnostic.IsLimit);
+        Assert.True(Errors.Thrown(() => Samples.ParseFractal(Head + $"<$>. z {depth}")).Diagnostic.IsLimitExceeded);
     }
 
     [Fact]
@@ -308,25 +308,25 @@ public class FractalParserErrorTests
     [Fact]
     public void Parse_OfManySteps_NamesTheLimit()
     {
-        var error = Errors.Thrown(() => Samples.ParseFractal("<$>. " + Repeat("[#] ", FractalLimits.Steps + 1) + "\"b.obj\"")).Diagnostic;
-        Assert.True(error.IsLimit);
-        Assert.Contains($"{FractalLimits.Steps}", error.Message, StringComparison.Ordinal);
+        var error = Errors.Thrown(() => Samples.ParseFractal("<$>. " + Repeat("[#] ", FractalLimits.MaxSteps + 1) + "\"b.obj\"")).Diagnostic;
+        Assert.True(error.IsLimitExceeded);
+        Assert.Contains($"{FractalLimits.MaxSteps}", error.Message, StringComparison.Ordinal);
     }
 
     [Fact]
     public void Parse_OfRecursivesInRecursives_NamesTheLimit()
     {
         var error = Errors.Thrown(() => Samples.ParseFractal("x. \"b.obj\"\ny0. [#] x\n" + Lines(40, i => $"z{i}<x>. [#] y{i}\ny{i + 1}. z{i} 1\n") + "<$>. y40")).Diagnostic;
-        Assert.True(error.IsLimit);
-        Assert.Contains($"{FractalLimits.Nesting}", error.Message, StringComparison.Ordinal);
+        Assert.True(error.IsLimitExceeded);
+        Assert.Contains($"{FractalLimits.MaxNesting}", error.Message, StringComparison.Ordinal);
     }
 
     [Fact]
     public void Parse_OfMillionsToThePowerOfMillions_NamesTheLimit()
     {
         var error = Errors.Thrown(() => Samples.ParseFractal("x. \"b.obj\"\nz<x>. [#, #] x\ny. z 1000000\nw<x>. [#] y\n<$>. w 1000000")).Diagnostic;
-        Assert.True(error.IsLimit);
-        Assert.Contains($"{FractalLimits.Levels}", error.Message, StringComparison.Ordinal);
+        Assert.True(error.IsLimitExceeded);
+        Assert.Contains($"{FractalLimits.MaxLevels}", error.Message, StringComparison.Ordinal);
     }
 
     [Fact]

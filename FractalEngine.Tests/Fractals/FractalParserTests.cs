@@ -155,7 +155,7 @@ public class FractalParserTests
     public void Offsets_PointAtTheBaseFileAndTheResult()
     {
         var file = Samples.ParseFractal("x. \"b.obj\"\n<$>. x\n");
-        Assert.Equal('"', file.Source.Text[file.BaseFileOffset]);
+        Assert.Equal('"', file.Source.Text[file.BaseFileNameOffset]);
         Assert.Equal(2, file.Source.Diagnose(file.ResultOffset, "").Line);
     }
 }

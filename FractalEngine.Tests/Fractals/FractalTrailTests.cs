@@ -28,7 +28,7 @@ public class FractalTrailTests
             var fractal = depth == 0 ? Samples.Repeated(0, First) : Infinite.WithDepth(depth);
             var trail = new FractalTrail(fractal, 3);
             // The position of the deepest one is within all radii: only the depth ends the way.
-            Assert.Equal(rows[depth][0], trail.Follow(m, chain[depth].Translation));
+            Assert.Equal(rows[depth][0], trail.Update(m, chain[depth].Translation));
             Assert.Equal(depth, trail.Depth);
             Assert.Equal(rows[depth], trail.Queue);
         }
@@ -39,7 +39,7 @@ public class FractalTrailTests
     {
         var m = AffineMap.Translate(new(1, 2, 3));
         var trail = new FractalTrail(Infinite, 1);
-        Assert.Equal(m, trail.Follow(m, new(500, 0, 0)));
+        Assert.Equal(m, trail.Update(m, new(500, 0, 0)));
         Assert.Equal(0, trail.Depth);
     }
 
@@ -52,7 +52,7 @@ public class FractalTrailTests
         var t = First.ToAffineMap();
         var chain = Enumerable.Repeat(t, drawn).Aggregate(AffineMap.Identity, (map, next) => map * next);
         var target = Enumerable.Repeat(t, 4).Aggregate(AffineMap.Identity, (map, next) => map * next).Translation;
-        Assert.Equal(chain, new FractalTrail(Infinite.WithDepth(4), length).Follow(AffineMap.Identity, target));
+        Assert.Equal(chain, new FractalTrail(Infinite.WithDepth(4), length).Update(AffineMap.Identity, target));
     }
 
     [Fact]
@@ -60,7 +60,7 @@ public class FractalTrailTests
     {
         var fractal = Samples.Repeated(null, Transformation.Identity, First);
         var trail = new FractalTrail(fractal, 3);
-        trail.Follow(AffineMap.Identity, new(0.4, 0, 0));
-        Assert.InRange(trail.Depth, 40, FractalTrail.Deepest);
+        trail.Update(AffineMap.Identity, new(0.4, 0, 0));
+        Assert.InRange(trail.Depth, 40, FractalTrail.MaxDepth);
     }
 }

@@ -20,5 +20,5 @@ public class BoundingSphereTests
 
     [Fact]
     public void LengtheningBound_OfASimilarity_IsItsFactor() => Seeded.Run(100, random =>
-        Near.Equal(0.5, BoundingSphere.LengtheningBound(0.5 * random.Orthogonal()), 1e-15));
+        Near.Equal(0.5, BoundingSphere.OperatorNormBound(0.5 * random.Orthogonal()), 1e-15));
 }

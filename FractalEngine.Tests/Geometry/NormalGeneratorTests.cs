@@ -10,8 +10,8 @@ public sealed class NormalGeneratorTests
     [Fact]
     public void WithNormals_Cube_HasTheSixFaceNormals()
     {
-        var mesh = NormalGenerator.WithNormals(RenderScenes.Cube(1));
-        for (var corner = 0; corner < mesh.Faces.Length; corner++)
+        var mesh = NormalGenerator.Generate(RenderScenes.Cube(1));
+        for (var corner = 0; corner < mesh.VertexIndices.Length; corner++)
         {
             var (a, b, c) = mesh.Face(corner / 3);
             AssertNear(Vector.Cross(b - a, c - a).UnitVector(), NormalOf(mesh, corner), 1e-15);
@@ -21,24 +21,24 @@ public sealed class NormalGeneratorTests
     [Fact]
     public void WithNormals_CubeBelowAnAngleOfOneRightAngle_IsSmooth()
     {
-        var mesh = NormalGenerator.WithNormals(RenderScenes.Cube(1), 100);
-        for (var corner = 0; corner < mesh.Faces.Length; corner++)
+        var mesh = NormalGenerator.Generate(RenderScenes.Cube(1), 100);
+        for (var corner = 0; corner < mesh.VertexIndices.Length; corner++)
         {
             // Weighted by angle, the cut of the squares into triangles does not matter: the normal is the diagonal.
-            AssertNear(mesh.Vertex(mesh.Faces[corner]).UnitVector(), NormalOf(mesh, corner), 1e-12);
+            AssertNear(mesh.Vertex(mesh.VertexIndices[corner]).UnitVector(), NormalOf(mesh, corner), 1e-12);
         }
     }
 
     [Fact]
     public void WithNormals_FineBall_PointsOutwards()
     {
-        var mesh = NormalGenerator.WithNormals(RenderScenes.Ball(24));
-        for (var corner = 0; corner < mesh.Faces.Length; corner++)
+        var mesh = NormalGenerator.Generate(RenderScenes.Ball(24));
+        for (var corner = 0; corner < mesh.VertexIndices.Length; corner++)
         {
-            var number = mesh.NormalFaces[corner];
+            var number = mesh.NormalIndices[corner];
             // The faces at the poles that have no area there have the direction of their neighbours.
             Assert.True(number >= 0);
-            AssertNear(mesh.Vertex(mesh.Faces[corner]).UnitVector(), NormalOf(mesh, corner), 0.02);
+            AssertNear(mesh.Vertex(mesh.VertexIndices[corner]).UnitVector(), NormalOf(mesh, corner), 0.02);
         }
     }
 
@@ -47,7 +47,7 @@ public sealed class NormalGeneratorTests
     {
         // Two triangles that share an edge by position only, 20° apart.
         var (sine, cosine) = Math.SinCos(20 * Math.PI / 180);
-        var mesh = NormalGenerator.WithNormals(new(
+        var mesh = NormalGenerator.Generate(new(
             [0, 0, 0, 0, 1, 0, -1, 0, 0, 0, 0, 0, cosine, 0, sine, 0, 1, 0], [0, 1, 2, 3, 4, 5]));
         Assert.Equal(NormalOf(mesh, 0), NormalOf(mesh, 3));
     }
@@ -55,10 +55,10 @@ public sealed class NormalGeneratorTests
     [Fact]
     public void WithNormals_FacesWithoutArea_GiveNoNaN()
     {
-        var mesh = NormalGenerator.WithNormals(new(
+        var mesh = NormalGenerator.Generate(new(
             [0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 5, 5, 5], [0, 1, 2, 0, 1, 1, 0, 3, 1, 4, 4, 4]));
         Assert.All(mesh.Normals, component => Assert.True(double.IsFinite(component)));
-        Assert.Equal(-1, mesh.NormalFaces[9]);
+        Assert.Equal(-1, mesh.NormalIndices[9]);
         AssertNear(-Vector.K, NormalOf(mesh, 6), 1e-15);
         AssertNear(-Vector.K, NormalOf(mesh, 0), 1e-15);
     }
@@ -68,7 +68,7 @@ public sealed class NormalGeneratorTests
     [InlineData(1e120)]
     public void WithNormals_TinyAndHugeMeshes_AreAsTheirLikes(double size)
     {
-        var mesh = NormalGenerator.WithNormals(RenderScenes.Cube(size));
+        var mesh = NormalGenerator.Generate(RenderScenes.Cube(size));
         AssertNear(-Vector.K, NormalOf(mesh, 0), 1e-15);
     }
 
@@ -88,7 +88,7 @@ public sealed class NormalGeneratorTests
             faces.AddRange(0, next, here, 1, here, next);
         }
 
-        var mesh = NormalGenerator.WithNormals(new(positions.ToImmutable(), faces.ToImmutable()), 30);
+        var mesh = NormalGenerator.Generate(new(positions.ToImmutable(), faces.ToImmutable()), 30);
         AssertNear(Vector.J, NormalOf(mesh, 0), 0.001);
         AssertNear(-Vector.J, NormalOf(mesh, 3), 1e-9);
     }
@@ -98,9 +98,9 @@ public sealed class NormalGeneratorTests
     [InlineData(181)]
     [InlineData(double.NaN)]
     public void WithNormals_AngleOutOfRange_IsRefused(double angle) =>
-        Assert.Throws<ArgumentOutOfRangeException>(() => NormalGenerator.WithNormals(RenderScenes.Cube(1), angle));
+        Assert.Throws<ArgumentOutOfRangeException>(() => NormalGenerator.Generate(RenderScenes.Cube(1), angle));
 
-    private static Vector NormalOf(Mesh mesh, int corner) => mesh.NormalFaces[corner] switch
+    private static Vector NormalOf(Mesh mesh, int corner) => mesh.NormalIndices[corner] switch
     {
         var number => new(mesh.Normals[3 * number], mesh.Normals[(3 * number) + 1], mesh.Normals[(3 * number) + 2]),
     };

@@ -58,7 +58,7 @@ public class MatrixTests
 
     [Fact]
     public void CrossProduct_SendsVToTheCrossProduct() =>
-        Laws.Hold(Laws.Vectors.Two(), pair => Matrix.CrossProduct(pair.Item1) * pair.Item2 == Vector.Cross(pair.Item1, pair.Item2));
+        Laws.Hold(Laws.Vectors.Two(), pair => Matrix.SkewSymmetric(pair.Item1) * pair.Item2 == Vector.Cross(pair.Item1, pair.Item2));
 
     [Fact]
     public void Orthonormalized_OfADriftedRotation_IsARotationNearby() => Seeded.Run(100, random =>

@@ -19,7 +19,7 @@ public sealed class ClosedSurfaceTests
     {
         var cube = RenderScenes.Cube(1);
         var loose = new Mesh(
-            [.. cube.Faces.SelectMany(vertex => new[] { cube.Vertex(vertex).X, cube.Vertex(vertex).Y, cube.Vertex(vertex).Z })],
+            [.. cube.VertexIndices.SelectMany(vertex => new[] { cube.Vertex(vertex).X, cube.Vertex(vertex).Y, cube.Vertex(vertex).Z })],
             [.. Enumerable.Range(0, 36)]);
         Assert.True(ClosedSurface.IsSolid(loose));
     }
@@ -28,7 +28,7 @@ public sealed class ClosedSurfaceTests
     public void IsSolid_OpenInwardFlatOrEmpty_IsFalse()
     {
         var cube = RenderScenes.Cube(1);
-        Assert.False(ClosedSurface.IsSolid(new(cube.Positions, cube.Faces[3..])));
+        Assert.False(ClosedSurface.IsSolid(new(cube.Positions, cube.VertexIndices[3..])));
         Assert.False(ClosedSurface.IsSolid(cube.Transform(vertex => -vertex)));
         Assert.False(ClosedSurface.IsSolid(cube.Transform(vertex => vertex.Stretch(new(1, 1, 0)))));
         Assert.False(ClosedSurface.IsSolid(RenderScenes.Square(1)));
@@ -40,6 +40,6 @@ public sealed class ClosedSurfaceTests
     {
         var cube = RenderScenes.Cube(1);
         var small = RenderScenes.Cube(0.5).Transform(vertex => new Vector(5, 0, 0) - vertex);
-        Assert.False(ClosedSurface.IsSolid(new([.. cube.Positions, .. small.Positions], [.. cube.Faces, .. small.Faces.Select(vertex => vertex + 8)])));
+        Assert.False(ClosedSurface.IsSolid(new([.. cube.Positions, .. small.Positions], [.. cube.VertexIndices, .. small.VertexIndices.Select(vertex => vertex + 8)])));
     }
 }

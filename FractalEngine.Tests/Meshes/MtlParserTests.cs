@@ -51,7 +51,7 @@ public class MtlParserTests
         var file = Parse("newmtl a\nKd 1 0 0\nmap_Kd a.png\nnewmtl b\nKd 0 1 0\r\nnewmtl a\rKd 0 0 1\nmap_Kd second.png\n");
         Assert.Equal(["a", "b"], file.Materials.Keys.Order());
         Assert.Equal((new Colour(1, 0, 0), "a.png"), (file.Materials["a"].Diffuse, file.Materials["a"].Texture!.Path));
-        Assert.Equal("a.png", file.Source.Text.Substring(file.TextureOffsets["a"], 5));
+        Assert.Equal("a.png", file.Source.Text.Substring(file.TextureNameOffsets["a"], 5));
     }
 
     [Fact]
@@ -185,7 +185,7 @@ public class MtlParserTests
 
         var file = Parse(text.ToString());
         Assert.All(file.Warnings, warning => Assert.Matches(@"^test\.mtl:[1-9]\d*:[1-9]\d*: warning: \S", warning.ToString()));
-        Assert.All(file.Materials.Values, material => Assert.True(material.Texture is null || file.TextureOffsets.ContainsKey(material.Name)));
+        Assert.All(file.Materials.Values, material => Assert.True(material.Texture is null || file.TextureNameOffsets.ContainsKey(material.Name)));
         Assert.All(file.Materials.Values, material => Assert.InRange(material.Opacity, 0, 1));
     });
 

@@ -57,7 +57,7 @@ public class ObjParserErrorTests
     public void Polygon_BeyondTheLimit_NamesIt()
     {
         var error = Errors.Thrown(() => Samples.ParseObj(Triangle + "f " + new StringBuilder().Insert(0, "1 2 3 ", 7000))).Diagnostic;
-        Assert.True(error.IsLimit);
+        Assert.True(error.IsLimitExceeded);
         Assert.Contains($"{Parsing.ParsingLimits.PolygonCorners}", error.Message, StringComparison.Ordinal);
     }
 

@@ -45,14 +45,14 @@ public class ObjParserTests
     public void Face_InEveryIndexForm_IsRead(string line, int[] textures, int[] normals)
     {
         var mesh = Parse(Attributes + line);
-        Assert.Equal([0, 1, 2], mesh.Faces.ToArray());
-        Assert.Equal(textures, mesh.TextureFaces.ToArray());
-        Assert.Equal(normals, mesh.NormalFaces.ToArray());
+        Assert.Equal([0, 1, 2], mesh.VertexIndices.ToArray());
+        Assert.Equal(textures, mesh.TextureIndices.ToArray());
+        Assert.Equal(normals, mesh.NormalIndices.ToArray());
     }
 
     [Fact]
     public void NegativeNumbers_CountBackFromTheirOwnLine() =>
-        Assert.Equal([0, 1, 2, 1, 2, 3], Parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 0 1 0\nf -3 -2 -1").Faces.ToArray());
+        Assert.Equal([0, 1, 2, 1, 2, 3], Parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 0 1 0\nf -3 -2 -1").VertexIndices.ToArray());
 
     [Fact]
     public void TextureCoordinates_WithOneOrThreeComponents_KeepTwo() =>
@@ -62,8 +62,8 @@ public class ObjParserTests
     public void AttributesOfSomeFacesOnly_AreMinusOneElsewhere()
     {
         var mesh = Parse(Attributes + "f 1 2 3\nf 1/1/1 3/2/1 4/3/1\nf 1 2 4");
-        Assert.Equal([-1, -1, -1, 0, 1, 2, -1, -1, -1], mesh.TextureFaces.ToArray());
-        Assert.Equal([-1, -1, -1, 0, 0, 0, -1, -1, -1], mesh.NormalFaces.ToArray());
+        Assert.Equal([-1, -1, -1, 0, 1, 2, -1, -1, -1], mesh.TextureIndices.ToArray());
+        Assert.Equal([-1, -1, -1, 0, 0, 0, -1, -1, -1], mesh.NormalIndices.ToArray());
     }
 
     [Fact]
@@ -90,7 +90,7 @@ public class ObjParserTests
     public void Polygon_WithAttributes_KeepsThemAtItsCorners()
     {
         var mesh = Parse(Square + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4");
-        Assert.Equal(mesh.Faces.ToArray(), mesh.TextureFaces.ToArray());
+        Assert.Equal(mesh.VertexIndices.ToArray(), mesh.TextureIndices.ToArray());
     }
 
     [Fact]
@@ -125,7 +125,7 @@ public class ObjParserTests
         var text = "# comment\no x # trailing\n" + Square + "\n\ns 1\nf 1 2 \\\n3\nunknown 1\nf 1 3 4";
         var (expected, actual) = (Samples.ParseObj(text), Samples.ParseObj(text.Replace("\n", lineBreak, StringComparison.Ordinal)));
         Assert.Equal(expected.Mesh.Positions.ToArray(), actual.Mesh.Positions.ToArray());
-        Assert.Equal([0, 1, 2, 0, 2, 3], actual.Mesh.Faces.ToArray());
+        Assert.Equal([0, 1, 2, 0, 2, 3], actual.Mesh.VertexIndices.ToArray());
         Assert.Equal(expected.Mesh.Groups.ToArray(), actual.Mesh.Groups.ToArray());
         Assert.Single(actual.Warnings);
     }

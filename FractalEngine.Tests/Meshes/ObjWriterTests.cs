@@ -38,7 +38,7 @@ public class ObjWriterTests
         var mesh = new Mesh([0.1, 1.0 / 3, -0.0, 1e-300, 1e300, 5, 6, 7, 8], [0, 1, 2]);
         var written = WriteAndParse(Scene((new MeshModel("/a/m.obj", 0, mesh), Transformation.Identity)));
         Assert.Equal(mesh.Positions.ToArray(), written.Positions.ToArray());
-        Assert.Equal(mesh.Faces.ToArray(), written.Faces.ToArray());
+        Assert.Equal(mesh.VertexIndices.ToArray(), written.VertexIndices.ToArray());
     }
 
     [Theory]
@@ -51,8 +51,8 @@ public class ObjWriterTests
         // Without repeated instances; the corners of a face keep their order but for mirrored ones, so faces are compared as sets of corners.
         var expected = Naive.Distinct(Naive.Chains(fractal.Description), 1e-12)
             .Select(chain => Naive.Compose(Naive.Map(placement), chain))
-            .SelectMany(map => fractal.BaseMesh.Faces.Chunk(3).Select(face => Key(face.Select(v => Naive.Apply(map, fractal.BaseMesh.Vertex(v))))));
-        var actual = written.Faces.Chunk(3).Select(face => Key(face.Select(written.Vertex)));
+            .SelectMany(map => fractal.BaseMesh.VertexIndices.Chunk(3).Select(face => Key(face.Select(v => Naive.Apply(map, fractal.BaseMesh.Vertex(v))))));
+        var actual = written.VertexIndices.Chunk(3).Select(face => Key(face.Select(written.Vertex)));
         AssertNear(expected, actual);
     });
 
@@ -75,7 +75,7 @@ public class ObjWriterTests
         var model = new MeshModel("/a/m.obj", 0, Samples.Triangle);
         var written = WriteAndParse(Scene((model, Samples.Move(10, 0, 0)), (model, Samples.Move(0, 20, 0))));
         Assert.Equal([new(10, 0, 0), new(11, 0, 0), new(10, 1, 0), new(0, 20, 0), new(1, 20, 0), new(0, 21, 0)], Naive.Vertices(written));
-        Assert.Equal([0, 1, 2, 3, 4, 5], written.Faces.ToArray());
+        Assert.Equal([0, 1, 2, 3, 4, 5], written.VertexIndices.ToArray());
     }
 
     [Fact]
@@ -96,7 +96,7 @@ public class ObjWriterTests
         var written = WriteAndParse(Scene((Model(new(Samples.Repeated(1, Samples.Move(1, 0, 0), Samples.Move(2, 0, 0)).Description, mesh)), Transformation.Identity)));
         Assert.Equal(
             [0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1],
-            written.TextureFaces.SelectMany(number => new[] { written.TextureCoordinates[2 * number], written.TextureCoordinates[(2 * number) + 1] }));
+            written.TextureIndices.SelectMany(number => new[] { written.TextureCoordinates[2 * number], written.TextureCoordinates[(2 * number) + 1] }));
     }
 
     [Fact]

@@ -18,7 +18,7 @@ public class BodyInputTests
         [
             Ball with { Position = new(0, number, 0) }, Ball with { Velocity = new(0, 0, number) }, Ball with { Radius = number }, Ball with { Mass = number },
             Ball with { Restitution = number }, Ball with { Friction = number }, Ball with { Damping = number }, Ball with { Shrinkage = number },
-            Ball with { MinimumScale = number }, Ball with { Axes = new(Vector.I, new(number, 0, 0), Vector.K) },
+            Ball with { MinimumScale = number }, Ball with { LinearPart = new(Vector.I, new(number, 0, 0), Vector.K) },
         ];
         CheckRefused(wrong);
     }
@@ -62,9 +62,9 @@ public class BodyInputTests
     {
         PhysicsSettings[] wrong =
         [
-            .. new[] { 0, -1, double.NaN, double.PositiveInfinity, double.NegativeInfinity }.Select(step => new PhysicsSettings { Step = step }),
-            .. new[] { -1, double.NaN }.SelectMany(number => new[] { new PhysicsSettings { RestSpeed = number }, new() { SleepSpeed = number }, new() { SleepTime = number } }),
-            new() { MostStepsAtOnce = 0 }, new() { MostStepsAtOnce = -1 },
+            .. new[] { 0, -1, double.NaN, double.PositiveInfinity, double.NegativeInfinity }.Select(step => new PhysicsSettings { TimeStep = step }),
+            .. new[] { -1, double.NaN }.SelectMany(number => new[] { new PhysicsSettings { RestitutionThreshold = number }, new() { SleepSpeed = number }, new() { TimeBeforeSleep = number } }),
+            new() { MaxStepsPerAdvance = 0 }, new() { MaxStepsPerAdvance = -1 },
         ];
         Assert.All(wrong, settings => Assert.Throws<ArgumentException>(() => Worlds.Of(Worlds.Gravity, settings)));
     }
@@ -85,8 +85,8 @@ public class BodyInputTests
         }
 
         world.Advance(0.011);
-        Assert.InRange(world.StepCount, 1, 2 * world.Settings.MostStepsAtOnce);
-        Assert.True(body.Position.IsFinite() && world.Fraction is >= 0 and <= 1);
+        Assert.InRange(world.StepCount, 1, 2 * world.Settings.MaxStepsPerAdvance);
+        Assert.True(body.Position.IsFinite() && world.InterpolationAlpha is >= 0 and <= 1);
     }
 
     [Fact]

@@ -90,7 +90,7 @@ public class CornerTests
             foreach (var normal in normals)
             {
                 var height = Vector.Dot(body.Position, normal);
-                Assert.True(height >= radius * (1 - Overlap), $"{body.Description}, step {world.Settings.Step:R}, after {world.StepCount}: {height:R} from a plane");
+                Assert.True(height >= radius * (1 - Overlap), $"{body.Description}, step {world.Settings.TimeStep:R}, after {world.StepCount}: {height:R} from a plane");
             }
         });
     });
@@ -106,7 +106,7 @@ public class CornerTests
             // Lifted by the rounding of a contact, at most: 1e-6 of the radius is what may overlap.
             Assert.True(
                 after <= before + (1e-9 * (Math.Abs(before) + (9.8 * size))) + (9.8 * Overlap * body.Radius),
-                $"{body.Description}, step {world.Settings.Step:R}, after {world.StepCount}: energy {after:R}, {before:R} before");
+                $"{body.Description}, step {world.Settings.TimeStep:R}, after {world.StepCount}: energy {after:R}, {before:R} before");
             before = Math.Min(before, after);
             afterEach?.Invoke();
         });

@@ -64,9 +64,9 @@ public class DeterminismTests
     public void Advance_ByALongTime_MakesNoMoreStepsThanAllowed()
     {
         var world = World();
-        Assert.Equal(world.Settings.MostStepsAtOnce, world.Advance(1000));
+        Assert.Equal(world.Settings.MaxStepsPerAdvance, world.Advance(1000));
         Assert.Equal(0, world.Advance(-1));
-        Assert.Equal(world.Settings.MostStepsAtOnce, world.StepCount);
+        Assert.Equal(world.Settings.MaxStepsPerAdvance, world.StepCount);
     }
 
     private static string[] Hashes(PhysicsWorld world)

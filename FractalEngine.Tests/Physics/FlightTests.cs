@@ -72,7 +72,7 @@ public class FlightTests
         var velocity = random.Vector(10);
         velocity -= (Vector.Dot(velocity, normal) + random.Between(1, 10)) * normal;
         var body = world.Add(new((radius + 0.5) * normal, radius) { Velocity = velocity, Restitution = restitution });
-        world.Run((int)(0.5 / world.Settings.Step) + 2);
+        world.Run((int)(0.5 / world.Settings.TimeStep) + 2);
         // 10 m/s, 1e-10 of the radius in the direction of the normal.
         Near.Equal(velocity - ((1 + restitution) * Vector.Dot(velocity, normal) * normal), body.Velocity, 1e-8);
     });

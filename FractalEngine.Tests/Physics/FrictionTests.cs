@@ -40,7 +40,7 @@ public class FrictionTests
         var world = Worlds.Of(Worlds.Gravity, random.Between(0.002, 0.05), Worlds.Place(PhysicsMeshes.Floor()));
         var body = world.Add(new(new(0, 0.5, 0), 0.5) { Velocity = new(speed, 0, 0), Friction = friction });
         var time = speed / (friction * 9.8);
-        world.Run((int)(time / world.Settings.Step) + 60);
+        world.Run((int)(time / world.Settings.TimeStep) + 60);
         Assert.Equal(Vector.Zero, body.Velocity);
         Near.Equal(speed * time / 2, body.Position.X, 1e-5 * speed);
     });
@@ -97,7 +97,7 @@ public class FrictionTests
         world.SetForce(body, Vector.Zero);
         var before = body.Velocity;
         world.Run(10);
-        Near.Equal(before + (10 * world.Settings.Step * gravity), body.Velocity, 1e-10);
+        Near.Equal(before + (10 * world.Settings.TimeStep * gravity), body.Velocity, 1e-10);
     });
 
     [Fact]
@@ -106,7 +106,7 @@ public class FrictionTests
         foreach (var (force, isMoving) in new[] { (0.99 * 0.4 * 3 * 9.8, false), (1.01 * 0.4 * 3 * 9.8, true) })
         {
             // A body so slow would fall asleep.
-            var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { Step = 0.01, SleepSpeed = 0 }, Worlds.Place(PhysicsMeshes.Floor()));
+            var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { TimeStep = 0.01, SleepSpeed = 0 }, Worlds.Place(PhysicsMeshes.Floor()));
             var body = world.Add(new(new(0, 0.5, 0), 0.5) { Mass = 3, Friction = 0.4 });
             world.Run(10);
             world.SetForce(body, new(force, 0, 0));

@@ -21,7 +21,7 @@ public sealed class HalfSpacesTests
         }
 
         var target = 3 * RandomVector(random);
-        Assert.True(planes.TryNearest(target, out var nearest));
+        Assert.True(planes.TryProject(target, out var nearest));
         for (var i = 0; i < count; i++)
         {
             Assert.True(Vector.Dot(normals[i], nearest) >= offsets[i] - 1e-12);
@@ -39,7 +39,7 @@ public sealed class HalfSpacesTests
         var planes = new HalfSpaces();
         planes.Add(Vector.I, 1);
         planes.Add(-Vector.I, 1);
-        Assert.False(planes.TryNearest(Vector.Zero, out var nearest));
+        Assert.False(planes.TryProject(Vector.Zero, out var nearest));
         Assert.Equal(Vector.Zero, nearest);
     }
 
@@ -50,7 +50,7 @@ public sealed class HalfSpacesTests
         planes.Add(Vector.I, 1);
         planes.Add(Vector.J, 2);
         planes.Add(Vector.K, 3);
-        Assert.True(planes.TryNearest(Vector.Zero, out var nearest));
+        Assert.True(planes.TryProject(Vector.Zero, out var nearest));
         Assert.Equal(new(1, 2, 3), nearest);
     }
 

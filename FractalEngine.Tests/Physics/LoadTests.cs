@@ -49,11 +49,11 @@ public sealed class LoadTests
     public void Player_AgainstABallThatTouchesAlready_PushesIt()
     {
         var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings(), Worlds.Place(PhysicsMeshes.Floor()));
-        var walker = world.AddWalker(new(new(0, 0.9, 0), 0.3, 1.8));
+        var walker = world.AddCharacter(new(new(0, 0.9, 0), 0.3, 1.8));
         var ball = world.Add(new(new(0.61, 0.3, 0), 0.3));
         walker.IsActive = true;
         world.Run(60);
-        walker.Wish = Vector.I;
+        walker.MoveInput = Vector.I;
         world.Run(60);
         Assert.True(ball.Position.X > 3, $"{ball.Position}");
     }
@@ -62,7 +62,7 @@ public sealed class LoadTests
     public void Ball_OnAPlayerWhoGoes_Falls()
     {
         var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings(), Worlds.Place(PhysicsMeshes.Floor()));
-        var walker = world.AddWalker(new(new(0, 0.9, 0), 0.3, 1.8));
+        var walker = world.AddCharacter(new(new(0, 0.9, 0), 0.3, 1.8));
         walker.IsActive = true;
         var ball = world.Add(new(new(0, 2.2, 0), 0.3));
         world.Run(300);
@@ -74,7 +74,7 @@ public sealed class LoadTests
 
         // And a player who comes back where it lies stands beside or above it, and can walk.
         walker.IsActive = true;
-        walker.Wish = Vector.K;
+        walker.MoveInput = Vector.K;
         world.Run(120);
         Assert.True(walker.Position.Z > 3, $"{walker.Position}");
     }

@@ -36,7 +36,7 @@ public class MovedObjectTests
         var local = moved.ToAffineMap().Inverse() * body.Position;
         // In the block's frame it is a cube of side 1, whose distance is that of a box; a body that fits into it may stay within.
         var outside = Vector.Max(local.Absolute() - (0.5 * Vector.One), Vector.Zero).Length();
-        var within = 0.5 - local.MaximumComponent();
+        var within = 0.5 - local.MaxAbsComponent();
         Assert.False(body.IsStuck);
         Assert.True(outside >= body.Radius * (1 - 1e-6) || within >= body.Radius * (1 - 1e-6), $"{body.Description}: {outside:R} outside, {within:R} within, after {moved}");
     });
@@ -97,7 +97,7 @@ public class MovedObjectTests
             world.Reset();
             var body = world.Add(new(start, radius) { Velocity = Math.Pow(10, random.Between(0, 2)) * (aim - start).UnitVector(), Restitution = random.NextDouble() });
             world.Run(15, () => Assert.True(
-                plain.Distance(body.Position) >= radius * (1 - 1e-6), $"{body.Description}, step {world.Settings.Step:R}, {placement}: {plain.Distance(body.Position):R} from the surface"));
+                plain.Distance(body.Position) >= radius * (1 - 1e-6), $"{body.Description}, step {world.Settings.TimeStep:R}, {placement}: {plain.Distance(body.Position):R} from the surface"));
         }
     });
 
@@ -108,7 +108,7 @@ public class MovedObjectTests
         var runs = new[] { ColliderKind.Exact, ColliderKind.Hierarchy, ColliderKind.Simple }.Select(kind =>
         {
             var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, placed);
-            world.Collider = kind;
+            world.ColliderOverride = kind;
             var body = world.Add(new(new(0.1, 1.5, 0.05), 0.1) { Restitution = 0.8, Velocity = new(0.1, 0, 0.2) });
             // To the first bounces: later ones amplify the last places.
             world.Run(60);

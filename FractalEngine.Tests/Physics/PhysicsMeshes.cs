@@ -13,7 +13,7 @@ internal static class PhysicsMeshes
     /// <summary>The same as a room: faces inwards.</summary>
     public static Mesh Room { get; } = Inwards(Cube);
 
-    public static Mesh Inwards(Mesh mesh) => new(mesh.Positions, [.. mesh.Faces.Chunk(3).SelectMany(face => face.Reverse())]);
+    public static Mesh Inwards(Mesh mesh) => new(mesh.Positions, [.. mesh.VertexIndices.Chunk(3).SelectMany(face => face.Reverse())]);
 
     public static Mesh Scaled(Mesh mesh, double factor) => mesh.Transform(v => factor * v);
 

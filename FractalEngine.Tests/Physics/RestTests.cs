@@ -45,7 +45,7 @@ public class RestTests
         var radius = random.Between(0.05, 0.5);
         var world = Worlds.Of(Worlds.Gravity, random.Between(0.001, 0.03), Worlds.Place(PhysicsMeshes.Of(PhysicsMeshes.Plane(Vector.Zero, n1), PhysicsMeshes.Plane(Vector.Zero, n2))));
         var body = world.Add(new(new(0, 1 + (3 * radius), 0), radius));
-        world.Run((int)(4 / world.Settings.Step));
+        world.Run((int)(4 / world.Settings.TimeStep));
         // c·n1 = c·n2 = r, in the plane z = 0.
         var determinant = (n1.X * n2.Y) - (n1.Y * n2.X);
         Near.Equal(new(radius * (n2.Y - n1.Y) / determinant, radius * (n1.X - n2.X) / determinant, 0), body.Position, 1e-6 * radius);
@@ -74,7 +74,7 @@ public class RestTests
         world.Run(300);
         Assert.False(world.IsMoving);
         world.Step();
-        Assert.Equal((0, 0), world.Cost);
+        Assert.Equal((0, 0), world.LastStepCost);
     }
 
     [Fact]

@@ -57,10 +57,10 @@ public class ShotTests
         var aim = (1 / 3.0 * (a + b + c)) + (random.Between(0, 0.3) * (random.Next(3) switch { 0 => a, 1 => b, _ => c } - (1 / 3.0 * (a + b + c))));
         var world = Worlds.Of(Vector.Zero, Math.Pow(10, random.Between(-4, -1)), Worlds.Place(PhysicsMeshes.Of((a, b, c))));
         var body = world.Add(new(aim + ((radius + random.Between(0.001, 2)) * normal), radius) { Velocity = -speed * normal });
-        world.Run((int)Math.Min(30, 2 + (3 / speed / world.Settings.Step)), () =>
+        world.Run((int)Math.Min(30, 2 + (3 / speed / world.Settings.TimeStep)), () =>
         {
             var height = Vector.Dot(body.Position - aim, normal);
-            Assert.True(height >= radius * (1 - Overlap), $"radius {radius:R}, speed {speed:R}, step {world.Settings.Step:R}: {height:R} from its plane");
+            Assert.True(height >= radius * (1 - Overlap), $"radius {radius:R}, speed {speed:R}, step {world.Settings.TimeStep:R}: {height:R} from its plane");
         });
     });
 
@@ -115,7 +115,7 @@ public class ShotTests
             var aim = u + v > 1 ? c : a + (u * (b - a)) + (v * (c - a));
             // One in four in the plane of the face, at its edges. All arrive within some steps.
             var direction = random.Next(4) == 0 ? ((random.Between(-1, 1) * (b - a)) + (random.Between(-1, 1) * (c - a))).UnitVector() : random.Direction();
-            var start = aim + (Math.Max(1.5 * radius, Math.Min(random.Between(0.1, 3), 20 * speed * world.Settings.Step)) * direction);
+            var start = aim + (Math.Max(1.5 * radius, Math.Min(random.Between(0.1, 3), 20 * speed * world.Settings.TimeStep)) * direction);
             if (plain.Distance(start) < radius * (1 + 1e-6))
             {
                 continue;
@@ -175,7 +175,7 @@ public class ShotTests
         {
             if (!condition)
             {
-                throw new XunitException($"{shot}, step {world.Settings.Step:R}, after {world.StepCount}: at {body.Position} it {what}; distance {plain.Distance(body.Position):R}");
+                throw new XunitException($"{shot}, step {world.Settings.TimeStep:R}, after {world.StepCount}: at {body.Position} it {what}; distance {plain.Distance(body.Position):R}");
             }
         }
     }
@@ -203,7 +203,7 @@ public class ShotTests
     {
         var sphere = random.Next(3) == 0;
         var mesh = sphere ? PhysicsMeshes.Inwards(MeshGenerators.Create("icosphere", 1, 80)) : PhysicsMeshes.Room;
-        var size = mesh.Bounds.Size.MaximumComponent();
+        var size = mesh.Bounds.Size.MaxAbsComponent();
         var world = Worlds.Of(random.Vector(20), Math.Pow(10, random.Between(-4, -1)), Worlds.Place(mesh));
         var (radius, speed) = (size * Math.Pow(10, random.Between(-3, -0.7)), Math.Pow(10, random.Between(0, 2.7)));
         var body = world.Add(new(0.15 * random.Vector(size), radius)
@@ -213,7 +213,7 @@ public class ShotTests
             Friction = random.Next(2) * random.NextDouble(),
         });
         var faces = PhysicsMeshes.Faces(mesh);
-        world.Run((int)Math.Clamp(3 * size / speed / world.Settings.Step, 10, 100), () =>
+        world.Run((int)Math.Clamp(3 * size / speed / world.Settings.TimeStep, 10, 100), () =>
         {
             foreach (var (a, b, c) in faces)
             {
@@ -221,7 +221,7 @@ public class ShotTests
                 var height = Vector.Dot(body.Position - a, Vector.Cross(b - a, c - a).UnitVector());
                 if (!(height >= radius * (1 - Overlap)))
                 {
-                    throw new XunitException($"{body.Description}, step {world.Settings.Step:R}, after {world.StepCount}: {height:R} from a wall");
+                    throw new XunitException($"{body.Description}, step {world.Settings.TimeStep:R}, after {world.StepCount}: {height:R} from a wall");
                 }
             }
         });
@@ -254,7 +254,7 @@ public class ShotTests
                 "needles" or "rough grid" => Of(CollisionMeshes.All[name]()),
                 _ => Of(Small(AssetFractals.Load(name), name)),
             };
-            var record = new QueryRecord();
+            var record = new QueryContext();
             Collider other = _mesh.FaceCount <= 400 ? new SimpleCollider(_mesh) : new HierarchyCollider(_mesh);
             _distance = position => other.TryFindClosest(position, double.PositiveInfinity, record, out var closest) ? closest.Distance : double.PositiveInfinity;
             if (name is "menger")
@@ -283,7 +283,7 @@ public class ShotTests
             var radius = size * Math.Pow(10, random.Between(-3, -0.7));
             var (a, b, c) = mesh.Face(random.Next(mesh.FaceCount));
             var (aim, speed) = (1 / 3.0 * (a + b + c), size * Math.Pow(10, random.Between(0, 2.7)));
-            var start = aim + (Math.Max(1.5 * radius, Math.Min(random.Between(0.1, 1) * size, 10 * speed * world.Settings.Step)) * random.Direction());
+            var start = aim + (Math.Max(1.5 * radius, Math.Min(random.Between(0.1, 1) * size, 10 * speed * world.Settings.TimeStep)) * random.Direction());
             if (distance(start) < radius * (1 + 1e-6) || isInside?.Invoke(start) == true)
             {
                 return false;
@@ -303,7 +303,7 @@ public class ShotTests
                 var gap = distance(body.Position);
                 if (!(gap >= radius * (1 - Overlap)) || isInside?.Invoke(body.Position) == true || body.IsStuck)
                 {
-                    throw new XunitException($"{body.Description}, step {world.Settings.Step:R}, gravity {world.Gravity}, after {world.StepCount}: at {body.Position}, {gap:R} from the surface, inside: {isInside?.Invoke(body.Position)}, stuck: {body.IsStuck}");
+                    throw new XunitException($"{body.Description}, step {world.Settings.TimeStep:R}, gravity {world.Gravity}, after {world.StepCount}: at {body.Position}, {gap:R} from the surface, inside: {isInside?.Invoke(body.Position)}, stuck: {body.IsStuck}");
                 }
             }
 
@@ -317,7 +317,7 @@ public class ShotTests
             {
                 // Maps of the sponge only move and shrink.
                 var beyond = position - new Vector(cell[0][3], cell[1][3], cell[2][3]);
-                if (beyond.MaximumComponent() < 0.5 * cell[0][0])
+                if (beyond.MaxAbsComponent() < 0.5 * cell[0][0])
                 {
                     return true;
                 }

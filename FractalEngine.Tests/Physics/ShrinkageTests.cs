@@ -12,7 +12,7 @@ public class ShrinkageTests
         var (radius, rate, least) = (random.Between(0.1, 2), random.Between(0.05, 2), random.Between(0.05, 0.9));
         var world = Worlds.Of(Worlds.Gravity, random.Between(0.005, 0.1), Worlds.Place(PhysicsMeshes.Floor()));
         var body = world.Add(new(new(0, 5, 0), radius) { Shrinkage = rate, MinimumScale = least, Restitution = 0.5 });
-        world.Run((int)(2 / world.Settings.Step), () =>
+        world.Run((int)(2 / world.Settings.TimeStep), () =>
         {
             // Hundreds of subtractions.
             Near.Equal(radius * Math.Max(least, 1 - (rate * world.Time)), body.Radius, 1e-12);
@@ -76,16 +76,16 @@ public class ShrinkageTests
     {
         var world = Worlds.Of(Worlds.Gravity, 0.02);
         var axes = random.Orthogonal();
-        var body = world.Add(new(random.Vector(), 0.5) { Velocity = random.Vector(5), Shrinkage = 0.3, Axes = axes });
+        var body = world.Add(new(random.Vector(), 0.5) { Velocity = random.Vector(5), Shrinkage = 0.3, LinearPart = axes });
         world.Run(random.Next(1, 30));
         var (place, scale) = (body.Position, body.Scale);
-        Near.Equal(place, body.MapAt(1).Translation, 1e-14 * 10);
+        Near.Equal(place, body.InterpolatedMap(1).Translation, 1e-14 * 10);
         world.Step();
         foreach (var part in new[] { 0, 0.25, 0.7, 1 })
         {
             // A few operations on numbers of some units.
-            Near.Equal(((1 - part) * place) + (part * body.Position), body.MapAt(part).Translation, 1e-13);
-            Near.Equal((((1 - part) * scale) + (part * body.Scale)) * axes, body.MapAt(part).Linear, 1e-13);
+            Near.Equal(((1 - part) * place) + (part * body.Position), body.InterpolatedMap(part).Translation, 1e-13);
+            Near.Equal((((1 - part) * scale) + (part * body.Scale)) * axes, body.InterpolatedMap(part).Linear, 1e-13);
         }
     });
 

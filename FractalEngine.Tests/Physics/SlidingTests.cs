@@ -27,10 +27,10 @@ public class SlidingTests
         var mesh = Grid(random, 20);
         var turn = Transformation.Identity with { Rotation = random.Degrees(), Position = random.Vector(5), Scale = new(random.Between(0.5, 2), 1, random.Between(0.5, 2)) };
         var placed = Worlds.Place(mesh, turn);
-        var normal = placed.Map.Linear.Cofactors().V2.UnitVector();
+        var normal = placed.ObjectToWorld.Linear.Cofactors().V2.UnitVector();
         var (radius, step) = (random.Between(0.1, 1), random.Between(0.002, 0.05));
         var world = Worlds.Of(-9.8 * normal, step, placed);
-        var start = placed.Map * new Vector(10, 0, 10);
+        var start = placed.ObjectToWorld * new Vector(10, 0, 10);
         var velocity = 3 * Vector.Cross(normal, random.Direction());
         var body = world.Add(new(start + (radius * normal), radius));
         world.Run(5);
@@ -64,7 +64,7 @@ public class SlidingTests
         var body = world.Add(new(new(-0.45, 0.5 + 0.1, -0.4), 0.1));
         world.Run(5);
         world.SetVelocity(body, new(0, 0, 0.5));
-        world.Run((int)(1.5 / world.Settings.Step), () =>
+        world.Run((int)(1.5 / world.Settings.TimeStep), () =>
         {
             // The asset's thirds have 15 digits.
             Near.Equal(0.6, body.Position.Y, Height * 0.1);

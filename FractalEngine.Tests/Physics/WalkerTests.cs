@@ -179,14 +179,14 @@ public sealed class WalkerTests
         var sponge = Worlds.Place(AssetFractals.Load("menger-3"));
         var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings(), sponge, Worlds.Place(Box(new(-9, -2, -9), new(9, -1, 9))));
         var player = new Player(new((2 * random.NextDouble()) - 1, 1.2, (2 * random.NextDouble()) - 1), 0.01 + (0.04 * random.NextDouble()), 0.2);
-        var walker = world.AddWalker(player);
+        var walker = world.AddCharacter(player);
         walker.IsActive = true;
         for (var step = 0; step < 300; step++)
         {
             if (step % 20 == 0)
             {
                 var angle = 2 * Math.PI * random.NextDouble();
-                walker.Wish = new(Math.Cos(angle), 0, Math.Sin(angle));
+                walker.MoveInput = new(Math.Cos(angle), 0, Math.Sin(angle));
                 walker.Jump();
             }
 
@@ -199,18 +199,18 @@ public sealed class WalkerTests
         }
     });
 
-    private static (PhysicsWorld World, Walker Walker) Stand(Vector position, params Mesh[] meshes)
+    private static (PhysicsWorld World, CharacterController Walker) Stand(Vector position, params Mesh[] meshes)
     {
         var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings(), [.. meshes.Select(mesh => Worlds.Place(mesh))]);
-        var walker = world.AddWalker(new(position, Radius, 1.8));
+        var walker = world.AddCharacter(new(position, Radius, 1.8));
         walker.IsActive = true;
         world.Run(90);
         return (world, walker);
     }
 
-    private static void Go((PhysicsWorld World, Walker Walker) player, Vector wish, int steps, Action? afterEach = null)
+    private static void Go((PhysicsWorld World, CharacterController Walker) player, Vector wish, int steps, Action? afterEach = null)
     {
-        player.Walker.Wish = wish;
+        player.Walker.MoveInput = wish;
         player.World.Run(steps, afterEach);
     }
 

@@ -14,7 +14,7 @@ internal static class Worlds
     public static PhysicsWorld Of(Vector gravity, PhysicsSettings settings, params PlacedModel[] objects) =>
         new(new(new Scene { Gravity = gravity }, [.. objects]), settings);
 
-    public static PhysicsWorld Of(Vector gravity, double step, params PlacedModel[] objects) => Of(gravity, new PhysicsSettings { Step = step }, objects);
+    public static PhysicsWorld Of(Vector gravity, double step, params PlacedModel[] objects) => Of(gravity, new PhysicsSettings { TimeStep = step }, objects);
 
     public static PlacedModel Place(Mesh mesh, Transformation? placement = null) =>
         new(new("mesh.obj", placement ?? Transformation.Identity), new MeshModel("/mesh.obj", 0, mesh));

@@ -25,7 +25,7 @@ public sealed class DetailDrawingTests
     private const double NoFarther = 0.3;
 
     private static readonly RenderSettings Chosen = new() { Samples = 0 };
-    private static readonly RenderSettings All = Chosen with { Detail = null };
+    private static readonly RenderSettings All = Chosen with { Culling = null };
     private static readonly Camera Aside = new(new(-3.2, 2.6, -4), CameraFraming.LookRotation(new(3.2, -2.6, 4)), 45);
 
     /// <summary>Each fractal of the assets at a depth where half of the instances are larger than two pixels; −1 for what has no depth.</summary>
@@ -111,7 +111,7 @@ public sealed class DetailDrawingTests
         var scene = RenderScenes.Scene(new Scene { Background = Colour.Black }, (RenderScenes.Menger(2), Transformation.Identity, Colour.White));
         var view = View.Of(scene, (double)width / height);
         // Of a picture of few pixels, the sponge as a whole is what is small.
-        var (all, chosen) = (RenderScenes.Draw(scene, view, width, height, All), RenderScenes.Draw(scene, view, width, height, Chosen with { Detail = new() { PixelSize = 0 } }));
+        var (all, chosen) = (RenderScenes.Draw(scene, view, width, height, All), RenderScenes.Draw(scene, view, width, height, Chosen with { Culling = new() { MinProjectedSize = 0 } }));
         Assert.True(Pictures.Ratio(chosen, all) >= Pictures.Same, Invariant($"{Pictures.Ratio(chosen, all):F1} dB"));
         RenderScenes.Draw(scene, view, width, height, Chosen with { Samples = 4 });
     }
@@ -178,14 +178,14 @@ public sealed class DetailDrawingTests
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, Chosen));
         frame.Draw(renderer, view, Width, Height, Chosen);
         var first = renderer.Statistics;
-        Assert.Equal(1, first.Choices);
-        Assert.Equal(first.UploadedBytes, first.Instances * (long)VisibleSet.InstanceFloats * sizeof(float));
+        Assert.Equal(1, first.CullCount);
+        Assert.Equal(first.UploadedBytes, first.InstanceCount * (long)VisibleSet.FloatsPerInstance * sizeof(float));
         void AssertKept()
         {
             var now = renderer.Statistics;
-            Assert.Equal(first with { Skips = default }, now with { Skips = default });
+            Assert.Equal(first with { Optimisations = default }, now with { Optimisations = default });
             // The instances of both objects, both objects, the lights.
-            Assert.Equal(new(0, 5), now.Skips.Uploads);
+            Assert.Equal(new(0, 5), now.Optimisations.Uploads);
         }
 
         // What does not change the choice: colours, shading, and settings of the same values.
@@ -203,16 +203,16 @@ public sealed class DetailDrawingTests
         void AssertNew(View seen, int width, RenderSettings settings)
         {
             frame.Draw(renderer, seen, width, Height, settings);
-            Assert.Equal(++choices, renderer.Statistics.Choices);
+            Assert.Equal(++choices, renderer.Statistics.CullCount);
             frame.Draw(renderer, seen, width, Height, settings);
-            Assert.Equal(choices, renderer.Statistics.Choices);
+            Assert.Equal(choices, renderer.Statistics.CullCount);
         }
 
         AssertNew(view with { Camera = Aside with { Position = Aside.Position + (1e-9 * Vector.I) } }, Width, Chosen);
         AssertNew(view, Width + 1, Chosen);
         AssertNew(view with { Projection = Projection.Orthographic }, Width, Chosen);
         AssertNew(view, Width, Chosen with { Samples = 4 });
-        AssertNew(view, Width, Chosen with { Detail = new() { PixelSize = 3 } });
+        AssertNew(view, Width, Chosen with { Culling = new() { MinProjectedSize = 3 } });
         AssertNew(view, Width, Chosen with { Wireframe = true });
         renderer.Move(1, AffineMap.Translate(Vector.I));
         AssertNew(view, Width, Chosen);

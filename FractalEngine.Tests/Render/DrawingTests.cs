@@ -40,13 +40,13 @@ public sealed class DrawingTests
         var cube = RenderScenes.Cube(1);
         var open = new FractalModel("open.fdo", 1, new Fractal(
             solid.Fractal.Description,
-            new Mesh([.. cube.Positions, 0, 0, 0, 0.1, 0, 0, 0, 0.1, 0], [.. cube.Faces, 8, 9, 10])));
+            new Mesh([.. cube.Positions, 0, 0, 0, 0.1, 0, 0, 0, 0.1, 0], [.. cube.VertexIndices, 8, 9, 10])));
         var placement = Transformation.Identity with { Scale = new(mirror, 1, 1) };
         var view = new View(Aside, Projection.Perspective);
         var (solidScene, openScene) = (
             RenderScenes.Scene(new Scene(), (solid, placement, null)), RenderScenes.Scene(new Scene(), (open, placement, null)));
-        Assert.Equal(1, DrawableScene.Prepare(solidScene, new()).Models[0].SolidSign);
-        Assert.Equal(0, DrawableScene.Prepare(openScene, new()).Models[0].SolidSign);
+        Assert.Equal(1, DrawableScene.Prepare(solidScene, new()).Models[0].WindingSign);
+        Assert.Equal(0, DrawableScene.Prepare(openScene, new()).Models[0].WindingSign);
         // Where cubes touch, faces of both lie at the same depth along edges, and the first one drawn wins a sample.
         var (mean, share) = RenderScenes.Difference(
             RenderScenes.Draw(openScene, view, 400, 300), RenderScenes.Draw(solidScene, view, 400, 300));
@@ -219,7 +219,7 @@ public sealed class DrawingTests
         using var frame = new FrameRenderer(context);
         var error = Assert.Throws<GlException>(() => frame.Draw(null, RenderScenes.FrontView, 1_000_000, 10, new()));
         Assert.Equal(
-            $"a picture of 1000000×10 pixels cannot be drawn: this driver allows 1 to {context.MaximumSize} pixels a side", error.Message);
+            $"a picture of 1000000×10 pixels cannot be drawn: this driver allows 1 to {context.MaxFrameSize} pixels a side", error.Message);
     }
 
     /// <summary>The fractal as <c>export</c> writes it, read again.</summary>

@@ -21,14 +21,14 @@ public sealed class EmptyFaceTests
     public void Is_OfAnySize_FollowsTheShapeAlone(double size)
     {
         var (a, b) = (size * new Vector(1, 2, 3), size * new Vector(-2, 0.1, 0.7));
-        Assert.True(EmptyFace.Is(a, a, a));
-        Assert.True(EmptyFace.Is(a, b, a));
-        Assert.True(EmptyFace.Is(a, b, b));
-        Assert.True(EmptyFace.Is(a, a, b));
-        Assert.True(EmptyFace.Is(a, b, a + (2 * (b - a))));
-        Assert.False(EmptyFace.Is(a, b, size * new Vector(0.3, 0.4, 0.5)));
+        Assert.True(DegenerateTriangle.Test(a, a, a));
+        Assert.True(DegenerateTriangle.Test(a, b, a));
+        Assert.True(DegenerateTriangle.Test(a, b, b));
+        Assert.True(DegenerateTriangle.Test(a, a, b));
+        Assert.True(DegenerateTriangle.Test(a, b, a + (2 * (b - a))));
+        Assert.False(DegenerateTriangle.Test(a, b, size * new Vector(0.3, 0.4, 0.5)));
         // A needle whose point is a millionth of a millionth of its length wide.
-        Assert.False(EmptyFace.Is(Vector.Zero, size * Vector.I, size * new Vector(1, 1e-12, 0)));
+        Assert.False(DegenerateTriangle.Test(Vector.Zero, size * Vector.I, size * new Vector(1, 1e-12, 0)));
     }
 
     [Fact]
@@ -39,22 +39,22 @@ public sealed class EmptyFaceTests
         {
             // Eighths are exact, so the points are on the line.
             var (start, step) = (Eighths(random), Eighths(random));
-            Assert.True(EmptyFace.Is(start, start + (random.Next(-9, 9) * step), start + (random.Next(-9, 9) * step)));
+            Assert.True(DegenerateTriangle.Test(start, start + (random.Next(-9, 9) * step), start + (random.Next(-9, 9) * step)));
         }
     }
 
     [Theory]
     [InlineData(double.NaN)]
     [InlineData(double.PositiveInfinity)]
-    public void Is_WithACornerThatIsNotFinite_IsFalse(double x) => Assert.False(EmptyFace.Is(new(x, 0, 0), Vector.I, Vector.J));
+    public void Is_WithACornerThatIsNotFinite_IsFalse(double x) => Assert.False(DegenerateTriangle.Test(new(x, 0, 0), Vector.I, Vector.J));
 
     [Theory]
     [InlineData(true, 2, 3)]
     [InlineData(false, 5, 0)]
     public void Prepare_WithEmptyFaces_LeavesThemOutWhereAskedFor(bool skips, int drawn, int empty)
     {
-        var model = Prepare(RenderScenes.Model(Square), new() { SkipsEmptyFaces = skips });
-        Assert.Equal((3 * drawn, empty), (model.Indices.Length, model.EmptyFaces));
+        var model = Prepare(RenderScenes.Model(Square), new() { RemoveDegenerateTriangles = skips });
+        Assert.Equal((3 * drawn, empty), (model.Indices.Length, model.DegenerateTriangleCount));
         Assert.Equal(new DrawableBatch(0, 3 * drawn, null), Assert.Single(model.Batches));
         Assert.Equal(Square.Bounds, model.Bounds);
     }
@@ -66,7 +66,7 @@ public sealed class EmptyFaceTests
         var materials = ((string[])["red", "none"]).Select(name => new Material(name)).ToArray();
         var model = Prepare(new MeshModel("mesh.obj", 1, mesh) { Materials = [.. materials.Select(material => KeyValuePair.Create(material.Name, material))] }, new());
         Assert.Equal((0, 6, "red"), (model.Batches.Single().FirstIndex, model.Batches.Single().IndexCount, model.Batches.Single().Material!.Material.Name));
-        Assert.Equal(3, model.EmptyFaces);
+        Assert.Equal(3, model.DegenerateTriangleCount);
     }
 
     [SkippableFact]
@@ -75,8 +75,8 @@ public sealed class EmptyFaceTests
         var mesh = new Mesh([0, 0, 0, 1, 0, 0, 2, 0, 0], [0, 1, 2, 0, 0, 1]);
         foreach (var model in (Model[])[RenderScenes.Model(mesh), TexturedScenes.Of(mesh, new("m")), new FractalModel("a.fdo", 1, new(RenderScenes.Menger(2).Fractal.Description, mesh))])
         {
-            Assert.Equal(2, Prepare(model, new()).EmptyFaces);
-            foreach (var settings in (RenderSettings[])[new(), new() { Wireframe = true }, new() { Detail = null }])
+            Assert.Equal(2, Prepare(model, new()).DegenerateTriangleCount);
+            foreach (var settings in (RenderSettings[])[new(), new() { Wireframe = true }, new() { Culling = null }])
             {
                 var scene = RenderScenes.Scene(new Scene { Background = Colour.Black }, (model, Transformation.Identity, Colour.White));
                 Assert.Equal(0, RenderScenes.CountOther(RenderScenes.Draw(scene, RenderScenes.FrontView, settings: settings), (0, 0, 0, 255)));

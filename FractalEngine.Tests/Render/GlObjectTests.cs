@@ -128,7 +128,7 @@ public sealed class GlObjectTests
         var lines = ShaderSource.Read("mesh.frag", ["TEXTURED", "GLOSSY"]).Split('\n');
         Assert.Equal(["#version 330 core", "#define TEXTURED", "#define GLOSSY", "#line 2"], lines[..4]);
         Assert.DoesNotContain(lines, line => line.StartsWith("#include", StringComparison.Ordinal));
-        var original = EmbeddedFile.ReadText("Shaders/mesh.frag").Split('\n');
+        var original = EmbeddedResource.ReadText("Shaders/mesh.frag").Split('\n');
         var next = Array.FindLastIndex(lines, line => line.StartsWith("#line ", StringComparison.Ordinal));
         Assert.Equal(original[(int.Parse(lines[next][6..], System.Globalization.CultureInfo.InvariantCulture) - 1)..], lines[(next + 1)..^1]);
     }
@@ -152,6 +152,6 @@ public sealed class GlObjectTests
         var assembly = typeof(SceneRenderer).Assembly;
         var shaders = assembly.GetManifestResourceNames().Where(name => name.StartsWith("Shaders/", StringComparison.Ordinal)).ToArray();
         Assert.NotEmpty(shaders);
-        Assert.All(shaders, name => Assert.True(Ascii.IsValid(EmbeddedFile.ReadText(name)), name));
+        Assert.All(shaders, name => Assert.True(Ascii.IsValid(EmbeddedResource.ReadText(name)), name));
     }
 }

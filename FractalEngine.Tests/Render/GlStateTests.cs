@@ -14,23 +14,23 @@ public sealed class GlStateTests
     [Fact]
     public void Counter_OfTheSameValue_SkipsItAndCounts()
     {
-        var counter = new ChangeCounter();
+        var counter = new RedundancyFilter();
         var last = 0;
-        Assert.Equal([false, true, false, true], ((int[])[0, 1, 1, 0]).Select(now => counter.IsNew(ref last, now)));
+        Assert.Equal([false, true, false, true], ((int[])[0, 1, 1, 0]).Select(now => counter.Update(ref last, now)));
         Assert.Equal(new(2, 2), counter.Counts);
-        Assert.False(counter.IsNeeded(true, 3));
-        Assert.True(counter.IsNeeded(false, 3));
+        Assert.False(counter.ShouldPerform(true, 3));
+        Assert.True(counter.ShouldPerform(false, 3));
         Assert.Equal(new(5, 5), counter.Counts);
     }
 
     [Fact]
     public void Counter_SwitchedOff_DoesEverythingAndKnowsWhatHolds()
     {
-        var counter = new ChangeCounter { SkipsSame = false };
+        var counter = new RedundancyFilter { IsEnabled = false };
         var last = 0;
-        Assert.Equal([true, true, true], ((int[])[0, 1, 1]).Select(now => counter.IsNew(ref last, now)));
-        counter.SkipsSame = true;
-        Assert.False(counter.IsNew(ref last, 1));
+        Assert.Equal([true, true, true], ((int[])[0, 1, 1]).Select(now => counter.Update(ref last, now)));
+        counter.IsEnabled = true;
+        Assert.False(counter.Update(ref last, 1));
         Assert.Equal(new(3, 1), counter.Counts);
     }
 
@@ -42,16 +42,16 @@ public sealed class GlStateTests
         // Names of deleted objects come again.
         for (var i = 0; i < 5; i++)
         {
-            var before = state.Changes.Counts;
+            var before = state.Filter.Counts;
             using var array = new VertexArray(context.Resources, "array");
             using var texture = new AlphaTexture(context.Resources, "texture", 1, 1, [1]);
             array.Bind();
             texture.Bind();
             // A texture is bound when it is made.
-            Assert.Equal(new(2, 1), state.Changes.Counts - before);
+            Assert.Equal(new(2, 1), state.Filter.Counts - before);
             array.Bind();
             texture.Bind();
-            Assert.Equal(new(2, 3), state.Changes.Counts - before);
+            Assert.Equal(new(2, 3), state.Filter.Counts - before);
         }
 
         context.Resources.ThrowOnError("binding");
@@ -63,7 +63,7 @@ public sealed class GlStateTests
     public void Scenes_OneAfterTheOtherInOneContext_LookAsInTheirOwn(bool skips)
     {
         using var textures = new TexturedScenes();
-        var settings = new RenderSettings { SkipsSameState = skips, KeepsBuffers = skips };
+        var settings = new RenderSettings { FilterRedundantState = skips, ReuseBuffers = skips };
         var glass = TexturedScenes.Of(RenderScenes.Cube(1), new("glass") { Diffuse = new(1, 0, 0), Opacity = 0.4 });
         var checks = textures.Texture("a.png", 2, 2, (x, y) => ((byte)(255 * x), (byte)(255 * y), 90, 255));
         LoadedScene[] scenes =

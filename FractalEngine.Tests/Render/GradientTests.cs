@@ -92,21 +92,21 @@ public sealed class GradientTests
         var fractal = DetailViews.Menger(2);
         foreach (var kind in (GradientKind[])[GradientKind.Level, GradientKind.Path])
         {
-            var item = DetailViews.Object(fractal) with { Gradient = kind };
+            var item = DetailViews.Object(fractal) with { GradientKind = kind };
             var tints = new Dictionary<string, float>();
             foreach (var (from, width) in from eye in (Vector[])[new(0, 0, -4), new(-3, 2, -2.5), new(0.1, 0.2, 0.05)] from width in (int[])[4, 40, 400] select (eye, width))
             {
                 var set = new VisibleSet();
-                set.Fill(DetailViews.Look(from, new(0.1, 0.1, 0.1), width: width, height: width), [item], DetailViews.Everything);
+                set.Cull(DetailViews.Look(from, new(0.1, 0.1, 0.1), width: width, height: width), [item], DetailViews.Everything);
                 var (count, distinct) = (0, new HashSet<string>());
-                for (var part = 0; part < VisibleSet.PartCount; part++)
+                for (var part = 0; part < VisibleSet.ChunkCount; part++)
                 {
-                    var rows = set.Part(0, part);
-                    var found = set.Tints(0, part);
-                    Assert.Equal(rows.Length / VisibleSet.InstanceFloats, found.Length);
+                    var rows = set.Instances(0, part);
+                    var found = set.GradientFactors(0, part);
+                    Assert.Equal(rows.Length / VisibleSet.FloatsPerInstance, found.Length);
                     for (var i = 0; i < found.Length; i++)
                     {
-                        var row = rows[(i * VisibleSet.InstanceFloats)..];
+                        var row = rows[(i * VisibleSet.FloatsPerInstance)..];
                         // The place in steps of the smallest cube.
                         var place = Invariant($"{Math.Round(9 * (row[3] + from.X)) + 0.0} {Math.Round(9 * (row[7] + from.Y)) + 0.0} {Math.Round(9 * (row[11] + from.Z)) + 0.0}");
                         Assert.True(tints.TryAdd(place, found[i]) || tints[place] == found[i], $"{kind}, {width} columns, {place}: {found[i]} and {tints[place]}");
@@ -147,7 +147,7 @@ public sealed class GradientTests
         var found = new Colour(pixel.Red / 255.0, pixel.Green / 255.0, pixel.Blue / 255.0).ToLinear();
         var ((red1, green1, blue1), (red2, green2, blue2)) = (near.ToLinear(), Far.ToLinear());
         Vector Of(double part) => new(red1 + (part * (red2 - red1)), green1 + (part * (green2 - green1)), blue1 + (part * (blue2 - blue1)));
-        var difference = (Of(tint) - new Vector(found.Red, found.Green, found.Blue)).MaximumComponent();
+        var difference = (Of(tint) - new Vector(found.Red, found.Green, found.Blue)).MaxAbsComponent();
         Assert.True(difference < Tolerance, Invariant($"{what}: {found}, expected {Of(tint)}"));
     }
 

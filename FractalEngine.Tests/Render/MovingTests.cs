@@ -38,7 +38,7 @@ public sealed class MovingTests
         using var frame = new FrameRenderer(context);
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(SceneOf(RenderScenes.At(-2, 0.5, -1), isBody: true), Settings));
         var before = Draw(frame, renderer);
-        var choices = renderer.Statistics.Choices;
+        var choices = renderer.Statistics.CullCount;
         for (var i = 0; i < 5; i++)
         {
             // Also out of the scene, and out of sight.
@@ -46,7 +46,7 @@ public sealed class MovingTests
             Draw(frame, renderer);
         }
 
-        Assert.Equal(choices, renderer.Statistics.Choices);
+        Assert.Equal(choices, renderer.Statistics.CullCount);
         renderer.Move(1, AffineMap.Translate(new(-2, 0.5, -1)));
         Assert.Equal(before.Pixels, Draw(frame, renderer).Pixels);
     }
@@ -59,7 +59,7 @@ public sealed class MovingTests
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(SceneOf(RenderScenes.At(-2, 0.5, -1), isBody: true), Settings));
         var without = Draw(frame, renderer);
         var (centre, radius) = (new Vector(2, 2.5, -3), 0.5);
-        renderer.Balls = [new(centre, radius)];
+        renderer.Spheres = [new(centre, radius)];
         var with = Draw(frame, renderer);
         var changed = 0;
         var view = View.Of(renderer.Scene.Source, (double)Width / Height, Camera);
@@ -72,10 +72,10 @@ public sealed class MovingTests
         }
 
         // The disc of a ball at this depth; what it covers beside its edge changes.
-        var depth = view.Camera.Map(centre).Z;
+        var depth = view.Camera.ToCameraSpace(centre).Z;
         var pixels = radius / depth / view.Camera.HalfHeightAtUnitDepth * 0.5 * Height;
         Assert.InRange(changed, 0.9 * Math.PI * pixels * pixels, 1.25 * Math.PI * (pixels + 1) * (pixels + 1));
-        renderer.Balls = [];
+        renderer.Spheres = [];
         Assert.Equal(without.Pixels, Draw(frame, renderer).Pixels);
     }
 

@@ -15,7 +15,7 @@ public sealed class PreparationTests
     [Fact]
     public void Prepare_FractalBeyondTheBudget_IsDrawnLessDeepAndSaysSo()
     {
-        var scene = Prepare(new() { Detail = null, InstanceBudget = 10_000 }, RenderScenes.Menger(6));
+        var scene = Prepare(new() { Culling = null, InstanceBudget = 10_000 }, RenderScenes.Menger(6));
         Assert.Equal(8000, scene.Models[0].InstanceCount);
         Assert.Equal("menger.fdo: 64,000,000 instances are more than the budget of 10,000: drawn at depth 3 of 6", Assert.Single(scene.Notices));
     }
@@ -24,12 +24,12 @@ public sealed class PreparationTests
     [InlineData(20, "menger.fdo: about 10^26 instances are more than the budget of 8,000: drawn at depth 3 of 20")]
     [InlineData(null, "menger.fdo: infinitely many instances are more than the budget of 8,000: drawn at depth 3 of infinitely many")]
     public void Prepare_HugeOrInfiniteFractal_IsDrawnAtOnce(int? depth, string notice) =>
-        Assert.Equal(notice, Assert.Single(Prepare(new() { Detail = null, InstanceBudget = 8000 }, RenderScenes.Menger(depth)).Notices));
+        Assert.Equal(notice, Assert.Single(Prepare(new() { Culling = null, InstanceBudget = 8000 }, RenderScenes.Menger(depth)).Notices));
 
     [Fact]
     public void Prepare_FractalOfALargeMesh_KeepsTheTriangleBudget()
     {
-        var scene = Prepare(new() { Detail = null, TriangleBudget = 12 * 500 }, RenderScenes.Menger(3));
+        var scene = Prepare(new() { Culling = null, TriangleBudget = 12 * 500 }, RenderScenes.Menger(3));
         Assert.Equal(400, scene.Models[0].InstanceCount);
         Assert.Equal(4800, scene.TriangleCount);
         Assert.Single(scene.Notices);
@@ -39,7 +39,7 @@ public sealed class PreparationTests
     public void Prepare_ComponentwiseFractal_CountsDistinctSumsNotChains()
     {
         // 20^4 chains are beyond the budget, their distinct sums are not.
-        var scene = Prepare(new() { Detail = null, InstanceBudget = 5000 }, RenderScenes.Menger(4, Composition.Componentwise));
+        var scene = Prepare(new() { Culling = null, InstanceBudget = 5000 }, RenderScenes.Menger(4, Composition.Componentwise));
         Assert.Empty(scene.Notices);
         Assert.InRange(scene.Models[0].InstanceCount, 100, 5000);
     }
@@ -58,7 +58,7 @@ public sealed class PreparationTests
     public void Prepare_Cube_HasSharpEdgesAndUnitNormals()
     {
         var model = Prepare(new(), RenderScenes.Model(RenderScenes.Cube(1))).Models[0];
-        Assert.Equal(24, model.Vertices.Length / DrawableModel.VertexFloats);
+        Assert.Equal(24, model.Vertices.Length / DrawableModel.FloatsPerVertex);
         Assert.Equal(36, model.Indices.Length);
         AssertUnitNormals(model);
     }
@@ -67,7 +67,7 @@ public sealed class PreparationTests
     public void Prepare_UnusedVertices_AreLeftOut()
     {
         var mesh = new Mesh([9, 9, 9, 0, 0, 0, 1, 0, 0, 0, 1, 0, 8, 8, 8], [1, 2, 3]);
-        Assert.Equal(3, Prepare(new(), RenderScenes.Model(mesh)).Models[0].Vertices.Length / DrawableModel.VertexFloats);
+        Assert.Equal(3, Prepare(new(), RenderScenes.Model(mesh)).Models[0].Vertices.Length / DrawableModel.FloatsPerVertex);
     }
 
     [Fact]
@@ -75,7 +75,7 @@ public sealed class PreparationTests
     {
         var mesh = RenderScenes.Square(1).WithNormals([0, 0.6, -0.8, 0, 0, 5, 0, 0, 0], [0, 0, 0, 1, 1, 2]);
         var model = Prepare(new(), RenderScenes.Model(mesh)).Models[0];
-        var normals = model.Vertices.ToArray().Chunk(DrawableModel.VertexFloats).Select(vertex => (vertex[3], vertex[4], vertex[5])).Distinct();
+        var normals = model.Vertices.ToArray().Chunk(DrawableModel.FloatsPerVertex).Select(vertex => (vertex[3], vertex[4], vertex[5])).Distinct();
         // As given; opposing the winding, so turned round; of no direction at all.
         Assert.Equal([(0f, 0.6f, -0.8f), (0f, 0f, -1f), (0f, 0f, 0f)], normals);
     }
@@ -96,7 +96,7 @@ public sealed class PreparationTests
         var model = Prepare(new(), RenderScenes.Model(mesh)).Models[0];
         Assert.Equal(new DrawableBatch(0, 6, null), Assert.Single(model.Batches));
         Assert.True(model.TextureCoordinates.IsEmpty);
-        Assert.Equal((4, 6), (model.Vertices.Length / DrawableModel.VertexFloats, model.Indices.Length));
+        Assert.Equal((4, 6), (model.Vertices.Length / DrawableModel.FloatsPerVertex, model.Indices.Length));
     }
 
     [Fact]
@@ -106,7 +106,7 @@ public sealed class PreparationTests
         using var scenes = new TexturedScenes();
         var texture = scenes.Texture("a.png", 1, 1, (_, _) => (1, 2, 3, 255));
         var model = Prepare(new(), TexturedScenes.Of(mesh, new("m") { Texture = texture })).Models[0];
-        Assert.Equal(5, model.Vertices.Length / DrawableModel.VertexFloats);
+        Assert.Equal(5, model.Vertices.Length / DrawableModel.FloatsPerVertex);
         Assert.Equal([0f, 0, 0, 1, 1, 0, 0.5f, 0.5f, 1, 1], model.TextureCoordinates.ToArray());
     }
 
@@ -120,7 +120,7 @@ public sealed class PreparationTests
         {
             Materials = TexturedScenes.Of(menger.Mesh, new("m") { Opacity = opacity }).Materials,
         };
-        Assert.Equal(sign, Prepare(new(), glass).Models[0].SolidSign);
+        Assert.Equal(sign, Prepare(new(), glass).Models[0].WindingSign);
     }
 
     [SkippableFact]
@@ -149,7 +149,7 @@ public sealed class PreparationTests
                 next += batch.IndexCount;
             }
 
-            var drawn = 3 * (triangles - model.EmptyFaces);
+            var drawn = 3 * (triangles - model.DegenerateTriangleCount);
             Assert.Equal((file, drawn, drawn), (file, next, model.Indices.Length));
         }
     }
@@ -168,7 +168,7 @@ public sealed class PreparationTests
 
     private static void AssertUnitNormals(DrawableModel model)
     {
-        foreach (var vertex in model.Vertices.ToArray().Chunk(DrawableModel.VertexFloats))
+        foreach (var vertex in model.Vertices.ToArray().Chunk(DrawableModel.FloatsPerVertex))
         {
             Assert.Equal(1, Math.Sqrt((vertex[3] * vertex[3]) + (vertex[4] * vertex[4]) + (vertex[5] * vertex[5])), 1e-6);
         }

@@ -21,23 +21,23 @@ public sealed class ScenePreparationTests
     public void PrepareInSight_OfWhatIsBehindTheCamera_LeavesABox()
     {
         var preparation = new ScenePreparation(Scene, new());
-        Assert.True(preparation.NeedsPreparation(RenderScenes.FrontView, 1.5));
-        Assert.True(preparation.PrepareInSight(RenderScenes.FrontView, 1.5));
+        Assert.True(preparation.HasUnpreparedVisibleModels(RenderScenes.FrontView, 1.5));
+        Assert.True(preparation.PrepareVisible(RenderScenes.FrontView, 1.5));
         Assert.Equal([false, true], preparation.Scene.Models.Select(model => model.IsPlaceholder));
         Assert.Equal(12, preparation.Scene.Models[1].Indices.Length / 3);
         Assert.False(preparation.IsComplete);
-        Assert.False(preparation.NeedsPreparation(RenderScenes.FrontView, 1.5));
-        Assert.False(preparation.PrepareInSight(RenderScenes.FrontView, 1.5));
+        Assert.False(preparation.HasUnpreparedVisibleModels(RenderScenes.FrontView, 1.5));
+        Assert.False(preparation.PrepareVisible(RenderScenes.FrontView, 1.5));
     }
 
     [Fact]
     public void PrepareInSight_AfterTurningRound_PreparesEachFileOnce()
     {
         var preparation = new ScenePreparation(Scene, new());
-        preparation.PrepareInSight(RenderScenes.FrontView, 1.5);
+        preparation.PrepareVisible(RenderScenes.FrontView, 1.5);
         var first = preparation.Scene.Models[0];
-        Assert.True(preparation.NeedsPreparation(Back, 1.5));
-        Assert.True(preparation.PrepareInSight(Back, 1.5));
+        Assert.True(preparation.HasUnpreparedVisibleModels(Back, 1.5));
+        Assert.True(preparation.PrepareVisible(Back, 1.5));
         Assert.True(preparation.IsComplete);
         Assert.Same(first, preparation.Scene.Models[0]);
         Assert.Same(preparation.Scene.Objects[1].Model, preparation.Scene.Objects[2].Model);
@@ -50,13 +50,13 @@ public sealed class ScenePreparationTests
         using var context = GlTests.Open();
         using var frame = new FrameRenderer(context);
         var preparation = new ScenePreparation(Scene, new());
-        preparation.PrepareInSight(RenderScenes.FrontView, 1.5);
+        preparation.PrepareVisible(RenderScenes.FrontView, 1.5);
         using var renderer = new SceneRenderer(context, preparation.Scene);
         renderer.Move(1, AffineMap.Translate(new(-1, 1, -11)));
         frame.Draw(renderer, Back, 150, 100, new());
         var box = frame.Capture();
 
-        preparation.PrepareInSight(Back, 1.5);
+        preparation.PrepareVisible(Back, 1.5);
         renderer.Update(preparation.Scene);
         frame.Draw(renderer, Back, 150, 100, new());
         var late = frame.Capture();
@@ -84,7 +84,7 @@ public sealed class ScenePreparationTests
             var point = box.Minimum + box.Size.Stretch(new(random.NextDouble(), random.NextDouble(), random.NextDouble()));
             if (view.Project(point, 300, 200) is var (x, y, depth) && depth > 0 && x is > 0 and < 300 && y is > 0 and < 200)
             {
-                Assert.True(view.MaySee(box, 1.5), $"{point} of {box}");
+                Assert.True(view.MayIntersectFrustum(box, 1.5), $"{point} of {box}");
             }
         }
     });

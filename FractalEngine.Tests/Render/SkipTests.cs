@@ -44,14 +44,14 @@ public sealed class SkipTests : IDisposable
 
     private static readonly Dictionary<string, Func<RenderSettings, RenderSettings>> Without = new()
     {
-        ["backs"] = settings => settings with { SkipsBacks = false },
-        ["outside"] = settings => settings with { Detail = settings.Detail! with { SkipsOutside = false } },
-        ["hidden"] = settings => settings with { Detail = settings.Detail! with { SkipsHidden = false } },
-        ["empty-faces"] = settings => settings with { SkipsEmptyFaces = false },
-        ["state"] = settings => settings with { SkipsSameState = false },
-        ["buffers"] = settings => settings with { KeepsBuffers = false },
-        ["sharing"] = settings => settings with { SharesTextures = false },
-        ["sight"] = settings => settings with { PreparesOnSight = false },
+        ["backs"] = settings => settings with { BackFaceCulling = false },
+        ["outside"] = settings => settings with { Culling = settings.Culling! with { FrustumCulling = false } },
+        ["hidden"] = settings => settings with { Culling = settings.Culling! with { OcclusionCulling = false } },
+        ["empty-faces"] = settings => settings with { RemoveDegenerateTriangles = false },
+        ["state"] = settings => settings with { FilterRedundantState = false },
+        ["buffers"] = settings => settings with { ReuseBuffers = false },
+        ["sharing"] = settings => settings with { ShareTextures = false },
+        ["sight"] = settings => settings with { LazyLoading = false },
     };
 
     private static string Textured => Path.Combine(AssetFractals.Folder, "..", "scenes", "textured.sdo");
@@ -71,7 +71,7 @@ public sealed class SkipTests : IDisposable
             foreach (var samples in (int[])[0, 4])
             {
                 var settings = new RenderSettings { Samples = samples };
-                var (with, without) = (Draw(path, new(), settings).Picture, Draw(path, new() { SharesFiles = skip != "sharing" }, Without[skip](settings)).Picture);
+                var (with, without) = (Draw(path, new(), settings).Picture, Draw(path, new() { ShareModels = skip != "sharing" }, Without[skip](settings)).Picture);
                 Assert.True(Pictures.Ratio(without, with) >= Pictures.Same, Invariant($"{Path.GetFileName(path)}, {samples} samples: {Pictures.Ratio(without, with):F1} dB"));
             }
         }
@@ -82,21 +82,21 @@ public sealed class SkipTests : IDisposable
     {
         var path = SmallScene();
         var settings = new RenderSettings();
-        SkipStatistics Of(string? skip = null) => Draw(path, new() { SharesFiles = skip != "sharing" }, skip is null ? settings : Without[skip](settings)).Statistics.Skips;
+        OptimisationStatistics Of(string? skip = null) => Draw(path, new() { ShareModels = skip != "sharing" }, skip is null ? settings : Without[skip](settings)).Statistics.Optimisations;
         var all = Of();
         // Three squares and a cube in sight, a cube and a row of cubes behind the camera; cubes have the only picture.
-        Assert.Equal((6, 3, 1, 1), (all.Objects, all.Models, all.Unprepared, all.Textures));
-        Assert.Equal((2, 0), (all.EmptyFaces, Of("empty-faces").EmptyFaces));
-        Assert.Equal((6, 2), (Of("sharing").Models, Of("sharing").Unprepared));
-        Assert.Equal(0, Of("sight").Unprepared);
-        Assert.True(all.OneSided > 0);
-        Assert.Equal(0, Of("backs").OneSided);
+        Assert.Equal((6, 3, 1, 1), (all.ObjectCount, all.ModelCount, all.PlaceholderCount, all.TextureCount));
+        Assert.Equal((2, 0), (all.DegenerateTriangleCount, Of("empty-faces").DegenerateTriangleCount));
+        Assert.Equal((6, 2), (Of("sharing").ModelCount, Of("sharing").PlaceholderCount));
+        Assert.Equal(0, Of("sight").PlaceholderCount);
+        Assert.True(all.BackFaceCulledCount > 0);
+        Assert.Equal(0, Of("backs").BackFaceCulledCount);
         // The last picture is like the one before: all its buffers are kept, or none.
-        Assert.Equal(0, all.Uploads.Made);
-        Assert.Equal(all.Uploads.Skipped, Of("buffers").Uploads.Made);
+        Assert.Equal(0, all.Uploads.Performed);
+        Assert.Equal(all.Uploads.Skipped, Of("buffers").Uploads.Performed);
         Assert.Equal(0, Of("state").StateChanges.Skipped);
         // What is skipped as one, such as the camera of a program, may be several changes.
-        Assert.True(Of("state").StateChanges.Made >= all.StateChanges.Made + all.StateChanges.Skipped);
+        Assert.True(Of("state").StateChanges.Performed >= all.StateChanges.Performed + all.StateChanges.Skipped);
         Assert.True(all.StateChanges.Skipped > 0);
     }
 
@@ -106,9 +106,9 @@ public sealed class SkipTests : IDisposable
         var path = SmallScene();
         var settings = new RenderSettings();
         var (all, outside, hidden) = (Draw(path, new(), settings), Draw(path, new(), Without["outside"](settings)), Draw(path, new(), Without["hidden"](settings)));
-        Assert.True(all.Statistics.Cost.Outside > 0);
-        Assert.Equal(0, outside.Statistics.Cost.Outside);
-        Assert.Equal(0, hidden.Statistics.Cost.Hidden);
+        Assert.True(all.Statistics.Culling.OutsideFrustum > 0);
+        Assert.Equal(0, outside.Statistics.Culling.OutsideFrustum);
+        Assert.Equal(0, hidden.Statistics.Culling.Occluded);
     }
 
     /// <summary>As the window does: what is in sight is prepared, unless all is. Drawn twice, so that something can be kept.</summary>
@@ -117,9 +117,9 @@ public sealed class SkipTests : IDisposable
         var scene = AssetLoader.Load(path, options).Scene;
         var view = View.Of(scene, (double)Width / Height);
         var preparation = new ScenePreparation(scene, settings);
-        if (settings.PreparesOnSight)
+        if (settings.LazyLoading)
         {
-            preparation.PrepareInSight(view, (double)Width / Height);
+            preparation.PrepareVisible(view, (double)Width / Height);
         }
         else
         {

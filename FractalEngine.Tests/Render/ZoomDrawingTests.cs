@@ -45,7 +45,7 @@ public sealed class ZoomDrawingTests
                 var (near, far) = (0.01 * dive.Target(Vector.Zero).Length(), 100.0);
                 var unit = Math.Exp(dive.Address.LogUnit);
                 var ordinary = stage.Draw(new(camera, Projection.Perspective) { Clip = (near * unit, far) });
-                var zoomed = stage.Draw(new(camera, Projection.Perspective) { Clip = (near, far / unit), Zoom = stage.Zoom(dive.Address) });
+                var zoomed = stage.Draw(new(camera, Projection.Perspective) { Clip = (near, far / unit), DeepZoom = stage.Zoom(dive.Address) });
                 var ratio = Pictures.Ratio(zoomed, ordinary);
                 var (_, share) = RenderScenes.Difference(zoomed, ordinary);
                 Assert.True(ratio >= Pictures.Same || share < 0.01, Invariant($"{name}, {placement}, depth {dive.Address.Depth}: {ratio:F1} dB, {share:P2} of the pixels"));
@@ -92,7 +92,7 @@ public sealed class ZoomDrawingTests
             var view = new View(camera with { Position = shallow.Address.WorldPosition(AffineMap.Identity) }, Projection.Perspective);
             expected.Add(RenderScenes.Centroid(stage.Draw(view with { Clip = (0.01 * distance * unit, 100) }, settings, Width / 2, Height / 2)).X);
             centroids.Add(RenderScenes.Centroid(stage.Draw(
-                view with { Camera = camera with { Position = deep.Address.WorldPosition(AffineMap.Identity) }, Clip = (0.01 * distance, 100 / unit), Zoom = stage.Zoom(deep.Address) }, settings, Width / 2, Height / 2)).X);
+                view with { Camera = camera with { Position = deep.Address.WorldPosition(AffineMap.Identity) }, Clip = (0.01 * distance, 100 / unit), DeepZoom = stage.Zoom(deep.Address) }, settings, Width / 2, Height / 2)).X);
             shallow.Move(step);
             deep.Move(step);
         }
@@ -137,7 +137,7 @@ public sealed class ZoomDrawingTests
         using var stage = new Stage(fractal, placement, Directions);
         var table = stage.Table;
         var camera = new Camera(new(0, 0, -5), Vector.Zero, 60);
-        var controls = new CameraControls(table.At(table.Levels).Box, camera, Projection.Perspective, null, new(0, table, AffineMap.Identity));
+        var controls = new CameraControls(table.NodeAt(table.LevelCount).Box, camera, Projection.Perspective, null, new(0, table, AffineMap.Identity));
         for (var i = 0; i < 400 && controls.Depth < 50; i++)
         {
             controls.Handle(new WheelTurned(1, KeyModifiers.None), (double)Width / Height);
@@ -148,8 +148,8 @@ public sealed class ZoomDrawingTests
         foreach (var yaw in (double[])[0, 180])
         {
             var looking = controls.Camera with { Rotation = new(0, yaw * Math.PI / 180, 0) };
-            var zoomed = controls.Deepened(new(looking, Projection.Perspective));
-            var unit = Math.Exp(zoomed.Zoom!.LogUnit);
+            var zoomed = controls.WithDeepZoom(new(looking, Projection.Perspective));
+            var unit = Math.Exp(zoomed.DeepZoom!.LogUnit);
             var ordinary = stage.Draw(new(looking, Projection.Perspective) { Clip = (zoomed.Clip!.Value.Near * unit, 100) });
             var ratio = Pictures.Ratio(stage.Draw(zoomed), ordinary);
             Assert.True(ratio >= Pictures.Same, Invariant($"depth {controls.Depth}, turned by {yaw}: {ratio:F1} dB"));
@@ -167,7 +167,7 @@ public sealed class ZoomDrawingTests
             var camera = stage.Towards(dive);
             var unit = Math.Exp(dive.Address.LogUnit);
             var ordinary = stage.Draw(new(camera, Projection.Perspective) { Clip = (0.01 * unit, 100) });
-            var zoomed = stage.Draw(new(camera, Projection.Perspective) { Clip = (0.01, 100 / unit), Zoom = stage.Zoom(dive.Address) });
+            var zoomed = stage.Draw(new(camera, Projection.Perspective) { Clip = (0.01, 100 / unit), DeepZoom = stage.Zoom(dive.Address) });
             var ratio = Pictures.Ratio(zoomed, ordinary);
             Assert.True(ratio >= Pictures.Same, Invariant($"by {kind}: {ratio:F1} dB"));
         }
@@ -179,7 +179,7 @@ public sealed class ZoomDrawingTests
         // A place that is in no copy's reach and within the sub-fractal's own: the same at each level.
         dive.Settle(1.5 * Direction(stage.Name));
         var camera = stage.Towards(dive);
-        return stage.Draw(new(camera, Projection.Perspective) { Clip = (0.02, 1e12), Zoom = stage.Zoom(dive.Address) });
+        return stage.Draw(new(camera, Projection.Perspective) { Clip = (0.02, 1e12), DeepZoom = stage.Zoom(dive.Address) });
     }
 
     private static Vector Direction(string name) => name switch
@@ -204,7 +204,7 @@ public sealed class ZoomDrawingTests
                 new() { Background = Colour.Black, Lights = [.. lights] },
                 [new(new SceneObject("a.fdo", placement) { Colour = gradient is null ? Colour.White : new(1, 0, 0), Gradient = gradient }, new FractalModel("a.fdo", 1, fractal))]);
             var drawable = DrawableScene.Prepare(scene, Settings);
-            Table = drawable.Objects[0].Model.Detail!;
+            Table = drawable.Objects[0].Model.LodHierarchy!;
             _context = GlTests.Open();
             _renderer = new(_context, drawable);
             _frame = new(_context);
@@ -213,7 +213,7 @@ public sealed class ZoomDrawingTests
 
         public string Name { get; } = "";
 
-        public DetailTable Table { get; }
+        public LodHierarchy Table { get; }
 
         private AffineMap Placement { get; }
 
@@ -235,6 +235,6 @@ public sealed class ZoomDrawingTests
             _context.Dispose();
         }
 
-        public ZoomedObject Zoom(FractalAddress address) => new(0, address.Roots(Ancestors), address.LogUnit);
+        public DeepZoom Zoom(FractalAddress address) => new(0, address.CollectRoots(Ancestors), address.LogUnit);
     }
 }

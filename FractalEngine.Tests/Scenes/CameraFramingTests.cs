@@ -40,7 +40,7 @@ public class CameraFramingTests
     {
         var box = Box(random);
         var camera = CameraFraming.Frame(new(Vector.Zero, random.Vector(3), 60), box, 1);
-        var largest = Corners(box).Select(camera.Map).Max(v => Math.Max(Math.Abs(v.X), Math.Abs(v.Y)) / v.Z / camera.HalfHeightAtUnitDepth);
+        var largest = Corners(box).Select(camera.ToCameraSpace).Max(v => Math.Max(Math.Abs(v.X), Math.Abs(v.Y)) / v.Z / camera.HalfHeightAtUnitDepth);
         // A third of the picture at least, whatever margin is left.
         Assert.InRange(largest, 1.0 / 3, 1);
     });
@@ -62,7 +62,7 @@ public class CameraFramingTests
         var box = new BoundingBox(-size * Vector.One, size * Vector.One);
         var camera = CameraFraming.Frame(Camera.Default, box, 1);
         Assert.True(camera.Position.IsFinite());
-        Assert.True(camera.Map(box.Centre).Z > 0, "the box is not before the camera");
+        Assert.True(camera.ToCameraSpace(box.Centre).Z > 0, "the box is not before the camera");
     }
 
     [Fact]
@@ -89,7 +89,7 @@ public class CameraFramingTests
 
     private static void AssertVisible(Camera camera, Vector corner, double aspect)
     {
-        var mapped = camera.Map(corner);
+        var mapped = camera.ToCameraSpace(corner);
         // A corner may lie on the picture's edge, to rounding.
         var half = camera.HalfHeightAtUnitDepth * mapped.Z * (1 + 1e-12);
         Assert.True(mapped.Z > 0 && Math.Abs(mapped.Y) <= half && Math.Abs(mapped.X) <= half * aspect, $"{corner} is at {mapped}");

@@ -90,7 +90,7 @@ public class CameraNavigationTests
         var orbited = CameraNavigation.Orbit(camera, pivot, random.Between(-3, 3), random.Between(-0.5, 0.5));
         // Distances up to 35.
         Near.Equal((pivot - camera.Position).Length(), (pivot - orbited.Position).Length(), 1e-12);
-        Near.Equal(camera.Map(pivot), orbited.Map(pivot), 1e-12);
+        Near.Equal(camera.ToCameraSpace(pivot), orbited.ToCameraSpace(pivot), 1e-12);
     });
 
     [Fact]
@@ -104,7 +104,7 @@ public class CameraNavigationTests
 
         // Ten thousand roundings of a distance of 5, were they all the same way.
         Near.Equal(5, camera.Position.Length(), 1e-10);
-        Near.Equal(new(0, 0, 5), camera.Map(Vector.Zero), 1e-10);
+        Near.Equal(new(0, 0, 5), camera.ToCameraSpace(Vector.Zero), 1e-10);
     });
 
     [Fact]
@@ -113,7 +113,7 @@ public class CameraNavigationTests
         var (camera, distances) = (Level(random), random.Vector(5));
         var moved = CameraNavigation.Move(camera, distances);
         Assert.Equal(camera.Rotation, moved.Rotation);
-        Near.Equal(distances, camera.Map(moved.Position), Tolerance);
+        Near.Equal(distances, camera.ToCameraSpace(moved.Position), Tolerance);
     });
 
     [Fact]

@@ -11,14 +11,14 @@ public class CameraTests
     [Fact]
     public void Map_OfTheOrigin_IsInAppendixAsView()
     {
-        var (right, up, depth) = AppendixA.Map(Vector.Zero) switch { var v => (v.X, v.Y, v.Z) };
+        var (right, up, depth) = AppendixA.ToCameraSpace(Vector.Zero) switch { var v => (v.X, v.Y, v.Z) };
         Assert.True(depth > 0, "the origin is behind the camera");
         Assert.True(Math.Abs(up) < depth * Math.Tan(Math.PI / 6) && Math.Abs(right) < depth * Math.Tan(Math.PI / 6), "the origin is outside the angle of view");
     }
 
     [Fact]
     public void Map_InALeftHandedWorld_HasRightOnTheRightAndUpAbove() =>
-        Assert.Equal(new(2, 3, 6), new Camera(new(0, 0, -5), Vector.Zero, 60).Map(new(2, 3, 1)));
+        Assert.Equal(new(2, 3, 6), new Camera(new(0, 0, -5), Vector.Zero, 60).ToCameraSpace(new(2, 3, 1)));
 
     [Fact]
     public void Map_OfAnyPoint_IsTheInverseAxesTimesTheDifference() => Seeded.Run(100, random =>
@@ -26,7 +26,7 @@ public class CameraTests
         var camera = new Camera(random.Vector(10), random.Vector(4), 60);
         var point = random.Vector(10);
         // Distances up to 35.
-        Near.Equal(camera.Rotation.LocalAxes().Inverse() * (point - camera.Position), camera.Map(point), 1e-13);
+        Near.Equal(camera.Rotation.LocalAxes().Inverse() * (point - camera.Position), camera.ToCameraSpace(point), 1e-13);
     });
 
     [Fact]
@@ -34,7 +34,7 @@ public class CameraTests
     {
         var camera = new Camera(random.Vector(10), random.Vector(4), 60);
         var stretch = random.Vector(10);
-        Near.Equal(stretch, camera.Map(camera.Position + (camera.LocalAxes * stretch)), 1e-13);
+        Near.Equal(stretch, camera.ToCameraSpace(camera.Position + (camera.LocalAxes * stretch)), 1e-13);
     });
 
     [Fact]

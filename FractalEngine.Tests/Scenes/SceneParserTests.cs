@@ -155,7 +155,7 @@ public class SceneParserTests
     public void Player_WithoutOptions_GoesAsFarAsItsHeightLets()
     {
         var player = new Player(Vector.Zero, 0.3, 1.8);
-        Assert.Equal((null, null, 50.0, null), (player.Speed, player.Jump, player.Slope, player.Step));
+        Assert.Equal((null, null, 50.0, null), (player.WalkingSpeedOverride, player.JumpSpeedOverride, player.MaxSlopeAngle, player.StepHeightOverride));
         // 2.5 · 1.8; 1.8 / 4; and the height v²/2g of the jump is 0.6 · 1.8. Roundings of a few products.
         Near.Equal(4.5, player.WalkingSpeed, 1e-15);
         Near.Equal(0.45, player.StepHeight, 1e-16);
@@ -170,7 +170,7 @@ public class SceneParserTests
     public void Player_WithOptions_HasThem(string options)
     {
         var player = Parse($"player (1, 2, 3) 0.3 1.8 {options}").Player!;
-        Assert.Equal(new Player(new(1, 2, 3), 0.3, 1.8) { Speed = 4, Jump = 5, Slope = 60, Step = 0.5 }, player);
+        Assert.Equal(new Player(new(1, 2, 3), 0.3, 1.8) { WalkingSpeedOverride = 4, JumpSpeedOverride = 5, MaxSlopeAngle = 60, StepHeightOverride = 0.5 }, player);
         Assert.Equal((4, 5, 0.5), (player.WalkingSpeed, player.JumpSpeed(9.8), player.StepHeight));
     }
 
@@ -178,7 +178,7 @@ public class SceneParserTests
     [InlineData("speed 0 jump 0 slope 0 step 0", 0, 0)]
     [InlineData("speed 0 jump 0 slope 89 step 1.7999999999999998", 89, 1.7999999999999998)]
     public void Player_AtTheEndsOfTheRanges_IsRead(string options, double slope, double step) => Assert.Equal(
-        new Player(Vector.Zero, 0.9, 1.8) { Speed = 0, Jump = 0, Slope = slope, Step = step }, Parse($"player (0, 0, 0) 0.9 1.8 {options}").Player);
+        new Player(Vector.Zero, 0.9, 1.8) { WalkingSpeedOverride = 0, JumpSpeedOverride = 0, MaxSlopeAngle = slope, StepHeightOverride = step }, Parse($"player (0, 0, 0) 0.9 1.8 {options}").Player);
 
     [Fact]
     public void Lights_OfAllKinds_AreReadInOrder() => Assert.Equal(
@@ -223,7 +223,7 @@ public class SceneParserTests
     public void FileOffset_PointsAtTheName()
     {
         var file = SceneParser.Parse(new("test.sdo", Samples.AppendixA));
-        Assert.StartsWith("\"SampleAsset2.obj\"", file.Source.Text[file.FileOffsets.ElementAt(1)..], StringComparison.Ordinal);
+        Assert.StartsWith("\"SampleAsset2.obj\"", file.Source.Text[file.FileNameOffsets.ElementAt(1)..], StringComparison.Ordinal);
     }
 
     [Fact]

@@ -79,10 +79,10 @@ public class SceneWriterTests
             Clip = (given & 32) == 0 || sizes > 1e307 ? null : (sizes, 2 * Math.Max(sizes, 1e-300)),
             Player = (given & 64) == 0 || sizes > 1e307 ? null : new(gravity, sizes, 3 * sizes)
             {
-                Speed = (given & 128) == 0 ? null : going.Item1,
-                Jump = (given & 256) == 0 ? null : going.Item1,
-                Slope = going.Item2,
-                Step = (given & 512) == 0 ? null : sizes,
+                WalkingSpeedOverride = (given & 128) == 0 ? null : going.Item1,
+                JumpSpeedOverride = (given & 256) == 0 ? null : going.Item1,
+                MaxSlopeAngle = going.Item2,
+                StepHeightOverride = (given & 512) == 0 ? null : sizes,
             },
             Aspect = (given & 3) == 0 ? null : 0.01 + colour.Red,
         };

@@ -37,7 +37,7 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
     [InlineData("turned")]
     [InlineData("sierpinski")]
     [Trait("Category", "Soak")]
-    public void Camera_GoingAMillionLevelsInAndOutAgain_IsWhereItBegan(string name) => CheckThereAndBack(name, FractalLimits.Depth);
+    public void Camera_GoingAMillionLevelsInAndOutAgain_IsWhereItBegan(string name) => CheckThereAndBack(name, FractalLimits.MaxDepth);
 
     /// <summary>The picture is one of the whole, seen from the same side; how deep it is does not change a pixel.</summary>
     [SkippableTheory]
@@ -57,14 +57,14 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
         foreach (var depth in RoundNumbers.To(deepest))
         {
             var dive = FractalAddressTests.Dive(name, 0, AffineMap.Identity);
-            var (about, size) = (dive.Address.About, dive.Start.Length() + 1);
+            var (about, size) = (dive.Address.FrameToCamera, dive.Start.Length() + 1);
             dive.GoTo(depth);
             Assert.Equal(depth, dive.Address.Depth);
             report.Note("enlargement (powers of ten)", -dive.Address.LogUnit / Math.Log(10));
             dive.GoBack();
             Assert.Equal((0, 0.0), (dive.Address.Depth, dive.Address.LogUnit));
             // As FractalAddressTests ask. What is lost deep down is a part of the unit there; coming back, the last steps outside decide.
-            report.Require("place after the return by depth (of the distance)", Near.Difference(about, dive.Address.About) / size, 1e-9, () => $"depth {depth}", depth);
+            report.Require("place after the return by depth (of the distance)", Near.Difference(about, dive.Address.FrameToCamera) / size, 1e-9, () => $"depth {depth}", depth);
         }
     }
 
@@ -78,7 +78,7 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
         using var context = GlTests.Open();
         using var renderer = new SceneRenderer(context, drawable);
         using var frame = new FrameRenderer(context);
-        var dive = new FractalDive(drawable.Objects[0].Model.Detail!, 0, AffineMap.Identity, Direction);
+        var dive = new FractalDive(drawable.Objects[0].Model.LodHierarchy!, 0, AffineMap.Identity, Direction);
         var first = At(40);
         Assert.True(RenderScenes.CountOther(first, (0, 0, 0, 255)) > 500, "there is nothing to see");
         foreach (var depth in depths)
@@ -95,8 +95,8 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
             // A place that is in no copy's reach and within the sub-fractal's own: the same at each level.
             dive.Settle(1.5 * Direction);
             var camera = new Camera(dive.Address.WorldPosition(AffineMap.Identity), CameraFraming.LookRotation(dive.Target(Vector.Zero)), 50);
-            var zoom = new ZoomedObject(0, dive.Address.Roots(Ancestors), dive.Address.LogUnit);
-            frame.Draw(renderer, new(camera, Projection.Perspective) { Clip = (0.02, 1e12), Zoom = zoom }, Width, Height, Settings);
+            var zoom = new DeepZoom(0, dive.Address.CollectRoots(Ancestors), dive.Address.LogUnit);
+            frame.Draw(renderer, new(camera, Projection.Perspective) { Clip = (0.02, 1e12), DeepZoom = zoom }, Width, Height, Settings);
             context.Resources.ThrowOnError("drawing");
             return frame.Capture();
         }

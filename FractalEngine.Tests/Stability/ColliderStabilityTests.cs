@@ -65,7 +65,7 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     public void Find_AtSymmetricPlaces_IsTheSameDistance(int? depth)
     {
         using var report = new StabilityReport(output, (object?)depth ?? "infinite");
-        var (collider, record) = (new ExactFractalCollider(DetailViews.Menger(depth)), new QueryRecord());
+        var (collider, record) = (new ExactFractalCollider(DetailViews.Menger(depth)), new QueryContext());
         Seeded.Run(60, random =>
         {
             var position = random.Next(3) switch { 0 => random.Vector(1.5), 1 => new(random.NextDouble(), 0, 0), _ => 0.5 * random.Next(4) * Vector.One };
@@ -87,7 +87,7 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     public void Find_AtEveryDepthTo200_IsOnTheInstanceThatThePathNames()
     {
         using var report = new StabilityReport(output);
-        var record = new QueryRecord();
+        var record = new QueryContext();
         for (var depth = 1; depth <= 200; depth++)
         {
             var fractal = Corners(depth, 1);
@@ -111,7 +111,7 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     public void Find_AtEveryDepthTo200_HasNothingNearer()
     {
         using var report = new StabilityReport(output);
-        var (record, compared) = (new QueryRecord(), 0);
+        var (record, compared) = (new QueryContext(), 0);
         for (var depth = 1; depth <= 200; depth++)
         {
             // Quarters, which lie apart: balls are enough to tell which copies may be near.
@@ -138,7 +138,7 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     {
         using var report = new StabilityReport(output);
         var fractal = Corners(null, 1);
-        var (table, probe, oracle, record) = (DetailTable.Of(fractal), new FractalProbe("halves", fractal), new DeepOracle(fractal), new QueryRecord());
+        var (table, probe, oracle, record) = (LodHierarchy.Build(fractal), new FractalProbe("halves", fractal), new DeepOracle(fractal), new QueryContext());
         var deepest = 0;
         Seeded.Run(10, random =>
         {
@@ -147,8 +147,8 @@ public class ColliderStabilityTests(ITestOutputHelper output)
             {
                 // Into some copy of where it is, to one of its corners, and not all of the way.
                 var child = fractal.LevelAt(0).Maps[random.Next(4)];
-                address.Move(0.7 * (address.About * (child * fractal.BaseMesh.Vertex(random.Next(4)))));
-                var local = address.About.Inverse() * Vector.Zero;
+                address.Move(0.7 * (address.FrameToCamera * (child * fractal.BaseMesh.Vertex(random.Next(4)))));
+                var local = address.FrameToCamera.Inverse() * Vector.Zero;
                 var (position, expected) = (address.WorldPosition(AffineMap.Identity), Exactly([.. address.Path], local, 1));
                 var size = FractalPositions.SizeOf(fractal, position);
                 report.Require("world position of a path and a place in its frame (of the size)", Near.Difference(expected, position) / size, Tolerance, () => $"depth {address.Depth}, {local}");
@@ -196,7 +196,7 @@ public class ColliderStabilityTests(ITestOutputHelper output)
         }
 
         var faces = model is FractalModel { Fractal: var fractal } ? WorldFaces.Of(fractal, place) : WorldFaces.Of(model.Mesh, place);
-        var (collider, record) = (new SceneCollider(new(new(), [new(new("object", place), model)])), new QueryRecord());
+        var (collider, record) = (new SceneCollider(new(new(), [new(new("object", place), model)])), new QueryContext());
         for (var query = 0; query < 10; query++)
         {
             var position = faces.Position(random);
@@ -209,7 +209,7 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     }
 
     /// <summary>Checks that the answer is a point of the fractal, and that nothing is nearer; false where the oracle takes too long.</summary>
-    private static bool IsNearest(StabilityReport report, FractalProbe probe, DeepOracle oracle, Vector position, QueryRecord record)
+    private static bool IsNearest(StabilityReport report, FractalProbe probe, DeepOracle oracle, Vector position, QueryContext record)
     {
         Assert.True(probe.Exact.TryFindClosest(position, double.PositiveInfinity, record, out var closest));
         probe.CheckAnswer(position, record, closest);

@@ -21,7 +21,7 @@ public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
     private const double Millionth = 1e-6;
 
     // Nothing but the depth buffer decides what hides what.
-    private static readonly RenderSettings Settings = new() { Samples = 0, Detail = null };
+    private static readonly RenderSettings Settings = new() { Samples = 0, Culling = null };
 
     /// <summary>Far plane divided by near plane.</summary>
     public static TheoryData<double> Ranges => [1e2, 1e4, 1e7];

@@ -90,19 +90,19 @@ public class KernelStabilityTests(ITestOutputHelper output)
         var (nearest, farthest) = (double.PositiveInfinity, double.NegativeInfinity);
         foreach (var (first, second, third) in Orders(a, b, c))
         {
-            var answer = FaceKernel.ClosestPoint(position, first, second, third);
+            var answer = TriangleKernel.ClosestPoint(position, first, second, third);
             var distance = Math.Sqrt(answer.DistanceSquared);
             (nearest, farthest) = (Math.Min(nearest, distance), Math.Max(farthest, distance));
             Assert.True(answer.Point.IsFinite() && answer.Barycentrics.IsFinite(), $"{face}: {answer}");
             report.Require("distance (of the magnitude)", Of(distance - exact, face), Tolerance, () => $"{face}");
             // The point itself is on the face, and as far away as was said; so it is a nearest one, of which there may be several.
             report.Require("distance of the point that is named (of the magnitude)", Of((position - answer.Point).Length() - exact, face), Tolerance, () => $"{face}");
-            var normal = FaceKernel.UnitNormal(first, second, third);
+            var normal = TriangleKernel.UnitNormal(first, second, third);
             report.Require("length of the normal − 1", Math.Abs(normal.Length() - 1), 1e-15, () => $"{face}");
         }
 
         report.Require("difference between the six orders (of the magnitude)", Of(farthest - nearest, face), Tolerance, () => $"{face}");
-        report.Require("point that is named off the face (of the magnitude)", Of(FaceOracle.Distance(FaceKernel.ClosestPoint(position, a, b, c).Point, a, b, c), face), Tolerance, () => $"{face}");
+        report.Require("point that is named off the face (of the magnitude)", Of(FaceOracle.Distance(TriangleKernel.ClosestPoint(position, a, b, c).Point, a, b, c), face), Tolerance, () => $"{face}");
     }
 
     /// <summary>Of the distances that the six orders of the corners give.</summary>
@@ -110,7 +110,7 @@ public class KernelStabilityTests(ITestOutputHelper output)
     {
         var (position, a, b, c) = face;
         var exact = FaceOracle.Distance(position, a, b, c);
-        return Orders(a, b, c).Max(order => Of(Math.Sqrt(FaceKernel.ClosestPoint(position, order.A, order.B, order.C).DistanceSquared) - exact, face));
+        return Orders(a, b, c).Max(order => Of(Math.Sqrt(TriangleKernel.ClosestPoint(position, order.A, order.B, order.C).DistanceSquared) - exact, face));
     }
 
     private static (Vector A, Vector B, Vector C)[] Orders(Vector a, Vector b, Vector c) => [(a, b, c), (b, c, a), (c, a, b), (a, c, b), (c, b, a), (b, a, c)];

@@ -30,7 +30,7 @@ public class MatrixStabilityTests(ITestOutputHelper output)
             }
 
             var inverse = exact.Inverse;
-            var condition = 3 * matrix.MaximumEntry() * inverse.MaximumEntry();
+            var condition = 3 * matrix.MaxAbsEntry() * inverse.MaxAbsEntry();
             report.Note("condition", condition);
             // Cofactors are right to two last places each, and so is each product of the determinant's sum; that the sum cancels down to a part of 1/condition is what the condition means.
             var error = Error(matrix, inverse);
@@ -116,7 +116,7 @@ public class MatrixStabilityTests(ITestOutputHelper output)
     {
         try
         {
-            return Near.Difference(expected, matrix.Inverse()) / expected.MaximumEntry();
+            return Near.Difference(expected, matrix.Inverse()) / expected.MaxAbsEntry();
         }
         catch (SingularMatrixException)
         {

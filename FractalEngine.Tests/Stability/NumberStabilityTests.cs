@@ -157,8 +157,8 @@ public class NumberStabilityTests(ITestOutputHelper output)
         using var table = new StringWriter { NewLine = "\n" };
         var world = new PhysicsWorld(new(new Scene(), []), new());
         world.Add(new(new(numbers[0], numbers[1], numbers[2]), 1) { Velocity = new(numbers[3] % 1e6, 0.5, -1.25) });
-        new BodyTable(table).WriteStep(world);
-        return string.Join('\n', Encoding.UTF8.GetString(stream.ToArray()), SceneWriter.Write(SceneOf(numbers)), table, new Diagnostic("ı.fdo", 1234567, 89, DiagnosticSeverity.Warning, "i"), DecimalText.Approximate(1234567));
+        new BodyCsvWriter(table).WriteStep(world);
+        return string.Join('\n', Encoding.UTF8.GetString(stream.ToArray()), SceneWriter.Write(SceneOf(numbers)), table, new Diagnostic("ı.fdo", 1234567, 89, DiagnosticSeverity.Warning, "i"), DecimalText.FormatApproximately(1234567));
     }
 
     /// <summary>The bits of all numbers; fails unless all formats agree.</summary>

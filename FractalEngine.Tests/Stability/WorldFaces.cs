@@ -15,7 +15,7 @@ internal sealed class WorldFaces
 
     public WorldFaces(Mesh mesh, IEnumerable<double[][]> maps)
     {
-        var faces = mesh.Faces.Chunk(3).ToArray();
+        var faces = mesh.VertexIndices.Chunk(3).ToArray();
         _faces = [.. from map in maps
                      from face in faces
                      select Ball(Naive.Apply(map, mesh.Vertex(face[0])), Naive.Apply(map, mesh.Vertex(face[1])), Naive.Apply(map, mesh.Vertex(face[2])))];
@@ -32,7 +32,7 @@ internal sealed class WorldFaces
 
     /// <summary>What errors are measured against: the larger of the size and of the coordinates.</summary>
     public double Magnitude(Vector position) =>
-        Math.Max(Box.Diagonal, Math.Max(position.MaximumComponent(), Math.Max(Box.Minimum.MaximumComponent(), Box.Maximum.MaximumComponent())));
+        Math.Max(Box.Diagonal, Math.Max(position.MaxAbsComponent(), Math.Max(Box.Minimum.MaxAbsComponent(), Box.Maximum.MaxAbsComponent())));
 
     /// <summary>Exact for these corners. Faces whose balls are farther than what was found are left out.</summary>
     public double Distance(Vector position)

@@ -97,7 +97,7 @@ internal static class Naive
     public static IEnumerable<Vector> Corners(FractalDescription description, Mesh mesh, double[][] placement) =>
         from chain in Chains(description)
         let map = Compose(placement, chain)
-        from vertex in mesh.Faces
+        from vertex in mesh.VertexIndices
         select Apply(map, mesh.Vertex(vertex));
 
     public static BoundingBox Box(IEnumerable<Vector> points) => points.Aggregate(BoundingBox.Empty, (box, point) => new(

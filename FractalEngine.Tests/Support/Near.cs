@@ -7,9 +7,9 @@ namespace FractalEngine.Tests.Support;
 /// <summary>Comparisons within an absolute tolerance, which every caller gives with its reason.</summary>
 internal static class Near
 {
-    public static double Difference(Vector v1, Vector v2) => (v1 - v2).MaximumComponent();
+    public static double Difference(Vector v1, Vector v2) => (v1 - v2).MaxAbsComponent();
 
-    public static double Difference(Matrix m1, Matrix m2) => (m1 + (-1 * m2)).MaximumEntry();
+    public static double Difference(Matrix m1, Matrix m2) => (m1 + (-1 * m2)).MaxAbsEntry();
 
     public static double Difference(AffineMap map1, AffineMap map2) =>
         Math.Max(Difference(map1.Linear, map2.Linear), Difference(map1.Translation, map2.Translation));

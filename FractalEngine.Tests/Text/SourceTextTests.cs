@@ -66,7 +66,7 @@ public sealed class SourceTextTests : IDisposable
     public void Read_BeyondTheLimit_NamesIt()
     {
         var error = Errors.Thrown(() => SourceText.Read(_folder.Write("f", new string('#', 101)), "named", 100)).Diagnostic;
-        Assert.True(error.IsLimit);
+        Assert.True(error.IsLimitExceeded);
         Assert.Equal("the file has 101 bytes, more than the limit of 100", error.Message);
     }
 

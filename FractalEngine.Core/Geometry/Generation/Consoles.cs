@@ -22,11 +22,11 @@ internal static class Consoles
         Vector[][] outline = [wallLow, frontLow, frontHigh, wallHigh];
         for (var i = 0; i + 1 < outline.Length; i++)
         {
-            mesh.Quad(outline[i][0], outline[i + 1][0], outline[i + 1][1], outline[i][1]);
+            mesh.AddQuad(outline[i][0], outline[i + 1][0], outline[i + 1][1], outline[i][1]);
         }
 
-        mesh.Quad(wallLow[0], wallHigh[0], frontHigh[0], frontLow[0]);
-        mesh.Quad(wallLow[1], frontLow[1], frontHigh[1], wallHigh[1]);
+        mesh.AddQuad(wallLow[0], wallHigh[0], frontHigh[0], frontLow[0]);
+        mesh.AddQuad(wallLow[1], frontLow[1], frontHigh[1], wallHigh[1]);
         AddKeys(mesh, frontHigh, wallHigh, detail, random);
         AddScreens(mesh, frame, area with { X0 = desk.X1 + 0.12 }, detail, random);
 
@@ -42,19 +42,19 @@ internal static class Consoles
         var size = Math.Max(0.012, 0.045 / Math.Sqrt(Math.Max(0.3, detail)));
         foreach (var block in new WallArea(0.03, 0.04, depth - 0.05, width - 0.04).Cells(1, 4))
         {
-            var field = block.Within(0.02);
-            mesh.Plate(top, field, 0.008, 0.006);
-            if (detail < WallPanels.PlainBelow)
+            var field = block.Inset(0.02);
+            mesh.AddPlate(top, field, 0.008, 0.006);
+            if (detail < WallPanels.MinFittingDetail)
             {
                 continue;
             }
 
-            var raised = top.Moved(0, 0, 0.008);
-            foreach (var key in field.Within(0.015).Cells(Math.Max(2, (int)(field.Width / size)), Math.Max(2, (int)(field.Height / size))))
+            var raised = top.Translated(0, 0, 0.008);
+            foreach (var key in field.Inset(0.015).Cells(Math.Max(2, (int)(field.Width / size)), Math.Max(2, (int)(field.Height / size))))
             {
                 if (random.Chance(0.9))
                 {
-                    mesh.Plate(raised, key.Within(0.12 * Math.Min(key.Width, key.Height)), random.Between(0.008, 0.014), 0.004);
+                    mesh.AddPlate(raised, key.Inset(0.12 * Math.Min(key.Width, key.Height)), random.NextInRange(0.008, 0.014), 0.004);
                 }
             }
         }
@@ -62,24 +62,24 @@ internal static class Consoles
 
     private static void AddScreens(MeshBuilder mesh, WallFrame frame, WallArea area, double detail, SplitMix64 random)
     {
-        mesh.Plate(frame, area.Within(0.01), 0.03, 0.02);
-        var wall = frame.Moved(0, 0, 0.03);
-        foreach (var screen in area.Within(0.05).Cells(2, 3))
+        mesh.AddPlate(frame, area.Inset(0.01), 0.03, 0.02);
+        var wall = frame.Translated(0, 0, 0.03);
+        foreach (var screen in area.Inset(0.05).Cells(2, 3))
         {
-            var outer = screen.Within(0.02);
-            mesh.Plate(wall, outer, 0.03, 0.015);
+            var outer = screen.Inset(0.02);
+            mesh.AddPlate(wall, outer, 0.03, 0.015);
             if (random.Chance(0.7))
             {
                 // Bars of a chart stand out of the glass by a hair.
                 var bars = (int)Math.Clamp(6 * Math.Sqrt(detail), 2, 60);
-                foreach (var bar in outer.Within(0.04).Cells(1, bars))
+                foreach (var bar in outer.Inset(0.04).Cells(1, bars))
                 {
-                    mesh.Plate(wall.Moved(0, 0, 0.03), (bar with { X1 = bar.X0 + (bar.Width * random.Between(0.2, 1)) }).Within(0.1 * bar.Height), 0.004, 0.002);
+                    mesh.AddPlate(wall.Translated(0, 0, 0.03), (bar with { X1 = bar.X0 + (bar.Width * random.NextInRange(0.2, 1)) }).Inset(0.1 * bar.Height), 0.004, 0.002);
                 }
             }
             else
             {
-                mesh.Plate(wall.Moved(0, 0, 0.03), outer.Within(0.03), 0.004, 0.003);
+                mesh.AddPlate(wall.Translated(0, 0, 0.03), outer.Inset(0.03), 0.004, 0.003);
             }
         }
     }

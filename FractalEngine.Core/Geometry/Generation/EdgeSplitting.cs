@@ -10,13 +10,13 @@ internal static class EdgeSplitting
     /// <summary>Splits until there are so many faces, or one less where a closed mesh allows no more.</summary>
     public static void SplitTo(MeshBuilder mesh, int faceCount)
     {
-        while (mesh.FaceCount < faceCount && SplitLongest(mesh, faceCount))
+        while (mesh.FaceCount < faceCount && SplitLongestEdges(mesh, faceCount))
         {
         }
     }
 
     /// <summary>One round: longest edges first, each face is split at most once. False when nothing could be split.</summary>
-    private static bool SplitLongest(MeshBuilder mesh, int faceCount)
+    private static bool SplitLongestEdges(MeshBuilder mesh, int faceCount)
     {
         var edges = Edges(mesh);
         var order = edges.Where(edge => edge.Value.Count <= 2)
@@ -34,7 +34,7 @@ internal static class EdgeSplitting
                 continue;
             }
 
-            var middle = mesh.Position(0.5 * (mesh.Positions[low] + mesh.Positions[high]));
+            var middle = mesh.AddPosition(0.5 * (mesh.Positions[low] + mesh.Positions[high]));
             Split(mesh, first, low, high, middle);
             touched.Add(first);
             if (second >= 0)
@@ -63,7 +63,7 @@ internal static class EdgeSplitting
             for (var corner = 0; corner < 3; corner++)
             {
                 var (a, b, _, _) = mesh.Triangles[face].StartingAt(corner);
-                var edge = (Math.Min(a.Position, b.Position), Math.Max(a.Position, b.Position));
+                var edge = (Math.Min(a.PositionIndex, b.PositionIndex), Math.Max(a.PositionIndex, b.PositionIndex));
                 edges[edge] = edges.TryGetValue(edge, out var known) ? (known.First, face, known.Count + 1) : (face, -1, 1);
             }
         }
@@ -77,9 +77,9 @@ internal static class EdgeSplitting
         for (var corner = 0; corner < 3; corner++)
         {
             var (a, b, c, smoothing) = mesh.Triangles[face].StartingAt(corner);
-            if ((a.Position == low && b.Position == high) || (a.Position == high && b.Position == low))
+            if ((a.PositionIndex == low && b.PositionIndex == high) || (a.PositionIndex == high && b.PositionIndex == low))
             {
-                var between = new MeshCorner(middle, mesh.CoordinateBetween(a.Coordinate, b.Coordinate));
+                var between = new MeshCorner(middle, mesh.AddCoordinateMidpoint(a.CoordinateIndex, b.CoordinateIndex));
                 mesh.Triangles[face] = new(a, between, c, smoothing);
                 mesh.Triangles.Add(new(between, b, c, smoothing));
                 return;

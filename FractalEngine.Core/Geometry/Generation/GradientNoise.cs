@@ -15,14 +15,14 @@ internal sealed class GradientNoise(ulong seed)
         var (fx, fy, fz) = (x - ix, y - iy, z - iz);
         var (cx, cy, cz) = ((long)ix, (long)iy, (long)iz);
         var (u, v, w) = (Fade(fx), Fade(fy), Fade(fz));
-        return Mix(
-            Mix(
-                Mix(Corner(cx, cy, cz, fx, fy, fz), Corner(cx + 1, cy, cz, fx - 1, fy, fz), u),
-                Mix(Corner(cx, cy + 1, cz, fx, fy - 1, fz), Corner(cx + 1, cy + 1, cz, fx - 1, fy - 1, fz), u),
+        return Lerp(
+            Lerp(
+                Lerp(CornerContribution(cx, cy, cz, fx, fy, fz), CornerContribution(cx + 1, cy, cz, fx - 1, fy, fz), u),
+                Lerp(CornerContribution(cx, cy + 1, cz, fx, fy - 1, fz), CornerContribution(cx + 1, cy + 1, cz, fx - 1, fy - 1, fz), u),
                 v),
-            Mix(
-                Mix(Corner(cx, cy, cz + 1, fx, fy, fz - 1), Corner(cx + 1, cy, cz + 1, fx - 1, fy, fz - 1), u),
-                Mix(Corner(cx, cy + 1, cz + 1, fx, fy - 1, fz - 1), Corner(cx + 1, cy + 1, cz + 1, fx - 1, fy - 1, fz - 1), u),
+            Lerp(
+                Lerp(CornerContribution(cx, cy, cz + 1, fx, fy, fz - 1), CornerContribution(cx + 1, cy, cz + 1, fx - 1, fy, fz - 1), u),
+                Lerp(CornerContribution(cx, cy + 1, cz + 1, fx, fy - 1, fz - 1), CornerContribution(cx + 1, cy + 1, cz + 1, fx - 1, fy - 1, fz - 1), u),
                 v),
             w);
     }
@@ -57,10 +57,10 @@ internal sealed class GradientNoise(ulong seed)
 
     private static double Fade(double t) => t * t * t * ((t * ((6 * t) - 15)) + 10);
 
-    private static double Mix(double a, double b, double t) => a + (t * (b - a));
+    private static double Lerp(double a, double b, double t) => a + (t * (b - a));
 
     /// <summary>One of the twelve gradients that point to the middles of a cube's edges, times the way from the corner.</summary>
-    private double Corner(long x, long y, long z, double dx, double dy, double dz)
+    private double CornerContribution(long x, long y, long z, double dx, double dy, double dz)
     {
         var hash = SplitMix64.Mix(seed ^ SplitMix64.Mix((ulong)x ^ SplitMix64.Mix((ulong)y ^ SplitMix64.Mix((ulong)z))));
         var (a, b) = (hash % 3) switch

@@ -18,7 +18,7 @@ internal sealed class MeshBuilder
     /// <summary>
     /// The smoothing group of the faces to come: those of one group share normals where they share corners; 0 is flat.
     /// </summary>
-    public int Smoothing { get; set; }
+    public int SmoothingGroup { get; set; }
 
     /// <summary>All faces, for those who look at them or split them.</summary>
     internal List<MeshTriangle> Triangles => _triangles;
@@ -27,52 +27,52 @@ internal sealed class MeshBuilder
     internal List<Vector> Positions => _positions;
 
     /// <summary>The faces to come belong to a part of this name.</summary>
-    public void Group(string name) => _groups.Add((_triangles.Count, name));
+    public void BeginGroup(string name) => _groups.Add((_triangles.Count, name));
 
     /// <summary>A new vertex.</summary>
-    public int Position(Vector position)
+    public int AddPosition(Vector position)
     {
         _positions.Add(position);
         return _positions.Count - 1;
     }
 
     /// <summary>A new texture coordinate.</summary>
-    public int Coordinate(double u, double v)
+    public int AddTextureCoordinate(double u, double v)
     {
         _coordinates.Add((u, v));
         return _coordinates.Count - 1;
     }
 
     /// <summary>The coordinate half-way between two.</summary>
-    public int CoordinateBetween(int coordinate1, int coordinate2) =>
+    public int AddCoordinateMidpoint(int coordinate1, int coordinate2) =>
         (_coordinates[coordinate1], _coordinates[coordinate2]) switch
         {
-            var ((u1, v1), (u2, v2)) => Coordinate((u1 + u2) / 2, (v1 + v2) / 2),
+            var ((u1, v1), (u2, v2)) => AddTextureCoordinate((u1 + u2) / 2, (v1 + v2) / 2),
         };
 
     /// <summary>A face; <c>Cross(b − a, c − a)</c> points outwards.</summary>
-    public void Triangle(MeshCorner a, MeshCorner b, MeshCorner c) => _triangles.Add(new(a, b, c, Smoothing));
+    public void AddTriangle(MeshCorner a, MeshCorner b, MeshCorner c) => _triangles.Add(new(a, b, c, SmoothingGroup));
 
     /// <summary>Two faces, wound as a triangle of the first three corners.</summary>
-    public void Quad(MeshCorner a, MeshCorner b, MeshCorner c, MeshCorner d)
+    public void AddQuad(MeshCorner a, MeshCorner b, MeshCorner c, MeshCorner d)
     {
-        Triangle(a, b, c);
-        Triangle(a, c, d);
+        AddTriangle(a, b, c);
+        AddTriangle(a, c, d);
     }
 
     /// <summary>Two faces with corners of their own, the texture once across them.</summary>
-    public void Quad(Vector a, Vector b, Vector c, Vector d) => Quad(
-        new MeshCorner(Position(a), Coordinate(0, 0)), new MeshCorner(Position(b), Coordinate(1, 0)),
-        new MeshCorner(Position(c), Coordinate(1, 1)), new MeshCorner(Position(d), Coordinate(0, 1)));
+    public void AddQuad(Vector a, Vector b, Vector c, Vector d) => AddQuad(
+        new MeshCorner(AddPosition(a), AddTextureCoordinate(0, 0)), new MeshCorner(AddPosition(b), AddTextureCoordinate(1, 0)),
+        new MeshCorner(AddPosition(c), AddTextureCoordinate(1, 1)), new MeshCorner(AddPosition(d), AddTextureCoordinate(0, 1)));
 
     /// <summary>A grid of corners [rows, columns] joined by quads, outside where <c>Cross(next column, next row)</c> points.</summary>
-    public void Grid(MeshCorner[,] corners)
+    public void AddGrid(MeshCorner[,] corners)
     {
         for (var row = 0; row + 1 < corners.GetLength(0); row++)
         {
             for (var column = 0; column + 1 < corners.GetLength(1); column++)
             {
-                Quad(corners[row, column], corners[row, column + 1], corners[row + 1, column + 1], corners[row + 1, column]);
+                AddQuad(corners[row, column], corners[row, column + 1], corners[row + 1, column + 1], corners[row + 1, column]);
             }
         }
     }
@@ -80,30 +80,30 @@ internal sealed class MeshBuilder
     /// <summary>The mesh. Smooth faces have normals, flat ones none.</summary>
     public Mesh Build()
     {
-        var mesh = new Mesh([.. _positions.SelectMany(ToArray)], Corners(corner => corner.Position))
-            .WithTextureCoordinates([.. _coordinates.SelectMany(ToArray)], Corners(corner => corner.Coordinate));
-        mesh = VertexNormals.Of(_positions, _triangles) is ({ Length: > 0 } normals, var faces) ? mesh.WithNormals(normals, faces) : mesh;
-        return _groups.Count == 0 ? mesh : mesh.WithGroups(Groups(), []);
+        var mesh = new Mesh([.. _positions.SelectMany(ToArray)], CollectIndices(corner => corner.PositionIndex))
+            .WithTextureCoordinates([.. _coordinates.SelectMany(ToArray)], CollectIndices(corner => corner.CoordinateIndex));
+        mesh = VertexNormals.Compute(_positions, _triangles) is ({ Length: > 0 } normals, var faces) ? mesh.WithNormals(normals, faces) : mesh;
+        return _groups.Count == 0 ? mesh : mesh.WithGroups(BuildGroups(), []);
     }
 
     private static double[] ToArray(Vector v) => [v.X, v.Y, v.Z];
 
     private static double[] ToArray((double U, double V) coordinate) => [coordinate.U, coordinate.V];
 
-    private ImmutableArray<int> Corners(Func<MeshCorner, int> number)
+    private ImmutableArray<int> CollectIndices(Func<MeshCorner, int> indexOf)
     {
-        var numbers = new int[3 * _triangles.Count];
+        var indices = new int[3 * _triangles.Count];
         for (var face = 0; face < _triangles.Count; face++)
         {
             var (a, b, c, _) = _triangles[face];
-            (numbers[3 * face], numbers[(3 * face) + 1], numbers[(3 * face) + 2]) = (number(a), number(b), number(c));
+            (indices[3 * face], indices[(3 * face) + 1], indices[(3 * face) + 2]) = (indexOf(a), indexOf(b), indexOf(c));
         }
 
-        return ImmutableCollectionsMarshal.AsImmutableArray(numbers);
+        return ImmutableCollectionsMarshal.AsImmutableArray(indices);
     }
 
     /// <summary>The named runs, in order.</summary>
-    private ImmutableArray<MeshGroup> Groups()
+    private ImmutableArray<MeshGroup> BuildGroups()
     {
         var groups = ImmutableArray.CreateBuilder<MeshGroup>();
         for (var i = 0; i < _groups.Count; i++)

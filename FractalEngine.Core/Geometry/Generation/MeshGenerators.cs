@@ -9,13 +9,13 @@ namespace FractalEngine.Core.Geometry.Generation;
 public static class MeshGenerators
 {
     /// <summary>The most faces that are made: beyond, memory is the limit.</summary>
-    public const int LargestFaceCount = 20_000_000;
+    public const int MaxFaceCount = 20_000_000;
 
     /// <summary>All generators.</summary>
     public static ImmutableArray<MeshGenerator> All { get; } =
     [
-        new("spaceship-interior", "A corridor of a spaceship with panels, ribs, pipes and consoles; the paper's model 1", 277_654, SpaceshipInterior.SmallestFaceCount, SpaceshipInterior.Create),
-        new("tree-stump", "A tree stump with bark, roots and growth rings; the paper's model 2", 237_664, TreeStump.SmallestFaceCount, TreeStump.Create),
+        new("spaceship-interior", "A corridor of a spaceship with panels, ribs, pipes and consoles; the paper's model 1", 277_654, SpaceshipInterior.MinFaceCount, SpaceshipInterior.Create),
+        new("tree-stump", "A tree stump with bark, roots and growth rings; the paper's model 2", 237_664, TreeStump.MinFaceCount, TreeStump.Create),
         new("terrain", "Mountains and valleys, a height field of noise", 2 * 256 * 256, 2, Terrain.Create),
         new("icosphere", "A sphere of nearly equal triangles", 1280, 20, (_, faces) => RoundShapes.Icosphere(faces)),
         new("torus-knot", "A tube along a knot", 12_288, 200, (_, faces) => RoundShapes.TorusKnot(faces)),

@@ -9,7 +9,7 @@ internal sealed class SplitMix64(ulong seed)
     private ulong _state = seed;
 
     /// <summary>A sequence of its own for one part of a mesh, so that a change in one part leaves the others as they were.</summary>
-    public SplitMix64 Fork(ulong part) => new(Mix(_state ^ Mix(part)));
+    public SplitMix64 Fork(ulong stream) => new(Mix(_state ^ Mix(stream)));
 
     /// <summary>64 random bits.</summary>
     public ulong Next() => Mix(_state += 0x9E3779B97F4A7C15);
@@ -18,7 +18,7 @@ internal sealed class SplitMix64(ulong seed)
     public double NextDouble() => (Next() >> 11) * (1.0 / (1UL << 53));
 
     /// <summary>From one number to another.</summary>
-    public double Between(double smallest, double largest) => smallest + ((largest - smallest) * NextDouble());
+    public double NextInRange(double minimum, double maximum) => minimum + ((maximum - minimum) * NextDouble());
 
     /// <summary>True with the given probability.</summary>
     public bool Chance(double probability) => NextDouble() < probability;

@@ -14,20 +14,20 @@ internal static class Terrain
     public static Mesh Create(ulong seed, int faceCount)
     {
         var noise = new GradientNoise(new SplitMix64(seed).Next());
-        var fields = (int)Math.Sqrt(faceCount / 2.0);
-        var corners = new MeshCorner[fields + 1, fields + 1];
-        var mesh = new MeshBuilder { Smoothing = 1 };
-        for (var row = 0; row <= fields; row++)
+        var cells = (int)Math.Sqrt(faceCount / 2.0);
+        var corners = new MeshCorner[cells + 1, cells + 1];
+        var mesh = new MeshBuilder { SmoothingGroup = 1 };
+        for (var row = 0; row <= cells; row++)
         {
-            for (var column = 0; column <= fields; column++)
+            for (var column = 0; column <= cells; column++)
             {
-                var (u, v) = ((double)row / fields, (double)column / fields);
+                var (u, v) = ((double)row / cells, (double)column / cells);
                 var (x, z) = (Size * (u - 0.5), Size * (v - 0.5));
-                corners[row, column] = new(mesh.Position(new(x, Height(noise, x, z), z)), mesh.Coordinate(u, v));
+                corners[row, column] = new(mesh.AddPosition(new(x, Height(noise, x, z), z)), mesh.AddTextureCoordinate(u, v));
             }
         }
 
-        mesh.Grid(corners);
+        mesh.AddGrid(corners);
         EdgeSplitting.SplitTo(mesh, faceCount);
         return mesh.Build();
     }
@@ -36,8 +36,8 @@ internal static class Terrain
     {
         // Where the land is low it is smooth, as rivers leave it; ridges stand where it is high. The shift of the place by noise bends both.
         var bend = 0.35 * noise.Octaves(new(0.3 * x, 11.5, 0.3 * z), 2);
-        var place = new Vector(0.32 * x, 0.5 + bend, 0.32 * z);
-        var height = Math.Clamp(0.5 + (0.6 * noise.Octaves(place, 3)), 0, 1.4);
+        var samplePosition = new Vector(0.32 * x, 0.5 + bend, 0.32 * z);
+        var height = Math.Clamp(0.5 + (0.6 * noise.Octaves(samplePosition, 3)), 0, 1.4);
         var ridges = noise.Ridges(new((0.45 * x) + bend, 7.5, (0.45 * z) - bend), Octaves);
         return (0.5 * height) + (0.85 * height * height * ridges) + (0.02 * noise.Octaves(new(3 * x, 3.5, 3 * z), 3));
     }

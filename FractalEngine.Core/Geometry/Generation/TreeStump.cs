@@ -24,17 +24,17 @@ internal sealed class TreeStump
         _noise = new(random.Next());
         var roots = 6 + (int)(random.Next() % 3);
         _roots = [.. Enumerable.Range(0, roots).Select(root => (
-            2 * Math.PI * (root + random.Between(-0.3, 0.3)) / roots,
-            random.Between(0.17, 0.3), random.Between(0.7, 1.7), random.Between(-0.35, 0.35)))];
+            2 * Math.PI * (root + random.NextInRange(-0.3, 0.3)) / roots,
+            random.NextInRange(0.17, 0.3), random.NextInRange(0.7, 1.7), random.NextInRange(-0.35, 0.35)))];
         _cracks = [.. Enumerable.Range(0, 7).Select(_ => (
-            random.Between(0, 2 * Math.PI), random.Between(0.006, 0.016), random.Between(0.02, 0.07)))];
-        _rings = random.Between(24, 34);
-        _tilt = new(random.Between(-0.06, 0.06), 0, random.Between(-0.06, 0.06));
+            random.NextInRange(0, 2 * Math.PI), random.NextInRange(0.006, 0.016), random.NextInRange(0.02, 0.07)))];
+        _rings = random.NextInRange(24, 34);
+        _tilt = new(random.NextInRange(-0.06, 0.06), 0, random.NextInRange(-0.06, 0.06));
     }
 
     /// <summary>A stump of exactly so many faces.</summary>
     /// <param name="seed">Of the roots, the bark and the cracks.</param>
-    /// <param name="faceCount">At least <see cref="SmallestFaceCount"/>.</param>
+    /// <param name="faceCount">At least <see cref="MinFaceCount"/>.</param>
     public static Mesh Create(ulong seed, int faceCount)
     {
         // A grid of rows and columns, about half as many columns again as rows, and a fan in the middle of the top.
@@ -47,7 +47,7 @@ internal sealed class TreeStump
     }
 
     /// <summary>What makes a stump at all.</summary>
-    public const int SmallestFaceCount = 300;
+    public const int MinFaceCount = 300;
 
     private void AddTo(MeshBuilder mesh, int rows, int columns)
     {
@@ -55,8 +55,8 @@ internal sealed class TreeStump
         var barkRows = rows - topRows;
         var bark = new MeshCorner[barkRows, columns + 1];
         AddRows(mesh, bark, columns, row => Math.Pow((double)row / (barkRows - 1), 1.35), Bark);
-        mesh.Smoothing = 1;
-        mesh.Grid(bark);
+        mesh.SmoothingGroup = 1;
+        mesh.AddGrid(bark);
 
         // The top shares the rim's positions with the bark, but not its smoothing.
         var top = new MeshCorner[topRows + 1, columns + 1];
@@ -66,12 +66,12 @@ internal sealed class TreeStump
         }
 
         AddRows(mesh, top, columns, row => 1 - ((double)row / (topRows + 1)), Top, firstRow: 1);
-        mesh.Smoothing = 2;
-        mesh.Grid(top);
-        var middle = new MeshCorner(mesh.Position(Top(0, 0)), mesh.Coordinate(0.5, 1));
+        mesh.SmoothingGroup = 2;
+        mesh.AddGrid(top);
+        var middle = new MeshCorner(mesh.AddPosition(Top(0, 0)), mesh.AddTextureCoordinate(0.5, 1));
         for (var column = 0; column < columns; column++)
         {
-            mesh.Triangle(top[topRows, column], top[topRows, column + 1], middle);
+            mesh.AddTriangle(top[topRows, column], top[topRows, column + 1], middle);
         }
     }
 
@@ -83,8 +83,8 @@ internal sealed class TreeStump
             for (var column = 0; column <= columns; column++)
             {
                 var around = (double)column / columns;
-                var position = column == columns ? corners[row, 0].Position : mesh.Position(surface(2 * Math.PI * around, along(row)));
-                corners[row, column] = new(position, mesh.Coordinate(around, along(row)));
+                var position = column == columns ? corners[row, 0].PositionIndex : mesh.AddPosition(surface(2 * Math.PI * around, along(row)));
+                corners[row, column] = new(position, mesh.AddTextureCoordinate(around, along(row)));
             }
         }
     }

@@ -7,31 +7,31 @@ namespace FractalEngine.Core.Geometry.Generation;
 internal static class VertexNormals
 {
     /// <summary>Normals, [n × 3], and their numbers, [faces × 3], −1 for flat faces; empty when all are flat.</summary>
-    public static (ImmutableArray<double> Normals, ImmutableArray<int> Faces) Of(List<Vector> positions, List<MeshTriangle> triangles)
+    public static (ImmutableArray<double> Normals, ImmutableArray<int> Faces) Compute(List<Vector> positions, List<MeshTriangle> triangles)
     {
-        var numbers = new Dictionary<(int Position, int Smoothing), int>();
+        var indexOfCorner = new Dictionary<(int Position, int Smoothing), int>();
         var sums = new List<Vector>();
-        var faces = ImmutableArray.CreateBuilder<int>(3 * triangles.Count);
+        var indices = ImmutableArray.CreateBuilder<int>(3 * triangles.Count);
         foreach (var (a, b, c, smoothing) in triangles)
         {
             if (smoothing == 0)
             {
-                faces.AddRange(-1, -1, -1);
+                indices.AddRange(-1, -1, -1);
                 continue;
             }
 
-            var start = positions[a.Position];
-            var area = Vector.Cross(positions[b.Position] - start, positions[c.Position] - start);
+            var start = positions[a.PositionIndex];
+            var area = Vector.Cross(positions[b.PositionIndex] - start, positions[c.PositionIndex] - start);
             foreach (var corner in (ReadOnlySpan<MeshCorner>)[a, b, c])
             {
-                if (!numbers.TryGetValue((corner.Position, smoothing), out var number))
+                if (!indexOfCorner.TryGetValue((corner.PositionIndex, smoothing), out var index))
                 {
-                    number = numbers[(corner.Position, smoothing)] = sums.Count;
+                    index = indexOfCorner[(corner.PositionIndex, smoothing)] = sums.Count;
                     sums.Add(Vector.Zero);
                 }
 
-                sums[number] += area;
-                faces.Add(number);
+                sums[index] += area;
+                indices.Add(index);
             }
         }
 
@@ -47,6 +47,6 @@ internal static class VertexNormals
             normals.AddRange(normal.X, normal.Y, normal.Z);
         }
 
-        return (normals.MoveToImmutable(), faces.MoveToImmutable());
+        return (normals.MoveToImmutable(), indices.MoveToImmutable());
     }
 }

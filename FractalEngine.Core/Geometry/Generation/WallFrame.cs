@@ -15,7 +15,7 @@ internal readonly record struct WallFrame(Vector Origin, Vector Right, Vector Up
     public Vector At(double x, double y, double height = 0) => Origin + (x * Right) + (y * Up) + (height * Out);
 
     /// <summary>The frame moved along the wall and away from it.</summary>
-    public WallFrame Moved(double x, double y, double height = 0) => this with { Origin = At(x, y, height) };
+    public WallFrame Translated(double x, double y, double height = 0) => this with { Origin = At(x, y, height) };
 }
 
 /// <summary>A rectangle on a wall.</summary>
@@ -26,7 +26,7 @@ internal readonly record struct WallArea(double X0, double Y0, double X1, double
     public double Height => Y1 - Y0;
 
     /// <summary>The rectangle without a margin.</summary>
-    public WallArea Within(double margin) => new(X0 + margin, Y0 + margin, X1 - margin, Y1 - margin);
+    public WallArea Inset(double margin) => new(X0 + margin, Y0 + margin, X1 - margin, Y1 - margin);
 
     /// <summary>Two parts along the longer side, the first with a given share.</summary>
     public (WallArea First, WallArea Second) Split(double share) => Width > Height

@@ -6,17 +6,17 @@ namespace FractalEngine.Core.Geometry.Generation;
 internal sealed class WallPanels(MeshBuilder mesh, double detail)
 {
     /// <summary>The detail below which plates stay bare.</summary>
-    public const double PlainBelow = 0.02;
+    public const double MinFittingDetail = 0.02;
 
     private const double Gap = 0.008;
     private const double Bevel = 0.012;
 
     /// <summary>Plates, grilles, buttons and bolted covers, of random sizes.</summary>
-    public void AddPanels(WallFrame frame, WallArea area, SplitMix64 random) => Divide(area, Smallest(0.05), random, part =>
+    public void AddPanels(WallFrame frame, WallArea area, SplitMix64 random) => Divide(area, MinPanelArea(0.05), random, part =>
     {
-        var height = random.Between(0.005, 0.05);
-        mesh.Plate(frame, part.Within(Gap), height, Bevel);
-        Fit(frame.Moved(0, 0, height), part.Within(Gap + Bevel + 0.01), random);
+        var height = random.NextInRange(0.005, 0.05);
+        mesh.AddPlate(frame, part.Inset(Gap), height, Bevel);
+        AddFitting(frame.Translated(0, 0, height), part.Inset(Gap + Bevel + 0.01), random);
     });
 
     /// <summary>Two rows of plates with a tread of studs, and a drain along the middle.</summary>
@@ -26,23 +26,23 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
         foreach (var part in area.Cells(2, 3))
         {
             var plate = part.X0 < area.X0 + (0.5 * half) ? part with { X1 = part.X1 - 0.06 } : part with { X0 = part.X0 + 0.06 };
-            mesh.Plate(frame, plate.Within(Gap), 0.01, Bevel);
-            if (detail < PlainBelow)
+            mesh.AddPlate(frame, plate.Inset(Gap), 0.01, Bevel);
+            if (detail < MinFittingDetail)
             {
                 continue;
             }
 
-            foreach (var (stud, index) in plate.Within(0.05).Cells(Count(3, 14), Count(3, 12)).Select((cell, index) => (cell, index)))
+            foreach (var (stud, index) in plate.Inset(0.05).Cells(CountAtDetail(3, 14), CountAtDetail(3, 12)).Select((cell, index) => (cell, index)))
             {
                 // Studs lie across each other by turns, as on chequer plate.
                 var (x, y) = (0.5 * (stud.X0 + stud.X1), 0.5 * (stud.Y0 + stud.Y1));
                 var (longer, shorter) = (0.36 * Math.Min(stud.Width, stud.Height), 0.1 * Math.Min(stud.Width, stud.Height));
                 var (w, h) = index % 2 == 0 ? (longer, shorter) : (shorter, longer);
-                mesh.Plate(frame.Moved(0, 0, 0.01), new(x - w, y - h, x + w, y + h), 0.006, 0.004);
+                mesh.AddPlate(frame.Translated(0, 0, 0.01), new(x - w, y - h, x + w, y + h), 0.006, 0.004);
             }
         }
 
-        Grille(frame, new(area.X0 + half - 0.05, area.Y0, area.X0 + half + 0.05, area.Y1), 8);
+        AddGrille(frame, new(area.X0 + half - 0.05, area.Y0, area.X0 + half + 0.05, area.Y1), 8);
     }
 
     /// <summary>A long light between panels.</summary>
@@ -51,17 +51,17 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
         var (x0, x1) = (area.X0 + (0.36 * area.Width), area.X0 + (0.64 * area.Width));
         AddPanels(frame, area with { X1 = x0 }, random);
         AddPanels(frame, area with { X0 = x1 }, random);
-        var light = new WallArea(x0, area.Y0, x1, area.Y1).Within(0.02);
-        mesh.Plate(frame, light, 0.05, 0.03);
-        foreach (var tube in light.Within(0.06).Cells(2, 1))
+        var light = new WallArea(x0, area.Y0, x1, area.Y1).Inset(0.02);
+        mesh.AddPlate(frame, light, 0.05, 0.03);
+        foreach (var tube in light.Inset(0.06).Cells(2, 1))
         {
-            mesh.Plate(frame.Moved(0, 0, 0.05), tube.Within(0.02), 0.03, 0.03);
+            mesh.AddPlate(frame.Translated(0, 0, 0.05), tube.Inset(0.02), 0.03, 0.03);
         }
     }
 
-    private void Fit(WallFrame frame, WallArea area, SplitMix64 random)
+    private void AddFitting(WallFrame frame, WallArea area, SplitMix64 random)
     {
-        if (detail < PlainBelow || Math.Min(area.Width, area.Height) < 0.03)
+        if (detail < MinFittingDetail || Math.Min(area.Width, area.Height) < 0.03)
         {
             return;
         }
@@ -69,21 +69,21 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
         switch (random.Next() % 8)
         {
             case 0 or 1:
-                Grille(frame, area.Within(0.01), 3);
+                AddGrille(frame, area.Inset(0.01), 3);
                 break;
             case 2:
-                Buttons(frame, area.Within(0.01), random);
+                AddButtons(frame, area.Inset(0.01), random);
                 break;
             case 3 or 4:
-                Bolts(frame, area);
+                AddBolts(frame, area);
                 break;
             case 5:
-                Divide(area, Smallest(0.012), random, part => mesh.Plate(frame, part.Within(0.003), random.Between(0.004, 0.02), 0.004));
+                Divide(area, MinPanelArea(0.012), random, part => mesh.AddPlate(frame, part.Inset(0.003), random.NextInRange(0.004, 0.02), 0.004));
                 break;
             case 6:
-                var (handle, inset) = (0.2 * Math.Min(area.Width, area.Height), area.Within(0.25 * Math.Min(area.Width, area.Height)));
-                mesh.Plate(frame, inset, 0.008, 0.006);
-                mesh.Tube(
+                var (handle, inset) = (0.2 * Math.Min(area.Width, area.Height), area.Inset(0.25 * Math.Min(area.Width, area.Height)));
+                mesh.AddPlate(frame, inset, 0.008, 0.006);
+                mesh.AddTube(
                     [
                         frame.At(inset.X0, inset.Y0, 0.006), frame.At(inset.X0, inset.Y0, 0.5 * handle),
                         frame.At(inset.X1, inset.Y0, 0.5 * handle), frame.At(inset.X1, inset.Y0, 0.006),
@@ -96,53 +96,53 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
     }
 
     /// <summary>Slats across the shorter side.</summary>
-    private void Grille(WallFrame frame, WallArea area, int fewest)
+    private void AddGrille(WallFrame frame, WallArea area, int minSlats)
     {
-        var slats = Count(fewest, 4 * fewest);
+        var slats = CountAtDetail(minSlats, 4 * minSlats);
         foreach (var slat in area.Width > area.Height ? area.Cells(slats, 1) : area.Cells(1, slats))
         {
-            mesh.Plate(frame, slat.Within(0.12 * Math.Min(slat.Width, slat.Height)), 0.014, 0.25 * Math.Min(slat.Width, slat.Height));
+            mesh.AddPlate(frame, slat.Inset(0.12 * Math.Min(slat.Width, slat.Height)), 0.014, 0.25 * Math.Min(slat.Width, slat.Height));
         }
     }
 
-    private void Buttons(WallFrame frame, WallArea area, SplitMix64 random)
+    private void AddButtons(WallFrame frame, WallArea area, SplitMix64 random)
     {
         var size = Math.Max(0.02, 0.05 / Math.Sqrt(Math.Max(1, detail)));
         foreach (var cell in area.Cells(Math.Max(1, (int)(area.Width / size)), Math.Max(1, (int)(area.Height / size))))
         {
             if (random.Chance(0.8))
             {
-                mesh.Plate(frame, cell.Within(0.18 * Math.Min(cell.Width, cell.Height)), random.Between(0.004, 0.012), 0.003);
+                mesh.AddPlate(frame, cell.Inset(0.18 * Math.Min(cell.Width, cell.Height)), random.NextInRange(0.004, 0.012), 0.003);
             }
         }
     }
 
-    private void Bolts(WallFrame frame, WallArea area)
+    private void AddBolts(WallFrame frame, WallArea area)
     {
-        var inner = area.Within(0.012);
+        var inner = area.Inset(0.012);
         foreach (var (x, y) in ((double, double)[])[(inner.X0, inner.Y0), (inner.X1, inner.Y0), (inner.X1, inner.Y1), (inner.X0, inner.Y1)])
         {
-            mesh.Bolt(frame, x, y, 0.009);
+            mesh.AddBolt(frame, x, y, 0.009);
         }
     }
 
     /// <summary>Halves about the middle, the longer side first, until the parts are small.</summary>
-    private static void Divide(WallArea area, double smallest, SplitMix64 random, Action<WallArea> fit)
+    private static void Divide(WallArea area, double minArea, SplitMix64 random, Action<WallArea> fit)
     {
-        if (area.Width * area.Height < smallest * random.Between(0.7, 2.4))
+        if (area.Width * area.Height < minArea * random.NextInRange(0.7, 2.4))
         {
             fit(area);
             return;
         }
 
-        var (first, second) = area.Split(random.Between(0.34, 0.66));
-        Divide(first, smallest, random, fit);
-        Divide(second, smallest, random, fit);
+        var (first, second) = area.Split(random.NextInRange(0.34, 0.66));
+        Divide(first, minArea, random, fit);
+        Divide(second, minArea, random, fit);
     }
 
     /// <summary>An area below which nothing is divided, in m², at the given detail.</summary>
-    private double Smallest(double atDetailOne) => detail == 0 ? double.PositiveInfinity : atDetailOne / detail;
+    private double MinPanelArea(double atDetailOne) => detail == 0 ? double.PositiveInfinity : atDetailOne / detail;
 
-    private int Count(int fewest, int atDetailOne) =>
-        (int)Math.Clamp(fewest + ((atDetailOne - fewest) * Math.Sqrt(detail)), fewest, 100 * atDetailOne);
+    private int CountAtDetail(int minCount, int atDetailOne) =>
+        (int)Math.Clamp(minCount + ((atDetailOne - minCount) * Math.Sqrt(detail)), minCount, 100 * atDetailOne);
 }

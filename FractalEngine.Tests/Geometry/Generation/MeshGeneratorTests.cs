@@ -54,7 +54,7 @@ public sealed class MeshGeneratorTests
     [Theory]
     [InlineData(0)]
     [InlineData(-1)]
-    [InlineData(MeshGenerators.LargestFaceCount + 1)]
+    [InlineData(MeshGenerators.MaxFaceCount + 1)]
     public void Create_OfANumberOutOfRange_Throws(int faces) =>
         Assert.Throws<ArgumentOutOfRangeException>(() => MeshGenerators.Create("terrain", 0, faces));
 
@@ -67,8 +67,8 @@ public sealed class MeshGeneratorTests
     {
         var (first, second) = (MeshGenerators.Create(name, 5, 12_000), MeshGenerators.Create(name, 5, 12_000));
         Assert.Equal(Bits(first), Bits(second));
-        Assert.True(first.Faces.AsSpan().SequenceEqual(second.Faces.AsSpan()));
-        Assert.True(first.NormalFaces.AsSpan().SequenceEqual(second.NormalFaces.AsSpan()));
+        Assert.True(first.VertexIndices.AsSpan().SequenceEqual(second.VertexIndices.AsSpan()));
+        Assert.True(first.NormalIndices.AsSpan().SequenceEqual(second.NormalIndices.AsSpan()));
     }
 
     [Theory]
@@ -84,7 +84,7 @@ public sealed class MeshGeneratorTests
     {
         var mesh = MeshGenerators.Create(name);
         var used = new bool[mesh.VertexCount];
-        foreach (var vertex in mesh.Faces)
+        foreach (var vertex in mesh.VertexIndices)
         {
             used[vertex] = true;
         }
@@ -154,9 +154,9 @@ public sealed class MeshGeneratorTests
         Assert.StartsWith($"# Mesh count: {mesh.FaceCount}\n", text, StringComparison.Ordinal);
         var read = ObjParser.Parse(new SourceText(name, text)).Mesh;
         Assert.Equal(Bits(mesh), Bits(read));
-        Assert.True(mesh.Faces.AsSpan().SequenceEqual(read.Faces.AsSpan()));
-        Assert.True(mesh.TextureFaces.AsSpan().SequenceEqual(read.TextureFaces.AsSpan()));
-        Assert.True(mesh.NormalFaces.AsSpan().SequenceEqual(read.NormalFaces.AsSpan()));
+        Assert.True(mesh.VertexIndices.AsSpan().SequenceEqual(read.VertexIndices.AsSpan()));
+        Assert.True(mesh.TextureIndices.AsSpan().SequenceEqual(read.TextureIndices.AsSpan()));
+        Assert.True(mesh.NormalIndices.AsSpan().SequenceEqual(read.NormalIndices.AsSpan()));
         Assert.Equal(mesh.Groups.Select(group => group.GroupName), read.Groups.Select(group => group.GroupName).Where(group => group.Length > 0));
     }
 
@@ -167,9 +167,9 @@ public sealed class MeshGeneratorTests
 
     private static IEnumerable<(int From, int To)> Edges(Mesh mesh)
     {
-        for (var corner = 0; corner < mesh.Faces.Length; corner++)
+        for (var corner = 0; corner < mesh.VertexIndices.Length; corner++)
         {
-            yield return (mesh.Faces[corner], mesh.Faces[corner % 3 == 2 ? corner - 2 : corner + 1]);
+            yield return (mesh.VertexIndices[corner], mesh.VertexIndices[corner % 3 == 2 ? corner - 2 : corner + 1]);
         }
     }
 }

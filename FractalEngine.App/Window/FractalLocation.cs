@@ -1,0 +1,10 @@
+using FractalEngine.Core.Detail;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.App.Window;
+
+/// <summary>A fractal in a scene.</summary>
+/// <param name="ObjectIndex">Its object's place in the scene, from 0.</param>
+/// <param name="Hierarchy">Its levels.</param>
+/// <param name="ObjectToWorld">The object's matrix m.</param>
+internal sealed record FractalLocation(int ObjectIndex, LodHierarchy Hierarchy, AffineMap ObjectToWorld);
