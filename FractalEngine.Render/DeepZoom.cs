@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
-using FractalEngine.Core.Detail;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Visibility;
 
 namespace FractalEngine.Render;
 

@@ -1,7 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Render.Gl;
+using FractalEngine.Render.Images;
 using FractalEngine.Render.Passes;
-using FractalEngine.Render.Pictures;
 using FractalEngine.Render.Ui;
 using FractalEngine.Render.Windowing;
 using OpenTK.Graphics.OpenGL4;

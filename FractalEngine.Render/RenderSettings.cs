@@ -1,6 +1,6 @@
-using FractalEngine.Core.Detail;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Visibility;
 
 namespace FractalEngine.Render;
 

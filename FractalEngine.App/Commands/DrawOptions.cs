@@ -1,7 +1,7 @@
 using System.CommandLine;
-using FractalEngine.Core.Detail;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 

@@ -1,7 +1,7 @@
 using System.CommandLine;
 using System.CommandLine.Parsing;
 using System.Globalization;
-using FractalEngine.Core.Geometry.Generation;
+using FractalEngine.Core.Generation;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Meshes;
 

@@ -1,4 +1,4 @@
-using FractalEngine.Core.Detail;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;

@@ -1,5 +1,5 @@
-using FractalEngine.Core.Detail;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Visibility;
 
 namespace FractalEngine.App.Window;
 

@@ -4,6 +4,7 @@ using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Character;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Scenes;
 using FractalEngine.Render;

@@ -1,5 +1,6 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Character;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Windowing;
 

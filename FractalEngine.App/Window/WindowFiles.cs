@@ -1,6 +1,6 @@
 using FractalEngine.App.Commands;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Images;
 
 namespace FractalEngine.App.Window;
 

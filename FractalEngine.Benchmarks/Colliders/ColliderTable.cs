@@ -2,6 +2,9 @@ using System.Diagnostics;
 using System.Globalization;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 

@@ -1,5 +1,8 @@
 using System.Diagnostics;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Core.Fractals;
 
 namespace FractalEngine.Benchmarks.Colliders;

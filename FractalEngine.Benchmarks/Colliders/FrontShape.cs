@@ -2,8 +2,8 @@ using System.Diagnostics;
 using System.Globalization;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Geometry.Generation;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Benchmarks.Colliders;

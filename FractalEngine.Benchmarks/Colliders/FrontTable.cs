@@ -1,6 +1,7 @@
 using System.Diagnostics;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Benchmarks.Colliders;

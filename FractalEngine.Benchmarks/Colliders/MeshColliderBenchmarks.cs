@@ -1,8 +1,10 @@
 using BenchmarkDotNet.Attributes;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Collision.Reference;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Geometry.Generation;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Benchmarks.Colliders;

@@ -1,9 +1,9 @@
 using System.Globalization;
 using System.Text;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Geometry.Generation;
 using FractalEngine.Parsing.Meshes;
-using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Images;
 
 namespace FractalEngine.Benchmarks.Drawing;
 

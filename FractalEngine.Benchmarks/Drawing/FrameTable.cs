@@ -3,7 +3,7 @@ using System.Globalization;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render;
-using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Windowing;
 

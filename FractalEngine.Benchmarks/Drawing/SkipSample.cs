@@ -1,5 +1,5 @@
 using FractalEngine.Render;
-using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Images;
 
 namespace FractalEngine.Benchmarks.Drawing;
 

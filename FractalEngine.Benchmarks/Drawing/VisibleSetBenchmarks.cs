@@ -1,8 +1,8 @@
 using BenchmarkDotNet.Attributes;
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Detail;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility;
 
 namespace FractalEngine.Benchmarks.Drawing;
 

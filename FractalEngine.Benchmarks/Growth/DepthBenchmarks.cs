@@ -1,7 +1,8 @@
 using BenchmarkDotNet.Attributes;
-using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Benchmarks.Colliders;
+using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 

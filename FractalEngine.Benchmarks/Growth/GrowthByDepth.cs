@@ -1,6 +1,7 @@
 using System.Numerics;
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Core.Fractals;
 
 namespace FractalEngine.Benchmarks.Growth;

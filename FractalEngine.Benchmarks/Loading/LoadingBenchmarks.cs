@@ -1,7 +1,7 @@
 using BenchmarkDotNet.Attributes;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Geometry.Generation;
+using FractalEngine.Core.Generation;
 using FractalEngine.Parsing.Fractals;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;

@@ -1,7 +1,7 @@
 using System.Buffers.Text;
 using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Geometry.Generation;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;

@@ -1,5 +1,5 @@
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Geometry.Generation;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Meshes;

@@ -1,8 +1,8 @@
+using FractalEngine.Core.Collision;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Benchmarks.Measuring;
-using FractalEngine.Core.Collision;
 using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Benchmarks.Precision;

@@ -1,3 +1,4 @@
+
 namespace FractalEngine.Core.Collision;
 
 /// <summary>The answer to one position of a <see cref="BatchQuery"/>.</summary>

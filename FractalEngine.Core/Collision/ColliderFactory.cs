@@ -1,3 +1,6 @@
+using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;

@@ -1,3 +1,4 @@
+
 namespace FractalEngine.Core.Collision;
 
 /// <summary>A collider was asked for that does not fit the model. The message says which do.</summary>

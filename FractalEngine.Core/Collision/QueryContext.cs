@@ -1,4 +1,6 @@
 using System.Runtime.InteropServices;
+using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Collision.Reference;
 
 namespace FractalEngine.Core.Collision;
 

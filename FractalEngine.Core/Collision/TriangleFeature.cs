@@ -1,3 +1,4 @@
+
 namespace FractalEngine.Core.Collision;
 
 /// <summary>Which part of a face is nearest to a position.</summary>

@@ -7,7 +7,7 @@ namespace FractalEngine.Core.Fractals;
 /// drawn where its part was; a queue keeps the last few m, and the oldest of them is drawn, so that what lies behind the camera does not vanish at once.
 /// </summary>
 /// <remarks>
-/// Kept beside <see cref="Detail.FractalAddress"/>, which loses nothing, to be compared with it. Each call begins at the top again, as in the paper: cost O(depth · maps). World
+/// Kept beside <see cref="FractalAddress"/>, which loses nothing, to be compared with it. Each call begins at the top again, as in the paper: cost O(depth · maps). World
 /// coordinates end at a depth of about 50 for halves.
 /// </remarks>
 /// <param name="fractal">Its levels give the sub-transformations; identities are passed over, since m·1 would be repeated without end.</param>

@@ -1,6 +1,7 @@
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Character;
 
 namespace FractalEngine.Core.Physics;
 

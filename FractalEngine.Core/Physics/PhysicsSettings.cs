@@ -1,3 +1,4 @@
+
 namespace FractalEngine.Core.Physics;
 
 /// <summary>How a <see cref="PhysicsWorld"/> counts time and when it lets bodies rest.</summary>

@@ -3,6 +3,7 @@ using System.Security.Cryptography;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Character;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;

@@ -1,4 +1,4 @@
-using FractalEngine.Core.Detail;
+using FractalEngine.Core.Visibility;
 
 namespace FractalEngine.Render.Passes;
 

@@ -1,7 +1,7 @@
 using System.Diagnostics;
-using FractalEngine.Core.Detail;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Preparation;
 

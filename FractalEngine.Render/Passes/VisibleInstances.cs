@@ -1,4 +1,4 @@
-using FractalEngine.Core.Detail;
+using FractalEngine.Core.Visibility;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Preparation;
 using OpenTK.Graphics.OpenGL4;

@@ -1,7 +1,7 @@
 using System.Collections.Immutable;
-using FractalEngine.Core.Detail;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Visibility;
 
 namespace FractalEngine.Render.Preparation;
 

@@ -1,9 +1,9 @@
 using System.Collections.Immutable;
-using FractalEngine.Core.Detail;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility;
 
 namespace FractalEngine.Render.Preparation;
 

@@ -1,6 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Images;
 
 namespace FractalEngine.Render.Preparation;
 

@@ -1,12 +1,13 @@
 using System.Globalization;
 using FractalEngine.App.Window;
-using FractalEngine.Core.Detail;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
-using FractalEngine.Tests.Detail;
+using FractalEngine.Tests.Fractals;
 using FractalEngine.Tests.Support;
+using FractalEngine.Tests.Visibility;
 
 namespace FractalEngine.Tests.App;
 

@@ -1,7 +1,7 @@
 using System.Diagnostics;
 using System.Globalization;
 using FractalEngine.Parsing.Scenes;
-using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;

@@ -1,5 +1,7 @@
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Collision;
 

@@ -1,5 +1,5 @@
-using FractalEngine.Benchmarks.Precision;
 using FractalEngine.Core.Collision;
+using FractalEngine.Benchmarks.Precision;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Collision;
 using FractalEngine.Tests.Support;

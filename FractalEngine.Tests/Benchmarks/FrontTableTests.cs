@@ -1,6 +1,7 @@
 using FractalEngine.Benchmarks.Colliders;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Collision;

@@ -3,7 +3,7 @@ using System.Numerics;
 using System.Text.RegularExpressions;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Benchmarks.Paper;
-using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Support;

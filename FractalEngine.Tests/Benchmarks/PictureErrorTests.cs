@@ -1,5 +1,5 @@
 using FractalEngine.Benchmarks.Drawing;
-using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Images;
 
 namespace FractalEngine.Tests.Benchmarks;
 

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Tests.Collision;

@@ -1,6 +1,7 @@
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Reference;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Geometry.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 

@@ -1,5 +1,5 @@
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Geometry.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Meshes;

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Collision;

@@ -1,5 +1,5 @@
-using System.Collections.Immutable;
 using FractalEngine.Core.Collision;
+using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 

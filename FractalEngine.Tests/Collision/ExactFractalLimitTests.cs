@@ -1,4 +1,5 @@
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;

@@ -1,6 +1,8 @@
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Geometry.Generation;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 

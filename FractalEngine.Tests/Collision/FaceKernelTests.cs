@@ -1,6 +1,7 @@
 using System.Globalization;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 

@@ -1,5 +1,7 @@
 using System.Globalization;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;

@@ -1,7 +1,9 @@
 using System.Globalization;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Collision.Reference;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Geometry.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 

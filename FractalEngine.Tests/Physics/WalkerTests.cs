@@ -1,6 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Character;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Collision;
 using FractalEngine.Tests.Support;

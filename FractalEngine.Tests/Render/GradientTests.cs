@@ -1,13 +1,13 @@
 using System.Globalization;
-using FractalEngine.Core.Detail;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility;
 using FractalEngine.Render;
-using FractalEngine.Render.Pictures;
-using FractalEngine.Tests.Detail;
+using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;
+using FractalEngine.Tests.Visibility;
 
 namespace FractalEngine.Tests.Render;
 

@@ -3,7 +3,7 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
-using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Tests.Render;

@@ -1,6 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Render;
-using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Images;
 using FractalEngine.Render.Ui;
 
 namespace FractalEngine.Tests.Render;

@@ -1,4 +1,4 @@
-using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Images;
 
 namespace FractalEngine.Tests.Render;
 

@@ -1,6 +1,6 @@
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
-using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Tests.Collision;
 using FractalEngine.Tests.Support;

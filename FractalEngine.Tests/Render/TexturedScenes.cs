@@ -1,7 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Render;

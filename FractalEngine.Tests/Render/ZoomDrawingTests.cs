@@ -1,15 +1,16 @@
 using FractalEngine.App.Window;
-using FractalEngine.Core.Detail;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility;
 using FractalEngine.Render;
-using FractalEngine.Render.Pictures;
+using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Windowing;
-using FractalEngine.Tests.Detail;
+using FractalEngine.Tests.Fractals;
 using FractalEngine.Tests.Support;
+using FractalEngine.Tests.Visibility;
 using static System.FormattableString;
 
 namespace FractalEngine.Tests.Render;

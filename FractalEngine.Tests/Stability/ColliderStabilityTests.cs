@@ -1,13 +1,14 @@
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using FractalEngine.Core.Collision;
-using FractalEngine.Core.Detail;
+using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility;
 using FractalEngine.Tests.Collision;
-using FractalEngine.Tests.Detail;
 using FractalEngine.Tests.Support;
+using FractalEngine.Tests.Visibility;
 using Xunit.Abstractions;
 using Vector = FractalEngine.Core.Maths.Vector;
 

@@ -1,5 +1,5 @@
-using System.Runtime.CompilerServices;
 using FractalEngine.Core.Collision;
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Collision;
 using FractalEngine.Tests.Support;
