@@ -3,7 +3,10 @@ using FractalEngine.Core.Physics;
 
 namespace FractalEngine.App;
 
-/// <summary>What bodies do, as comma-separated values (RFC 4180, but lines end in a line feed): a row for each body and step. Numbers are invariant, with all digits.</summary>
+/// <summary>
+/// What bodies do, as comma-separated values (RFC 4180, but lines end in a line feed): a row for each body and step. Numbers are invariant,
+/// with all digits.
+/// </summary>
 /// <param name="writer">Receives the text.</param>
 internal sealed class BodyCsvWriter(TextWriter writer)
 {

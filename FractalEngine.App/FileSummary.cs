@@ -9,7 +9,9 @@ using BigInteger = System.Numerics.BigInteger;
 
 namespace FractalEngine.App;
 
-/// <summary>What <c>info</c> tells of a file. Counts are exact; null stands for infinitely many, or for an unknown number of distinct instances.</summary>
+/// <summary>
+/// What <c>info</c> tells of a file. Counts are exact; null stands for infinitely many, or for an unknown number of distinct instances.
+/// </summary>
 internal sealed record FileSummary(
     string Kind,
     BigInteger? Vertices,

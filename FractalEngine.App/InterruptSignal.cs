@@ -2,7 +2,10 @@ using System.Runtime.InteropServices;
 
 namespace FractalEngine.App;
 
-/// <summary>Notes that somebody asks the program to end, so that what it has begun can be taken back first. What does not react, or is asked again, ends at once.</summary>
+/// <summary>
+/// Notes that somebody asks the program to end, so that what it has begun can be taken back first. What does not react, or is asked again,
+/// ends at once.
+/// </summary>
 internal sealed class InterruptSignal : IDisposable
 {
     // What is done between two looks takes milliseconds. Where it takes longer something is wrong, and the user is not made to wait.

@@ -37,7 +37,8 @@ if (args is not [[not '-', ..] name, .. var rest])
 
 if (!commands.TryGetValue(name, out var run))
 {
-    Console.Error.WriteLine($"error: unknown command '{name}': expected one of {string.Join(' ', commands.Keys)}, or an option of BenchmarkDotNet");
+    Console.Error.WriteLine(
+        $"error: unknown command '{name}': expected one of {string.Join(' ', commands.Keys)}, or an option of BenchmarkDotNet");
     return 2;
 }
 

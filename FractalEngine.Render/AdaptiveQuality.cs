@@ -3,10 +3,13 @@ using FractalEngine.Core.Visibility;
 namespace FractalEngine.Render;
 
 /// <summary>
-/// How pictures are drawn while the camera moves: without multisampling, with at most 150,000 instances, and with parts as coarse as it takes to draw ten pictures a second, from 3 to
-/// 24 pixels. When the camera stands, the full picture follows.
+/// How pictures are drawn while the camera moves: without multisampling, with at most 150,000 instances, and with parts as coarse as it
+/// takes to draw ten pictures a second, from 3 to 24 pixels. When the camera stands, the full picture follows.
 /// </summary>
-/// <remarks>Draw with <see cref="Adapt(RenderSettings)"/>, then tell <see cref="RecordFrameTime"/> how long that took. Changes at most every fourth picture, since each makes useless what was chosen ahead.</remarks>
+/// <remarks>
+/// Draw with <see cref="Adapt(RenderSettings)"/>, then tell <see cref="RecordFrameTime"/> how long that took. Changes at most every fourth
+/// picture, since each makes useless what was chosen ahead.
+/// </remarks>
 public sealed class AdaptiveQuality
 {
     private const double FinestProjectedSize = 3;
@@ -33,13 +36,17 @@ public sealed class AdaptiveQuality
     {
         if (_lastAdapted is not { } last || last.Source != settings || last.PixelSize != _minProjectedSize)
         {
-            _lastAdapted = (settings, _minProjectedSize, settings with { Samples = 0, Culling = settings.Culling is { } culling ? Adapt(culling) : null });
+            _lastAdapted =
+                (settings, _minProjectedSize,
+                settings with { Samples = 0, Culling = settings.Culling is { } culling ? Adapt(culling) : null });
         }
 
         return _lastAdapted.Value.Adapted;
     }
 
-    /// <summary>Tells how long a picture took from the first step to the window: above 90 ms parts get coarser, below 50 ms finer.</summary>
+    /// <summary>
+    /// Tells how long a picture took from the first step to the window: above 90 ms parts get coarser, below 50 ms finer.
+    /// </summary>
     public void RecordFrameTime(TimeSpan frameTime)
     {
         if (++_framesSinceChange < FramesBetweenChanges)
@@ -48,7 +55,9 @@ public sealed class AdaptiveQuality
         }
 
         var previousSize = _minProjectedSize;
-        _minProjectedSize = frameTime > SlowFrameTime ? Math.Min(CoarseningFactor * _minProjectedSize, CoarsestProjectedSize) : frameTime < FastFrameTime ? Math.Max(_minProjectedSize / RefinementFactor, FinestProjectedSize) : _minProjectedSize;
+        _minProjectedSize = frameTime > SlowFrameTime
+            ? Math.Min(CoarseningFactor * _minProjectedSize, CoarsestProjectedSize)
+            : frameTime < FastFrameTime ? Math.Max(_minProjectedSize / RefinementFactor, FinestProjectedSize) : _minProjectedSize;
         _framesSinceChange = previousSize.Equals(_minProjectedSize) ? _framesSinceChange : 0;
     }
 

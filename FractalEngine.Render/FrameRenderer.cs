@@ -40,7 +40,9 @@ public sealed class FrameRenderer : IDisposable
     /// <param name="width">Of the picture, pixels.</param>
     /// <param name="height">Of the picture, pixels.</param>
     /// <param name="settings">How it is drawn.</param>
-    /// <param name="nextView">The view that is likely to be drawn next: what it needs is chosen on other threads while this one is drawn. Null for none.</param>
+    /// <param name="nextView">
+    /// The view that is likely to be drawn next: what it needs is chosen on other threads while this one is drawn. Null for none.
+    /// </param>
     /// <exception cref="GlException">The picture is larger than the driver allows.</exception>
     public void Draw(SceneRenderer? scene, View view, int width, int height, RenderSettings settings, View? nextView = null)
     {
@@ -130,7 +132,8 @@ public sealed class FrameRenderer : IDisposable
     private static void SetClearColour(Colour colour) =>
         GL.ClearColor((float)colour.Red, (float)colour.Green, (float)colour.Blue, 1);
 
-    private static Colour LetterboxColour(Colour colour) => new(LetterboxShade * colour.Red, LetterboxShade * colour.Green, LetterboxShade * colour.Blue);
+    private static Colour LetterboxColour(Colour colour) =>
+        new(LetterboxShade * colour.Red, LetterboxShade * colour.Green, LetterboxShade * colour.Blue);
 
     private Framebuffer EnsureTarget(int width, int height, int sampleCount)
     {

@@ -10,4 +10,5 @@ namespace FractalEngine.Render;
 /// <param name="Uploads">Of the last picture: buffers moved to the GPU, and those that were there already.</param>
 /// <param name="StateChanges">Of the last picture: bindings and uniforms, and those that held already.</param>
 public readonly record struct OptimisationStatistics(
-    int ObjectCount, int BackFaceCulledCount, int ModelCount, int PlaceholderCount, int TextureCount, long DegenerateTriangleCount, RedundancyCounts Uploads, RedundancyCounts StateChanges);
+    int ObjectCount, int BackFaceCulledCount, int ModelCount, int PlaceholderCount, int TextureCount, long DegenerateTriangleCount,
+    RedundancyCounts Uploads, RedundancyCounts StateChanges);

@@ -6,5 +6,6 @@ namespace FractalEngine.Render;
 public readonly record struct RedundancyCounts(long Performed, long Skipped)
 {
     /// <summary>What came to pass between two counts.</summary>
-    public static RedundancyCounts operator -(RedundancyCounts now, RedundancyCounts before) => new(now.Performed - before.Performed, now.Skipped - before.Skipped);
+    public static RedundancyCounts operator -(RedundancyCounts now, RedundancyCounts before) =>
+        new(now.Performed - before.Performed, now.Skipped - before.Skipped);
 }

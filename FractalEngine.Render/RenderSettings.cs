@@ -7,13 +7,20 @@ namespace FractalEngine.Render;
 /// <summary>How a scene is prepared and drawn, apart from what the scene itself says.</summary>
 public sealed record RenderSettings
 {
-    /// <summary>What is left out of a picture because it would not be seen; null to draw every instance of every fractal in every picture.</summary>
+    /// <summary>
+    /// What is left out of a picture because it would not be seen; null to draw every instance of every fractal in every picture.
+    /// </summary>
     public CullingSettings? Culling { get; init; } = new();
 
-    /// <summary>Without <see cref="Culling"/>, the most instances of one fractal that are drawn; deeper fractals are drawn at a smaller depth, with a notice.</summary>
+    /// <summary>
+    /// Without <see cref="Culling"/>, the most instances of one fractal that are drawn; deeper fractals are drawn at a smaller depth, with
+    /// a notice.
+    /// </summary>
     public int InstanceBudget { get; init; } = FractalLimits.MaxDrawnInstances;
 
-    /// <summary>Without <see cref="Culling"/>, the most triangles of one fractal that are drawn: limits instances of large meshes further.</summary>
+    /// <summary>
+    /// Without <see cref="Culling"/>, the most triangles of one fractal that are drawn: limits instances of large meshes further.
+    /// </summary>
     public long TriangleBudget { get; init; } = 200_000_000;
 
     /// <summary>Where faces meet at a larger angle, generated normals make an edge. Degrees.</summary>
@@ -31,13 +38,19 @@ public sealed record RenderSettings
     /// <summary>Decodes and keeps each picture once, however many models show it.</summary>
     public bool ShareTextures { get; init; } = true;
 
-    /// <summary>In a window, prepares a model when one of its objects is first in sight, and not before; where false, all of them before the first picture.</summary>
+    /// <summary>
+    /// In a window, prepares a model when one of its objects is first in sight, and not before; where false, all of them before the first
+    /// picture.
+    /// </summary>
     public bool LazyLoading { get; init; } = true;
 
     /// <summary>Does not bind what is bound already, nor set uniforms to what they are.</summary>
     public bool FilterRedundantState { get; init; } = true;
 
-    /// <summary>Keeps what is on the GPU where it has not changed: chosen instances, objects and lights. Where false, all are chosen and uploaded for each picture.</summary>
+    /// <summary>
+    /// Keeps what is on the GPU where it has not changed: chosen instances, objects and lights. Where false, all are chosen and uploaded
+    /// for each picture.
+    /// </summary>
     public bool ReuseBuffers { get; init; } = true;
 
     /// <summary>Where the lights act.</summary>

@@ -7,8 +7,8 @@ using FractalEngine.Render.Windowing;
 namespace FractalEngine.Render;
 
 /// <summary>
-/// A prepared scene on the GPU. Uploaded once; each object is one instanced draw call for each of its materials, whether it shows a mesh or a
-/// fractal. Objects can move: then only their own matrix is uploaded again.
+/// A prepared scene on the GPU. Uploaded once; each object is one instanced draw call for each of its materials, whether it shows a mesh or
+/// a fractal. Objects can move: then only their own matrix is uploaded again.
 /// </summary>
 public sealed class SceneRenderer : IDisposable
 {
@@ -62,8 +62,8 @@ public sealed class SceneRenderer : IDisposable
     public DrawableScene Scene { get; private set; }
 
     /// <summary>
-    /// A box that holds all objects where they are now, world space; of those that move all the time only as far as they stay near. What falls out of the scene
-    /// goes out of sight beyond the far plane, and does not take the planes with it.
+    /// A box that holds all objects where they are now, world space; of those that move all the time only as far as they stay near. What
+    /// falls out of the scene goes out of sight beyond the far plane, and does not take the planes with it.
     /// </summary>
     public BoundingBox Bounds => _bounds ??= SceneBounds.Compute(Scene, _objectBounds, _spheres);
 
@@ -81,12 +81,17 @@ public sealed class SceneRenderer : IDisposable
     /// <summary>Lines beside the scene's objects.</summary>
     public IReadOnlyList<LineSegment> Lines { get; set; } = [];
 
-    /// <summary>What the last picture took, where instances are chosen (<see cref="RenderSettings.Culling"/>). Counted out when it is asked for.</summary>
+    /// <summary>
+    /// What the last picture took, where instances are chosen (<see cref="RenderSettings.Culling"/>). Counted out when it is asked for.
+    /// </summary>
     public FrameStatistics Statistics => new(
-        Culler.InstanceCount, Culler.TriangleCount, Culler.Statistics, Culler.MinProjectedSize, Culler.CullCount, Culler.UploadedBytes, Culler.CullWaitTime,
+        Culler.InstanceCount, Culler.TriangleCount, Culler.Statistics, Culler.MinProjectedSize, Culler.CullCount, Culler.UploadedBytes,
+        Culler.CullWaitTime,
         new(
-            Scene.Objects.Length, _backFaceCulledCount, Scene.Models.Length, Scene.Models.Count(static model => model.IsPlaceholder), Scene.Textures.Length,
-            Scene.Models.Sum(static model => (long)model.DegenerateTriangleCount), _countsAfter.Uploads - _countsBefore.Uploads, _countsAfter.State - _countsBefore.State));
+            Scene.Objects.Length, _backFaceCulledCount, Scene.Models.Length, Scene.Models.Count(static model => model.IsPlaceholder),
+            Scene.Textures.Length,
+            Scene.Models.Sum(static model => (long)model.DegenerateTriangleCount), _countsAfter.Uploads - _countsBefore.Uploads,
+            _countsAfter.State - _countsBefore.State));
 
     /// <summary>Sub-fractals of fewer pixels were drawn as one copy in the last picture.</summary>
     public double MinProjectedSize => Culler.MinProjectedSize;
@@ -102,7 +107,9 @@ public sealed class SceneRenderer : IDisposable
     /// <summary>The instances that were chosen for the last picture, and what that took.</summary>
     internal SceneCuller Culler => _culler!;
 
-    /// <summary>Takes over what has been prepared since: the same scene with other models. Objects stay where they are. On the context's thread.</summary>
+    /// <summary>
+    /// Takes over what has been prepared since: the same scene with other models. Objects stay where they are. On the context's thread.
+    /// </summary>
     /// <exception cref="Gl.GlException">The GPU's memory does not suffice.</exception>
     public void Update(DrawableScene scene)
     {
@@ -151,7 +158,8 @@ public sealed class SceneRenderer : IDisposable
         Context.MakeCurrent();
         Context.ApplySettings(settings);
         var (_, _, viewportWidth, viewportHeight) = view.Viewport(width, height);
-        Cull(view, (viewportWidth, viewportHeight), view.EffectiveAspect(width, height), LinesPass.BoundsIncludingLines(Bounds, settings), settings);
+        Cull(view, (viewportWidth, viewportHeight), view.EffectiveAspect(width, height), LinesPass.BoundsIncludingLines(Bounds, settings),
+            settings);
     }
 
     /// <inheritdoc/>
@@ -175,21 +183,27 @@ public sealed class SceneRenderer : IDisposable
     }
 
     /// <summary>Draws into the bound framebuffer's viewport.</summary>
-    internal void Draw(View view, (int Width, int Height) viewportSize, double aspect, BoundingBox bounds, RenderSettings settings, View? nextView)
+    internal void Draw(View view, (int Width, int Height) viewportSize, double aspect, BoundingBox bounds, RenderSettings settings,
+        View? nextView)
     {
         _countsBefore = (UploadCounts, StateChangeCounts);
         Cull(view, viewportSize, aspect, bounds, settings);
         if (nextView is not null && _effectiveCulling.Resolve(settings) is { } nextCulling)
         {
-            Culler.StartSpeculativeCull(SceneCuller.ToCullingView(nextView, viewportSize.Width, viewportSize.Height, aspect, nextView.ClipPlanes(bounds)), nextCulling, nextView.DeepZoom);
+            Culler.StartSpeculativeCull(
+                SceneCuller.ToCullingView(nextView, viewportSize.Width, viewportSize.Height, aspect, nextView.ClipPlanes(bounds)),
+                nextCulling, nextView.DeepZoom);
         }
 
         _meshPass.Begin(view, aspect, bounds, settings.Wireframe, settings.Shading);
-        _lightBlock.Bind(MeshPass.LightBinding, view.Camera.Position, view.DeepZoom is { } zoom ? Math.Exp(Math.Min(-zoom.LogUnit, MaxLogLightScale)) : 1);
+        _lightBlock.Bind(MeshPass.LightBinding, view.Camera.Position, view.DeepZoom is { } zoom
+            ? Math.Exp(Math.Min(-zoom.LogUnit, MaxLogLightScale))
+            : 1);
         _backFaceCulledCount = 0;
         for (var i = 0; i < _objectBlocks.Length; i++)
         {
-            if (Scene.Objects[i].IsDynamic && settings.Culling is { FrustumCulling: true } && !view.MayIntersectFrustum(_objectBounds[i], aspect))
+            if (Scene.Objects[i].IsDynamic && settings.Culling is { FrustumCulling: true }
+                && !view.MayIntersectFrustum(_objectBounds[i], aspect))
             {
                 continue;
             }
@@ -242,7 +256,8 @@ public sealed class SceneRenderer : IDisposable
     {
         if (_effectiveCulling.Resolve(settings) is { } culling)
         {
-            Culler.Update(SceneCuller.ToCullingView(view, viewportSize.Width, viewportSize.Height, aspect, view.ClipPlanes(bounds)), culling, view.DeepZoom);
+            Culler.Update(SceneCuller.ToCullingView(view, viewportSize.Width, viewportSize.Height, aspect, view.ClipPlanes(bounds)),
+                culling, view.DeepZoom);
         }
     }
 
@@ -250,12 +265,17 @@ public sealed class SceneRenderer : IDisposable
     {
         var (item, map) = (Scene.Objects[index], _objectMaps[index]);
         // Chosen instances are in world axes about the camera already.
-        var modelToWorld = Culler.SelectsInstances(index) ? AffineMap.Translate(view.Camera.Position) : new AffineMap(map.Linear, map * item.Model.Origin);
-        _objectBlocks[index].Bind(MeshPass.ObjectBinding, modelToWorld, item.Colour, item.Gradient?.EndColour ?? item.Colour, view.Camera.Position);
+        var modelToWorld = Culler.SelectsInstances(index)
+            ? AffineMap.Translate(view.Camera.Position)
+            : new AffineMap(map.Linear, map * item.Model.Origin);
+        _objectBlocks[index].Bind(MeshPass.ObjectBinding, modelToWorld, item.Colour, item.Gradient?.EndColour
+            ?? item.Colour, view.Camera.Position);
     }
 
     private MeshFeatures FeaturesOf(int index, bool? culledFace) =>
-        (Culler.SelectsInstances(index) ? MeshFeatures.CameraRelative : MeshFeatures.None) | (culledFace == false ? MeshFeatures.FrontFacesOnly : MeshFeatures.None);
+        (Culler.SelectsInstances(index) ? MeshFeatures.CameraRelative : MeshFeatures.None) | (culledFace == false
+        ? MeshFeatures.FrontFacesOnly
+        : MeshFeatures.None);
 
     private void DrawInstances(int index, DrawableBatch batch)
     {
@@ -285,8 +305,8 @@ public sealed class SceneRenderer : IDisposable
     }
 
     /// <summary>
-    /// Draws what is transparent, the farthest object first, and of each object first the sides that look away: then the colours of a convex
-    /// one mix in the right order. Triangles of one side and instances of a fractal are not sorted.
+    /// Draws what is transparent, the farthest object first, and of each object first the sides that look away: then the colours of a
+    /// convex one mix in the right order. Triangles of one side and instances of a fractal are not sorted.
     /// </summary>
     private void DrawTransparent(View view)
     {

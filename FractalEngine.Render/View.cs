@@ -125,12 +125,14 @@ public sealed record View(Camera Camera, Projection Projection)
         var effectiveAspect = Aspect ?? aspect;
         if (Projection == Projection.Orthographic)
         {
-            return centre.Z + halfSize.Z > 0 && Math.Abs(centre.X) - halfSize.X < 0.5 * OrthographicHeight * effectiveAspect && Math.Abs(centre.Y) - halfSize.Y < 0.5 * OrthographicHeight;
+            return centre.Z + halfSize.Z > 0 && Math.Abs(centre.X) - halfSize.X < 0.5 * OrthographicHeight * effectiveAspect
+                && Math.Abs(centre.Y) - halfSize.Y < 0.5 * OrthographicHeight;
         }
 
         var halfHeightAtUnitDepth = Camera.HalfHeightAtUnitDepth;
         var farthestDepth = centre.Z + halfSize.Z;
-        return farthestDepth > 0 && Math.Abs(centre.X) - halfSize.X < halfHeightAtUnitDepth * effectiveAspect * farthestDepth && Math.Abs(centre.Y) - halfSize.Y < halfHeightAtUnitDepth * farthestDepth;
+        return farthestDepth > 0 && Math.Abs(centre.X) - halfSize.X < halfHeightAtUnitDepth * effectiveAspect * farthestDepth
+            && Math.Abs(centre.Y) - halfSize.Y < halfHeightAtUnitDepth * farthestDepth;
     }
 
     /// <summary>True when no part of a box is nearer than the near plane: then it is seen from outside, and whole.</summary>

@@ -20,7 +20,8 @@ internal static class CountCommand
         var file = ConsoleLoader.Load(path, new());
         if (file.Kind != FileKind.Mesh)
         {
-            throw new UsageException($"only meshes (.obj) have a mesh count header, and {path} is none; 'info' counts the faces of all files");
+            throw new UsageException(
+                $"only meshes (.obj) have a mesh count header, and {path} is none; 'info' counts the faces of all files");
         }
 
         var faces = file.Scene.Objects[0].Model.Mesh.FaceCount;

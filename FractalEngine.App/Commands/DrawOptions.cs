@@ -12,8 +12,10 @@ internal sealed class DrawOptions
 {
     private static readonly (string Word, Optimisation Value)[] OptimisationWords =
     [
-        ("backs", Optimisation.BackFaceCulling), ("outside", Optimisation.FrustumCulling), ("hidden", Optimisation.OcclusionCulling), ("empty-faces", Optimisation.DegenerateRemoval), ("state", Optimisation.StateFiltering),
-        ("buffers", Optimisation.BufferReuse), ("sharing", Optimisation.MeshSharing), ("sight", Optimisation.LazyLoading), ("still", Optimisation.Idle),
+        ("backs", Optimisation.BackFaceCulling), ("outside", Optimisation.FrustumCulling), ("hidden", Optimisation.OcclusionCulling),
+        ("empty-faces", Optimisation.DegenerateRemoval), ("state", Optimisation.StateFiltering),
+        ("buffers", Optimisation.BufferReuse), ("sharing", Optimisation.MeshSharing), ("sight", Optimisation.LazyLoading),
+        ("still", Optimisation.Idle),
     ];
 
     private readonly Option<bool> _wireframe = new("--wireframe") { Description = "Draw only the edges of the triangles." };
@@ -21,7 +23,8 @@ internal sealed class DrawOptions
 
     private readonly Option<long?> _maxInstances = new("--instances")
     {
-        Description = $"The most instances to draw; {new CullingSettings().InstanceBudget} unless stated ({FractalLimits.MaxDrawnInstances} of one fractal with --detail 0).",
+        Description =
+        $"The most instances to draw; {new CullingSettings().InstanceBudget} unless stated ({FractalLimits.MaxDrawnInstances} of one fractal with --detail 0).",
         HelpName = "N",
         CustomParser = SharedOptions.ParseInteger(1, 100_000_000),
     };
@@ -35,7 +38,8 @@ internal sealed class DrawOptions
 
     private readonly Option<double?> _minProjectedSize = new("--detail")
     {
-        Description = "Sub-fractals that appear smaller are drawn as one copy of their base mesh: pixels, 1.5 unless stated; 0 draws every instance of every fractal.",
+        Description =
+        "Sub-fractals that appear smaller are drawn as one copy of their base mesh: pixels, 1.5 unless stated; 0 draws every instance of every fractal.",
         HelpName = "PIXELS",
         CustomParser = SharedOptions.ParseNumber(0, 1000),
     };
@@ -49,7 +53,8 @@ internal sealed class DrawOptions
 
     private readonly Option<Optimisation[]> _disabled = new("--without")
     {
-        Description = $"Do something that is left out since nothing is seen of it, for comparison: {string.Join(", ", OptimisationWords.Select(item => item.Word))}. May be given several times.",
+        Description =
+        $"Do something that is left out since nothing is seen of it, for comparison: {string.Join(", ", OptimisationWords.Select(item => item.Word))}. May be given several times.",
         HelpName = "SKIP",
         CustomParser = result => SharedOptions.ParseWords(result, OptimisationWords),
     };
@@ -59,7 +64,8 @@ internal sealed class DrawOptions
 
     public void AddTo(Command command)
     {
-        foreach (var option in (Option[])[_resolution, _projection, _shading, _wireframe, _grid, _minProjectedSize, _maxInstances, _sampleCount, _disabled])
+        foreach (var option in (Option[])[_resolution, _projection, _shading, _wireframe, _grid, _minProjectedSize, _maxInstances,
+            _sampleCount, _disabled])
         {
             command.Add(option);
         }
@@ -73,7 +79,8 @@ internal sealed class DrawOptions
     public bool IsEnabled(ParseResult result, Optimisation optimisation) => !(result.GetValue(_disabled) ?? []).Contains(optimisation);
 
     /// <summary>How to load the file, given how any command would.</summary>
-    public LoadOptions WithLoadOptions(ParseResult result, LoadOptions options) => options with { ShareModels = IsEnabled(result, Optimisation.MeshSharing) };
+    public LoadOptions WithLoadOptions(ParseResult result, LoadOptions options) =>
+        options with { ShareModels = IsEnabled(result, Optimisation.MeshSharing) };
 
     public RenderSettings Settings(ParseResult result)
     {

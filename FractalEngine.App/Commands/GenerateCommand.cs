@@ -7,7 +7,9 @@ using FractalEngine.Parsing.Meshes;
 
 namespace FractalEngine.App.Commands;
 
-/// <summary><c>generate NAME --output X.obj</c>: meshes made by a program, the stand-ins for the paper's models 1 and 2 among them.</summary>
+/// <summary>
+/// <c>generate NAME --output X.obj</c>: meshes made by a program, the stand-ins for the paper's models 1 and 2 among them.
+/// </summary>
 internal static class GenerateCommand
 {
     public static Command Create()
@@ -26,7 +28,8 @@ internal static class GenerateCommand
             HelpName = "N",
             CustomParser = SharedOptions.ParseInteger(1, MeshGenerators.MaxFaceCount),
         };
-        var command = new Command("generate", "Make a mesh by program, such as stand-ins for the paper's regular models.") { name, output, seed, faces };
+        var command = new Command("generate", "Make a mesh by program, such as stand-ins for the paper's regular models.") { name, output,
+            seed, faces };
         command.SetAction(result => Run(
             result.GetRequiredValue(name), result.GetRequiredValue(output), result.GetValue(seed) ?? 0, (int?)result.GetValue(faces)));
         return command;
@@ -34,7 +37,8 @@ internal static class GenerateCommand
 
     private static int Run(string name, string output, ulong seed, int? faces)
     {
-        var generator = MeshGenerators.Find(name) ?? throw new UsageException($"'{name}' is nothing that can be generated, expected one of: {Names()}");
+        var generator = MeshGenerators.Find(name)
+            ?? throw new UsageException($"'{name}' is nothing that can be generated, expected one of: {Names()}");
         var mesh = generator.Create(seed, faces);
         AtomicFile.Write(output, stream => ObjWriter.Write(mesh, name, stream));
         Console.WriteLine(mesh.FaceCount);

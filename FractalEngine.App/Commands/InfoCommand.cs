@@ -13,7 +13,8 @@ internal static class InfoCommand
     {
         var shared = new SharedOptions();
         var json = new Option<bool>("--json") { Description = "Write JSON." };
-        var command = new Command("info", "Count what a file holds, measure it, and time how long it takes until it could be drawn.") { json };
+        var command =
+            new Command("info", "Count what a file holds, measure it, and time how long it takes until it could be drawn.") { json };
         shared.AddTo(command);
         command.SetAction(result => Run(result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetValue(json)));
         return command;

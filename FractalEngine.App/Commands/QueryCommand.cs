@@ -28,7 +28,8 @@ internal static class QueryCommand
         var maxDistance = NonNegativeOption("--within", "Look no farther than so many units.", "R");
         var epsilon = NonNegativeOption("--epsilon", "Let answers be farther than the nearest by up to the factor 1 + E.", "E");
         var json = new Option<bool>("--json") { Description = "Write an array of JSON objects instead of lines." };
-        var command = new Command("query", "Find the point of a file's surface nearest to each of many positions.") { points, collider, maxDistance, epsilon, json };
+        var command = new Command("query", "Find the point of a file's surface nearest to each of many positions.") { points, collider,
+            maxDistance, epsilon, json };
         shared.AddTo(command);
         command.SetAction(result => Run(
             result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetRequiredValue(points),
@@ -99,7 +100,8 @@ internal static class QueryCommand
         return text.Append(json ? "]\n" : "");
     }
 
-    private static void WriteReport(LoadedFile file, SceneCollider collider, int queryCount, QueryContext context, TimeSpan buildTime, TimeSpan queryTime)
+    private static void WriteReport(LoadedFile file, SceneCollider collider, int queryCount, QueryContext context, TimeSpan buildTime,
+        TimeSpan queryTime)
     {
         var summary = FileSummary.Of(file, TimeSpan.Zero);
         Console.Error.WriteLine(string.Create(
@@ -114,8 +116,10 @@ internal static class QueryCommand
     }
 
     private static string FormatText(ClosestPoint closest, long faceTests, bool json) => json
-        ? string.Create(CultureInfo.InvariantCulture, $"{{\"distance\": {closest.Distance:R}, \"point\": [{FormatText(closest.Point, ", ")}], \"normal\": [{FormatText(closest.Normal, ", ")}], \"faceTests\": {faceTests}}}")
-        : string.Create(CultureInfo.InvariantCulture, $"{closest.Distance:R} {FormatText(closest.Point)} {FormatText(closest.Normal)} {faceTests}");
+        ? string.Create(CultureInfo.InvariantCulture,
+        $"{{\"distance\": {closest.Distance:R}, \"point\": [{FormatText(closest.Point, ", ")}], \"normal\": [{FormatText(closest.Normal, ", ")}], \"faceTests\": {faceTests}}}")
+        : string.Create(CultureInfo.InvariantCulture,
+        $"{closest.Distance:R} {FormatText(closest.Point)} {FormatText(closest.Normal)} {faceTests}");
 
     private static string FormatText(Vector vector, string separator = " ") =>
         string.Create(CultureInfo.InvariantCulture, $"{vector.X:R}{separator}{vector.Y:R}{separator}{vector.Z:R}");

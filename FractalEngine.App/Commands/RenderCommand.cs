@@ -36,10 +36,13 @@ internal static class RenderCommand
 
     /// <summary>Draws a file into a picture.</summary>
     public static int Run(
-        string path, LoadOptions options, string output, (int Width, int Height) size, Projection? projection, RenderSettings settings, double time = 0)
+        string path, LoadOptions options, string output, (int Width, int Height) size, Projection? projection, RenderSettings settings,
+        double time = 0)
     {
         var file = ConsoleLoader.Load(path, options);
-        var scene = projection is { } requestedProjection ? file.Scene with { Scene = file.Scene.Scene with { Projection = requestedProjection } } : file.Scene;
+        var scene = projection is { } requestedProjection
+            ? file.Scene with { Scene = file.Scene.Scene with { Projection = requestedProjection } }
+            : file.Scene;
         // A camera that the scene leaves open frames it as it is at first, so that pictures of several times show the same.
         var view = View.Of(scene, (double)size.Width / size.Height);
         var drawable = DrawableScene.Prepare(time > 0 ? Simulate(scene, time) : scene, settings);

@@ -105,7 +105,8 @@ internal sealed class SharedOptions
 
             if (values.Count == countBefore)
             {
-                result.AddError($"{NameOf(result)}: expected one of {string.Join(", ", words.ToArray().Select(item => item.Word))}, not '{token.Value}'");
+                result.AddError(
+                    $"{NameOf(result)}: expected one of {string.Join(", ", words.ToArray().Select(item => item.Word))}, not '{token.Value}'");
                 return [];
             }
         }
@@ -146,7 +147,8 @@ internal sealed class SharedOptions
     /// <summary>How what is nearest is found.</summary>
     public static Option<ColliderKind?> ColliderOption(string description)
     {
-        (string Word, ColliderKind Kind)[] words = [.. Enum.GetValues<ColliderKind>().Select(kind => (SceneParser.GetColliderName(kind), kind))];
+        (string Word, ColliderKind Kind)[] words =
+            [.. Enum.GetValues<ColliderKind>().Select(kind => (SceneParser.GetColliderName(kind), kind))];
         return new("--collider")
         {
             Description = description,

@@ -24,12 +24,16 @@ internal static class SimulateCommand
     public static Command Create()
     {
         var shared = new SharedOptions();
-        var seconds = PositiveOption("--seconds", string.Create(CultureInfo.InvariantCulture, $"How long to simulate; {DefaultSeconds} unless stated."), "SECONDS");
+        var seconds =
+            PositiveOption("--seconds",
+            string.Create(CultureInfo.InvariantCulture, $"How long to simulate; {DefaultSeconds} unless stated."), "SECONDS");
         var step = PositiveOption("--step", "The length of a step; a sixtieth of a second unless stated.", "SECONDS");
         var collider = SharedOptions.ColliderOption("How all bodies find what they touch, whatever the scene says.");
         var output = SharedOptions.OutputOption(".csv", "The table to write: a row for each body and step; stdout unless stated.");
         output.Required = false;
-        var command = new Command("simulate", "Let the physics objects of a scene fall, and write where they are after each step.") { seconds, step, collider, output };
+        var command =
+            new Command("simulate", "Let the physics objects of a scene fall, and write where they are after each step.") { seconds, step,
+            collider, output };
         shared.AddTo(command);
         command.SetAction(result => Run(
             result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetValue(seconds) ?? DefaultSeconds,
@@ -60,7 +64,9 @@ internal static class SimulateCommand
         var steps = Math.Max(0, Math.Ceiling((seconds / step) - StepTolerance));
         if (steps > MaxSteps)
         {
-            throw new UsageException(string.Create(CultureInfo.InvariantCulture, $"{seconds:R} s are {steps:G4} steps of {step:R} s, and more than {MaxSteps} are not made"));
+            throw new UsageException(
+                string.Create(CultureInfo.InvariantCulture,
+                $"{seconds:R} s are {steps:G4} steps of {step:R} s, and more than {MaxSteps} are not made"));
         }
 
         var file = ConsoleLoader.Load(path, options);

@@ -23,7 +23,8 @@ internal static class ViewCommand
         draw.AddTo(command);
         var trailLength = new Option<long?>("--trail")
         {
-            Description = $"The length of the queue with which key T follows the paper's way into a fractal; {DefaultTrailLength} unless stated.",
+            Description =
+            $"The length of the queue with which key T follows the paper's way into a fractal; {DefaultTrailLength} unless stated.",
             HelpName = "N",
             CustomParser = SharedOptions.ParseInteger(1, 1000),
         };

@@ -61,7 +61,9 @@ internal sealed class BackgroundLoad
         }
         catch (SourceException exception)
         {
-            (exitCode, error) = (exception.Diagnostic.IsLimitExceeded ? ExitCode.OverLimit : ExitCode.BadInput, exception.Diagnostic.ToString());
+            (exitCode, error) = (exception.Diagnostic.IsLimitExceeded
+                ? ExitCode.OverLimit
+                : ExitCode.BadInput, exception.Diagnostic.ToString());
         }
         catch (FractalLimitException exception)
         {

@@ -28,7 +28,8 @@ internal sealed class CameraControls
     // Of the distance to what is nearest.
     private const double NearPlaneFraction = 0.02;
 
-    // Sub-fractals around the one that the camera is in, of which those too large to be told are left out; of maps that hardly shrink there are many.
+    // Sub-fractals around the one that the camera is in, of which those too large to be told are left out; of maps that hardly shrink there
+    // are many.
     private const int MaxAncestors = 1000;
 
     // A key that is only tapped, and may be up again before time is told, moves as far as one that is held so long.
@@ -51,7 +52,8 @@ internal sealed class CameraControls
     /// <param name="projection">Likewise.</param>
     /// <param name="orthographicHeight">Likewise; null where it follows the camera.</param>
     /// <param name="fractal">A fractal that the camera can go into as deep as it likes; null for none.</param>
-    public CameraControls(BoundingBox bounds, Camera camera, Projection projection, double? orthographicHeight, FractalLocation? fractal = null)
+    public CameraControls(BoundingBox bounds, Camera camera, Projection projection, double? orthographicHeight,
+        FractalLocation? fractal = null)
     {
         _fractal = fractal;
         _sceneBounds = bounds.IsEmpty ? new(-Vector.One, Vector.One) : bounds;
@@ -62,7 +64,8 @@ internal sealed class CameraControls
     }
 
     /// <summary>Where the scene is seen from now.</summary>
-    public Camera Camera => _address is null ? _pose.Camera : _pose.Camera with { Position = _address.WorldPosition(_fractal!.ObjectToWorld) };
+    public Camera Camera =>
+        _address is null ? _pose.Camera : _pose.Camera with { Position = _address.WorldPosition(_fractal!.ObjectToWorld) };
 
     /// <summary>How deep the camera is in the fractal: the levels that it has gone down.</summary>
     public int Depth => _address?.Depth ?? 0;
@@ -277,7 +280,8 @@ internal sealed class CameraControls
         var logUnit = _address.LogUnit;
         _address.Move(camera.Position);
         _focusDistance *= Math.Exp(logUnit - _address.LogUnit);
-        _pose = _pose with { Camera = camera with { Position = Vector.Zero }, MoveCount = _pose.MoveCount + (camera.Position == Vector.Zero ? 0 : 1) };
+        _pose = _pose with { Camera = camera with { Position = Vector.Zero }, MoveCount = _pose.MoveCount
+            + (camera.Position == Vector.Zero ? 0 : 1) };
     }
 
     /// <summary>Tells where the camera is relative to the fractal, where there is one.</summary>

@@ -34,7 +34,8 @@ internal static class ColliderSwitch
 
     private static bool TrySwitchTo(PhysicsWorld world, LoadedScene scene, ColliderKind kind, out string reason)
     {
-        var models = scene.Objects.Where(static placed => placed.Declaration is not PhysicsObject).Select(static placed => placed.Model).Distinct();
+        var models = scene.Objects.Where(static placed => placed.Declaration is not PhysicsObject).Select(static placed => placed.Model)
+            .Distinct();
         var faces = models.Aggregate(BigInteger.Zero, (sum, model) => sum + (model.FaceCount ?? MaxExpandedFaces + 1));
         if (kind is ColliderKind.Hierarchy or ColliderKind.BoundingBox or ColliderKind.Simple && faces > MaxExpandedFaces)
         {

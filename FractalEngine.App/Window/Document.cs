@@ -20,7 +20,8 @@ internal sealed class Document : IDisposable
         (File, FirstSightLoader) = (file, new(preparation, window.Wake));
         var (scene, drawable) = (file.Scene.Scene, preparation.Scene);
         var camera = View.Of(file.Scene, window.Aspect).Camera;
-        CameraControls = new(file.Scene.Bounds, camera, options.Projection ?? scene.Projection, scene.OrthographicHeight, FindFractal(drawable));
+        CameraControls = new(file.Scene.Bounds, camera, options.Projection ?? scene.Projection, scene.OrthographicHeight,
+            FindFractal(drawable));
         Trail = file.Scene.Objects is [{ Model: FractalModel { Fractal: var fractal } }] ? new(fractal, options.TrailLength) : null;
         Renderer = new(window, drawable);
         Physics = new(file.Scene, window.Wake, alwaysBuild: !options.Settings.LazyLoading);
@@ -113,7 +114,10 @@ internal sealed class Document : IDisposable
     }
 
     /// <summary>Where the scene is seen from: the camera's place, or the player's eyes.</summary>
-    public Camera Camera => Physics is { IsWalking: true, Character: { } walker } ? WalkControls.EyeCamera(walker, Physics.InterpolationAlpha) : CameraControls.Camera;
+    public Camera Camera =>
+        Physics is { IsWalking: true, Character: { } walker }
+        ? WalkControls.EyeCamera(walker, Physics.InterpolationAlpha)
+        : CameraControls.Camera;
 
     /// <summary>The scene as it would be saved: with the present camera and projection.</summary>
     public Scene GetCurrentScene() => File.Scene.Scene with
@@ -132,5 +136,7 @@ internal sealed class Document : IDisposable
 
     /// <summary>The fractal, where it is all there is: the camera can then go into it as deep as it likes.</summary>
     private static FractalLocation? FindFractal(DrawableScene drawable) =>
-        drawable.Source.Objects is [{ Model: FractalModel, ObjectToWorld: var map }] && drawable.Objects[0].Model.LodHierarchy is { } table ? new(0, table, map) : null;
+        drawable.Source.Objects is [{ Model: FractalModel, ObjectToWorld: var map }] && drawable.Objects[0].Model.LodHierarchy is { } table
+        ? new(0, table, map)
+        : null;
 }

@@ -4,17 +4,23 @@ using FractalEngine.Render.Ui;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>What the last picture took and what was left out, as key I shows it. Plain values: counted and written out only where it is shown.</summary>
+/// <summary>
+/// What the last picture took and what was left out, as key I shows it. Plain values: counted and written out only where it is shown.
+/// </summary>
 /// <param name="Renderer">Drew it.</param>
 /// <param name="Culling">What was left out of its instances; null for nothing.</param>
 /// <param name="DrawTime">How long it took to draw.</param>
 /// <param name="Depth">Levels that the camera has gone down.</param>
 /// <param name="Log10Magnification">Decimal logarithm.</param>
 /// <param name="Physics">Has or has not built colliders.</param>
-internal readonly record struct FrameReport(SceneRenderer Renderer, CullingSettings? Culling, TimeSpan DrawTime, int Depth, double Log10Magnification, ScenePhysics Physics)
+internal readonly record struct FrameReport(SceneRenderer Renderer, CullingSettings? Culling, TimeSpan DrawTime, int Depth,
+    double Log10Magnification, ScenePhysics Physics)
 {
     /// <summary>Two panels.</summary>
-    /// <param name="frames">Drawn so far; shown again without drawing, below another text; and not shown since nothing had changed, that a loop of 60 a second would have drawn.</param>
+    /// <param name="frames">
+    /// Drawn so far; shown again without drawing, below another text; and not shown since nothing had changed, that a loop of 60 a second
+    /// would have drawn.
+    /// </param>
     public IReadOnlyList<OverlayPanel> ToPanels((long Drawn, long ShownAgain, long NotNeeded) frames)
     {
         var statistics = Renderer.Statistics;
@@ -41,7 +47,9 @@ internal readonly record struct FrameReport(SceneRenderer Renderer, CullingSetti
                 ("empty faces", Invariant($"{optimisations.DegenerateTriangleCount:N0}")),
                 ("not in sight yet", Invariant($"{optimisations.PlaceholderCount:N0} of {optimisations.ModelCount:N0} models")),
                 ("not asked yet", Invariant($"{colliders.All - colliders.Built:N0} of {colliders.All:N0} colliders")),
-                ("shared", Invariant($"{optimisations.ObjectCount:N0} objects, {optimisations.ModelCount:N0} files, {optimisations.TextureCount:N0} textures")),
+                ("shared",
+                Invariant(
+                    $"{optimisations.ObjectCount:N0} objects, {optimisations.ModelCount:N0} files, {optimisations.TextureCount:N0} textures")),
                 ("uploads", Invariant($"{optimisations.Uploads.Skipped:N0}; {optimisations.Uploads.Performed:N0} made")),
                 ("state changes", Invariant($"{optimisations.StateChanges.Skipped:N0}; {optimisations.StateChanges.Performed:N0} made")),
                 ("pictures at 60/s", Invariant($"{frames.NotNeeded:N0}; {frames.Drawn:N0} drawn, {frames.ShownAgain:N0} shown again")),

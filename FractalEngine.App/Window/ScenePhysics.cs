@@ -48,7 +48,8 @@ internal sealed class ScenePhysics
     public ScenePhysics(LoadedScene scene, Action completed, bool alwaysBuild = false)
     {
         (_scene, _sceneSize) = (scene, scene.Bounds.IsEmpty ? 1 : scene.Bounds.Diagonal);
-        _colliderCount = scene.Objects.Where(static placed => placed.Declaration is not PhysicsObject).Select(static placed => placed.Model).Distinct().Count();
+        _colliderCount = scene.Objects.Where(static placed => placed.Declaration is not PhysicsObject).Select(static placed => placed.Model)
+            .Distinct().Count();
         _worldTask = Task.Run(() =>
         {
             var world = new PhysicsWorld(scene);
@@ -195,7 +196,8 @@ internal sealed class ScenePhysics
             return "there is no room for a ball";
         }
 
-        World.Add(new(camera.Position + (2 * radius * camera.LocalAxes.V3), radius) { Restitution = SphereRestitution, Friction = SphereFriction });
+        World.Add(new(camera.Position + (2 * radius * camera.LocalAxes.V3), radius) { Restitution = SphereRestitution,
+            Friction = SphereFriction });
         return "dropped a ball";
     }
 
@@ -308,7 +310,9 @@ internal sealed class ScenePhysics
         (distance, problem) = (double.PositiveInfinity, "");
         try
         {
-            distance = World.TryFindClosest(position, World.ColliderOverride ?? ColliderKind.Exact, out var closest) ? closest.Distance : distance;
+            distance = World.TryFindClosest(position, World.ColliderOverride ?? ColliderKind.Exact, out var closest)
+                ? closest.Distance
+                : distance;
             return true;
         }
         catch (Exception exception) when (exception is ColliderMismatchException or FractalLimitException)

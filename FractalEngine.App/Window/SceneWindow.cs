@@ -6,7 +6,8 @@ namespace FractalEngine.App.Window;
 
 /// <summary>
 /// The window: loads a file in the background, draws when something has changed, and sleeps otherwise. What keys and mouse do to
-/// the camera is <see cref="CameraControls"/>, how pictures are drawn is <see cref="WindowRenderer"/>; here are the loop, and the keys that do something else.
+/// the camera is <see cref="CameraControls"/>, how pictures are drawn is <see cref="WindowRenderer"/>; here are the loop, and the keys that
+/// do something else.
 /// </summary>
 internal sealed class SceneWindow : IDisposable
 {
@@ -210,17 +211,21 @@ internal sealed class SceneWindow : IDisposable
                 break;
             case Key.T when _document is { Trail: { } trail } document:
                 document.ToggleTrail();
-                _overlay.ShowMessage(document.IsTrailEnabled ? $"m becomes m·t, with a trail of {trail.Length}" : "parts of the fractal are chosen from all its levels", _clock.Elapsed);
+                _overlay.ShowMessage(document.IsTrailEnabled
+                    ? $"m becomes m·t, with a trail of {trail.Length}"
+                    : "parts of the fractal are chosen from all its levels", _clock.Elapsed);
                 _needsDraw = true;
                 break;
             case Key.F12 when _document is { } document:
-                ShowMessage(WindowFiles.SaveScreenshot(_windowRenderer.Capture(document, _settings, _window.Width, _window.Height), document.File.Path));
+                ShowMessage(WindowFiles.SaveScreenshot(_windowRenderer.Capture(document, _settings, _window.Width, _window.Height),
+                    document.File.Path));
                 _needsDraw = true;
                 break;
             case Key.S when pressed.Modifiers.HasFlag(KeyModifiers.Control) && _document is { } document:
                 ShowMessage(WindowFiles.SaveScene(document));
                 break;
-            case var key when !pressed.Modifiers.HasFlag(KeyModifiers.Control) && _document is { } document && PhysicsKeys.Apply(document, key) is { } message:
+            case var key when !pressed.Modifiers.HasFlag(KeyModifiers.Control) && _document is { } document
+            && PhysicsKeys.Apply(document, key) is { } message:
                 _lastAdvance = _clock.Elapsed;
                 _overlay.PhysicsStatus = document.Physics.StatusText;
                 _overlay.ShowMessage(message, _clock.Elapsed);
@@ -295,7 +300,9 @@ internal sealed class SceneWindow : IDisposable
         {
             document.FirstSightLoader.Start(_windowRenderer.LatestView!, _window.Aspect);
             var controls = document.CameraControls;
-            _overlay.SetReport(new(document.Renderer, usedSettings.Culling, _clock.Elapsed - start, controls.Depth, controls.Log10Magnification, document.Physics));
+            _overlay.SetReport(
+                new(document.Renderer, usedSettings.Culling, _clock.Elapsed - start, controls.Depth, controls.Log10Magnification,
+                document.Physics));
         }
     }
 

@@ -76,8 +76,11 @@ internal sealed class WalkControls
     {
         var (right, _, forward) = Direction.LocalAxes;
         // Looking down does not slow down.
-        var groundForward = ProjectToGround(forward, up) is var groundDirection && groundDirection != Vector.Zero ? groundDirection : ProjectToGround(Direction.LocalAxes.V2, up);
-        var input = ((Axis(Key.W, Key.Up) - Axis(Key.S, Key.Down)) * groundForward) + ((Axis(Key.D, Key.Right) - Axis(Key.A, Key.Left)) * ProjectToGround(right, up));
+        var groundForward = ProjectToGround(forward, up) is var groundDirection && groundDirection != Vector.Zero
+            ? groundDirection
+            : ProjectToGround(Direction.LocalAxes.V2, up);
+        var input = ((Axis(Key.W, Key.Up) - Axis(Key.S, Key.Down)) * groundForward)
+            + ((Axis(Key.D, Key.Right) - Axis(Key.A, Key.Left)) * ProjectToGround(right, up));
         return UnitOrZero(input);
     }
 

@@ -21,7 +21,9 @@ internal static class WindowFiles
         return $"saved {output}";
     });
 
-    /// <summary>Saves the scene with the present camera: into its own file, or beside a mesh or fractal, where it overwrites no other scene.</summary>
+    /// <summary>
+    /// Saves the scene with the present camera: into its own file, or beside a mesh or fractal, where it overwrites no other scene.
+    /// </summary>
     public static string SaveScene(Document document) => Try(() =>
     {
         var output = Path.ChangeExtension(document.File.Path, ".sdo");

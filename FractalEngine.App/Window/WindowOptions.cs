@@ -22,6 +22,9 @@ internal sealed record WindowOptions
     /// <summary>Width and height of the contents, pixels.</summary>
     public (int Width, int Height) Size { get; init; } = (1280, 720);
 
-    /// <summary>Draws nothing while nothing has changed or nobody sees the window. Where false, 60 pictures a second are drawn all the same, for comparison.</summary>
+    /// <summary>
+    /// Draws nothing while nothing has changed or nobody sees the window. Where false, 60 pictures a second are drawn all the same, for
+    /// comparison.
+    /// </summary>
     public bool IdleWhenUnchanged { get; init; } = true;
 }

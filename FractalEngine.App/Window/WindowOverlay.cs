@@ -67,19 +67,28 @@ internal sealed class WindowOverlay
     /// <summary>Everything that is written now.</summary>
     public IReadOnlyList<OverlayPanel> Panels =>
     [
-        .. PhysicsStatus is { } physics ? [new OverlayPanel(OverlayAnchor.TopLeft, [new OverlayLine(physics, null, OverlayTone.Dim)])] : Array.Empty<OverlayPanel>(),
+        .. PhysicsStatus is { } physics
+        ? [new OverlayPanel(OverlayAnchor.TopLeft, [new OverlayLine(physics, null, OverlayTone.Dim)])]
+        : Array.Empty<OverlayPanel>(),
         .. ShowsKeys ? [KeysPanel] : Array.Empty<OverlayPanel>(),
         .. ShowsStatistics && _report is { } report ? report.ToPanels(FrameCounts) : [],
         .. Error is { } error
-            ? [new OverlayPanel(OverlayAnchor.Centre, [.. error.Split('\n').Select(line => new OverlayLine(line, null, OverlayTone.Warning))])]
-            : _description is { } description ? [BudgetNotice is { } budgetNotice ? description with { Lines = description.Lines.Add(budgetNotice) } : description] : Array.Empty<OverlayPanel>(),
-        .. Progress is { } progress ? [OverlayPanel.OfProgress($"loading {progress.Text}".TrimEnd(), progress.Fraction)] : Array.Empty<OverlayPanel>(),
+            ? [new OverlayPanel(OverlayAnchor.Centre,
+            [.. error.Split('\n').Select(line => new OverlayLine(line, null, OverlayTone.Warning))])]
+            : _description is { } description
+            ? [BudgetNotice is { } budgetNotice ? description with { Lines = description.Lines.Add(budgetNotice) } : description]
+            : Array.Empty<OverlayPanel>(),
+        .. Progress is { } progress
+        ? [OverlayPanel.OfProgress($"loading {progress.Text}".TrimEnd(), progress.Fraction)]
+        : Array.Empty<OverlayPanel>(),
         .. _message is { } message ? [message] : Array.Empty<OverlayPanel>(),
     ];
 
     /// <summary>Says that parts are coarser than asked for; null where they are not.</summary>
-    private OverlayLine? BudgetNotice => _report is { Culling: { } detail, Renderer.MinProjectedSize: var size } && size > detail.MinProjectedSize
-        ? new(string.Create(CultureInfo.InvariantCulture, $"more than {detail.InstanceBudget:N0} instances: parts below {size:F1} pixels are drawn as one"), null, OverlayTone.Accent)
+    private OverlayLine? BudgetNotice =>
+        _report is { Culling: { } detail, Renderer.MinProjectedSize: var size } && size > detail.MinProjectedSize
+        ? new(string.Create(CultureInfo.InvariantCulture,
+        $"more than {detail.InstanceBudget:N0} instances: parts below {size:F1} pixels are drawn as one"), null, OverlayTone.Accent)
         : null;
 
     /// <summary>Tells what is shown from now on.</summary>

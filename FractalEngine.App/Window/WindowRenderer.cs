@@ -5,8 +5,8 @@ using FractalEngine.Render.Images;
 namespace FractalEngine.App.Window;
 
 /// <summary>
-/// Draws what a window shows. While the camera moves, pictures are coarser and one behind: the instances of the next are chosen while one is drawn. When it
-/// stands, the full picture follows.
+/// Draws what a window shows. While the camera moves, pictures are coarser and one behind: the instances of the next are chosen while one
+/// is drawn. When it stands, the full picture follows.
 /// </summary>
 /// <param name="frame">Of the window.</param>
 internal sealed class WindowRenderer(FrameRenderer frame)
@@ -28,7 +28,8 @@ internal sealed class WindowRenderer(FrameRenderer frame)
 
     /// <summary>Pictures drawn so far, shown again without drawing, and neither.</summary>
     /// <param name="frameCount">How many there would be if each were drawn.</param>
-    public (long Drawn, long ShownAgain, long NotNeeded) CountFrames(long frameCount) => (_drawnCount, _presentedAgainCount, Math.Max(0, frameCount - _drawnCount - _presentedAgainCount));
+    public (long Drawn, long ShownAgain, long NotNeeded) CountFrames(long frameCount) =>
+        (_drawnCount, _presentedAgainCount, Math.Max(0, frameCount - _drawnCount - _presentedAgainCount));
 
     /// <summary>Forgets the views of a document that is no longer shown.</summary>
     public void Reset() => (_nextView, _shownView, LatestView) = (null, null, null);
@@ -74,7 +75,10 @@ internal sealed class WindowRenderer(FrameRenderer frame)
         }
     }
 
-    /// <summary>The scene alone in full detail: as the window shows it while the camera moves, else as the camera is now. What the window shows must be drawn again.</summary>
+    /// <summary>
+    /// The scene alone in full detail: as the window shows it while the camera moves, else as the camera is now. What the window shows must
+    /// be drawn again.
+    /// </summary>
     /// <param name="document">Loaded.</param>
     /// <param name="settings">Of pictures that stand.</param>
     /// <param name="width">Pixels.</param>

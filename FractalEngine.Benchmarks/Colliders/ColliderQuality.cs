@@ -16,7 +16,8 @@ internal static class ColliderQuality
     public static double[] Oracle(Mesh faces, Vector[] positions)
     {
         var simple = new SimpleCollider(faces);
-        return [.. positions.AsParallel().AsOrdered().Select(position => Distance(simple, position, double.PositiveInfinity, new QueryContext()))];
+        return [.. positions.AsParallel().AsOrdered()
+            .Select(position => Distance(simple, position, double.PositiveInfinity, new QueryContext()))];
     }
 
     /// <summary>Builds a collider and asks all positions.</summary>

@@ -11,12 +11,13 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Benchmarks.Colliders;
 
 /// <summary>
-/// What do the colliders of fractals cost, and how wrong are they? One row for each fractal, collider and kind of position: face and bound tests
-/// and time a query, the largest error, and the collisions that were missed.
+/// What do the colliders of fractals cost, and how wrong are they? One row for each fractal, collider and kind of position: face and bound
+/// tests and time a query, the largest error, and the collisions that were missed.
 /// </summary>
 /// <remarks>
 /// Times are the smallest of some rounds, in which the colliders take turns, on one thread; the ratio is to the paper's descent on
-/// the same positions. The reference for errors is a hierarchy over the faces of the expanded fractal where they are not too many, else the exact collider.
+/// the same positions. The reference for errors is a hierarchy over the faces of the expanded fractal where they are not too many, else the
+/// exact collider.
 /// </remarks>
 internal sealed class ColliderTable(int queries, int rounds, TextWriter output)
 {
@@ -49,10 +50,13 @@ internal sealed class ColliderTable(int queries, int rounds, TextWriter output)
             {
                 var random = new Random(1);
                 var positions = Enumerable.Range(0, queries).Select(_ => make(random, fractal)).ToArray();
-                Write(name, kind, fractal, colliders, positions, kind == "far" ? AnswerErrors.Reach * fractal.Bounds.Diagonal : double.PositiveInfinity);
+                Write(name, kind, fractal, colliders, positions, kind == "far"
+                    ? AnswerErrors.Reach * fractal.Bounds.Diagonal
+                    : double.PositiveInfinity);
             }
 
-            output.WriteLine(Line($"{name,-26}{"build",-10}{"exact",-11}{build.Elapsed.TotalMilliseconds,27:F2} ms, {exact.StorageBytes / 1024.0:F1} KB"));
+            output.WriteLine(
+                Line($"{name,-26}{"build",-10}{"exact",-11}{build.Elapsed.TotalMilliseconds,27:F2} ms, {exact.StorageBytes / 1024.0:F1} KB"));
         }
     }
 
@@ -86,7 +90,9 @@ internal sealed class ColliderTable(int queries, int rounds, TextWriter output)
     private static string Line(FormattableString text) => text.ToString(CultureInfo.InvariantCulture);
 
     private double[] Distances(Collider collider, Vector[] positions, double within) =>
-        [.. positions.Select(position => collider.TryFindClosest(position, within, _record, out var closest) ? closest.Distance : double.PositiveInfinity)];
+        [.. positions.Select(position => collider.TryFindClosest(position, within, _record, out var closest)
+        ? closest.Distance
+        : double.PositiveInfinity)];
 
     private (double Faces, double Bounds) Cost(Collider collider, Vector[] positions, double within)
     {

@@ -26,7 +26,8 @@ public class FractalColliderBenchmarks : IMeasuresMore
     private FractalCollider _descent = null!;
     private ExactFractalCollider _exact = null!;
 
-    [Params("sierpinski:5", "sierpinski:8", "tetrahedron:20", "menger:4", "menger:12", "tree:6", "tree:8", "tree:20", "appendix-b:3", "appendix-b:5", "terrain:7", "terrain:8")]
+    [Params("sierpinski:5", "sierpinski:8", "tetrahedron:20", "menger:4", "menger:12", "tree:6", "tree:8", "tree:20", "appendix-b:3",
+        "appendix-b:5", "terrain:7", "terrain:8")]
     public string Shape { get; set; } = "";
 
     [GlobalSetup]

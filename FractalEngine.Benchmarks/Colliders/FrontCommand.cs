@@ -15,7 +15,8 @@ internal static class FrontCommand
     public static int Run(ReadOnlySpan<string> args)
     {
         var (isQuick, folder, names) = (false, CommandWords.DefaultFolder, new List<string>());
-        if (!new CommandWords(Usage).Flag("--quick", () => isQuick = true).Value("--output", value => folder = value).Names(FrontShape.IsName, names).TryRead(args))
+        if (!new CommandWords(Usage).Flag("--quick", () => isQuick = true).Value("--output", value => folder = value)
+            .Names(FrontShape.IsName, names).TryRead(args))
         {
             return 2;
         }

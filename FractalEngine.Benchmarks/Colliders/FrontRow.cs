@@ -15,7 +15,8 @@ namespace FractalEngine.Benchmarks.Colliders;
 /// <param name="Epsilon">Of its queries.</param>
 /// <param name="Bytes">Of the collider, and of the faces it stands on.</param>
 /// <param name="BuildMilliseconds">With the expansion, where it needs one.</param>
-internal sealed record FrontRow(string Name, string? Knob, double? Value, Collider Collider, double Epsilon, long Bytes, double BuildMilliseconds)
+internal sealed record FrontRow(string Name, string? Knob, double? Value, Collider Collider, double Epsilon, long Bytes,
+    double BuildMilliseconds)
 {
     private static readonly double[] Epsilons = [0, 0.01, 0.1, 0.5, 1];
     private static readonly int[] Widths = [1, 2, 4, 8, 16, 32, 64];

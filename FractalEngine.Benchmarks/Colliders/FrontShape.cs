@@ -8,7 +8,9 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Benchmarks.Colliders;
 
-/// <summary>A shape that colliders of meshes and of fractals can be compared on; where its faces do not fit into memory, only those of fractals.</summary>
+/// <summary>
+/// A shape that colliders of meshes and of fractals can be compared on; where its faces do not fit into memory, only those of fractals.
+/// </summary>
 /// <param name="Name">Short, for tables and files.</param>
 /// <param name="Fractal">Null for a mesh.</param>
 /// <param name="Faces">All of them; of a fractal, expanded; null where there are more than <see cref="MostFaces"/>.</param>
@@ -23,14 +25,16 @@ internal sealed record FrontShape(string Name, Fractal? Fractal, Mesh? Faces, do
     /// <summary>The shapes unless others are named; a number is the depth of a fractal, or the faces of a mesh.</summary>
     public static string[] Default { get; } =
     [
-        "appendix-b:3", "menger:4", "terrain:8", "tree:7", "sierpinski:5", "tetrahedron:8", "fern:3", "romanesco:3", "diamond:3", "shell", "snowflake", "tree-leaves", "appendix-b-structure:4",
+        "appendix-b:3", "menger:4", "terrain:8", "tree:7", "sierpinski:5", "tetrahedron:8", "fern:3", "romanesco:3", "diamond:3", "shell",
+        "snowflake", "tree-leaves", "appendix-b-structure:4",
         "spaceship-interior:200000", "tree-stump:200000", "menger-40", "googol", "infinite-menger",
     ];
 
     /// <summary>The same with fewer faces: at most some 300,000.</summary>
     public static string[] Quick { get; } =
     [
-        "appendix-b:3", "menger:3", "terrain:7", "tree:6", "sierpinski:5", "tetrahedron:8", "fern:2", "romanesco:2", "spaceship-interior:50000", "tree-stump:50000", "menger-40", "infinite-menger",
+        "appendix-b:3", "menger:3", "terrain:7", "tree:6", "sierpinski:5", "tetrahedron:8", "fern:2", "romanesco:2",
+        "spaceship-interior:50000", "tree-stump:50000", "menger-40", "infinite-menger",
     ];
 
     /// <summary>The diagonal of the box: what errors are parts of.</summary>
@@ -52,7 +56,10 @@ internal sealed record FrontShape(string Name, Fractal? Fractal, Mesh? Faces, do
         var name = text.Split(':')[0];
         if (Meshes.Contains(name))
         {
-            return new(name, null, MeshGenerators.Create(name, 1, text == name ? null : int.Parse(text[(name.Length + 1)..], NumberStyles.None, CultureInfo.InvariantCulture)), 0);
+            return new(name, null,
+                MeshGenerators.Create(name, 1, text == name
+                ? null
+                : int.Parse(text[(name.Length + 1)..], NumberStyles.None, CultureInfo.InvariantCulture)), 0);
         }
 
         var fractal = FractalCase.Parse(text).Fractal;

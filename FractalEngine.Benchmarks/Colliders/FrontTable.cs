@@ -7,12 +7,13 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Benchmarks.Colliders;
 
 /// <summary>
-/// Which collider for which error? A row for each shape, kind of position, collider and place of its knob: time and tests a query, errors, collisions
-/// missed, bytes.
+/// Which collider for which error? A row for each shape, kind of position, collider and place of its knob: time and tests a query, errors,
+/// collisions missed, bytes.
 /// </summary>
 /// <remarks>
-/// The oracle looks at every face (<see cref="SimpleCollider"/>); shapes with too many have no errors. Times are the smallest of some rounds, in which all rows of a shape take turns, on one thread. Slow
-/// rows are timed on the first positions only; tests and errors are those of all. Caches are warm. Only times differ from run to run.
+/// The oracle looks at every face (<see cref="SimpleCollider"/>); shapes with too many have no errors. Times are the smallest of some
+/// rounds, in which all rows of a shape take turns, on one thread. Slow rows are timed on the first positions only; tests and errors are
+/// those of all. Caches are warm. Only times differ from run to run.
 /// </remarks>
 /// <param name="queries">Of each kind.</param>
 /// <param name="rounds">For times.</param>
@@ -36,7 +37,9 @@ internal sealed class FrontTable(int queries, int rounds, CsvTable table)
     public TimeSpan WarmUp { get; init; } = TimeSpan.FromSeconds(1);
 
     /// <summary>Adds the rows of a shape.</summary>
-    /// <exception cref="InvalidDataException">A collider broke its promise: an exact one erred, one with ε by more than it, or one found something nearer than every face.</exception>
+    /// <exception cref="InvalidDataException">
+    /// A collider broke its promise: an exact one erred, one with ε by more than it, or one found something nearer than every face.
+    /// </exception>
     public void Add(FrontShape shape) => Add(shape, FrontRow.All(shape));
 
     /// <summary>Adds some rows of a shape.</summary>
@@ -67,8 +70,10 @@ internal sealed class FrontTable(int queries, int rounds, CsvTable table)
             var (row, answer) = (rows[i], answers[i]);
             AnswerErrors? errors = oracle is null ? null : AnswerErrors.Of(answer.Distances, oracle, shape.Size);
             table.Add(
-                shape.Name, shape.Faces?.FaceCount, kind, row.Name, row.Knob, row.Value, Math.Round(times[i], 1), answer.FaceTests, answer.BoundTests,
-                errors?.Largest, errors?.Mean, errors?.LargestRelative, errors?.MeanRelative, errors?.MissedPercent, row.Bytes, Math.Round(row.BuildMilliseconds, 2));
+                shape.Name, shape.Faces?.FaceCount, kind, row.Name, row.Knob, row.Value, Math.Round(times[i], 1), answer.FaceTests,
+                answer.BoundTests,
+                errors?.Largest, errors?.Mean, errors?.LargestRelative, errors?.MeanRelative, errors?.MissedPercent, row.Bytes,
+                Math.Round(row.BuildMilliseconds, 2));
         }
     }
 
@@ -78,8 +83,11 @@ internal sealed class FrontTable(int queries, int rounds, CsvTable table)
         _record.Reset();
         var asked = row.Collider is SimpleCollider ? positions[..1] : positions;
         var distances = asked.Select(position =>
-            row.Collider.TryFindClosest(position, double.PositiveInfinity, _record, out var closest, row.Epsilon) ? closest.Distance : double.PositiveInfinity).ToArray();
-        return (asked.Length < positions.Length ? oracle! : distances, (double)_record.FaceTests / asked.Length, (double)_record.BoundTests / asked.Length);
+            row.Collider.TryFindClosest(position, double.PositiveInfinity, _record, out var closest, row.Epsilon)
+            ? closest.Distance
+            : double.PositiveInfinity).ToArray();
+        return (asked.Length < positions.Length ? oracle! : distances, (double)_record.FaceTests / asked.Length,
+            (double)_record.BoundTests / asked.Length);
     }
 
     private static void Check(FrontShape shape, FrontRow row, double[] distances, double[] oracle)
@@ -96,7 +104,8 @@ internal sealed class FrontTable(int queries, int rounds, CsvTable table)
         }
     }
 
-    private int TimedPositions(double tests) => Math.Clamp((int)(TestsOfRound / Math.Max(tests, 1)), Math.Min(FewestTimed, queries), queries);
+    private int TimedPositions(double tests) =>
+        Math.Clamp((int)(TestsOfRound / Math.Max(tests, 1)), Math.Min(FewestTimed, queries), queries);
 
     /// <summary>Nanoseconds a query.</summary>
     private double[] Times(IReadOnlyList<FrontRow> rows, Vector[] positions, int[] counts)

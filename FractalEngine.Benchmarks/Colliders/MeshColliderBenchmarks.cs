@@ -46,7 +46,9 @@ public class MeshColliderBenchmarks : IMeasuresMore
         var mesh = MeshGenerators.Create(Mesh, 1, 50_000);
         _mesh = mesh;
         var random = new Random(1);
-        _positions = [.. Enumerable.Range(0, Queries).Select(_ => Positions == Place.Uniform ? QueryPositions.Uniform(random, mesh.Bounds) : QueryPositions.Near(random, mesh))];
+        _positions =
+            [.. Enumerable.Range(0, Queries)
+            .Select(_ => Positions == Place.Uniform ? QueryPositions.Uniform(random, mesh.Bounds) : QueryPositions.Near(random, mesh))];
         (_simple, _boxes, _hierarchy) = (new(mesh), new(mesh), new(mesh));
     }
 

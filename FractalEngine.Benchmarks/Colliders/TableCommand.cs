@@ -13,9 +13,12 @@ internal static class TableCommand
     // Depths of other fractals stand in their files.
     private static readonly string[] Default =
     [
-        "sierpinski:8", "sierpinski:20", "tetrahedron:8", "tetrahedron:20", "menger:4", "menger:12", "appendix-b:3", "appendix-b:5", "appendix-b",
-        "appendix-b-structure", "diamond", "diamond:10", "fern", "fern:10", "googol", "infinite-menger", "romanesco", "romanesco:8", "shell", "snowflake", "snowflake:20",
-        "terrain", "terrain:20", "tree", "tree:8", "tree:20", "tree-leaves", "tree-leaves:20", "three-branches:8", "three-branches:20", "four-fronds:6", "four-fronds:10",
+        "sierpinski:8", "sierpinski:20", "tetrahedron:8", "tetrahedron:20", "menger:4", "menger:12", "appendix-b:3", "appendix-b:5",
+        "appendix-b",
+        "appendix-b-structure", "diamond", "diamond:10", "fern", "fern:10", "googol", "infinite-menger", "romanesco", "romanesco:8",
+        "shell", "snowflake", "snowflake:20",
+        "terrain", "terrain:20", "tree", "tree:8", "tree:20", "tree-leaves", "tree-leaves:20", "three-branches:8", "three-branches:20",
+        "four-fronds:6", "four-fronds:10",
     ];
 
     public static int Run(ReadOnlySpan<string> args)

@@ -8,8 +8,8 @@ using FractalEngine.Render.Images;
 namespace FractalEngine.Benchmarks.Drawing;
 
 /// <summary>
-/// A scene of 400 objects of four files, written into a folder of its own: crates of wood, balls whose poles are fans of faces without area, pillars, and behind the camera knots of many
-/// faces. About half of the objects lie outside the picture.
+/// A scene of 400 objects of four files, written into a folder of its own: crates of wood, balls whose poles are fans of faces without
+/// area, pillars, and behind the camera knots of many faces. About half of the objects lie outside the picture.
 /// </summary>
 internal sealed class CrowdScene : IDisposable
 {
@@ -69,7 +69,8 @@ internal sealed class CrowdScene : IDisposable
         }
 
         text.AppendLine("usemtl wood");
-        foreach (var (a, b, c, d) in ((int, int, int, int)[])[(1, 3, 4, 2), (6, 8, 7, 5), (5, 7, 3, 1), (2, 4, 8, 6), (3, 7, 8, 4), (5, 1, 2, 6)])
+        foreach (var (a, b, c, d) in ((int, int, int, int)[])[(1, 3, 4, 2), (6, 8, 7, 5), (5, 7, 3, 1), (2, 4, 8, 6), (3, 7, 8, 4),
+            (5, 1, 2, 6)])
         {
             text.AppendLine(CultureInfo.InvariantCulture, $"f {a}/1 {b}/4 {c}/3\nf {a}/1 {c}/3 {d}/2");
         }
@@ -106,7 +107,8 @@ internal sealed class CrowdScene : IDisposable
         {
             var (x, y) = (i % Pixels, i / Pixels);
             var grain = 0.75 + (0.25 * Math.Sin((0.09 * x) + (3 * Math.Sin(0.013 * y))));
-            (pixels[4 * i], pixels[(4 * i) + 1], pixels[(4 * i) + 2], pixels[(4 * i) + 3]) = ((byte)(200 * grain), (byte)(140 * grain), (byte)(80 * grain), 255);
+            (pixels[4 * i], pixels[(4 * i) + 1], pixels[(4 * i) + 2], pixels[(4 * i) + 3]) =
+                ((byte)(200 * grain), (byte)(140 * grain), (byte)(80 * grain), 255);
         }
 
         return pixels;

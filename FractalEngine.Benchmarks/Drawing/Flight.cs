@@ -4,7 +4,9 @@ using FractalEngine.Render;
 
 namespace FractalEngine.Benchmarks.Drawing;
 
-/// <summary>Pictures of a camera that flies, drawn as the window draws them: coarser, and one behind, while the next one's instances are chosen.</summary>
+/// <summary>
+/// Pictures of a camera that flies, drawn as the window draws them: coarser, and one behind, while the next one's instances are chosen.
+/// </summary>
 /// <param name="Pictures">How many were drawn.</param>
 /// <param name="Seconds">How long that took.</param>
 /// <param name="Slowest">Of the pictures, milliseconds.</param>
@@ -19,11 +21,13 @@ internal sealed record Flight(int Pictures, double Seconds, double Slowest, long
     /// <param name="item">The fractal, and where the flight begins.</param>
     /// <param name="settings">Of a picture that stands.</param>
     /// <param name="size">Of the pictures, pixels.</param>
-    public static Flight Of(FrameRenderer frame, SceneRenderer renderer, FrameCase item, RenderSettings settings, (int Width, int Height) size)
+    public static Flight Of(FrameRenderer frame, SceneRenderer renderer, FrameCase item, RenderSettings settings,
+        (int Width, int Height) size)
     {
         var moving = new AdaptiveQuality();
         var (camera, bounds) = (item.View.Camera, item.Scene.Bounds);
-        var way = Math.Max(0.1 * bounds.Diagonal, (bounds.Centre - camera.Position).Length() - (0.1 * bounds.Diagonal)) * camera.LocalAxes.V3;
+        var way = Math.Max(0.1 * bounds.Diagonal, (bounds.Centre - camera.Position).Length() - (0.1 * bounds.Diagonal))
+            * camera.LocalAxes.V3;
         var (pictures, slowest, instances) = (0, 0.0, 0L);
         View? next = null;
         var clock = Stopwatch.StartNew();
@@ -43,5 +47,6 @@ internal sealed record Flight(int Pictures, double Seconds, double Slowest, long
         return new(pictures, clock.Elapsed.TotalSeconds, slowest, instances / pictures);
     }
 
-    private static View At(View view, Vector offset) => view with { Camera = view.Camera with { Position = view.Camera.Position + offset } };
+    private static View At(View view, Vector offset) =>
+        view with { Camera = view.Camera with { Position = view.Camera.Position + offset } };
 }

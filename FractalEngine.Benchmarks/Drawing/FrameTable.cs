@@ -10,8 +10,8 @@ using FractalEngine.Render.Windowing;
 namespace FractalEngine.Benchmarks.Drawing;
 
 /// <summary>
-/// What a picture costs with everything left out that is not seen, beside drawing every instance, and how far both are from the truth: the same with 36 samples a
-/// pixel. All in one run, since only ratios mean anything.
+/// What a picture costs with everything left out that is not seen, beside drawing every instance, and how far both are from the truth: the
+/// same with 36 samples a pixel. All in one run, since only ratios mean anything.
 /// </summary>
 /// <param name="rounds">Of which the best counts.</param>
 /// <param name="samples">A pixel.</param>
@@ -21,7 +21,8 @@ namespace FractalEngine.Benchmarks.Drawing;
 internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWriter output, CsvTable? table)
 {
     /// <summary>Names of the columns.</summary>
-    public static readonly string[] Columns = ["picture", "drawn", "instances", "ms", "choosing_ms", "to_every_instance_db", "to_the_truth_db", "slowest_ms"];
+    public static readonly string[] Columns = ["picture", "drawn", "instances", "ms", "choosing_ms", "to_every_instance_db",
+        "to_the_truth_db", "slowest_ms"];
 
     private const int Width = 1280;
     private const int Height = 720;
@@ -34,7 +35,8 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
     public void Write(IEnumerable<FrameCase> cases)
     {
         output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{Width}x{Height}, {samples} samples a pixel, best of {rounds}"));
-        output.WriteLine("picture                          drawn             instances        ms   share   to brute   to truth  choosing ms");
+        output.WriteLine(
+            "picture                          drawn             instances        ms   share   to brute   to truth  choosing ms");
         foreach (var item in cases)
         {
             using var context = new OffscreenContext();
@@ -80,10 +82,12 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
             CultureInfo.InvariantCulture,
             $"{item.Name,-32} {"flight",-15} {flight.Instances,11} {1000 * flight.Seconds / flight.Pictures,9:F1}  {flight.Pictures / flight.Seconds:F1} pictures a second, the slowest {flight.Slowest:F0} ms"));
         table?.Add(
-            item.Name, "flight", flight.Instances, Math.Round(1000 * flight.Seconds / flight.Pictures, 3), null, null, null, Math.Round(flight.Slowest, 1));
+            item.Name, "flight", flight.Instances, Math.Round(1000 * flight.Seconds / flight.Pictures, 3), null, null, null,
+            Math.Round(flight.Slowest, 1));
     }
 
-    private (PixelImage? Brute, PixelImage? Truth, double Time) Brute(FrameCase item, OffscreenContext context, FrameRenderer frame, RenderSettings settings)
+    private (PixelImage? Brute, PixelImage? Truth, double Time) Brute(FrameCase item, OffscreenContext context, FrameRenderer frame,
+        RenderSettings settings)
     {
         var all = settings with { Culling = null, InstanceBudget = 20_000_000 };
         var prepared = DrawableScene.Prepare(item.Scene, all);
@@ -134,10 +138,13 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
     /// <summary>The time that choosing takes, without any drawing.</summary>
     private double Choosing(SceneRenderer renderer, FrameCase item, RenderSettings settings) =>
         Time(() => renderer.Cull(
-            item.View with { Camera = item.View.Camera with { Position = item.View.Camera.Position + (Step * (++_step % 2) * Vector.One) } }, Width, Height, settings));
+            item.View with { Camera =
+            item.View.Camera with { Position = item.View.Camera.Position + (Step * (++_step % 2) * Vector.One) } }, Width, Height,
+            settings));
 
     private void Row(
-        string name, string drawn, long instances, double time, double brute, PixelImage? bruteImage, PixelImage? truth, PixelImage? picture, double choosing)
+        string name, string drawn, long instances, double time, double brute, PixelImage? bruteImage, PixelImage? truth,
+        PixelImage? picture, double choosing)
     {
         var toBrute = picture is null || bruteImage is null ? double.NaN : PictureError.Ratio(picture, bruteImage);
         var toTruth = picture is null || truth is null ? double.NaN : PictureError.Ratio(picture, truth);
@@ -145,10 +152,12 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
             CultureInfo.InvariantCulture,
             $"{name,-32} {drawn,-15} {instances,11} {time,9:F1}  {(double.IsNaN(brute) ? "     -" : $"1/{brute / time:F1}"),6} {Decibels(toBrute),10} {Decibels(toTruth),10} {choosing,12:F1}"));
         output.Flush();
-        table?.Add(name, drawn, instances, Math.Round(time, 3), choosing > 0 ? Math.Round(choosing, 3) : null, Rounded(toBrute), Rounded(toTruth), null);
+        table?.Add(name, drawn, instances, Math.Round(time, 3), choosing > 0 ? Math.Round(choosing, 3) : null, Rounded(toBrute),
+            Rounded(toTruth), null);
     }
 
     private static double? Rounded(double ratio) => double.IsFinite(ratio) ? Math.Round(ratio, 2) : null;
 
-    private static string Decibels(double ratio) => double.IsNaN(ratio) ? "-" : string.Create(CultureInfo.InvariantCulture, $"{ratio:F1} dB");
+    private static string Decibels(double ratio) =>
+        double.IsNaN(ratio) ? "-" : string.Create(CultureInfo.InvariantCulture, $"{ratio:F1} dB");
 }

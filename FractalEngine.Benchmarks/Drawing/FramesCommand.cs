@@ -14,7 +14,8 @@ internal static class FramesCommand
 
     private static readonly string[] Default =
     [
-        "menger:5:afar", "menger:5:close", "menger:5:inside", "tetrahedron:12:afar", "appendix-b:5:afar", "appendix-b-structure:5:afar", "binary-tree:14:afar",
+        "menger:5:afar", "menger:5:close", "menger:5:inside", "tetrahedron:12:afar", "appendix-b:5:afar", "appendix-b-structure:5:afar",
+        "binary-tree:14:afar",
         "menger:20:afar", "menger:1000000:afar", "infinite-menger:inside",
     ];
 
@@ -30,13 +31,18 @@ internal static class FramesCommand
             return 2;
         }
 
-        var command = FormattableString.Invariant($"frames {string.Join(' ', names)} --rounds {rounds} --samples {samples}{(withTruth ? "" : " --no-truth")}").Replace("  ", " ", StringComparison.Ordinal);
+        var command =
+            FormattableString.Invariant(
+                $"frames {string.Join(' ', names)} --rounds {rounds} --samples {samples}{(withTruth ? "" : " --no-truth")}")
+                .Replace("  ", " ", StringComparison.Ordinal);
         var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "frames.csv"), command, FrameTable.Columns);
-        new FrameTable(rounds, samples, withTruth, Console.Out, csv).Write((names.Count > 0 ? names : [.. Default]).Select(FrameCase.Parse));
+        new FrameTable(rounds, samples, withTruth, Console.Out,
+            csv).Write((names.Count > 0 ? names : [.. Default]).Select(FrameCase.Parse));
         csv?.Save();
         return 0;
     }
 
-    private static bool IsCase(string text) => text.LastIndexOf(':') is > 0 and var colon && text[(colon + 1)..] is "afar" or "close" or "inside"
+    private static bool IsCase(string text) =>
+        text.LastIndexOf(':') is > 0 and var colon && text[(colon + 1)..] is "afar" or "close" or "inside"
         && FractalCase.IsCase(text[..colon]);
 }

@@ -11,7 +11,8 @@ internal static class PictureError
     {
         if ((image1.Width, image1.Height) != (image2.Width, image2.Height))
         {
-            throw new ArgumentException($"expected {image1.Width} × {image1.Height} pixels, not {image2.Width} × {image2.Height}", nameof(image2));
+            throw new ArgumentException($"expected {image1.Width} × {image1.Height} pixels, not {image2.Width} × {image2.Height}",
+                nameof(image2));
         }
 
         var sum = 0.0;

@@ -10,7 +10,8 @@ namespace FractalEngine.Benchmarks.Drawing;
 /// <param name="Bytes">Allocated until the first picture.</param>
 /// <param name="Standing">What the last picture took.</param>
 /// <param name="Picture">The last picture.</param>
-internal sealed record SkipSample(double Start, double MovingTime, double StandingTime, long Bytes, FrameStatistics Standing, PixelImage Picture)
+internal sealed record SkipSample(double Start, double MovingTime, double StandingTime, long Bytes, FrameStatistics Standing,
+    PixelImage Picture)
 {
     /// <summary>The better of two measurements, value by value.</summary>
     public SkipSample BestWith(SkipSample? other) => other is null ? this : this with

@@ -9,14 +9,18 @@ using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.Benchmarks.Drawing;
 
-/// <summary>What each thing that is skipped saves: all skips on, beside each switched off alone, in turn within one run, and how far its picture is from the first.</summary>
+/// <summary>
+/// What each thing that is skipped saves: all skips on, beside each switched off alone, in turn within one run, and how far its picture is
+/// from the first.
+/// </summary>
 /// <param name="rounds">Of which the best counts.</param>
 /// <param name="output">Receives the rows as text.</param>
 /// <param name="table">Receives them too, if there is one.</param>
 internal sealed class SkipTable(int rounds, TextWriter output, CsvTable? table)
 {
     /// <summary>Names of the columns.</summary>
-    public static readonly string[] Columns = ["scene", "switched_off", "start_ms", "moving_ms", "standing_ms", "allocated_bytes", "to_the_first_db", "counter", "count_with_all_skips", "count"];
+    public static readonly string[] Columns = ["scene", "switched_off", "start_ms", "moving_ms", "standing_ms", "allocated_bytes",
+        "to_the_first_db", "counter", "count_with_all_skips", "count"];
 
     private const int Width = 1280;
     private const int Height = 720;
@@ -79,7 +83,8 @@ internal sealed class SkipTable(int rounds, TextWriter output, CsvTable? table)
         var start = watch.Elapsed.TotalMilliseconds;
         bytes = GC.GetTotalAllocatedBytes(precise: true) - bytes;
         var step = Step * file.Scene.Bounds.Diagonal * Vector.I;
-        var moving = Best(MovingPictures, i => Draw(view with { Camera = view.Camera with { Position = view.Camera.Position + ((i + 1) * step) } }));
+        var moving =
+            Best(MovingPictures, i => Draw(view with { Camera = view.Camera with { Position = view.Camera.Position + ((i + 1) * step) } }));
         Draw(view);
         var standing = Best(StandingPictures, _ => Draw(view));
         return new(start, moving, standing, bytes, renderer.Statistics, frame.Capture());
@@ -108,13 +113,18 @@ internal sealed class SkipTable(int rounds, TextWriter output, CsvTable? table)
     {
         var ratio = PictureError.Ratio(sample.Picture, first.Picture);
         var distance = double.IsPositiveInfinity(ratio) ? "the same" : string.Create(CultureInfo.InvariantCulture, $"{ratio:F1} dB");
-        var counted = item.Unit.Length == 0 ? "" : string.Create(CultureInfo.InvariantCulture, $"{item.Unit}: {item.Count(first):N0}, now {item.Count(sample):N0}");
+        var counted = item.Unit.Length == 0
+            ? ""
+            : string.Create(CultureInfo.InvariantCulture, $"{item.Unit}: {item.Count(first):N0}, now {item.Count(sample):N0}");
         output.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
             $"{item.Name,-20} {sample.Start,9:F1} {sample.MovingTime,10:F2} {sample.StandingTime,12:F2} {sample.Bytes / 1e6,8:F1} {distance,14}  {counted}"));
         var isCounted = item.Unit.Length > 0;
         table?.Add(
-            scene, isCounted ? item.Name[2..] : "nothing", Math.Round(sample.Start, 3), Math.Round(sample.MovingTime, 3), Math.Round(sample.StandingTime, 3), sample.Bytes,
-            double.IsPositiveInfinity(ratio) ? null : Math.Round(ratio, 2), isCounted ? item.Unit : null, isCounted ? item.Count(first) : null, isCounted ? item.Count(sample) : null);
+            scene, isCounted ? item.Name[2..] : "nothing", Math.Round(sample.Start, 3), Math.Round(sample.MovingTime, 3),
+            Math.Round(sample.StandingTime, 3), sample.Bytes,
+            double.IsPositiveInfinity(ratio) ? null : Math.Round(ratio, 2), isCounted ? item.Unit : null, isCounted
+            ? item.Count(first)
+            : null, isCounted ? item.Count(sample) : null);
     }
 }

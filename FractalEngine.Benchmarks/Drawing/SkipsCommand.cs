@@ -14,12 +14,16 @@ internal static class SkipsCommand
     public static int Run(ReadOnlySpan<string> args)
     {
         var (rounds, folder, files) = (3, (string?)null, new List<string>());
-        if (!new CommandWords(Usage).Count("--rounds", count => rounds = count).Value("--output", value => folder = value).Names(File.Exists, files).TryRead(args))
+        if (!new CommandWords(Usage).Count("--rounds", count => rounds = count).Value("--output", value => folder = value)
+            .Names(File.Exists, files).TryRead(args))
         {
             return 2;
         }
 
-        var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "skips.csv"), FormattableString.Invariant($"skips{string.Concat(files.Select(file => " " + file))} --rounds {rounds}"), SkipTable.Columns);
+        var csv = folder is null
+            ? null
+            : new CsvTable(Path.Combine(folder, "skips.csv"),
+            FormattableString.Invariant($"skips{string.Concat(files.Select(file => " " + file))} --rounds {rounds}"), SkipTable.Columns);
         Write(new(rounds, Console.Out, csv), files);
         csv?.Save();
         return 0;

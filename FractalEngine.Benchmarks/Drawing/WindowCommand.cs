@@ -4,7 +4,9 @@ using FractalEngine.Benchmarks.Measuring;
 
 namespace FractalEngine.Benchmarks.Drawing;
 
-/// <summary><c>window [FILE]</c>: what a window costs in which nothing moves, with pictures left out that are like the one before, and without.</summary>
+/// <summary>
+/// <c>window [FILE]</c>: what a window costs in which nothing moves, with pictures left out that are like the one before, and without.
+/// </summary>
 internal static class WindowCommand
 {
     private const string Usage = """
@@ -18,9 +20,12 @@ internal static class WindowCommand
 
     public static int Run(ReadOnlySpan<string> args)
     {
-        var program = Path.Combine(AppContext.BaseDirectory.Replace("FractalEngine.Benchmarks", "FractalEngine.App", StringComparison.Ordinal), "FractalEngine.App.dll");
+        var program =
+            Path.Combine(AppContext.BaseDirectory.Replace("FractalEngine.Benchmarks", "FractalEngine.App", StringComparison.Ordinal),
+            "FractalEngine.App.dll");
         var (folder, files) = ((string?)null, new List<string>());
-        if (!new CommandWords(Usage).Value("--output", value => folder = value).Names(name => files.Count == 0 && File.Exists(name), files).TryRead(args))
+        if (!new CommandWords(Usage).Value("--output", value => folder = value).Names(name => files.Count == 0 && File.Exists(name), files)
+            .TryRead(args))
         {
             return 2;
         }
@@ -32,7 +37,10 @@ internal static class WindowCommand
         }
 
         var file = files is [var given] ? given : Path.Combine(FractalCase.Assets, "scenes", "gallery.sdo");
-        var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "window.csv"), string.Join(' ', ["window", .. files]), "scene", "switched_off", "percent_of_a_core");
+        var csv = folder is null
+            ? null
+            : new CsvTable(Path.Combine(folder, "window.csv"), string.Join(' ', ["window", .. files]), "scene", "switched_off",
+            "percent_of_a_core");
         foreach (var (name, options) in ((string, string[])[])[("everything skipped", []), ("- still", ["--without", "still"])])
         {
             if (ShareOfCore([program, "view", file, .. options]) is not { } share)

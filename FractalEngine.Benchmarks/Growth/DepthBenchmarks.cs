@@ -50,5 +50,6 @@ public class DepthBenchmarks : IMeasuresMore
 
     /// <inheritdoc/>
     IEnumerable<MoreValue> IMeasuresMore.Measure(string method) =>
-        ColliderQuality.Measure(() => new ExactFractalCollider(_fractal), _near, double.PositiveInfinity, null, _fractal.Bounds.Diagonal).Where(value => value.Value is not null);
+        ColliderQuality.Measure(() => new ExactFractalCollider(_fractal), _near, double.PositiveInfinity, null, _fractal.Bounds.Diagonal)
+        .Where(value => value.Value is not null);
 }

@@ -6,7 +6,10 @@ using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.Benchmarks.Growth;
 
-/// <summary>How does the time of a picture grow with the faces of a sponge: every instance drawn, and those chosen that can be seen? Needs a display.</summary>
+/// <summary>
+/// How does the time of a picture grow with the faces of a sponge: every instance drawn, and those chosen that can be seen? Needs a
+/// display.
+/// </summary>
 internal static class DrawingGrowth
 {
     private const int Width = 1280;
@@ -45,9 +48,12 @@ internal static class DrawingGrowth
         using var chosenScene = new SceneRenderer(context, DrawableScene.Prepare(item.Scene, chosen));
         var everything = DrawableScene.Prepare(item.Scene, all);
         using var allScene = new SceneRenderer(context, everything);
-        var times = TakeTurns.Best([() => Draw(frame, chosenScene, item, chosen), () => Draw(frame, allScene, item, all)], options.IsQuick ? 2 : 7);
+        var times = TakeTurns.Best([() => Draw(frame, chosenScene, item, chosen), () => Draw(frame, allScene, item, all)], options.IsQuick
+            ? 2
+            : 7);
         var faces = item.Scene.Objects[0].Model.FaceCount;
-        table.Add("menger", depth, faces, "chosen", chosenScene.Statistics.InstanceCount, Math.Round(1e3 * times[0], 3), context.DriverName);
+        table.Add("menger", depth, faces, "chosen", chosenScene.Statistics.InstanceCount, Math.Round(1e3 * times[0], 3),
+            context.DriverName);
         table.Add("menger", depth, faces, "all", everything.InstanceCount, Math.Round(1e3 * times[1], 3), context.DriverName);
     }
 

@@ -6,7 +6,10 @@ using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Benchmarks.Growth;
 
-/// <summary>How does the cost of a step grow with the bodies that fall on a sponge: in the first second, when all are awake, and when they have settled?</summary>
+/// <summary>
+/// How does the cost of a step grow with the bodies that fall on a sponge: in the first second, when all are awake, and when they have
+/// settled?
+/// </summary>
 internal static class GrowthByBodies
 {
     private const int StepsOfFall = 60;
@@ -31,7 +34,8 @@ internal static class GrowthByBodies
         }
 
         var table = options.Table(
-            "growth-bodies.csv", "bodies", "phase", "awake_at_end", "ms_a_step_median", "ms_a_step_worst", "us_a_body", "face_tests_a_step", "bound_tests_a_step");
+            "growth-bodies.csv", "bodies", "phase", "awake_at_end", "ms_a_step_median", "ms_a_step_worst", "us_a_body", "face_tests_a_step",
+            "bound_tests_a_step");
         foreach (var run in runs)
         {
             run.Fall.AddTo(table, run.Count, "awake");
@@ -97,7 +101,8 @@ internal static class GrowthByBodies
         {
             var sorted = _best.Order().ToArray();
             var median = sorted[steps / 2];
-            table.Add(count, phase, _awake, median, sorted[^1], Math.Round(1e3 * median / count, 4), (double)_faces / steps, (double)_bounds / steps);
+            table.Add(count, phase, _awake, median, sorted[^1], Math.Round(1e3 * median / count, 4), (double)_faces / steps,
+                (double)_bounds / steps);
         }
     }
 }

@@ -14,18 +14,24 @@ internal static class GrowthByDepth
     /// <summary>Writes the file.</summary>
     public static void Write(TableOptions options)
     {
-        int[] depths = options.IsQuick ? [1, 2, 3, 4, 5, 7, 10, 15, 20, 30, 40, 60] : [.. Enumerable.Range(1, 20), 22, 24, 26, 28, 30, 35, 40, 45, 50, 55, 60];
+        int[] depths = options.IsQuick
+            ? [1, 2, 3, 4, 5, 7, 10, 15, 20, 30, 40, 60]
+            : [.. Enumerable.Range(1, 20), 22, 24, 26, 28, 30, 35, 40, 45, 50, 55, 60];
         var points = (from name in Names from depth in depths select new Point(name, depth, options.IsQuick ? 128 : 1024)).ToArray();
-        var times = TakeTurns.Best([.. points.SelectMany(point => new Action[] { point.Exact.Ask, point.Greedy.Ask, point.Build })], options.Rounds);
+        var times = TakeTurns.Best([.. points.SelectMany(point => new Action[] { point.Exact.Ask, point.Greedy.Ask, point.Build })],
+            options.Rounds);
         var table = options.Table(
-            "growth-depth.csv", "fractal", "depth", "levels", "log10_faces", "exact_us", "greedy_us", "exact_face_tests", "greedy_face_tests", "exact_bound_tests",
+            "growth-depth.csv", "fractal", "depth", "levels", "log10_faces", "exact_us", "greedy_us", "exact_face_tests",
+            "greedy_face_tests", "exact_bound_tests",
             "greedy_bound_tests", "exact_bytes", "greedy_bytes", "exact_build_ms");
         foreach (var (point, i) in points.Select((point, i) => (point, 3 * i)))
         {
             var (exact, greedy) = (point.Exact, point.Greedy);
             table.Add(
-                point.Name, point.Depth, point.Fractal.LevelCount, Math.Round(BigInteger.Log10(point.Fractal.FaceCount!.Value), 3), exact.Microseconds,
-                greedy.Microseconds, exact.FaceTests, greedy.FaceTests, exact.BoundTests, greedy.BoundTests, exact.Bytes, greedy.Bytes, Math.Round(1e3 * times[i + 2], 4));
+                point.Name, point.Depth, point.Fractal.LevelCount, Math.Round(BigInteger.Log10(point.Fractal.FaceCount!.Value), 3),
+                exact.Microseconds,
+                greedy.Microseconds, exact.FaceTests, greedy.FaceTests, exact.BoundTests, greedy.BoundTests, exact.Bytes, greedy.Bytes,
+                Math.Round(1e3 * times[i + 2], 4));
         }
 
         table.Save();

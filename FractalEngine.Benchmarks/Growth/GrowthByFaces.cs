@@ -8,7 +8,9 @@ using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Benchmarks.Growth;
 
-/// <summary>How does the cost of a query near the surface grow with the faces of a base mesh: of a fractal over it, and of the mesh itself?</summary>
+/// <summary>
+/// How does the cost of a query near the surface grow with the faces of a base mesh: of a fractal over it, and of the mesh itself?
+/// </summary>
 internal static class GrowthByFaces
 {
     private const int Depth = 5;
@@ -24,18 +26,22 @@ internal static class GrowthByFaces
             ("terrain", [1, 2, 10, 32, 100, 316, 1000, 3162, 10_000, 31_623, 100_000]),
             ("icosphere", [20, 80, 320, 1280, 5120, 20_480, 81_920]),
         ];
-        var points = (from item in cases from faces in item.Faces select new Point(item.Name, faces, options.IsQuick ? 256 : 1024)).ToArray();
+        var points =
+            (from item in cases from faces in item.Faces select new Point(item.Name, faces, options.IsQuick ? 256 : 1024)).ToArray();
         var times = TakeTurns.Best([.. points.SelectMany(point => point.Actions)], options.Rounds);
         var table = options.Table(
-            "growth-faces.csv", "base", "base_faces", "fractal_exact_us", "fractal_greedy_us", "mesh_hierarchy_us", "mesh_simple_us", "fractal_exact_face_tests",
-            "fractal_greedy_face_tests", "mesh_hierarchy_face_tests", "fractal_exact_bound_tests", "mesh_hierarchy_bound_tests", "fractal_exact_bytes", "mesh_hierarchy_bytes",
+            "growth-faces.csv", "base", "base_faces", "fractal_exact_us", "fractal_greedy_us", "mesh_hierarchy_us", "mesh_simple_us",
+            "fractal_exact_face_tests",
+            "fractal_greedy_face_tests", "mesh_hierarchy_face_tests", "fractal_exact_bound_tests", "mesh_hierarchy_bound_tests",
+            "fractal_exact_bytes", "mesh_hierarchy_bytes",
             "fractal_exact_build_ms", "mesh_hierarchy_build_ms");
         foreach (var (point, i) in points.Select((point, i) => (point, 6 * i)))
         {
             var (exact, greedy, hierarchy, simple) = (point.Exact, point.Greedy, point.Hierarchy, point.Simple);
             table.Add(
                 point.Name, point.Mesh.FaceCount, exact.Microseconds, greedy.Microseconds, hierarchy.Microseconds,
-                simple.Microseconds, exact.FaceTests, greedy.FaceTests, hierarchy.FaceTests, exact.BoundTests, hierarchy.BoundTests, exact.Bytes, hierarchy.Bytes,
+                simple.Microseconds, exact.FaceTests, greedy.FaceTests, hierarchy.FaceTests, exact.BoundTests, hierarchy.BoundTests,
+                exact.Bytes, hierarchy.Bytes,
                 Math.Round(1e3 * times[i + 4], 4), Math.Round(1e3 * times[i + 5], 4));
         }
 
@@ -72,7 +78,8 @@ internal static class GrowthByFaces
 
         public Action[] Actions =>
         [
-            Exact.Ask, Greedy.Ask, Hierarchy.Ask, Simple.Ask, () => _ = new ExactFractalCollider(_fractal), () => _ = new HierarchyCollider(Mesh),
+            Exact.Ask, Greedy.Ask, Hierarchy.Ask, Simple.Ask, () => _ = new ExactFractalCollider(_fractal),
+            () => _ = new HierarchyCollider(Mesh),
         ];
     }
 

@@ -8,8 +8,8 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Benchmarks.Growth;
 
 /// <summary>
-/// How does the cost of a query near the surface grow with the maps of a level? Similar maps at random places, turned at random, each by the scale 1/√maps: so
-/// every fractal is of dimension 2, and none leaves the box of side 2 by more than the base does.
+/// How does the cost of a query near the surface grow with the maps of a level? Similar maps at random places, turned at random, each by
+/// the scale 1/√maps: so every fractal is of dimension 2, and none leaves the box of side 2 by more than the base does.
 /// </summary>
 internal static class GrowthByMaps
 {
@@ -21,9 +21,11 @@ internal static class GrowthByMaps
         int[] counts = options.IsQuick ? [2, 3, 5, 10, 20, 50, 100] : [2, 3, 4, 5, 7, 10, 14, 20, 30, 40, 50, 70, 100];
         var (seeds, queries) = options.IsQuick ? (3, 128) : (5, 512);
         var points = (from maps in counts from seed in Enumerable.Range(1, seeds) select new Point(maps, seed, queries)).ToArray();
-        var times = TakeTurns.Best([.. points.SelectMany(point => new Action[] { point.Exact.Ask, point.Greedy.Ask, point.Build })], options.Rounds);
+        var times = TakeTurns.Best([.. points.SelectMany(point => new Action[] { point.Exact.Ask, point.Greedy.Ask, point.Build })],
+            options.Rounds);
         var table = options.Table(
-            "growth-maps.csv", "maps", "scale", "depth", "seed", "exact_us", "greedy_us", "exact_face_tests", "greedy_face_tests", "exact_bound_tests", "greedy_bound_tests",
+            "growth-maps.csv", "maps", "scale", "depth", "seed", "exact_us", "greedy_us", "exact_face_tests", "greedy_face_tests",
+            "exact_bound_tests", "greedy_bound_tests",
             "exact_bytes", "exact_build_ms");
         foreach (var (point, i) in points.Select((point, i) => (point, 3 * i)))
         {
@@ -47,7 +49,8 @@ internal static class GrowthByMaps
             (Maps, Seed) = (maps, seed);
             var random = new Random(seed);
             var set = new TransformationSet([.. Enumerable.Range(0, maps).Select(_ => RandomMap(random, ScaleOf(maps)))]);
-            _fractal = new(new FractalDescription("base.obj", [new Repetition([set], Depth)]), FractalCase.Load("sierpinski").Fractal.BaseMesh);
+            _fractal = new(new FractalDescription("base.obj", [new Repetition([set], Depth)]),
+                FractalCase.Load("sierpinski").Fractal.BaseMesh);
             var positions = Enumerable.Range(0, queries).Select(_ => QueryPositions.Near(random, _fractal)).ToArray();
             (Exact, Greedy) = (new(new ExactFractalCollider(_fractal), positions), new(new FractalCollider(_fractal), positions));
         }

@@ -25,7 +25,8 @@ internal static class GrowthCommand
     {
         var (options, names) = (new TableOptions("growth", false, CommandWords.DefaultFolder), new List<string>());
         var words = new CommandWords($"{Usage}\nTables: {string.Join(' ', Tables.Keys)}")
-            .Flag("--quick", () => options = options with { IsQuick = true }).Value("--output", folder => options = options with { Folder = folder }).Names(Tables.ContainsKey, names);
+            .Flag("--quick", () => options = options with { IsQuick = true })
+            .Value("--output", folder => options = options with { Folder = folder }).Names(Tables.ContainsKey, names);
         if (!words.TryRead(args))
         {
             return 2;

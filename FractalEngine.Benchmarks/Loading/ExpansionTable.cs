@@ -14,7 +14,8 @@ internal static class ExpansionTable
     public static void Write(TableOptions options)
     {
         var table = options.Table("expansion.csv", "fractal", "depth", "what", "count", "ms", "million_a_second", "copy_ms");
-        foreach (var (name, deepest) in ((string, int)[])[("menger", options.IsQuick ? 4 : 5), ("sierpinski", options.IsQuick ? 6 : 7), ("tree", options.IsQuick ? 14 : 18)])
+        foreach (var (name, deepest) in ((string, int)[])[("menger", options.IsQuick ? 4 : 5), ("sierpinski", options.IsQuick ? 6 : 7),
+            ("tree", options.IsQuick ? 14 : 18)])
         {
             for (var depth = 1; depth <= deepest; depth++)
             {
@@ -37,14 +38,16 @@ internal static class ExpansionTable
         if (fractal.FaceCount <= MostFaces)
         {
             var mesh = FractalGenerator.Flatten(fractal, MostFaces);
-            AddRow("faces", mesh.FaceCount, () => FractalGenerator.Flatten(fractal, MostFaces), (sizeof(double) * (long)mesh.Positions.Length) + (sizeof(int) * (long)mesh.VertexIndices.Length));
+            AddRow("faces", mesh.FaceCount, () => FractalGenerator.Flatten(fractal, MostFaces),
+                (sizeof(double) * (long)mesh.Positions.Length) + (sizeof(int) * (long)mesh.VertexIndices.Length));
         }
 
         void AddRow(string what, long count, Action expand, long bytes)
         {
             var source = new byte[bytes];
             var times = TakeTurns.Best([expand, () => source.AsSpan().ToArray()], rounds);
-            table.Add(name, depth, what, count, Math.Round(1e3 * times[0], 4), Math.Round(count / times[0] / 1e6, 3), Math.Round(1e3 * times[1], 4));
+            table.Add(name, depth, what, count, Math.Round(1e3 * times[0], 4), Math.Round(count / times[0] / 1e6, 3),
+                Math.Round(1e3 * times[1], 4));
         }
     }
 }

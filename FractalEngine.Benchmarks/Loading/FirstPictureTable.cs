@@ -10,8 +10,8 @@ using FractalEngine.Render.Windowing;
 namespace FractalEngine.Benchmarks.Loading;
 
 /// <summary>
-/// How long from a file to its first picture, of 1280 × 720: parsed with all it refers to, prepared for the GPU, drawn to the last pixel? In a process that has done it before, with a context that is
-/// open; both are rows of their own. Needs a display.
+/// How long from a file to its first picture, of 1280 × 720: parsed with all it refers to, prepared for the GPU, drawn to the last pixel?
+/// In a process that has done it before, with a context that is open; both are rows of their own. Needs a display.
 /// </summary>
 internal static class FirstPictureTable
 {
@@ -30,7 +30,8 @@ internal static class FirstPictureTable
         table.Add(null, "context alone", null, null, null, null, Rounded(opened));
         var file = Path.Combine(FractalCase.Assets, "fractals", "menger.fdo");
         AddRow("first of the process", file, Draw(file, context, frame));
-        string[] files = [.. Directory.GetFiles(Path.Combine(FractalCase.Assets, "fractals"), "*.fdo"), .. Directory.GetFiles(Path.Combine(FractalCase.Assets, "scenes"), "*.sdo")];
+        string[] files = [.. Directory.GetFiles(Path.Combine(FractalCase.Assets, "fractals"), "*.fdo"),
+            .. Directory.GetFiles(Path.Combine(FractalCase.Assets, "scenes"), "*.sdo")];
         foreach (var name in files.Order(StringComparer.Ordinal))
         {
             var rounds = Enumerable.Range(0, options.IsQuick ? 2 : 5).Select(_ => Draw(name, context, frame)).ToArray();
@@ -39,10 +40,13 @@ internal static class FirstPictureTable
 
         table.Save();
 
-        void AddRow(string run, string name, double[] parts) => table.Add(Path.GetFileName(name), run, Faces(name), Rounded(parts[0]), Rounded(parts[1]), Rounded(parts[2]), Rounded(parts.Sum()));
+        void AddRow(string run, string name, double[] parts) =>
+            table.Add(Path.GetFileName(name), run, Faces(name), Rounded(parts[0]), Rounded(parts[1]), Rounded(parts[2]),
+            Rounded(parts.Sum()));
     }
 
-    private static BigInteger? Faces(string file) => AssetLoader.Load(file).Scene.Objects.Aggregate((BigInteger?)0, (sum, item) => sum + item.Model.FaceCount);
+    private static BigInteger? Faces(string file) =>
+        AssetLoader.Load(file).Scene.Objects.Aggregate((BigInteger?)0, (sum, item) => sum + item.Model.FaceCount);
 
     private static double Rounded(double milliseconds) => Math.Round(milliseconds, 3);
 

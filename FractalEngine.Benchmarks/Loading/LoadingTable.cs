@@ -9,8 +9,8 @@ using FractalEngine.Parsing.Text;
 namespace FractalEngine.Benchmarks.Loading;
 
 /// <summary>
-/// How many megabytes of OBJ a second: bytes read, words split, every number read by the framework, the text parsed, and the file loaded with all that a scene needs? And
-/// how long do the texts of the assets' fractals and scenes take?
+/// How many megabytes of OBJ a second: bytes read, words split, every number read by the framework, the text parsed, and the file loaded
+/// with all that a scene needs? And how long do the texts of the assets' fractals and scenes take?
 /// </summary>
 internal static class LoadingTable
 {
@@ -40,7 +40,8 @@ internal static class LoadingTable
             folder.Delete(recursive: true);
         }
 
-        string[] texts = [.. Directory.GetFiles(Path.Combine(FractalCase.Assets, "fractals"), "*.fdo"), .. Directory.GetFiles(Path.Combine(FractalCase.Assets, "scenes"), "*.sdo")];
+        string[] texts = [.. Directory.GetFiles(Path.Combine(FractalCase.Assets, "fractals"), "*.fdo"),
+            .. Directory.GetFiles(Path.Combine(FractalCase.Assets, "scenes"), "*.sdo")];
         foreach (var file in texts.Order(StringComparer.Ordinal))
         {
             var seconds = TakeTurns.Best([() => AssetLoader.Load(file)], options.Rounds)[0];
@@ -52,7 +53,9 @@ internal static class LoadingTable
     }
 
     private static IEnumerable<(string Name, int? Faces)> Meshes(bool isQuick) =>
-        [("terrain", 10_000), ("tree-stump", null), ("spaceship-interior", null), .. isQuick ? Array.Empty<(string, int?)>() : [("icosphere", 1_310_720)]];
+        [("terrain", 10_000), ("tree-stump", null), ("spaceship-interior", null), .. isQuick
+        ? Array.Empty<(string, int?)>()
+        : [("icosphere", 1_310_720)]];
 
     private static void AddMesh(CsvTable table, string name, Mesh mesh, string file, int rounds)
     {
@@ -70,7 +73,8 @@ internal static class LoadingTable
         var times = TakeTurns.Best([.. steps.Select(step => step.Do)], rounds);
         foreach (var (step, seconds) in steps.Zip(times))
         {
-            table.Add(name, mesh.FaceCount, bytes.Length, step.Step, Math.Round(1e3 * seconds, 4), Math.Round(bytes.Length / seconds / 1e6, 1));
+            table.Add(name, mesh.FaceCount, bytes.Length, step.Step, Math.Round(1e3 * seconds, 4),
+                Math.Round(bytes.Length / seconds / 1e6, 1));
         }
     }
 
@@ -91,7 +95,9 @@ internal static class LoadingTable
         return words;
     }
 
-    /// <summary>The same with the framework's fastest conversion, and nothing kept: about what a parser without checks would take.</summary>
+    /// <summary>
+    /// The same with the framework's fastest conversion, and nothing kept: about what a parser without checks would take.
+    /// </summary>
     private static double Numbers(ReadOnlySpan<byte> text)
     {
         var sum = 0.0;

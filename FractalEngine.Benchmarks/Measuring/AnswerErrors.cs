@@ -1,6 +1,8 @@
 namespace FractalEngine.Benchmarks.Measuring;
 
-/// <summary>How wrong distances are. Parts of the size are of the shape's diagonal; relative errors are parts of the right distance.</summary>
+/// <summary>
+/// How wrong distances are. Parts of the size are of the shape's diagonal; relative errors are parts of the right distance.
+/// </summary>
 /// <param name="Largest">Of the size.</param>
 /// <param name="Mean">Of the size.</param>
 /// <param name="LargestRelative">What ε bounds.</param>

@@ -5,8 +5,8 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Benchmarks.Measuring;
 
 /// <summary>
-/// A collider and the positions that it is asked for, without a limit of distance. Positions are timed in runs of about a fifth of a millisecond, each with the best
-/// time of all rounds: a run is short enough to be left alone by a busy machine at least once.
+/// A collider and the positions that it is asked for, without a limit of distance. Positions are timed in runs of about a fifth of a
+/// millisecond, each with the best time of all rounds: a run is short enough to be left alone by a busy machine at least once.
 /// </summary>
 internal sealed class AskedCollider
 {

@@ -27,7 +27,8 @@ internal sealed class CsvReport(string folder, MoreColumns columns) : IExporter
         var parameters = summary.BenchmarksCases.SelectMany(item => item.Parameters.Items).Select(item => item.Name).Distinct().ToArray();
         var more = columns.Names(summary).ToArray();
         var file = Path.Combine(folder, $"{type.Replace("Benchmarks", "", StringComparison.Ordinal).ToLowerInvariant()}-classes.csv");
-        var table = new CsvTable(file, $"--filter *.{type}.*", [.. parameters.Select(name => name.ToLowerInvariant()), .. Measured, .. more]);
+        var table =
+            new CsvTable(file, $"--filter *.{type}.*", [.. parameters.Select(name => name.ToLowerInvariant()), .. Measured, .. more]);
         foreach (var item in summary.BenchmarksCases)
         {
             if (summary[item] is not { ResultStatistics: { } statistics } report)
@@ -37,8 +38,10 @@ internal sealed class CsvReport(string folder, MoreColumns columns) : IExporter
 
             table.Add(
             [
-                .. parameters.Select(name => item.Parameters[name]), item.Descriptor.WorkloadMethod.Name, Math.Round(statistics.Mean, 3), Math.Round(statistics.StandardDeviation, 3),
-                Ratio(summary, item, statistics.Mean), report.GcStats.GetBytesAllocatedPerOperation(item), .. more.Select(name => (object?)columns.Value(summary, item, name)),
+                .. parameters.Select(name => item.Parameters[name]), item.Descriptor.WorkloadMethod.Name, Math.Round(statistics.Mean, 3),
+                Math.Round(statistics.StandardDeviation, 3),
+                Ratio(summary, item, statistics.Mean), report.GcStats.GetBytesAllocatedPerOperation(item),
+                .. more.Select(name => (object?)columns.Value(summary, item, name)),
             ]);
         }
 
@@ -47,5 +50,7 @@ internal sealed class CsvReport(string folder, MoreColumns columns) : IExporter
     }
 
     private static double? Ratio(Summary summary, BenchmarkCase item, double mean) =>
-        summary.GetBaseline(summary.GetLogicalGroupKey(item)) is { } baseline && summary[baseline]?.ResultStatistics is { } statistics ? Math.Round(mean / statistics.Mean, 6) : null;
+        summary.GetBaseline(summary.GetLogicalGroupKey(item)) is { } baseline && summary[baseline]?.ResultStatistics is { } statistics
+        ? Math.Round(mean / statistics.Mean, 6)
+        : null;
 }

@@ -5,7 +5,9 @@ using FractalEngine.Parsing.Assets;
 
 namespace FractalEngine.Benchmarks.Measuring;
 
-/// <summary>A table of measurements as a file: comments that say how and on what they were made, a header, then rows. Written whole or not at all.</summary>
+/// <summary>
+/// A table of measurements as a file: comments that say how and on what they were made, a header, then rows. Written whole or not at all.
+/// </summary>
 /// <param name="path">The file.</param>
 /// <param name="command">What makes it again, after <c>FractalEngine.Benchmarks -- </c>.</param>
 /// <param name="columns">Names, with units where there are any.</param>
@@ -17,7 +19,9 @@ internal sealed class CsvTable(string path, string command, params string[] colu
     public string? Driver { get; set; }
 
     /// <summary>Adds a row.</summary>
-    /// <param name="values">As many as columns. Numbers are written so that they read back to the same bits; null is an empty field.</param>
+    /// <param name="values">
+    /// As many as columns. Numbers are written so that they read back to the same bits; null is an empty field.
+    /// </param>
     public void Add(params object?[] values)
     {
         if (values.Length != columns.Length)
@@ -30,7 +34,8 @@ internal sealed class CsvTable(string path, string command, params string[] colu
 
     /// <summary>Writes the file.</summary>
     public void Save() => AtomicFile.Write(path, stream => stream.Write(
-        Encoding.UTF8.GetBytes($"# {command}\n# {Machine}{(Driver is null ? "" : $", {Driver}")}\n{string.Join(',', columns.Select(Quoted))}\n{_rows}")));
+        Encoding.UTF8.GetBytes(
+            $"# {command}\n# {Machine}{(Driver is null ? "" : $", {Driver}")}\n{string.Join(',', columns.Select(Quoted))}\n{_rows}")));
 
     /// <summary>The machine, in words: no names.</summary>
     private static string Machine =>
@@ -44,5 +49,6 @@ internal sealed class CsvTable(string path, string command, params string[] colu
         _ => Quoted(value.ToString()!),
     };
 
-    private static string Quoted(string text) => text.AsSpan().IndexOfAny(",\"\r\n") < 0 ? text : $"\"{text.Replace("\"", "\"\"", StringComparison.Ordinal)}\"";
+    private static string Quoted(string text) =>
+        text.AsSpan().IndexOfAny(",\"\r\n") < 0 ? text : $"\"{text.Replace("\"", "\"\"", StringComparison.Ordinal)}\"";
 }

@@ -13,14 +13,15 @@ namespace FractalEngine.Benchmarks.Measuring;
 internal sealed record FractalCase(string Name, Fractal Fractal)
 {
     /// <summary>
-    /// Beside those of the assets: three branches of 0.6, each leaning another way; four maps of which none keeps shapes, like a fern's; and a tree that
-    /// keeps its trunk at each level by the identity, so that most of its chains are the same instance.
+    /// Beside those of the assets: three branches of 0.6, each leaning another way; four maps of which none keeps shapes, like a fern's;
+    /// and a tree that keeps its trunk at each level by the identity, so that most of its chains are the same instance.
     /// </summary>
     private static readonly string[] Written = ["three-branches", "four-fronds", "binary-tree"];
 
     /// <summary>The names there are.</summary>
     public static IEnumerable<string> Names =>
-        Directory.GetFiles(Path.Combine(Assets, "fractals"), "*.fdo").Select(file => Path.GetFileNameWithoutExtension(file)).Order(StringComparer.Ordinal).Concat(Written);
+        Directory.GetFiles(Path.Combine(Assets, "fractals"), "*.fdo").Select(file => Path.GetFileNameWithoutExtension(file))
+        .Order(StringComparer.Ordinal).Concat(Written);
 
     /// <summary>The folder of the scenes, fractals and meshes.</summary>
     public static string Assets { get; } = FindAssets();
@@ -73,7 +74,8 @@ internal sealed record FractalCase(string Name, Fractal Fractal)
         new(new(0, 0.7, 0), new(0, 70, 24), 0.76 * Vector.One),
         new(new(0, 0.8, 0), new(0, -40, -31), 0.7 * Vector.One));
 
-    private static FractalDescription Repeated(params Transformation[] maps) => new("base.obj", [new Repetition([new TransformationSet([.. maps])], 5)]);
+    private static FractalDescription Repeated(params Transformation[] maps) =>
+        new("base.obj", [new Repetition([new TransformationSet([.. maps])], 5)]);
 
     private static Mesh Mesh(string name) => Model("models", name + ".obj").Mesh;
 

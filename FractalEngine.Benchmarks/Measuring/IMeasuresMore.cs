@@ -3,7 +3,10 @@ namespace FractalEngine.Benchmarks.Measuring;
 /// <summary>Benchmarks that know more of their methods than time and allocation. See <see cref="MoreColumns"/>.</summary>
 internal interface IMeasuresMore
 {
-    /// <summary>What a method does, beside taking time; asked once for each set of parameters, after the set-up, in the process that writes the report.</summary>
+    /// <summary>
+    /// What a method does, beside taking time; asked once for each set of parameters, after the set-up, in the process that writes the
+    /// report.
+    /// </summary>
     /// <param name="method">Its name.</param>
     IEnumerable<MoreValue> Measure(string method);
 }

@@ -16,7 +16,8 @@ internal sealed class MoreColumns : IColumnProvider
     public IEnumerable<IColumn> GetColumns(Summary summary) => Names(summary).Select(name => new Column(name, this));
 
     /// <summary>In the order in which they are measured.</summary>
-    public IEnumerable<string> Names(Summary summary) => summary.BenchmarksCases.SelectMany(Measure).Select(value => value.Column).Distinct();
+    public IEnumerable<string> Names(Summary summary) =>
+        summary.BenchmarksCases.SelectMany(Measure).Select(value => value.Column).Distinct();
 
     /// <summary>Null where there is none.</summary>
     public double? Value(Summary summary, BenchmarkCase benchmarkCase, string column)

@@ -14,7 +14,8 @@ internal static class QueryPositions
     public static Vector Near(Random random, Mesh mesh) => OnSurface(random, mesh) + Offset(random, 0.01 * mesh.Bounds.Diagonal);
 
     /// <summary>Up to 1 % of the diagonal along each axis from a random point of a random instance.</summary>
-    public static Vector Near(Random random, Fractal fractal) => OnSurface(random, fractal) + Offset(random, 0.01 * fractal.Bounds.Diagonal);
+    public static Vector Near(Random random, Fractal fractal) =>
+        OnSurface(random, fractal) + Offset(random, 0.01 * fractal.Bounds.Diagonal);
 
     /// <summary>One to one and a half diagonals from the centre of a box, to all sides: so at least half a diagonal from the box.</summary>
     public static Vector Far(Random random, BoundingBox box)

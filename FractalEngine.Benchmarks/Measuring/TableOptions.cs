@@ -10,7 +10,8 @@ internal sealed record TableOptions(string Command, bool IsQuick, string Folder)
     public int Rounds => IsQuick ? 5 : 15;
 
     /// <summary>A file in the folder.</summary>
-    public CsvTable Table(string file, params string[] columns) => new(Path.Combine(Folder, file), IsQuick ? $"{Command} --quick" : Command, columns);
+    public CsvTable Table(string file, params string[] columns) =>
+        new(Path.Combine(Folder, file), IsQuick ? $"{Command} --quick" : Command, columns);
 
     /// <summary>Reads <c>--quick</c> and <c>--output FOLDER</c>; null where other words stand there.</summary>
     public static TableOptions? TryRead(string command, string usage, ReadOnlySpan<string> words)

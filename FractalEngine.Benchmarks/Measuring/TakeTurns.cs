@@ -3,8 +3,8 @@ using System.Diagnostics;
 namespace FractalEngine.Benchmarks.Measuring;
 
 /// <summary>
-/// Times of several things side by side: in each round all take their turn, so that a busy moment of the machine meets no one alone, and the
-/// smallest time of all rounds counts. So the first rounds, which are the compiler's, do not.
+/// Times of several things side by side: in each round all take their turn, so that a busy moment of the machine meets no one alone, and
+/// the smallest time of all rounds counts. So the first rounds, which are the compiler's, do not.
 /// </summary>
 internal static class TakeTurns
 {

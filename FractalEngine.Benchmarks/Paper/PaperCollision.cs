@@ -19,7 +19,8 @@ namespace FractalEngine.Benchmarks.Paper;
 /// <param name="FractalWrong">Percent of the answers that are off by more than 1e-6 of the size; null for a mesh.</param>
 /// <param name="BoxesWrong">The same.</param>
 internal sealed record PaperCollision(
-    double Simple, double? Fractal, double Boxes, int BoxDepth, (double Faces, double Bounds) Exact, double? FractalWrong, double BoxesWrong)
+    double Simple, double? Fractal, double Boxes, int BoxDepth, (double Faces, double Bounds) Exact, double? FractalWrong,
+    double BoxesWrong)
 {
     private const int Queries = 1000;
     private const int SimpleQueries = 2;
@@ -33,7 +34,8 @@ internal sealed record PaperCollision(
     {
         var fractal = (model as FractalModel)?.Fractal;
         var random = new Random(1);
-        var positions = Enumerable.Range(0, Queries).Select(_ => fractal is null ? QueryPositions.Near(random, model.Mesh) : QueryPositions.Near(random, fractal)).ToArray();
+        var positions = Enumerable.Range(0, Queries)
+            .Select(_ => fractal is null ? QueryPositions.Near(random, model.Mesh) : QueryPositions.Near(random, fractal)).ToArray();
         var mesh = fractal is null ? model.Mesh : FractalGenerator.Flatten(fractal, MostFaces);
         var boxes = new BoundingBoxCollider(mesh);
         Collider exact = fractal is null ? new HierarchyCollider(mesh) : new ExactFractalCollider(fractal);
@@ -51,7 +53,9 @@ internal sealed record PaperCollision(
     private static double PercentWrong(Collider collider, Collider exact, Vector[] positions, BoundingBox bounds)
     {
         var record = new QueryContext();
-        return Math.Round(100.0 * positions.Count(position => Math.Abs(Distance(collider, position, record) - Distance(exact, position, record)) > Wrong * bounds.Diagonal) / positions.Length, 3);
+        return Math.Round(100.0
+            * positions.Count(position => Math.Abs(Distance(collider, position, record) - Distance(exact, position, record)) > Wrong
+                * bounds.Diagonal) / positions.Length, 3);
     }
 
     private static double Distance(Collider collider, Vector position, QueryContext record) =>

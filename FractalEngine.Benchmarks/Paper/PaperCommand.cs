@@ -13,13 +13,15 @@ internal static class PaperCommand
 
     private static readonly string[] Columns17 =
     [
-        "model", "name", "fractal", "faces", "paper_faces", "load_s", "every_instance_load_s", "paper_load_s", "storage_bytes", "paper_storage_bytes", "collision_cost",
+        "model", "name", "fractal", "faces", "paper_faces", "load_s", "every_instance_load_s", "paper_load_s", "storage_bytes",
+        "paper_storage_bytes", "collision_cost",
         "paper_collision_cost", "own_collider_cost", "note",
     ];
 
     private static readonly string[] Columns18 =
     [
-        "model", "name", "faces", "simple", "paper_simple", "fractal", "paper_fractal", "boxes", "paper_boxes", "box_depth", "own_collider_faces", "own_collider_bounds",
+        "model", "name", "faces", "simple", "paper_simple", "fractal", "paper_fractal", "boxes", "paper_boxes", "box_depth",
+        "own_collider_faces", "own_collider_bounds",
         "fractal_wrong_percent", "boxes_wrong_percent", "note",
     ];
 
@@ -59,11 +61,13 @@ internal static class PaperCommand
         var cost = PaperCollision.Of(model);
         return (
             [
-                paper.Id, paper.Name, paper.Shape is null ? "N" : "Y", model.FaceCount, paper.Faces, load, every, paper.LoadSeconds, loaded.StorageBytes, paper.StorageBytes,
+                paper.Id, paper.Name, paper.Shape is null ? "N" : "Y", model.FaceCount, paper.Faces, load, every, paper.LoadSeconds,
+                loaded.StorageBytes, paper.StorageBytes,
                 cost.Fractal ?? cost.Simple, paper.FractalCost ?? paper.Faces, cost.Exact.Faces, paper.NoteOnFigure17,
             ],
             [
-                paper.Id, paper.Name, model.FaceCount, cost.Simple, paper.Faces, cost.Fractal, paper.FractalCost, cost.Boxes, paper.BoxCost, cost.BoxDepth, cost.Exact.Faces,
+                paper.Id, paper.Name, model.FaceCount, cost.Simple, paper.Faces, cost.Fractal, paper.FractalCost, cost.Boxes, paper.BoxCost,
+                cost.BoxDepth, cost.Exact.Faces,
                 cost.Exact.Bounds, cost.FractalWrong, cost.BoxesWrong, paper.NoteOnFigure18,
             ]);
     }

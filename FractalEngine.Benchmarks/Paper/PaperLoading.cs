@@ -4,7 +4,10 @@ using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Benchmarks.Paper;
 
-/// <summary>How long from a file's text to arrays that the GPU takes as they are: files read, parsed, normals and vertices made, instances placed. Median of some runs.</summary>
+/// <summary>
+/// How long from a file's text to arrays that the GPU takes as they are: files read, parsed, normals and vertices made, instances placed.
+/// Median of some runs.
+/// </summary>
 internal static class PaperLoading
 {
     private const int Runs = 10;
@@ -17,7 +20,8 @@ internal static class PaperLoading
     public static double Seconds(string file) => Median(file, new());
 
     /// <summary>As the paper does it: every instance's matrix is made.</summary>
-    public static double SecondsForEveryInstance(string file) => Median(file, new() { Culling = null, InstanceBudget = AllInstances, TriangleBudget = AllTriangles });
+    public static double SecondsForEveryInstance(string file) =>
+        Median(file, new() { Culling = null, InstanceBudget = AllInstances, TriangleBudget = AllTriangles });
 
     private static double Median(string file, RenderSettings settings)
     {

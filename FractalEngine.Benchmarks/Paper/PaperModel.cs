@@ -16,7 +16,8 @@ namespace FractalEngine.Benchmarks.Paper;
 /// <param name="FractalCost">Face tests of the fractal collider; null for a mesh.</param>
 /// <param name="BoxCost">Face tests of the bounding box collider.</param>
 internal sealed record PaperModel(
-    int Id, string Name, (int Base, int Maps, int Depth)? Shape, double LoadSeconds, long StorageBytes, long Faces, long? FractalCost, long BoxCost)
+    int Id, string Name, (int Base, int Maps, int Depth)? Shape, double LoadSeconds, long StorageBytes, long Faces, long? FractalCost,
+    long BoxCost)
 {
     /// <summary>All five.</summary>
     public static PaperModel[] All { get; } =
@@ -36,12 +37,14 @@ internal sealed record PaperModel(
 
     /// <summary>Where the paper's own numbers disagree; empty where they agree.</summary>
     public string NoteOnFigure17 => FormulaOfFractal is { } formula && formula != FractalCost
-        ? FormattableString.Invariant($"the paper prints {FractalCost}; its b·t·d is {Shape!.Value.Base}·{Shape.Value.Maps}·{Shape.Value.Depth} = {formula}, and {FractalCost} would be depth {FractalCost / (Shape.Value.Base * Shape.Value.Maps)}")
+        ? FormattableString.Invariant(
+            $"the paper prints {FractalCost}; its b·t·d is {Shape!.Value.Base}·{Shape.Value.Maps}·{Shape.Value.Depth} = {formula}, and {FractalCost} would be depth {FractalCost / (Shape.Value.Base * Shape.Value.Maps)}")
         : "";
 
     /// <summary>The same of figure 18.</summary>
     public string NoteOnFigure18 => FormattableString.Invariant(
-        $"the paper's {BoxCost} is 8·12·{FormulaOfBoxes / 96:F2} rounded: no octree has {FormulaOfBoxes / 96:F2} levels") + (NoteOnFigure17 is "" ? "" : "; " + NoteOnFigure17);
+        $"the paper's {BoxCost} is 8·12·{FormulaOfBoxes / 96:F2} rounded: no octree has {FormulaOfBoxes / 96:F2} levels")
+        + (NoteOnFigure17 is "" ? "" : "; " + NoteOnFigure17);
 
     /// <summary>The model's file; a generated mesh is written into a folder.</summary>
     public string FileIn(string folder)

@@ -17,14 +17,17 @@ internal static class PhysicsCommand
     {
         var (rounds, balls, collider, folder, names) = (3, 1000, ColliderKind.Exact, (string?)null, new List<string>());
         var words = new CommandWords($"{Usage}\nNames: {string.Join(' ', FractalCase.Names)}")
-            .Count("--rounds", count => rounds = count).Count("--balls", count => balls = count).Value("--collider", text => TryParse(text, out collider))
+            .Count("--rounds", count => rounds = count).Count("--balls", count => balls = count)
+            .Value("--collider", text => TryParse(text, out collider))
             .Value("--output", value => folder = value).Names(FractalCase.IsCase, names);
         if (!words.TryRead(args))
         {
             return 2;
         }
 
-        var command = FormattableString.Invariant($"physics{string.Concat(names.Select(name => " " + name))} --balls {balls} --collider {SceneParser.GetColliderName(collider)} --rounds {rounds}");
+        var command =
+            FormattableString.Invariant(
+                $"physics{string.Concat(names.Select(name => " " + name))} --balls {balls} --collider {SceneParser.GetColliderName(collider)} --rounds {rounds}");
         var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "physics.csv"), command, PhysicsTable.Columns);
         var table = new PhysicsTable(rounds, Console.Out, csv);
         foreach (var name in names.Count > 0 ? names : ["menger:5"])

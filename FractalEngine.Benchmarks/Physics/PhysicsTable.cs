@@ -8,8 +8,8 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Benchmarks.Physics;
 
 /// <summary>
-/// What a step costs while many balls fall on a fractal, bounce through its holes and come to rest: milliseconds a step on one core, median and worst of each phase, best of some rounds. All
-/// rounds make the same steps, bit for bit.
+/// What a step costs while many balls fall on a fractal, bounce through its holes and come to rest: milliseconds a step on one core, median
+/// and worst of each phase, best of some rounds. All rounds make the same steps, bit for bit.
 /// </summary>
 /// <param name="rounds">Of which the best counts.</param>
 /// <param name="output">Receives the rows as text.</param>
@@ -18,7 +18,8 @@ internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? tabl
 {
     /// <summary>Names of the columns.</summary>
     public static readonly string[] Columns =
-        ["fractal", "balls", "until_s", "awake_at_end", "bound_tests_a_step", "ms_a_step_median", "ms_a_step_worst", "allocated_bytes_of_all_but_first", "state"];
+        ["fractal", "balls", "until_s", "awake_at_end", "bound_tests_a_step", "ms_a_step_median", "ms_a_step_worst",
+        "allocated_bytes_of_all_but_first", "state"];
 
     private const int Steps = 600;
     private const int StepsOfPhase = 30;
@@ -46,15 +47,20 @@ internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? tabl
                 world.Step();
                 // The first round is for the compiler.
                 best[step] = round > 0 ? Math.Min(best[step], Stopwatch.GetElapsedTime(start).TotalMilliseconds) : best[step];
-                bounds[step / StepsOfPhase] = (step % StepsOfPhase == 0 ? 0 : bounds[step / StepsOfPhase]) + (world.LastStepCost.BoundTests / (double)StepsOfPhase);
+                bounds[step / StepsOfPhase] = (step % StepsOfPhase == 0 ? 0 : bounds[step / StepsOfPhase])
+                    + (world.LastStepCost.BoundTests / (double)StepsOfPhase);
                 awake[step / StepsOfPhase] = Awake(world);
             }
 
             allocated = GC.GetAllocatedBytesForCurrentThread() - before;
-            hash = round == 0 || hash == world.StateHash ? world.StateHash : throw new InvalidOperationException("two rounds of the same steps differ");
+            hash = round == 0 || hash == world.StateHash
+                ? world.StateHash
+                : throw new InvalidOperationException("two rounds of the same steps differ");
         }
 
-        output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{fractal.Name}, {count} balls, best of {rounds}; state {hash}; {allocated} bytes allocated in the last {Steps - StepsOfPhase} steps"));
+        output.WriteLine(
+            string.Create(CultureInfo.InvariantCulture,
+            $"{fractal.Name}, {count} balls, best of {rounds}; state {hash}; {allocated} bytes allocated in the last {Steps - StepsOfPhase} steps"));
         output.WriteLine("until   awake at the end   bound tests   ms a step, median   worst");
         for (var phase = 0; phase < phases; phase++)
         {
@@ -64,7 +70,8 @@ internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? tabl
                 CultureInfo.InvariantCulture,
                 $"{(phase + 1) * StepsOfPhase / 60.0,4:F1} s {awake[phase],18} {bounds[phase],13:F0} {times[StepsOfPhase / 2],19:F2} {times[^1],7:F2}"));
             table?.Add(
-                fractal.Name, count, (phase + 1) * StepsOfPhase / 60.0, awake[phase], Math.Round(bounds[phase], 1), Math.Round(times[StepsOfPhase / 2], 4), Math.Round(times[^1], 4), allocated,
+                fractal.Name, count, (phase + 1) * StepsOfPhase / 60.0, awake[phase], Math.Round(bounds[phase], 1),
+                Math.Round(times[StepsOfPhase / 2], 4), Math.Round(times[^1], 4), allocated,
                 hash);
         }
 
@@ -98,7 +105,8 @@ internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? tabl
         var world = new PhysicsWorld(scene) { ColliderOverride = collider };
         var random = new Random(Seed);
         world.AddRange(Enumerable.Range(0, count).Select(_ => new BodyDescription(
-            new(random.NextDouble() - 0.5, 0.6 + (0.6 * random.NextDouble()), random.NextDouble() - 0.5), 0.004 + (0.006 * random.NextDouble()))
+            new(random.NextDouble() - 0.5, 0.6 + (0.6 * random.NextDouble()), random.NextDouble() - 0.5),
+            0.004 + (0.006 * random.NextDouble()))
         {
             Restitution = 0.5,
             Friction = 0.4,

@@ -17,7 +17,8 @@ internal static class ExactDistance
 
         public static Rational Dot(Triple v, Triple w) => (v.X * w.X) + (v.Y * w.Y) + (v.Z * w.Z);
 
-        public static Triple Cross(Triple v, Triple w) => new((v.Y * w.Z) - (v.Z * w.Y), (v.Z * w.X) - (v.X * w.Z), (v.X * w.Y) - (v.Y * w.X));
+        public static Triple Cross(Triple v, Triple w) =>
+            new((v.Y * w.Z) - (v.Z * w.Y), (v.Z * w.X) - (v.X * w.Z), (v.X * w.Y) - (v.Y * w.X));
     }
 
     /// <summary>From a triangle.</summary>

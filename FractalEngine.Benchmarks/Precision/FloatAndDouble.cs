@@ -8,8 +8,8 @@ using Vector = FractalEngine.Core.Maths.Vector;
 namespace FractalEngine.Benchmarks.Precision;
 
 /// <summary>
-/// What would floats save, and what would they cost: a face's distance, one after the other, and those of eight boxes at once, in float and in double, beside the
-/// same in fractions. All coordinates are floats, so nothing is lost before the first operation.
+/// What would floats save, and what would they cost: a face's distance, one after the other, and those of eight boxes at once, in float and
+/// in double, beside the same in fractions. All coordinates are floats, so nothing is lost before the first operation.
 /// </summary>
 internal static class FloatAndDouble
 {
@@ -19,7 +19,8 @@ internal static class FloatAndDouble
     private const int Boxes = 8;
 
     /// <summary>Where the faces are, as the offset from the origin and the width, in sizes.</summary>
-    public static (string Name, double Offset, double Width)[] Sets { get; } = [("near the origin", 0, 1), ("1000 sizes away", 1000, 1), ("thin", 0, 1e-3)];
+    public static (string Name, double Offset, double Width)[] Sets { get; } =
+        [("near the origin", 0, 1), ("1000 sizes away", 1000, 1), ("thin", 0, 1e-3)];
 
     /// <summary>Writes the file.</summary>
     public static void Write(TableOptions options)
@@ -30,10 +31,12 @@ internal static class FloatAndDouble
             })
             .Concat(Sets[..2].SelectMany(set => new[] { EightBoxes<float>(set), EightBoxes<double>(set) })).ToArray();
         var times = TakeTurns.Best([.. measured.Select(item => item.Time)], 20 * options.Rounds);
-        var table = options.Table("float-double.csv", "test", "coordinates", "type", "ns", "worst_error_of_distance", "above_the_truth_percent");
+        var table = options.Table("float-double.csv", "test", "coordinates", "type", "ns", "worst_error_of_distance",
+            "above_the_truth_percent");
         foreach (var (item, seconds) in measured.Zip(times))
         {
-            table.Add(item.Test, item.Coordinates, item.Type, Math.Round(1e9 * seconds / Cases, 3), item.WorstError, Math.Round(item.Above, 2));
+            table.Add(item.Test, item.Coordinates, item.Type, Math.Round(1e9 * seconds / Cases, 3), item.WorstError,
+                Math.Round(item.Above, 2));
         }
 
         table.Save();
@@ -52,7 +55,8 @@ internal static class FloatAndDouble
         var faces = Enumerable.Range(0, Cases).Select(_ => RandomFace(random, set.Offset, set.Width)).ToArray();
         var same = faces.Select(face => (P: Of<T>(face.P), A: Of<T>(face.A), B: Of<T>(face.B), C: Of<T>(face.C))).ToArray();
         var results = same.Select(face => double.CreateChecked(GenericFaceKernel<T>.DistanceSquared(face.P, face.A, face.B, face.C)));
-        var (worst, above) = Errors(results.Zip(faces, (result, face) => (result, ExactDistance.SquaredToFace(face.P, face.A, face.B, face.C))));
+        var (worst, above) =
+            Errors(results.Zip(faces, (result, face) => (result, ExactDistance.SquaredToFace(face.P, face.A, face.B, face.C))));
         return new("face", set.Name, typeof(T).Name, () => Sum(same), worst, above);
     }
 
@@ -62,7 +66,8 @@ internal static class FloatAndDouble
         var random = new Random(1);
         var faces = Enumerable.Range(0, Cases).Select(_ => RandomFace(random, set.Offset, set.Width)).ToArray();
         var (worst, above) = Errors(faces.Select(
-            face => (TriangleKernel.ClosestPoint(face.P, face.A, face.B, face.C).DistanceSquared, ExactDistance.SquaredToFace(face.P, face.A, face.B, face.C))));
+            face => (TriangleKernel.ClosestPoint(face.P, face.A, face.B, face.C).DistanceSquared,
+            ExactDistance.SquaredToFace(face.P, face.A, face.B, face.C))));
         return new("face, the engine's kernel", set.Name, "Double", () => Sum(faces), worst, above);
     }
 
@@ -79,7 +84,8 @@ internal static class FloatAndDouble
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void Sum<T>((GenericFaceKernel<T>.Triple P, GenericFaceKernel<T>.Triple A, GenericFaceKernel<T>.Triple B, GenericFaceKernel<T>.Triple C)[] faces)
+    private static void Sum<T>((GenericFaceKernel<T>.Triple P, GenericFaceKernel<T>.Triple A, GenericFaceKernel<T>.Triple B,
+    GenericFaceKernel<T>.Triple C)[] faces)
         where T : struct, IFloatingPointIeee754<T>
     {
         var sum = T.Zero;
@@ -95,7 +101,8 @@ internal static class FloatAndDouble
         where T : struct, IFloatingPointIeee754<T>
     {
         var random = new Random(1);
-        var boxes = Enumerable.Range(0, Cases * Boxes).Select(_ => (Low: RandomPoint(random, set.Offset, 1), Size: RandomPoint(random, 0.5, 0.5))).Select(
+        var boxes = Enumerable.Range(0, Cases * Boxes)
+            .Select(_ => (Low: RandomPoint(random, set.Offset, 1), Size: RandomPoint(random, 0.5, 0.5))).Select(
             box => (box.Low, High: Single(box.Low + box.Size))).ToArray();
         var positions = Enumerable.Range(0, Cases).Select(_ => RandomPoint(random, set.Offset, 2)).ToArray();
         // A group of eight: least x of all, then y and z, then the largest.
@@ -106,11 +113,16 @@ internal static class FloatAndDouble
         var places = positions.Select(Of<T>).ToArray();
         var results = new T[Cases * Boxes];
         BoxDistances(places, numbers, results);
-        var (worst, above) = Errors(results.Select((result, i) => (double.CreateChecked(result), ExactDistance.SquaredToBox(positions[i / Boxes], boxes[i].Low, boxes[i].High))));
+        var (worst, above) =
+            Errors(results.Select(
+                (result, i) => (double.CreateChecked(result),
+                ExactDistance.SquaredToBox(positions[i / Boxes], boxes[i].Low, boxes[i].High))));
         return new("8 boxes", set.Name, typeof(T).Name, () => BoxDistances(places, numbers, results), worst, above);
     }
 
-    /// <summary>Squared distances of each position from its eight boxes: one group of floats, two of doubles, in registers of 256 bits.</summary>
+    /// <summary>
+    /// Squared distances of each position from its eight boxes: one group of floats, two of doubles, in registers of 256 bits.
+    /// </summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void BoxDistances<T>(GenericFaceKernel<T>.Triple[] positions, T[] numbers, T[] results)
         where T : struct, IFloatingPointIeee754<T>
@@ -131,9 +143,12 @@ internal static class FloatAndDouble
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static Vector256<T> Outside<T>(Vector256<T> p, ReadOnlySpan<T> group, int axis) => Vector256.Max(
-        Vector256.Max(Vector256.Create(group[(axis * Boxes)..]) - p, p - Vector256.Create(group[((axis + 3) * Boxes)..])), Vector256<T>.Zero);
+        Vector256.Max(Vector256.Create(group[(axis * Boxes)..]) - p, p - Vector256.Create(group[((axis + 3) * Boxes)..])),
+        Vector256<T>.Zero);
 
-    /// <summary>The worst error of the distance, and the percent that are more than the true one, which a lower bound must not be.</summary>
+    /// <summary>
+    /// The worst error of the distance, and the percent that are more than the true one, which a lower bound must not be.
+    /// </summary>
     private static (double Worst, double Above) Errors(IEnumerable<(double Squared, Rational Exact)> results)
     {
         var errors = results.Select(pair => (Rational.Of(pair.Squared) - pair.Exact).ToDouble() switch
@@ -144,12 +159,15 @@ internal static class FloatAndDouble
         return (errors.Max(Math.Abs), 100.0 * errors.Count(error => error > 0) / errors.Length);
     }
 
-    /// <summary>A face of size 1, or one that is as narrow as asked for, and a position up to 1 from its first corner along each axis.</summary>
+    /// <summary>
+    /// A face of size 1, or one that is as narrow as asked for, and a position up to 1 from its first corner along each axis.
+    /// </summary>
     private static (Vector P, Vector A, Vector B, Vector C) RandomFace(Random random, double offset, double width)
     {
         var a = RandomPoint(random, offset, 1);
         var along = RandomPoint(random, 0, 1);
-        return (Single(a + RandomPoint(random, 0, 1)), a, Single(a + along), Single(a + (width < 1 ? random.NextDouble() : 0) * along + (width * RandomPoint(random, 0, 1))));
+        return (Single(a + RandomPoint(random, 0, 1)), a, Single(a + along),
+            Single(a + (width < 1 ? random.NextDouble() : 0) * along + (width * RandomPoint(random, 0, 1))));
     }
 
     private static Vector RandomPoint(Random random, double centre, double most) =>

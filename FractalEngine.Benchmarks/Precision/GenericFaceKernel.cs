@@ -4,8 +4,8 @@ using System.Runtime.CompilerServices;
 namespace FractalEngine.Benchmarks.Precision;
 
 /// <summary>
-/// <see cref="Core.Collision.TriangleKernel"/>'s squared distance, the same operations in the same order, in float or in double: to compare the two. The engine itself
-/// has no floats before the GPU.
+/// <see cref="Core.Collision.TriangleKernel"/>'s squared distance, the same operations in the same order, in float or in double: to compare
+/// the two. The engine itself has no floats before the GPU.
 /// </summary>
 /// <typeparam name="T">The number.</typeparam>
 internal static class GenericFaceKernel<T>
@@ -29,7 +29,8 @@ internal static class GenericFaceKernel<T>
         public static T Dot(Triple v, Triple w) => (v.X * w.X) + (v.Y * w.Y) + (v.Z * w.Z);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Triple Cross(Triple v, Triple w) => new((v.Y * w.Z) - (v.Z * w.Y), (v.Z * w.X) - (v.X * w.Z), (v.X * w.Y) - (v.Y * w.X));
+        public static Triple Cross(Triple v, Triple w) =>
+            new((v.Y * w.Z) - (v.Z * w.Y), (v.Z * w.X) - (v.X * w.Z), (v.X * w.Y) - (v.Y * w.X));
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public T LengthSquared() => Dot(this, this);
@@ -58,7 +59,9 @@ internal static class GenericFaceKernel<T>
         }
 
         var height = Triple.Dot(ap, normal);
-        return Smaller(nearest, thin ? (position - (a + (weightB * ab) + (weightC * ac))).LengthSquared() : height * height / normalSquared);
+        return Smaller(nearest, thin
+            ? (position - (a + (weightB * ab) + (weightC * ac))).LengthSquared()
+            : height * height / normalSquared);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -4,7 +4,8 @@ using FractalEngine.Benchmarks.Measuring;
 namespace FractalEngine.Benchmarks.Precision;
 
 /// <summary>
-/// Float or double? The distance of a position from a face by the same operations in both, and by the engine's own kernel, which also finds the point, its weights and the feature. One operation is one face; errors are against fractions.
+/// Float or double? The distance of a position from a face by the same operations in both, and by the engine's own kernel, which also finds
+/// the point, its weights and the feature. One operation is one face; errors are against fractions.
 /// </summary>
 public class PrecisionBenchmarks : IMeasuresMore
 {

@@ -11,7 +11,8 @@ internal readonly record struct Rational(BigInteger Numerator, BigInteger Denomi
 
     public static Rational One => new(1, 1);
 
-    public static Rational operator +(Rational r, Rational s) => new((r.Numerator * s.Denominator) + (s.Numerator * r.Denominator), r.Denominator * s.Denominator);
+    public static Rational operator +(Rational r, Rational s) =>
+        new((r.Numerator * s.Denominator) + (s.Numerator * r.Denominator), r.Denominator * s.Denominator);
 
     public static Rational operator -(Rational r, Rational s) => r + new Rational(-s.Numerator, s.Denominator);
 

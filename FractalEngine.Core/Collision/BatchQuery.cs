@@ -17,7 +17,9 @@ public static class BatchQuery
     /// <param name="epsilon">As in <see cref="Collider.TryFindClosest"/>.</param>
     /// <param name="threads">At most so many; null for one a core.</param>
     /// <exception cref="ArgumentException">There are fewer or more answers than positions.</exception>
-    /// <exception cref="ArgumentOutOfRangeException">A position is not finite, a distance or ε is negative or NaN, or there are no threads.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">
+    /// A position is not finite, a distance or ε is negative or NaN, or there are no threads.
+    /// </exception>
     /// <remarks>Allocates for each thread, nothing for a position.</remarks>
     public static void FindClosest(
         Collider collider,
@@ -27,7 +29,8 @@ public static class BatchQuery
         double maxDistance = double.PositiveInfinity,
         double epsilon = 0,
         int? threads = null) => FindClosest(
-            (Vector position, QueryContext threadContext, out ClosestPoint closest) => collider.TryFindClosest(position, maxDistance, threadContext, out closest, epsilon),
+            (Vector position, QueryContext threadContext, out ClosestPoint closest) => collider.TryFindClosest(position, maxDistance,
+            threadContext, out closest, epsilon),
             positions, results, context, maxDistance, epsilon, threads);
 
     /// <summary>Finds the nearest point of a scene for each position.</summary>
@@ -39,7 +42,9 @@ public static class BatchQuery
     /// <param name="epsilon">As in <see cref="Collider.TryFindClosest"/>.</param>
     /// <param name="threads">At most so many; null for one a core.</param>
     /// <exception cref="ArgumentException">There are fewer or more answers than positions.</exception>
-    /// <exception cref="ArgumentOutOfRangeException">A position is not finite, a distance or ε is negative or NaN, or there are no threads.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">
+    /// A position is not finite, a distance or ε is negative or NaN, or there are no threads.
+    /// </exception>
     public static void FindClosest(
         SceneCollider scene,
         ReadOnlyMemory<Vector> positions,
@@ -48,13 +53,15 @@ public static class BatchQuery
         double maxDistance = double.PositiveInfinity,
         double epsilon = 0,
         int? threads = null) => FindClosest(
-            (Vector position, QueryContext threadContext, out ClosestPoint closest) => scene.TryFindClosest(position, maxDistance, threadContext, out closest, out _, epsilon: epsilon),
+            (Vector position, QueryContext threadContext, out ClosestPoint closest) => scene.TryFindClosest(position, maxDistance,
+            threadContext, out closest, out _, epsilon: epsilon),
             positions, results, context, maxDistance, epsilon, threads);
 
     private delegate bool Query(Vector position, QueryContext context, out ClosestPoint closest);
 
     private static void FindClosest(
-        Query query, ReadOnlyMemory<Vector> positions, Memory<BatchResult> results, QueryContext context, double maxDistance, double epsilon, int? threads)
+        Query query, ReadOnlyMemory<Vector> positions, Memory<BatchResult> results, QueryContext context, double maxDistance,
+        double epsilon, int? threads)
     {
         ThrowIfInvalid(positions.Span, results.Length, maxDistance, epsilon, threads);
         context.ClearPath();

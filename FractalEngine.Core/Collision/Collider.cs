@@ -20,7 +20,8 @@ public abstract class Collider
     /// <param name="context">Receives the costs and the instance.</param>
     /// <param name="closest">The answer, if there is one.</param>
     /// <param name="epsilon">
-    /// How much farther than the nearest the answer may be: at most by the factor 1 + ε. Colliders that are not faster for it answer exactly.
+    /// How much farther than the nearest the answer may be: at most by the factor 1 + ε. Colliders that are not faster for it answer
+    /// exactly.
     /// </param>
     /// <returns>False when nothing lies within the distance.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the distance or ε is negative or NaN.</exception>
@@ -40,11 +41,13 @@ public abstract class Collider
     /// <param name="epsilon">As in <see cref="TryFindClosest"/>.</param>
     /// <param name="context">Receives the costs and the instance.</param>
     /// <param name="closest">The answer in the frame of the image, if there is one.</param>
-    internal virtual bool FindClosestTransformed(Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest) =>
+    internal virtual bool FindClosestTransformed(Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context,
+        out ClosestPoint closest) =>
         throw new NotSupportedException($"{GetType().Name} finds points in the shape's own frame only");
 
     /// <summary>
-    /// True when a search that found nothing must be repeated without ε: measured against the limit itself, ε leaves out what is a little nearer.
+    /// True when a search that found nothing must be repeated without ε: measured against the limit itself, ε leaves out what is a little
+    /// nearer.
     /// </summary>
     private protected static bool NeedsExactRetry(double maxDistance, double epsilon) => epsilon > 0 && double.IsFinite(maxDistance);
 
@@ -68,5 +71,6 @@ public abstract class Collider
     }
 
     /// <summary>The query itself, its arguments checked.</summary>
-    private protected abstract bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest);
+    private protected abstract bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
+        out ClosestPoint closest);
 }

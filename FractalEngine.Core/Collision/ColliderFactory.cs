@@ -14,7 +14,8 @@ public static class ColliderFactory
     public const long MaxExpandedFaces = 20_000_000;
 
     /// <summary>True for kinds whose colliders serve objects with any matrix, see <see cref="Collider.FindClosestTransformed"/>.</summary>
-    internal static bool SupportsTransformedQueries(ColliderKind kind) => kind is ColliderKind.Exact or ColliderKind.Hierarchy or ColliderKind.Simple;
+    internal static bool SupportsTransformedQueries(ColliderKind kind) =>
+        kind is ColliderKind.Exact or ColliderKind.Hierarchy or ColliderKind.Simple;
 
     /// <summary>The collider for a model in its own frame.</summary>
     /// <exception cref="ColliderMismatchException">The kind does not fit the model; the message says which kinds do.</exception>
@@ -47,7 +48,8 @@ public static class ColliderFactory
     {
         if (kind == ColliderKind.Fractal)
         {
-            throw new ColliderMismatchException("the collider 'fractal' descends by affine maps, which componentwise composition has not: expected exact, hierarchy, bounding-box or simple");
+            throw new ColliderMismatchException(
+                "the collider 'fractal' descends by affine maps, which componentwise composition has not: expected exact, hierarchy, bounding-box or simple");
         }
 
         var instances = FractalGenerator.Expand(fractal, MaxExpandedFaces / Math.Max(1, fractal.BaseMesh.FaceCount));
@@ -59,6 +61,7 @@ public static class ColliderFactory
         ColliderKind.Exact or ColliderKind.Hierarchy => new HierarchyCollider(mesh),
         ColliderKind.BoundingBox => new BoundingBoxCollider(mesh),
         ColliderKind.Simple => new SimpleCollider(mesh),
-        _ => throw new ColliderMismatchException("the collider 'fractal' needs a fractal, and this is a mesh: expected exact, hierarchy, bounding-box or simple"),
+        _ => throw new ColliderMismatchException(
+            "the collider 'fractal' needs a fractal, and this is a mesh: expected exact, hierarchy, bounding-box or simple"),
     };
 }

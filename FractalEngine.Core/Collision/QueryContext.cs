@@ -26,8 +26,8 @@ public sealed class QueryContext
     public long BoundTests { get; set; }
 
     /// <summary>
-    /// The instance that the last query found: for each level, the outermost first, the number of the transformation in its set. Empty for a
-    /// mesh. Shorter than the fractal's depth where deeper levels are below the precision of the answer.
+    /// The instance that the last query found: for each level, the outermost first, the number of the transformation in its set. Empty for
+    /// a mesh. Shorter than the fractal's depth where deeper levels are below the precision of the answer.
     /// </summary>
     public ReadOnlySpan<int> InstancePath => CollectionsMarshal.AsSpan(_instancePath);
 

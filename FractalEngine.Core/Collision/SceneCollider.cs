@@ -6,8 +6,8 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Core.Collision;
 
 /// <summary>
-/// Queries on all objects of a scene, in world space. The collider of a file is built when it is first asked for, once for all objects that show the
-/// file; an object's own matrix is taken into account by each query, so that objects move for nothing.
+/// Queries on all objects of a scene, in world space. The collider of a file is built when it is first asked for, once for all objects that
+/// show the file; an object's own matrix is taken into account by each query, so that objects move for nothing.
 /// </summary>
 /// <remarks>
 /// A matrix with a non-uniform scale does not keep distances in proportion: then the search itself takes it into account, which costs some
@@ -25,16 +25,21 @@ public sealed class SceneCollider
     public SceneCollider(LoadedScene scene, ColliderKind kind = ColliderKind.Exact)
     {
         _kind = kind;
-        _sharedColliders = scene.Models.ToDictionary(model => model, model => new Lazy<Collider>(() => ColliderFactory.Create(model, kind)));
+        _sharedColliders =
+            scene.Models.ToDictionary(model => model, model => new Lazy<Collider>(() => ColliderFactory.Create(model, kind)));
         _instances = [.. scene.Objects.Select(CreateInstance)];
     }
 
-    private SceneCollider(ImmutableArray<ColliderInstance> instances, Dictionary<Model, Lazy<Collider>> sharedColliders, ColliderKind kind) => (_instances, _sharedColliders, _kind) = (instances, sharedColliders, kind);
+    private SceneCollider(ImmutableArray<ColliderInstance> instances, Dictionary<Model, Lazy<Collider>> sharedColliders,
+        ColliderKind kind) => (_instances, _sharedColliders, _kind) = (instances, sharedColliders, kind);
 
-    /// <summary>The same scene with one of its objects elsewhere. Colliders are shared; only the approximate ones of skewed objects are built anew.</summary>
+    /// <summary>
+    /// The same scene with one of its objects elsewhere. Colliders are shared; only the approximate ones of skewed objects are built anew.
+    /// </summary>
     /// <param name="index">The object's place in the scene.</param>
     /// <param name="placed">The same model under another matrix.</param>
-    public SceneCollider WithObject(int index, PlacedModel placed) => new(_instances.SetItem(index, CreateInstance(placed)), _sharedColliders, _kind);
+    public SceneCollider WithObject(int index, PlacedModel placed) =>
+        new(_instances.SetItem(index, CreateInstance(placed)), _sharedColliders, _kind);
 
     private ColliderInstance CreateInstance(PlacedModel placed) => Similarity.TryCreate(placed.ObjectToWorld, out var similarity)
         ? new(_sharedColliders[placed.Model], similarity, null, placed.Bounds)
@@ -43,7 +48,9 @@ public sealed class SceneCollider
             : new(new(() => ColliderFactory.Create(placed, _kind)), Similarity.Identity, null, placed.Bounds);
 
     /// <summary>Bytes of the colliders built so far, each once.</summary>
-    public long StorageBytes => _instances.Select(instance => instance.Collider).Distinct().Where(collider => collider.IsValueCreated).Sum(collider => collider.Value.StorageBytes);
+    public long StorageBytes =>
+        _instances.Select(instance => instance.Collider).Distinct().Where(collider => collider.IsValueCreated)
+        .Sum(collider => collider.Value.StorageBytes);
 
     /// <summary>How many colliders there are, and how many of them have been built.</summary>
     public (int Built, int All) ColliderCounts
@@ -75,7 +82,8 @@ public sealed class SceneCollider
     /// <returns>False when nothing lies within the distance.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the distance or ε is negative or NaN.</exception>
     public bool TryFindClosest(
-        Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, out int objectIndex, int excludedObject = -1, double epsilon = 0)
+        Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, out int objectIndex, int excludedObject = -1,
+        double epsilon = 0)
     {
         Collider.ThrowIfInvalid(position, maxDistance, epsilon);
         (closest, objectIndex) = (default, -1);
@@ -94,13 +102,15 @@ public sealed class SceneCollider
                 nextObject = boundDistances[i] < boundDistances[nextObject] ? i : nextObject;
             }
 
-            if (!(boundDistances[nextObject] * (objectIndex < 0 ? 1 : 1 + epsilon) <= maxDistance) || double.IsPositiveInfinity(boundDistances[nextObject]))
+            if (!(boundDistances[nextObject] * (objectIndex < 0 ? 1 : 1 + epsilon) <= maxDistance)
+                || double.IsPositiveInfinity(boundDistances[nextObject]))
             {
                 break;
             }
 
             boundDistances[nextObject] = double.PositiveInfinity;
-            if (_instances[nextObject].TryFindClosest(position, maxDistance, context, out var candidate, epsilon) && (objectIndex < 0 || candidate.Distance < closest.Distance))
+            if (_instances[nextObject].TryFindClosest(position, maxDistance, context, out var candidate, epsilon)
+                && (objectIndex < 0 || candidate.Distance < closest.Distance))
             {
                 (closest, objectIndex, maxDistance) = (candidate, nextObject, Math.Min(maxDistance, candidate.Distance));
                 context.SavePath();
@@ -125,7 +135,8 @@ public sealed class SceneCollider
                 return Collider.Value.FindClosestTransformed(position, map, maxDistance, epsilon, context, out closest);
             }
 
-            var isFound = Collider.Value.TryFindClosest(Similarity.ToLocal(position), maxDistance / Similarity.Scale, context, out var localClosest, epsilon);
+            var isFound = Collider.Value.TryFindClosest(Similarity.ToLocal(position), maxDistance / Similarity.Scale, context,
+                out var localClosest, epsilon);
             closest = isFound ? Similarity.ToWorld(localClosest) : default;
             return isFound;
         }

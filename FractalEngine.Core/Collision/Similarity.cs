@@ -35,8 +35,8 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
     public Vector ToLocal(Vector position) => ReferenceEquals(this, Identity) ? position : Inverse * position;
 
     /// <summary>
-    /// An answer found in the local frame, in the world. The normal goes with the cofactors, as the product of two edges does: by the winding
-    /// of the face's image, which a mirror turns.
+    /// An answer found in the local frame, in the world. The normal goes with the cofactors, as the product of two edges does: by the
+    /// winding of the face's image, which a mirror turns.
     /// </summary>
     public ClosestPoint ToWorld(ClosestPoint local)
     {

@@ -42,7 +42,8 @@ public static class TriangleKernel
             (distanceSquared, t, point, edge) = (distanceSquaredCA, tCA, pointCA, 2);
         }
 
-        return TryProjectToInterior(position, a, b, c, out var foot, out var heightSquared, out var barycentrics) && heightSquared <= distanceSquared
+        return TryProjectToInterior(position, a, b, c, out var foot, out var heightSquared, out var barycentrics)
+            && heightSquared <= distanceSquared
             ? new(foot, heightSquared, barycentrics, TriangleFeature.Interior)
             : new(point, distanceSquared, EdgeBarycentrics(edge, t), FeatureOf(edge, t));
     }
@@ -58,7 +59,8 @@ public static class TriangleKernel
         var normal = Vector.Cross(ab, ac);
         var lengthSquared = normal.LengthSquared();
         // Where the square did not leave the range of a double, and rounding moves the normal by no more than 1e-10.
-        return lengthSquared is > 1e-280 and < 1e280 && lengthSquared > ThinTriangleSineSquared * ThinTriangleSineSquared * (ab.LengthSquared() * ac.LengthSquared())
+        return lengthSquared is > 1e-280 and < 1e280 && lengthSquared > ThinTriangleSineSquared * ThinTriangleSineSquared
+            * (ab.LengthSquared() * ac.LengthSquared())
             ? normal / Math.Sqrt(lengthSquared)
             : UnitNormalOfThinTriangle(ab, ac, c - b);
     }

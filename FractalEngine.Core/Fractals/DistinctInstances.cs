@@ -142,7 +142,8 @@ public static class DistinctInstances
     {
         var overlap = Vector.Min(box1.Maximum, box2.Maximum) - Vector.Max(box1.Minimum, box2.Minimum);
         var (size1, size2) = (box1.Size, box2.Size);
-        return AreIntervalsDisjoint(overlap.X, size1.X, size2.X) || AreIntervalsDisjoint(overlap.Y, size1.Y, size2.Y) || AreIntervalsDisjoint(overlap.Z, size1.Z, size2.Z);
+        return AreIntervalsDisjoint(overlap.X, size1.X, size2.X) || AreIntervalsDisjoint(overlap.Y, size1.Y, size2.Y)
+            || AreIntervalsDisjoint(overlap.Z, size1.Z, size2.Z);
     }
 
     private static bool AreIntervalsDisjoint(double overlap, double size1, double size2) =>

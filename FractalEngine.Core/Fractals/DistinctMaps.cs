@@ -30,7 +30,8 @@ internal static class DistinctMaps
     });
 
     /// <summary>The transformations in order, each one once; angles are compared as numbers, so 360° differs from 0°.</summary>
-    public static Transformation[] Deduplicate(Transformation[] transformations) => Distinct(transformations, static (in Transformation transformation, Span<double> entries) =>
+    public static Transformation[] Deduplicate(Transformation[] transformations) =>
+        Distinct(transformations, static (in Transformation transformation, Span<double> entries) =>
     {
         WriteTriple(transformation.Position, entries);
         WriteTriple(transformation.Rotation, entries[3..]);

@@ -78,7 +78,8 @@ public sealed class Fractal
     /// <summary>The largest number of rounds with which the whole still fits; 0 where none does.</summary>
     private static int MaxRepetitionCount(ImmutableArray<FractalStep> steps, int index, Repetition repetition, long maxInstances)
     {
-        var (others, perRound) = (FractalSteps.CountUpTo(steps.RemoveAt(index), maxInstances), FractalSteps.CountUpTo(repetition.Body, maxInstances));
+        var (others, perRound) =
+            (FractalSteps.CountUpTo(steps.RemoveAt(index), maxInstances), FractalSteps.CountUpTo(repetition.Body, maxInstances));
         if (perRound <= 1)
         {
             return repetition.Count ?? FractalLimits.MaxDepth;

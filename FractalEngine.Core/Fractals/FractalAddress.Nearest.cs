@@ -6,7 +6,8 @@ namespace FractalEngine.Core.Fractals;
 public sealed partial class FractalAddress
 {
     /// <summary>
-    /// About how far the nearest surface is, in the present unit: to a tenth, unless more than some thousand parts are about as near. To the box of the base mesh, where that is near.
+    /// About how far the nearest surface is, in the present unit: to a tenth, unless more than some thousand parts are about as near. To
+    /// the box of the base mesh, where that is near.
     /// </summary>
     public double ClosestSurfaceDistance()
     {
@@ -17,18 +18,22 @@ public sealed partial class FractalAddress
         }
 
         var node = CurrentNode;
-        var distance = node.ChildMaps.Length == 0 ? DistanceToBox(node.Box.Transform(_frameToCamera), Vector.Zero) : FindClosestNode(RelativeDistanceTolerance, out _, out _);
+        var distance = node.ChildMaps.Length == 0
+            ? DistanceToBox(node.Box.Transform(_frameToCamera), Vector.Zero)
+            : FindClosestNode(RelativeDistanceTolerance, out _, out _);
         // Among parts that are never far, as in a solid: the scale of what is around.
         _closestDistance = Math.Max(distance, 1e-3 * node.Box.Transform(_frameToCamera).Diagonal);
         return _closestDistance.Value;
     }
 
     /// <summary>
-    /// Where copies overlap, what is nearest may be in another one than that which the camera is in, and far smaller than it: then the camera is told relative to that one.
+    /// Where copies overlap, what is nearest may be in another one than that which the camera is in, and far smaller than it: then the
+    /// camera is told relative to that one.
     /// </summary>
     private void SwitchFrame()
     {
-        if (FindClosestNode(1, out var levelsUp, out var node) > SwitchDistanceRatio * CurrentNode.Box.Transform(_frameToCamera).Diagonal || node < 0)
+        if (FindClosestNode(1, out var levelsUp, out var node) > SwitchDistanceRatio * CurrentNode.Box.Transform(_frameToCamera).Diagonal
+            || node < 0)
         {
             return;
         }
@@ -46,7 +51,8 @@ public sealed partial class FractalAddress
 
         foreach (var child in childPath)
         {
-            if (_hierarchy.NodeAt(ChildRemainingLevels(_remainingLevels[^1], CurrentNode.ChildLevelSteps[child])).ChildMaps.Length == 0 || !TryEnter(child))
+            if (_hierarchy.NodeAt(ChildRemainingLevels(_remainingLevels[^1], CurrentNode.ChildLevelSteps[child])).ChildMaps.Length == 0
+                || !TryEnter(child))
             {
                 break;
             }
@@ -106,7 +112,8 @@ public sealed partial class FractalAddress
             {
                 var childMap = map * node.ChildMaps[child].ToAffineMap();
                 _searchNodes.Add((parent, child, childLevels, childMap));
-                _open.Enqueue((levelsUp, _searchNodes.Count - 1), DistanceToBox(_hierarchy.NodeAt(childLevels).Box.Transform(childMap), Vector.Zero));
+                _open.Enqueue((levelsUp, _searchNodes.Count - 1),
+                    DistanceToBox(_hierarchy.NodeAt(childLevels).Box.Transform(childMap), Vector.Zero));
             }
         }
     }

@@ -6,12 +6,13 @@ using FractalEngine.Core.Visibility;
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>
-/// Where a camera is in a fractal, at any depth: a sub-fractal near it, by the way that leads there, and its place relative to that. As the camera moves, it is told relative
-/// to a sub-fractal further in or further out, so that all numbers stay about 1 and nothing loses precision, however deep it goes.
+/// Where a camera is in a fractal, at any depth: a sub-fractal near it, by the way that leads there, and its place relative to that. As the
+/// camera moves, it is told relative to a sub-fractal further in or further out, so that all numbers stay about 1 and nothing loses
+/// precision, however deep it goes.
 /// </summary>
 /// <remarks>
-/// Replaces the paper's m ← m·t (§4.3.2), which keeps one matrix and loses it at about level 50. Memory: 16 bytes a level, at most <see cref="FractalLimits.MaxDepth"/> levels.
-/// Lengths are in a unit that changes with the depth; perspective shows the same in any unit.
+/// Replaces the paper's m ← m·t (§4.3.2), which keeps one matrix and loses it at about level 50. Memory: 16 bytes a level, at most <see
+/// cref="FractalLimits.MaxDepth"/> levels. Lengths are in a unit that changes with the depth; perspective shows the same in any unit.
 /// </remarks>
 public sealed partial class FractalAddress
 {
@@ -77,7 +78,8 @@ public sealed partial class FractalAddress
     public double LogUnit { get; private set; }
 
     /// <summary>Bytes of the path.</summary>
-    public long StorageBytes => (sizeof(int) * ((long)_path.Capacity + _mapCounts.Capacity)) + (sizeof(long) * (long)_remainingLevels.Capacity);
+    public long StorageBytes =>
+        (sizeof(int) * ((long)_path.Capacity + _mapCounts.Capacity)) + (sizeof(long) * (long)_remainingLevels.Capacity);
 
     private LodNode CurrentNode => _hierarchy.NodeAt(_remainingLevels[^1]);
 
@@ -89,7 +91,8 @@ public sealed partial class FractalAddress
         _frameToCamera = _frameToCamera with { Translation = _frameToCamera.Translation - displacement };
         var depth = Depth;
         UpdateFrame();
-        // To look for what is nearest takes long; it matters only after the camera has come nearer for a while and nothing could be entered.
+        // To look for what is nearest takes long; it matters only after the camera has come nearer for a while and nothing could be
+        // entered.
         _movesSinceFrameChange = Depth == depth ? _movesSinceFrameChange + 1 : 0;
         if (_movesSinceFrameChange == MovesBeforeSwitch)
         {
@@ -100,7 +103,9 @@ public sealed partial class FractalAddress
     }
 
     /// <summary>What drawing begins with: the sub-fractal itself, and the other parts of those that it is in.</summary>
-    /// <param name="maxAncestors">How many of these at most; what is further out, or 10¹⁵ times as large as the present unit, is not drawn.</param>
+    /// <param name="maxAncestors">
+    /// How many of these at most; what is further out, or 10¹⁵ times as large as the present unit, is not drawn.
+    /// </param>
     public ImmutableArray<LodRoot> CollectRoots(int maxAncestors)
     {
         var roots = ImmutableArray.CreateBuilder<LodRoot>();
@@ -121,20 +126,24 @@ public sealed partial class FractalAddress
                 if (child != _path[i])
                 {
                     roots.Add(new(
-                        ChildRemainingLevels(_remainingLevels[i], node.ChildLevelSteps[child]), map * node.ChildMaps[child].ToAffineMap(), colourPath.Append(node.ChildMapIndices[child], child, node.ChildMaps.Length)));
+                        ChildRemainingLevels(_remainingLevels[i], node.ChildLevelSteps[child]), map * node.ChildMaps[child].ToAffineMap(),
+                        colourPath.Append(node.ChildMapIndices[child], child, node.ChildMaps.Length)));
                 }
             }
         }
 
         // The nearest first: they hide the others.
-        return [.. roots.OrderBy(root => _hierarchy.NodeAt(root.RemainingLevels) is { IsEmpty: false } node ? DistanceToBox(node.Box.Transform(root.FrameToCamera), Vector.Zero) : double.PositiveInfinity)];
+        return [.. roots.OrderBy(root => _hierarchy.NodeAt(root.RemainingLevels) is { IsEmpty: false } node
+            ? DistanceToBox(node.Box.Transform(root.FrameToCamera), Vector.Zero)
+            : double.PositiveInfinity)];
     }
 
     /// <summary>The camera's place in world space, as far as a double can tell it.</summary>
     /// <param name="objectToWorld">The object's matrix m.</param>
     public Vector WorldPosition(AffineMap objectToWorld)
     {
-        var (map, depth, minDiagonal) = (objectToWorld, 0, MinRelativeSize * _hierarchy.NodeAt(_hierarchy.LevelCount).Box.Transform(objectToWorld).Diagonal);
+        var (map, depth, minDiagonal) =
+            (objectToWorld, 0, MinRelativeSize * _hierarchy.NodeAt(_hierarchy.LevelCount).Box.Transform(objectToWorld).Diagonal);
         for (; depth < Depth && _hierarchy.NodeAt(_remainingLevels[depth]).Box.Transform(map).Diagonal > minDiagonal; depth++)
         {
             map *= _hierarchy.NodeAt(_remainingLevels[depth]).ChildMaps[_path[depth]].ToAffineMap();
@@ -145,7 +154,9 @@ public sealed partial class FractalAddress
 
     /// <summary>How far away the farthest drawn part can be, in the present unit.</summary>
     public double MaxDrawDistance(ImmutableArray<LodRoot> roots) => roots.Max(root =>
-        _hierarchy.NodeAt(root.RemainingLevels) is { IsEmpty: false, Box: var box } && box.Transform(root.FrameToCamera) is var image ? image.Centre.Length() + image.Diagonal : 0);
+        _hierarchy.NodeAt(root.RemainingLevels) is { IsEmpty: false, Box: var box } && box.Transform(root.FrameToCamera) is var image
+        ? image.Centre.Length() + image.Diagonal
+        : 0);
 
     /// <summary>What leads to the sub-fractal that so many copies of the path lead to.</summary>
     private ColourPath ColourPathTo(int depth)
@@ -161,7 +172,8 @@ public sealed partial class FractalAddress
         return colourPath with { MapCount = _mapCounts[depth] };
     }
 
-    private static long ChildRemainingLevels(long remainingLevels, long levelStep) => levelStep < 0 ? ~levelStep : remainingLevels - levelStep;
+    private static long ChildRemainingLevels(long remainingLevels, long levelStep) =>
+        levelStep < 0 ? ~levelStep : remainingLevels - levelStep;
 
     /// <summary>The distance of the camera from a box.</summary>
     private static double DistanceToBox(BoundingBox box, Vector position) => Math.Sqrt(box.DistanceSquared(position));
@@ -175,7 +187,8 @@ public sealed partial class FractalAddress
 
     private bool TryLeave()
     {
-        if (_path.Count == 0 || !(DistanceToBox(CurrentNode.Box, _frameToCamera.Inverse() * Vector.Zero) > LeaveDistanceRatio * CurrentNode.Box.Diagonal))
+        if (_path.Count == 0
+            || !(DistanceToBox(CurrentNode.Box, _frameToCamera.Inverse() * Vector.Zero) > LeaveDistanceRatio * CurrentNode.Box.Diagonal))
         {
             return false;
         }
@@ -194,8 +207,11 @@ public sealed partial class FractalAddress
             if (childNode.ChildMaps.Length > 0)
             {
                 // In the copy's own frame, by its own size.
-                var distance = DistanceToBox(childNode.Box, node.ChildMaps[child].ToAffineMap().Inverse() * camera) / childNode.Box.Diagonal;
-                (closestChild, minRelativeDistance) = distance < minRelativeDistance ? (child, distance) : (closestChild, minRelativeDistance);
+                var distance =
+                    DistanceToBox(childNode.Box, node.ChildMaps[child].ToAffineMap().Inverse() * camera) / childNode.Box.Diagonal;
+                (closestChild, minRelativeDistance) = distance < minRelativeDistance
+                    ? (child, distance)
+                    : (closestChild, minRelativeDistance);
             }
         }
 
@@ -227,8 +243,8 @@ public sealed partial class FractalAddress
     }
 
     /// <summary>
-    /// True for a frame so skewed that places in it can't be told. Maps that stretch one direction more than another come there after some ten levels of more than
-    /// double precision can tell from outside.
+    /// True for a frame so skewed that places in it can't be told. Maps that stretch one direction more than another come there after some
+    /// ten levels of more than double precision can tell from outside.
     /// </summary>
     private static bool IsNearlySingular(Matrix linear)
     {

@@ -36,8 +36,10 @@ public static class FractalBounds
 
         var (maximum, minimum) = (whole.Box.Maximum, whole.Box.Minimum);
         return new(
-            new(0 - ComputeSupport(fractal, bounds, -Vector.I, -minimum.X), 0 - ComputeSupport(fractal, bounds, -Vector.J, -minimum.Y), 0 - ComputeSupport(fractal, bounds, -Vector.K, -minimum.Z)),
-            new(ComputeSupport(fractal, bounds, Vector.I, maximum.X), ComputeSupport(fractal, bounds, Vector.J, maximum.Y), ComputeSupport(fractal, bounds, Vector.K, maximum.Z)));
+            new(0 - ComputeSupport(fractal, bounds, -Vector.I, -minimum.X), 0 - ComputeSupport(fractal, bounds, -Vector.J, -minimum.Y),
+            0 - ComputeSupport(fractal, bounds, -Vector.K, -minimum.Z)),
+            new(ComputeSupport(fractal, bounds, Vector.I, maximum.X), ComputeSupport(fractal, bounds, Vector.J, maximum.Y),
+            ComputeSupport(fractal, bounds, Vector.K, maximum.Z)));
     }
 
     /// <summary>The largest <c>Dot(direction, v)</c> over all points v of the fractal.</summary>
@@ -90,7 +92,8 @@ public static class FractalBounds
     /// </summary>
     private static BoundingBox ComputeComponentwiseBox(Fractal fractal)
     {
-        if (FractalSteps.HasAtMostInstances(fractal.Description.Steps, 20L * FractalLimits.MaxEnumeratedInstances / fractal.BaseMesh.VertexCount))
+        if (FractalSteps.HasAtMostInstances(fractal.Description.Steps,
+            20L * FractalLimits.MaxEnumeratedInstances / fractal.BaseMesh.VertexCount))
         {
             var box = BoundingBox.Empty;
             foreach (var map in FractalGenerator.Expand(fractal, 20L * FractalLimits.MaxEnumeratedInstances))

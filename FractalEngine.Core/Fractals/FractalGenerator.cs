@@ -18,7 +18,9 @@ public static class FractalGenerator
     /// The distinct instances of a fractal as maps from the base mesh's frame to the fractal's.
     /// </summary>
     /// <param name="fractal">Finite.</param>
-    /// <param name="maxInstances">The most instances allowed, equal ones counted in affine mode, distinct ones in componentwise mode.</param>
+    /// <param name="maxInstances">
+    /// The most instances allowed, equal ones counted in affine mode, distinct ones in componentwise mode.
+    /// </param>
     /// <exception cref="FractalLimitException">The fractal has more instances.</exception>
     /// <remarks>
     /// Two maps count as equal when they differ by rounding only (see <see cref="DistinctMaps"/>); the first in the order of
@@ -33,7 +35,8 @@ public static class FractalGenerator
 
         if (!FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances) || fractal.Description.IsInfinite)
         {
-            throw new FractalLimitException($"the fractal has {DecimalText.FormatApproximately(fractal.InstanceCount)} instances, more than the limit of {DecimalText.FormatApproximately(maxInstances)}");
+            throw new FractalLimitException(
+                $"the fractal has {DecimalText.FormatApproximately(fractal.InstanceCount)} instances, more than the limit of {DecimalText.FormatApproximately(maxInstances)}");
         }
 
         var isProvedDistinct = DistinctInstances.AreProvedDistinct(fractal);
@@ -63,7 +66,8 @@ public static class FractalGenerator
     /// <summary>Copies of a mesh as one mesh.</summary>
     public static Mesh Flatten(Mesh mesh, ImmutableArray<AffineMap> instances)
     {
-        var (positions, faces) = (new double[instances.Length * mesh.Positions.Length], new int[instances.Length * mesh.VertexIndices.Length]);
+        var (positions, faces) =
+            (new double[instances.Length * mesh.Positions.Length], new int[instances.Length * mesh.VertexIndices.Length]);
         var (nextPosition, nextFace) = (0, 0);
         for (var instance = 0; instance < instances.Length; instance++)
         {
@@ -118,7 +122,8 @@ public static class FractalGenerator
         Transformation[] extended = [];
         foreach (var transformation in set)
         {
-            extended = DistinctMaps.Deduplicate([.. extended, .. ConcatenatePair(sums, [transformation], Transformation.ComposeComponentwise)]);
+            extended =
+                DistinctMaps.Deduplicate([.. extended, .. ConcatenatePair(sums, [transformation], Transformation.ComposeComponentwise)]);
             if (extended.Length > maxInstances)
             {
                 throw new FractalLimitException($"componentwise composition of the fractal has more than {maxInstances} distinct sums");

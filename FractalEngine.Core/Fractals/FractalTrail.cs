@@ -3,14 +3,17 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>
-/// The paper's way of showing endless detail (§4.3.2–4.3.4): while the camera is within the radius of the nearest sub-transformation t, m becomes m·t, so that the whole fractal is
-/// drawn where its part was; a queue keeps the last few m, and the oldest of them is drawn, so that what lies behind the camera does not vanish at once.
+/// The paper's way of showing endless detail (§4.3.2–4.3.4): while the camera is within the radius of the nearest sub-transformation t, m
+/// becomes m·t, so that the whole fractal is drawn where its part was; a queue keeps the last few m, and the oldest of them is drawn, so
+/// that what lies behind the camera does not vanish at once.
 /// </summary>
 /// <remarks>
-/// Kept beside <see cref="FractalAddress"/>, which loses nothing, to be compared with it. Each call begins at the top again, as in the paper: cost O(depth · maps). World
-/// coordinates end at a depth of about 50 for halves.
+/// Kept beside <see cref="FractalAddress"/>, which loses nothing, to be compared with it. Each call begins at the top again, as in the
+/// paper: cost O(depth · maps). World coordinates end at a depth of about 50 for halves.
 /// </remarks>
-/// <param name="fractal">Its levels give the sub-transformations; identities are passed over, since m·1 would be repeated without end.</param>
+/// <param name="fractal">
+/// Its levels give the sub-transformations; identities are passed over, since m·1 would be repeated without end.
+/// </param>
 /// <param name="length">Of the queue, at least 1: 1 keeps no trail, and 3 draws what is two transformations further out (Figure 9).</param>
 public sealed class FractalTrail(Fractal fractal, int length)
 {
@@ -41,7 +44,8 @@ public sealed class FractalTrail(Fractal fractal, int length)
 
         var map = placement;
         var maxDepth = Math.Min(fractal.LevelCount ?? MaxDepth, MaxDepth);
-        for (Depth = 0; Depth < maxDepth && FindClosest(map, fractal.LevelAt(Depth), cameraPosition) is { } closest && IsCameraWithinRadius(closest, cameraPosition); Depth++)
+        for (Depth = 0; Depth < maxDepth && FindClosest(map, fractal.LevelAt(Depth), cameraPosition) is { } closest
+            && IsCameraWithinRadius(closest, cameraPosition); Depth++)
         {
             map = closest;
             _queue.Dequeue();
@@ -51,7 +55,10 @@ public sealed class FractalTrail(Fractal fractal, int length)
         return _queue.Peek();
     }
 
-    /// <summary>The paper's ClosestMatrix over a set: of all m·t the one whose position is nearest to the camera; null where there is only the identity.</summary>
+    /// <summary>
+    /// The paper's ClosestMatrix over a set: of all m·t the one whose position is nearest to the camera; null where there is only the
+    /// identity.
+    /// </summary>
     private static AffineMap? FindClosest(AffineMap map, TransformationSet set, Vector cameraPosition)
     {
         AffineMap? closest = null;
@@ -59,7 +66,8 @@ public sealed class FractalTrail(Fractal fractal, int length)
         {
             var candidate = map * transformation;
             if (transformation != AffineMap.Identity
-                && (closest is null || (candidate.Translation - cameraPosition).LengthSquared() < (closest.Value.Translation - cameraPosition).LengthSquared()))
+                && (closest is null
+                || (candidate.Translation - cameraPosition).LengthSquared() < (closest.Value.Translation - cameraPosition).LengthSquared()))
             {
                 closest = candidate;
             }
@@ -68,5 +76,6 @@ public sealed class FractalTrail(Fractal fractal, int length)
         return closest;
     }
 
-    private bool IsCameraWithinRadius(AffineMap map, Vector cameraPosition) => (map.Translation - cameraPosition).Length() < fractal.BaseMesh.Radius(map);
+    private bool IsCameraWithinRadius(AffineMap map, Vector cameraPosition) =>
+        (map.Translation - cameraPosition).Length() < fractal.BaseMesh.Radius(map);
 }

@@ -163,7 +163,8 @@ internal sealed class LevelBounds
             {
                 box = BoundingBox.Union(box, Box.Transform(map));
                 var sphere = Sphere.Transform(map);
-                sphereBox = sphereBox.Including(sphere.Centre - (sphere.Radius * Vector.One)).Including(sphere.Centre + (sphere.Radius * Vector.One));
+                sphereBox = sphereBox.Including(sphere.Centre - (sphere.Radius * Vector.One))
+                    .Including(sphere.Centre + (sphere.Radius * Vector.One));
             }
 
             box = new(Vector.Max(box.Minimum, sphereBox.Minimum), Vector.Min(box.Maximum, sphereBox.Maximum));

@@ -18,7 +18,8 @@ internal static class Consoles
     {
         var desk = area with { X1 = area.X0 + DeskHeight };
         // The desk: a front that leans towards the room, and a top that slopes down from the wall.
-        Vector[] wallLow = Edge(desk.X0, 0), frontLow = Edge(desk.X0, 0.5 * DeskDepth), frontHigh = Edge(desk.X1 - 0.12, DeskDepth), wallHigh = Edge(desk.X1 + 0.1, 0.06);
+        Vector[] wallLow = Edge(desk.X0, 0), frontLow = Edge(desk.X0, 0.5 * DeskDepth), frontHigh = Edge(desk.X1 - 0.12, DeskDepth),
+            wallHigh = Edge(desk.X1 + 0.1, 0.06);
         Vector[][] outline = [wallLow, frontLow, frontHigh, wallHigh];
         for (var i = 0; i + 1 < outline.Length; i++)
         {
@@ -74,7 +75,8 @@ internal static class Consoles
                 var bars = (int)Math.Clamp(6 * Math.Sqrt(detail), 2, 60);
                 foreach (var bar in outer.Inset(0.04).Cells(1, bars))
                 {
-                    mesh.AddPlate(wall.Translated(0, 0, 0.03), (bar with { X1 = bar.X0 + (bar.Width * random.NextInRange(0.2, 1)) }).Inset(0.1 * bar.Height), 0.004, 0.002);
+                    mesh.AddPlate(wall.Translated(0, 0, 0.03),
+                        (bar with { X1 = bar.X0 + (bar.Width * random.NextInRange(0.2, 1)) }).Inset(0.1 * bar.Height), 0.004, 0.002);
                 }
             }
             else

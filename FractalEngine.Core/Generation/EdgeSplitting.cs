@@ -53,7 +53,8 @@ internal static class EdgeSplitting
         return changed;
     }
 
-    private static double Length(MeshBuilder mesh, (int Low, int High) edge) => (mesh.Positions[edge.Low] - mesh.Positions[edge.High]).Length();
+    private static double Length(MeshBuilder mesh, (int Low, int High) edge) =>
+        (mesh.Positions[edge.Low] - mesh.Positions[edge.High]).Length();
 
     private static Dictionary<(int Low, int High), (int First, int Second, int Count)> Edges(MeshBuilder mesh)
     {

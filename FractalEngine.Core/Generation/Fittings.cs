@@ -60,7 +60,9 @@ internal static class Fittings
             for (var side = 0; side <= sides; side++)
             {
                 var (s, c) = Math.SinCos(2 * Math.PI * side / sides);
-                var position = side == sides ? corners[i, 0].PositionIndex : mesh.AddPosition(points[i] + (radius(i) * ((c * right) + (s * up))));
+                var position = side == sides
+                    ? corners[i, 0].PositionIndex
+                    : mesh.AddPosition(points[i] + (radius(i) * ((c * right) + (s * up))));
                 corners[i, side] = new(position, mesh.AddTextureCoordinate((double)side / sides, (double)i / (points.Count - 1)));
             }
         }
@@ -71,7 +73,8 @@ internal static class Fittings
     }
 
     /// <summary>A ring that lies on a wall, smooth. Faces: twice sides times pieces.</summary>
-    public static void AddRing(this MeshBuilder mesh, WallFrame frame, double x, double y, double radius, double thickness, int segments, int sides)
+    public static void AddRing(this MeshBuilder mesh, WallFrame frame, double x, double y, double radius, double thickness, int segments,
+        int sides)
     {
         var corners = new MeshCorner[segments + 1, sides + 1];
         for (var segment = 0; segment <= segments; segment++)
@@ -93,7 +96,8 @@ internal static class Fittings
         {
             for (var side = 0; side < sides; side++)
             {
-                mesh.AddQuad(corners[segment, side], corners[segment + 1, side], corners[segment + 1, side + 1], corners[segment, side + 1]);
+                mesh.AddQuad(corners[segment, side], corners[segment + 1, side], corners[segment + 1, side + 1],
+                    corners[segment, side + 1]);
             }
         }
 

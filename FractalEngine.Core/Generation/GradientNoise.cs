@@ -22,7 +22,8 @@ internal sealed class GradientNoise(ulong seed)
                 v),
             Lerp(
                 Lerp(CornerContribution(cx, cy, cz + 1, fx, fy, fz - 1), CornerContribution(cx + 1, cy, cz + 1, fx - 1, fy, fz - 1), u),
-                Lerp(CornerContribution(cx, cy + 1, cz + 1, fx, fy - 1, fz - 1), CornerContribution(cx + 1, cy + 1, cz + 1, fx - 1, fy - 1, fz - 1), u),
+                Lerp(CornerContribution(cx, cy + 1, cz + 1, fx, fy - 1, fz - 1),
+                CornerContribution(cx + 1, cy + 1, cz + 1, fx - 1, fy - 1, fz - 1), u),
                 v),
             w);
     }

@@ -83,7 +83,9 @@ internal sealed class MeshBuilder
     {
         var mesh = new Mesh([.. _positions.SelectMany(ToArray)], CollectIndices(corner => corner.PositionIndex))
             .WithTextureCoordinates([.. _coordinates.SelectMany(ToArray)], CollectIndices(corner => corner.CoordinateIndex));
-        mesh = VertexNormals.Compute(_positions, _triangles) is ({ Length: > 0 } normals, var faces) ? mesh.WithNormals(normals, faces) : mesh;
+        mesh = VertexNormals.Compute(_positions, _triangles) is ({ Length: > 0 } normals, var faces)
+            ? mesh.WithNormals(normals, faces)
+            : mesh;
         return _groups.Count == 0 ? mesh : mesh.WithGroups(BuildGroups(), []);
     }
 

@@ -22,7 +22,9 @@ public sealed class MeshGenerator
     public int MinFaceCount { get; }
 
     /// <summary>Makes the mesh.</summary>
-    /// <param name="seed">The same seed gives the same mesh, on one platform bit for bit; shapes without chance do not depend on it.</param>
+    /// <param name="seed">
+    /// The same seed gives the same mesh, on one platform bit for bit; shapes without chance do not depend on it.
+    /// </param>
     /// <param name="faces">
     /// How many faces it shall have; null for <see cref="DefaultFaceCount"/>. Fewer than <see cref="MinFaceCount"/> give
     /// that number. Exact for all but closed shapes, which have an even number (one less where an odd one is asked for), and the

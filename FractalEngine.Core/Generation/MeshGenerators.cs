@@ -15,8 +15,10 @@ public static class MeshGenerators
     /// <summary>All generators.</summary>
     public static ImmutableArray<MeshGenerator> All { get; } =
     [
-        new("spaceship-interior", "A corridor of a spaceship with panels, ribs, pipes and consoles; the paper's model 1", 277_654, SpaceshipInterior.MinFaceCount, SpaceshipInterior.Create),
-        new("tree-stump", "A tree stump with bark, roots and growth rings; the paper's model 2", 237_664, TreeStump.MinFaceCount, TreeStump.Create),
+        new("spaceship-interior", "A corridor of a spaceship with panels, ribs, pipes and consoles; the paper's model 1", 277_654,
+        SpaceshipInterior.MinFaceCount, SpaceshipInterior.Create),
+        new("tree-stump", "A tree stump with bark, roots and growth rings; the paper's model 2", 237_664, TreeStump.MinFaceCount,
+        TreeStump.Create),
         new("terrain", "Mountains and valleys, a height field of noise", 2 * 256 * 256, 2, Terrain.Create),
         new("icosphere", "A sphere of nearly equal triangles", 1280, 20, (_, faces) => RoundShapes.Icosphere(faces)),
         new("torus-knot", "A tube along a knot", 12_288, 200, (_, faces) => RoundShapes.TorusKnot(faces)),

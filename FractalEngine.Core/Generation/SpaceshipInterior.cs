@@ -188,7 +188,8 @@ internal sealed class SpaceshipInterior
     private void AddCollar(Vector start, double radius, int sides)
     {
         double[] steps = [1, 1.45, 1.45, 1];
-        _mesh.AddTube([start, start + (0.005 * Vector.K), start + (0.05 * Vector.K), start + (0.055 * Vector.K)], i => steps[i] * radius, sides);
+        _mesh.AddTube([start, start + (0.005 * Vector.K), start + (0.05 * Vector.K), start + (0.055 * Vector.K)], i => steps[i] * radius,
+            sides);
     }
 
     /// <summary>A cable that hangs from rib to rib under the ceiling.</summary>

@@ -35,7 +35,8 @@ internal static class Terrain
 
     private static double Height(GradientNoise noise, double x, double z)
     {
-        // Where the land is low it is smooth, as rivers leave it; ridges stand where it is high. The shift of the place by noise bends both.
+        // Where the land is low it is smooth, as rivers leave it; ridges stand where it is high. The shift of the place by noise bends
+        // both.
         var bend = 0.35 * noise.Octaves(new(0.3 * x, 11.5, 0.3 * z), 2);
         var samplePosition = new Vector(0.32 * x, 0.5 + bend, 0.32 * z);
         var height = Math.Clamp(0.5 + (0.6 * noise.Octaves(samplePosition, 3)), 0, 1.4);

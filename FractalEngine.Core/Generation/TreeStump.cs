@@ -77,14 +77,17 @@ internal sealed class TreeStump
     }
 
     private static void AddRows(
-        MeshBuilder mesh, MeshCorner[,] corners, int columns, Func<int, double> along, Func<double, double, Vector> surface, int firstRow = 0)
+        MeshBuilder mesh, MeshCorner[,] corners, int columns, Func<int, double> along, Func<double, double, Vector> surface,
+        int firstRow = 0)
     {
         for (var row = firstRow; row < corners.GetLength(0); row++)
         {
             for (var column = 0; column <= columns; column++)
             {
                 var around = (double)column / columns;
-                var position = column == columns ? corners[row, 0].PositionIndex : mesh.AddPosition(surface(2 * Math.PI * around, along(row)));
+                var position = column == columns
+                    ? corners[row, 0].PositionIndex
+                    : mesh.AddPosition(surface(2 * Math.PI * around, along(row)));
                 corners[row, column] = new(position, mesh.AddTextureCoordinate(around, along(row)));
             }
         }

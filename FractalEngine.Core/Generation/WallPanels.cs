@@ -32,7 +32,8 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
                 continue;
             }
 
-            foreach (var (stud, index) in plate.Inset(0.05).Cells(CountAtDetail(3, 14), CountAtDetail(3, 12)).Select((cell, index) => (cell, index)))
+            foreach (var (stud, index) in plate.Inset(0.05).Cells(CountAtDetail(3, 14), CountAtDetail(3, 12))
+                .Select((cell, index) => (cell, index)))
             {
                 // Studs lie across each other by turns, as on chequer plate.
                 var (x, y) = (0.5 * (stud.X0 + stud.X1), 0.5 * (stud.Y0 + stud.Y1));
@@ -78,7 +79,8 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
                 AddBolts(frame, area);
                 break;
             case 5:
-                Divide(area, MinPanelArea(0.012), random, part => mesh.AddPlate(frame, part.Inset(0.003), random.NextInRange(0.004, 0.02), 0.004));
+                Divide(area, MinPanelArea(0.012), random,
+                    part => mesh.AddPlate(frame, part.Inset(0.003), random.NextInRange(0.004, 0.02), 0.004));
                 break;
             case 6:
                 var (handle, inset) = (0.2 * Math.Min(area.Width, area.Height), area.Inset(0.25 * Math.Min(area.Width, area.Height)));

@@ -40,7 +40,9 @@ public readonly record struct BoundingBox(Vector Minimum, Vector Maximum)
     public double DistanceSquared(Vector position) => IsEmpty ? double.PositiveInfinity
         : Vector.Max(Vector.Max(Minimum - position, position - Maximum), Vector.Zero).LengthSquared();
 
-    /// <summary>The smallest axis-aligned box around the image of this box; larger than the image of what it holds where the map turns.</summary>
+    /// <summary>
+    /// The smallest axis-aligned box around the image of this box; larger than the image of what it holds where the map turns.
+    /// </summary>
     public BoundingBox Transform(AffineMap map) => IsEmpty ? this : (map * Centre, map.Linear.Absolute() * (0.5 * Size)) switch
     {
         var (centre, half) => new(centre - half, centre + half),

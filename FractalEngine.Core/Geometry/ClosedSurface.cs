@@ -3,7 +3,9 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Geometry;
 
-/// <summary>Tells whether a mesh is a solid's skin. From outside, the back faces of such a mesh are never seen and need not be drawn.</summary>
+/// <summary>
+/// Tells whether a mesh is a solid's skin. From outside, the back faces of such a mesh are never seen and need not be drawn.
+/// </summary>
 public static class ClosedSurface
 {
     /// <summary>
@@ -28,7 +30,8 @@ public static class ClosedSurface
             components[FindComponent(components, from)] = FindComponent(components, to);
         }
 
-        return mesh.FaceCount > 0 && edgeBalance.Values.All(static count => count == 0) && AreComponentsWoundOutwards(mesh, indices, components);
+        return mesh.FaceCount > 0 && edgeBalance.Values.All(static count => count == 0)
+            && AreComponentsWoundOutwards(mesh, indices, components);
     }
 
     private static (int[] Corners, int Positions) Weld(Mesh mesh)
@@ -37,7 +40,8 @@ public static class ClosedSurface
         var indices = new int[mesh.VertexIndices.Length];
         for (var i = 0; i < indices.Length; i++)
         {
-            ref var index = ref CollectionsMarshal.GetValueRefOrAddDefault(indexOfPosition, mesh.Vertex(mesh.VertexIndices[i]), out var exists);
+            ref var index = ref CollectionsMarshal.GetValueRefOrAddDefault(indexOfPosition, mesh.Vertex(mesh.VertexIndices[i]),
+                out var exists);
             indices[i] = index = exists ? index : indexOfPosition.Count - 1;
         }
 

@@ -1,6 +1,9 @@
 namespace FractalEngine.Core.Geometry;
 
-/// <summary>A picture on a surface. At texture coordinates (u, v) lies its place scale · (u, v) + offset; (0, 0) is its lower left corner, (1, 1) the upper right one.</summary>
+/// <summary>
+/// A picture on a surface. At texture coordinates (u, v) lies its place scale · (u, v) + offset; (0, 0) is its lower left corner, (1, 1)
+/// the upper right one.
+/// </summary>
 /// <param name="Path">The picture's file: as the material file names it, or in full once it has been looked for.</param>
 public sealed record MaterialTexture(string Path)
 {

@@ -171,7 +171,9 @@ public static class NormalGenerator
             return sum;
         }
 
-        /// <summary>Puts directions within a few degrees of each other together; there are never more than some hundred such groups.</summary>
+        /// <summary>
+        /// Puts directions within a few degrees of each other together; there are never more than some hundred such groups.
+        /// </summary>
         private void ClusterDirections(ReadOnlySpan<int> around)
         {
             const double MinClusterCosine = 0.985; // 10°

@@ -68,7 +68,9 @@ public sealed class PolygonTriangulator
         }
     }
 
-    /// <summary>Corners that turn inwards, or straight on: only they can reach into an ear. Cutting ears makes none of the others so.</summary>
+    /// <summary>
+    /// Corners that turn inwards, or straight on: only they can reach into an ear. Cutting ears makes none of the others so.
+    /// </summary>
     private void CollectReflexCorners(int count)
     {
         _reflex.Clear();
@@ -127,7 +129,8 @@ public sealed class PolygonTriangulator
         foreach (var other in CollectionsMarshal.AsSpan(_reflex))
         {
             if (points[other] != a && points[other] != b && points[other] != c
-                && TwiceSignedArea(a, b, points[other]) >= 0 && TwiceSignedArea(b, c, points[other]) >= 0 && TwiceSignedArea(c, a, points[other]) >= 0)
+                && TwiceSignedArea(a, b, points[other]) >= 0 && TwiceSignedArea(b, c, points[other]) >= 0
+                && TwiceSignedArea(c, a, points[other]) >= 0)
             {
                 return false;
             }

@@ -11,7 +11,8 @@ namespace FractalEngine.Core.Maths;
 /// <param name="V3">Third column; the local forward axis of an orientation.</param>
 public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
 {
-    // The cosine of the yaw from which on the lock counts as complete: above the roundings of a few products, and an error of at most twice as much in an entry.
+    // The cosine of the yaw from which on the lock counts as complete: above the roundings of a few products, and an error of at most twice
+    // as much in an entry.
     private const double MinYawCosine = 1e-13;
 
     /// <summary>The neutral matrix (i j k).</summary>
@@ -38,7 +39,9 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
 
     /// <summary>Rotation by <paramref name="angle"/> about a unit <paramref name="axis"/> (Rodrigues' formula).</summary>
     /// <param name="axis">Of length 1.</param>
-    /// <param name="angle">Radians, in the direction in which <see cref="Pitch(double)"/> turns for a negative angle: i → j about k.</param>
+    /// <param name="angle">
+    /// Radians, in the direction in which <see cref="Pitch(double)"/> turns for a negative angle: i → j about k.
+    /// </param>
     public static Matrix Rotation(Vector axis, double angle) => SineCosine.FromRadians(angle) switch
     {
         var (s, c) => (c * Identity) + (s * SkewSymmetric(axis)) + ((1 - c) * Outer(axis, axis)),
@@ -73,7 +76,9 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
     public double Determinant() => Vector.Dot(V1, AccurateCross(V2, V3));
 
     /// <summary>The matrix that undoes this one: the transposed cofactors divided by the determinant.</summary>
-    /// <exception cref="SingularMatrixException">The determinant is zero, or an entry of the inverse is beyond the range of a double.</exception>
+    /// <exception cref="SingularMatrixException">
+    /// The determinant is zero, or an entry of the inverse is beyond the range of a double.
+    /// </exception>
     /// <remarks>The relative error is about 1e-16 times the condition number.</remarks>
     public Matrix Inverse() => (PowerOfTwoBelow(V1), PowerOfTwoBelow(V2), PowerOfTwoBelow(V3)) switch
     {

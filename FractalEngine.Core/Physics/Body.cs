@@ -2,7 +2,9 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Physics;
 
-/// <summary>A ball that falls, bounces and rests: the sphere around a physics object (paper §4.3.3, §4.4.1). Owned by a <see cref="PhysicsWorld"/>.</summary>
+/// <summary>
+/// A ball that falls, bounces and rests: the sphere around a physics object (paper §4.3.3, §4.4.1). Owned by a <see cref="PhysicsWorld"/>.
+/// </summary>
 public sealed class Body
 {
     private readonly BodyDescription _description;

@@ -46,7 +46,8 @@ public sealed record BodyDescription(Vector Position, double Radius)
     /// <param name="declared">What the scene says of it.</param>
     /// <param name="index">Its place in the scene.</param>
     /// <exception cref="ArgumentException">The object has no size.</exception>
-    public static BodyDescription FromPhysicsObject(PlacedModel placed, PhysicsObject declared, int index) => new(placed.ObjectToWorld.Translation, BodyRadius.Compute(placed))
+    public static BodyDescription FromPhysicsObject(PlacedModel placed, PhysicsObject declared, int index) =>
+        new(placed.ObjectToWorld.Translation, BodyRadius.Compute(placed))
     {
         Name = declared.Name,
         Velocity = declared.Velocity,

@@ -4,8 +4,8 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
-/// Which bodies are near: a hashed grid of cells as wide as most bodies. Those that are wider than a cell are kept apart, and always near. Follows bodies as they move;
-/// allocates only when bodies are added.
+/// Which bodies are near: a hashed grid of cells as wide as most bodies. Those that are wider than a cell are kept apart, and always near.
+/// Follows bodies as they move; allocates only when bodies are added.
 /// </summary>
 internal sealed class BodyGrid
 {

@@ -3,8 +3,8 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
-/// Takes a body through a step: free flight to the moment of an impact, the paper's response there (v ← −e·vₙ + vₛ, §4.4.4), and on with the rest of
-/// the time. What it rests on takes its part of the acceleration away, so that nothing is pressed in and pushed out again.
+/// Takes a body through a step: free flight to the moment of an impact, the paper's response there (v ← −e·vₙ + vₛ, §4.4.4), and on with
+/// the rest of the time. What it rests on takes its part of the acceleration away, so that nothing is pressed in and pushed out again.
 /// </summary>
 internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<Body> wakeIsland)
 {
@@ -48,7 +48,8 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
         obstacles.CollectNearbyBodies(new(position, Vector.Zero, Vector.Zero), 0, body.Index);
         obstacles.AddTouchedBodies(position, contactSlop, contacts);
         ApplyPendingLoad(body, position);
-        var (timeLeft, simultaneousImpacts, isBlocked, negligibleSpeed) = (timeStep, 0, false, NegligibleSpeedFraction * restitutionThreshold);
+        var (timeLeft, simultaneousImpacts, isBlocked, negligibleSpeed) =
+            (timeStep, 0, false, NegligibleSpeedFraction * restitutionThreshold);
         for (var impact = 0; impact < MaxImpacts && simultaneousImpacts < MaxSimultaneousImpacts && timeLeft > 0; impact++)
         {
             var velocityBefore = body.Velocity;
@@ -57,7 +58,8 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
             var hasResponded = (body.Velocity - velocityBefore).MaxAbsComponent() > negligibleSpeed;
             var elapsed = Advance(body, acceleration, ref position, timeLeft, negligibleSpeed, isBlocked);
             (timeLeft, simultaneousImpacts) = (timeLeft - elapsed, elapsed > 0 ? 0 : simultaneousImpacts + 1);
-            // What is run into gives way, but at its own turn: until then it is as firm as the ground, and one can only slide over it or wait.
+            // What is run into gives way, but at its own turn: until then it is as firm as the ground, and one can only slide over it or
+            // wait.
             isBlocked |= !hasResponded && elapsed < NegligibleTimeFraction * timeStep && contacts.HasAwakeBody(bodies);
         }
 
@@ -85,7 +87,8 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
         }
 
         body.Velocity = projectedVelocity;
-        var netAcceleration = contacts.ProjectAcceleration(acceleration, position, projectedVelocity, bodies, _planes, isBlocked, out var validDuration);
+        var netAcceleration = contacts.ProjectAcceleration(acceleration, position, projectedVelocity, bodies, _planes, isBlocked,
+            out var validDuration);
         var elapsed = Advance(body, netAcceleration, acceleration, ref position, Math.Min(time, validDuration), negligibleSpeed);
         body.Velocity += blockedVelocity;
         return elapsed;
@@ -146,7 +149,8 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
     }
 
     /// <summary>
-    /// What friction leaves of an acceleration. It acts against the velocity at the end of the time, so that it never turns a body round, and holds what is slow.
+    /// What friction leaves of an acceleration. It acts against the velocity at the end of the time, so that it never turns a body round,
+    /// and holds what is slow.
     /// </summary>
     /// <param name="body">Touches something.</param>
     /// <param name="acceleration">By gravity and forces.</param>
@@ -174,13 +178,17 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
 
         // When all that acceleration has added to the velocity, friction has taken: |v + s·t| = f·t.
         var excess = (frictionDeceleration * frictionDeceleration) - netAcceleration.LengthSquared();
-        var stopTime = excess > 0 ? (velocityDotAcceleration + Math.Sqrt((velocityDotAcceleration * velocityDotAcceleration) + (excess * speedSquared))) / excess : duration;
+        var stopTime = excess > 0
+            ? (velocityDotAcceleration + Math.Sqrt((velocityDotAcceleration * velocityDotAcceleration) + (excess * speedSquared))) / excess
+            : duration;
         duration = Math.Min(duration, stopTime);
         netAcceleration = duration > 0 ? -velocity / duration : Vector.Zero;
         return true;
     }
 
-    /// <summary>What others press on a body with: it gives way where it can, and presses on what it lies on itself. Nothing bounces from a load.</summary>
+    /// <summary>
+    /// What others press on a body with: it gives way where it can, and presses on what it lies on itself. Nothing bounces from a load.
+    /// </summary>
     private void ApplyPendingLoad(Body body, Vector position)
     {
         var (loadVelocity, contacts) = (body.PendingLoadVelocity, body.Contacts);
@@ -194,7 +202,8 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
         for (var i = 0; i < contacts.Count; i++)
         {
             var normal = contacts[i].Normal(position);
-            if (contacts[i].BodyIndex >= 0 && bodies[contacts[i].BodyIndex] is { IsAsleep: false } other && Vector.Dot(loadVelocity, normal) is < 0 and var normalSpeed)
+            if (contacts[i].BodyIndex >= 0 && bodies[contacts[i].BodyIndex] is { IsAsleep: false } other
+                && Vector.Dot(loadVelocity, normal) is < 0 and var normalSpeed)
             {
                 other.PendingLoadVelocity += normalSpeed * (body.Description.Mass / other.Description.Mass) * normal;
             }
@@ -232,7 +241,8 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
             {
                 var velocity = RelativeVelocity(body, contacts[i]);
                 var speed = Vector.Dot(velocity, contacts[i].Normal(position));
-                if (speed < fastestSpeed && speed < -RelativeTolerance * velocity.MaxAbsComponent() && (contacts[i].BodyIndex >= 0 || -speed > restitutionThreshold))
+                if (speed < fastestSpeed && speed < -RelativeTolerance * velocity.MaxAbsComponent()
+                    && (contacts[i].BodyIndex >= 0 || -speed > restitutionThreshold))
                 {
                     (fastestIndex, fastestSpeed) = (i, speed);
                 }
@@ -264,7 +274,9 @@ internal sealed class BodyMover(List<Body> bodies, Obstacles obstacles, Action<B
         // What sleeps on is as firm as the ground.
         var movable = other is { IsAsleep: false, IsStuck: false } ? other : null;
         var massShare = movable is null ? 1 : movable.Description.Mass / (body.Description.Mass + movable.Description.Mass);
-        var restitution = approachSpeed <= restitutionThreshold ? 0 : other is null ? body.Description.Restitution : Math.Min(body.Description.Restitution, other.Description.Restitution);
+        var restitution = approachSpeed <= restitutionThreshold ? 0 : other is null
+            ? body.Description.Restitution
+            : Math.Min(body.Description.Restitution, other.Description.Restitution);
         var velocityChange = (1 + restitution) * approachSpeed * normal;
         var relativeVelocity = RelativeVelocity(body, in contact);
         var tangentialVelocity = relativeVelocity - (Vector.Dot(relativeVelocity, normal) * normal);

@@ -13,7 +13,10 @@ internal static class BodyRadius
     private const double RelativeTolerance = 1e-9;
     private const int MaxNodes = 50_000;
 
-    /// <summary>For a mesh exactly the farthest vertex; for a fractal no less than it, by a billionth more, or further where 50,000 sub-fractals do not tell.</summary>
+    /// <summary>
+    /// For a mesh exactly the farthest vertex; for a fractal no less than it, by a billionth more, or further where 50,000 sub-fractals do
+    /// not tell.
+    /// </summary>
     public static double Compute(PlacedModel placed) => placed.Model switch
     {
         FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } => Compute(fractal, placed.ObjectToWorld.Linear),
@@ -60,7 +63,9 @@ internal static class BodyRadius
         for (var corner = 0; corner < 8; corner++)
         {
             var point = new Vector(
-                (corner & 1) == 0 ? box.Minimum.X : box.Maximum.X, (corner & 2) == 0 ? box.Minimum.Y : box.Maximum.Y, (corner & 4) == 0 ? box.Minimum.Z : box.Maximum.Z);
+                (corner & 1) == 0 ? box.Minimum.X : box.Maximum.X, (corner & 2) == 0 ? box.Minimum.Y : box.Maximum.Y, (corner & 4) == 0
+                ? box.Minimum.Z
+                : box.Maximum.Z);
             maxDistance = Math.Max(maxDistance, (map * point).Length());
         }
 

@@ -37,7 +37,8 @@ internal sealed class ContactSet
         var normal = contact.Normal(position);
         for (var i = 0; i < Count; i++)
         {
-            if (_contacts[i].BodyIndex == contact.BodyIndex && (_contacts[i].Normal(position) - normal).LengthSquared() < SameNormalToleranceSquared)
+            if (_contacts[i].BodyIndex == contact.BodyIndex
+                && (_contacts[i].Normal(position) - normal).LengthSquared() < SameNormalToleranceSquared)
             {
                 _contacts[i] = contact with { CachedNormal = normal };
                 return;
@@ -87,7 +88,8 @@ internal sealed class ContactSet
     {
         for (var i = Count - 1; i >= 0; i--)
         {
-            if (_contacts[i].BodyIndex < 0 && _contacts[i].Gap(position) is var gap && Math.Abs(gap) > GapTolerance * _contacts[i].CombinedRadius
+            if (_contacts[i].BodyIndex < 0 && _contacts[i].Gap(position) is var gap
+                && Math.Abs(gap) > GapTolerance * _contacts[i].CombinedRadius
                 && obstacles.TryUpdateContact(position, in _contacts[i], out var updated))
             {
                 _contacts[i] = updated;
@@ -105,8 +107,8 @@ internal sealed class ContactSet
     /// <param name="velocity">Of the body.</param>
     /// <param name="bodies">The others.</param>
     /// <param name="negligibleSpeed">
-    /// What leaves a surface more slowly does not leave: it would be back at once, and several edges could pass a body to and fro. It loses that speed, since
-    /// gravity would have taken it.
+    /// What leaves a surface more slowly does not leave: it would be back at once, and several edges could pass a body to and fro. It loses
+    /// that speed, since gravity would have taken it.
     /// </param>
     /// <param name="treatBodiesAsStatic">Bodies are left, too, only by what moves away from where they are.</param>
     /// <returns>The velocity without what was too slow.</returns>
@@ -178,7 +180,10 @@ internal sealed class ContactSet
         return ProjectOrZero(velocity, planes);
     }
 
-    /// <summary>The part of an acceleration that leads into none of the contacts. Other bodies give way by their own, and who slides over one is held to its sphere: a = −v²/r along the normal.</summary>
+    /// <summary>
+    /// The part of an acceleration that leads into none of the contacts. Other bodies give way by their own, and who slides over one is
+    /// held to its sphere: a = −v²/r along the normal.
+    /// </summary>
     /// <param name="acceleration">World space.</param>
     /// <param name="position">Of the body.</param>
     /// <param name="velocity">Of the body.</param>
@@ -186,7 +191,8 @@ internal sealed class ContactSet
     /// <param name="planes">Lends memory.</param>
     /// <param name="treatBodiesAsStatic">Other bodies do not give way.</param>
     /// <param name="validDuration">How long it holds: until the way over another body has turned by 1/64.</param>
-    public Vector ProjectAcceleration(Vector acceleration, Vector position, Vector velocity, List<Body> bodies, HalfSpaces planes, bool treatBodiesAsStatic, out double validDuration)
+    public Vector ProjectAcceleration(Vector acceleration, Vector position, Vector velocity, List<Body> bodies, HalfSpaces planes,
+        bool treatBodiesAsStatic, out double validDuration)
     {
         validDuration = double.PositiveInfinity;
         planes.Clear();
@@ -199,7 +205,8 @@ internal sealed class ContactSet
                 var other = bodies[_contacts[i].BodyIndex];
                 var relative = treatBodiesAsStatic ? velocity : velocity - other.Velocity;
                 var tangentialVelocity = relative - (Vector.Dot(relative, normal) * normal);
-                minNormalAcceleration = (treatBodiesAsStatic ? 0 : Vector.Dot(normal, other.NetAcceleration)) - (tangentialVelocity.LengthSquared() / _contacts[i].CombinedRadius);
+                minNormalAcceleration = (treatBodiesAsStatic ? 0 : Vector.Dot(normal, other.NetAcceleration))
+                    - (tangentialVelocity.LengthSquared() / _contacts[i].CombinedRadius);
                 validDuration = Math.Min(validDuration, MaxTurnAngle * _contacts[i].CombinedRadius / tangentialVelocity.Length());
             }
 

@@ -3,11 +3,12 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
-/// The points x with n·x ≥ b for each of a few planes, and the nearest of them to a given point. Where several surfaces are touched, velocities and
-/// places must satisfy all of them at once: one after the other would creep in a groove.
+/// The points x with n·x ≥ b for each of a few planes, and the nearest of them to a given point. Where several surfaces are touched,
+/// velocities and places must satisfy all of them at once: one after the other would creep in a groove.
 /// </summary>
 /// <remarks>
-/// The nearest point lies on at most three of the planes, so all sets of up to three are tried: exact, and with few planes faster than any iteration.
+/// The nearest point lies on at most three of the planes, so all sets of up to three are tried: exact, and with few planes faster than any
+/// iteration.
 /// </remarks>
 internal sealed class HalfSpaces
 {

@@ -5,7 +5,10 @@ using FractalEngine.Core.Physics.Character;
 
 namespace FractalEngine.Core.Physics;
 
-/// <summary>What one mover can run into: the surfaces of the scene, and those other bodies that are within its reach. Set up anew for each mover and step.</summary>
+/// <summary>
+/// What one mover can run into: the surfaces of the scene, and those other bodies that are within its reach. Set up anew for each mover and
+/// step.
+/// </summary>
 internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext queryContext)
 {
     private readonly List<int> _candidates = new(256);
@@ -29,9 +32,11 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
     /// <param name="safeDistance">What is known already of what is near.</param>
     /// <param name="searchMargin">How far surfaces are looked for beyond what is asked, so that the next steps need not ask.</param>
     /// <param name="character">A player who is in the way; null for none.</param>
-    public void SetMover(StaticObjects? staticObjects, Vector[] sphereOffsets, double radius, SafeDistance safeDistance, double searchMargin, CharacterController? character = null)
+    public void SetMover(StaticObjects? staticObjects, Vector[] sphereOffsets, double radius, SafeDistance safeDistance,
+        double searchMargin, CharacterController? character = null)
     {
-        (_staticObjects, _sphereOffsets, _radius, _safeDistance, _searchMargin, _character) = (staticObjects, sphereOffsets, radius, safeDistance, searchMargin, character);
+        (_staticObjects, _sphereOffsets, _radius, _safeDistance, _searchMargin, _character) =
+            (staticObjects, sphereOffsets, radius, safeDistance, searchMargin, character);
         _candidates.Clear();
     }
 
@@ -56,8 +61,8 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
     public double TouchTolerance(Vector position) => (1e-9 * _radius) + (1e-14 * position.MaxAbsComponent());
 
     /// <summary>
-    /// Free distances at which what was touched still holds a mover: more than <see cref="TouchTolerance"/>, so that one which lies on several edges is not passed
-    /// from one to the next by the curve of its way.
+    /// Free distances at which what was touched still holds a mover: more than <see cref="TouchTolerance"/>, so that one which lies on
+    /// several edges is not passed from one to the next by the curve of its way.
     /// </summary>
     public double ContactSlop(Vector position) => (1e-6 * _radius) + (1e-14 * position.MaxAbsComponent());
 
@@ -120,13 +125,18 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
     {
         foreach (var sphere in _sphereOffsets)
         {
-            maxDistance = _staticObjects is not null && _staticObjects.Collider.TryFindClosest(position + sphere, maxDistance, queryContext, out var closest, out _) ? closest.Distance : maxDistance;
+            maxDistance = _staticObjects is not null
+                && _staticObjects.Collider.TryFindClosest(position + sphere, maxDistance, queryContext, out var closest, out _)
+                ? closest.Distance
+                : maxDistance;
         }
 
         return maxDistance;
     }
 
-    /// <summary>Finds where a surface that was touched is nearest now: looked for from half-way to it, where nothing else is as near.</summary>
+    /// <summary>
+    /// Finds where a surface that was touched is nearest now: looked for from half-way to it, where nothing else is as near.
+    /// </summary>
     /// <param name="position">Of the mover.</param>
     /// <param name="contact">With a surface, as it was.</param>
     /// <param name="updated">As it is.</param>
@@ -160,7 +170,8 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
 
         var windingSign = _staticObjects.WindingSign(index);
         closest = windingSign < 0 ? closest with { Normal = -closest.Normal } : closest;
-        isInside = windingSign != 0 && closest.Feature == TriangleFeature.Interior && Vector.Dot(position - closest.Point, closest.Normal) < 0 && _staticObjects.IsSolid(index);
+        isInside = windingSign != 0 && closest.Feature == TriangleFeature.Interior
+            && Vector.Dot(position - closest.Point, closest.Normal) < 0 && _staticObjects.IsSolid(index);
         return true;
     }
 
@@ -183,7 +194,9 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
             // As firm as a wall.
             foreach (var sphere in character.SphereOffsets)
             {
-                isFound |= TryUpdateClosest(new(character.Position + sphere, _radius + character.Description.Radius, Vector.Zero, -1, false), position, ref maxDistance, ref closestContact);
+                isFound |= TryUpdateClosest(
+                    new(character.Position + sphere, _radius + character.Description.Radius, Vector.Zero, -1, false), position,
+                    ref maxDistance, ref closestContact);
             }
         }
 
@@ -219,7 +232,8 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
                 searchDistance = closest.Distance;
                 if (searchDistance <= maxCentreDistance)
                 {
-                    (closestContact, isFound) = (new(closest.Point, _radius, sphere, -1, closest.Feature == TriangleFeature.Interior), true);
+                    (closestContact, isFound) = (new(closest.Point, _radius, sphere, -1, closest.Feature == TriangleFeature.Interior),
+                        true);
                 }
             }
         }

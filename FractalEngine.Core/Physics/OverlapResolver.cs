@@ -34,7 +34,9 @@ internal sealed class OverlapResolver(Obstacles obstacles, HalfSpaces planes)
             }
 
             // Of two centres at one place none is to any side of the other.
-            var normal = overlap.PointToCentre(current).Length() > OnSurfaceTolerance * obstacles.Radius ? overlap.Normal(current) : Vector.J;
+            var normal = overlap.PointToCentre(current).Length() > OnSurfaceTolerance * obstacles.Radius
+                ? overlap.Normal(current)
+                : Vector.J;
             planes.Add(normal, Vector.Dot(normal, overlap.Point - overlap.SphereOffset) + overlap.CombinedRadius + (0.5 * touchTolerance));
             if (!planes.TryProject(start, out var next) || !IsReachable(current, next))
             {

@@ -7,10 +7,16 @@ public sealed record PhysicsSettings
     /// <summary>The length of a step, seconds. All steps are equally long, however fast pictures are drawn.</summary>
     public double TimeStep { get; init; } = 1 / 60.0;
 
-    /// <summary>Approaches that are slower do not bounce, units a second; null for half of what a body gains in a step. Without this, what rests would buzz.</summary>
+    /// <summary>
+    /// Approaches that are slower do not bounce, units a second; null for half of what a body gains in a step. Without this, what rests
+    /// would buzz.
+    /// </summary>
     public double? RestitutionThreshold { get; init; }
 
-    /// <summary>Bodies on something that are slower for <see cref="TimeBeforeSleep"/> fall asleep, units a second; null for 2 % of √(acceleration · radius). 0: none sleeps.</summary>
+    /// <summary>
+    /// Bodies on something that are slower for <see cref="TimeBeforeSleep"/> fall asleep, units a second; null for 2 % of √(acceleration ·
+    /// radius). 0: none sleeps.
+    /// </summary>
     public double? SleepSpeed { get; init; }
 
     /// <summary>Seconds.</summary>

@@ -93,13 +93,15 @@ public sealed partial class PhysicsWorld
         }
 
         var maxTravel = new Motion(body.Position, body.Velocity, acceleration).MaxTravelDistance(step);
-        _obstacles.SetMover(GetStaticObjects(_colliderOverride ?? description.Collider), SingleSphereOffset, body.Radius, body.SafeDistance, 2 * maxTravel, Character is { IsActive: true } ? Character : null);
+        _obstacles.SetMover(GetStaticObjects(_colliderOverride ?? description.Collider), SingleSphereOffset, body.Radius, body.SafeDistance,
+            2 * maxTravel, Character is { IsActive: true } ? Character : null);
         var accelerationMagnitude = acceleration.Length();
         _mover.Move(body, acceleration, step, Settings.RestitutionThreshold ?? 0.5 * accelerationMagnitude * step);
         if (!body.Position.IsFinite() || !body.Velocity.IsFinite())
         {
             throw new InvalidOperationException(string.Create(
-                CultureInfo.InvariantCulture, $"body {body.Name} has left the range of a double in step {StepCount}: position {body.Position}, velocity {body.Velocity}"));
+                CultureInfo.InvariantCulture,
+                $"body {body.Name} has left the range of a double in step {StepCount}: position {body.Position}, velocity {body.Velocity}"));
         }
 
         _grid.Update(body.Index);
@@ -126,7 +128,8 @@ public sealed partial class PhysicsWorld
         }
     }
 
-    private void WakeTouchingBodies(Body body) => WakeOverlapping(body.PreviousPosition, body.PreviousScale * body.Description.Radius, body.Index);
+    private void WakeTouchingBodies(Body body) =>
+        WakeOverlapping(body.PreviousPosition, body.PreviousScale * body.Description.Radius, body.Index);
 
     /// <summary>Wakes what touched a ball.</summary>
     internal void WakeOverlapping(Vector centre, double radius, int excludedIndex = -1)

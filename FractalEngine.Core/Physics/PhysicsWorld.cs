@@ -9,8 +9,9 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
-/// The bodies of a scene and what they run into (paper §4.4): balls against meshes and fractals through the colliders, and against each other. Deterministic: the
-/// same steps give the same bits. A step allocates nothing once all colliders are built. For one thread at a time.
+/// The bodies of a scene and what they run into (paper §4.4): balls against meshes and fractals through the colliders, and against each
+/// other. Deterministic: the same steps give the same bits. A step allocates nothing once all colliders are built. For one thread at a
+/// time.
 /// </summary>
 public sealed partial class PhysicsWorld
 {
@@ -82,7 +83,9 @@ public sealed partial class PhysicsWorld
     /// <summary>Seconds so far.</summary>
     public double Time => StepCount * Settings.TimeStep;
 
-    /// <summary>How far the time that has passed reaches into the step that comes next, from 0 to 1; see <see cref="Body.InterpolatedMap"/>.</summary>
+    /// <summary>
+    /// How far the time that has passed reaches into the step that comes next, from 0 to 1; see <see cref="Body.InterpolatedMap"/>.
+    /// </summary>
     public double InterpolationAlpha => Math.Clamp(_accumulatedTime / Settings.TimeStep, 0, 1);
 
     /// <summary>True while a body is awake.</summary>
@@ -114,7 +117,8 @@ public sealed partial class PhysicsWorld
             var rest = bytes.AsSpan();
             foreach (var body in _bodies)
             {
-                double[] numbers = [body.Position.X, body.Position.Y, body.Position.Z, body.Velocity.X, body.Velocity.Y, body.Velocity.Z, body.IsAsleep ? -body.Scale : body.Scale];
+                double[] numbers = [body.Position.X, body.Position.Y, body.Position.Z, body.Velocity.X, body.Velocity.Y, body.Velocity.Z,
+                    body.IsAsleep ? -body.Scale : body.Scale];
                 foreach (var number in numbers)
                 {
                     BinaryPrimitives.WriteDoubleLittleEndian(rest, number);
@@ -134,7 +138,9 @@ public sealed partial class PhysicsWorld
         {
             var (index, original) = (body.Description.ObjectIndex, _scene.Objects[body.Description.ObjectIndex]);
             var originalPlacement = original.Declaration.Placement;
-            objects[index] = new(original.Declaration with { Placement = originalPlacement with { Position = body.Position, Scale = body.Scale * originalPlacement.Scale } }, original.Model);
+            objects[index] =
+                new(original.Declaration with { Placement =
+                originalPlacement with { Position = body.Position, Scale = body.Scale * originalPlacement.Scale } }, original.Model);
         }
 
         for (var i = 0; i < _staticIndices.Length; i++)
@@ -174,12 +180,15 @@ public sealed partial class PhysicsWorld
 
     /// <summary>Lets a player walk in the world, instead of the one before.</summary>
     /// <param name="player">Place and sizes in world space, scene units.</param>
-    /// <exception cref="ArgumentException">The place is not finite, or the radius not positive, or the height less than twice as much.</exception>
+    /// <exception cref="ArgumentException">
+    /// The place is not finite, or the radius not positive, or the height less than twice as much.
+    /// </exception>
     public CharacterController AddCharacter(Player player)
     {
         if (!player.Position.IsFinite() || !(player.Radius > 0) || !(player.Height >= 2 * player.Radius) || !double.IsFinite(player.Height))
         {
-            throw new ArgumentException("expected a finite place, a positive radius and a height of at least twice the radius", nameof(player));
+            throw new ArgumentException("expected a finite place, a positive radius and a height of at least twice the radius",
+                nameof(player));
         }
 
         return Character = new(this, _obstacles, player);
@@ -194,7 +203,8 @@ public sealed partial class PhysicsWorld
     /// <exception cref="FractalLimitException">A fractal is too large for its collider.</exception>
     public void BuildColliders()
     {
-        foreach (var kind in _bodies.Select(body => _colliderOverride ?? body.Description.Collider).Append(_colliderOverride ?? ColliderKind.Exact).Distinct())
+        foreach (var kind in _bodies.Select(body => _colliderOverride ?? body.Description.Collider)
+            .Append(_colliderOverride ?? ColliderKind.Exact).Distinct())
         {
             GetStaticObjects(kind)?.Build();
         }
@@ -220,7 +230,9 @@ public sealed partial class PhysicsWorld
         body.Force = force;
     }
 
-    /// <summary>Moves an object that is no body, and its collider with it. Bodies that it then overlaps are pushed out at the next step.</summary>
+    /// <summary>
+    /// Moves an object that is no body, and its collider with it. Bodies that it then overlaps are pushed out at the next step.
+    /// </summary>
     /// <param name="objectIndex">Its place in the scene, from 0.</param>
     /// <param name="placement">Its new matrix m.</param>
     /// <exception cref="ArgumentException">The object is a body.</exception>
@@ -237,7 +249,10 @@ public sealed partial class PhysicsWorld
         WakeAll(resolveOverlaps: true);
     }
 
-    /// <summary>Bodies and objects are where the scene has them, and bodies that were added are gone. A <see cref="ColliderOverride"/> and a player who were chosen stay.</summary>
+    /// <summary>
+    /// Bodies and objects are where the scene has them, and bodies that were added are gone. A <see cref="ColliderOverride"/> and a player
+    /// who were chosen stay.
+    /// </summary>
     public void Reset()
     {
         _bodies.RemoveRange(_sceneBodyCount, _bodies.Count - _sceneBodyCount);
@@ -262,7 +277,8 @@ public sealed partial class PhysicsWorld
     public bool TryFindClosest(Vector position, ColliderKind kind, out ClosestPoint closest)
     {
         closest = default;
-        return GetStaticObjects(kind) is { } staticObjects && staticObjects.Collider.TryFindClosest(position, double.PositiveInfinity, _queryContext, out closest, out _);
+        return GetStaticObjects(kind) is { } staticObjects
+            && staticObjects.Collider.TryFindClosest(position, double.PositiveInfinity, _queryContext, out closest, out _);
     }
 
     /// <summary>Prepares the obstacles for something that moves and is no body.</summary>

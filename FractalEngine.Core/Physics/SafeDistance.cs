@@ -3,8 +3,8 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
-/// The free distance to all surfaces at some place. It tells the free distance elsewhere, less the way there, so that a body far from everything need
-/// not ask again at each step.
+/// The free distance to all surfaces at some place. It tells the free distance elsewhere, less the way there, so that a body far from
+/// everything need not ask again at each step.
 /// </summary>
 internal sealed class SafeDistance
 {

@@ -3,12 +3,14 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
-/// Moves spheres along a path until they touch something, by conservative advancement: as far as the free distance allows, then again (Mirtich and
-/// Canny 1995). A step goes a little beyond it, but never so far that a centre could reach a surface: so nothing is passed, however fast.
+/// Moves spheres along a path until they touch something, by conservative advancement: as far as the free distance allows, then again
+/// (Mirtich and Canny 1995). A step goes a little beyond it, but never so far that a centre could reach a surface: so nothing is passed,
+/// however fast.
 /// </summary>
 internal sealed class SphereSweep(Obstacles obstacles)
 {
-    // Of the radius. What is grazed by less than a 1/128 of the radius (the sagitta of a step, 0.25²/8) may be passed; nothing is passed through.
+    // Of the radius. What is grazed by less than a 1/128 of the radius (the sagitta of a step, 0.25²/8) may be passed; nothing is passed
+    // through.
     private const double MaxOverstep = 0.25;
 
     // Of the radius: how near to touching the moment of an impact is found.
@@ -49,7 +51,8 @@ internal sealed class SphereSweep(Obstacles obstacles)
             var duration = Math.Min(timeLeft, remaining.MinTimeToTravel(Math.Max(freeDistance, 0) + (MaxOverstep * radius)));
             var isLast = duration >= timeLeft;
             var target = isLast ? motion.PositionAt(maxTime) : remaining.PositionAt(duration);
-            if (obstacles.TryFindClosestContact(target, maxTravel, out var overlapped) && overlapped.Gap(target) < -obstacles.TouchTolerance(target))
+            if (obstacles.TryFindClosestContact(target, maxTravel, out var overlapped)
+                && overlapped.Gap(target) < -obstacles.TouchTolerance(target))
             {
                 elapsed += FindImpactTime(in remaining, duration, overlapped, out hit);
                 return true;
@@ -75,7 +78,9 @@ internal sealed class SphereSweep(Obstacles obstacles)
             var time = i % 4 == 3 ? 0.5 * (lowerTime + upperTime) : FindTouchTime(in motion, in hit, lowerTime, upperTime);
             var position = motion.PositionAt(time);
             var tolerance = (ImpactTolerance * obstacles.Radius) + (1e-15 * position.MaxAbsComponent());
-            var gap = obstacles.TryFindClosestContact(position, MaxOverstep * obstacles.Radius, out var found) ? found.Gap(position) : double.PositiveInfinity;
+            var gap = obstacles.TryFindClosestContact(position, MaxOverstep * obstacles.Radius, out var found)
+                ? found.Gap(position)
+                : double.PositiveInfinity;
             if (Math.Abs(gap) <= tolerance)
             {
                 if (IsApproaching(in motion, time, in found))
@@ -110,7 +115,9 @@ internal sealed class SphereSweep(Obstacles obstacles)
 
     /// <summary>What was overlapped at a later time, with the point that is nearest now.</summary>
     private Contact RefreshContact(Vector position, in Contact contact, in Motion motion, double overlapTime) =>
-        contact.BodyIndex < 0 && obstacles.TryUpdateContact(position, contact with { CachedNormal = contact.Normal(motion.PositionAt(overlapTime)) }, out var updated) ? updated : contact;
+        contact.BodyIndex < 0
+        && obstacles.TryUpdateContact(position, contact with { CachedNormal = contact.Normal(motion.PositionAt(overlapTime)) },
+        out var updated) ? updated : contact;
 
     private static bool IsApproaching(in Motion motion, double time, in Contact contact)
     {

@@ -21,12 +21,19 @@ internal sealed class StaticObjects
     /// <summary>Finds nearest points.</summary>
     public SceneCollider Collider { get; private set; }
 
-    /// <summary>True for an object that is a closed solid, or made of such: what is behind its faces is within it. Looked at when it is first asked for.</summary>
+    /// <summary>
+    /// True for an object that is a closed solid, or made of such: what is behind its faces is within it. Looked at when it is first asked
+    /// for.
+    /// </summary>
     public bool IsSolid(int index) => _isSolid[index] ??= ClosedSurface.IsSolid(_objects[index].Model.Mesh);
 
-    /// <summary>1 where faces look out of an object as they are wound, −1 where its matrix mirrors it, 0 where its instances differ.</summary>
+    /// <summary>
+    /// 1 where faces look out of an object as they are wound, −1 where its matrix mirrors it, 0 where its instances differ.
+    /// </summary>
     public int WindingSign(int index) =>
-        _objects[index].Model is FractalModel { Fractal.Description.PreservesOrientation: false } ? 0 : Math.Sign(_objects[index].ObjectToWorld.Linear.Determinant());
+        _objects[index].Model is FractalModel { Fractal.Description.PreservesOrientation: false }
+        ? 0
+        : Math.Sign(_objects[index].ObjectToWorld.Linear.Determinant());
 
     /// <summary>Builds all colliders now, and looks which objects are solids, instead of when they are first asked.</summary>
     public void Build()

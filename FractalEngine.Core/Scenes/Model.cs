@@ -20,7 +20,8 @@ public abstract class Model
     public abstract Mesh Mesh { get; }
 
     /// <summary>
-    /// The materials that the mesh's groups name, by their names; those that no file declares are missing. Pictures are named in full and exist.
+    /// The materials that the mesh's groups name, by their names; those that no file declares are missing. Pictures are named in full and
+    /// exist.
     /// </summary>
     public ImmutableDictionary<string, Material> Materials { get; init; } = ImmutableDictionary<string, Material>.Empty;
 

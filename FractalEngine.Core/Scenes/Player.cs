@@ -28,7 +28,10 @@ public sealed record Player(Vector Position, double Radius, double Height)
     /// <summary>The steepest ground that is walked on, degrees from the horizontal, from 0 to <see cref="MaxSlopeAngleLimit"/>.</summary>
     public double MaxSlopeAngle { get; init; } = DefaultMaxSlopeAngle;
 
-    /// <summary>The highest step that is climbed without a jump, scene units, not negative and less than the height; null for <see cref="StepHeight"/>'s own.</summary>
+    /// <summary>
+    /// The highest step that is climbed without a jump, scene units, not negative and less than the height; null for <see
+    /// cref="StepHeight"/>'s own.
+    /// </summary>
     public double? StepHeightOverride { get; init; }
 
     /// <summary>How fast the player walks, units a second: 2.5 heights unless stated.</summary>
@@ -37,7 +40,9 @@ public sealed record Player(Vector Position, double Radius, double Height)
     /// <summary>The highest step that is climbed without a jump, scene units: a quarter of the height unless stated.</summary>
     public double StepHeight => StepHeightOverride ?? (StepHeightPerHeight * Height);
 
-    /// <summary>The speed upwards with which a jump begins, units a second: what carries the player 0.6 heights up unless stated, √(2·g·0.6·height).</summary>
+    /// <summary>
+    /// The speed upwards with which a jump begins, units a second: what carries the player 0.6 heights up unless stated, √(2·g·0.6·height).
+    /// </summary>
     /// <param name="gravity">The size g of the acceleration, units a second².</param>
     public double JumpSpeed(double gravity) => JumpSpeedOverride ?? Math.Sqrt(2 * gravity * JumpHeightPerHeight * Height);
 }

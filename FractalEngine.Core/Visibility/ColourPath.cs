@@ -3,9 +3,14 @@ using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Visibility;
 
-/// <summary>What the colour of a sub-fractal follows from, see <see cref="GradientKind"/>: what is known of the maps that lead to it, identities left out.</summary>
+/// <summary>
+/// What the colour of a sub-fractal follows from, see <see cref="GradientKind"/>: what is known of the maps that lead to it, identities
+/// left out.
+/// </summary>
 /// <param name="MapCount">How many they are.</param>
-/// <param name="PathFraction">Between 0 and 1: the place of the outermost one in its set counts half, that of the next one a quarter, and so on.</param>
+/// <param name="PathFraction">
+/// Between 0 and 1: the place of the outermost one in its set counts half, that of the next one a quarter, and so on.
+/// </param>
 /// <param name="RemainingWeight">What the next one counts, twice.</param>
 public readonly record struct ColourPath(int MapCount, float PathFraction, float RemainingWeight)
 {

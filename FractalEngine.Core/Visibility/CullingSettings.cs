@@ -1,7 +1,9 @@
 
 namespace FractalEngine.Core.Visibility;
 
-/// <summary>What is left out of a picture of a fractal. Each part can be switched off, which changes the cost of a picture and hardly the picture.</summary>
+/// <summary>
+/// What is left out of a picture of a fractal. Each part can be switched off, which changes the cost of a picture and hardly the picture.
+/// </summary>
 public sealed record CullingSettings
 {
     /// <summary>Sub-fractals that appear smaller are drawn as one copy of the base mesh. Pixels.</summary>
@@ -16,7 +18,9 @@ public sealed record CullingSettings
     /// <summary>True where pixels have several samples: coverage is then kept for quarters of pixels.</summary>
     public bool IsMultisampled { get; init; }
 
-    /// <summary>More instances in one picture are avoided by raising <see cref="MinProjectedSize"/>; each object has one at least.</summary>
+    /// <summary>
+    /// More instances in one picture are avoided by raising <see cref="MinProjectedSize"/>; each object has one at least.
+    /// </summary>
     public int InstanceBudget { get; init; } = 500_000;
 
     /// <summary>The strips of a picture are worked on by so many threads; the result is the same for any number.</summary>

@@ -3,7 +3,10 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Visibility;
 
-/// <summary>Groups instances that are near each other, and groups of groups, as states of a <see cref="LodHierarchy"/> whose levels are their numbers.</summary>
+/// <summary>
+/// Groups instances that are near each other, and groups of groups, as states of a <see cref="LodHierarchy"/> whose levels are their
+/// numbers.
+/// </summary>
 internal sealed class InstanceBvh
 {
     private const int MaxLeafSize = 16;

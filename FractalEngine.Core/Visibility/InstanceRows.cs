@@ -29,14 +29,17 @@ internal sealed class InstanceRows
     /// <summary>The rows, [<see cref="Count"/> × 12].</summary>
     public ReadOnlySpan<float> Span => _rows.AsSpan(0, Count * FloatsPerInstance);
 
-    /// <summary>Numbers from 0 to 1 between two colours, [<see cref="Count"/>]; only those of objects that have them mean anything.</summary>
+    /// <summary>
+    /// Numbers from 0 to 1 between two colours, [<see cref="Count"/>]; only those of objects that have them mean anything.
+    /// </summary>
     public ReadOnlySpan<float> GradientFactors => _gradientFactors.AsSpan(0, Math.Min(Count, _gradientFactors.Length));
 
     /// <summary>What tells the instances of one object apart.</summary>
     public ReadOnlySpan<ulong> PathHashes => _pathHashes.AsSpan(0, Count);
 
     /// <summary>Bytes.</summary>
-    public long StorageBytes => (_rows.Length * sizeof(float)) + (_gradientFactors.Length * sizeof(float)) + (_pathHashes.Length * sizeof(ulong));
+    public long StorageBytes =>
+        (_rows.Length * sizeof(float)) + (_gradientFactors.Length * sizeof(float)) + (_pathHashes.Length * sizeof(ulong));
 
     /// <summary>Makes room without giving back memory.</summary>
     public void Clear() => Count = 0;

@@ -6,8 +6,8 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Visibility;
 
 /// <summary>
-/// The levels of a fractal as they are drawn: one state for each number of levels left, with the boxes that exact search has found, and without copies
-/// that would be drawn twice. Kilobytes at any depth.
+/// The levels of a fractal as they are drawn: one state for each number of levels left, with the boxes that exact search has found, and
+/// without copies that would be drawn twice. Kilobytes at any depth.
 /// </summary>
 public sealed class LodHierarchy
 {
@@ -39,7 +39,8 @@ public sealed class LodHierarchy
         fractal.Description.Composition == Composition.Componentwise ? BuildComponentwise(fractal) : BuildAffine(fractal);
 
     /// <summary>The table of a mesh that is drawn once.</summary>
-    public static LodHierarchy Build(Mesh mesh) => new([new(mesh.FaceCount == 0 ? BoundingBox.Empty : mesh.Bounds, AffineMap.Identity, [])], [new(0, 1, 0, 1)], 0, mesh);
+    public static LodHierarchy Build(Mesh mesh) =>
+        new([new(mesh.FaceCount == 0 ? BoundingBox.Empty : mesh.Bounds, AffineMap.Identity, [])], [new(0, 1, 0, 1)], 0, mesh);
 
     /// <summary>The state with so many levels left.</summary>
     internal LodNode NodeAt(long remainingLevels) => _nodes[LevelRegion.FindIndex(_regions, remainingLevels)];
@@ -75,9 +76,14 @@ public sealed class LodHierarchy
         return new(box, ComputeProxyMap(baseBox, box), [.. children]);
     }
 
-    /// <summary>How the base mesh stands for what a box holds: as it is, where it lies within; else its maps have carried it away, and it is stretched to fill the box.</summary>
+    /// <summary>
+    /// How the base mesh stands for what a box holds: as it is, where it lies within; else its maps have carried it away, and it is
+    /// stretched to fill the box.
+    /// </summary>
     private static AffineMap ComputeProxyMap(BoundingBox baseBox, BoundingBox box) =>
-        box.IsEmpty || BoundingBox.Union(box, baseBox).Diagonal <= ContainmentFactor * box.Diagonal ? AffineMap.Identity : InstanceBvh.MapBoxToBox(baseBox, box);
+        box.IsEmpty || BoundingBox.Union(box, baseBox).Diagonal <= ContainmentFactor * box.Diagonal
+        ? AffineMap.Identity
+        : InstanceBvh.MapBoxToBox(baseBox, box);
 
     /// <summary>Sums have no levels: they are sorted into a tree of groups by their places.</summary>
     private static LodHierarchy BuildComponentwise(Fractal fractal)

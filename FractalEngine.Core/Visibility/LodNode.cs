@@ -5,7 +5,9 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Visibility;
 
-/// <summary>A part of a fractal with some number of levels left, as it is drawn: the copies that it is made of, and a box that holds it.</summary>
+/// <summary>
+/// A part of a fractal with some number of levels left, as it is drawn: the copies that it is made of, and a box that holds it.
+/// </summary>
 internal sealed class LodNode
 {
     /// <summary>Boxes are kept in vectors of so many.</summary>
@@ -22,14 +24,17 @@ internal sealed class LodNode
 
     /// <summary>For a level.</summary>
     /// <param name="box">Holds everything, in this frame.</param>
-    /// <param name="proxyMap">From the base mesh's frame to this one: how the mesh stands for everything when it is too small to be told apart.</param>
+    /// <param name="proxyMap">
+    /// From the base mesh's frame to this one: how the mesh stands for everything when it is too small to be told apart.
+    /// </param>
     /// <param name="children">The copies, none of them twice; none for the base.</param>
     public LodNode(BoundingBox box, AffineMap proxyMap, ReadOnlySpan<LodChild> children)
     {
         (Box, ProxyMap, IsEmpty) = (box, new(proxyMap), box.IsEmpty);
         IsProxyIdentity = proxyMap == AffineMap.Identity;
         var paddedCount = (children.Length + Lanes - 1) / Lanes * Lanes;
-        (ChildMaps, ChildLevelSteps, ChildMapIndices, ChildBoxes) = (new SimdAffineMap[children.Length], new long[children.Length], new int[children.Length], new float[paddedCount * BoxRows]);
+        (ChildMaps, ChildLevelSteps, ChildMapIndices, ChildBoxes) =
+            (new SimdAffineMap[children.Length], new long[children.Length], new int[children.Length], new float[paddedCount * BoxRows]);
         if (IsEmpty)
         {
             return;
@@ -42,7 +47,8 @@ internal sealed class LodNode
             var (map, childBox, levelStep, mapIndex) = children[i];
             (ChildMaps[i], ChildLevelSteps[i], ChildMapIndices[i]) = (new(map), levelStep, mapIndex);
             var offset = childBox.Centre - box.Centre;
-            var padding = (RelativeRounding * (childBox.Diagonal + (RelativeRounding * coordinateExtent))) + (SingleUnitRoundoff * offset.MaxAbsComponent());
+            var padding = (RelativeRounding * (childBox.Diagonal + (RelativeRounding * coordinateExtent)))
+                + (SingleUnitRoundoff * offset.MaxAbsComponent());
             WriteVector(offset, i, 0);
             WriteVector((0.5 * childBox.Size) + (padding * Vector.One), i, 3);
             MaxChildSizeRatio = Math.Max(MaxChildSizeRatio, childBox.Diagonal / box.Diagonal);
@@ -71,7 +77,8 @@ internal sealed class LodNode
     public SimdAffineMap[] ChildMaps { get; }
 
     /// <summary>
-    /// Boxes that hold the copies, in this frame, relative to its box's centre: for each eight copies six rows of eight numbers, see <see cref="BoxRows"/>.
+    /// Boxes that hold the copies, in this frame, relative to its box's centre: for each eight copies six rows of eight numbers, see <see
+    /// cref="BoxRows"/>.
     /// </summary>
     public float[] ChildBoxes { get; }
 

@@ -6,7 +6,9 @@ namespace FractalEngine.Core.Visibility;
 /// <summary>The corners of a base mesh as single floats about its middle, for drawing it into a <see cref="OcclusionBuffer"/>.</summary>
 internal sealed class OccluderMesh
 {
-    /// <summary>Meshes of more faces take too long to draw here: they hide nothing, and are themselves left out only with their boxes.</summary>
+    /// <summary>
+    /// Meshes of more faces take too long to draw here: they hide nothing, and are themselves left out only with their boxes.
+    /// </summary>
     public const int MaxFaceCount = 256;
 
     private const int Lanes = 8;

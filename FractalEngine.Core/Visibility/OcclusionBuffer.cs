@@ -5,8 +5,9 @@ using System.Runtime.Intrinsics;
 namespace FractalEngine.Core.Visibility;
 
 /// <summary>
-/// How near the nearest surface is at each pixel of a part of a picture. Nearness is linear on the screen: one divided by the depth in perspective, the depth's
-/// negative otherwise. Tiles of 8 by 8 pixels keep the least nearness in them, so that what is hidden is mostly found so without looking at pixels.
+/// How near the nearest surface is at each pixel of a part of a picture. Nearness is linear on the screen: one divided by the depth in
+/// perspective, the depth's negative otherwise. Tiles of 8 by 8 pixels keep the least nearness in them, so that what is hidden is mostly
+/// found so without looking at pixels.
 /// </summary>
 internal sealed class OcclusionBuffer
 {
@@ -37,8 +38,8 @@ internal sealed class OcclusionBuffer
     /// <param name="right">One more than the last.</param>
     /// <param name="height">Of the picture.</param>
     /// <param name="isMultisampled">
-    /// True where pixels are quarters of pixels that have four samples: then their samples are where graphics hardware has them (the standard pattern of Direct3D 11, which
-    /// OpenGL's drivers follow), else in the middles.
+    /// True where pixels are quarters of pixels that have four samples: then their samples are where graphics hardware has them (the
+    /// standard pattern of Direct3D 11, which OpenGL's drivers follow), else in the middles.
     /// </param>
     public void Clear(int left, int right, int height, bool isMultisampled = false)
     {
@@ -75,7 +76,8 @@ internal sealed class OcclusionBuffer
         {
             for (var tileX = left / TileSize; tileX <= right / TileSize; tileX++)
             {
-                if (!(TileMinInverseDepth(tileX, tileY) >= maxInverseDepth) && !IsTileOccluded(tileX, tileY, left, top, right, bottom, maxInverseDepth))
+                if (!(TileMinInverseDepth(tileX, tileY) >= maxInverseDepth)
+                    && !IsTileOccluded(tileX, tileY, left, top, right, bottom, maxInverseDepth))
                 {
                     return false;
                 }
@@ -87,7 +89,8 @@ internal sealed class OcclusionBuffer
 
     /// <summary>Draws a triangle: x and y in pixels, y downwards, and nearness.</summary>
     /// <returns>True when it is the nearest at some pixel's middle.</returns>
-    public bool RasterizeTriangle(float ax, float ay, float aInverseDepth, float bx, float by, float bInverseDepth, float cx, float cy, float cInverseDepth)
+    public bool RasterizeTriangle(float ax, float ay, float aInverseDepth, float bx, float by, float bInverseDepth, float cx, float cy,
+        float cInverseDepth)
     {
         // What is far outside is cut off before it becomes an integer.
         var left = Math.Max(FirstSampleIndex(Math.Min(Math.Min(ax, bx), cx)), Left);
@@ -120,7 +123,8 @@ internal sealed class OcclusionBuffer
             var dx = Vector256.Create(x - ax) + columns;
             // Down even columns samples are elsewhere than down odd ones.
             var offsets = (x & 1) == 0 ? _columnOffsets : Vector256.Shuffle(_columnOffsets, Vector256.Create(1, 0, 1, 0, 1, 0, 1, 0));
-            var (weightB0, weightC0, columnInverseDepth) = (Vector256.Create(ub) * dx, Vector256.Create(uc) * dx, Vector256.Create(aInverseDepth) + (Vector256.Create(slopeX) * dx));
+            var (weightB0, weightC0, columnInverseDepth) =
+                (Vector256.Create(ub) * dx, Vector256.Create(uc) * dx, Vector256.Create(aInverseDepth) + (Vector256.Create(slopeX) * dx));
             var columnMask = Vector256.LessThanOrEqual(columns, Vector256.Create((float)(right - x)));
             for (var y = top; y <= bottom; y++)
             {
@@ -128,7 +132,8 @@ internal sealed class OcclusionBuffer
                 var ox = (y & 1) == 0 ? _rowOffsets.Even : _rowOffsets.Odd;
                 var weightB = weightB0 + (Vector256.Create(vb) * dy) + Vector256.Create(ub * ox);
                 var weightC = weightC0 + (Vector256.Create(vc) * dy) + Vector256.Create(uc * ox);
-                var isInside = Vector256.GreaterThanOrEqual(weightB, Vector256<float>.Zero) & Vector256.GreaterThanOrEqual(weightC, Vector256<float>.Zero)
+                var isInside = Vector256.GreaterThanOrEqual(weightB, Vector256<float>.Zero) & Vector256.GreaterThanOrEqual(weightC,
+                    Vector256<float>.Zero)
                     & Vector256.LessThanOrEqual(weightB + weightC, Vector256<float>.One) & columnMask;
                 if (isInside == Vector256<float>.Zero)
                 {
@@ -201,7 +206,8 @@ internal sealed class OcclusionBuffer
 
     private bool IsTileOccluded(int tileX, int tileY, int left, int top, int right, int bottom, float maxInverseDepth)
     {
-        var (x, firstRow, lastRow) = (tileX * TileSize, Math.Max(top, tileY * TileSize), Math.Min(bottom, (tileY * TileSize) + TileSize - 1));
+        var (x, firstRow, lastRow) =
+            (tileX * TileSize, Math.Max(top, tileY * TileSize), Math.Min(bottom, (tileY * TileSize) + TileSize - 1));
         var (firstColumn, lastColumn) = (Math.Max(left - x, 0), Math.Min(right - x, TileSize - 1));
         var mask = (uint)((1 << (lastColumn + 1)) - (1 << firstColumn));
         ref var pixels = ref _inverseDepths[x];

@@ -18,7 +18,8 @@ internal sealed partial class StripCuller
             instanceToView = SimdAffineMap.Compose(in map, in proxyMap);
         }
 
-        if (_settings.OcclusionCulling && footprint.IsBeyondNearPlane && _object.IsOpaque && _occluder.VertexIndices.Length > 0 && !RasterizeOccluder(in instanceToView))
+        if (_settings.OcclusionCulling && footprint.IsBeyondNearPlane && _object.IsOpaque && _occluder.VertexIndices.Length > 0
+            && !RasterizeOccluder(in instanceToView))
         {
             _statistics.ZeroCoverage++;
             return;
@@ -39,22 +40,28 @@ internal sealed partial class StripCuller
     {
         var centre = map.Apply(SimdAffineMap.ToVector256(_occluder.Centre));
         var (v1, v2, v3) = (map.V1, map.V2, map.V3);
-        var (x1, x2, x3, x) = (Vector256.Create((float)v1[0]), Vector256.Create((float)v2[0]), Vector256.Create((float)v3[0]), Vector256.Create((float)centre[0]));
-        var (y1, y2, y3, y) = (Vector256.Create((float)v1[1]), Vector256.Create((float)v2[1]), Vector256.Create((float)v3[1]), Vector256.Create((float)centre[1]));
-        var (z1, z2, z3, z) = (Vector256.Create((float)v1[2]), Vector256.Create((float)v2[2]), Vector256.Create((float)v3[2]), Vector256.Create((float)centre[2]));
+        var (x1, x2, x3, x) = (Vector256.Create((float)v1[0]), Vector256.Create((float)v2[0]), Vector256.Create((float)v3[0]),
+            Vector256.Create((float)centre[0]));
+        var (y1, y2, y3, y) = (Vector256.Create((float)v1[1]), Vector256.Create((float)v2[1]), Vector256.Create((float)v3[1]),
+            Vector256.Create((float)centre[1]));
+        var (z1, z2, z3, z) = (Vector256.Create((float)v1[2]), Vector256.Create((float)v2[2]), Vector256.Create((float)v3[2]),
+            Vector256.Create((float)centre[2]));
         ref var meshX = ref MemoryMarshal.GetArrayDataReference(_occluder.X);
         ref var meshY = ref MemoryMarshal.GetArrayDataReference(_occluder.Y);
         ref var meshZ = ref MemoryMarshal.GetArrayDataReference(_occluder.Z);
         ref var screenX = ref MemoryMarshal.GetArrayDataReference(_screenX);
         ref var screenY = ref MemoryMarshal.GetArrayDataReference(_screenY);
         ref var inverseDepths = ref MemoryMarshal.GetArrayDataReference(_inverseDepths);
-        var (scaleX, scaleY) = (Vector256.Create((float)(SubPixelsPerPixel * _scaleX)), Vector256.Create((float)(-SubPixelsPerPixel * _scaleY)));
-        var (centreX, centreY) = (Vector256.Create((float)(SubPixelsPerPixel * _centreX)), Vector256.Create((float)(SubPixelsPerPixel * _centreY)));
+        var (scaleX, scaleY) =
+            (Vector256.Create((float)(SubPixelsPerPixel * _scaleX)), Vector256.Create((float)(-SubPixelsPerPixel * _scaleY)));
+        var (centreX, centreY) =
+            (Vector256.Create((float)(SubPixelsPerPixel * _centreX)), Vector256.Create((float)(SubPixelsPerPixel * _centreY)));
         var subPixelSize = Vector256.Create(1 / SubPixelsPerPixel);
         for (var i = 0; i < _occluder.PaddedVertexCount; i += Vector256<float>.Count)
         {
             var (vertexX, vertexY, vertexZ) = (
-                Vector256.LoadUnsafe(ref meshX, (nuint)i), Vector256.LoadUnsafe(ref meshY, (nuint)i), Vector256.LoadUnsafe(ref meshZ, (nuint)i));
+                Vector256.LoadUnsafe(ref meshX, (nuint)i), Vector256.LoadUnsafe(ref meshY, (nuint)i),
+                Vector256.LoadUnsafe(ref meshZ, (nuint)i));
             var viewX = x + (x1 * vertexX) + (x2 * vertexY) + (x3 * vertexZ);
             var viewY = y + (y1 * vertexX) + (y2 * vertexY) + (y3 * vertexZ);
             var viewZ = z + (z1 * vertexX) + (z2 * vertexY) + (z3 * vertexZ);
@@ -89,7 +96,8 @@ internal sealed partial class StripCuller
             var area = ((bx - ax) * (cy - ay)) - ((by - ay) * (cx - ax));
             if (windingSign == 0 || area * windingSign > 0)
             {
-                isVisible |= _occlusionBuffer.RasterizeTriangle(ax, ay, _inverseDepths[a], bx, by, _inverseDepths[b], cx, cy, _inverseDepths[c]);
+                isVisible |= _occlusionBuffer.RasterizeTriangle(ax, ay, _inverseDepths[a], bx, by, _inverseDepths[b], cx, cy,
+                    _inverseDepths[c]);
             }
         }
 
@@ -97,5 +105,6 @@ internal sealed partial class StripCuller
     }
 
     private static bool IsMirrored(Vector256<double> v1, Vector256<double> v2, Vector256<double> v3) =>
-        (v1[0] * ((v2[1] * v3[2]) - (v2[2] * v3[1]))) + (v1[1] * ((v2[2] * v3[0]) - (v2[0] * v3[2]))) + (v1[2] * ((v2[0] * v3[1]) - (v2[1] * v3[0]))) < 0;
+        (v1[0] * ((v2[1] * v3[2]) - (v2[2] * v3[1]))) + (v1[1] * ((v2[2] * v3[0]) - (v2[0] * v3[2])))
+        + (v1[2] * ((v2[0] * v3[1]) - (v2[1] * v3[0]))) < 0;
 }

@@ -14,9 +14,12 @@ internal sealed partial class StripCuller
     {
         var centre = map.Apply(node.Centre);
         var (v1, v2, v3) = (map.V1, map.V2, map.V3);
-        var (x1, x2, x3, x0) = (Vector256.Create((float)v1[0]), Vector256.Create((float)v2[0]), Vector256.Create((float)v3[0]), Vector256.Create((float)centre[0]));
-        var (y1, y2, y3, y0) = (Vector256.Create((float)v1[1]), Vector256.Create((float)v2[1]), Vector256.Create((float)v3[1]), Vector256.Create((float)centre[1]));
-        var (z1, z2, z3, z0) = (Vector256.Create((float)v1[2]), Vector256.Create((float)v2[2]), Vector256.Create((float)v3[2]), Vector256.Create((float)centre[2]));
+        var (x1, x2, x3, x0) = (Vector256.Create((float)v1[0]), Vector256.Create((float)v2[0]), Vector256.Create((float)v3[0]),
+            Vector256.Create((float)centre[0]));
+        var (y1, y2, y3, y0) = (Vector256.Create((float)v1[1]), Vector256.Create((float)v2[1]), Vector256.Create((float)v3[1]),
+            Vector256.Create((float)centre[1]));
+        var (z1, z2, z3, z0) = (Vector256.Create((float)v1[2]), Vector256.Create((float)v2[2]), Vector256.Create((float)v3[2]),
+            Vector256.Create((float)centre[2]));
         var (scaleX, scaleY) = (Vector256.Create((float)_scaleX), Vector256.Create((float)_scaleY));
         var (centreX, centreY) = (Vector256.Create((float)_centreX), Vector256.Create((float)_centreY));
         // What is nearer, compared with where its parent is, is looked at in double precision.
@@ -30,8 +33,10 @@ internal sealed partial class StripCuller
         for (var i = 0; i < node.ChildBoxes.Length / LodNode.BoxRows; i += LodNode.Lanes)
         {
             var boxOffset = (nuint)(i * LodNode.BoxRows);
-            var (cx, cy, cz) = (Vector256.LoadUnsafe(ref boxes, boxOffset), Vector256.LoadUnsafe(ref boxes, boxOffset + 8), Vector256.LoadUnsafe(ref boxes, boxOffset + 16));
-            var (hx, hy, hz) = (Vector256.LoadUnsafe(ref boxes, boxOffset + 24), Vector256.LoadUnsafe(ref boxes, boxOffset + 32), Vector256.LoadUnsafe(ref boxes, boxOffset + 40));
+            var (cx, cy, cz) = (Vector256.LoadUnsafe(ref boxes, boxOffset), Vector256.LoadUnsafe(ref boxes, boxOffset + 8),
+                Vector256.LoadUnsafe(ref boxes, boxOffset + 16));
+            var (hx, hy, hz) = (Vector256.LoadUnsafe(ref boxes, boxOffset + 24), Vector256.LoadUnsafe(ref boxes, boxOffset + 32),
+                Vector256.LoadUnsafe(ref boxes, boxOffset + 40));
             var x = x0 + (x1 * cx) + (x2 * cy) + (x3 * cz);
             var y = y0 + (y1 * cx) + (y2 * cy) + (y3 * cz);
             var z = z0 + (z1 * cx) + (z2 * cy) + (z3 * cz);
@@ -49,10 +54,18 @@ internal sealed partial class StripCuller
             }
 
             var (left, right, top, bottom) = (x - halfX, x + halfX, y + halfY, y - halfY);
-            left = centreX + (scaleX * left * Vector256.ConditionalSelect(Vector256.LessThan(left, Vector256<float>.Zero), maxInverseDepth, minInverseDepth));
-            right = centreX + (scaleX * right * Vector256.ConditionalSelect(Vector256.GreaterThan(right, Vector256<float>.Zero), maxInverseDepth, minInverseDepth));
-            top = centreY - (scaleY * top * Vector256.ConditionalSelect(Vector256.GreaterThan(top, Vector256<float>.Zero), maxInverseDepth, minInverseDepth));
-            bottom = centreY - (scaleY * bottom * Vector256.ConditionalSelect(Vector256.LessThan(bottom, Vector256<float>.Zero), maxInverseDepth, minInverseDepth));
+            left = centreX
+                + (scaleX * left * Vector256.ConditionalSelect(Vector256.LessThan(left, Vector256<float>.Zero), maxInverseDepth,
+                minInverseDepth));
+            right = centreX
+                + (scaleX * right * Vector256.ConditionalSelect(Vector256.GreaterThan(right, Vector256<float>.Zero), maxInverseDepth,
+                minInverseDepth));
+            top = centreY
+                - (scaleY * top * Vector256.ConditionalSelect(Vector256.GreaterThan(top, Vector256<float>.Zero), maxInverseDepth,
+                minInverseDepth));
+            bottom = centreY
+                - (scaleY * bottom * Vector256.ConditionalSelect(Vector256.LessThan(bottom, Vector256<float>.Zero), maxInverseDepth,
+                minInverseDepth));
             var footprintOffset = (nuint)((first + i) * FootprintRows);
             left.StoreUnsafe(ref footprints, footprintOffset);
             right.StoreUnsafe(ref footprints, footprintOffset + 8);
@@ -60,7 +73,8 @@ internal sealed partial class StripCuller
             bottom.StoreUnsafe(ref footprints, footprintOffset + 24);
             footprintInverseDepth.StoreUnsafe(ref footprints, footprintOffset + 32);
             // Not a number for what is too near, and so must be looked at once more.
-            Vector256.ConditionalSelect(Vector256.LessThan(zLow, minDepthForSingle), Vector256.Create(float.NaN), zLow).StoreUnsafe(ref footprints, footprintOffset + 40);
+            Vector256.ConditionalSelect(Vector256.LessThan(zLow, minDepthForSingle), Vector256.Create(float.NaN), zLow)
+                .StoreUnsafe(ref footprints, footprintOffset + 40);
             sortKey.StoreUnsafe(ref sortKeys, (nuint)(first + i));
         }
     }
@@ -72,7 +86,8 @@ internal sealed partial class StripCuller
         var depth = Unsafe.Add(ref footprint, 40);
         return float.IsNaN(depth) ? new() { NeedsDouble = true }
             : _settings.FrustumCulling && depth > _view.Far ? Footprint.Outside
-            : ComputeFootprint(footprint, Unsafe.Add(ref footprint, 8), Unsafe.Add(ref footprint, 16), Unsafe.Add(ref footprint, 24), Unsafe.Add(ref footprint, 32));
+            : ComputeFootprint(footprint, Unsafe.Add(ref footprint, 8), Unsafe.Add(ref footprint, 16), Unsafe.Add(ref footprint, 24),
+            Unsafe.Add(ref footprint, 32));
     }
 
     /// <summary>Where a box in view space appears.</summary>
@@ -90,7 +105,9 @@ internal sealed partial class StripCuller
             // Projected from as near as anything of it can be; what lies behind the camera, from as far as it is.
             var maxExtent = 2 * Math.Max(halfSize[0] * _scaleX, halfSize[1] * _scaleY);
             var depth = Math.Max(_view.Near, -zHigh);
-            return new() { IsOutside = _settings.FrustumCulling && IsOutsideFrustum(centre, halfSize), ProjectedSize = _view.IsPerspective ? maxExtent / depth : maxExtent, Right = -1 };
+            return new() { IsOutside = _settings.FrustumCulling && IsOutsideFrustum(centre, halfSize), ProjectedSize = _view.IsPerspective
+                ? maxExtent / depth
+                : maxExtent, Right = -1 };
         }
 
         var (maxInverseDepth, minInverseDepth) = _view.IsPerspective ? (1 / zLow, 1 / zHigh) : (1.0, 1.0);
@@ -98,14 +115,16 @@ internal sealed partial class StripCuller
         var right = _centreX + (_scaleX * high[0] * (high[0] > 0 ? maxInverseDepth : minInverseDepth));
         var top = _centreY - (_scaleY * high[1] * (high[1] > 0 ? maxInverseDepth : minInverseDepth));
         var bottom = _centreY - (_scaleY * low[1] * (low[1] < 0 ? maxInverseDepth : minInverseDepth));
-        return ComputeFootprint((float)left, (float)right, (float)top, (float)bottom, (float)(_view.IsPerspective ? maxInverseDepth : -zLow));
+        return ComputeFootprint((float)left, (float)right, (float)top, (float)bottom,
+            (float)(_view.IsPerspective ? maxInverseDepth : -zLow));
     }
 
     /// <summary>What a rectangle of the picture covers.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private Footprint ComputeFootprint(float left, float right, float top, float bottom, float inverseDepth)
     {
-        if (_settings.FrustumCulling && !(right >= _occlusionBuffer.Left && left <= _occlusionBuffer.Right && bottom >= 0 && top <= _occlusionBuffer.Height))
+        if (_settings.FrustumCulling
+            && !(right >= _occlusionBuffer.Left && left <= _occlusionBuffer.Right && bottom >= 0 && top <= _occlusionBuffer.Height))
         {
             return Footprint.Outside;
         }
@@ -134,8 +153,10 @@ internal sealed partial class StripCuller
         var (inverseScaleX, inverseScaleY) = (1 / _scaleX, 1 / _scaleY);
         var (left, right) = ((_occlusionBuffer.Left - _centreX) * inverseScaleX, (_occlusionBuffer.Right - _centreX) * inverseScaleX);
         var (top, bottom) = (_centreY * inverseScaleY, -_centreY * inverseScaleY);
-        return IsBoxBeyondPlane(-1, left, centre[0], halfSize[0], centre[2], halfSize[2]) || IsBoxBeyondPlane(1, -right, centre[0], halfSize[0], centre[2], halfSize[2])
-            || IsBoxBeyondPlane(1, -top, centre[1], halfSize[1], centre[2], halfSize[2]) || IsBoxBeyondPlane(-1, bottom, centre[1], halfSize[1], centre[2], halfSize[2]);
+        return IsBoxBeyondPlane(-1, left, centre[0], halfSize[0], centre[2], halfSize[2])
+            || IsBoxBeyondPlane(1, -right, centre[0], halfSize[0], centre[2], halfSize[2])
+            || IsBoxBeyondPlane(1, -top, centre[1], halfSize[1], centre[2], halfSize[2])
+            || IsBoxBeyondPlane(-1, bottom, centre[1], halfSize[1], centre[2], halfSize[2]);
     }
 
     /// <summary>True when sign · x + slope · z (or slope alone) is positive everywhere in the box.</summary>

@@ -7,8 +7,8 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Core.Visibility;
 
 /// <summary>
-/// Chooses what is drawn in one strip of a picture: walks the levels of each object from the top, nearest first, and leaves out what lies outside, what is
-/// hidden, and what is too small to be told apart.
+/// Chooses what is drawn in one strip of a picture: walks the levels of each object from the top, nearest first, and leaves out what lies
+/// outside, what is hidden, and what is too small to be told apart.
 /// </summary>
 internal sealed partial class StripCuller
 {
@@ -85,12 +85,15 @@ internal sealed partial class StripCuller
     {
         // From here on, pixels are those of the coverage: two by two where pixels have samples.
         var samplesPerAxis = settings.IsMultisampled ? MultisampleFactor : 1;
-        (_view, _settings, _minProjectedSize, _instanceBudget, _statistics, IsOverBudget) = (view, settings, samplesPerAxis * minProjectedSize, instanceBudget, default, false);
+        (_view, _settings, _minProjectedSize, _instanceBudget, _statistics, IsOverBudget) =
+            (view, settings, samplesPerAxis * minProjectedSize, instanceBudget, default, false);
         (_scaleX, _scaleY) = (samplesPerAxis * view.PixelsPerUnitX, samplesPerAxis * view.PixelsPerUnitY);
         (_centreX, _centreY) = (samplesPerAxis * 0.5 * view.Width, samplesPerAxis * 0.5 * view.Height);
         _viewToWorld = new(new AffineMap(view.Axes, Vector.Zero));
         _occlusionBuffer.Clear(samplesPerAxis * left, samplesPerAxis * right, samplesPerAxis * view.Height, settings.IsMultisampled);
-        (_minSampleOffset, _maxSampleOffset) = settings.IsMultisampled ? (0.25f - PixelPadding, 0.75f + PixelPadding) : (0.5f - PixelPadding, 0.5f + PixelPadding);
+        (_minSampleOffset, _maxSampleOffset) = settings.IsMultisampled
+            ? (0.25f - PixelPadding, 0.75f + PixelPadding)
+            : (0.5f - PixelPadding, 0.5f + PixelPadding);
         _maxNodes = MaxNodesPerInstance * (long)Math.Max(instanceBudget, MinInstancesForNodeLimit);
         Instances.Clear();
         SharedInstances.Clear();
@@ -100,22 +103,28 @@ internal sealed partial class StripCuller
     /// <param name="item">The object; the nearest is asked first.</param>
     public void CullObject(CulledObject item)
     {
-        (_object, _occluder, _vertexOrigin, _stackTop, IsNearClipped) = (item, item.Hierarchy.Occluder, SimdAffineMap.ToVector256(item.VertexOrigin), 0, false);
+        (_object, _occluder, _vertexOrigin, _stackTop, IsNearClipped) =
+            (item, item.Hierarchy.Occluder, SimdAffineMap.ToVector256(item.VertexOrigin), 0, false);
         if (_screenX.Length < _occluder.PaddedVertexCount)
         {
-            (_screenX, _screenY, _inverseDepths) = (new float[_occluder.PaddedVertexCount], new float[_occluder.PaddedVertexCount], new float[_occluder.PaddedVertexCount]);
+            (_screenX, _screenY, _inverseDepths) = (new float[_occluder.PaddedVertexCount], new float[_occluder.PaddedVertexCount],
+                new float[_occluder.PaddedVertexCount]);
         }
 
         var toView = _view.Axes.Inverse();
         if (item.Roots is not { } roots)
         {
-            VisitRoot(item.Hierarchy.LevelCount, new AffineMap(toView * item.ObjectToWorld.Linear, toView * (item.ObjectToWorld.Translation - _view.Position)), new(0, ColourPath.Start));
+            VisitRoot(item.Hierarchy.LevelCount,
+                new AffineMap(toView * item.ObjectToWorld.Linear, toView * (item.ObjectToWorld.Translation - _view.Position)),
+                new(0, ColourPath.Start));
             return;
         }
 
         for (var i = 0; i < roots.Length; i++)
         {
-            VisitRoot(roots[i].RemainingLevels, new AffineMap(toView * roots[i].FrameToCamera.Linear, toView * roots[i].FrameToCamera.Translation), new((ulong)(i + 1) << 40, roots[i].ColourPath));
+            VisitRoot(roots[i].RemainingLevels,
+                new AffineMap(toView * roots[i].FrameToCamera.Linear, toView * roots[i].FrameToCamera.Translation),
+                new((ulong)(i + 1) << 40, roots[i].ColourPath));
         }
     }
 
@@ -154,7 +163,9 @@ internal sealed partial class StripCuller
         {
             Emit(node, in map, in footprint, path);
         }
-        else if (!(footprint.ProjectedSize > _minProjectedSize) || (footprint.ProjectedSize <= MaxProxySizeRatio * _minProjectedSize && footprint.ProjectedSize * node.MaxChildSizeRatio <= MinChildSizeRatio * _minProjectedSize) || depth >= MaxDepth)
+        else if (!(footprint.ProjectedSize > _minProjectedSize)
+        || (footprint.ProjectedSize <= MaxProxySizeRatio * _minProjectedSize
+        && footprint.ProjectedSize * node.MaxChildSizeRatio <= MinChildSizeRatio * _minProjectedSize) || depth >= MaxDepth)
         {
             _statistics.Proxies++;
             Emit(node, in map, in footprint, path);
@@ -165,7 +176,8 @@ internal sealed partial class StripCuller
         }
     }
 
-    private bool UpdateIsOverBudget() => IsOverBudget |= _statistics.VisitedNodes > _maxNodes || Instances.Count + SharedInstances.Count > _instanceBudget;
+    private bool UpdateIsOverBudget() =>
+        IsOverBudget |= _statistics.VisitedNodes > _maxNodes || Instances.Count + SharedInstances.Count > _instanceBudget;
 
     private bool IsVisible(in Footprint footprint)
     {
@@ -282,6 +294,8 @@ internal sealed partial class StripCuller
         /// <summary>One copy further.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public CullingPath Append(int childIndex, int depth, int mapIndex, int childCount, GradientKind gradient) => new(
-            ((Hash ^ (ulong)(childIndex + 1)) * 0x9E3779B97F4A7C15UL) + (ulong)depth, gradient == GradientKind.None ? ColourPath : ColourPath.Append(mapIndex, childIndex, childCount));
+            ((Hash ^ (ulong)(childIndex + 1)) * 0x9E3779B97F4A7C15UL) + (ulong)depth, gradient == GradientKind.None
+            ? ColourPath
+            : ColourPath.Append(mapIndex, childIndex, childCount));
     }
 }

@@ -2,8 +2,8 @@
 namespace FractalEngine.Core.Visibility;
 
 /// <summary>
-/// What is drawn of a scene's fractals in one picture. Made once and filled again for every picture: after the first ones nothing is allocated. The same view gives the same
-/// instances, in the same order, on any number of threads.
+/// What is drawn of a scene's fractals in one picture. Made once and filled again for every picture: after the first ones nothing is
+/// allocated. The same view gives the same instances, in the same order, on any number of threads.
 /// </summary>
 public sealed class VisibleSet
 {
@@ -56,7 +56,8 @@ public sealed class VisibleSet
     public double MinProjectedSize { get; private set; }
 
     /// <summary>Bytes of the instances' memory.</summary>
-    public long StorageBytes => _sharedInstances.StorageBytes + _strips.Sum(strip => strip.Instances.StorageBytes + strip.SharedInstances.StorageBytes);
+    public long StorageBytes =>
+        _sharedInstances.StorageBytes + _strips.Sum(strip => strip.Instances.StorageBytes + strip.SharedInstances.StorageBytes);
 
     /// <summary>Chooses what is drawn.</summary>
     /// <param name="view">How the scene is looked at.</param>
@@ -106,7 +107,9 @@ public sealed class VisibleSet
     public ReadOnlySpan<float> Instances(int objectIndex, int chunk)
     {
         var (start, end) = RangeOf(objectIndex, chunk);
-        return (chunk < StripCount ? _strips[chunk].Instances : _sharedInstances).Span[(start * InstanceRows.FloatsPerInstance)..(end * InstanceRows.FloatsPerInstance)];
+        return (chunk < StripCount
+            ? _strips[chunk].Instances
+            : _sharedInstances).Span[(start * InstanceRows.FloatsPerInstance)..(end * InstanceRows.FloatsPerInstance)];
     }
 
     /// <summary>Numbers between two colours, one an instance of <see cref="Instances"/>, of an object that has a gradient.</summary>
@@ -156,7 +159,9 @@ public sealed class VisibleSet
     private bool TryCull(int step)
     {
         (_isOverBudget, _foundCount) = (false, 0);
-        MinProjectedSize = step == 0 ? _settings.MinProjectedSize : Math.Max(_settings.MinProjectedSize, 1) * Math.Pow(CoarseningFactor, step + Math.Max(0, 2 * (step - FineStepCount)));
+        MinProjectedSize = step == 0
+            ? _settings.MinProjectedSize
+            : Math.Max(_settings.MinProjectedSize, 1) * Math.Pow(CoarseningFactor, step + Math.Max(0, 2 * (step - FineStepCount)));
         if (_settings.ThreadCount > 1)
         {
             Parallel.For(0, StripCount, _parallelOptions, _cullStrip);
@@ -189,7 +194,8 @@ public sealed class VisibleSet
 
         if (_instanceEnds.Length < StripCount * count)
         {
-            (_instanceEnds, _sharedInstanceEnds, _mergedEnds, _isNearClipped) = (new int[StripCount * count], new int[StripCount * count], new int[count], new bool[StripCount * count]);
+            (_instanceEnds, _sharedInstanceEnds, _mergedEnds, _isNearClipped) =
+                (new int[StripCount * count], new int[StripCount * count], new int[count], new bool[StripCount * count]);
         }
 
         for (var i = 0; i < count; i++)
@@ -211,7 +217,8 @@ public sealed class VisibleSet
         }
 
         var (strip, count) = (_strips[stripIndex], _objects.Count);
-        strip.BeginFrame(in _view, _settings, MinProjectedSize, _instanceBudget, stripIndex * _view.Width / StripCount, (stripIndex + 1) * _view.Width / StripCount);
+        strip.BeginFrame(in _view, _settings, MinProjectedSize, _instanceBudget, stripIndex * _view.Width / StripCount,
+            (stripIndex + 1) * _view.Width / StripCount);
         for (var rank = 0; rank < count; rank++)
         {
             var item = _objects[_order[rank]];

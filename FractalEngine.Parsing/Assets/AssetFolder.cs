@@ -46,7 +46,8 @@ public sealed class AssetFolder
     {
         var fullPath = System.IO.Path.GetFullPath(path);
         var resolved = System.IO.Path.GetPathRoot(fullPath)!;
-        foreach (var segment in fullPath[resolved.Length..].Split(System.IO.Path.DirectorySeparatorChar, StringSplitOptions.RemoveEmptyEntries))
+        foreach (var segment in fullPath[resolved.Length..].Split(System.IO.Path.DirectorySeparatorChar,
+            StringSplitOptions.RemoveEmptyEntries))
         {
             resolved = System.IO.Path.Combine(resolved, segment);
             if (linksLeft > 0 && new FileInfo(resolved) is { LinkTarget: { } target })

@@ -11,7 +11,8 @@ using FractalEngine.Parsing.Text;
 namespace FractalEngine.Parsing.Assets;
 
 /// <summary>
-/// Loads meshes, fractals and scenes with everything that they refer to. Each file is read once, however often it is named, unless the options say otherwise.
+/// Loads meshes, fractals and scenes with everything that they refer to. Each file is read once, however often it is named, unless the
+/// options say otherwise.
 /// </summary>
 /// <param name="options">How to load.</param>
 /// <param name="progress">Told how far each large file has come.</param>
@@ -111,7 +112,9 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
             return cached;
         }
 
-        return _models[fullPath] = file.EndsWith(".fdo", StringComparison.OrdinalIgnoreCase) ? LoadFractal(fullPath, displayName) : LoadMesh(fullPath, displayName);
+        return _models[fullPath] = file.EndsWith(".fdo", StringComparison.OrdinalIgnoreCase)
+            ? LoadFractal(fullPath, displayName)
+            : LoadMesh(fullPath, displayName);
     }
 
     private MeshModel LoadMesh(string fullPath, string displayName)
@@ -125,7 +128,8 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
         var bytesBefore = StorageBytes;
         var file = FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.DescriptionBytes));
         var ownBytes = StorageBytes - bytesBefore;
-        var (baseFullPath, baseDisplayName) = _references!.Resolve(file.Source, file.BaseFileNameOffset, fullPath, file.Description.BaseFile);
+        var (baseFullPath, baseDisplayName) = _references!.Resolve(file.Source, file.BaseFileNameOffset, fullPath,
+            file.Description.BaseFile);
         var fractal = FractalGenerator.Create(ApplyOptions(file), _ => ReadMesh(baseFullPath, baseDisplayName).Mesh);
         if (fractal.Bounds != BoundingBox.Empty && !fractal.Bounds.Size.IsFinite())
         {
@@ -147,7 +151,8 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
         }
 
         return description is { IsInfinite: true, Composition: Composition.Componentwise }
-            ? throw file.Source.Error(file.ResultOffset, "an infinite fractal can't be composed componentwise: its positions don't shrink; give it a depth")
+            ? throw file.Source.Error(file.ResultOffset,
+            "an infinite fractal can't be composed componentwise: its positions don't shrink; give it a depth")
             : description;
     }
 

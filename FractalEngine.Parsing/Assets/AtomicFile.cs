@@ -36,7 +36,8 @@ public static class AtomicFile
         catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
         {
             // The neighbour is nobody's business.
-            throw new IOException($"{path} can't be written: {exception.Message.Replace(temporary, target, StringComparison.Ordinal)}", exception);
+            throw new IOException($"{path} can't be written: {exception.Message.Replace(temporary, target, StringComparison.Ordinal)}",
+                exception);
         }
         finally
         {

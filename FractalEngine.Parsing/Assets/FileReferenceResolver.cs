@@ -23,7 +23,9 @@ internal sealed class FileReferenceResolver(AssetFolder folder, bool allowOutsid
 
         if (!File.Exists(fullPath))
         {
-            throw source.Error(offset, Directory.Exists(fullPath) ? $"\"{file}\" is a directory, expected a file" : $"the file \"{file}\" is not found");
+            throw source.Error(offset, Directory.Exists(fullPath)
+                ? $"\"{file}\" is a directory, expected a file"
+                : $"the file \"{file}\" is not found");
         }
 
         return (fullPath, Path.IsPathRooted(source.FileName) ? fullPath : Path.GetRelativePath(Directory.GetCurrentDirectory(), fullPath));

@@ -34,10 +34,12 @@ internal static class ImageSizeReader
     private static (long Width, long Height)? ReadBmpSize(ReadOnlySpan<byte> header) => header.Length < HeaderBytes ? null
         : BinaryPrimitives.ReadUInt32LittleEndian(header[14..]) == 12
             ? (BinaryPrimitives.ReadUInt16LittleEndian(header[18..]), BinaryPrimitives.ReadUInt16LittleEndian(header[20..]))
-            : (Math.Abs((long)BinaryPrimitives.ReadInt32LittleEndian(header[18..])), Math.Abs((long)BinaryPrimitives.ReadInt32LittleEndian(header[22..])));
+            : (Math.Abs((long)BinaryPrimitives.ReadInt32LittleEndian(header[18..])),
+            Math.Abs((long)BinaryPrimitives.ReadInt32LittleEndian(header[22..])));
 
     /// <summary>With one of the six kinds of pixels that there are: 1 to 3, and 8 more for each of them in runs.</summary>
-    private static (long Width, long Height)? ReadTgaSize(ReadOnlySpan<byte> header) => header.Length < 18 || header[2] is not (1 or 2 or 3 or 9 or 10 or 11) ? null
+    private static (long Width, long Height)? ReadTgaSize(ReadOnlySpan<byte> header) =>
+        header.Length < 18 || header[2] is not (1 or 2 or 3 or 9 or 10 or 11) ? null
         : (BinaryPrimitives.ReadUInt16LittleEndian(header[12..]), BinaryPrimitives.ReadUInt16LittleEndian(header[14..]));
 
     /// <summary>Goes from segment to segment until one begins a frame (ITU-T T.81, §B.2).</summary>

@@ -14,6 +14,8 @@ public sealed record LoadOptions
     /// <summary>The depth of all fractals that have one; null for what each file says.</summary>
     public int? Depth { get; init; }
 
-    /// <summary>Whether meshes and fractals are read once however many objects name them; otherwise once for each, for comparison.</summary>
+    /// <summary>
+    /// Whether meshes and fractals are read once however many objects name them; otherwise once for each, for comparison.
+    /// </summary>
     public bool ShareModels { get; init; } = true;
 }

@@ -1,7 +1,8 @@
 namespace FractalEngine.Parsing.Assets;
 
 /// <summary>
-/// The names behind one <c>mtllib</c>. The format separates them by blanks, yet programs write names with blanks in them; so a name ends where
+/// The names behind one <c>mtllib</c>. The format separates them by blanks, yet programs write names with blanks in them; so a name ends
+/// where
 /// <c>.mtl</c> stands before a blank. A backslash before a blank makes it a part of the name.
 /// </summary>
 internal static class MaterialFileNames

@@ -6,8 +6,8 @@ using FractalEngine.Parsing.Text;
 namespace FractalEngine.Parsing.Assets;
 
 /// <summary>
-/// Loads the materials of meshes and looks for their pictures. Each file is read once, however many meshes name it. Nothing is an error: what
-/// can't be had gives a warning, and the mesh is drawn without it.
+/// Loads the materials of meshes and looks for their pictures. Each file is read once, however many meshes name it. Nothing is an error:
+/// what can't be had gives a warning, and the mesh is drawn without it.
 /// </summary>
 /// <param name="references">Says which files may be named.</param>
 /// <param name="warnings">Receives what is wrong.</param>
@@ -55,7 +55,8 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
         if (unknownMaterials.Length > 0 && isComplete)
         {
             var totalNote = unknownMaterials.Length == 1 ? "" : $" ({unknownMaterials.Length} such materials in all)";
-            Warn(source.Diagnose(mesh.MaterialOffsets[unknownMaterials[0]], $"no material file declares \"{unknownMaterials[0]}\": drawn in the object's own colour{totalNote}"));
+            Warn(source.Diagnose(mesh.MaterialOffsets[unknownMaterials[0]],
+                $"no material file declares \"{unknownMaterials[0]}\": drawn in the object's own colour{totalNote}"));
         }
 
         return materials.ToImmutable();
@@ -99,7 +100,9 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
 
         if (firstFault is not null)
         {
-            Warn(firstFault with { Message = faultCount == 1 ? firstFault.Message : $"{firstFault.Message} ({faultCount} such files in all)" });
+            Warn(firstFault with { Message = faultCount == 1
+                ? firstFault.Message
+                : $"{firstFault.Message} ({faultCount} such files in all)" });
         }
 
         isComplete = faultCount == 0;
@@ -192,7 +195,8 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
             using var stream = new FileStream(fullPath, FileMode.Open, FileAccess.Read, FileShare.Read);
             if (stream.Length > ParsingLimits.ImageBytes)
             {
-                throw source.Error(offset, $"the picture \"{file}\" is larger than the limit of {ParsingLimits.ImageBytes} bytes", isLimitExceeded: true);
+                throw source.Error(offset, $"the picture \"{file}\" is larger than the limit of {ParsingLimits.ImageBytes} bytes",
+                    isLimitExceeded: true);
             }
 
             var isTga = Path.GetExtension(fullPath).Equals(".tga", StringComparison.OrdinalIgnoreCase);
@@ -204,13 +208,15 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
             if (Math.Max(width, height) > ParsingLimits.ImageSide)
             {
                 throw source.Error(
-                    offset, $"the picture \"{file}\" has {width}×{height} pixels, more than the limit of {ParsingLimits.ImageSide} a side", isLimitExceeded: true);
+                    offset, $"the picture \"{file}\" has {width}×{height} pixels, more than the limit of {ParsingLimits.ImageSide} a side",
+                    isLimitExceeded: true);
             }
 
             if (_totalPixels + (width * height) > ParsingLimits.TotalImagePixels)
             {
                 throw source.Error(
-                    offset, $"with \"{file}\" all pictures have more than the limit of {ParsingLimits.TotalImagePixels} pixels", isLimitExceeded: true);
+                    offset, $"with \"{file}\" all pictures have more than the limit of {ParsingLimits.TotalImagePixels} pixels",
+                    isLimitExceeded: true);
             }
 
             _totalPixels += width * height;

@@ -71,7 +71,8 @@ public sealed partial class FractalParser
             return true;
         }
 
-        if (char.IsLetter(cursor.Current) && ParseName(cursor, "a parameter", out var name, out var afterName) && parameters.IndexOf(name) is >= 0 and var index)
+        if (char.IsLetter(cursor.Current) && ParseName(cursor, "a parameter", out var name, out var afterName)
+            && parameters.IndexOf(name) is >= 0 and var index)
         {
             output = arguments => arguments[index];
             rest = afterName;
@@ -97,7 +98,8 @@ public sealed partial class FractalParser
         }
 
         vector = number >= 1 && number <= _vectors.Count ? _vectors[number - 1]
-            : throw Error(cursor, $"vector {TextBetween(cursor, rest)} of {_vectors.Count}: {(number == 0 ? "vectors are numbered from 1" : "it is not declared above")}");
+            : throw Error(cursor,
+            $"vector {TextBetween(cursor, rest)} of {_vectors.Count}: {(number == 0 ? "vectors are numbered from 1" : "it is not declared above")}");
         return true;
     }
 
@@ -175,7 +177,9 @@ public sealed partial class FractalParser
         }
 
         transformation = function.Apply(arguments.ToImmutable());
-        return ScaleCheck.IsInvertible(transformation.Scale) ? true : throw Error(cursor, ScaleCheck.SingularScaleMessage(transformation.Scale));
+        return ScaleCheck.IsInvertible(transformation.Scale)
+            ? true
+            : throw Error(cursor, ScaleCheck.SingularScaleMessage(transformation.Scale));
     }
 
     private static string ArgumentCountText(int count) => count == 1 ? "1 argument" : $"{count} arguments";

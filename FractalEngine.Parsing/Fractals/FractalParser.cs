@@ -49,7 +49,8 @@ public sealed partial class FractalParser : Parser
         var description = new FractalDescription(result.Object.BaseFile, result.Object.Steps, _composition ?? Composition.Affine);
         if (description is { IsInfinite: true, Composition: Composition.Componentwise })
         {
-            throw Source.Error(result.Offset, "an infinite fractal can't be composed componentwise: its positions don't shrink; give it a depth");
+            throw Source.Error(result.Offset,
+                "an infinite fractal can't be composed componentwise: its positions don't shrink; give it a depth");
         }
 
         return new(Source, description, result.Object.BaseFileNameOffset, result.Offset);
@@ -247,7 +248,8 @@ public sealed partial class FractalParser : Parser
             return Fail(depthStart, "the end of the line");
         }
 
-        value = FindObject(cursor, name) is not DeclaredRecursive recursive ? throw Error(depthStart, $"'{name}' is no recursive, so it has no depth")
+        value = FindObject(cursor, name) is not DeclaredRecursive recursive
+            ? throw Error(depthStart, $"'{name}' is no recursive, so it has no depth")
             : depth > FractalLimits.MaxDepth
                 ? throw Error(depthStart, $"the depth is more than the limit of {FractalLimits.MaxDepth}", isLimitExceeded: true)
                 : recursive.WithDepth(depth);
@@ -279,7 +281,8 @@ public sealed partial class FractalParser : Parser
     {
         if (FractalSteps.LevelCount(steps) > FractalLimits.MaxLevels)
         {
-            throw Error(cursor, $"the fractal passes through more than the limit of {FractalLimits.MaxLevels} sets of transformations", isLimitExceeded: true);
+            throw Error(cursor, $"the fractal passes through more than the limit of {FractalLimits.MaxLevels} sets of transformations",
+                isLimitExceeded: true);
         }
     }
 

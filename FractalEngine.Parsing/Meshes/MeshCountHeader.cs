@@ -43,7 +43,9 @@ public static class MeshCountHeader
                 return text[..position] + header + text[end..];
             }
 
-            position = end < text.Length && text[end] == '\r' && end + 1 < text.Length && text[end + 1] == '\n' ? end + 2 : Math.Min(end + 1, text.Length);
+            position = end < text.Length && text[end] == '\r' && end + 1 < text.Length && text[end + 1] == '\n'
+                ? end + 2
+                : Math.Min(end + 1, text.Length);
         }
 
         // The last comment of the head may be the end of the file, without a line break.

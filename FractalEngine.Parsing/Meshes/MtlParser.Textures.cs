@@ -81,7 +81,9 @@ public sealed partial class MtlParser
         return isOn || ParseWord(cursor, "off", out rest);
     }
 
-    /// <summary>One to three numbers; those that are left out keep their usual value. A word that only begins with digits is a file's name.</summary>
+    /// <summary>
+    /// One to three numbers; those that are left out keep their usual value. A word that only begins with digits is a file's name.
+    /// </summary>
     private bool ParseUpToThreeNumbers(Cursor cursor, Vector defaults, out Vector numbers, out Cursor rest)
     {
         numbers = defaults;

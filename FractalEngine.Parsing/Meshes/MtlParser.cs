@@ -46,7 +46,9 @@ public sealed partial class MtlParser : Parser
         }
 
         CommitMaterial();
-        return new(Source, _materials.ToImmutable(), _textureNameOffsets.ToImmutable(), _firstFault is null ? [] : [CreateWarning(_firstFault)]);
+        return new(Source, _materials.ToImmutable(), _textureNameOffsets.ToImmutable(), _firstFault is null
+            ? []
+            : [CreateWarning(_firstFault)]);
     }
 
     private void RecordFault(SourceException fault)
@@ -79,7 +81,8 @@ public sealed partial class MtlParser : Parser
     private bool ParseLine(Cursor cursor)
     {
         ParseBlanks(cursor, out var start);
-        if (IsAtEndOfLine(start) || start.Current == '#' || !char.IsLetter(start.Current) || !ParseName(start, "a keyword", out var keyword, out var rest))
+        if (IsAtEndOfLine(start) || start.Current == '#' || !char.IsLetter(start.Current)
+            || !ParseName(start, "a keyword", out var keyword, out var rest))
         {
             return true;
         }
@@ -137,7 +140,8 @@ public sealed partial class MtlParser : Parser
     }
 
     private bool ParseScalar(Cursor statement, Cursor cursor, Func<Material, double, Material> update) =>
-        ParseNumber(cursor, out var number, out var rest) && ParseEndOfStatement(rest) && UpdateMaterial(statement, material => update(material, number));
+        ParseNumber(cursor, out var number, out var rest) && ParseEndOfStatement(rest)
+        && UpdateMaterial(statement, material => update(material, number));
 
     /// <summary><c>d</c> counts more than <c>Tr</c>, wherever they stand: programs disagree about what <c>Tr</c> means.</summary>
     private bool ParseOpacity(Cursor statement, Cursor cursor)

@@ -166,7 +166,8 @@ internal sealed class ObjMeshBuilder
         var end = _positionIndices.Count / 3;
         if (end > _firstGroupFace)
         {
-            _groups.Add(new(_firstGroupFace, end - _firstGroupFace, _groupState.Object, _groupState.Group, _groupState.Material, _groupState.Smoothing));
+            _groups.Add(new(_firstGroupFace, end - _firstGroupFace, _groupState.Object, _groupState.Group, _groupState.Material,
+                _groupState.Smoothing));
             _firstGroupFace = end;
         }
     }

@@ -85,7 +85,8 @@ public sealed class ObjParser : Parser
         if (_firstUnknownKeyword is { } keyword)
         {
             var totalNote = _unknownLineCount == 1 ? "" : $" ({_unknownLineCount} lines with unknown keywords in all)";
-            warnings.Add(Source.Diagnose(keyword.Offset, $"unknown keyword {Describe(keyword)} skipped{totalNote}", DiagnosticSeverity.Warning));
+            warnings.Add(
+                Source.Diagnose(keyword.Offset, $"unknown keyword {Describe(keyword)} skipped{totalNote}", DiagnosticSeverity.Warning));
         }
 
         if (_firstInvalidIndex is var (cursor, message))
@@ -182,7 +183,8 @@ public sealed class ObjParser : Parser
 
     /// <summary>x y z, then a weight or a colour or both, which are not used.</summary>
     private bool ParsePosition(Cursor cursor, out Cursor rest) =>
-        ParseThreeNumbers(cursor, out var position, out rest) && AddPosition(position) && ParseOptionalNumbers(rest, out rest) && ParseCommentAndEndOfLine(rest, out rest);
+        ParseThreeNumbers(cursor, out var position, out rest) && AddPosition(position) && ParseOptionalNumbers(rest, out rest)
+        && ParseCommentAndEndOfLine(rest, out rest);
 
     private bool AddPosition(Vector position)
     {
@@ -269,7 +271,8 @@ public sealed class ObjParser : Parser
 
         if (_corners.Count > ParsingLimits.PolygonCorners)
         {
-            throw Error(start, $"the polygon has {_corners.Count} corners, more than the limit of {ParsingLimits.PolygonCorners}", isLimitExceeded: true);
+            throw Error(start, $"the polygon has {_corners.Count} corners, more than the limit of {ParsingLimits.PolygonCorners}",
+                isLimitExceeded: true);
         }
 
         _builder.AddPolygon(CollectionsMarshal.AsSpan(_corners));
@@ -289,12 +292,14 @@ public sealed class ObjParser : Parser
         if (rest.Current == '/')
         {
             rest = rest.Advance(1);
-            if (rest.Current != '/' && !ParseIndex(rest, "texture coordinate", _builder.TextureCoordinateCount, isRequired: false, out texture, out rest))
+            if (rest.Current != '/'
+                && !ParseIndex(rest, "texture coordinate", _builder.TextureCoordinateCount, isRequired: false, out texture, out rest))
             {
                 return false;
             }
 
-            if (rest.Current == '/' && !ParseIndex(rest.Advance(1), "normal", _builder.NormalCount, isRequired: false, out normal, out rest))
+            if (rest.Current == '/'
+                && !ParseIndex(rest.Advance(1), "normal", _builder.NormalCount, isRequired: false, out normal, out rest))
             {
                 return false;
             }
@@ -344,7 +349,8 @@ public sealed class ObjParser : Parser
     private bool ParseSmoothingGroup(Cursor cursor, out Cursor rest)
     {
         ParseBlanks(cursor, out rest);
-        if (ParseInteger(rest, "a number or 'off'", out var number, out var next) || ParseWord(rest, "off", out next) || ParseWord(rest, "on", out next))
+        if (ParseInteger(rest, "a number or 'off'", out var number, out var next) || ParseWord(rest, "off", out next)
+            || ParseWord(rest, "on", out next))
         {
             _builder.SmoothingGroup = rest.Current == 'o' ? (rest.Peek(1) == 'n' ? 1 : 0) : number;
             return ParseCommentAndEndOfLine(next, out rest);

@@ -37,7 +37,8 @@ public sealed class ObjWriter
         var faceCount = objects.Sum(item => (long)item.Instances.Length * item.Placed.Model.Mesh.FaceCount);
         if (faceCount > maxFaces)
         {
-            throw new FractalLimitException(string.Create(CultureInfo.InvariantCulture, $"the scene has {faceCount} faces, more than the limit of {maxFaces}"));
+            throw new FractalLimitException(
+                string.Create(CultureInfo.InvariantCulture, $"the scene has {faceCount} faces, more than the limit of {maxFaces}"));
         }
 
         writer.WriteText(string.Create(CultureInfo.InvariantCulture, $"# Mesh count: {faceCount}\n"));
@@ -81,7 +82,8 @@ public sealed class ObjWriter
         catch (FractalLimitException exception)
         {
             throw new FractalLimitException(
-                string.Create(CultureInfo.InvariantCulture, $"{Path.GetFileName(model.Path)} has more faces than the limit of {maxFaces}: {exception.Message}"),
+                string.Create(CultureInfo.InvariantCulture,
+                $"{Path.GetFileName(model.Path)} has more faces than the limit of {maxFaces}: {exception.Message}"),
                 exception);
         }
     }

@@ -10,7 +10,9 @@ namespace FractalEngine.Parsing.Scenes;
 /// <param name="Lines">All lines in order.</param>
 public sealed record SceneFile(SourceText Source, Scene Scene, ImmutableArray<SceneLine> Lines)
 {
-    /// <summary>Where the file names of the objects stand in the text, in the order of the objects; for messages about those files.</summary>
+    /// <summary>
+    /// Where the file names of the objects stand in the text, in the order of the objects; for messages about those files.
+    /// </summary>
     public IEnumerable<int> FileNameOffsets =>
         Lines.Where(line => line.Kind == SceneDeclarationKind.SceneObject).Select(line => line.FileNameOffset);
 }

@@ -43,7 +43,8 @@ internal static class SceneFormatter
     {
         AmbientLight => $"light ambient {light.Colour} {FormatNumber(light.Intensity)}",
         DirectionalLight directional => $"light directional {directional.Direction} {light.Colour} {FormatNumber(light.Intensity)}",
-        SpotLight spot => $"light spot {spot.Position} {spot.Direction} {FormatNumber(spot.Angle)} {light.Colour} {FormatNumber(light.Intensity)} {FormatNumber(spot.Range)}",
+        SpotLight spot =>
+            $"light spot {spot.Position} {spot.Direction} {FormatNumber(spot.Angle)} {light.Colour} {FormatNumber(light.Intensity)} {FormatNumber(spot.Range)}",
         PointLight point => $"light point {point.Position} {light.Colour} {FormatNumber(light.Intensity)} {FormatNumber(point.Range)}",
         _ => throw new ArgumentOutOfRangeException(nameof(light)),
     };
@@ -65,7 +66,9 @@ internal static class SceneFormatter
             body is { Restitution: var restitution } ? FormatNumber(restitution) : null,
             declared.Name is { } name ? $"name \"{name}\"" : null,
             declared.Colour is { } colour ? $"colour {colour}" : null,
-            declared.Gradient is { } gradient ? $"gradient {(gradient.Kind == GradientKind.Level ? "level" : "path")} {gradient.EndColour}" : null,
+            declared.Gradient is { } gradient
+            ? $"gradient {(gradient.Kind == GradientKind.Level ? "level" : "path")} {gradient.EndColour}"
+            : null,
             body is { Velocity: var velocity } && !AreBitEqual(velocity, Vector.Zero) ? $"velocity {velocity}" : null,
             body is { Mass: not 1.0 and var mass } ? $"mass {FormatNumber(mass)}" : null,
             body is { Friction: var friction } && !AreBitEqual(friction, 0) ? $"friction {FormatNumber(friction)}" : null,
@@ -74,7 +77,8 @@ internal static class SceneFormatter
             body is { Collider: not ColliderKind.Exact and var collider } ? $"collider {SceneParser.GetColliderName(collider)}" : null);
     }
 
-    private static string? FormatShrinkage(double rate, double minimum) => (AreBitEqual(rate, 0), AreBitEqual(minimum, PhysicsObject.DefaultMinimumScale)) switch
+    private static string? FormatShrinkage(double rate, double minimum) =>
+        (AreBitEqual(rate, 0), AreBitEqual(minimum, PhysicsObject.DefaultMinimumScale)) switch
     {
         (true, true) => null,
         (false, true) => $"shrink {FormatNumber(rate)}",
@@ -95,7 +99,8 @@ internal static class SceneFormatter
     /// <summary>Bit for bit: −0 is not 0 here.</summary>
     private static bool AreBitEqual(Vector v1, Vector v2) => v1.ToString() == v2.ToString();
 
-    private static bool AreBitEqual(double number1, double number2) => BitConverter.DoubleToInt64Bits(number1) == BitConverter.DoubleToInt64Bits(number2);
+    private static bool AreBitEqual(double number1, double number2) =>
+        BitConverter.DoubleToInt64Bits(number1) == BitConverter.DoubleToInt64Bits(number2);
 
     private static string FormatNumber(double number) => number.ToString("R", CultureInfo.InvariantCulture);
 }

@@ -9,7 +9,8 @@ namespace FractalEngine.Parsing.Scenes;
 public sealed partial class SceneParser
 {
     private bool ParseLight(Cursor cursor, out Cursor rest) =>
-        (ParseLightKind(cursor, "ambient", out rest) && ParseColourAndIntensity(rest, out var ambientColour, out var ambientIntensity, out rest)
+        (ParseLightKind(cursor, "ambient", out rest)
+        && ParseColourAndIntensity(rest, out var ambientColour, out var ambientIntensity, out rest)
             && AddLight(new AmbientLight(ambientColour, ambientIntensity)))
         || (ParseLightKind(cursor, "directional", out rest) && ParseDirection(rest, out var direction, out rest)
             && ParseColourAndIntensity(rest, out var colour, out var intensity, out rest)
@@ -69,7 +70,8 @@ public sealed partial class SceneParser
     {
         (intensity, range) = (0, 0);
         if (!ParseColour(cursor, out colour, out rest) || !ParseOptionalSeparator(rest, out rest)
-            || !ParseIntensity(rest, out intensity, out rest) || !ParseSeparator(rest, out var rangeStart) || !ParseNumber(rangeStart, out range, out rest))
+            || !ParseIntensity(rest, out intensity, out rest) || !ParseSeparator(rest, out var rangeStart)
+            || !ParseNumber(rangeStart, out range, out rest))
         {
             return false;
         }

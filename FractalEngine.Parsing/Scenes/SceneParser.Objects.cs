@@ -101,7 +101,9 @@ public sealed partial class SceneParser
 
     private bool ParseGradient(Cursor cursor, out Gradient gradient, out Cursor rest)
     {
-        var kind = ParseKeyword(cursor, "level", out rest) ? GradientKind.Level : ParseKeyword(cursor, "path", out rest) ? GradientKind.Path : GradientKind.None;
+        var kind = ParseKeyword(cursor, "level", out rest) ? GradientKind.Level : ParseKeyword(cursor, "path", out rest)
+            ? GradientKind.Path
+            : GradientKind.None;
         gradient = new(kind, default);
         if (kind == GradientKind.None)
         {

@@ -9,12 +9,14 @@ public sealed partial class SceneParser
     private bool ParsePlayer(Cursor cursor, out Cursor rest)
     {
         if (!ParseVector(cursor, out var position, out rest) || !ParseOptionalSeparator(rest, out var radiusStart)
-            || !ParseNumber(radiusStart, out var radius, out rest) || !ParseSeparator(rest, out rest) || !ParseNumber(rest, out var height, out rest))
+            || !ParseNumber(radiusStart, out var radius, out rest) || !ParseSeparator(rest, out rest)
+            || !ParseNumber(rest, out var height, out rest))
         {
             return false;
         }
 
-        Require(radius > 0 && height >= 2 * radius, radiusStart, "the player's radius must be positive, and the height at least twice as much");
+        Require(radius > 0 && height >= 2 * radius, radiusStart,
+            "the player's radius must be positive, and the height at least twice as much");
         var player = new Player(position, radius, height);
         while (ParsePlayerOption(rest, ref player, out rest))
         {
@@ -46,13 +48,15 @@ public sealed partial class SceneParser
         else if (ParseKeyword(start, "slope", out var valueStart))
         {
             success = ParseNumber(valueStart, out var slope, out next);
-            Require(!success || slope is >= 0 and <= Player.MaxSlopeAngleLimit, valueStart, "the player's slope must lie between 0 and 89 degrees");
+            Require(!success || slope is >= 0 and <= Player.MaxSlopeAngleLimit, valueStart,
+                "the player's slope must lie between 0 and 89 degrees");
             player = player with { MaxSlopeAngle = slope };
         }
         else if (ParseKeyword(start, "step", out valueStart))
         {
             success = ParseNumber(valueStart, out var step, out next);
-            Require(!success || (step >= 0 && step < player.Height), valueStart, "the player's step must not be negative, and less than the height");
+            Require(!success || (step >= 0 && step < player.Height), valueStart,
+                "the player's step must not be negative, and less than the height");
             player = player with { StepHeightOverride = step };
         }
 

@@ -86,7 +86,8 @@ public sealed partial class SceneParser : SceneValueParser
 
     /// <summary>A keyword and what follows it; what a scene has only one of may be declared once.</summary>
     private bool ParseDeclaration(
-        Cursor cursor, string keyword, SceneDeclarationKind declared, DeclarationParser parse, out SceneDeclarationKind? kind, out Cursor rest)
+        Cursor cursor, string keyword, SceneDeclarationKind declared, DeclarationParser parse, out SceneDeclarationKind? kind,
+        out Cursor rest)
     {
         kind = null;
         if (!ParseWord(cursor, keyword, out rest))
@@ -94,7 +95,8 @@ public sealed partial class SceneParser : SceneValueParser
             return false;
         }
 
-        if (declared is not (SceneDeclarationKind.Light or SceneDeclarationKind.SceneObject) && !_declarationOffsets.TryAdd(declared, cursor.Offset))
+        if (declared is not (SceneDeclarationKind.Light or SceneDeclarationKind.SceneObject)
+            && !_declarationOffsets.TryAdd(declared, cursor.Offset))
         {
             throw Error(cursor, $"'{keyword}' is declared twice, first in line {Source.Diagnose(_declarationOffsets[declared], "").Line}");
         }
@@ -107,7 +109,8 @@ public sealed partial class SceneParser : SceneValueParser
     private bool ParseCamera(Cursor cursor, out Cursor rest)
     {
         if (!ParseVectorOrDefault(cursor, Vector.Zero, out var position, out rest) || !ParseOptionalSeparator(rest, out rest)
-            || !ParseVectorOrDefault(rest, Vector.Zero, out var rotation, out rest) || !ParseOptionalSeparator(rest, out var fieldOfViewStart)
+            || !ParseVectorOrDefault(rest, Vector.Zero, out var rotation, out rest)
+            || !ParseOptionalSeparator(rest, out var fieldOfViewStart)
             || !ParseNumber(fieldOfViewStart, out var fieldOfView, out rest))
         {
             return false;
@@ -153,12 +156,14 @@ public sealed partial class SceneParser : SceneValueParser
         }
 
         var height = 1.0;
-        if (ParseBlanks(rest, out var colon) && colon.Current == ':' && !(ParseBlanks(colon.Advance(1), out rest) && ParseNumber(rest, out height, out rest)))
+        if (ParseBlanks(rest, out var colon) && colon.Current == ':'
+            && !(ParseBlanks(colon.Advance(1), out rest) && ParseNumber(rest, out height, out rest)))
         {
             return false;
         }
 
-        Require(width > 0 && height > 0 && width / height is >= 0.01 and <= 100, cursor, "the aspect ratio must lie between 1:100 and 100:1");
+        Require(width > 0 && height > 0 && width / height is >= 0.01 and <= 100, cursor,
+            "the aspect ratio must lie between 1:100 and 100:1");
         return UpdateScene(_scene with { Aspect = width / height });
     }
 

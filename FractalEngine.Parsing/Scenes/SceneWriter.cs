@@ -29,7 +29,8 @@ public static class SceneWriter
             }
 
             written.Add((kind, line.Index));
-            var (originalText, currentText) = (SceneFormatter.Format(original!.Scene, kind, line.Index), SceneFormatter.Format(scene, kind, line.Index));
+            var (originalText, currentText) =
+                (SceneFormatter.Format(original!.Scene, kind, line.Index), SceneFormatter.Format(scene, kind, line.Index));
             text.Append(originalText == currentText ? line.Text : currentText is null ? "" : currentText + lineBreak);
         }
 

@@ -106,10 +106,12 @@ public sealed class SourceText
                 throw new SourceException(fileName, "this is a pipe or a device, expected a file");
             }
 
-            using var stream = new FileStream(path, FileMode.Open, FileAccess.Read, FileShare.Read, bufferSize: 0, FileOptions.SequentialScan);
+            using var stream = new FileStream(path, FileMode.Open, FileAccess.Read, FileShare.Read, bufferSize: 0,
+                FileOptions.SequentialScan);
             if (stream.CanSeek && stream.Length > maxBytes)
             {
-                throw new SourceException(fileName, $"the file has {stream.Length} bytes, more than the limit of {maxBytes}", isLimitExceeded: true);
+                throw new SourceException(fileName, $"the file has {stream.Length} bytes, more than the limit of {maxBytes}",
+                    isLimitExceeded: true);
             }
 
             return stream.Length == 0 && stream.ReadByte() >= 0
@@ -120,15 +122,16 @@ public sealed class SourceText
         {
             throw new SourceException(fileName, "file not found");
         }
-        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException or NotSupportedException or ArgumentException)
+        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException or NotSupportedException
+        or ArgumentException)
         {
             throw new SourceException(fileName, $"the file can't be read: {exception.Message}");
         }
     }
 
     /// <summary>
-    /// Pipes say that they are empty, and opening one for reading waits for a writer, perhaps for ever. Opening it for both does not wait, and
-    /// does an empty file no harm.
+    /// Pipes say that they are empty, and opening one for reading waits for a writer, perhaps for ever. Opening it for both does not wait,
+    /// and does an empty file no harm.
     /// </summary>
     private static bool IsPipe(string path)
     {

@@ -24,7 +24,8 @@ internal sealed class AlphaTexture : GlObject
             fixed (byte* start = texels)
             {
                 GL.TexImage2D(
-                    TextureTarget.Texture2D, 0, PixelInternalFormat.R8, width, height, 0, PixelFormat.Red, PixelType.UnsignedByte, (IntPtr)start);
+                    TextureTarget.Texture2D, 0, PixelInternalFormat.R8, width, height, 0, PixelFormat.Red, PixelType.UnsignedByte,
+                    (IntPtr)start);
             }
         }
 

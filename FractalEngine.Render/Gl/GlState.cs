@@ -3,8 +3,8 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Gl;
 
 /// <summary>
-/// What is bound in one context. Programs, vertex arrays, textures, uniform buffers and the side that is left out are set here and nowhere else, so that what is
-/// bound already is not bound again.
+/// What is bound in one context. Programs, vertex arrays, textures, uniform buffers and the side that is left out are set here and nowhere
+/// else, so that what is bound already is not bound again.
 /// </summary>
 internal sealed class GlState
 {

@@ -95,6 +95,7 @@ internal sealed class ShaderProgram : GlObject
 
         var log = GL.GetShaderInfoLog(shader).Trim();
         GL.DeleteShader(shader);
-        throw new GlException($"{source.File} ({(stage == ShaderType.VertexShader ? "vertex" : "fragment")} shader) does not compile:\n{log}");
+        throw new GlException(
+            $"{source.File} ({(stage == ShaderType.VertexShader ? "vertex" : "fragment")} shader) does not compile:\n{log}");
     }
 }

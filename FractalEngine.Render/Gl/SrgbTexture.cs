@@ -3,7 +3,9 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Gl;
 
-/// <summary>A picture for surfaces: sRGB, which GL decodes before it filters; with mipmaps, so that what is far away does not flicker.</summary>
+/// <summary>
+/// A picture for surfaces: sRGB, which GL decodes before it filters; with mipmaps, so that what is far away does not flicker.
+/// </summary>
 internal sealed class SrgbTexture : GlObject
 {
     private readonly int _name;

@@ -55,14 +55,16 @@ public static class ImageFile
             var surface = SdlImage.CreateSurfaceFrom((IntPtr)pixels, image.Width, image.Height, 32, 4 * image.Width, SdlImage.RgbaFormat);
             if (surface == IntPtr.Zero)
             {
-                throw new IOException($"{path} can't be written: {SdlImage.ErrorText().Replace(temporaryPath, path, StringComparison.Ordinal)}");
+                throw new IOException(
+                    $"{path} can't be written: {SdlImage.ErrorText().Replace(temporaryPath, path, StringComparison.Ordinal)}");
             }
 
             try
             {
                 if (SdlImage.SavePng(surface, temporaryPath) != 0)
                 {
-                    throw new IOException($"{path} can't be written: {SdlImage.ErrorText().Replace(temporaryPath, path, StringComparison.Ordinal)}");
+                    throw new IOException(
+                        $"{path} can't be written: {SdlImage.ErrorText().Replace(temporaryPath, path, StringComparison.Ordinal)}");
                 }
             }
             finally

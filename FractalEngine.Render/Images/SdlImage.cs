@@ -5,7 +5,9 @@ namespace FractalEngine.Render.Images;
 /// <summary>The functions of SDL 2 and SDL2_image that read and write pictures.</summary>
 internal static partial class SdlImage
 {
-    /// <summary>SDL's format whose bytes are red, green, blue, alpha in memory on little-endian machines (SDL_PIXELFORMAT_ABGR8888).</summary>
+    /// <summary>
+    /// SDL's format whose bytes are red, green, blue, alpha in memory on little-endian machines (SDL_PIXELFORMAT_ABGR8888).
+    /// </summary>
     public const uint RgbaFormat = 0x16762004;
 
     [LibraryImport("SDL2", EntryPoint = "SDL_CreateRGBSurfaceWithFormatFrom")]

@@ -17,7 +17,8 @@ internal sealed class EffectiveCulling
 
         // Through a wireframe one sees what is behind.
         var (hasSamples, occlusionCulling) = (settings.Samples > 1, culling.OcclusionCulling && !settings.Wireframe);
-        if (_lastResolved is not { } last || last.Source != culling || last.Detail.IsMultisampled != hasSamples || last.Detail.OcclusionCulling != occlusionCulling)
+        if (_lastResolved is not { } last || last.Source != culling || last.Detail.IsMultisampled != hasSamples
+            || last.Detail.OcclusionCulling != occlusionCulling)
         {
             _lastResolved = (culling, culling with { IsMultisampled = hasSamples, OcclusionCulling = occlusionCulling });
         }

@@ -60,7 +60,8 @@ internal sealed class LightBlock : IDisposable
     /// <param name="unitsPerSceneUnit">1, or more where what is drawn is told in a smaller unit.</param>
     public void Bind(int bindingPoint, Vector cameraPosition, double unitsPerSceneUnit)
     {
-        var isRedundant = _lastKey is { } last && (last == (cameraPosition, unitsPerSceneUnit) || !_lights.Any(static light => light is PointLight));
+        var isRedundant = _lastKey is { } last
+            && (last == (cameraPosition, unitsPerSceneUnit) || !_lights.Any(static light => light is PointLight));
         if (_uploadFilter.ShouldPerform(isRedundant))
         {
             for (var i = 0; i < _lights.Length; i++)

@@ -48,8 +48,10 @@ internal sealed class LinesPass : IDisposable
 
         var (spacing, gridCentre) = GridLayout(sceneBounds);
         var gridHalfSize = GridLinesPerSide * spacing;
-        return BoundingBox.Union(sceneBounds, new(gridCentre - new Vector(gridHalfSize, 0, gridHalfSize), gridCentre + new Vector(gridHalfSize, 0, gridHalfSize)))
-            .Including(gridHalfSize * Vector.I).Including(gridHalfSize * Vector.J).Including(gridHalfSize * Vector.K).Including(Vector.Zero);
+        return BoundingBox.Union(sceneBounds,
+            new(gridCentre - new Vector(gridHalfSize, 0, gridHalfSize), gridCentre + new Vector(gridHalfSize, 0, gridHalfSize)))
+            .Including(gridHalfSize * Vector.I).Including(gridHalfSize * Vector.J).Including(gridHalfSize * Vector.K)
+            .Including(Vector.Zero);
     }
 
     /// <summary>Draws what the settings ask for over the scene's depths.</summary>
@@ -129,7 +131,8 @@ internal sealed class LinesPass : IDisposable
         var size = sceneBounds.Diagonal is > 0 and < double.PositiveInfinity and var diagonal ? diagonal : 10;
         var spacing = Math.Pow(10, Math.Ceiling(Math.Log10(size / GridLinesPerSide)));
         var centre = sceneBounds.Centre.IsFinite() ? sceneBounds.Centre : Vector.Zero;
-        return (spacing, new(10 * spacing * Math.Round(centre.X / (10 * spacing)), 0, 10 * spacing * Math.Round(centre.Z / (10 * spacing))));
+        return (spacing,
+            new(10 * spacing * Math.Round(centre.X / (10 * spacing)), 0, 10 * spacing * Math.Round(centre.Z / (10 * spacing))));
     }
 
     private void BuildVertices(RenderSettings settings, double spacing, Vector gridCentre)

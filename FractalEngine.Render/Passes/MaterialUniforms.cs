@@ -29,8 +29,10 @@ internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter f
 
         _lastKey = (material, tint);
         var (diffuse, linearTint) = (ClampNegative(material?.Diffuse ?? Colour.White).ToLinear(), tint.ToLinear());
-        Write(0, new(diffuse.Red * linearTint.Red, diffuse.Green * linearTint.Green, diffuse.Blue * linearTint.Blue), material?.Opacity ?? 1);
-        Write(4, ClampNegative(material?.Specular ?? Colour.Black), Math.Clamp(material?.SpecularExponent ?? 1, MinSpecularExponent, MaxSpecularExponent));
+        Write(0, new(diffuse.Red * linearTint.Red, diffuse.Green * linearTint.Green, diffuse.Blue * linearTint.Blue), material?.Opacity
+            ?? 1);
+        Write(4, ClampNegative(material?.Specular ?? Colour.Black),
+            Math.Clamp(material?.SpecularExponent ?? 1, MinSpecularExponent, MaxSpecularExponent));
         Write(8, ClampNegative(material?.Ambient ?? Colour.White), material is null ? 0 : 1);
         if (material?.Texture is { } texture)
         {
@@ -44,5 +46,6 @@ internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter f
     private static Colour ClampNegative(Colour colour) => new(Math.Max(colour.Red, 0), Math.Max(colour.Green, 0), Math.Max(colour.Blue, 0));
 
     private void Write(int start, Colour colour, double w) =>
-        (_data[start], _data[start + 1], _data[start + 2], _data[start + 3]) = ((float)colour.Red, (float)colour.Green, (float)colour.Blue, (float)w);
+        (_data[start], _data[start + 1], _data[start + 2], _data[start + 3]) =
+        ((float)colour.Red, (float)colour.Green, (float)colour.Blue, (float)w);
 }

@@ -1,6 +1,9 @@
 namespace FractalEngine.Render.Passes;
 
-/// <summary>What the shader of surfaces has to do beyond light on one colour. Each combination is a program of its own, so that nobody pays for what is not there.</summary>
+/// <summary>
+/// What the shader of surfaces has to do beyond light on one colour. Each combination is a program of its own, so that nobody pays for what
+/// is not there.
+/// </summary>
 [Flags]
 internal enum MeshFeatures
 {

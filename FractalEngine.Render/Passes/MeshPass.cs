@@ -41,7 +41,9 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     /// <summary>Makes the program for a material current, and brings its uniforms up to date.</summary>
     /// <param name="material">Null for the object's own colour.</param>
     /// <param name="tint">Multiplies the material's colour, sRGB.</param>
-    /// <param name="instanceFeatures"><see cref="MeshFeatures.CameraRelative"/> and <see cref="MeshFeatures.FrontFacesOnly"/>, where they hold.</param>
+    /// <param name="instanceFeatures">
+    /// <see cref="MeshFeatures.CameraRelative"/> and <see cref="MeshFeatures.FrontFacesOnly"/>, where they hold.
+    /// </param>
     /// <exception cref="InvalidOperationException">No frame was begun.</exception>
     /// <exception cref="GlException">The driver refuses the program.</exception>
     public void UseMaterial(DrawableMaterial? material, Colour tint, MeshFeatures instanceFeatures)

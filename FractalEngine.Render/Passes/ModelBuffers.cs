@@ -55,7 +55,8 @@ internal sealed class ModelBuffers : IDisposable
         {
             _vertexArray.Bind();
             GL.DrawElementsInstanced(
-                PrimitiveType.Triangles, batch.IndexCount, DrawElementsType.UnsignedInt, (nint)batch.FirstIndex * sizeof(uint), _instanceCount);
+                PrimitiveType.Triangles, batch.IndexCount, DrawElementsType.UnsignedInt, (nint)batch.FirstIndex * sizeof(uint),
+                _instanceCount);
         }
     }
 

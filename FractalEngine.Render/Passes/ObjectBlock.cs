@@ -6,8 +6,8 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Passes;
 
 /// <summary>
-/// The paper's matrix m of one object in a buffer of its own (§4.3.1), with its colour; laid out as <c>ObjectBlock</c> in mesh.vert (std140).
-/// The translation is relative to the camera, subtracted in double precision, so that far from the origin nothing trembles.
+/// The paper's matrix m of one object in a buffer of its own (§4.3.1), with its colour; laid out as <c>ObjectBlock</c> in mesh.vert
+/// (std140). The translation is relative to the camera, subtracted in double precision, so that far from the origin nothing trembles.
 /// </summary>
 internal sealed class ObjectBlock(GlResources resources, string name) : IDisposable
 {

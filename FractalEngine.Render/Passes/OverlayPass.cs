@@ -85,7 +85,8 @@ internal sealed class OverlayPass : IDisposable
         if (_sheetIndex != layout.SheetIndex)
         {
             _glyphTexture?.Dispose();
-            _glyphTexture = new(_resources, "glyphs", GlyphSheet.Columns * sheet.CellWidth, sheet.Rows * sheet.CellHeight, sheet.ToTexels());
+            _glyphTexture = new(_resources, "glyphs", GlyphSheet.Columns * sheet.CellWidth, sheet.Rows * sheet.CellHeight,
+                sheet.ToTexels());
             _sheetIndex = layout.SheetIndex;
             GL.Uniform2(_cellSizeLocation, sheet.CellWidth, sheet.CellHeight);
         }

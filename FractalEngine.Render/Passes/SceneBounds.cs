@@ -5,8 +5,8 @@ using FractalEngine.Render.Preparation;
 namespace FractalEngine.Render.Passes;
 
 /// <summary>
-/// The box that a scene's planes are made for. What moves all the time changes it in coarse steps only, since other planes mean that everything is chosen again;
-/// and what falls out of the scene does not take the planes with it.
+/// The box that a scene's planes are made for. What moves all the time changes it in coarse steps only, since other planes mean that
+/// everything is chosen again; and what falls out of the scene does not take the planes with it.
 /// </summary>
 internal static class SceneBounds
 {
@@ -36,13 +36,17 @@ internal static class SceneBounds
         foreach (var (centre, radius) in spheres)
         {
             var extent = radius * Vector.One;
-            bounds = sphereLimits.DistanceSquared(centre) > 0 || !(grid > 0) ? bounds : BoundingBox.Union(bounds, new(RoundDown(centre - extent, grid), -RoundDown(-centre - extent, grid)));
+            bounds = sphereLimits.DistanceSquared(centre) > 0 || !(grid > 0)
+                ? bounds
+                : BoundingBox.Union(bounds, new(RoundDown(centre - extent, grid), -RoundDown(-centre - extent, grid)));
         }
 
         return bounds;
     }
 
-    private static BoundingBox Enlarge(BoundingBox box, double factor) => new(box.Minimum - (factor * box.Size), box.Maximum + (factor * box.Size));
+    private static BoundingBox Enlarge(BoundingBox box, double factor) =>
+        new(box.Minimum - (factor * box.Size), box.Maximum + (factor * box.Size));
 
-    private static Vector RoundDown(Vector v, double grid) => new(grid * Math.Floor(v.X / grid), grid * Math.Floor(v.Y / grid), grid * Math.Floor(v.Z / grid));
+    private static Vector RoundDown(Vector v, double grid) =>
+        new(grid * Math.Floor(v.X / grid), grid * Math.Floor(v.Y / grid), grid * Math.Floor(v.Z / grid));
 }

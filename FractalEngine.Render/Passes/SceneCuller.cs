@@ -7,7 +7,9 @@ using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Render.Passes;
 
-/// <summary>Chooses the instances of a scene's objects that a picture needs, and keeps them on the GPU until the picture needs others.</summary>
+/// <summary>
+/// Chooses the instances of a scene's objects that a picture needs, and keeps them on the GPU until the picture needs others.
+/// </summary>
 internal sealed class SceneCuller : IDisposable
 {
     private readonly RedundancyFilter _uploadFilter;
@@ -62,7 +64,8 @@ internal sealed class SceneCuller : IDisposable
             var count = 0L;
             for (var i = 0; i < _visibleInstances.Length; i++)
             {
-                count += _visibleInstances[i] is null ? 0 : _visible.InstanceCountOf(_culledIndices[i]) * (long)(_scene.Objects[i].Model.Indices.Length / 3);
+                count += _visibleInstances[i] is null ? 0 : _visible.InstanceCountOf(_culledIndices[i])
+                    * (long)(_scene.Objects[i].Model.Indices.Length / 3);
             }
 
             return count;

@@ -23,7 +23,10 @@ internal sealed class SphereBatch : IDisposable
     /// <summary>Uploads a sphere.</summary>
     public SphereBatch(GlResources resources)
     {
-        var scene = new LoadedScene(new Scene(), [new(new SceneObject("ball", Transformation.Identity), new MeshModel("ball", 0, MeshGenerators.Create("icosphere", 0, FaceCount)))]);
+        var scene =
+            new LoadedScene(new Scene(),
+            [new(new SceneObject("ball", Transformation.Identity),
+            new MeshModel("ball", 0, MeshGenerators.Create("icosphere", 0, FaceCount)))]);
         _modelBuffers = new(resources, DrawableScene.Prepare(scene, new() { Culling = null }).Models[0]);
         _instances = new(resources, "balls", BufferTarget.ArrayBuffer);
         _vertexArray = new(resources, "balls");
@@ -48,7 +51,8 @@ internal sealed class SphereBatch : IDisposable
         _instances.Write(CollectionsMarshal.AsSpan(_rows), 0);
         _objectBlock.Bind(MeshPass.ObjectBinding, AffineMap.Translate(cameraPosition), colour, colour, cameraPosition);
         _vertexArray.Bind();
-        GL.DrawElementsInstanced(PrimitiveType.Triangles, _modelBuffers.WholeMesh.IndexCount, DrawElementsType.UnsignedInt, IntPtr.Zero, spheres.Count);
+        GL.DrawElementsInstanced(PrimitiveType.Triangles, _modelBuffers.WholeMesh.IndexCount, DrawElementsType.UnsignedInt, IntPtr.Zero,
+            spheres.Count);
     }
 
     /// <inheritdoc/>

@@ -9,7 +9,9 @@ internal sealed class TextureSet : IDisposable
     private readonly Dictionary<DrawableTexture, SrgbTexture> _textures = new(ReferenceEqualityComparer.Instance);
 
     /// <summary>Uploads the pictures that are not there yet.</summary>
-    /// <exception cref="GlException">One is beyond the driver, or the memory does not suffice. Those before it stay until all are disposed.</exception>
+    /// <exception cref="GlException">
+    /// One is beyond the driver, or the memory does not suffice. Those before it stay until all are disposed.
+    /// </exception>
     public void Upload(GlResources resources, IEnumerable<DrawableTexture> textures)
     {
         foreach (var texture in textures.Where(texture => !_textures.ContainsKey(texture)))

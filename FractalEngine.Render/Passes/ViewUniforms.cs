@@ -36,10 +36,13 @@ internal sealed class ViewUniforms(ShaderProgram program, RedundancyFilter filte
             GL.Uniform2(_viewScaleLocation, (float)scale.Item1, (float)scale.Item2);
         }
 
-        // Depth n goes to −1 and depth f to 1, or, reversed, n to 1 and f to 0: before the division by w = depth in perspective, directly otherwise.
+        // Depth n goes to −1 and depth f to 1, or, reversed, n to 1 and f to 0: before the division by w = depth in perspective, directly
+        // otherwise.
         var (near, far) = view.ClipPlanes(bounds);
         var depth = hasReversedDepth
-            ? isPerspective ? (-near / (far - near), far * near / (far - near), 1.0, 0.0) : (-1 / (far - near), far / (far - near), 0.0, 1.0)
+            ? isPerspective
+            ? (-near / (far - near), far * near / (far - near), 1.0, 0.0)
+            : (-1 / (far - near), far / (far - near), 0.0, 1.0)
             : isPerspective
             ? ((far + near) / (far - near), -2 * far * near / (far - near), 1.0, 0.0)
             : (2 / (far - near), -(far + near) / (far - near), 0.0, 1.0);

@@ -5,7 +5,9 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
 
-/// <summary>The instances of one object that were chosen for a picture, on the GPU: a vertex array of their own over the buffers of the model.</summary>
+/// <summary>
+/// The instances of one object that were chosen for a picture, on the GPU: a vertex array of their own over the buffers of the model.
+/// </summary>
 internal sealed class VisibleInstances : IDisposable
 {
     private const int TintLocation = 5;
@@ -68,7 +70,8 @@ internal sealed class VisibleInstances : IDisposable
         {
             _vertexArray.Bind();
             GL.DrawElementsInstanced(
-                PrimitiveType.Triangles, batch.IndexCount, DrawElementsType.UnsignedInt, (nint)batch.FirstIndex * sizeof(uint), _instanceCount);
+                PrimitiveType.Triangles, batch.IndexCount, DrawElementsType.UnsignedInt, (nint)batch.FirstIndex * sizeof(uint),
+                _instanceCount);
         }
     }
 

@@ -9,8 +9,8 @@ internal static class DegenerateTriangle
     private const double CrossProductError = 4 * 1.1102230246251565e-16;
 
     /// <summary>
-    /// True where the vector product of two edges is at most its own rounding, |(b − a) × (c − a)| ≤ 4·2⁻⁵³·|b − a|·|c − a|: corners that meet, or lie on a line. False
-    /// where a corner is not finite.
+    /// True where the vector product of two edges is at most its own rounding, |(b − a) × (c − a)| ≤ 4·2⁻⁵³·|b − a|·|c − a|: corners that
+    /// meet, or lie on a line. False where a corner is not finite.
     /// </summary>
     public static bool Test(Vector a, Vector b, Vector c)
     {
@@ -23,6 +23,7 @@ internal static class DegenerateTriangle
 
         // Both of about length 1, so that nothing under- or overflows.
         (edge1, edge2) = (edge1 / scale1, edge2 / scale2);
-        return Vector.Cross(edge1, edge2).LengthSquared() <= CrossProductError * CrossProductError * edge1.LengthSquared() * edge2.LengthSquared();
+        return Vector.Cross(edge1, edge2).LengthSquared() <= CrossProductError * CrossProductError * edge1.LengthSquared()
+            * edge2.LengthSquared();
     }
 }

@@ -18,7 +18,9 @@ internal static class DrawableMeshBuilder
         Mesh mesh, Vector origin, double creaseAngle, FaceBatches batches)
     {
         var fileNormalIndices = mesh.NormalIndices.Length == 0 ? [] : mesh.NormalIndices.AsSpan();
-        var meshWithNormals = fileNormalIndices.Length > 0 && !fileNormalIndices.Contains(-1) ? mesh : NormalGenerator.Generate(mesh, creaseAngle);
+        var meshWithNormals = fileNormalIndices.Length > 0 && !fileNormalIndices.Contains(-1)
+            ? mesh
+            : NormalGenerator.Generate(mesh, creaseAngle);
         var vertices = new List<float>(mesh.VertexCount * DrawableModel.FloatsPerVertex);
         var (textureCoordinates, hasTextures) = (new List<float>(), batches.HasTextures);
         var indices = new uint[3 * batches.FaceCount];
@@ -67,7 +69,8 @@ internal static class DrawableMeshBuilder
             : default;
 
     private static int FindVertex(
-        List<((Vector Normal, (double U, double V) Texture) Key, int Next)> builtVertices, int first, (Vector Normal, (double U, double V) Texture) key)
+        List<((Vector Normal, (double U, double V) Texture) Key, int Next)> builtVertices, int first,
+        (Vector Normal, (double U, double V) Texture) key)
     {
         var vertex = first;
         while (vertex >= 0 && builtVertices[vertex].Key != key)

@@ -11,12 +11,14 @@ namespace FractalEngine.Render.Preparation;
 /// <param name="Colour">Of faces without a material, sRGB.</param>
 public sealed record DrawableObject(string Name, DrawableModel Model, AffineMap Map, Colour Colour)
 {
-    /// <summary>What the colours of materials are multiplied by, sRGB: the colour that the scene declares, white where it declares none.</summary>
+    /// <summary>
+    /// What the colours of materials are multiplied by, sRGB: the colour that the scene declares, white where it declares none.
+    /// </summary>
     public Colour Tint { get; init; } = Colour.White;
 
     /// <summary>
-    /// True for a mesh that physics moves. It is drawn whole wherever it is: what is chosen of all other objects does not depend on it, and stays as it is while
-    /// only such objects move.
+    /// True for a mesh that physics moves. It is drawn whole wherever it is: what is chosen of all other objects does not depend on it, and
+    /// stays as it is while only such objects move.
     /// </summary>
     public bool IsDynamic { get; init; }
 

@@ -63,7 +63,8 @@ public sealed class DrawableScene
     /// <summary>A scene whose models are boxes.</summary>
     internal static DrawableScene CreateWithPlaceholders(LoadedScene scene)
     {
-        var models = scene.Models.ToDictionary(model => model, CreatePlaceholder, ReferenceEqualityComparer.Instance as IEqualityComparer<Model>);
+        var models =
+            scene.Models.ToDictionary(model => model, CreatePlaceholder, ReferenceEqualityComparer.Instance as IEqualityComparer<Model>);
         return new(
             scene,
             [.. scene.Models.Select(model => models[model])],
@@ -81,7 +82,8 @@ public sealed class DrawableScene
     }
 
     /// <summary>The scene with one of its models in the place of another.</summary>
-    internal DrawableScene WithModel(DrawableModel oldModel, DrawableModel newModel, ImmutableArray<DrawableTexture> textures, ImmutableArray<string> notices) => new(
+    internal DrawableScene WithModel(DrawableModel oldModel, DrawableModel newModel, ImmutableArray<DrawableTexture> textures,
+        ImmutableArray<string> notices) => new(
         Source,
         [.. Models.Select(model => model == oldModel ? newModel : model)],
         [.. Objects.Select(item => item.Model == oldModel ? item with { Model = newModel } : item)],
@@ -115,10 +117,16 @@ public sealed class DrawableScene
         var batches = FaceBatches.Of(model, textures, settings.RemoveDegenerateTriangles);
         var (vertices, textureCoordinates, indices) = DrawableMeshBuilder.Build(mesh, meshOrigin, settings.CreaseAngle, batches);
         // What is transparent lets the inner sides of a solid be seen.
-        var testsSolidity = hierarchy is not null ? model is FractalModel || mesh.FaceCount <= MaxFacesForSolidTest : maps.Length >= MinInstancesForSolidTest;
-        var meshWindingSign = testsSolidity && !batches.Batches.Any(static batch => batch.IsTransparent) && ClosedSurface.IsSolid(mesh) ? 1 : 0;
+        var testsSolidity = hierarchy is not null
+            ? model is FractalModel || mesh.FaceCount <= MaxFacesForSolidTest
+            : maps.Length >= MinInstancesForSolidTest;
+        var meshWindingSign = testsSolidity && !batches.Batches.Any(static batch => batch.IsTransparent) && ClosedSurface.IsSolid(mesh)
+            ? 1
+            : 0;
         var instanceSign = hierarchy is null ? CommonDeterminantSign(maps) : CommonDeterminantSign(model);
-        return new(name, origin, model.Bounds, vertices, indices, hierarchy is null || model is MeshModel ? ToInstanceRows(maps, meshOrigin, origin) : [])
+        return new(name, origin, model.Bounds, vertices, indices, hierarchy is null || model is MeshModel
+            ? ToInstanceRows(maps, meshOrigin, origin)
+            : [])
         {
             LodHierarchy = hierarchy,
             MeshOrigin = meshOrigin,
@@ -142,7 +150,8 @@ public sealed class DrawableScene
         var mesh = CreateBoxMesh(box);
         var batches = FaceBatches.Of(mesh);
         var (vertices, _, indices) = DrawableMeshBuilder.Build(mesh, box.Centre, 0, batches);
-        return new(name, box.Centre, box, vertices, indices, ToInstanceRows([AffineMap.Identity], box.Centre, box.Centre)) { Batches = batches.Batches, IsPlaceholder = true };
+        return new(name, box.Centre, box, vertices, indices, ToInstanceRows([AffineMap.Identity], box.Centre, box.Centre)) { Batches =
+            batches.Batches, IsPlaceholder = true };
     }
 
     private static Mesh CreateBoxMesh(BoundingBox box)
@@ -168,7 +177,8 @@ public sealed class DrawableScene
     }
 
     /// <summary>The sign that the determinants of all instances' maps have; 0 where it differs or depends on the depth.</summary>
-    private static int CommonDeterminantSign(Model model) => model is not FractalModel { Fractal.Description.PreservesOrientation: false } ? 1 : 0;
+    private static int CommonDeterminantSign(Model model) =>
+        model is not FractalModel { Fractal.Description.PreservesOrientation: false } ? 1 : 0;
 
     /// <summary>The sign that the determinants of all maps have; 0 when they differ or one is flat.</summary>
     private static int CommonDeterminantSign(ImmutableArray<AffineMap> maps)

@@ -9,7 +9,8 @@ internal sealed class FaceBatches
 {
     private readonly int[]? _faceOrder;
 
-    private FaceBatches(ImmutableArray<DrawableBatch> batches, int[]? faceOrder, int degenerateTriangleCount) => (Batches, _faceOrder, DegenerateTriangleCount) = (batches, faceOrder, degenerateTriangleCount);
+    private FaceBatches(ImmutableArray<DrawableBatch> batches, int[]? faceOrder, int degenerateTriangleCount) =>
+        (Batches, _faceOrder, DegenerateTriangleCount) = (batches, faceOrder, degenerateTriangleCount);
 
     /// <summary>How many faces are drawn.</summary>
     public int FaceCount => Batches.Sum(static batch => batch.IndexCount) / 3;
@@ -37,7 +38,9 @@ internal sealed class FaceBatches
     public static FaceBatches Of(Model model, TextureCache textures, bool removeDegenerate)
     {
         var mesh = model.Mesh;
-        bool[] isDegenerate = removeDegenerate ? [.. Enumerable.Range(0, mesh.FaceCount).Select(face => IsDegenerate(mesh, face))] : new bool[mesh.FaceCount];
+        bool[] isDegenerate = removeDegenerate
+            ? [.. Enumerable.Range(0, mesh.FaceCount).Select(face => IsDegenerate(mesh, face))]
+            : new bool[mesh.FaceCount];
         var degenerateCount = isDegenerate.Count(static degenerate => degenerate);
         var hasMaterials = !model.Materials.IsEmpty && !mesh.Groups.IsEmpty;
         if (!hasMaterials && degenerateCount == 0)
@@ -88,7 +91,8 @@ internal sealed class FaceBatches
     }
 
     /// <summary>The materials that occur, and for each face that is not empty the number of its own among them.</summary>
-    private static (List<DrawableMaterial?> Materials, int[] MaterialOfFace) AssignMaterials(Model model, TextureCache textures, bool[] isDegenerate)
+    private static (List<DrawableMaterial?> Materials, int[] MaterialOfFace) AssignMaterials(Model model, TextureCache textures,
+        bool[] isDegenerate)
     {
         var mesh = model.Mesh;
         var materials = new List<DrawableMaterial?>();
@@ -109,7 +113,9 @@ internal sealed class FaceBatches
                 if (!materialIndices.TryGetValue((fileMaterial?.Name, hasTexture), out var materialIndex))
                 {
                     materialIndices[(fileMaterial?.Name, hasTexture)] = materialIndex = materials.Count;
-                    materials.Add(fileMaterial is null ? null : textures.GetMaterial(hasTexture ? fileMaterial : fileMaterial with { Texture = null }));
+                    materials.Add(fileMaterial is null
+                        ? null
+                        : textures.GetMaterial(hasTexture ? fileMaterial : fileMaterial with { Texture = null }));
                 }
 
                 materialOfFace[face] = materialIndex;

@@ -34,7 +34,8 @@ internal sealed record FractalInstances(ImmutableArray<AffineMap> Maps, string? 
     }
 
     /// <summary>
-    /// Componentwise sums are far fewer than the chains that <see cref="Fractal.WithMaxInstances"/> counts, so the whole fractal is tried first.
+    /// Componentwise sums are far fewer than the chains that <see cref="Fractal.WithMaxInstances"/> counts, so the whole fractal is tried
+    /// first.
     /// </summary>
     private static ImmutableArray<AffineMap>? TryExpandComponentwise(Fractal fractal, long budget)
     {
@@ -63,8 +64,11 @@ internal sealed record FractalInstances(ImmutableArray<AffineMap> Maps, string? 
         var (fullSteps, truncatedSteps) = (fractal.Description.Steps, truncated.Description.Steps);
         if (fullSteps.Length == truncatedSteps.Length)
         {
-            var changedSteps = Enumerable.Range(0, fullSteps.Length).Where(i => !ReferenceEquals(fullSteps[i], truncatedSteps[i])).ToArray();
-            if (changedSteps is [var changedStep] && (fullSteps[changedStep], truncatedSteps[changedStep]) is (Repetition { Count: var fullCount }, Repetition { Count: var truncatedCount }))
+            var changedSteps = Enumerable.Range(0, fullSteps.Length).Where(i => !ReferenceEquals(fullSteps[i], truncatedSteps[i]))
+                .ToArray();
+            if (changedSteps is [var changedStep]
+                && (fullSteps[changedStep], truncatedSteps[changedStep]) is (Repetition { Count: var fullCount },
+                Repetition { Count: var truncatedCount }))
             {
                 return $"depth {DecimalText.FormatApproximately(truncatedCount)} of {DecimalText.FormatApproximately(fullCount)}";
             }

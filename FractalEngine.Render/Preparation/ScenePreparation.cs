@@ -4,8 +4,9 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Render.Preparation;
 
 /// <summary>
-/// Prepares the models of a scene: all at once, or each when one of its objects is first in sight. Until then a box stands for it, and neither its normals
-/// are generated nor its pictures decoded, and nothing of it is on the GPU. Each file is prepared once, however many objects show it.
+/// Prepares the models of a scene: all at once, or each when one of its objects is first in sight. Until then a box stands for it, and
+/// neither its normals are generated nor its pictures decoded, and nothing of it is on the GPU. Each file is prepared once, however many
+/// objects show it.
 /// </summary>
 public sealed class ScenePreparation
 {
@@ -22,7 +23,8 @@ public sealed class ScenePreparation
     public ScenePreparation(LoadedScene scene, RenderSettings settings)
     {
         (_scene, _settings, _models) = (scene, settings, [.. scene.Models]);
-        (_textures, _prepared, Scene) = (new(_notices, settings.ShareTextures), new DrawableModel?[_models.Length], DrawableScene.CreateWithPlaceholders(scene));
+        (_textures, _prepared, Scene) = (new(_notices, settings.ShareTextures), new DrawableModel?[_models.Length],
+            DrawableScene.CreateWithPlaceholders(scene));
     }
 
     /// <summary>As far as it is prepared.</summary>
@@ -35,7 +37,8 @@ public sealed class ScenePreparation
     /// <param name="progress">Told of each model before and after it is prepared, on this thread.</param>
     /// <param name="cancellation">Looked at between models.</param>
     /// <exception cref="OperationCanceledException">Preparation was cancelled.</exception>
-    public void PrepareAll(IProgress<PreparationProgress>? progress, CancellationToken cancellation) => Prepare(static _ => true, progress, cancellation);
+    public void PrepareAll(IProgress<PreparationProgress>? progress, CancellationToken cancellation) =>
+        Prepare(static _ => true, progress, cancellation);
 
     /// <summary>Prepares the models of objects that are in sight and not prepared yet.</summary>
     /// <param name="view">Camera and projection.</param>
@@ -44,7 +47,8 @@ public sealed class ScenePreparation
     /// <param name="cancellation">Looked at between models.</param>
     /// <exception cref="OperationCanceledException">Preparation was cancelled.</exception>
     /// <returns>True when there was any.</returns>
-    public bool PrepareVisible(View view, double aspect, IProgress<PreparationProgress>? progress = null, CancellationToken cancellation = default) =>
+    public bool PrepareVisible(View view, double aspect, IProgress<PreparationProgress>? progress = null,
+        CancellationToken cancellation = default) =>
         Prepare(model => IsVisible(model, view, aspect), progress, cancellation);
 
     /// <summary>True when an object is in sight whose model is not prepared yet.</summary>

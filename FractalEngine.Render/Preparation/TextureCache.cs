@@ -4,7 +4,9 @@ using FractalEngine.Render.Images;
 
 namespace FractalEngine.Render.Preparation;
 
-/// <summary>Decodes the pictures of materials, each file once unless told otherwise. What can't be decoded is drawn grey, and said so.</summary>
+/// <summary>
+/// Decodes the pictures of materials, each file once unless told otherwise. What can't be decoded is drawn grey, and said so.
+/// </summary>
 /// <param name="notices">Receives what can't be decoded.</param>
 /// <param name="shareTextures">Whether models share pictures; otherwise each material of each model has one of its own.</param>
 internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool shareTextures)

@@ -2,7 +2,9 @@ using System.Runtime.InteropServices;
 
 namespace FractalEngine.Render.Ui;
 
-/// <summary>A rectangle of the overlay: a glyph, or a plain one with round corners. The layout is that of overlay.vert's attributes.</summary>
+/// <summary>
+/// A rectangle of the overlay: a glyph, or a plain one with round corners. The layout is that of overlay.vert's attributes.
+/// </summary>
 /// <param name="X">Pixels from the left.</param>
 /// <param name="Y">Pixels from the top.</param>
 /// <param name="Width">Pixels.</param>

@@ -11,8 +11,8 @@ internal static class GlfwKeys
     /// </summary>
     public static Key KeyOf(Keys key, int scanCode) =>
         key is > Keys.Unknown and < Keys.Escape && GLFW.GetKeyName(key, scanCode) is [var character]
-            ? KeyOf(character) is var named and not Key.Unknown ? named : KeyAt(key)
-            : KeyAt(key);
+            ? KeyOf(character) is var named and not Key.Unknown ? named : KeyOfScanCode(key)
+            : KeyOfScanCode(key);
 
     /// <summary>GLFW's modifiers as ours.</summary>
     public static KeyModifiers ModifiersOf(OpenTK.Windowing.GraphicsLibraryFramework.KeyModifiers modifiers) =>
@@ -43,7 +43,7 @@ internal static class GlfwKeys
         _ => Key.Unknown,
     };
 
-    private static Key KeyAt(Keys key) => key switch
+    private static Key KeyOfScanCode(Keys key) => key switch
     {
         >= Keys.A and <= Keys.Z => Key.A + (key - Keys.A),
         >= Keys.D0 and <= Keys.D9 => Key.Digit0 + (key - Keys.D0),

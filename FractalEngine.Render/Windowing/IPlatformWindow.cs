@@ -18,7 +18,9 @@ internal interface IPlatformWindow : IDisposable
     /// <summary>Hides the pointer and lets it move without end.</summary>
     bool RelativeMouse { get; set; }
 
-    /// <summary>Lets depths in the window's context end at 0 and 1 rather than −1 and 1 (glClipControl). The context must be current.</summary>
+    /// <summary>
+    /// Lets depths in the window's context end at 0 and 1 rather than −1 and 1 (glClipControl). The context must be current.
+    /// </summary>
     void UseZeroToOneDepth();
 
     /// <summary>Makes the window's context the thread's current one.</summary>

@@ -81,7 +81,8 @@ internal sealed class PlatformWindow : IPlatformWindow
         // OpenTK 1.1 ends at OpenGL 4.4 and does not know this one.
         const uint lowerLeft = 0x8CA1;
         const uint zeroToOne = 0x935F;
-        ((delegate* unmanaged[Stdcall]<uint, uint, void>)((IGraphicsContextInternal)_context).GetAddress("glClipControl"))(lowerLeft, zeroToOne);
+        ((delegate* unmanaged[Stdcall]<uint, uint, void>)((IGraphicsContextInternal)_context).GetAddress("glClipControl"))(lowerLeft,
+            zeroToOne);
     }
 
     public void SwapBuffers() => _context.SwapBuffers();

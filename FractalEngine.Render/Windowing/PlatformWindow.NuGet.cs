@@ -75,7 +75,7 @@ internal sealed class PlatformWindow : IPlatformWindow
                 Profile = ContextProfile.Core,
                 Flags = ContextFlags.ForwardCompatible,
                 Vsync = isVisible ? VSyncMode.On : VSyncMode.Off,
-                // Everything is drawn into a picture of our own: the window's buffer only receives a copy.
+                // Everything is drawn into a framebuffer of our own: the window's buffer only receives a copy.
                 DepthBits = 0,
                 StencilBits = 0,
             });
@@ -99,7 +99,7 @@ internal sealed class PlatformWindow : IPlatformWindow
         }
     }
 
-    public void UseDepthFromZero() => GL.ClipControl(ClipOrigin.LowerLeft, ClipDepthMode.ZeroToOne);
+    public void UseZeroToOneDepth() => GL.ClipControl(ClipOrigin.LowerLeft, ClipDepthMode.ZeroToOne);
 
     public void SwapBuffers() => _window.Context.SwapBuffers();
 
@@ -121,7 +121,9 @@ internal sealed class PlatformWindow : IPlatformWindow
 
     public void Dispose() => _window.Dispose();
 
-    /// <summary>Asks GLFW before OpenTK does: OpenTK's own error handler throws through native frames, which ends the process on Linux.</summary>
+    /// <summary>
+    /// Asks GLFW before OpenTK does: OpenTK's own error handler throws through native frames, which ends the process on Linux.
+    /// </summary>
     private static void RequireDisplay()
     {
         try
@@ -169,7 +171,8 @@ internal sealed class PlatformWindow : IPlatformWindow
 
     private void AddButton(MouseButtonEventArgs button, bool isDown)
     {
-        var (position, which, modifiers) = (_window.MousePosition * PixelScale, ButtonOf(button.Button), GlfwKeys.ModifiersOf(button.Modifiers));
+        var (position, which, modifiers) =
+            (_window.MousePosition * PixelScale, ButtonOf(button.Button), GlfwKeys.ModifiersOf(button.Modifiers));
         _pending.Add(isDown
             ? new MousePressed(which, position.X, position.Y, modifiers)
             : new MouseReleased(which, position.X, position.Y, modifiers));

@@ -52,8 +52,8 @@ public abstract class RenderContext : IDisposable
     public IReadOnlyList<string> LiveObjects => Resources.LiveObjects;
 
     /// <summary>
-    /// True where depths run from 1 at the near plane to 0 at the far one: single precision, which is finest about 0, then tells apart depths that differ by
-    /// about 1e-7 of themselves, however far the planes are apart.
+    /// True where depths run from 1 at the near plane to 0 at the far one: single precision, which is finest about 0, then tells apart
+    /// depths that differ by about 1e-7 of themselves, however far the planes are apart.
     /// </summary>
     internal bool HasReversedDepth { get; }
 

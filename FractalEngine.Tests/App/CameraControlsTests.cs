@@ -26,7 +26,8 @@ public class CameraControlsTests
 
     private static CameraControls Controls(Camera? camera = null, AffineMap? placement = null) => (placement ?? AffineMap.Identity) switch
     {
-        var map => new(Menger.NodeAt(Menger.LevelCount).Box.Transform(map), camera ?? Start, Projection.Perspective, null, new(0, Menger, map)),
+        var map =>
+            new(Menger.NodeAt(Menger.LevelCount).Box.Transform(map), camera ?? Start, Projection.Perspective, null, new(0, Menger, map)),
     };
 
     private static KeyPressed Press(Key key) => new(key, KeyModifiers.None, false);
@@ -159,7 +160,8 @@ public class CameraControlsTests
         Assert.True(controls.Handle(Press(key), Aspect));
         Assert.Equal((0, 0.0), (controls.Depth, controls.Log10Magnification));
         var view = new View(controls.Camera, controls.Projection);
-        foreach (var corner in from x in (double[])[-1, 1] from y in (double[])[-1, 1] from z in (double[])[-1, 1] select new Vector(x, y, z))
+        foreach (var corner in from x in (double[])[-1, 1] from y in (double[])[-1, 1] from z in (double[])[-1, 1] select new Vector(x, y,
+            z))
         {
             var (right, down, _) = view.Project(corner, 400, 300)!.Value;
             Assert.InRange(right, 0, 400);
@@ -208,14 +210,17 @@ public class CameraControlsTests
     [Fact]
     public void AnyInput_KeepsTheCameraFiniteAndNear() => Seeded.Run(25, random =>
     {
-        var controls = Controls(new Camera(random.Vector(1.5), random.Vector(), 50), random.Next(2) == 0 ? AffineMap.Identity : random.Transformation().ToAffineMap());
+        var controls = Controls(new Camera(random.Vector(1.5), random.Vector(), 50), random.Next(2) == 0
+            ? AffineMap.Identity
+            : random.Transformation().ToAffineMap());
         Key[] keys = [Key.W, Key.A, Key.S, Key.D, Key.Q, Key.E, Key.F, Key.Enter, Key.Digit1, Key.Digit3, Key.Digit5, Key.Digit7];
         for (var i = 0; i < 150; i++)
         {
             switch (random.Next(6))
             {
                 case 0:
-                    controls.Handle(new KeyPressed(keys[random.Next(random.Next(5) == 0 ? keys.Length : 6)], (KeyModifiers)random.Next(8), random.Next(3) == 0), Aspect);
+                    controls.Handle(new KeyPressed(keys[random.Next(random.Next(5) == 0 ? keys.Length : 6)], (KeyModifiers)random.Next(8),
+                        random.Next(3) == 0), Aspect);
                     break;
                 case 1:
                     controls.Handle(new KeyReleased(keys[random.Next(6)], KeyModifiers.None), Aspect);
@@ -248,7 +253,8 @@ public class CameraControlsTests
     {
         var table = LodHierarchy.Build(FractalAddressTests.Infinite("sierpinski"));
         var camera = new Camera(new(-1, -1, -1), CameraFraming.LookRotation(Vector.One), 50);
-        var controls = new CameraControls(table.NodeAt(table.LevelCount).Box, camera, Projection.Perspective, null, new(0, table, AffineMap.Identity));
+        var controls = new CameraControls(table.NodeAt(table.LevelCount).Box, camera, Projection.Perspective, null,
+            new(0, table, AffineMap.Identity));
         controls.Handle(Press(Key.W), Aspect);
         var left = controls.Camera.Position.Length();
         for (var i = 0; i < 600; i++)
@@ -278,7 +284,8 @@ public class CameraControlsTests
     {
         var camera = controls.Camera;
         Assert.True(
-            camera.Position.IsFinite() && camera.Rotation.IsFinite() && double.IsFinite(controls.Log10Magnification) && camera.Position.Length() < reach,
+            camera.Position.IsFinite() && camera.Rotation.IsFinite() && double.IsFinite(controls.Log10Magnification)
+            && camera.Position.Length() < reach,
             Text($"at depth {controls.Depth}, {controls.Log10Magnification}: {camera.Position}, {camera.Rotation}"));
         if (controls.Depth > 0)
         {

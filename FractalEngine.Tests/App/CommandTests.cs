@@ -28,16 +28,20 @@ public sealed class CommandTests : IDisposable
         Assert.Equal(96, info.RootElement.GetProperty("faces").GetInt32());
         Assert.Equal(8, info.RootElement.GetProperty("instances").GetInt32());
         Assert.Equal(8, info.RootElement.GetProperty("distinctInstances").GetInt32());
-        Assert.Equal(new FileInfo(_folder["row.fdo"]).Length + new FileInfo(_folder["cube.obj"]).Length, info.RootElement.GetProperty("storageBytes").GetInt64());
-        Assert.Equal([-0.5, -0.0625, -0.0625], info.RootElement.GetProperty("boundsMin").EnumerateArray().Select(number => number.GetDouble()));
-        Assert.Equal([0.5, 0.0625, 0.0625], info.RootElement.GetProperty("boundsMax").EnumerateArray().Select(number => number.GetDouble()));
+        Assert.Equal(new FileInfo(_folder["row.fdo"]).Length + new FileInfo(_folder["cube.obj"]).Length,
+            info.RootElement.GetProperty("storageBytes").GetInt64());
+        Assert.Equal([-0.5, -0.0625, -0.0625], info.RootElement.GetProperty("boundsMin").EnumerateArray()
+            .Select(number => number.GetDouble()));
+        Assert.Equal([0.5, 0.0625, 0.0625], info.RootElement.GetProperty("boundsMax").EnumerateArray()
+            .Select(number => number.GetDouble()));
         Assert.InRange(info.RootElement.GetProperty("loadMilliseconds").GetDouble(), 0.001, 60_000);
     }
 
     [Fact]
     public void Info_OfAGoogolInstances_WritesEveryDigit()
     {
-        _folder.Write("googol.fdo", Files.Row("100").Replace("[t.1, t.2]", $"[{string.Join(", ", Enumerable.Repeat("t.1", 10))}]", StringComparison.Ordinal));
+        _folder.Write("googol.fdo", Files.Row("100")
+            .Replace("[t.1, t.2]", $"[{string.Join(", ", Enumerable.Repeat("t.1", 10))}]", StringComparison.Ordinal));
         var (exitCode, output, _) = Run("info", "googol.fdo", "--json");
         Assert.Equal(0, exitCode);
         Assert.Contains($"\"instances\": {BigInteger.Pow(10, 100)},", output, StringComparison.Ordinal);
@@ -144,14 +148,16 @@ public sealed class CommandTests : IDisposable
     }
 
     [Fact]
-    public void Check_OfAGoodFile_SaysOk() => Assert.Equal(new AppResult(0, $"row.fdo: ok{Environment.NewLine}", ""), Run("check", "row.fdo"));
+    public void Check_OfAGoodFile_SaysOk() =>
+        Assert.Equal(new AppResult(0, $"row.fdo: ok{Environment.NewLine}", ""), Run("check", "row.fdo"));
 
     [Fact]
     public void Check_OfAMeshWithoutItsMaterialFile_WarnsAndSaysOk()
     {
         _folder.Write("red.obj", "mtllib red.mtl\nusemtl red\n" + Files.Cube);
         Assert.Equal(
-            new AppResult(0, $"red.obj: ok{Environment.NewLine}", "red.obj:1:8: warning: the file \"red.mtl\" is not found\n  mtllib red.mtl\n         ^\n"),
+            new AppResult(0, $"red.obj: ok{Environment.NewLine}",
+            "red.obj:1:8: warning: the file \"red.mtl\" is not found\n  mtllib red.mtl\n         ^\n"),
             Run("check", "red.obj"));
     }
 
@@ -196,7 +202,8 @@ public sealed class CommandTests : IDisposable
     {
         var (exitCode, _, error) = Run([.. arguments, "--without", "backs", "--without", "nonsense"]);
         Assert.Equal(2, exitCode);
-        Assert.StartsWith("error: --without: expected one of backs, outside, hidden, empty-faces, state, buffers, sharing, sight, still, not 'nonsense'\n", error, StringComparison.Ordinal);
+        Assert.StartsWith(
+            "error: --without: expected one of backs, outside, hidden, empty-faces, state, buffers, sharing, sight, still, not 'nonsense'\n", error, StringComparison.Ordinal);
     }
 
     [Theory]

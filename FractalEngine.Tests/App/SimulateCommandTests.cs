@@ -45,7 +45,8 @@ public sealed class SimulateCommandTests : IDisposable
         // Free fall at first: h = 2 − g·t²/2, to a rounding of the sum.
         Near.Equal(2 - (0.5 * 9.8 / 3600), rows[0].Numbers[2], 1e-15);
         Near.Equal(-9.8 / 60, rows[0].Numbers[5], 1e-15);
-        Assert.Matches(@"^bodies 3\nbuild [\d.]+ ms\nsteps 120\nstep [\d.]+ ms\nasleep \d\nstuck 0\nstate [0-9a-f]{16}\n$", error.ReplaceLineEndings("\n"));
+        Assert.Matches(@"^bodies 3\nbuild [\d.]+ ms\nsteps 120\nstep [\d.]+ ms\nasleep \d\nstuck 0\nstate [0-9a-f]{16}\n$",
+            error.ReplaceLineEndings("\n"));
     }
 
     [Fact]
@@ -55,7 +56,8 @@ public sealed class SimulateCommandTests : IDisposable
         var last = Rows(output)[^3..];
         Assert.All(last, row => Assert.Equal((0, 0, 0, 1), (row.Numbers[4], row.Numbers[5], row.Numbers[6], row.Numbers[7])));
         Assert.Contains("asleep 3", error, StringComparison.Ordinal);
-        // Balls of radius √3/2 on a floor at height 0, one of them shrunk to half; the speed at which a body is put to rest is 1e-3 of a step's.
+        // Balls of radius √3/2 on a floor at height 0, one of them shrunk to half; the speed at which a body is put to rest is 1e-3 of a
+        // step's.
         Near.Equal(Math.Sqrt(3) / 2, last[0].Numbers[2], 1e-6);
         Near.Equal(Math.Sqrt(3) / 4, last[2].Numbers[2], 1e-6);
     }
@@ -75,7 +77,8 @@ public sealed class SimulateCommandTests : IDisposable
     public void Simulate_Again_EndsInTheSameState()
     {
         var first = Run("simulate", "scene.sdo", "--seconds", "3");
-        var oneProcessor = AppProcess.Run(_folder.Path, new Dictionary<string, string?> { ["DOTNET_PROCESSOR_COUNT"] = "1" }, "simulate", "scene.sdo", "--seconds", "3");
+        var oneProcessor = AppProcess.Run(_folder.Path, new Dictionary<string, string?> { ["DOTNET_PROCESSOR_COUNT"] = "1" }, "simulate",
+            "scene.sdo", "--seconds", "3");
         Assert.Equal((0, first.Output), (oneProcessor.ExitCode, oneProcessor.Output));
         Assert.Equal(State(first.Error), State(oneProcessor.Error));
         Assert.NotEqual(State(first.Error), State(Run("simulate", "scene.sdo", "--seconds", "2").Error));
@@ -88,7 +91,8 @@ public sealed class SimulateCommandTests : IDisposable
     {
         var expected = Run("simulate", "scene.sdo", "--seconds", "0.5", "--step", "0.01");
         var there = AppProcess.Run(
-            _folder.Path, new Dictionary<string, string?> { ["LC_ALL"] = culture, ["LANG"] = culture }, "simulate", "scene.sdo", "--seconds", "0.5", "--step", "0.01");
+            _folder.Path, new Dictionary<string, string?> { ["LC_ALL"] = culture, ["LANG"] = culture }, "simulate", "scene.sdo",
+            "--seconds", "0.5", "--step", "0.01");
         Assert.Equal((0, expected.Output), (there.ExitCode, there.Output));
         Assert.Equal(State(expected.Error), State(there.Error));
         Assert.Equal(3 * 50, Rows(there.Output).Length);
@@ -107,7 +111,8 @@ public sealed class SimulateCommandTests : IDisposable
     [InlineData("simple")]
     public void Simulate_WithAnotherExactCollider_MovesAlike(string collider)
     {
-        var (expected, actual) = (Rows(Run("simulate", "scene.sdo").Output), Rows(Run("simulate", "scene.sdo", "--collider", collider).Output));
+        var (expected, actual) =
+            (Rows(Run("simulate", "scene.sdo").Output), Rows(Run("simulate", "scene.sdo", "--collider", collider).Output));
         for (var i = 0; i < expected.Length; i++)
         {
             // The same nearest points but for rounding, which some bounces make larger.
@@ -118,7 +123,9 @@ public sealed class SimulateCommandTests : IDisposable
     [Fact]
     public void Simulate_WithAColliderThatDoesNotFit_NamesTheFile()
     {
-        var expected = new AppResult(2, "", "error: cube.obj: the collider 'fractal' needs a fractal, and this is a mesh: expected exact, hierarchy, bounding-box or simple\n");
+        var expected =
+            new AppResult(2, "",
+            "error: cube.obj: the collider 'fractal' needs a fractal, and this is a mesh: expected exact, hierarchy, bounding-box or simple\n");
         Assert.Equal(expected, Run("simulate", "scene.sdo", "--collider", "fractal"));
         _folder.Write("own.sdo", "o \"cube.obj\" #\np \"cube.obj\" ((0, 500, 0), #, #) 1 collider fractal\n");
         Assert.Equal(expected, Run("simulate", "own.sdo", "--output", "bodies.csv"));
@@ -180,11 +187,13 @@ public sealed class SimulateCommandTests : IDisposable
     public void Simulate_Interrupted_WritesNothing(string signal)
     {
         Skip.If(OperatingSystem.IsWindows(), "there are no such signals");
-        Skip.If(signal == "INT" && IgnoresInterrupts(), "what a shell starts in the background ignores interrupts, and so does all that it starts");
+        Skip.If(signal == "INT" && IgnoresInterrupts(),
+            "what a shell starts in the background ignores interrupts, and so does all that it starts");
         using var process = AppProcess.Start(_folder.Path, [], "simulate", "scene.sdo", "--seconds", "100000", "--output", "bodies.csv");
         try
         {
-            Assert.True(SpinWait.SpinUntil(() => Directory.GetFiles(_folder.Path, "*.tmp").Length > 0, TimeSpan.FromSeconds(60)), "it does not begin to write");
+            Assert.True(SpinWait.SpinUntil(() => Directory.GetFiles(_folder.Path, "*.tmp").Length > 0, TimeSpan.FromSeconds(60)),
+                "it does not begin to write");
             Process.Start("kill", ["-s", signal, process.Id.ToString(CultureInfo.InvariantCulture)]).WaitForExit();
             Assert.True(process.WaitForExit(TimeSpan.FromSeconds(60)), "it does not end");
         }
@@ -201,7 +210,8 @@ public sealed class SimulateCommandTests : IDisposable
         && File.ReadLines("/proc/self/status").FirstOrDefault(line => line.StartsWith("SigIgn:", StringComparison.Ordinal)) is { } line
         && (ulong.Parse(line["SigIgn:".Length..].Trim(), NumberStyles.HexNumber, CultureInfo.InvariantCulture) & 2) != 0;
 
-    private static string State(string error) => Assert.Single(error.Split('\n'), line => line.StartsWith("state ", StringComparison.Ordinal)).Trim();
+    private static string State(string error) =>
+        Assert.Single(error.Split('\n'), line => line.StartsWith("state ", StringComparison.Ordinal)).Trim();
 
     /// <summary>The rows below the header: the body as it is written, and the nine numbers around it.</summary>
     private static (string Body, double[] Numbers)[] Rows(string table)

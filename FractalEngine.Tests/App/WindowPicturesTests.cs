@@ -62,7 +62,8 @@ public sealed class WindowPicturesTests : IDisposable
         pictures.Draw(document, Settings, Width, Height);
         pictures.Draw(document, Settings, Width, Height);
         pictures.CountPresentedAgain();
-        var rows = new FrameReport(document.Renderer, Settings.Culling, Time, 0, 0, document.Physics).ToPanels(pictures.CountFrames(60)).SelectMany(panel => panel.Lines).ToDictionary(line => line.Text, line => line.SecondColumn);
+        var rows = new FrameReport(document.Renderer, Settings.Culling, Time, 0, 0, document.Physics).ToPanels(pictures.CountFrames(60))
+            .SelectMany(panel => panel.Lines).ToDictionary(line => line.Text, line => line.SecondColumn);
         Assert.Equal("2 objects, 2 files, 0 textures", rows["shared"]);
         Assert.Equal("1 of 2 models", rows["not in sight yet"]);
         Assert.Equal("2 of 2 colliders", rows["not asked yet"]);
@@ -110,7 +111,9 @@ public sealed class WindowPicturesTests : IDisposable
     {
         _folder.Write("near.obj", Files.Cube);
         _folder.Write("far.obj", Files.Cube);
-        var file = AssetLoader.Load(_folder.Write("scene.sdo", "c (0.6, 0.9, -3) (-0.2, -0.2, 0) 60\no \"near.obj\" #\no \"far.obj\" ((0, 0, -9), #, #)\n"));
+        var file =
+            AssetLoader.Load(
+                _folder.Write("scene.sdo", "c (0.6, 0.9, -3) (-0.2, -0.2, 0) 60\no \"near.obj\" #\no \"far.obj\" ((0, 0, -9), #, #)\n"));
         var preparation = new ScenePreparation(file.Scene, Settings);
         preparation.PrepareVisible(View.Of(file.Scene, window.Aspect), window.Aspect);
         return new(window, file, preparation, new() { Settings = Settings });

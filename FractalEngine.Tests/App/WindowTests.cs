@@ -6,7 +6,9 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
 
-/// <summary>The window as its users meet it: driven with keys, mouse and resizes from outside, on the display that the tests run on.</summary>
+/// <summary>
+/// The window as its users meet it: driven with keys, mouse and resizes from outside, on the display that the tests run on.
+/// </summary>
 [Collection("GL")]
 public sealed class WindowTests : IDisposable
 {
@@ -80,7 +82,8 @@ public sealed class WindowTests : IDisposable
     [SkippableFact]
     public void Window_OfBodies_StopsStepsResetsDropsAndWalks()
     {
-        _folder.Write("fall.sdo", "c (0, 1, -6) (0, 0, 0) 60\no \"cube.obj\" ((0, -1, 0), #, (8, 1, 8))\np \"cube.obj\" ((0, 40, 0), #, #) 0 colour (1, 0, 0)\nplayer (2, 1, -2) 0.3 1.6\n");
+        _folder.Write("fall.sdo",
+            "c (0, 1, -6) (0, 0, 0) 60\no \"cube.obj\" ((0, -1, 0), #, (8, 1, 8))\np \"cube.obj\" ((0, 40, 0), #, #) 0 colour (1, 0, 0)\nplayer (2, 1, -2) 0.3 1.6\n");
         using var window = Open("fall.sdo");
         // Time goes on from the beginning; a scene of one falling body stands still soon after.
         window.Do("key space");
@@ -242,7 +245,8 @@ public sealed class WindowTests : IDisposable
 
         private static string Tool(string commands)
         {
-            using var tool = Process.Start(new ProcessStartInfo("xdotool", commands) { RedirectStandardOutput = true, RedirectStandardError = true })!;
+            using var tool =
+                Process.Start(new ProcessStartInfo("xdotool", commands) { RedirectStandardOutput = true, RedirectStandardError = true })!;
             var output = tool.StandardOutput.ReadToEnd();
             tool.WaitForExit();
             return output;

@@ -13,7 +13,8 @@ public sealed class AssetLoaderTests : IDisposable
 
     public void Dispose() => _folder.Dispose();
 
-    private string Fails(string file, LoadOptions? options = null) => Errors.Of(() => AssetLoader.Load(_folder[file], options)).Replace(_folder.Path + "/", "", StringComparison.Ordinal);
+    private string Fails(string file, LoadOptions? options = null) =>
+        Errors.Of(() => AssetLoader.Load(_folder[file], options)).Replace(_folder.Path + "/", "", StringComparison.Ordinal);
 
     [Fact]
     public void Load_OfAMesh_IsASceneOfThatObject()
@@ -49,7 +50,9 @@ public sealed class AssetLoaderTests : IDisposable
     {
         _folder.Write("a.obj", Triangle);
         _folder.Write("f.fdo", "<$>. \"a.obj\"");
-        var scene = _folder.Write("s.sdo", "o \"a.obj\" #\no \"a.obj\" ((1, 0, 0), #, #)\no \"a.obj\" ((2, 0, 0), #, #)\no \"f.fdo\" #\no \"f.fdo\" #");
+        var scene =
+            _folder.Write("s.sdo",
+            "o \"a.obj\" #\no \"a.obj\" ((1, 0, 0), #, #)\no \"a.obj\" ((2, 0, 0), #, #)\no \"f.fdo\" #\no \"f.fdo\" #");
         Assert.Equal(2, AssetLoader.Load(scene).Scene.Models.Count());
         var models = AssetLoader.Load(scene, new() { ShareModels = false }).Scene.Models.ToArray();
         Assert.Equal((5, 5), (models.Length, models.Select(model => model.Mesh).Distinct().Count()));
@@ -78,8 +81,10 @@ public sealed class AssetLoaderTests : IDisposable
     }
 
     [Theory]
-    [InlineData("f.fdo", "v 1 2 3\nx. \"missing.obj\"\n<$>. x\n", "f.fdo:2:4: error: the file \"missing.obj\" is not found\n  x. \"missing.obj\"\n     ^")]
-    [InlineData("s.sdo", "# a\no \"missing.obj\" #\n", "s.sdo:2:3: error: the file \"missing.obj\" is not found\n  o \"missing.obj\" #\n    ^")]
+    [InlineData("f.fdo", "v 1 2 3\nx. \"missing.obj\"\n<$>. x\n",
+        "f.fdo:2:4: error: the file \"missing.obj\" is not found\n  x. \"missing.obj\"\n     ^")]
+    [InlineData("s.sdo", "# a\no \"missing.obj\" #\n",
+        "s.sdo:2:3: error: the file \"missing.obj\" is not found\n  o \"missing.obj\" #\n    ^")]
     public void Load_WithAMissingFile_PointsAtItsName(string file, string text, string expected)
     {
         _folder.Write(file, text);
@@ -112,7 +117,8 @@ public sealed class AssetLoaderTests : IDisposable
     {
         _folder.Write("bad.obj", "v 1 2 3\nf 1 2 3\n");
         _folder.Write("s.sdo", "o \"bad.obj\" #");
-        Assert.EndsWith("bad.obj:2:5: error: vertex 2 of 1 so far: it is beyond the last\n  f 1 2 3\n      ^", Fails("s.sdo"), StringComparison.Ordinal);
+        Assert.EndsWith("bad.obj:2:5: error: vertex 2 of 1 so far: it is beyond the last\n  f 1 2 3\n      ^", Fails("s.sdo"),
+            StringComparison.Ordinal);
     }
 
     [Theory]
@@ -204,7 +210,9 @@ public sealed class AssetLoaderTests : IDisposable
     {
         _folder.Write("FractalBase.obj", Triangle);
         var path = _folder.Write("b.fdo", Samples.AppendixB);
-        var fractal = ((FractalModel)AssetLoader.Load(path, new() { Depth = 2, Composition = Composition.Componentwise }).Scene.Objects[0].Model).Fractal;
+        var fractal =
+            ((FractalModel)AssetLoader.Load(path,
+            new() { Depth = 2, Composition = Composition.Componentwise }).Scene.Objects[0].Model).Fractal;
         Assert.Equal((625, Composition.Componentwise), (fractal.InstanceCount, fractal.Description.Composition));
     }
 
@@ -214,7 +222,8 @@ public sealed class AssetLoaderTests : IDisposable
         _folder.Write("b.obj", Triangle);
         _folder.Write("f.fdo", "v .5 .5 .5\nt.a. (#, #, a)\nx. \"b.obj\"\nz<x>. [t.1] x\n<$>. z");
         Assert.NotEmpty(AssetLoader.Load(_folder["f.fdo"]).Scene.Objects);
-        Assert.Contains("f.fdo:5:1: error: an infinite fractal can't be composed componentwise", Fails("f.fdo", new() { Composition = Composition.Componentwise }), StringComparison.Ordinal);
+        Assert.Contains("f.fdo:5:1: error: an infinite fractal can't be composed componentwise",
+            Fails("f.fdo", new() { Composition = Composition.Componentwise }), StringComparison.Ordinal);
     }
 
     [Fact]

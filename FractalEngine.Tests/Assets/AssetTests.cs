@@ -130,11 +130,13 @@ public sealed class AssetTests
         var edges = new HashSet<(int From, int To)>();
         for (var corner = 0; corner < mesh.VertexIndices.Length; corner++)
         {
-            Assert.True(edges.Add((mesh.VertexIndices[corner], mesh.VertexIndices[corner % 3 == 2 ? corner - 2 : corner + 1])), "two faces run the same way along an edge");
+            Assert.True(edges.Add((mesh.VertexIndices[corner], mesh.VertexIndices[corner % 3 == 2 ? corner - 2 : corner + 1])),
+                "two faces run the same way along an edge");
         }
 
         // A floor needs no underside.
-        Assert.True(file.Contains("floor-", StringComparison.Ordinal) || edges.All(edge => edges.Contains((edge.To, edge.From))), "there is a hole");
+        Assert.True(file.Contains("floor-", StringComparison.Ordinal) || edges.All(edge => edges.Contains((edge.To, edge.From))),
+            "there is a hole");
         var volume = Enumerable.Range(0, mesh.FaceCount).Select(mesh.Face).Sum(face => Vector.Dot(face.A, Vector.Cross(face.B, face.C)));
         Assert.True(volume > 0, "it is inside out");
     }
@@ -165,7 +167,8 @@ public sealed class AssetTests
         Assert.DoesNotContain(world.Bodies, body => body.IsStuck);
         // The ground is at height 0; a millionth of a radius is what still counts as touching.
         Assert.All(world.Bodies, body => Assert.True(body.Position.Y >= body.Radius * (1 - 1e-6), $"{body.Name} is at {body.Position}"));
-        Assert.True(world.Bodies.Count(body => body.IsAsleep) >= 0.9 * world.Bodies.Count, string.Join(", ", world.Bodies.Where(body => !body.IsAsleep).Select(body => body.Name)));
+        Assert.True(world.Bodies.Count(body => body.IsAsleep) >= 0.9 * world.Bodies.Count,
+            string.Join(", ", world.Bodies.Where(body => !body.IsAsleep).Select(body => body.Name)));
     }
 
     [Fact]

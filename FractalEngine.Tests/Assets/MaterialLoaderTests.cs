@@ -23,7 +23,8 @@ public sealed class MaterialLoaderTests : IDisposable
         _folder.Write("a.mtl", "newmtl wood\nmap_Kd wood.png\nnewmtl unused\nmap_Kd missing.png\n");
         var loaded = Load("mtllib a.mtl\nusemtl wood\nf 1 2 3\n");
         Assert.Empty(loaded.Warnings);
-        Assert.Equal(new Material("wood") { Texture = new(_folder["wood.png"]) }, Assert.Single(loaded.Scene.Objects[0].Model.Materials).Value);
+        Assert.Equal(new Material("wood") { Texture = new(_folder["wood.png"]) },
+            Assert.Single(loaded.Scene.Objects[0].Model.Materials).Value);
         Assert.Equal(new[] { "a.obj", "a.mtl", "wood.png" }.Sum(file => new FileInfo(_folder[file]).Length), loaded.StorageBytes);
     }
 
@@ -76,7 +77,8 @@ public sealed class MaterialLoaderTests : IDisposable
     {
         var loaded = Load("mtllib gone.mtl\nmtllib gone too.mtl\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 2 3\n");
         Assert.Empty(loaded.Scene.Objects[0].Model.Materials);
-        Assert.Equal("a.obj:1:8: warning: the file \"gone.mtl\" is not found (2 such files in all)\n  mtllib gone.mtl\n         ^", OnlyWarning(loaded));
+        Assert.Equal("a.obj:1:8: warning: the file \"gone.mtl\" is not found (2 such files in all)\n  mtllib gone.mtl\n         ^",
+            OnlyWarning(loaded));
     }
 
     [Fact]
@@ -105,7 +107,8 @@ public sealed class MaterialLoaderTests : IDisposable
             stream.SetLength(ParsingLimits.MaterialBytes + 1);
         }
 
-        Assert.Equal("a.mtl:1:1: warning: the file has 16777217 bytes, more than the limit of 16777216", OnlyWarning(Load("mtllib a.mtl\nusemtl red\nf 1 2 3\n")));
+        Assert.Equal("a.mtl:1:1: warning: the file has 16777217 bytes, more than the limit of 16777216",
+            OnlyWarning(Load("mtllib a.mtl\nusemtl red\nf 1 2 3\n")));
     }
 
     [Fact]
@@ -113,7 +116,8 @@ public sealed class MaterialLoaderTests : IDisposable
     {
         _folder.Write("a.mtl", "newmtl red\nKd 1 0.5 0\nmap_Kd gone.png\nnewmtl blue\nmap_Kd gone.png\n");
         var loaded = Load("mtllib a.mtl\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 2 3\n");
-        Assert.Equal("a.mtl:3:8: warning: the file \"gone.png\" is not found: drawn grey\n  map_Kd gone.png\n         ^", OnlyWarning(loaded));
+        Assert.Equal("a.mtl:3:8: warning: the file \"gone.png\" is not found: drawn grey\n  map_Kd gone.png\n         ^",
+            OnlyWarning(loaded));
         var materials = loaded.Scene.Objects[0].Model.Materials;
         Assert.Equal((new Colour(0.6, 0.3, 0), null), (materials["red"].Diffuse, materials["red"].Texture));
         Assert.Equal((new Colour(0.6, 0.6, 0.6), null), (materials["blue"].Diffuse, materials["blue"].Texture));
@@ -126,7 +130,8 @@ public sealed class MaterialLoaderTests : IDisposable
         _folder.Write("a.mtl", string.Concat(names.Select(name => $"newmtl m{name}\nmap_Kd {name}.png\n")));
         var loaded = Load("mtllib a.mtl\n" + string.Concat(names.Select(name => $"usemtl m{name}\nf 1 2 3\n")));
         Assert.Equal(20, loaded.Warnings.Length);
-        Assert.Equal("the file \"19.png\" is not found: drawn grey; further pictures that can't be had are not named", loaded.Warnings[^1].Message);
+        Assert.Equal("the file \"19.png\" is not found: drawn grey; further pictures that can't be had are not named",
+            loaded.Warnings[^1].Message);
         Assert.All(loaded.Scene.Objects[0].Model.Materials.Values, material => Assert.Null(material.Texture));
     }
 
@@ -182,8 +187,10 @@ public sealed class MaterialLoaderTests : IDisposable
 
         _folder.Write("a.mtl", string.Concat(names.Select(name => $"newmtl {name}\nmap_Kd {name}.png\n")));
         var loaded = Load("mtllib a.mtl\n" + string.Concat(names.Select(name => $"usemtl {name}\nf 1 2 3\n")));
-        Assert.Equal("with \"c.png\" all pictures have more than the limit of 134217728 pixels: drawn grey", Assert.Single(loaded.Warnings).Message);
-        Assert.Equal(["a", "b"], loaded.Scene.Objects[0].Model.Materials.Where(item => item.Value.Texture is not null).Select(item => item.Key).Order());
+        Assert.Equal("with \"c.png\" all pictures have more than the limit of 134217728 pixels: drawn grey",
+            Assert.Single(loaded.Warnings).Message);
+        Assert.Equal(["a", "b"], loaded.Scene.Objects[0].Model.Materials.Where(item => item.Value.Texture is not null)
+            .Select(item => item.Key).Order());
     }
 
     [Theory]
@@ -196,7 +203,8 @@ public sealed class MaterialLoaderTests : IDisposable
         _folder.Write("scene/inside.mtl", "newmtl m\nmap_Kd ../outside.png\n");
         var path = _folder.Write("scene/a.obj", $"{library}\n{Triangle}usemtl m\nf 1 2 3\n");
         var loaded = AssetLoader.Load(path);
-        Assert.Contains("lies outside the folder of the file that was opened: allow that with --allow-outside", Assert.Single(loaded.Warnings).Message, StringComparison.Ordinal);
+        Assert.Contains("lies outside the folder of the file that was opened: allow that with --allow-outside",
+            Assert.Single(loaded.Warnings).Message, StringComparison.Ordinal);
         Assert.True(loaded.Scene.Objects[0].Model.Materials.GetValueOrDefault("m") is null or { Texture: null });
         var allowed = AssetLoader.Load(path, new() { AllowOutsideFiles = true });
         Assert.Empty(allowed.Warnings);
@@ -204,10 +212,12 @@ public sealed class MaterialLoaderTests : IDisposable
     }
 
     [Theory]
-    [InlineData("a.jpg", new byte[] { 0xFF, 0xD8, 0xFF, 0xE0, 0, 4, 1, 2, 0xFF, 0xFF, 0xC2, 0, 17, 8, 0x01, 0x02, 0x03, 0x04, 3, 1, 2, 3 }, true)]
+    [InlineData("a.jpg", new byte[] { 0xFF, 0xD8, 0xFF, 0xE0, 0, 4, 1, 2, 0xFF, 0xFF, 0xC2, 0, 17, 8, 0x01, 0x02, 0x03, 0x04, 3, 1, 2, 3 },
+        true)]
     [InlineData("a.jpg", new byte[] { 0xFF, 0xD8, 0xFF, 0xE0, 0, 4, 1, 2 }, false)]
     [InlineData("a.jpg", new byte[] { 0xFF, 0xD8, 0xFF, 0xC4, 0, 2, 1, 2, 3, 4, 5, 6, 7 }, false)]
-    [InlineData("a.bmp", new byte[] { 0x42, 0x4D, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 40, 0, 0, 0, 9, 0, 0, 0, 0xF0, 0xFF, 0xFF, 0xFF }, true)]
+    [InlineData("a.bmp", new byte[] { 0x42, 0x4D, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 40, 0, 0, 0, 9, 0, 0, 0, 0xF0, 0xFF, 0xFF, 0xFF },
+        true)]
     [InlineData("a.bmp", new byte[] { 0x42, 0x4D, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 12, 0, 0, 0, 9, 0, 8, 0, 1, 0, 24, 0 }, true)]
     [InlineData("a.bmp", new byte[] { 0x42, 0x4D, 0 }, false)]
     [InlineData("a.tga", new byte[] { 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 6, 0, 24, 0 }, true)]
@@ -224,7 +234,8 @@ public sealed class MaterialLoaderTests : IDisposable
 
     [Theory]
     [InlineData("a.jpg", new byte[] { 0xFF, 0xD8, 0xFF, 0xC0, 0, 17, 8, 0x00, 0x01, 0x20, 0x01, 3, 1 }, "8193×1")]
-    [InlineData("a.bmp", new byte[] { 0x42, 0x4D, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 40, 0, 0, 0, 9, 0, 0, 0, 0, 0, 0, 0x80 }, "9×2147483648")]
+    [InlineData("a.bmp", new byte[] { 0x42, 0x4D, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 40, 0, 0, 0, 9, 0, 0, 0, 0, 0, 0, 0x80 },
+        "9×2147483648")]
     [InlineData("a.tga", new byte[] { 0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, 6, 0, 24, 0 }, "65535×6")]
     public void Load_OfAPicturesHead_ReadsItsSize(string name, byte[] head, string size)
     {
@@ -254,7 +265,10 @@ public sealed class MaterialLoaderTests : IDisposable
     private static Material MaterialOf(LoadedFile file) => Assert.Single(file.Scene.Objects[0].Model.Materials).Value;
 
     private LoadedFile Load(string text, string before = "") =>
-        AssetLoader.Load(_folder.Write("a.obj", before.Length > 0 ? before + text : text.Insert(text.IndexOf("usemtl", StringComparison.Ordinal), Triangle)));
+        AssetLoader.Load(
+            _folder.Write("a.obj", before.Length > 0
+            ? before + text
+            : text.Insert(text.IndexOf("usemtl", StringComparison.Ordinal), Triangle)));
 
     private string OnlyWarning(LoadedFile file)
     {
@@ -274,7 +288,8 @@ public sealed class MaterialLoaderTests : IDisposable
     /// <summary>As much of a PNG as says how large it is.</summary>
     private void WritePng(string name, uint width, uint height)
     {
-        byte[] head = [0x89, (byte)'P', (byte)'N', (byte)'G', 0x0D, 0x0A, 0x1A, 0x0A, 0, 0, 0, 13, (byte)'I', (byte)'H', (byte)'D', (byte)'R', .. new byte[13]];
+        byte[] head = [0x89, (byte)'P', (byte)'N', (byte)'G', 0x0D, 0x0A, 0x1A, 0x0A, 0, 0, 0, 13, (byte)'I', (byte)'H', (byte)'D',
+            (byte)'R', .. new byte[13]];
         BinaryPrimitives.WriteUInt32BigEndian(head.AsSpan(16), width);
         BinaryPrimitives.WriteUInt32BigEndian(head.AsSpan(20), height);
         Directory.CreateDirectory(Path.GetDirectoryName(_folder[name])!);

@@ -34,7 +34,8 @@ public class AnswerErrorsTests
         Assert.Equal(percent, AnswerErrors.Of([found], [right], Size).MissedPercent);
 
     [Fact]
-    public void MissedPercent_OfMany_IsOfAllPositions() => Assert.Equal(25, AnswerErrors.Of([3, 1, 30, 40], [1, 1, 30, 30], Size).MissedPercent);
+    public void MissedPercent_OfMany_IsOfAllPositions() =>
+        Assert.Equal(25, AnswerErrors.Of([3, 1, 30, 40], [1, 1, 30, 30], Size).MissedPercent);
 
     [Theory]
     [InlineData(double.PositiveInfinity)]
@@ -43,7 +44,8 @@ public class AnswerErrorsTests
     {
         var errors = AnswerErrors.Of([1, found, 5], [1, 3, 5], Size);
         Assert.Equal(
-            (double.PositiveInfinity, double.PositiveInfinity, double.PositiveInfinity, double.PositiveInfinity), (errors.Largest, errors.Mean, errors.LargestRelative, errors.MeanRelative));
+            (double.PositiveInfinity, double.PositiveInfinity, double.PositiveInfinity, double.PositiveInfinity),
+            (errors.Largest, errors.Mean, errors.LargestRelative, errors.MeanRelative));
         Assert.Equal(0, errors.MissedPercent);
     }
 

@@ -23,7 +23,8 @@ public class AskedColliderTests
             hierarchy.TryFindClosest(position, double.PositiveInfinity, record, out _);
         }
 
-        Assert.Equal((record.FaceTests / 100.0, record.BoundTests / 100.0, hierarchy.StorageBytes), (asked.FaceTests, asked.BoundTests, asked.Bytes));
+        Assert.Equal((record.FaceTests / 100.0, record.BoundTests / 100.0, hierarchy.StorageBytes),
+            (asked.FaceTests, asked.BoundTests, asked.Bytes));
         Assert.Equal(300, new AskedCollider(new SimpleCollider(mesh), positions).FaceTests);
     }
 
@@ -60,5 +61,6 @@ public class AskedColliderTests
         }
     }
 
-    private static AskedCollider Asked(int faces) => new(new SimpleCollider(CollisionMeshes.Soup(1, faces, 0.1)), [.. Enumerable.Range(0, 20).Select(i => i * Vector.One)]);
+    private static AskedCollider Asked(int faces) =>
+        new(new SimpleCollider(CollisionMeshes.Soup(1, faces, 0.1)), [.. Enumerable.Range(0, 20).Select(i => i * Vector.One)]);
 }

@@ -8,12 +8,14 @@ public sealed class BenchmarkCommandTests : IDisposable
 {
     private readonly TemporaryFolder _folder = new();
 
-    private static readonly string[] Names = ["front", "table", "growth", "loading", "frames", "skips", "window", "physics", "precision", "paper"];
+    private static readonly string[] Names = ["front", "table", "growth", "loading", "frames", "skips", "window", "physics", "precision",
+        "paper"];
 
     public static TheoryData<string> Commands => [.. Names];
 
     private static IEnumerable<string> Classes =>
-        typeof(CommandWords).Assembly.GetTypes().Select(type => type.Name).Where(name => name.EndsWith("Benchmarks", StringComparison.Ordinal)).Order(StringComparer.Ordinal);
+        typeof(CommandWords).Assembly.GetTypes().Select(type => type.Name)
+        .Where(name => name.EndsWith("Benchmarks", StringComparison.Ordinal)).Order(StringComparer.Ordinal);
 
     public void Dispose() => _folder.Dispose();
 
@@ -55,7 +57,8 @@ public sealed class BenchmarkCommandTests : IDisposable
 
     [Fact]
     public void Run_OfAnUnknownCommand_NamesAllThereAre() => Assert.Equal(
-        new AppResult(2, "", $"error: unknown command 'Front': expected one of {string.Join(' ', Names)}, or an option of BenchmarkDotNet{Environment.NewLine}"),
+        new AppResult(2, "",
+        $"error: unknown command 'Front': expected one of {string.Join(' ', Names)}, or an option of BenchmarkDotNet{Environment.NewLine}"),
         AppProcess.RunBenchmarks(_folder.Path, "Front", "--output", "out"));
 
     [Fact]
@@ -63,18 +66,21 @@ public sealed class BenchmarkCommandTests : IDisposable
     {
         var (exitCode, output, error) = AppProcess.RunBenchmarks(_folder.Path, "--list", "flat", "--output", "out");
         Assert.Equal((0, ""), (exitCode, error));
-        Assert.Equal(Classes, output.Split('\n', StringSplitOptions.RemoveEmptyEntries).Select(line => line.Split('.')[^2]).Distinct().Order(StringComparer.Ordinal));
+        Assert.Equal(Classes, output.Split('\n', StringSplitOptions.RemoveEmptyEntries).Select(line => line.Split('.')[^2]).Distinct()
+            .Order(StringComparer.Ordinal));
     }
 
     [Fact]
     public void ReadMe_HasEveryClassAndCommandOnceInItsTable()
     {
         // Question and folder, commands, classes, baseline.
-        var rows = File.ReadAllLines(Repository.Full("FractalEngine.Benchmarks/README.md")).Where(line => line.StartsWith("| ", StringComparison.Ordinal)).Select(line => line.Split('|')).ToArray();
+        var rows = File.ReadAllLines(Repository.Full("FractalEngine.Benchmarks/README.md"))
+            .Where(line => line.StartsWith("| ", StringComparison.Ordinal)).Select(line => line.Split('|')).ToArray();
         Assert.Equal(Names.Order(StringComparer.Ordinal), InBackticks(2));
         Assert.Equal(Classes, InBackticks(3));
 
-        string[] InBackticks(int column) => [.. rows.SelectMany(row => row[column].Split('`').Where((_, i) => i % 2 == 1)).Order(StringComparer.Ordinal)];
+        string[] InBackticks(int column) =>
+            [.. rows.SelectMany(row => row[column].Split('`').Where((_, i) => i % 2 == 1)).Order(StringComparer.Ordinal)];
     }
 
     private void AssertRefused(string command, string wrong, params string[] words)

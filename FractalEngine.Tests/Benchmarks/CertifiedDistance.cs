@@ -5,8 +5,9 @@ using Vector = FractalEngine.Core.Maths.Vector;
 namespace FractalEngine.Tests.Benchmarks;
 
 /// <summary>
-/// Squared distances that prove themselves: q is the point of a convex hull nearest to p if and only if q is in the hull and (p − q)·(x − q) ≤ 0 for every corner x. Candidates come from the
-/// normal equations of each feature; whichever passes is right, however it was found. In whole numbers, of a common power of two.
+/// Squared distances that prove themselves: q is the point of a convex hull nearest to p if and only if q is in the hull and (p − q)·(x −
+/// q) ≤ 0 for every corner x. Candidates come from the normal equations of each feature; whichever passes is right, however it was found.
+/// In whole numbers, of a common power of two.
 /// </summary>
 internal static class CertifiedDistance
 {
@@ -35,14 +36,18 @@ internal static class CertifiedDistance
             from qz in new[] { low.Z, p.Z, high.Z }
             where qz >= low.Z && qz <= high.Z
             select new Candidate(1, new(qx, qy, qz));
-        Point[] corners = [.. from i in Enumerable.Range(0, 8) select new Point((i & 1) == 0 ? low.X : high.X, (i & 2) == 0 ? low.Y : high.Y, (i & 4) == 0 ? low.Z : high.Z)];
+        Point[] corners =
+            [.. from i in Enumerable.Range(0, 8) select new Point((i & 1) == 0 ? low.X : high.X, (i & 2) == 0 ? low.Y : high.Y, (i & 4) == 0
+            ? low.Z
+            : high.Z)];
         return Certified(p, candidates, corners, scale);
     }
 
     private static Rational Certified(Point p, IEnumerable<Candidate> candidates, Point[] corners, int scale)
     {
         var (divisor, q) = candidates.First(candidate => candidate.Divisor.Sign > 0
-            && corners.All(corner => Point.Dot((candidate.Divisor * p) - candidate.Point, (candidate.Divisor * corner) - candidate.Point).Sign <= 0));
+            && corners.All(
+                corner => Point.Dot((candidate.Divisor * p) - candidate.Point, (candidate.Divisor * corner) - candidate.Point).Sign <= 0));
         var away = (divisor * p) - q;
         var (numerator, denominator) = (Point.Dot(away, away), divisor * divisor);
         return scale >= 0 ? new(numerator << (2 * scale), denominator) : new(numerator, denominator << (-2 * scale));
@@ -63,10 +68,13 @@ internal static class CertifiedDistance
         var (bb, bc, cc, bp, cp) = (Point.Dot(ab, ab), Point.Dot(ab, ac), Point.Dot(ac, ac), Point.Dot(ab, ap), Point.Dot(ac, ap));
         var determinant = (bb * cc) - (bc * bc);
         var (u, v) = ((cc * bp) - (bc * cp), (bb * cp) - (bc * bp));
-        return u.Sign < 0 || v.Sign < 0 || u + v > determinant ? default : new(determinant, ((determinant - u - v) * a) + (u * b) + (v * c));
+        return u.Sign < 0 || v.Sign < 0 || u + v > determinant
+            ? default
+            : new(determinant, ((determinant - u - v) * a) + (u * b) + (v * c));
     }
 
-    private static int Scale(params Vector[] vectors) => vectors.SelectMany(v => new[] { v.X, v.Y, v.Z }).Where(x => x != 0).Select(x => Math.ILogB(x) - 52).DefaultIfEmpty(0).Min();
+    private static int Scale(params Vector[] vectors) =>
+        vectors.SelectMany(v => new[] { v.X, v.Y, v.Z }).Where(x => x != 0).Select(x => Math.ILogB(x) - 52).DefaultIfEmpty(0).Min();
 
     /// <summary>A point times a divisor.</summary>
     private readonly record struct Candidate(BigInteger Divisor, Point Point);
@@ -83,6 +91,7 @@ internal static class CertifiedDistance
 
         public static BigInteger Dot(Point p, Point q) => (p.X * q.X) + (p.Y * q.Y) + (p.Z * q.Z);
 
-        private static BigInteger Whole(double x, int scale) => x == 0 ? 0 : new BigInteger(Math.ScaleB(x, 52 - Math.ILogB(x))) << (Math.ILogB(x) - 52 - scale);
+        private static BigInteger Whole(double x, int scale) =>
+            x == 0 ? 0 : new BigInteger(Math.ScaleB(x, 52 - Math.ILogB(x))) << (Math.ILogB(x) - 52 - scale);
     }
 }

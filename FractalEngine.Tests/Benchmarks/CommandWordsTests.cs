@@ -61,7 +61,8 @@ public class CommandWordsTests
     private static (bool IsRead, bool Quick, int Count, string Output, string Names) Read(params string[] words)
     {
         var (quick, count, output, names) = (false, 7, "", new List<string>());
-        var isRead = new CommandWords("usage").Flag("--quick", () => quick = true).Count("--count", value => count = value).Value("--output", value => output = value)
+        var isRead = new CommandWords("usage").Flag("--quick", () => quick = true).Count("--count", value => count = value)
+            .Value("--output", value => output = value)
             .Names(text => text is "a" or "b", names).TryRead(words);
         return (isRead, quick, count, output, string.Join(' ', names));
     }

@@ -23,6 +23,7 @@ public class CountedBenchmarks : IMeasuresMore
     /// <inheritdoc/>
     IEnumerable<MoreValue> IMeasuresMore.Measure(string method) =>
     [
-        new("double_size", _double), new("only_second", method == nameof(Second) ? 0.5 : null), new("amount_a_second", _double, IsAmount: true),
+        new("double_size", _double), new("only_second", method == nameof(Second) ? 0.5 : null),
+        new("amount_a_second", _double, IsAmount: true),
     ];
 }

@@ -28,7 +28,8 @@ public sealed class CsvReportTests : IDisposable
         var table = CsvText.Read(file);
         Assert.Equal("# --filter *.CountedBenchmarks.*", table.Comments[0]);
         Assert.Equal(
-            ["size", "method", "mean_ns", "standard_deviation_ns", "ratio_to_baseline", "allocated_bytes", "double_size", "only_second", "amount_a_second"], table.Header);
+            ["size", "method", "mean_ns", "standard_deviation_ns", "ratio_to_baseline", "allocated_bytes", "double_size", "only_second",
+            "amount_a_second"], table.Header);
         Assert.Equal(
             [("3", "First", "6", ""), ("3", "Second", "6", "0.5"), ("5", "First", "10", ""), ("5", "Second", "10", "0.5")],
             table.Named().Select(row => (row("size"), row("method"), row("double_size"), row("only_second"))));
@@ -37,8 +38,10 @@ public sealed class CsvReportTests : IDisposable
             var mean = CsvText.Number(row("mean_ns"));
             Assert.True(mean > 0);
             // Written to a thousandth of a nanosecond.
-            Assert.Equal(CsvText.Number(row("double_size")) * 1e9, CsvText.Number(row("amount_a_second")) * mean, 0.001 * CsvText.Number(row("amount_a_second")));
-            var baseline = CsvText.Number(table.Named().Single(other => (other("size"), other("method")) == (row("size"), "First"))("mean_ns"));
+            Assert.Equal(CsvText.Number(row("double_size")) * 1e9, CsvText.Number(row("amount_a_second")) * mean,
+                0.001 * CsvText.Number(row("amount_a_second")));
+            var baseline =
+                CsvText.Number(table.Named().Single(other => (other("size"), other("method")) == (row("size"), "First"))("mean_ns"));
             Assert.Equal(mean / baseline, CsvText.Number(row("ratio_to_baseline")), 1e-5 * (1 + (mean / baseline)));
         });
         IColumn[] shown = [.. columns.GetColumns(summary)];

@@ -60,7 +60,8 @@ public sealed class CsvTableTests : IDisposable
     [MemberData(nameof(Cultures))]
     public void Save_InAnyCulture_WritesTheSame(string culture)
     {
-        object?[] values = [-1234567.875, 1e-300, 1e300, -3, 1234567L, BigInteger.Pow(-10, 21), 0.1f, double.PositiveInfinity, "I, i", null, true];
+        object?[] values = [-1234567.875, 1e-300, 1e300, -3, 1234567L, BigInteger.Pow(-10, 21), 0.1f, double.PositiveInfinity, "I, i", null,
+            true];
         string[] columns = [.. values.Select((_, i) => $"i{i}")];
         InCulture.Get(culture, () =>
         {
@@ -68,7 +69,8 @@ public sealed class CsvTableTests : IDisposable
             return 0;
         });
         Assert.Equal(
-            ["-1234567.875", "1E-300", "1E+300", "-3", "1234567", "-1000000000000000000000", "0.1", "Infinity", "I, i", "", "True"], CsvText.Read(_folder["a.csv"]).Rows[0]);
+            ["-1234567.875", "1E-300", "1E+300", "-3", "1234567", "-1000000000000000000000", "0.1", "Infinity", "I, i", "", "True"],
+            CsvText.Read(_folder["a.csv"]).Rows[0]);
     }
 
     [Fact]
@@ -85,7 +87,8 @@ public sealed class CsvTableTests : IDisposable
         Assert.True(numbers.Count >= 300);
         Assert.Equal(
             numbers.Select(BitConverter.DoubleToInt64Bits),
-            CsvText.Read(_folder["a.csv"]).Column("x").Select(field => BitConverter.DoubleToInt64Bits(double.Parse(field, NumberStyles.Float, CultureInfo.InvariantCulture))));
+            CsvText.Read(_folder["a.csv"]).Column("x")
+            .Select(field => BitConverter.DoubleToInt64Bits(double.Parse(field, NumberStyles.Float, CultureInfo.InvariantCulture))));
     }
 
     [Theory]

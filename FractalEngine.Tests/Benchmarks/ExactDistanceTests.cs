@@ -13,13 +13,15 @@ public class ExactDistanceTests
     [InlineData("thinner than doubles tell", 0, 1e-15)]
     [InlineData("far away", 1e6, 1)]
     [InlineData("far away and thin", 1e6, 1e-6)]
-    public void SquaredToFace_OfRandomFaces_IsWhatTheNearestPointProves(string faces, double offset, double width) => Seeded.Run(60, random =>
+    public void SquaredToFace_OfRandomFaces_IsWhatTheNearestPointProves(string faces, double offset, double width) =>
+        Seeded.Run(60, random =>
     {
         var a = (offset * NastyFace.Cube(random)) + NastyFace.Cube(random);
         var along = NastyFace.Cube(random);
         var (b, c) = (a + along, a + (random.NextDouble() * along) + (width * NastyFace.Cube(random)));
         var position = a + ((random.Next(2) == 0 ? 1 : 3 * width) * NastyFace.Cube(random));
-        Assert.True(CertifiedDistance.SquaredToFace(position, a, b, c) == ExactDistance.SquaredToFace(position, a, b, c), $"{faces}: {position} {a} {b} {c}");
+        Assert.True(CertifiedDistance.SquaredToFace(position, a, b, c) == ExactDistance.SquaredToFace(position, a, b, c),
+            $"{faces}: {position} {a} {b} {c}");
     });
 
     [Fact]

@@ -39,7 +39,8 @@ public class FractalCaseTests
 
     [Theory]
     [MemberData(nameof(Names))]
-    public void Load_OfEveryName_GivesAFractalWithFaces(string name) => Assert.InRange(FractalCase.Load(name).Fractal.BaseMesh.FaceCount, 1, 10_000);
+    public void Load_OfEveryName_GivesAFractalWithFaces(string name) =>
+        Assert.InRange(FractalCase.Load(name).Fractal.BaseMesh.FaceCount, 1, 10_000);
 
     [Theory]
     [InlineData("menger:1", 240)]

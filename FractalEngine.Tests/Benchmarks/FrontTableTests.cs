@@ -55,7 +55,8 @@ public sealed class FrontTableTests : IDisposable
     {
         var table = Measure(FrontShape.Create("infinite-menger"));
         Assert.Equal(2 * (5 + 7), table.Rows.Length);
-        Assert.All(["faces", "largest_error", "mean_error", "largest_relative_error", "mean_relative_error", "missed_percent"], column => Assert.Equal([""], table.Column(column).Distinct()));
+        Assert.All(["faces", "largest_error", "mean_error", "largest_relative_error", "mean_relative_error", "missed_percent"],
+            column => Assert.Equal([""], table.Column(column).Distinct()));
         Assert.All(table.Column("query_ns"), time => Assert.True(CsvText.Number(time) > 0));
     }
 
@@ -85,7 +86,8 @@ public sealed class FrontTableTests : IDisposable
             Assert.InRange(CsvText.Number(row("largest_error")), 0, 1e-12);
             Assert.Equal(("0", "0", "0"), (row("largest_relative_error"), row("mean_relative_error"), row("missed_percent")));
         });
-        Assert.All(rows.Where(row => row("knob") == "epsilon"), row => Assert.InRange(CsvText.Number(row("largest_relative_error")), 0, CsvText.Number(row("value"))));
+        Assert.All(rows.Where(row => row("knob") == "epsilon"),
+            row => Assert.InRange(CsvText.Number(row("largest_relative_error")), 0, CsvText.Number(row("value"))));
         Assert.All(rows, row =>
         {
             Assert.InRange(CsvText.Number(row("query_ns")), 1, 1e9);
@@ -93,7 +95,8 @@ public sealed class FrontTableTests : IDisposable
             Assert.InRange(CsvText.Number(row("build_ms")), 0, 60_000);
         });
         // It may look at no bound, but never at more faces than there are.
-        Assert.All(rows.Where(row => row("collider") == "simple"), row => Assert.Equal(("108", "0"), (row("face_tests"), row("bound_tests"))));
+        Assert.All(rows.Where(row => row("collider") == "simple"),
+            row => Assert.Equal(("108", "0"), (row("face_tests"), row("bound_tests"))));
         // The descent does err here, so that what is checked above is no triviality.
         Assert.Contains(rows, row => row("collider") == "fractal" && CsvText.Number(row("largest_error")) > 1e-3);
     }
@@ -103,12 +106,14 @@ public sealed class FrontTableTests : IDisposable
     {
         var shape = Tree(3);
         var faces = (8 * shape.Faces!.Positions.Length) + (4 * shape.Faces.VertexIndices.Length);
-        Assert.All(FrontRow.All(shape), row => Assert.Equal(row.Collider.StorageBytes + (row.Name is "exact" or "fractal" ? 0 : faces), row.Bytes));
+        Assert.All(FrontRow.All(shape),
+            row => Assert.Equal(row.Collider.StorageBytes + (row.Name is "exact" or "fractal" ? 0 : faces), row.Bytes));
     }
 
     [Fact]
     public void BuildMilliseconds_OfCollidersOfFaces_CountTheExpansion() => Assert.All(
-        FrontRow.All(Tree(2) with { ExpansionMilliseconds = 1e6 }), row => Assert.Equal(row.Name is not ("exact" or "fractal"), row.BuildMilliseconds >= 1e6));
+        FrontRow.All(Tree(2) with { ExpansionMilliseconds = 1e6 }),
+        row => Assert.Equal(row.Name is not ("exact" or "fractal"), row.BuildMilliseconds >= 1e6));
 
     [Theory]
     // A hundred times what counts as rounding.
@@ -122,19 +127,25 @@ public sealed class FrontTableTests : IDisposable
     public void Add_OfAColliderThatLies_Throws(bool isExact, double factor, double part)
     {
         var shape = Tree(2);
-        var message = Assert.Throws<InvalidDataException>(() => Measure(shape, isExact, 0, distance => (factor * distance) + (part * shape.Size))).Message;
+        var message =
+            Assert.Throws<InvalidDataException>(
+                () => Measure(shape, isExact, 0, distance => (factor * distance) + (part * shape.Size))).Message;
         Assert.Matches("^tree, liar epsilon 0, position 0: found [^ ]+ where every face gives [^ ]+$", message);
     }
 
     [Fact]
     public void Add_OfAnExactColliderThatFindsNothing_Throws() =>
-        Assert.Contains("found Infinity", Assert.Throws<InvalidDataException>(() => Measure(Tree(2), true, 0, _ => null)).Message, StringComparison.Ordinal);
+        Assert.Contains("found Infinity", Assert.Throws<InvalidDataException>(() => Measure(Tree(2), true, 0, _ => null)).Message,
+        StringComparison.Ordinal);
 
     [Fact]
     public void Add_OfAColliderThatLiesOnceOnly_Throws()
     {
         var count = 0;
-        var message = Assert.Throws<InvalidDataException>(() => Measure(Tree(2), true, 0, distance => ++count == Queries ? 0.99 * distance : distance)).Message;
+        var message =
+            Assert.Throws<InvalidDataException>(() => Measure(Tree(2), true, 0, distance => ++count == Queries
+            ? 0.99 * distance
+            : distance)).Message;
         Assert.Contains($"position {Queries - 1}:", message, StringComparison.Ordinal);
     }
 
@@ -161,7 +172,8 @@ public sealed class FrontTableTests : IDisposable
     public void Add_OfAnApproximateColliderThatFindsNothing_WritesThatItMissesAll()
     {
         var row = Measure(Tree(2), false, 0, _ => null).Named().Last();
-        Assert.Equal(("near", "Infinity", "Infinity", "100"), (row("queries"), row("largest_error"), row("mean_relative_error"), row("missed_percent")));
+        Assert.Equal(("near", "Infinity", "Infinity", "100"),
+            (row("queries"), row("largest_error"), row("mean_relative_error"), row("missed_percent")));
     }
 
     [Fact]
@@ -173,7 +185,8 @@ public sealed class FrontTableTests : IDisposable
     }
 
     private static FrontShape Tree(int depth) => ShapeOf(Samples.Repeated(
-        depth, Samples.MoveAndScale(1, 0, 0, 0.5), new(new(0, 2, 0), new(20, 40, 60), 0.6 * Vector.One), new(new(0, 0, 2), new(0, 0, 45), new(0.4, 0.5, -0.6))));
+        depth, Samples.MoveAndScale(1, 0, 0, 0.5), new(new(0, 2, 0), new(20, 40, 60), 0.6 * Vector.One),
+        new(new(0, 0, 2), new(0, 0, 45), new(0.4, 0.5, -0.6))));
 
     private static FrontShape ShapeOf(Fractal fractal) => new("tree", fractal, FractalGenerator.Flatten(fractal, 10_000), 0);
 
@@ -201,7 +214,8 @@ public sealed class FrontTableTests : IDisposable
         for (var i = 0; i < Queries; i++)
         {
             var position = make(random);
-            var right = Enumerable.Range(0, shape.Faces!.FaceCount).Min(face => shape.Faces.Face(face) switch { var (a, b, c) => FaceOracle.Distance(position, a, b, c) });
+            var right = Enumerable.Range(0, shape.Faces!.FaceCount)
+                .Min(face => shape.Faces.Face(face) switch { var (a, b, c) => FaceOracle.Distance(position, a, b, c) });
             descent.TryFindClosest(position, double.PositiveInfinity, record, out var closest);
             largest = Math.Max(largest, (closest.Distance - right) / shape.Size);
             sum += (closest.Distance - right) / shape.Size;
@@ -214,6 +228,7 @@ public sealed class FrontTableTests : IDisposable
     private static (double Largest, double Mean, double Missed) Written(CsvText table, string queries)
     {
         var row = table.Named().Single(row => (row("queries"), row("collider"), row("value")) == (queries, "fractal", "1"));
-        return (Math.Round(CsvText.Number(row("largest_error")), 12), Math.Round(CsvText.Number(row("mean_error")), 12), Math.Round(CsvText.Number(row("missed_percent")), 9));
+        return (Math.Round(CsvText.Number(row("largest_error")), 12), Math.Round(CsvText.Number(row("mean_error")), 12),
+            Math.Round(CsvText.Number(row("missed_percent")), 9));
     }
 }

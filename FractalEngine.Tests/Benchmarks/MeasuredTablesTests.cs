@@ -9,12 +9,15 @@ public partial class MeasuredTablesTests
 {
     private static readonly string Folder = Repository.Full("docs/benchmarks");
 
-    public static TheoryData<string> Tables => [.. Directory.GetFiles(Folder, "*.csv").Select(file => Path.GetFileName(file)).Order(StringComparer.Ordinal)];
+    public static TheoryData<string> Tables =>
+        [.. Directory.GetFiles(Folder, "*.csv").Select(file => Path.GetFileName(file)).Order(StringComparer.Ordinal)];
 
     public static TheoryData<string> Pages =>
     [
-        .. Directory.GetFiles(Repository.Full("docs"), "*.md", SearchOption.AllDirectories).Concat(Directory.GetFiles(Repository.Root, "*.md"))
-            .Append(Repository.Full("FractalEngine.Benchmarks/README.md")).Select(file => Path.GetRelativePath(Repository.Root, file)).Order(StringComparer.Ordinal),
+        .. Directory.GetFiles(Repository.Full("docs"), "*.md", SearchOption.AllDirectories)
+        .Concat(Directory.GetFiles(Repository.Root, "*.md"))
+            .Append(Repository.Full("FractalEngine.Benchmarks/README.md")).Select(file => Path.GetRelativePath(Repository.Root, file))
+            .Order(StringComparer.Ordinal),
     ];
 
     [Theory]
@@ -55,13 +58,15 @@ public partial class MeasuredTablesTests
             Assert.Equal(isMesh ? [] : ["1", "2", "4", "8", "16", "32", "64"], Places(group, "fractal"));
         });
 
-        static IEnumerable<string> Places(IEnumerable<Func<string, string>> rows, string collider) => rows.Where(row => row("collider") == collider).Select(row => row("value"));
+        static IEnumerable<string> Places(IEnumerable<Func<string, string>> rows, string collider) =>
+            rows.Where(row => row("collider") == collider).Select(row => row("value"));
     }
 
     [Fact]
     public void Front_OfExactColliders_HasErrorsOfRoundingOnly()
     {
-        var exact = Read("front.csv").Named().Where(row => row("collider") == "simple" || (row("knob"), row("value")) == ("epsilon", "0")).ToArray();
+        var exact = Read("front.csv").Named().Where(row => row("collider") == "simple" || (row("knob"), row("value")) == ("epsilon", "0"))
+            .ToArray();
         // Eight fractals, at least, have three such colliders, two meshes two, each asked for two kinds of positions.
         Assert.InRange(exact.Length, 2 * ((8 * 3) + (2 * 2)), 200);
         Assert.All(exact.Where(row => row("largest_error") != ""), row =>
@@ -96,13 +101,15 @@ public partial class MeasuredTablesTests
         Assert.InRange(Value("mean_relative_error"), 0, Value("largest_relative_error"));
         Assert.InRange(Value("missed_percent"), 0, 100);
         // What takes less than 5 µs to build is rounded to 0.
-        Assert.True(Value("query_ns") > 0 && Value("face_tests") > 0 && Value("bound_tests") >= 0 && Value("bytes") > 0 && Value("build_ms") >= 0, row("collider"));
+        Assert.True(Value("query_ns") > 0 && Value("face_tests") > 0 && Value("bound_tests") >= 0 && Value("bytes") > 0
+            && Value("build_ms") >= 0, row("collider"));
     });
 
     [Theory]
     [MemberData(nameof(Pages))]
     public void Page_LinksToWhatThereIs(string page) => Assert.All(
-        Link().Matches(File.ReadAllText(Repository.Full(page))).Select(match => match.Groups[1].Value).Where(link => !link.Contains("://", StringComparison.Ordinal)), link =>
+        Link().Matches(File.ReadAllText(Repository.Full(page))).Select(match => match.Groups[1].Value)
+        .Where(link => !link.Contains("://", StringComparison.Ordinal)), link =>
         {
             var target = Path.GetFullPath(Path.Combine(Repository.Root, Path.GetDirectoryName(page)!, link));
             Assert.True(File.Exists(target) || Directory.Exists(target), $"{page} links to {link}");

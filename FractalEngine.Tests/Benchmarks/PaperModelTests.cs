@@ -27,17 +27,22 @@ public partial class PaperModelTests
         var lines = File.ReadAllLines(file!);
         Assert.Equal(Row(lines, "Model ID"), PaperModel.All.Select(model => (double?)model.Id));
         Assert.Equal(Row(lines, "Face count (complexity of mesh)"), PaperModel.All.Select(model => (double?)model.Faces));
-        Assert.Equal(Row(lines, "Rendering cost (average load time for 10 attempts in seconds)"), PaperModel.All.Select(model => (double?)model.LoadSeconds));
+        Assert.Equal(Row(lines, "Rendering cost (average load time for 10 attempts in seconds)"),
+            PaperModel.All.Select(model => (double?)model.LoadSeconds));
         Assert.Equal(Row(lines, "Storage (bytes)"), PaperModel.All.Select(model => (double?)model.StorageBytes));
-        Assert.Equal(Row(lines, "Collision cost (number of closest point on face calculations)"), PaperModel.All.Select(model => (double?)(model.FractalCost ?? model.Faces)));
+        Assert.Equal(Row(lines, "Collision cost (number of closest point on face calculations)"),
+            PaperModel.All.Select(model => (double?)(model.FractalCost ?? model.Faces)));
         Assert.Equal(Row(lines, "Simple collider collision cost"), PaperModel.All.Select(model => (double?)model.Faces));
         Assert.Equal(Row(lines, "Fractal collider collision cost"), PaperModel.All.Select(model => (double?)model.FractalCost));
         Assert.Equal(Row(lines, "Bounding box collider collision cost"), PaperModel.All.Select(model => (double?)model.BoxCost));
         Assert.Equal(Cells(lines, "Fractal? (Y/N)"), PaperModel.All.Select(model => model.Shape is null ? "N" : "Y"));
         // As in 168,070 (10*7^5).
         Assert.Equal(
-            Cells(lines, "Face count (complexity of mesh)").Select(cell => Shape().Match(cell) switch { { Success: true } match => match.Value, _ => "" }),
-            PaperModel.All.Select(model => model.Shape is var (faces, maps, depth) ? FormattableString.Invariant($"{faces}*{maps}^{depth}") : ""));
+            Cells(lines, "Face count (complexity of mesh)")
+            .Select(cell => Shape().Match(cell) switch { { Success: true } match => match.Value, _ => "" }),
+            PaperModel.All.Select(model => model.Shape is var (faces, maps, depth)
+            ? FormattableString.Invariant($"{faces}*{maps}^{depth}")
+            : ""));
     }
 
     [Theory]
@@ -50,7 +55,8 @@ public partial class PaperModelTests
         var fractal = FractalOf(model);
         Assert.Equal((faces, model.Faces), (fractal.BaseMesh.FaceCount, fractal.FaceCount));
         // The diamond is of two sets and a turn: three levels are one of the paper's.
-        var levels = Enumerable.Range(0, (int)fractal.LevelCount!).Select(level => fractal.LevelAt(level).Maps.Length).Chunk((int)fractal.LevelCount / depth).ToArray();
+        var levels = Enumerable.Range(0, (int)fractal.LevelCount!).Select(level => fractal.LevelAt(level).Maps.Length)
+            .Chunk((int)fractal.LevelCount / depth).ToArray();
         Assert.Equal(depth, levels.Length);
         Assert.All(levels, counts => Assert.Equal(maps, counts.Aggregate((product, count) => product * count)));
     }
@@ -68,7 +74,8 @@ public partial class PaperModelTests
     public void FormulaOfFractal_OfAMesh_IsNone() => Assert.All(PaperModel.All[..2], model => Assert.Null(model.FormulaOfFractal));
 
     [Fact]
-    public void FormulaOfBoxes_IsWhatThePaperPrints() => Assert.All(PaperModel.All, model => Assert.Equal(model.BoxCost, (long)Math.Round(model.FormulaOfBoxes)));
+    public void FormulaOfBoxes_IsWhatThePaperPrints() =>
+        Assert.All(PaperModel.All, model => Assert.Equal(model.BoxCost, (long)Math.Round(model.FormulaOfBoxes)));
 
     [Fact]
     public void NoteOnFigure17_SaysWhereThePaperDisagreesWithItself()
@@ -82,8 +89,10 @@ public partial class PaperModelTests
     [MemberData(nameof(Cultures))]
     public void NoteOnFigure18_InAnyCulture_NamesTheLevelsThatNoOctreeHas(string culture)
     {
-        Assert.Equal("the paper's 1736 is 8·12·18.08 rounded: no octree has 18.08 levels", InCulture.Get(culture, () => PaperModel.All[0].NoteOnFigure18));
-        Assert.EndsWith("17.36 levels; " + Sierpinski.NoteOnFigure17, InCulture.Get(culture, () => Sierpinski.NoteOnFigure18), StringComparison.Ordinal);
+        Assert.Equal("the paper's 1736 is 8·12·18.08 rounded: no octree has 18.08 levels",
+            InCulture.Get(culture, () => PaperModel.All[0].NoteOnFigure18));
+        Assert.EndsWith("17.36 levels; " + Sierpinski.NoteOnFigure17, InCulture.Get(culture, () => Sierpinski.NoteOnFigure18),
+            StringComparison.Ordinal);
     }
 
     private static Fractal FractalOf(PaperModel model) => ((FractalModel)PaperModel.ModelOf(PaperModel.Load(model.FileIn("")))).Fractal;
@@ -95,7 +104,8 @@ public partial class PaperModelTests
         _ => (double?)null,
     })];
 
-    private static string[] Cells(string[] lines, string label) => lines.First(line => line.StartsWith(label + "\t", StringComparison.Ordinal)).Split('\t')[1..];
+    private static string[] Cells(string[] lines, string label) =>
+        lines.First(line => line.StartsWith(label + "\t", StringComparison.Ordinal)).Split('\t')[1..];
 
     [GeneratedRegex(@"\d[\d,]*(\.\d+)?")]
     private static partial Regex Number();

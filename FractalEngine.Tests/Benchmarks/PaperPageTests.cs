@@ -3,7 +3,10 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Benchmarks;
 
-/// <summary>The tables of docs/benchmarks/paper.md beside the files that they are from: a number is the file's, rounded to as many decimals as are printed.</summary>
+/// <summary>
+/// The tables of docs/benchmarks/paper.md beside the files that they are from: a number is the file's, rounded to as many decimals as are
+/// printed.
+/// </summary>
 public class PaperPageTests
 {
     private static readonly string Folder = Repository.Full("docs/benchmarks");
@@ -28,7 +31,8 @@ public class PaperPageTests
     public void TimesOfFigure17_OnThePage_AreOfTheOrderOfTheFiles(string label, string column)
     {
         var measured = CsvText.Read(Path.Combine(Folder, "paper-figure17.csv")).Column(column).Select(CsvText.Number).ToArray();
-        Assert.All(Cells(label).Zip(measured, (printed, number) => double.Parse(printed, CultureInfo.InvariantCulture) / number), ratio => Assert.InRange(ratio, 0.2, 5));
+        Assert.All(Cells(label).Zip(measured, (printed, number) => double.Parse(printed, CultureInfo.InvariantCulture) / number),
+            ratio => Assert.InRange(ratio, 0.2, 5));
         Assert.Equal(5, measured.Length);
     }
 
@@ -42,7 +46,8 @@ public class PaperPageTests
     [InlineData("our default: faces + bounds", "own_collider_faces", "own_collider_bounds")]
     [InlineData("wrong answers, fractal (%)", "fractal_wrong_percent")]
     [InlineData("wrong answers, bounding boxes (%)", "boxes_wrong_percent")]
-    public void Figure18_OnThePage_IsThatOfTheFile(string label, params string[] columns) => AssertSame("paper-figure18.csv", label, columns);
+    public void Figure18_OnThePage_IsThatOfTheFile(string label, params string[] columns) =>
+        AssertSame("paper-figure18.csv", label, columns);
 
     [Fact]
     public void LevelsOfFigure18_OnThePage_AddUp()
@@ -50,7 +55,8 @@ public class PaperPageTests
         var table = CsvText.Read(Path.Combine(Folder, "paper-figure18.csv"));
         var cells = Cells("= 96·levels + faces of the leaf").ToArray();
         Assert.Equal(table.Column("box_depth").Select(depth => $"96·{depth} + 1"), cells);
-        Assert.Equal(table.Column("boxes").Select(CsvText.Number), table.Column("box_depth").Select(depth => (96 * CsvText.Number(depth)) + 1));
+        Assert.Equal(table.Column("boxes").Select(CsvText.Number), table.Column("box_depth")
+            .Select(depth => (96 * CsvText.Number(depth)) + 1));
     }
 
     private static void AssertSame(string file, string label, params string[] columns)
@@ -62,7 +68,8 @@ public class PaperPageTests
         {
             var numbers = cells[model].Split(" + ");
             Assert.Equal(columns.Length, numbers.Length);
-            Assert.All(columns.Zip(numbers), pair => AssertRounded(pair.Second, table.Column(pair.First)[model], $"{label}, model {model + 1}"));
+            Assert.All(columns.Zip(numbers),
+                pair => AssertRounded(pair.Second, table.Column(pair.First)[model], $"{label}, model {model + 1}"));
         }
     }
 
@@ -74,12 +81,17 @@ public class PaperPageTests
             return;
         }
 
-        var decimals = printed.Contains('.', StringComparison.Ordinal) ? printed.Length - printed.IndexOf('.', StringComparison.Ordinal) - 1 : 0;
+        var decimals = printed.Contains('.', StringComparison.Ordinal)
+            ? printed.Length - printed.IndexOf('.', StringComparison.Ordinal) - 1
+            : 0;
         var number = decimal.Parse(printed, NumberStyles.AllowThousands | NumberStyles.AllowDecimalPoint, CultureInfo.InvariantCulture);
-        Assert.Equal((Math.Round(decimal.Parse(field, NumberStyles.Float, CultureInfo.InvariantCulture), decimals, MidpointRounding.AwayFromZero), where), (number, where));
+        Assert.Equal(
+            (Math.Round(decimal.Parse(field, NumberStyles.Float, CultureInfo.InvariantCulture), decimals, MidpointRounding.AwayFromZero),
+            where), (number, where));
     }
 
     /// <summary>Of the only row with this label; without what follows an equals sign, as in 168,070 = 10·7⁵, and without stars.</summary>
     private static IEnumerable<string> Cells(string label) =>
-        Page.Single(line => line.StartsWith($"| {label} |", StringComparison.Ordinal)).Split('|')[2..^1].Select(cell => cell.Split('=')[0].Trim().Trim('*'));
+        Page.Single(line => line.StartsWith($"| {label} |", StringComparison.Ordinal))
+        .Split('|')[2..^1].Select(cell => cell.Split('=')[0].Trim().Trim('*'));
 }

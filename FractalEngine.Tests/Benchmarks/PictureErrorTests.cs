@@ -6,7 +6,8 @@ namespace FractalEngine.Tests.Benchmarks;
 public class PictureErrorTests
 {
     [Fact]
-    public void Ratio_OfEqualPictures_IsInfinite() => Assert.Equal(double.PositiveInfinity, PictureError.Ratio(Grey(4, 3, 100), Grey(4, 3, 100)));
+    public void Ratio_OfEqualPictures_IsInfinite() =>
+        Assert.Equal(double.PositiveInfinity, PictureError.Ratio(Grey(4, 3, 100), Grey(4, 3, 100)));
 
     [Theory]
     // 20·log₁₀(255 / difference).

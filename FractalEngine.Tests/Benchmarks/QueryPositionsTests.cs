@@ -28,7 +28,8 @@ public class QueryPositionsTests
     public void Near_OfAMesh_IsUpToOnePercentAwayAlongEachAxis() => AssertNear(Draw(random => QueryPositions.Near(random, Soup)), Soup);
 
     [Fact]
-    public void Near_OfAFractal_IsUpToOnePercentAwayAlongEachAxis() => AssertNear(Draw(random => QueryPositions.Near(random, Sponge)), FractalGenerator.Flatten(Sponge, 10_000));
+    public void Near_OfAFractal_IsUpToOnePercentAwayAlongEachAxis() =>
+        AssertNear(Draw(random => QueryPositions.Near(random, Sponge)), FractalGenerator.Flatten(Sponge, 10_000));
 
     [Fact]
     public void OnSurface_OfAFractal_IsOnAFaceOfEveryInstance()
@@ -50,7 +51,8 @@ public class QueryPositionsTests
     public void OnSurface_OfADeepFractal_EndsWhereCoordinatesDo()
     {
         var deep = FractalCase.Load("sierpinski", 1_000_000).Fractal;
-        Assert.All(Draw(random => QueryPositions.OnSurface(random, deep)), position => Assert.InRange(deep.Bounds.DistanceSquared(position), 0, 1e-20 * deep.Bounds.Diagonal));
+        Assert.All(Draw(random => QueryPositions.OnSurface(random, deep)),
+            position => Assert.InRange(deep.Bounds.DistanceSquared(position), 0, 1e-20 * deep.Bounds.Diagonal));
     }
 
     [Fact]
@@ -70,7 +72,8 @@ public class QueryPositionsTests
     {
         foreach (var make in (Func<Random, Vector>[])
         [
-            random => QueryPositions.Uniform(random, Box), random => QueryPositions.Far(random, Box), random => QueryPositions.Near(random, Soup), random => QueryPositions.Near(random, Sponge),
+            random => QueryPositions.Uniform(random, Box), random => QueryPositions.Far(random, Box),
+            random => QueryPositions.Near(random, Soup), random => QueryPositions.Near(random, Sponge),
         ])
         {
             Assert.Equal(Draw(make), Draw(make));
@@ -87,7 +90,9 @@ public class QueryPositionsTests
     {
         var (simple, record) = (new SimpleCollider(mesh), new QueryContext());
         var most = 0.01 * mesh.Bounds.Diagonal;
-        var distances = positions.Select(position => simple.TryFindClosest(position, double.PositiveInfinity, record, out var closest) ? closest.Distance : double.NaN).ToArray();
+        var distances = positions.Select(position => simple.TryFindClosest(position, double.PositiveInfinity, record, out var closest)
+            ? closest.Distance
+            : double.NaN).ToArray();
         // A cube's corner is the farthest from its centre. Who is always on the surface, or always far, is not near.
         Assert.All(distances, distance => Assert.InRange(distance, 0, 1.7320508075688774 * most));
         Assert.InRange(distances.Average(), 0.1 * most, most);
@@ -95,7 +100,8 @@ public class QueryPositionsTests
 
     private static void AssertInAllOctants(Vector[] positions, Vector centre)
     {
-        var octants = positions.Select(position => position - centre).GroupBy(v => (v.X > 0, v.Y > 0, v.Z > 0)).Select(group => group.Count()).ToArray();
+        var octants = positions.Select(position => position - centre).GroupBy(v => (v.X > 0, v.Y > 0, v.Z > 0))
+            .Select(group => group.Count()).ToArray();
         Assert.Equal(8, octants.Length);
         // Each has 125 of 1000 on average, with a deviation of 10.
         Assert.All(octants, count => Assert.InRange(count, 85, 165));

@@ -24,7 +24,8 @@ public class RationalTests
     public void Of_AnyDouble_IsWhatItsDecimalsSay() => Laws.Hold(Laws.AnyFinite, x =>
     {
         // So many decimals write every double exactly; they are no work of the code under test.
-        var decimals = BigInteger.Parse(x.ToString($"F{Exponent}", CultureInfo.InvariantCulture).Replace(".", "", StringComparison.Ordinal), CultureInfo.InvariantCulture);
+        var decimals = BigInteger.Parse(x.ToString($"F{Exponent}", CultureInfo.InvariantCulture).Replace(".", "", StringComparison.Ordinal),
+            CultureInfo.InvariantCulture);
         return Is(Rational.Of(x), decimals, Tens);
     });
 
@@ -34,19 +35,22 @@ public class RationalTests
     [InlineData(6, 6, 1)]
     [InlineData(-0.0, 0, 1)]
     [InlineData(9007199254740993, 9007199254740992, 1)]
-    public void Of_ADouble_IsItsFraction(double x, long numerator, long denominator) => Assert.Equal(new(numerator, denominator), Rational.Of(x));
+    public void Of_ADouble_IsItsFraction(double x, long numerator, long denominator) =>
+        Assert.Equal(new(numerator, denominator), Rational.Of(x));
 
     [Theory]
     [InlineData(double.NaN)]
     [InlineData(double.PositiveInfinity)]
     [InlineData(double.NegativeInfinity)]
-    public void Of_WhatIsNoNumber_Throws(double number) => Assert.Throws<ArgumentOutOfRangeException>(nameof(number), () => Rational.Of(number));
+    public void Of_WhatIsNoNumber_Throws(double number) =>
+        Assert.Throws<ArgumentOutOfRangeException>(nameof(number), () => Rational.Of(number));
 
     [Fact]
     public void Operators_OfAnyDoubles_AreThoseOfWholeNumbers() => Laws.Hold(Laws.AnyFinite.Zip(NotZero), pair =>
     {
         var ((x, y), (r, s)) = ((Whole(pair.Item1), Whole(pair.Item2)), (Rational.Of(pair.Item1), Rational.Of(pair.Item2)));
-        return Is(r + s, x + y, Unit) && Is(r - s, x - y, Unit) && Is(r * s, x * y, Unit * Unit) && Is(r / s, x * y.Sign, BigInteger.Abs(y));
+        return Is(r + s, x + y, Unit) && Is(r - s, x - y, Unit) && Is(r * s, x * y, Unit * Unit)
+            && Is(r / s, x * y.Sign, BigInteger.Abs(y));
     });
 
     [Fact]

@@ -19,7 +19,8 @@ internal static class AssetFractals
     {
         var fractal = Load(name);
         var recursion = fractal.Description.Steps.OfType<Repetition>().First();
-        return new(fractal.Description with { Steps = fractal.Description.Steps.Replace(recursion, recursion.WithCount(depth)) }, fractal.BaseMesh);
+        return new(fractal.Description with { Steps = fractal.Description.Steps.Replace(recursion, recursion.WithCount(depth)) },
+            fractal.BaseMesh);
     }
 
     private static string Find()

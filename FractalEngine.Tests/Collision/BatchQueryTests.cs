@@ -59,12 +59,16 @@ public class BatchQueryTests
     {
         var (answers, record) = (new BatchResult[3], new QueryContext());
         var positions = new Vector[3];
-        Assert.Throws<ArgumentException>("answers", () => BatchQuery.FindClosest(Collider, positions, answers.AsMemory(1), record));
-        Assert.Throws<ArgumentOutOfRangeException>("within", () => BatchQuery.FindClosest(Collider, positions, answers, record, maxDistance: -1));
-        Assert.Throws<ArgumentOutOfRangeException>("epsilon", () => BatchQuery.FindClosest(Collider, positions, answers, record, epsilon: double.NaN));
-        Assert.Throws<ArgumentOutOfRangeException>("threads", () => BatchQuery.FindClosest(Collider, positions, answers, record, threads: 0));
+        Assert.Throws<ArgumentException>("results", () => BatchQuery.FindClosest(Collider, positions, answers.AsMemory(1), record));
+        Assert.Throws<ArgumentOutOfRangeException>("maxDistance",
+            () => BatchQuery.FindClosest(Collider, positions, answers, record, maxDistance: -1));
+        Assert.Throws<ArgumentOutOfRangeException>("epsilon",
+            () => BatchQuery.FindClosest(Collider, positions, answers, record, epsilon: double.NaN));
+        Assert.Throws<ArgumentOutOfRangeException>("threads",
+            () => BatchQuery.FindClosest(Collider, positions, answers, record, threads: 0));
         positions[2] = new(0, double.NaN, 0);
-        var error = Assert.Throws<ArgumentOutOfRangeException>("positions", () => BatchQuery.FindClosest(Collider, positions, answers, record));
+        var error =
+            Assert.Throws<ArgumentOutOfRangeException>("positions", () => BatchQuery.FindClosest(Collider, positions, answers, record));
         Assert.StartsWith("expected finite coordinates at index 2", error.Message, StringComparison.Ordinal);
     }
 

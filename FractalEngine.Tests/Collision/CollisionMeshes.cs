@@ -28,7 +28,8 @@ internal static class CollisionMeshes
         ["rough grid"] = () => Grid(40, (x, y) => Math.Sin(x) * Math.Cos(y)),
         ["coincident faces"] = () => Repeat(Soup(12, 1, 1), 300),
         ["points"] = () => Repeat(FromFaces([(Vector.One, Vector.One, Vector.One)]), 100),
-        ["sizes from 1e-15 to 1"] = () => FromFaces(Enumerable.Range(0, 200).Select(i => Math.Pow(0.84, i)).Select(s => (s * Vector.I, s * Vector.J, s * Vector.K))),
+        ["sizes from 1e-15 to 1"] = () => FromFaces(Enumerable.Range(0, 200).Select(i => Math.Pow(0.84, i))
+        .Select(s => (s * Vector.I, s * Vector.J, s * Vector.K))),
         ["sphere"] = () => MeshGenerators.Create("icosphere", 1, 1280),
         ["terrain"] = () => MeshGenerators.Create("terrain", 1, 5000),
         ["knot"] = () => MeshGenerators.Create("torus-knot", 1, 4000),
@@ -71,11 +72,14 @@ internal static class CollisionMeshes
     private static Mesh Nasty(int seed, int faces) => new Random(seed) switch
     {
         // Those that stand at the scale of 1, so that one mesh holds them all.
-        var random => FromFaces(Enumerable.Range(0, int.MaxValue).Select(_ => NastyFace.Random(random)).Where(face => face.Magnitude is > 0.1 and < 10)
+        var random =>
+            FromFaces(Enumerable.Range(0, int.MaxValue).Select(_ => NastyFace.Random(random))
+            .Where(face => face.Magnitude is > 0.1 and < 10)
             .Take(faces).Select(face => (face.A, face.B, face.C))),
     };
 
-    private static Mesh Repeat(Mesh mesh, int times) => new(mesh.Positions, [.. Enumerable.Repeat(mesh.VertexIndices, times).SelectMany(faces => faces)]);
+    private static Mesh Repeat(Mesh mesh, int times) =>
+        new(mesh.Positions, [.. Enumerable.Repeat(mesh.VertexIndices, times).SelectMany(faces => faces)]);
 
     private static Mesh FromFaces(IEnumerable<(Vector A, Vector B, Vector C)> faces)
     {
@@ -84,7 +88,8 @@ internal static class CollisionMeshes
     }
 
     private static Mesh Grid(int side, Func<double, double, double> height) => new(
-        [.. from i in Enumerable.Range(0, side + 1) from j in Enumerable.Range(0, side + 1) from x in new[] { i, height(i, j), j } select x],
+        [.. from i in Enumerable.Range(0, side + 1) from j in Enumerable.Range(0, side + 1) from x in new[] { i, height(i, j),
+        j } select x],
         [.. from i in Enumerable.Range(0, side)
             from j in Enumerable.Range(0, side)
             let corner = (i * (side + 1)) + j

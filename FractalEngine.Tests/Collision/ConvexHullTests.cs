@@ -24,12 +24,14 @@ public class ConvexHullTests
         foreach (var point in points)
         {
             var distance = hull.DistanceUpperBound(point);
-            Assert.True(distance <= hull.MaxOutsideDistance + rounding, FormattableString.Invariant($"{point} lies {distance} out of the hull, which says {hull.MaxOutsideDistance}"));
+            Assert.True(distance <= hull.MaxOutsideDistance + rounding,
+                FormattableString.Invariant($"{point} lies {distance} out of the hull, which says {hull.MaxOutsideDistance}"));
             foreach (var plane in hull.Planes)
             {
                 // Beyond a plane by no more than beyond the hull.
                 var height = Vector.Dot(plane.Normal, point) - plane.Offset;
-                Assert.True(height <= hull.MaxOutsideDistance + rounding, FormattableString.Invariant($"{point} lies {height} above a plane, {hull.MaxOutsideDistance} is missed"));
+                Assert.True(height <= hull.MaxOutsideDistance + rounding,
+                    FormattableString.Invariant($"{point} lies {height} above a plane, {hull.MaxOutsideDistance} is missed"));
             }
         }
     });
@@ -42,7 +44,8 @@ public class ConvexHullTests
         foreach (var plane in hull.Planes)
         {
             Assert.Equal(1, plane.Normal.Length(), 1e-12);
-            Assert.All(hull.Vertices, vertex => Assert.True(Vector.Dot(plane.Normal, vertex) <= plane.Offset, $"{vertex} is above {plane}"));
+            Assert.All(hull.Vertices,
+                vertex => Assert.True(Vector.Dot(plane.Normal, vertex) <= plane.Offset, $"{vertex} is above {plane}"));
             Assert.True(hull.Support(plane.Normal) <= plane.Offset);
         }
     });

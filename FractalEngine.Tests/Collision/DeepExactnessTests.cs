@@ -4,7 +4,9 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Collision;
 
-/// <summary>The exact collider where a fractal has too many faces to list: against the greedy one, a beam, and plain branch and bound with balls.</summary>
+/// <summary>
+/// The exact collider where a fractal has too many faces to list: against the greedy one, a beam, and plain branch and bound with balls.
+/// </summary>
 public class DeepExactnessTests
 {
     private const int BeamWidth = 64;
@@ -16,7 +18,8 @@ public class DeepExactnessTests
         get
         {
             var data = new TheoryData<string, int?>();
-            foreach (var name in new[] { "sierpinski", "tetrahedron", "menger", "googol", "tree-leaves", "tree", "snowflake", "diamond", "romanesco", "fern", "appendix-b" })
+            foreach (var name in new[] { "sierpinski", "tetrahedron", "menger", "googol", "tree-leaves", "tree", "snowflake", "diamond",
+                "romanesco", "fern", "appendix-b" })
             {
                 data.Add(name, 20);
                 data.Add(name, 60);
@@ -84,9 +87,11 @@ public class DeepExactnessTests
 
                 probe.CheckWithin(position, record, closest.Distance);
                 greedy.TryFindClosest(position, double.PositiveInfinity, record, out var other);
-                probe.Require(closest.Distance <= other.Distance + tolerance, position, $"distance {closest.Distance:R}, though greedily {other.Distance:R}");
+                probe.Require(closest.Distance <= other.Distance + tolerance, position,
+                    $"distance {closest.Distance:R}, though greedily {other.Distance:R}");
                 var beam = seed % 4 == 0 ? oracle.NearestOfBeam(position, BeamWidth) : double.PositiveInfinity;
-                probe.Require(closest.Distance <= beam + tolerance, position, $"distance {closest.Distance:R}, though {beam:R} by beam search");
+                probe.Require(closest.Distance <= beam + tolerance, position,
+                    $"distance {closest.Distance:R}, though {beam:R} by beam search");
             });
             return record;
         }, _ => { });

@@ -6,8 +6,8 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Tests.Collision;
 
 /// <summary>
-/// The nearest distance on a fractal of one recursion, at any depth, by means that share nothing with the colliders: a round is one set of chained maps,
-/// one ball holds the fractal at every depth, and balls of copies are looked at in the order of their distances.
+/// The nearest distance on a fractal of one recursion, at any depth, by means that share nothing with the colliders: a round is one set of
+/// chained maps, one ball holds the fractal at every depth, and balls of copies are looked at in the order of their distances.
 /// </summary>
 internal sealed class DeepOracle
 {
@@ -87,7 +87,8 @@ internal sealed class DeepOracle
 
         return within;
 
-        void Enqueue(Node node) => Add(node, Math.Max(0, (position - (node.Map * _centre)).Length() - (node.Ratio * _radius * (1 + 1e-12))));
+        void Enqueue(Node node) =>
+            Add(node, Math.Max(0, (position - (node.Map * _centre)).Length() - (node.Ratio * _radius * (1 + 1e-12))));
 
         void Add(Node node, double distance)
         {
@@ -99,7 +100,9 @@ internal sealed class DeepOracle
         }
     }
 
-    /// <summary>The nearest of what is found by going down into the copies whose balls' centres are nearest, so many at each round.</summary>
+    /// <summary>
+    /// The nearest of what is found by going down into the copies whose balls' centres are nearest, so many at each round.
+    /// </summary>
     public double NearestOfBeam(Vector position, int width)
     {
         var nearest = double.PositiveInfinity;
@@ -128,7 +131,9 @@ internal sealed class DeepOracle
     private double NearestOfBase(Vector position, AffineMap map) =>
         Math.Sqrt(_base.Min(face => TriangleKernel.ClosestPoint(position, map * face.A, map * face.B, map * face.C).DistanceSquared));
 
-    /// <summary>All maps of some steps, each with a factor by which it lengthens at most: a transformation stretches along axes, then turns.</summary>
+    /// <summary>
+    /// All maps of some steps, each with a factor by which it lengthens at most: a transformation stretches along axes, then turns.
+    /// </summary>
     private static (AffineMap Map, double Ratio)[] Chains(ImmutableArray<FractalStep> steps)
     {
         (AffineMap Map, double Ratio)[] chains = [(AffineMap.Identity, 1)];

@@ -40,8 +40,10 @@ public class ExactFractalAttackTests
             foreach (var epsilon in new[] { 0.01, 0.5, 3 })
             {
                 var found = probe.Exact.TryFindClosest(position, double.PositiveInfinity, record, out var near, epsilon);
-                probe.Require(found && near.Distance <= ((1 + epsilon) * exact.Distance) + tolerance, position, $"ε = {epsilon} gives {near.Distance:R}, not {exact.Distance:R}");
-                probe.Require(near.Distance >= exact.Distance - tolerance, position, $"ε = {epsilon} gives {near.Distance:R}, though the nearest is {exact.Distance:R}");
+                probe.Require(found && near.Distance <= ((1 + epsilon) * exact.Distance) + tolerance, position,
+                    $"ε = {epsilon} gives {near.Distance:R}, not {exact.Distance:R}");
+                probe.Require(near.Distance >= exact.Distance - tolerance, position,
+                    $"ε = {epsilon} gives {near.Distance:R}, though the nearest is {exact.Distance:R}");
             }
         });
     }
@@ -58,7 +60,8 @@ public class ExactFractalAttackTests
             Assert.True(probe.Exact.TryFindClosest(position, double.PositiveInfinity, record, out var closest));
             probe.CheckWithin(position, record, closest.Distance);
             // Exactly the distance: rounding may go either way, but what is found is within it.
-            probe.Require(!probe.Exact.TryFindClosest(position, closest.Distance, record, out var again) || again.Distance <= closest.Distance, position, $"{again.Distance:R} within {closest.Distance:R}");
+            probe.Require(!probe.Exact.TryFindClosest(position, closest.Distance, record, out var again)
+                || again.Distance <= closest.Distance, position, $"{again.Distance:R} within {closest.Distance:R}");
         });
     }
 
@@ -68,7 +71,9 @@ public class ExactFractalAttackTests
     [InlineData(1)]
     public void Find_OnASmallStack_EndsOnAFractalThatHardlyShrinks(int others)
     {
-        Transformation[] maps = [new(Vector.Zero, new(0, 10, 0), 0.985 * Vector.One), others == 0 ? Transformation.Identity : Samples.MoveAndScale(5, 1, 0, 0.05)];
+        Transformation[] maps = [new(Vector.Zero, new(0, 10, 0), 0.985 * Vector.One), others == 0
+            ? Transformation.Identity
+            : Samples.MoveAndScale(5, 1, 0, 0.05)];
         Assert.Null(OnASmallStack(Samples.Repeated(null, maps)));
     }
 

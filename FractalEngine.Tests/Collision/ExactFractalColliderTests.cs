@@ -78,7 +78,8 @@ public class ExactFractalColliderTests
         if (collider.TryFindClosest(position, double.PositiveInfinity, record, out var exact))
         {
             Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, record, out var near, 0.25));
-            Assert.InRange(near.Distance, exact.Distance - (Tolerance * fractal.Bounds.Diagonal), (1.25 * exact.Distance) + (Tolerance * fractal.Bounds.Diagonal));
+            Assert.InRange(near.Distance, exact.Distance - (Tolerance * fractal.Bounds.Diagonal), (1.25 * exact.Distance)
+                + (Tolerance * fractal.Bounds.Diagonal));
         }
     });
 
@@ -148,14 +149,16 @@ public class ExactFractalColliderTests
     public void Find_OnTheEmptyFractal_FindsNothing()
     {
         Fractal[] empty = [new(new("base.obj", [new TransformationSet([])]), Samples.Tetrahedron), new(new("base.obj", []), Mesh.Empty)];
-        Assert.All(empty, fractal => Assert.False(new ExactFractalCollider(fractal).TryFindClosest(Vector.Zero, double.PositiveInfinity, new(), out _)));
+        Assert.All(empty,
+            fractal => Assert.False(new ExactFractalCollider(fractal).TryFindClosest(Vector.Zero, double.PositiveInfinity, new(), out _)));
     }
 
     [Fact]
     public void Create_OfAFractalBeyondADouble_NamesTheLevel()
     {
         var growing = Samples.Repeated(3000, new Transformation(Vector.I, Vector.Zero, 2 * Vector.One), Transformation.Identity);
-        Assert.Contains("levels above its base", Assert.Throws<FractalLimitException>(() => new ExactFractalCollider(growing)).Message, StringComparison.Ordinal);
+        Assert.Contains("levels above its base", Assert.Throws<FractalLimitException>(() => new ExactFractalCollider(growing)).Message,
+            StringComparison.Ordinal);
     }
 
     private static Fractal Sponge(int? depth)
@@ -172,7 +175,11 @@ public class ExactFractalColliderTests
     private static Vector Position(Random random, Fractal fractal)
     {
         var box = fractal.Bounds;
-        var anywhere = box.IsEmpty ? Vector.Zero : box.Centre + (box.Size + (0.01 * Vector.One)).Stretch(1.5 * new Vector(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5));
+        var anywhere = box.IsEmpty
+            ? Vector.Zero
+            : box.Centre
+            + (box.Size + (0.01 * Vector.One)).Stretch(1.5
+                * new Vector(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5));
         if (random.Next(3) == 0 || fractal.InstanceCount == 0)
         {
             return anywhere;
@@ -192,7 +199,8 @@ public class ExactFractalColliderTests
         if (found)
         {
             var size = Math.Max(fractal.Bounds.Diagonal, position.MaxAbsComponent());
-            Assert.True(Math.Abs(closest.Distance - expected.Distance) <= Tolerance * size, $"{closest.Distance} instead of {expected.Distance} from {position}");
+            Assert.True(Math.Abs(closest.Distance - expected.Distance) <= Tolerance * size,
+                $"{closest.Distance} instead of {expected.Distance} from {position}");
             Assert.Equal(closest.Distance, (closest.Point - position).Length(), Tolerance * size);
             Assert.Equal(1, closest.Normal.Length(), 1e-12);
         }

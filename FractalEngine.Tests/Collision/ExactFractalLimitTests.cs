@@ -29,15 +29,16 @@ public class ExactFractalLimitTests
                 {
                     var found = probe.Exact.TryFindClosest(position, within, record, out var near, epsilon);
                     probe.Require(found, position, $"ε = {epsilon} finds nothing within {within:R}, though it is at {exact.Distance:R}");
-                    probe.Require(near.Distance <= within && near.Distance <= ((1 + epsilon) * exact.Distance) + tolerance, position, $"ε = {epsilon} gives {near.Distance:R} within {within:R}");
+                    probe.Require(near.Distance <= within && near.Distance <= ((1 + epsilon) * exact.Distance) + tolerance, position,
+                        $"ε = {epsilon} gives {near.Distance:R} within {within:R}");
                 }
             }
         });
     }
 
     /// <summary>
-    /// Where copies are opened several levels at once, those of the first levels above the ones that are written out reach below the round that
-    /// stands for all above: there the bounds are not yet those of the round.
+    /// Where copies are opened several levels at once, those of the first levels above the ones that are written out reach below the round
+    /// that stands for all above: there the bounds are not yet those of the round.
     /// </summary>
     [Theory]
     [InlineData(0.5)]
@@ -50,8 +51,12 @@ public class ExactFractalLimitTests
         var mesh = Samples.Tetrahedron.Transform(v => 3 * v);
         for (var depth = 3; depth <= 40; depth++)
         {
-            var fractal = new Fractal(Samples.Repeated(depth, Samples.MoveAndScale(0, 0, 0, ratio), Samples.MoveAndScale(1 - ratio, 0, 0, ratio)).Description, mesh);
-            var (probe, oracle, record) = (new FractalProbe($"two of {ratio} at depth {depth}", fractal), new DeepOracle(fractal), new QueryContext());
+            var fractal =
+                new Fractal(
+                    Samples.Repeated(depth, Samples.MoveAndScale(0, 0, 0, ratio), Samples.MoveAndScale(1 - ratio, 0, 0, ratio)).Description,
+                    mesh);
+            var (probe, oracle, record) = (new FractalProbe($"two of {ratio} at depth {depth}", fractal), new DeepOracle(fractal),
+                new QueryContext());
             Seeded.Run(40, random =>
             {
                 var position = random.Next(2) == 0 ? random.Vector(2) : FractalPositions.Draw(random, fractal);
@@ -72,8 +77,11 @@ public class ExactFractalLimitTests
     public void Find_OnABaseMuchLargerThanTheFractal_IsExactForTheFractal(double larger)
     {
         var mesh = Samples.Tetrahedron.Transform(v => larger * v);
-        var fractal = new Fractal(Samples.Repeated(9, Samples.MoveAndScale(0, 0, 0, 0.002), Samples.MoveAndScale(1, 0, 0, 0.002), Samples.MoveAndScale(0, 1, 0, 0.002)).Description, mesh);
-        var (probe, oracle, record) = (new FractalProbe($"a base {larger} times larger", fractal), FractalProbe.BruteForce(fractal), new QueryContext());
+        var fractal =
+            new Fractal(Samples.Repeated(9, Samples.MoveAndScale(0, 0, 0, 0.002), Samples.MoveAndScale(1, 0, 0, 0.002),
+            Samples.MoveAndScale(0, 1, 0, 0.002)).Description, mesh);
+        var (probe, oracle, record) = (new FractalProbe($"a base {larger} times larger", fractal), FractalProbe.BruteForce(fractal),
+            new QueryContext());
         Seeded.Run(200, random =>
         {
             var position = FractalPositions.Draw(random, fractal);
@@ -82,14 +90,17 @@ public class ExactFractalLimitTests
         });
     }
 
-    /// <summary>Six maps are too many to open two levels at once; one of them hardly shrinks, and its chain leads to the position.</summary>
+    /// <summary>
+    /// Six maps are too many to open two levels at once; one of them hardly shrinks, and its chain leads to the position.
+    /// </summary>
     [Theory]
     [InlineData(0.985, 1500)]
     [InlineData(0.99, 2500)]
     [InlineData(0.995, 3500)]
     public void Find_AtTheEndOfALongChain_GoesAllTheWay(double ratio, int depth)
     {
-        var maps = Enumerable.Range(0, 5).Select(i => Samples.MoveAndScale(10, i, 0, 0.01)).Prepend(Samples.MoveAndScale(0, 0, 0, ratio)).ToArray();
+        var maps = Enumerable.Range(0, 5).Select(i => Samples.MoveAndScale(10, i, 0, 0.01)).Prepend(Samples.MoveAndScale(0, 0, 0, ratio))
+            .ToArray();
         // Away from the fixed point, so that each level comes nearer to it.
         var fractal = new Fractal(Samples.Repeated(depth, maps).Description, Samples.Triangle.Transform(v => v + Vector.One));
         var (probe, record) = (new FractalProbe($"ratio {ratio} at depth {depth}", fractal), new QueryContext());
@@ -114,7 +125,8 @@ public class ExactFractalLimitTests
     public void Create_WithAMapThatFlattens_IsRefused()
     {
         var fractal = Samples.Repeated(2, new(Vector.I, Vector.Zero, new(0.5, 0, 0.5)), Samples.MoveAndScale(0, 1, 0, 0.5));
-        Assert.Contains("determinant", Assert.Throws<SingularMatrixException>(() => new ExactFractalCollider(fractal)).Message, StringComparison.Ordinal);
+        Assert.Contains("determinant", Assert.Throws<SingularMatrixException>(() => new ExactFractalCollider(fractal)).Message,
+            StringComparison.Ordinal);
     }
 
     [Fact]
@@ -147,7 +159,8 @@ public class ExactFractalLimitTests
     [Fact]
     public void Create_OfAnInfiniteFractalOfSixMaps_Settles()
     {
-        var maps = Enumerable.Range(1, 6).Select(i => Samples.MoveAndScale(5, i, 0, 0.05)).Prepend(new(Vector.Zero, new(0, 10, 0), 0.985 * Vector.One));
+        var maps = Enumerable.Range(1, 6).Select(i => Samples.MoveAndScale(5, i, 0, 0.05))
+            .Prepend(new(Vector.Zero, new(0, 10, 0), 0.985 * Vector.One));
         Assert.InRange(new ExactFractalCollider(Samples.Repeated(null, [.. maps])).StorageBytes, 1, 1_000_000);
     }
 

@@ -8,7 +8,9 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Collision;
 
-/// <summary>Exact colliders against every face, on the fractals of the assets and on meshes, from positions that are hard to get right.</summary>
+/// <summary>
+/// Exact colliders against every face, on the fractals of the assets and on meshes, from positions that are hard to get right.
+/// </summary>
 public class ExactnessTests
 {
     private const int SoakQueries = 1_900_000;
@@ -17,14 +19,16 @@ public class ExactnessTests
     public static TheoryData<string, int> Expanded => new()
     {
         { "sierpinski", 4 }, { "tetrahedron", 5 }, { "menger", 2 }, { "appendix-b", 2 }, { "appendix-b-structure", 2 }, { "diamond", 2 },
-        { "fern", 2 }, { "romanesco", 2 }, { "shell", 0 }, { "snowflake", 3 }, { "terrain", 5 }, { "tree", 4 }, { "tree-leaves", 4 }, { "googol", 3 },
+        { "fern", 2 }, { "romanesco", 2 }, { "shell", 0 }, { "snowflake", 3 }, { "terrain", 5 }, { "tree", 4 }, { "tree-leaves", 4 },
+        { "googol", 3 },
     };
 
     /// <summary>The same, deeper.</summary>
     public static TheoryData<string, int> ExpandedForSoak => new()
     {
         { "sierpinski", 5 }, { "tetrahedron", 7 }, { "menger", 3 }, { "appendix-b", 3 }, { "appendix-b-structure", 3 }, { "diamond", 2 },
-        { "fern", 2 }, { "romanesco", 2 }, { "shell", 0 }, { "snowflake", 4 }, { "terrain", 7 }, { "tree", 6 }, { "tree-leaves", 5 }, { "googol", 4 },
+        { "fern", 2 }, { "romanesco", 2 }, { "shell", 0 }, { "snowflake", 4 }, { "terrain", 7 }, { "tree", 6 }, { "tree-leaves", 5 },
+        { "googol", 4 },
         { "sierpinski", 2 }, { "menger", 1 }, { "fern", 1 }, { "terrain", 3 }, { "tree", 2 },
     };
 
@@ -42,7 +46,8 @@ public class ExactnessTests
             var expected = Nearest(oracle, position, record);
             if (random.Next(30) == 0)
             {
-                probe.Require(expected == Nearest(simple, position, record), position, $"the oracle says {expected:R}, not as every face does");
+                probe.Require(expected == Nearest(simple, position, record), position,
+                    $"the oracle says {expected:R}, not as every face does");
             }
 
             var closest = probe.Check(position, record, expected);
@@ -75,7 +80,8 @@ public class ExactnessTests
                 {
                     var position = FractalPositions.Draw(random, probe.Fractal);
                     var expected = Nearest(oracle, position, record);
-                    probe.Require(expected == Nearest(simple, position, record), position, $"the oracle says {expected:R}, not as every face does");
+                    probe.Require(expected == Nearest(simple, position, record), position,
+                        $"the oracle says {expected:R}, not as every face does");
                 }
             });
             return record;
@@ -96,7 +102,8 @@ public class ExactnessTests
             // The same kernel on the same face.
             Assert.Equal(expected, closest.Distance);
             Assert.True(hierarchy.TryFindClosest(position, expected, record, out _), $"nothing within {expected:R} of {position}");
-            Assert.False(hierarchy.TryFindClosest(position, expected * (1 - 1e-12), record, out _) && expected > 0, $"within less than {expected:R} of {position}");
+            Assert.False(hierarchy.TryFindClosest(position, expected * (1 - 1e-12), record, out _)
+                && expected > 0, $"within less than {expected:R} of {position}");
         });
     }
 

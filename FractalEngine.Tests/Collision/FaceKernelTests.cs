@@ -102,7 +102,8 @@ public class FaceKernelTests
             {
                 var (_, a, b, c) = faces[lane];
                 var expected = TriangleKernel.ClosestPoint(position, a, b, c).DistanceSquared;
-                Assert.True(squared[lane] == expected, string.Create(CultureInfo.InvariantCulture, $"{faces[lane]} from {position}: {squared[lane]:R}, not {expected:R}"));
+                Assert.True(squared[lane] == expected,
+                    string.Create(CultureInfo.InvariantCulture, $"{faces[lane]} from {position}: {squared[lane]:R}, not {expected:R}"));
             }
         }
     });
@@ -132,7 +133,8 @@ public class FaceKernelTests
             var distance = Math.Sqrt(TriangleKernel.ClosestPoint(position, a, b, c).DistanceSquared);
             var exact = FaceOracle.Distance(position, a, b, c);
             Assert.True(Math.Abs(distance - exact) <= Tolerance * face.Magnitude, string.Create(
-                CultureInfo.InvariantCulture, $"{face}: {distance:R}, exactly {exact:R}, off by {(distance - exact) / face.Magnitude:R} of the size"));
+                CultureInfo.InvariantCulture,
+                $"{face}: {distance:R}, exactly {exact:R}, off by {(distance - exact) / face.Magnitude:R} of the size"));
         }
     });
 }

@@ -26,7 +26,9 @@ internal static class FaceOracle
         return nearest.SquareRoot(exponent);
     }
 
-    /// <summary>Of the smallest angle of a triangle: twice the area by the product of the two longest edges. 0 where there is no area.</summary>
+    /// <summary>
+    /// Of the smallest angle of a triangle: twice the area by the product of the two longest edges. 0 where there is no area.
+    /// </summary>
     public static double SmallestSine(Vector a, Vector b, Vector c)
     {
         var exponent = Exponent(a, b, c);
@@ -36,7 +38,8 @@ internal static class FaceOracle
         return edges[1].IsZero ? 0 : new Fraction(Point.Dot(normal, normal), edges[1] * edges[2]).SquareRoot(0);
     }
 
-    private static int Exponent(params ReadOnlySpan<Vector> vectors) => vectors.ToArray().SelectMany(v => new[] { v.X, v.Y, v.Z }).Where(x => x != 0)
+    private static int Exponent(params ReadOnlySpan<Vector> vectors) =>
+        vectors.ToArray().SelectMany(v => new[] { v.X, v.Y, v.Z }).Where(x => x != 0)
         .Select(x => Math.ILogB(x) - 52).DefaultIfEmpty(0).Min();
 
     private static Fraction ToSegment(Point p, Point start, Point end)
@@ -50,7 +53,8 @@ internal static class FaceOracle
 
     private readonly record struct Fraction(BigInteger Numerator, BigInteger Denominator)
     {
-        public static Fraction Smaller(Fraction f1, Fraction f2) => f1.Numerator * f2.Denominator <= f2.Numerator * f1.Denominator ? f1 : f2;
+        public static Fraction Smaller(Fraction f1, Fraction f2) =>
+            f1.Numerator * f2.Denominator <= f2.Numerator * f1.Denominator ? f1 : f2;
 
         /// <summary>Times a power of two.</summary>
         public double SquareRoot(int exponent)

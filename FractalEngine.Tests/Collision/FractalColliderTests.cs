@@ -52,8 +52,8 @@ public class FractalColliderTests
     [Fact]
     public void Find_WhereTheNearerCopyHasTheFartherParts_Errs()
     {
-        // From (2.6, 0, 0) the copy at 0 ends at 1 and that at 4 begins at 4, so the latter is nearer; but the parts of the first reach on to
-        // the right at the next level.
+        // From (2.6, 0, 0) the copy at 0 ends at 1 and that at 4 begins at 4, so the latter is nearer; but the parts of the first reach on
+        // to the right at the next level.
         var fractal = new Fractal(new("base.obj",
         [
             new TransformationSet([Transformation.Identity, Samples.Move(4, 0, 0)]),

@@ -5,7 +5,9 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Collision;
 
-/// <summary>Positions around a fractal of any depth: far, near, exactly on it, at its centres of symmetry, and midway between copies.</summary>
+/// <summary>
+/// Positions around a fractal of any depth: far, near, exactly on it, at its centres of symmetry, and midway between copies.
+/// </summary>
 internal static class FractalPositions
 {
     // Deeper chains end in points: below any precision.
@@ -75,7 +77,9 @@ internal static class FractalPositions
         return Chain(random, fractal, 0, random.Next(level + 1)) * point;
     }
 
-    /// <summary>Half-way between the images of one point of the surface under two maps of a set: often as near to one copy as to the other.</summary>
+    /// <summary>
+    /// Half-way between the images of one point of the surface under two maps of a set: often as near to one copy as to the other.
+    /// </summary>
     private static Vector BetweenSiblings(Random random, Fractal fractal, int levels, Vector inside)
     {
         if (levels == 0)

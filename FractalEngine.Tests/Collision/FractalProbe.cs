@@ -10,7 +10,9 @@ using Xunit.Sdk;
 
 namespace FractalEngine.Tests.Collision;
 
-/// <summary>Checks what the exact collider answers about a fractal against what another way of finding it says. Any number of threads may.</summary>
+/// <summary>
+/// Checks what the exact collider answers about a fractal against what another way of finding it says. Any number of threads may.
+/// </summary>
 /// <param name="name">For failures: the fractal and its depth.</param>
 /// <param name="fractal">In affine composition.</param>
 internal sealed class FractalProbe(string name, Fractal fractal)
@@ -26,7 +28,8 @@ internal sealed class FractalProbe(string name, Fractal fractal)
     public ExactFractalCollider Exact { get; } = new(fractal);
 
     /// <summary>Every face.</summary>
-    public static Collider BruteForce(Fractal fractal, long limit = 10_000_000) => new SimpleCollider(FractalGenerator.Flatten(fractal, limit));
+    public static Collider BruteForce(Fractal fractal, long limit = 10_000_000) =>
+        new SimpleCollider(FractalGenerator.Flatten(fractal, limit));
 
     /// <summary>Queries a position and fails unless all of the answer is right.</summary>
     /// <param name="position">Finite.</param>
@@ -37,7 +40,8 @@ internal sealed class FractalProbe(string name, Fractal fractal)
         var size = FractalPositions.SizeOf(Fractal, position);
         var found = Exact.TryFindClosest(position, double.PositiveInfinity, record, out var closest);
         Require(found, position, "nothing found");
-        Require(Math.Abs(closest.Distance - expected) <= Tolerance * size, position, $"distance {closest.Distance:R}, not {expected:R}, of size {size}");
+        Require(Math.Abs(closest.Distance - expected) <= Tolerance * size, position,
+            $"distance {closest.Distance:R}, not {expected:R}, of size {size}");
         CheckAnswer(position, record, closest);
         return closest;
     }
@@ -46,7 +50,8 @@ internal sealed class FractalProbe(string name, Fractal fractal)
     public void CheckAnswer(Vector position, QueryContext record, ClosestPoint closest)
     {
         var size = FractalPositions.SizeOf(Fractal, position);
-        Require(Math.Abs((closest.Point - position).Length() - closest.Distance) <= PointTolerance * size, position, $"point {closest.Point} is not at distance {closest.Distance:R}");
+        Require(Math.Abs((closest.Point - position).Length() - closest.Distance) <= PointTolerance * size, position,
+            $"point {closest.Point} is not at distance {closest.Distance:R}");
         Require(Math.Abs(closest.Normal.Length() - 1) <= 1e-12, position, $"normal {closest.Normal}");
         var map = InstanceOf(position, record);
         var (a, b, c) = Fractal.BaseMesh.Face(closest.FaceIndex);
@@ -55,32 +60,39 @@ internal sealed class FractalProbe(string name, Fractal fractal)
         Require(isWeight, position, $"weights {closest.Barycentrics}");
         (a, b, c) = (map * a, map * b, map * c);
         var point = (weightA * a) + (weightB * b) + (weightC * c);
-        Require(Near.Difference(point, closest.Point) <= Tolerance * size, position, $"weights give {point} on instance {Path(record)}, not {closest.Point}");
+        Require(Near.Difference(point, closest.Point) <= Tolerance * size, position,
+            $"weights give {point} on instance {Path(record)}, not {closest.Point}");
         // A thin face's normal is less certain, but by much less than this.
         var (ab, ac) = (b - a, c - a);
-        var isFlat = Math.Abs(Vector.Dot(closest.Normal, ab)) <= 1e-6 * ab.Length() && Math.Abs(Vector.Dot(closest.Normal, ac)) <= 1e-6 * ac.Length();
+        var isFlat = Math.Abs(Vector.Dot(closest.Normal, ab)) <= 1e-6 * ab.Length() && Math.Abs(Vector.Dot(closest.Normal, ac)) <= 1e-6
+            * ac.Length();
         Require(isFlat || ab.Length() + ac.Length() < Tolerance * size, position, $"normal {closest.Normal} is not that of the face");
     }
 
     /// <summary>
-    /// Asks again with little more than the distance that is known to be right. A bound that is too large by far less than copies are apart leaves the
-    /// nearest copy out here, while else it mostly changes no more than the order of copies.
+    /// Asks again with little more than the distance that is known to be right. A bound that is too large by far less than copies are apart
+    /// leaves the nearest copy out here, while else it mostly changes no more than the order of copies.
     /// </summary>
     public void CheckWithin(Vector position, QueryContext record, double distance)
     {
         var size = FractalPositions.SizeOf(Fractal, position);
         var within = distance + (Tolerance * size);
-        Require(Exact.TryFindClosest(position, within, record, out var closest), position, $"nothing within {within:R}, though it is at {distance:R}");
-        Require(Math.Abs(closest.Distance - distance) <= Tolerance * size, position, $"distance {closest.Distance:R} within {within:R}, not {distance:R}");
+        Require(Exact.TryFindClosest(position, within, record, out var closest), position,
+            $"nothing within {within:R}, though it is at {distance:R}");
+        Require(Math.Abs(closest.Distance - distance) <= Tolerance * size, position,
+            $"distance {closest.Distance:R} within {within:R}, not {distance:R}");
         var below = distance - (Tolerance * size);
-        Require(below < 0 || !Exact.TryFindClosest(position, below, record, out closest), position, $"found at {closest.Distance:R} within {below:R}");
+        Require(below < 0 || !Exact.TryFindClosest(position, below, record, out closest), position,
+            $"found at {closest.Distance:R} within {below:R}");
     }
 
     public void Require(bool holds, Vector position, FormattableString message)
     {
         if (!holds)
         {
-            throw new XunitException(string.Create(CultureInfo.InvariantCulture, $"{name}, position new({position.X:R}, {position.Y:R}, {position.Z:R}): {message.ToString(CultureInfo.InvariantCulture)}"));
+            throw new XunitException(
+                string.Create(CultureInfo.InvariantCulture,
+                $"{name}, position new({position.X:R}, {position.Y:R}, {position.Z:R}): {message.ToString(CultureInfo.InvariantCulture)}"));
         }
     }
 
@@ -95,10 +107,13 @@ internal sealed class FractalProbe(string name, Fractal fractal)
         }
 
         // It may end early where what is left is below the precision, and else go on with identities only.
-        var isSmall = BoundingSphere.OperatorNormBound(map.Linear) * Fractal.BaseMesh.Bounds.Diagonal <= Tolerance * Fractal.Bounds.Diagonal;
+        var isSmall = BoundingSphere.OperatorNormBound(map.Linear) * Fractal.BaseMesh.Bounds.Diagonal <= Tolerance
+            * Fractal.Bounds.Diagonal;
         var rest = record.InstancePath.Length;
-        var hasIdentities = Fractal.LevelCount is not { } count || Enumerable.Range(rest, (int)Math.Min(100, count - rest)).All(level => Fractal.LevelAt(level).Maps.Contains(AffineMap.Identity));
-        Require(isSmall || rest == Fractal.LevelCount || (Fractal.LevelCount is null or > 2000 && hasIdentities), position, $"the path ends at {Path(record)}");
+        var hasIdentities = Fractal.LevelCount is not { } count || Enumerable.Range(rest, (int)Math.Min(100, count - rest))
+            .All(level => Fractal.LevelAt(level).Maps.Contains(AffineMap.Identity));
+        Require(isSmall || rest == Fractal.LevelCount || (Fractal.LevelCount is null or > 2000 && hasIdentities), position,
+            $"the path ends at {Path(record)}");
         return map;
     }
 

@@ -43,7 +43,8 @@ public class HierarchyColliderTests
         {
             var position = CollisionMeshes.Position(random, mesh);
             Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, record, out var nearest));
-            foreach (var within in new[] { 0, Math.BitDecrement(nearest.Distance), nearest.Distance, Math.BitIncrement(nearest.Distance), 2 * nearest.Distance })
+            foreach (var within in new[] { 0, Math.BitDecrement(nearest.Distance), nearest.Distance, Math.BitIncrement(nearest.Distance),
+                2 * nearest.Distance })
             {
                 if (within >= 0)
                 {
@@ -68,7 +69,8 @@ public class HierarchyColliderTests
             Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, record, out var nearest));
             Assert.True(hierarchy.TryFindClosest(position, double.PositiveInfinity, record, out var closest, epsilon));
             Assert.True(closest.Distance >= nearest.Distance);
-            Assert.True(closest.Distance <= ((1 + epsilon) * nearest.Distance) || nearest.Distance == 0 || double.IsInfinity(epsilon), $"{closest.Distance}, exactly {nearest.Distance}, ε {epsilon}");
+            Assert.True(closest.Distance <= ((1 + epsilon) * nearest.Distance) || nearest.Distance == 0 || double.IsInfinity(epsilon),
+                $"{closest.Distance}, exactly {nearest.Distance}, ε {epsilon}");
         });
     }
 
@@ -93,7 +95,8 @@ public class HierarchyColliderTests
         var mesh = MeshGenerators.Create("icosphere", 1, 20_480);
         var record = new QueryContext();
         var hierarchy = new HierarchyCollider(mesh);
-        Seeded.Run(200, random => hierarchy.TryFindClosest(1.05 * NastyFace.Cube(random).UnitVector(), double.PositiveInfinity, record, out _));
+        Seeded.Run(200,
+            random => hierarchy.TryFindClosest(1.05 * NastyFace.Cube(random).UnitVector(), double.PositiveInfinity, record, out _));
         Assert.InRange(record.FaceTests, 200, 200 * 60);
     }
 
@@ -208,7 +211,8 @@ public class HierarchyColliderTests
             Assert.True(hierarchy.TryFindClosest(position, double.PositiveInfinity, record, out var actual));
             // The same kernel on the same face, so the same bits; of faces equally near any will do.
             Assert.True(expected.Distance == actual.Distance, string.Create(
-                CultureInfo.InvariantCulture, $"{position}: {actual.Distance:R} at face {actual.FaceIndex}, not {expected.Distance:R} at face {expected.FaceIndex}"));
+                CultureInfo.InvariantCulture,
+                $"{position}: {actual.Distance:R} at face {actual.FaceIndex}, not {expected.Distance:R} at face {expected.FaceIndex}"));
             Assert.Equal(actual.Distance, (position - actual.Point).Length(), 1e-12 * (position.MaxAbsComponent() + mesh.Bounds.Diagonal));
         });
     }

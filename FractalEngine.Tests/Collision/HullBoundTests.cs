@@ -40,7 +40,8 @@ public class HullBoundTests
             var map = Map(random, size);
             var images = points.Select(point => map * point).ToArray();
             var position = Position(random, images);
-            var actual = bound.TransformedLowerBoundSquared(SimdAffineMap.ToVector256(position), new(map), new(map.Inverse()), double.PositiveInfinity);
+            var actual = bound.TransformedLowerBoundSquared(SimdAffineMap.ToVector256(position), new(map), new(map.Inverse()),
+                double.PositiveInfinity);
             Check(actual, position, images, Math.Max(position.MaxAbsComponent(), size * map.Linear.MaxAbsEntry()));
         }
     });
@@ -68,7 +69,8 @@ public class HullBoundTests
         var position = 1000 * random.Direction();
         var nearest = points.Min(point => (position - point).Length());
         // Seen from so far, the corner that reaches farthest is off the line from the centre by at most 2, so nearer by 2²/2000.
-        Assert.InRange(Math.Sqrt(bound.LowerBoundSquared(SimdAffineMap.ToVector256(position), double.PositiveInfinity)), nearest - 0.01, nearest + 1e-9);
+        Assert.InRange(Math.Sqrt(bound.LowerBoundSquared(SimdAffineMap.ToVector256(position), double.PositiveInfinity)), nearest - 0.01,
+            nearest + 1e-9);
     });
 
     [Fact]
@@ -78,7 +80,8 @@ public class HullBoundTests
         var bound = BoundOf(points, random, margin: 0);
         // Where no other direction could be nearer: the corner's own cone.
         var position = -random.Between(1, 50) * random.Direction().Absolute();
-        Assert.Equal(position.Length(), Math.Sqrt(bound.LowerBoundSquared(SimdAffineMap.ToVector256(position), double.PositiveInfinity)), 1e-12 * position.Length());
+        Assert.Equal(position.Length(), Math.Sqrt(bound.LowerBoundSquared(SimdAffineMap.ToVector256(position), double.PositiveInfinity)),
+            1e-12 * position.Length());
     });
 
     [Fact]
@@ -88,7 +91,8 @@ public class HullBoundTests
         var hull = ConvexHull.Build(points, 48);
         var (exact, wide) = (new HullBound(hull, Box(points), 0, true), new HullBound(hull, Box(points), 0.1, true));
         var position = SimdAffineMap.ToVector256(random.Vector(4));
-        var difference = Math.Sqrt(exact.LowerBoundSquared(position, double.PositiveInfinity)) - Math.Sqrt(wide.LowerBoundSquared(position, double.PositiveInfinity));
+        var difference = Math.Sqrt(exact.LowerBoundSquared(position, double.PositiveInfinity))
+            - Math.Sqrt(wide.LowerBoundSquared(position, double.PositiveInfinity));
         Assert.InRange(difference, -1e-12, 0.1 + 1e-12);
     });
 
@@ -105,7 +109,8 @@ public class HullBoundTests
     {
         var hull = ConvexHull.Build(points, margin == 0 ? 60 : random.Next(4, 60));
         // As outlines have it: what the hull misses, and rounding.
-        return new(hull, Box(points), margin ?? (hull.MaxOutsideDistance + (2e-15 * PointClouds.SizeOf(points))), random.Next(2) == 0 || margin == 0);
+        return new(hull, Box(points), margin ?? (hull.MaxOutsideDistance + (2e-15 * PointClouds.SizeOf(points))), random.Next(2) == 0
+            || margin == 0);
     }
 
     private static BoundingBox Box(Vector[] points) => points.Aggregate(BoundingBox.Empty, (box, point) => box.Including(point));

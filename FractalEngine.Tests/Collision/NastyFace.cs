@@ -6,7 +6,8 @@ namespace FractalEngine.Tests.Collision;
 internal readonly record struct NastyFace(Vector Position, Vector A, Vector B, Vector C)
 {
     /// <summary>What errors are measured against: the largest coordinate.</summary>
-    public double Magnitude => Math.Max(Math.Max(Position.MaxAbsComponent(), A.MaxAbsComponent()), Math.Max(B.MaxAbsComponent(), C.MaxAbsComponent()));
+    public double Magnitude =>
+        Math.Max(Math.Max(Position.MaxAbsComponent(), A.MaxAbsComponent()), Math.Max(B.MaxAbsComponent(), C.MaxAbsComponent()));
 
     public static NastyFace Random(Random random)
     {
@@ -18,7 +19,8 @@ internal readonly record struct NastyFace(Vector Position, Vector A, Vector B, V
         return new(scale * (position + offset), scale * (a + offset), scale * (b + offset), scale * (c + offset));
     }
 
-    public static Vector Cube(Random random) => new((2 * random.NextDouble()) - 1, (2 * random.NextDouble()) - 1, (2 * random.NextDouble()) - 1);
+    public static Vector Cube(Random random) =>
+        new((2 * random.NextDouble()) - 1, (2 * random.NextDouble()) - 1, (2 * random.NextDouble()) - 1);
 
     /// <summary>A position on a corner, an edge, the face or its plane, or near, or far from it.</summary>
     public static Vector Place(Random random, Vector a, Vector b, Vector c)

@@ -11,10 +11,14 @@ internal static class PointClouds
         ["ball"] = random => Many(200, () => random.NextDouble() * random.Direction()),
         ["sphere"] = random => Many(500, random.Direction),
         ["few"] = random => Many(random.Next(2, 8), () => random.Vector()),
-        ["grid"] = _ => [.. from x in Enumerable.Range(0, 5) from y in Enumerable.Range(0, 5) from z in Enumerable.Range(0, 5) select new Vector(x, y, z)],
+        ["grid"] =
+        _ => [.. from x in Enumerable.Range(0, 5) from y in Enumerable.Range(0, 5) from z in Enumerable.Range(0, 5) select new Vector(x, y,
+        z)],
         ["turned grid"] = random => random.Orthogonal() switch
         {
-            var turn => [.. from x in Enumerable.Range(0, 5) from y in Enumerable.Range(0, 5) from z in Enumerable.Range(0, 5) select turn * new Vector(x, y, z)],
+            var turn =>
+                [.. from x in Enumerable.Range(0, 5) from y in Enumerable.Range(0, 5) from z in Enumerable.Range(0, 5) select turn
+                    * new Vector(x, y, z)],
         },
         ["flat"] = random => OnPlane(random, 0),
         ["flat but for rounding"] = random => OnPlane(random, 1e-15),
@@ -25,14 +29,17 @@ internal static class PointClouds
         {
             var centres => Many(300, () => centres[random.Next(10)] + random.Vector(1e-12)),
         },
-        ["clusters on a cube"] = random => Many(300, () => new Vector(random.Next(2), random.Next(2), random.Next(2)) + random.Vector(Math.Pow(10, random.Between(-16, -9)))),
+        ["clusters on a cube"] =
+        random => Many(300, () => new Vector(random.Next(2), random.Next(2), random.Next(2))
+            + random.Vector(Math.Pow(10, random.Between(-16, -9)))),
         ["far from the origin"] = random => Many(100, () => random.Vector() + (1e5 * Vector.One)),
         ["needle"] = random => Many(100, () => random.Vector().Stretch(new(1, 1e-5, 1e-9))),
         ["twice"] = random => Many(50, () => random.Vector()) switch { var points => [.. points, .. points] },
     };
 
     /// <summary>Powers of ten.</summary>
-    public static Vector[] Draw(string name, Random random) => (All[name](random), random.Next(2) == 0 ? 1 : Math.Pow(10, random.Next(-30, 31))) switch
+    public static Vector[] Draw(string name, Random random) =>
+        (All[name](random), random.Next(2) == 0 ? 1 : Math.Pow(10, random.Next(-30, 31))) switch
     {
         var (points, scale) => [.. points.Select(point => scale * point)],
     };

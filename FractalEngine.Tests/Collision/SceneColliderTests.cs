@@ -20,7 +20,8 @@ public class SceneColliderTests
         {
             var position = random.Vector(6);
             var except = random.Next(-1, scene.Objects.Length);
-            var nearest = oracles.Select((oracle, index) => index != except && oracle.TryFindClosest(position, double.PositiveInfinity, new(), out var closest)
+            var nearest = oracles.Select((oracle, index) => index != except
+                && oracle.TryFindClosest(position, double.PositiveInfinity, new(), out var closest)
                 ? closest.Distance : double.PositiveInfinity).Min();
             var found = collider.TryFindClosest(position, double.PositiveInfinity, new(), out var answer, out var index, except);
             Assert.Equal(!double.IsPositiveInfinity(nearest), found);
@@ -38,7 +39,8 @@ public class SceneColliderTests
     [Fact]
     public void Find_NamesTheNearestObjectAndItsInstance()
     {
-        var model = new FractalModel("/f.fdo", 0, Samples.Repeated(2, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(5, 0, 0, 0.5)));
+        var model =
+            new FractalModel("/f.fdo", 0, Samples.Repeated(2, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(5, 0, 0, 0.5)));
         var scene = new LoadedScene(new(),
         [
             new(new("f.fdo", Samples.Move(0, 0, 0)), model),
@@ -46,7 +48,8 @@ public class SceneColliderTests
         ]);
         var record = new QueryContext();
         // Instance 1 at both levels starts at 5 + ½·5.
-        Assert.True(new SceneCollider(scene).TryFindClosest(new(7.5, 40, 0), double.PositiveInfinity, record, out var closest, out var index));
+        Assert.True(new SceneCollider(scene).TryFindClosest(new(7.5, 40, 0), double.PositiveInfinity, record, out var closest,
+            out var index));
         Assert.Equal((0.0, 1), (closest.Distance, index));
         Assert.Equal([1, 1], record.InstancePath.ToArray());
     }
@@ -59,7 +62,9 @@ public class SceneColliderTests
     public void Find_WithTheGreedyColliderOnAMesh_SaysWhichFit()
     {
         var scene = new LoadedScene(new(), [new(new("m.obj", Transformation.Identity), new MeshModel("/m.obj", 0, Samples.Tetrahedron))]);
-        Assert.Contains("expected exact, hierarchy", Assert.Throws<ColliderMismatchException>(() => new SceneCollider(scene, ColliderKind.Fractal).Build()).Message, StringComparison.Ordinal);
+        Assert.Contains("expected exact, hierarchy",
+            Assert.Throws<ColliderMismatchException>(() => new SceneCollider(scene, ColliderKind.Fractal).Build()).Message,
+            StringComparison.Ordinal);
     }
 
     private static LoadedScene Scene(Random random)
@@ -70,7 +75,9 @@ public class SceneColliderTests
             new FractalModel("/fractal.fdo", 0, RandomFractals.Draw(random)),
             new FractalModel("/sums.fdo", 0, RandomFractals.Draw(random, Composition.Componentwise)),
         ];
-        return new(new(), [.. Enumerable.Range(0, 5).Select(i => new PlacedModel(new($"{i}.fdo", Placement(random)), models[random.Next(models.Length)]))]);
+        return new(new(),
+            [.. Enumerable.Range(0, 5)
+            .Select(i => new PlacedModel(new($"{i}.fdo", Placement(random)), models[random.Next(models.Length)]))]);
     }
 
     /// <summary>Similar, mirrored or skewing.</summary>

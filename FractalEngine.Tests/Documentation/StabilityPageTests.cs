@@ -7,13 +7,17 @@ namespace FractalEngine.Tests.Documentation;
 /// <summary>docs/stability.md states what <c>bench.sh stability</c> has measured.</summary>
 public partial class StabilityPageTests
 {
-    /// <summary>A row's first cell is what was measured, or begins with it and a colon; its last names the test class, or says that it is the same. Soak tests stand in brackets.</summary>
+    /// <summary>
+    /// A row's first cell is what was measured, or begins with it and a colon; its last names the test class, or says that it is the same.
+    /// Soak tests stand in brackets.
+    /// </summary>
     [Fact]
     public void WorstNumbers_AreThoseOfTheTables()
     {
         var (quick, soak) = (Measured("stability.csv"), Measured("stability-soak.csv"));
         var (tests, compared) = ("", 0);
-        foreach (var row in File.ReadLines(Repository.Full("docs/stability.md")).Where(line => line.StartsWith("| ", StringComparison.Ordinal)))
+        foreach (var row in File.ReadLines(Repository.Full("docs/stability.md"))
+            .Where(line => line.StartsWith("| ", StringComparison.Ordinal)))
         {
             var cells = row.Split('|')[1..^1];
             tests = TestClass().Match(cells[4]) is { Success: true } named ? named.Groups[1].Value : tests;
@@ -42,7 +46,8 @@ public partial class StabilityPageTests
         Assert.True(found.Length > 0, $"not measured: {row}");
         var worst = found.Max(number => number.Worst);
         // Two digits, as the page has them.
-        Assert.True(double.Parse(Rounded(worst), CultureInfo.InvariantCulture).Equals(double.Parse(stated.Value, CultureInfo.InvariantCulture)), $"{Rounded(worst)} is right: {row}");
+        Assert.True(double.Parse(Rounded(worst), CultureInfo.InvariantCulture)
+            .Equals(double.Parse(stated.Value, CultureInfo.InvariantCulture)), $"{Rounded(worst)} is right: {row}");
     }
 
     /// <summary>What whole tests have met: places of curves are left out.</summary>

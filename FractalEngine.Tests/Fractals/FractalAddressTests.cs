@@ -18,7 +18,9 @@ public class FractalAddressTests
     private static readonly AffineMap Aside = new Transformation(new(3, -2, 1), new(20, 30, 40), new(2, 1.5, -1)).ToAffineMap();
 
     /// <summary>Infinite fractals of one set, a copy of each, and from where its fixed point is approached.</summary>
-    public static TheoryData<string, int> Dives => new() { { "menger", 0 }, { "menger", 7 }, { "sierpinski", 0 }, { "sierpinski", 3 }, { "tree", 1 }, { "tree", 3 }, { "turned", 0 }, { "skewed", 0 } };
+    public static TheoryData<string, int> Dives =>
+        new() { { "menger", 0 }, { "menger", 7 }, { "sierpinski", 0 }, { "sierpinski", 3 }, { "tree", 1 }, { "tree", 3 }, { "turned", 0 },
+        { "skewed", 0 } };
 
     [Theory]
     [MemberData(nameof(Dives))]
@@ -38,7 +40,8 @@ public class FractalAddressTests
     [InlineData("menger", 0)]
     [InlineData("turned", 0)]
     [Trait("Category", "Soak")]
-    public void Move_ThroughAMillionLevels_EndsWhereItBegan(string name, int copy) => CheckDive(name, copy, Aside, FractalLimits.MaxDepth, 1e-9);
+    public void Move_ThroughAMillionLevels_EndsWhereItBegan(string name, int copy) =>
+        CheckDive(name, copy, Aside, FractalLimits.MaxDepth, 1e-9);
 
     [Theory]
     [InlineData(100)]
@@ -56,7 +59,8 @@ public class FractalAddressTests
     public void LogUnit_OfUnevenScales_IsTheSumOfTheLogarithmsAlongThePath()
     {
         var fractal = Samples.Repeated(
-            null, new(new(-1, 0, 0), new(10, 20, 30), new(0.5, 0.5, 0.5)), new(new(1, 0, 0), Vector.Zero, new(0.3, 0.35, 0.4)), new(new(0, 1, 0), Vector.Zero, new(0.6, 0.5, -0.55)));
+            null, new(new(-1, 0, 0), new(10, 20, 30), new(0.5, 0.5, 0.5)), new(new(1, 0, 0), Vector.Zero, new(0.3, 0.35, 0.4)),
+            new(new(0, 1, 0), Vector.Zero, new(0.6, 0.5, -0.55)));
         Seeded.Run(30, random =>
         {
             var address = new FractalAddress(LodHierarchy.Build(fractal), Aside, Aside * random.Vector(3));
@@ -86,7 +90,8 @@ public class FractalAddressTests
     public void WorldPosition_NotDeep_IsThatOfTheCamera(string name)
     {
         var table = LodHierarchy.Build(name == "menger-4" ? DetailViews.Menger(4) : Infinite(name));
-        var size = (Aside * table.NodeAt(table.LevelCount).Box.Centre).Length() + table.NodeAt(table.LevelCount).Box.Transform(Aside).Diagonal;
+        var size = (Aside * table.NodeAt(table.LevelCount).Box.Centre).Length()
+            + table.NodeAt(table.LevelCount).Box.Transform(Aside).Diagonal;
         Seeded.Run(100, random =>
         {
             var position = Aside * (table.NodeAt(table.LevelCount).Box.Centre + random.Vector(table.NodeAt(table.LevelCount).Box.Diagonal));
@@ -95,7 +100,9 @@ public class FractalAddressTests
             Near.Equal(position, address.WorldPosition(Aside), 1e-12 * size);
             for (var i = 0; i < 10; i++)
             {
-                var step = 0.5 * (address.FrameToCamera * (table.NodeAt(table.LevelCount).Box.Centre + random.Vector(table.NodeAt(table.LevelCount).Box.Diagonal)));
+                var step = 0.5
+                    * (address.FrameToCamera
+                        * (table.NodeAt(table.LevelCount).Box.Centre + random.Vector(table.NodeAt(table.LevelCount).Box.Diagonal)));
                 position += Math.Exp(address.LogUnit) * step;
                 address.Move(step);
                 Near.Equal(position, address.WorldPosition(Aside), 1e-12 * size);
@@ -123,7 +130,9 @@ public class FractalAddressTests
         Assert.True(address.Depth > 200, $"only {address.Depth} levels");
     }
 
-    public static TheoryData<string, int> Finite => new() { { "appendix-b", 2 }, { "menger", 3 }, { "sierpinski", 4 }, { "tetrahedron", 5 }, { "tree", 5 }, { "tree-leaves", 5 }, { "romanesco", 2 }, { "fern", 1 }, { "snowflake", -1 }, { "shell", -1 } };
+    public static TheoryData<string, int> Finite =>
+        new() { { "appendix-b", 2 }, { "menger", 3 }, { "sierpinski", 4 }, { "tetrahedron", 5 }, { "tree", 5 }, { "tree-leaves", 5 },
+        { "romanesco", 2 }, { "fern", 1 }, { "snowflake", -1 }, { "shell", -1 } };
 
     [Theory]
     [MemberData(nameof(Finite))]
@@ -161,7 +170,8 @@ public class FractalAddressTests
     [InlineData("turned", 4)]
     [InlineData("skewed", 5)]
     [InlineData("fern", 6)]
-    public void Move_ALongRandomWalk_KeepsNearAndDoesNotDrift(string name, int seed) => Seeded.RunOne(seed, random => CheckWalk(random, LodHierarchy.Build(Infinite(name)), 15_000));
+    public void Move_ALongRandomWalk_KeepsNearAndDoesNotDrift(string name, int seed) =>
+        Seeded.RunOne(seed, random => CheckWalk(random, LodHierarchy.Build(Infinite(name)), 15_000));
 
     [Theory]
     [InlineData("menger", 1)]
@@ -169,7 +179,8 @@ public class FractalAddressTests
     [InlineData("tree", 3)]
     [InlineData("turned", 4)]
     [Trait("Category", "Soak")]
-    public void Move_AHundredThousandSteps_KeepsNearAndDoesNotDrift(string name, int seed) => Seeded.RunOne(seed, random => CheckWalk(random, LodHierarchy.Build(Infinite(name)), 100_000));
+    public void Move_AHundredThousandSteps_KeepsNearAndDoesNotDrift(string name, int seed) =>
+        Seeded.RunOne(seed, random => CheckWalk(random, LodHierarchy.Build(Infinite(name)), 100_000));
 
     [Theory]
     [InlineData("menger")]
@@ -196,7 +207,8 @@ public class FractalAddressTests
                 // To a tenth, and never less than a thousandth of what is around.
                 if (!(found >= 0.85 * exact && found <= Math.Max(1.15 * exact, 1.01e-3 * unit * size)))
                 {
-                    worst.Add(Text($"at {position}, depth {address.Depth}: {found} for {exact}, a thousandth of what is around {1e-3 * unit * size}"));
+                    worst.Add(
+                        Text($"at {position}, depth {address.Depth}: {found} for {exact}, a thousandth of what is around {1e-3 * unit * size}"));
                 }
 
                 // Nearer to the surface.
@@ -253,7 +265,8 @@ public class FractalAddressTests
         var depths = new List<int>();
         for (var copy = 0; copy < table.NodeAt(table.LevelCount).ChildMaps.Length; copy++)
         {
-            if (table.NodeAt(Below(table, table.LevelCount, copy)).ChildMaps.Length == 0 || table.NodeAt(table.LevelCount).ChildLevelSteps[copy] != 1)
+            if (table.NodeAt(Below(table, table.LevelCount, copy)).ChildMaps.Length == 0
+                || table.NodeAt(table.LevelCount).ChildLevelSteps[copy] != 1)
             {
                 continue;
             }
@@ -317,16 +330,31 @@ public class FractalAddressTests
     internal static Fractal Infinite(string name) => name switch
     {
         "menger" => DetailViews.Menger(null),
-        "sierpinski" => Samples.Repeated(null, [.. from corner in (Vector[])[Vector.Zero, Vector.I, Vector.J, Vector.K] select Samples.MoveAndScale(corner.X, 0.5 * corner.Y, 1.5 * corner.Z, 0.5)]),
-        "turned" => Samples.Repeated(null, new(new(-1, 0, 0), new(10, 20, 30), 0.45 * Vector.One), new(new(1, 0, 0), new(50, 0, 70), new(0.5, 0.5, -0.5)), new(new(0, 1.5, 0), Vector.Zero, 0.4 * Vector.One)),
+        "sierpinski" =>
+            Samples.Repeated(null,
+            [.. from corner in (Vector[])[Vector.Zero, Vector.I, Vector.J, Vector.K] select Samples.MoveAndScale(corner.X, 0.5 * corner.Y,
+            1.5 * corner.Z, 0.5)]),
+        "turned" =>
+            Samples.Repeated(null, new(new(-1, 0, 0), new(10, 20, 30), 0.45 * Vector.One),
+            new(new(1, 0, 0), new(50, 0, 70), new(0.5, 0.5, -0.5)), new(new(0, 1.5, 0), Vector.Zero, 0.4 * Vector.One)),
         // Cubes that do not touch.
-        "apart" => new(new("cube.obj", [new Repetition([new TransformationSet([.. from x in (int[])[-1, 1] from y in (int[])[-1, 1] from z in (int[])[-1, 1] select Samples.MoveAndScale(0.8 * x, 0.8 * y, 0.8 * z, 0.2)])], null)]), DetailViews.Cube),
-        "skewed" => Samples.Repeated(null, new(new(-1, 0, 0), new(0, 0, 30), new(0.5, 0.35, 0.45)), new(new(1, 0, 0), new(50, 0, 70), new(0.5, 0.4, 0.5)), new(new(0, 1, 0), Vector.Zero, new(0.4, 0.4, 0.35))),
-        "thin" => Samples.Repeated(null, new(new(-1, 0, 0), Vector.Zero, new(0.5, 0.5, 0.001)), new(new(1, 0, 0), Vector.Zero, new(0.1, 0.5, 0.5))),
+        "apart" =>
+            new(new("cube.obj",
+            [new Repetition(
+                [new TransformationSet(
+                    [.. from x in (int[])[-1, 1] from y in (int[])[-1, 1] from z in (int[])[-1, 1] select Samples.MoveAndScale(0.8 * x,
+                    0.8 * y, 0.8 * z, 0.2)])], null)]), DetailViews.Cube),
+        "skewed" =>
+            Samples.Repeated(null, new(new(-1, 0, 0), new(0, 0, 30), new(0.5, 0.35, 0.45)),
+            new(new(1, 0, 0), new(50, 0, 70), new(0.5, 0.4, 0.5)), new(new(0, 1, 0), Vector.Zero, new(0.4, 0.4, 0.35))),
+        "thin" =>
+            Samples.Repeated(null, new(new(-1, 0, 0), Vector.Zero, new(0.5, 0.5, 0.001)),
+            new(new(1, 0, 0), Vector.Zero, new(0.1, 0.5, 0.5))),
         _ => AssetFractals.Load(name, null),
     };
 
-    internal static FractalDive Dive(string name, int copy, AffineMap placement) => new(LodHierarchy.Build(Infinite(name)), copy, placement, name switch
+    internal static FractalDive Dive(string name, int copy, AffineMap placement) =>
+        new(LodHierarchy.Build(Infinite(name)), copy, placement, name switch
     {
         "menger" => copy == 0 ? -Vector.One : new(-1, 1, 0.8),
         _ => new(-1, -0.7, -0.9),
@@ -361,7 +389,9 @@ public class FractalAddressTests
         // Deeper: to a corner of some sub-fractal, several times.
         for (var i = 0; i < 5; i++)
         {
-            var step = 0.9 * (address.FrameToCamera * (State(table, address).Box.Centre + (0.5 * State(table, address).Box.Size.Stretch(random.Vector()))));
+            var step = 0.9
+                * (address.FrameToCamera
+                    * (State(table, address).Box.Centre + (0.5 * State(table, address).Box.Size.Stretch(random.Vector()))));
             position += Math.Exp(address.LogUnit) * step;
             address.Move(step);
         }
@@ -396,7 +426,9 @@ public class FractalAddressTests
 
         for (var child = 0; child < state.ChildMaps.Length; child++)
         {
-            AddInstances(found, table, state.ChildLevelSteps[child] < 0 ? ~state.ChildLevelSteps[child] : levels - state.ChildLevelSteps[child], map * state.ChildMaps[child].ToAffineMap());
+            AddInstances(found, table, state.ChildLevelSteps[child] < 0
+                ? ~state.ChildLevelSteps[child]
+                : levels - state.ChildLevelSteps[child], map * state.ChildMaps[child].ToAffineMap());
         }
     }
 
@@ -415,14 +447,16 @@ public class FractalAddressTests
             var step = isGoingIn
                 ? random.Between(0.1, 0.6) * (address.FrameToCamera * (state.Box.Centre + (0.5 * state.Box.Size.Stretch(random.Vector()))))
                 // Away from what is near, to some side.
-                : random.Between(0.2, 2) * state.Box.Transform(address.FrameToCamera).Diagonal * ((0.7 * random.Direction()) - (address.FrameToCamera * state.Box.Centre).UnitVector());
+                : random.Between(0.2, 2) * state.Box.Transform(address.FrameToCamera).Diagonal
+                * ((0.7 * random.Direction()) - (address.FrameToCamera * state.Box.Centre).UnitVector());
             position += Math.Exp(address.LogUnit) * step;
             address.Move(step);
             AssertFinite(address);
             state = State(table, address);
             var camera = address.FrameToCamera.Inverse() * Vector.Zero;
             Assert.True(
-                address.Depth == 0 || Math.Sqrt(state.Box.DistanceSquared(camera)) <= 1.001 * Left * state.Box.Diagonal, Text($"step {i}: too far away at depth {address.Depth}"));
+                address.Depth == 0 || Math.Sqrt(state.Box.DistanceSquared(camera)) <= 1.001 * Left * state.Box.Diagonal,
+                Text($"step {i}: too far away at depth {address.Depth}"));
             deepest = Math.Max(deepest, address.Depth);
             if (address.Depth <= 6)
             {
@@ -460,10 +494,12 @@ public class FractalAddressTests
         return table.NodeAt(levels);
     }
 
-    private static long Below(LodHierarchy table, long levels, int copy) => table.NodeAt(levels).ChildLevelSteps[copy] switch { < 0 and var down => ~down, var down => levels - down };
+    private static long Below(LodHierarchy table, long levels, int copy) =>
+        table.NodeAt(levels).ChildLevelSteps[copy] switch { < 0 and var down => ~down, var down => levels - down };
 
     private static void AssertFinite(FractalAddress address) => Assert.True(
-        address.FrameToCamera.IsFinite() && double.IsFinite(address.LogUnit) && address.FrameToCamera.Linear.Determinant() != 0, Text($"at depth {address.Depth}: {address.FrameToCamera}, {address.LogUnit}"));
+        address.FrameToCamera.IsFinite() && double.IsFinite(address.LogUnit) && address.FrameToCamera.Linear.Determinant() != 0,
+        Text($"at depth {address.Depth}: {address.FrameToCamera}, {address.LogUnit}"));
 
     private static string Text(FormattableString text) => text.ToString(CultureInfo.InvariantCulture);
 }

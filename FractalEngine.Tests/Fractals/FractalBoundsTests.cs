@@ -81,7 +81,8 @@ public class FractalBoundsTests
         // Copies of half the size in the corners: the limit has the same corners as the base.
         var mesh = new Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], [0, 1, 2, 0, 1, 3]);
         var infinite = new Fractal(Samples.Repeated(
-            null, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(0.5, 0, 0, 0.5), Samples.MoveAndScale(0, 0.5, 0, 0.5), Samples.MoveAndScale(0, 0, 0.5, 0.5)).Description, mesh);
+            null, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(0.5, 0, 0, 0.5), Samples.MoveAndScale(0, 0.5, 0, 0.5),
+            Samples.MoveAndScale(0, 0, 0.5, 0.5)).Description, mesh);
         AssertNear(new(Vector.Zero, Vector.One), infinite.Bounds, 1e-9);
     }
 
@@ -99,7 +100,8 @@ public class FractalBoundsTests
     public void Bounds_AtAnyDepth_TakeNoLongerThanTwoSeconds(int depth)
     {
         var start = Stopwatch.StartNew();
-        Assert.True(Samples.Repeated(depth, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(3, 0, 0, 0.5)).Bounds.Maximum.IsFinite());
+        Assert.True(
+            Samples.Repeated(depth, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(3, 0, 0, 0.5)).Bounds.Maximum.IsFinite());
         Assert.True(start.ElapsedMilliseconds < 2000, $"{start.ElapsedMilliseconds} ms");
     }
 
@@ -137,6 +139,7 @@ public class FractalBoundsTests
     {
         // Along x the farthest corner of depth n is 1 + 2·(that of depth n − 1), and it starts at 2.
         var expected = Enumerable.Range(0, 600).Aggregate(2.0, (x, _) => 1 + (2 * x));
-        Near.Equal(1, Samples.Repeated(600, Samples.MoveAndScale(1, 0, 0, 2), Samples.MoveAndScale(-1, 0, 0, 2)).Bounds.Maximum.X / expected, 1e-9);
+        Near.Equal(1,
+            Samples.Repeated(600, Samples.MoveAndScale(1, 0, 0, 2), Samples.MoveAndScale(-1, 0, 0, 2)).Bounds.Maximum.X / expected, 1e-9);
     }
 }

@@ -62,7 +62,8 @@ public class FractalCountTests
         var fractal = RandomFractals.Draw(random);
         var levels = Naive.Levels(fractal.Description.Steps).ToList();
         Assert.Equal(levels.Count, fractal.LevelCount);
-        Assert.Equal(levels, Enumerable.Range(0, levels.Count).Select(level => (IReadOnlyList<Transformation>)fractal.LevelAt(level).Transformations));
+        Assert.Equal(levels, Enumerable.Range(0, levels.Count)
+            .Select(level => (IReadOnlyList<Transformation>)fractal.LevelAt(level).Transformations));
         Assert.Throws<ArgumentOutOfRangeException>(() => fractal.LevelAt(levels.Count));
     });
 
@@ -102,7 +103,8 @@ public class FractalCountTests
         Assert.Equal(expected, Samples.Repeated(100, Row(10)).WithMaxInstances(budget).InstanceCount);
 
     [Fact]
-    public void Within_ABudgetThatIsEnough_IsTheFractalItself() => Assert.Equal(1000, Samples.Repeated(3, Row(10)).WithMaxInstances(1000).InstanceCount);
+    public void Within_ABudgetThatIsEnough_IsTheFractalItself() =>
+        Assert.Equal(1000, Samples.Repeated(3, Row(10)).WithMaxInstances(1000).InstanceCount);
 
     [Fact]
     public void Within_AnyBudget_IsKept() => Seeded.Run(300, random =>

@@ -39,7 +39,10 @@ internal sealed class FractalDive
     /// <summary>Steps that were taken, with the unit that each was told in.</summary>
     public List<(Vector Step, double LogUnit)> Steps { get; } = [];
 
-    /// <summary>The same point of the fractal at whatever level, about the camera and in the present unit: where the fixed point, moved by an offset in the frame, lies.</summary>
+    /// <summary>
+    /// The same point of the fractal at whatever level, about the camera and in the present unit: where the fixed point, moved by an offset
+    /// in the frame, lies.
+    /// </summary>
     public Vector Target(Vector offset)
     {
         _right = Math.Min(_right, Address.Path.Count);
@@ -74,7 +77,10 @@ internal sealed class FractalDive
         }
     }
 
-    /// <summary>Moves to an exact place relative to the fixed point, in the frame of the sub-fractal where that is; such places are kept when nothing is entered or left.</summary>
+    /// <summary>
+    /// Moves to an exact place relative to the fixed point, in the frame of the sub-fractal where that is; such places are kept when
+    /// nothing is entered or left.
+    /// </summary>
     public void Settle(Vector offset)
     {
         for (var i = 0; i < 20; i++)

@@ -18,14 +18,17 @@ public class FractalExpansionTests
     public void Expand_OfAnyFractal_IsEveryChainOnce(Composition composition) => Seeded.Run(200, random =>
     {
         var fractal = RandomFractals.Draw(random, composition);
-        Naive.AssertSameMaps(Naive.Distinct(Naive.Chains(fractal.Description), Tolerance), FractalGenerator.Expand(fractal, Budget), Tolerance);
+        Naive.AssertSameMaps(Naive.Distinct(Naive.Chains(fractal.Description), Tolerance), FractalGenerator.Expand(fractal, Budget),
+            Tolerance);
     });
 
     [Fact]
     public void Expand_OfTwoSetsInABody_AppliesTheOuterAfterTheInner()
     {
         // y sits above x in the body: S = {y·x}. Moving by 10 after doubling differs from doubling after moving by 10.
-        var description = Samples.ParseFractal("v 10 0 0\nv 2 2 2\nm.p. (p, #, #)\ns.q. (#, #, q)\na. \"b.obj\"\nx. [s.2] a\ny. [m.1] x\nz<a>. y\n<$>. z 1").Description;
+        var description =
+            Samples.ParseFractal(
+                "v 10 0 0\nv 2 2 2\nm.p. (p, #, #)\ns.q. (#, #, q)\na. \"b.obj\"\nx. [s.2] a\ny. [m.1] x\nz<a>. y\n<$>. z 1").Description;
         var map = Assert.Single(FractalGenerator.Expand(new(description, Samples.Triangle), Budget));
         Assert.Equal(new(12, 0, 0), map * Vector.I);
     }
@@ -34,7 +37,9 @@ public class FractalExpansionTests
     public void Expand_OfARecursive_AppliesTheBaseObjectsSetsFirst()
     {
         // Sⁿ after A: the base is doubled once, then moved n times.
-        var description = Samples.ParseFractal("v 10 0 0\nv 2 2 2\nm.p. (p, #, #)\ns.q. (#, #, q)\na. [s.2] \"b.obj\"\nz<a>. [m.1] a\n<$>. z 3").Description;
+        var description =
+            Samples.ParseFractal(
+                "v 10 0 0\nv 2 2 2\nm.p. (p, #, #)\ns.q. (#, #, q)\na. [s.2] \"b.obj\"\nz<a>. [m.1] a\n<$>. z 3").Description;
         Assert.Equal(new(32, 0, 0), Assert.Single(FractalGenerator.Expand(new(description, Samples.Triangle), Budget)) * Vector.I);
     }
 
@@ -42,7 +47,8 @@ public class FractalExpansionTests
     public void Expand_AtDepthZero_IsTheBaseObject()
     {
         var description = Samples.ParseFractal("v 10 0 0\nm.p. (p, #, #)\na. [#, m.1] \"b.obj\"\nz<a>. [m.1, m.1] a\n<$>. z 0").Description;
-        Assert.Equal([AffineMap.Identity, AffineMap.Translate(new(10, 0, 0))], FractalGenerator.Expand(new(description, Samples.Triangle), Budget).ToArray());
+        Assert.Equal([AffineMap.Identity, AffineMap.Translate(new(10, 0, 0))],
+            FractalGenerator.Expand(new(description, Samples.Triangle), Budget).ToArray());
     }
 
     [Theory]
@@ -58,7 +64,8 @@ public class FractalExpansionTests
 
     [Fact]
     public void Expand_OfAppendixBAtDepthThree_IsTheSetOfAllItsChains() => Assert.Equal(
-        Naive.Chains(Samples.AppendixBAt(3).Description).Select(Key).ToHashSet(), Keys(FractalGenerator.Expand(Samples.AppendixBAt(3), Budget)));
+        Naive.Chains(Samples.AppendixBAt(3).Description).Select(Key).ToHashSet(),
+        Keys(FractalGenerator.Expand(Samples.AppendixBAt(3), Budget)));
 
     [Fact]
     public void Expand_OfAppendixBComponentwiseAtDepthSix_HasNineteenThousandSixHundred() =>
@@ -70,12 +77,14 @@ public class FractalExpansionTests
     {
         var fractal = RandomFractals.Draw(random, composition);
         var shuffled = new Fractal(fractal.Description with { Steps = Shuffled(random, fractal.Description.Steps) }, fractal.BaseMesh);
-        Naive.AssertSameMaps([.. FractalGenerator.Expand(fractal, Budget).Select(Naive.Rows)], FractalGenerator.Expand(shuffled, Budget), Tolerance);
+        Naive.AssertSameMaps([.. FractalGenerator.Expand(fractal, Budget).Select(Naive.Rows)], FractalGenerator.Expand(shuffled, Budget),
+            Tolerance);
     });
 
     [Fact]
     public void Expand_OfASetThatRepeatsAMap_HasItOnce() =>
-        Assert.Equal(2, FractalGenerator.Expand(Samples.Repeated(1, Samples.Move(1, 0, 0), Samples.Move(2, 0, 0), Samples.Move(1, 0, 0)), Budget).Length);
+        Assert.Equal(2,
+        FractalGenerator.Expand(Samples.Repeated(1, Samples.Move(1, 0, 0), Samples.Move(2, 0, 0), Samples.Move(1, 0, 0)), Budget).Length);
 
     [Fact]
     public void Expand_OfMapsThatAreAlmostEqual_KeepsBoth() =>
@@ -84,12 +93,16 @@ public class FractalExpansionTests
     [Fact]
     public void Expand_OfSumsInDifferentOrder_CountsThemAsEqual() =>
         // 0.1 + 0.2 + 0.3 has two values in floating point, depending on the order: 3 maps to the 3rd give 10 sums, some of them equal.
-        Assert.Equal(7, FractalGenerator.Expand(Samples.Repeated(3, Samples.Move(0.1, 0, 0), Samples.Move(0.2, 0, 0), Samples.Move(0.3, 0, 0)), Budget).Length);
+        Assert.Equal(7,
+        FractalGenerator.Expand(Samples.Repeated(3, Samples.Move(0.1, 0, 0), Samples.Move(0.2, 0, 0), Samples.Move(0.3, 0, 0)),
+        Budget).Length);
 
     [Fact]
     public void Expand_OfTinyCopiesFarFromEachOther_KeepsAll() =>
         // At depth 20 instances are a millionth of the size.
-        Assert.Equal(1 << 20, FractalGenerator.Expand(Samples.Repeated(20, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(0.5, 0, 0, 0.5)), 1 << 20).Length);
+        Assert.Equal(1 << 20,
+        FractalGenerator.Expand(Samples.Repeated(20, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(0.5, 0, 0, 0.5)),
+        1 << 20).Length);
 
     [Fact]
     public void Expand_BeyondTheBudget_NamesTheLimit()
@@ -103,8 +116,10 @@ public class FractalExpansionTests
 
     [Theory]
     [MemberData(nameof(Compositions))]
-    public void Expand_OfTheInfinite_IsRefused(Composition composition) => Assert.Throws<FractalLimitException>(() => FractalGenerator.Expand(
-        new(Samples.Repeated(null, Samples.MoveAndScale(1, 0, 0, 0.5), Transformation.Identity).Description with { Composition = composition }, Samples.Triangle), Budget));
+    public void Expand_OfTheInfinite_IsRefused(Composition composition) =>
+        Assert.Throws<FractalLimitException>(() => FractalGenerator.Expand(
+        new(Samples.Repeated(null, Samples.MoveAndScale(1, 0, 0, 0.5), Transformation.Identity).Description with { Composition =
+        composition }, Samples.Triangle), Budget));
 
     [Fact]
     public void Expand_OfAGoogol_IsRefusedAtOnce()
@@ -119,14 +134,16 @@ public class FractalExpansionTests
     public void Expand_ComponentwiseWithFewSums_LooksOnlyAtThose() =>
         // Of 3¹⁰⁰ chains only (102 choose 2) differ: how often each of three maps occurs.
         Assert.Equal(5151, FractalGenerator.Expand(
-            new(Samples.Repeated(100, Samples.Move(1, 0, 0), Samples.Move(0, 1, 0), Samples.Move(0, 0, 1)).Description with { Composition = Composition.Componentwise }, Samples.Triangle), 6000).Length);
+            new(Samples.Repeated(100, Samples.Move(1, 0, 0), Samples.Move(0, 1, 0), Samples.Move(0, 0, 1)).Description with { Composition =
+            Composition.Componentwise }, Samples.Triangle), 6000).Length);
 
     [Fact]
     public void ComponentwiseSums_AreEachOnceAndWithinTheBudget()
     {
         var fractal = Samples.AppendixBAt(6, Composition.Componentwise);
         Assert.Equal(19_600, FractalGenerator.ExpandComponentwise(fractal, 19_600).Distinct().Count());
-        Assert.Contains("19599", Assert.Throws<FractalLimitException>(() => FractalGenerator.ExpandComponentwise(fractal, 19_599)).Message, StringComparison.Ordinal);
+        Assert.Contains("19599", Assert.Throws<FractalLimitException>(() => FractalGenerator.ExpandComponentwise(fractal, 19_599)).Message,
+            StringComparison.Ordinal);
     }
 
     [Fact]
@@ -157,11 +174,13 @@ public class FractalExpansionTests
 
     // Different maps of Appendix B at depth 3 (factors 0.001 × 0.125) differ by far more than 1e-7, equal ones by far less. The factor
     // is crooked, so that no entry lies between two whole numbers, where rounding would part equal ones.
-    private static string Key(double[][] map) => string.Join(' ', map.SelectMany(row => row).Select(entry => (long)Math.Round(entry * 12_345_678.9)));
+    private static string Key(double[][] map) =>
+        string.Join(' ', map.SelectMany(row => row).Select(entry => (long)Math.Round(entry * 12_345_678.9)));
 
     private static HashSet<string> Keys(ImmutableArray<AffineMap> maps) => [.. maps.Select(map => Key(Naive.Rows(map)))];
 
-    private static ImmutableArray<FractalStep> Shuffled(Random random, ImmutableArray<FractalStep> steps) => [.. steps.Select(step => step switch
+    private static ImmutableArray<FractalStep> Shuffled(Random random, ImmutableArray<FractalStep> steps) =>
+        [.. steps.Select(step => step switch
     {
         TransformationSet set => (FractalStep)new TransformationSet([.. set.Transformations.OrderBy(_ => random.Next())]),
         Repetition repetition => new Repetition(Shuffled(random, repetition.Body), repetition.Count),

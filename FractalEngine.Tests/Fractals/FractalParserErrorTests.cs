@@ -70,7 +70,8 @@ public class FractalParserErrorTests
     [InlineData("19", "vector 19 of 2: it is not declared above")]
     [InlineData("0", "vector 0 of 2: vectors are numbered from 1")]
     [InlineData("3", "vector 3 of 2: it is not declared above")]
-    public void Call_WithAVectorNumberOutOfRange_SaysHowManyThereAre(string number, string message) => Fails(Head + $"<$>. [t.{number}] x", $"""
+    public void Call_WithAVectorNumberOutOfRange_SaysHowManyThereAre(string number, string message) =>
+        Fails(Head + $"<$>. [t.{number}] x", $"""
         test.fdo:6:9: error: {message}
           <$>. [t.{number}] x
                   ^
@@ -78,7 +79,8 @@ public class FractalParserErrorTests
 
     [Fact]
     public void Call_WithAHugeVectorNumber_IsOutOfRange() =>
-        Assert.Contains("test.fdo:6:9: error: vector ", Errors.Of(() => Samples.ParseFractal(Head + "<$>. [t.99999999999999999999] x")), StringComparison.Ordinal);
+        Assert.Contains("test.fdo:6:9: error: vector ", Errors.Of(() => Samples.ParseFractal(Head + "<$>. [t.99999999999999999999] x")),
+        StringComparison.Ordinal);
 
     [Fact]
     public void Function_WithAVectorNumberOutOfRange_SaysHowManyThereAre() => Fails("v 1 1 1\nt. (1, 2, #)\n<$>. [t.] \"b.obj\"", """
@@ -138,7 +140,8 @@ public class FractalParserErrorTests
 
     [Fact]
     public void Depth_WithAFraction_IsNoNumberOfTimes() =>
-        Assert.StartsWith("test.fdo:6:9: error: unexpected '.", Errors.Of(() => Samples.ParseFractal(Head + "<$>. z 2.5")), StringComparison.Ordinal);
+        Assert.StartsWith("test.fdo:6:9: error: unexpected '.", Errors.Of(() => Samples.ParseFractal(Head + "<$>. z 2.5")),
+        StringComparison.Ordinal);
 
     [Fact]
     public void Recursive_NotBuiltOnItsBase_IsRefused() => Fails("x. \"b.obj\"\ny. \"b.obj\"\nz<x>. [#] y\n<$>. z 2", """
@@ -219,7 +222,8 @@ public class FractalParserErrorTests
 
     [Fact]
     public void Vector_WithCommaDecimals_HasTooManyNumbers() =>
-        Assert.StartsWith("test.fdo:1:", InCulture.Get("de-DE", () => Errors.Of(() => Samples.ParseFractal("v 0,5 0,5 0,5\n<$>. \"b.obj\""))), StringComparison.Ordinal);
+        Assert.StartsWith("test.fdo:1:",
+        InCulture.Get("de-DE", () => Errors.Of(() => Samples.ParseFractal("v 0,5 0,5 0,5\n<$>. \"b.obj\""))), StringComparison.Ordinal);
 
     [Theory]
     [InlineData("x. \"Base.fdo\"")]
@@ -233,15 +237,18 @@ public class FractalParserErrorTests
 
     [Fact]
     public void BaseFile_WithoutItsClosingQuote_PointsAtTheEndOfTheLine() =>
-        Assert.StartsWith("test.fdo:1:10: error: unexpected end of line, expected '\"'", Errors.Of(() => Samples.ParseFractal("x. \"b.obj\n<$>. x")), StringComparison.Ordinal);
+        Assert.StartsWith("test.fdo:1:10: error: unexpected end of line, expected '\"'",
+        Errors.Of(() => Samples.ParseFractal("x. \"b.obj\n<$>. x")), StringComparison.Ordinal);
 
     [Fact]
     public void Scale_OfZero_IsSingular() => Assert.StartsWith(
-        "test.fdo:3:7: error: the scale (1, 0, 1) is singular", Errors.Of(() => Samples.ParseFractal("v 1 0 1\nt.a. (#, #, a)\n<$>. [t.1] \"b.obj\"")), StringComparison.Ordinal);
+        "test.fdo:3:7: error: the scale (1, 0, 1) is singular",
+        Errors.Of(() => Samples.ParseFractal("v 1 0 1\nt.a. (#, #, a)\n<$>. [t.1] \"b.obj\"")), StringComparison.Ordinal);
 
     [Fact]
     public void Infinite_Componentwise_IsRefused() => Assert.Contains(
-        "infinite fractal can't be composed componentwise", Errors.Of(() => Samples.ParseFractal("composition componentwise\n" + Head + "<$>. z")), StringComparison.Ordinal);
+        "infinite fractal can't be composed componentwise",
+        Errors.Of(() => Samples.ParseFractal("composition componentwise\n" + Head + "<$>. z")), StringComparison.Ordinal);
 
     [Theory]
     [InlineData("composition sideways", 13)]
@@ -308,7 +315,8 @@ public class FractalParserErrorTests
     [Fact]
     public void Parse_OfManySteps_NamesTheLimit()
     {
-        var error = Errors.Thrown(() => Samples.ParseFractal("<$>. " + Repeat("[#] ", FractalLimits.MaxSteps + 1) + "\"b.obj\"")).Diagnostic;
+        var error =
+            Errors.Thrown(() => Samples.ParseFractal("<$>. " + Repeat("[#] ", FractalLimits.MaxSteps + 1) + "\"b.obj\"")).Diagnostic;
         Assert.True(error.IsLimitExceeded);
         Assert.Contains($"{FractalLimits.MaxSteps}", error.Message, StringComparison.Ordinal);
     }
@@ -316,7 +324,10 @@ public class FractalParserErrorTests
     [Fact]
     public void Parse_OfRecursivesInRecursives_NamesTheLimit()
     {
-        var error = Errors.Thrown(() => Samples.ParseFractal("x. \"b.obj\"\ny0. [#] x\n" + Lines(40, i => $"z{i}<x>. [#] y{i}\ny{i + 1}. z{i} 1\n") + "<$>. y40")).Diagnostic;
+        var error =
+            Errors.Thrown(
+                () => Samples.ParseFractal("x. \"b.obj\"\ny0. [#] x\n" + Lines(40, i => $"z{i}<x>. [#] y{i}\ny{i + 1}. z{i} 1\n")
+                    + "<$>. y40")).Diagnostic;
         Assert.True(error.IsLimitExceeded);
         Assert.Contains($"{FractalLimits.MaxNesting}", error.Message, StringComparison.Ordinal);
     }
@@ -324,7 +335,8 @@ public class FractalParserErrorTests
     [Fact]
     public void Parse_OfMillionsToThePowerOfMillions_NamesTheLimit()
     {
-        var error = Errors.Thrown(() => Samples.ParseFractal("x. \"b.obj\"\nz<x>. [#, #] x\ny. z 1000000\nw<x>. [#] y\n<$>. w 1000000")).Diagnostic;
+        var error =
+            Errors.Thrown(() => Samples.ParseFractal("x. \"b.obj\"\nz<x>. [#, #] x\ny. z 1000000\nw<x>. [#] y\n<$>. w 1000000")).Diagnostic;
         Assert.True(error.IsLimitExceeded);
         Assert.Contains($"{FractalLimits.MaxLevels}", error.Message, StringComparison.Ordinal);
     }

@@ -7,7 +7,8 @@ namespace FractalEngine.Tests.Fractals;
 public class FractalParserTests
 {
     // Vectors 1 to 4 and functions of 0 to 3 parameters; tests add what they are about.
-    private const string Head = "v 1 2 3\nv 10 20 30\nv 0 90 0\nv 2 2 2\nr. (1, #, #)\ns.a. (a, #, #)\nt.a.b. (a, 3, b)\nu.a.b.c. (a, b, c)\nx. \"Base.obj\"\n";
+    private const string Head =
+        "v 1 2 3\nv 10 20 30\nv 0 90 0\nv 2 2 2\nr. (1, #, #)\ns.a. (a, #, #)\nt.a.b. (a, 3, b)\nu.a.b.c. (a, b, c)\nx. \"Base.obj\"\n";
 
     private static FractalDescription Parse(string text) => Samples.ParseFractal(text).Description;
 
@@ -42,7 +43,8 @@ public class FractalParserTests
     [InlineData("  v 1 2 3")]
     [InlineData("v +1.0 .2e1 30.E-1")]
     public void Vector_WithAnySeparators_IsRead(string line) =>
-        Assert.Equal(new(1, 2, 3), Assert.Single(Naive.Levels(Parse($"{line}\nm.a. (a, #, #)\n<$>. [m.1] \"b.obj\"").Steps).Single()).Position);
+        Assert.Equal(new(1, 2, 3),
+        Assert.Single(Naive.Levels(Parse($"{line}\nm.a. (a, #, #)\n<$>. [m.1] \"b.obj\"").Steps).Single()).Position);
 
     [Fact]
     public void Call_WithNumbers_BindsVectorsInOrder()
@@ -66,7 +68,8 @@ public class FractalParserTests
     public void Set_BeforeASet_IsAppliedAfterIt() => Assert.Equal([[Only("s.1")], [Only("s.2")]], Sets("<$>. [s.1] [s.2] x"));
 
     [Fact]
-    public void Set_OnANamedObject_IsAppliedAfterItsSets() => Assert.Equal([[Only("s.1")], [Only("s.2")]], Sets("y. [s.2] x\n<$>. [s.1] y"));
+    public void Set_OnANamedObject_IsAppliedAfterItsSets() =>
+        Assert.Equal([[Only("s.1")], [Only("s.2")]], Sets("y. [s.2] x\n<$>. [s.1] y"));
 
     [Fact]
     public void Set_DirectlyOnAFile_NeedsNoName() => Assert.Equal("other.obj", Parse(Head + "<$>. [s.1] \"other.obj\"").BaseFile);
@@ -94,7 +97,8 @@ public class FractalParserTests
     public void Recursive_AtDepthZero_IsItsBase() => Assert.Equal([[Only("s.2")]], Sets("a. [s.2] x\nz<a>. [s.1] a\n<$>. z 0"));
 
     [Fact]
-    public void Recursive_UnderASet_HasTheSetOnce() => Assert.Equal([[Only("s.2")], [Only("s.1")], [Only("s.1")]], Sets("z<x>. [s.1] x\n<$>. [s.2] z 2"));
+    public void Recursive_UnderASet_HasTheSetOnce() =>
+        Assert.Equal([[Only("s.2")], [Only("s.1")], [Only("s.1")]], Sets("z<x>. [s.1] x\n<$>. [s.2] z 2"));
 
     [Fact]
     public void Recursive_InsideAnotherFlattened_IsRepeatedWhole() => Assert.Equal(
@@ -120,7 +124,8 @@ public class FractalParserTests
     [InlineData("composition affine\n", Composition.Affine)]
     [InlineData("composition componentwise\n", Composition.Componentwise)]
     [InlineData("", Composition.Affine)]
-    public void Composition_IsWhatTheFileSays(string line, Composition expected) => Assert.Equal(expected, Parse(line + Head + "<$>. x").Composition);
+    public void Composition_IsWhatTheFileSays(string line, Composition expected) =>
+        Assert.Equal(expected, Parse(line + Head + "<$>. x").Composition);
 
     [Theory]
     [InlineData("# comment\n\n   \n\t# comment behind blanks\n#\n")]

@@ -90,7 +90,8 @@ public sealed class MeshGeneratorTests
         }
 
         Assert.DoesNotContain(false, used);
-        Assert.True(mesh.Positions.All(double.IsFinite) && mesh.Normals.All(double.IsFinite) && mesh.TextureCoordinates.All(double.IsFinite));
+        Assert.True(mesh.Positions.All(double.IsFinite) && mesh.Normals.All(double.IsFinite)
+            && mesh.TextureCoordinates.All(double.IsFinite));
     }
 
     [Theory]
@@ -157,7 +158,8 @@ public sealed class MeshGeneratorTests
         Assert.True(mesh.VertexIndices.AsSpan().SequenceEqual(read.VertexIndices.AsSpan()));
         Assert.True(mesh.TextureIndices.AsSpan().SequenceEqual(read.TextureIndices.AsSpan()));
         Assert.True(mesh.NormalIndices.AsSpan().SequenceEqual(read.NormalIndices.AsSpan()));
-        Assert.Equal(mesh.Groups.Select(group => group.GroupName), read.Groups.Select(group => group.GroupName).Where(group => group.Length > 0));
+        Assert.Equal(mesh.Groups.Select(group => group.GroupName), read.Groups.Select(group => group.GroupName)
+            .Where(group => group.Length > 0));
     }
 
     private static long[] Bits(Mesh mesh) => [.. mesh.Positions.Select(BitConverter.DoubleToInt64Bits)];

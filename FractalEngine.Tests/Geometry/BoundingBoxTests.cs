@@ -22,7 +22,8 @@ public class BoundingBoxTests
     public void Including_FromEmpty_IsThePoint() => Assert.Equal(new(Vector.J, Vector.J), BoundingBox.Empty.Including(Vector.J));
 
     [Fact]
-    public void Union_HoldsBoth() => Assert.Equal(new(new(-1, 0, 0), new(1, 1, 5)), BoundingBox.Union(Unit, new(new(-1, 0, 2), new(0, 1, 5))));
+    public void Union_HoldsBoth() =>
+        Assert.Equal(new(new(-1, 0, 0), new(1, 1, 5)), BoundingBox.Union(Unit, new(new(-1, 0, 2), new(0, 1, 5))));
 
     [Fact]
     public void CentreSizeAndDiagonal_AreThose()
@@ -32,7 +33,8 @@ public class BoundingBoxTests
     }
 
     [Fact]
-    public void Centre_OfAnEnormousBox_IsFinite() => Assert.Equal(Vector.Zero, new BoundingBox(-1.7e308 * Vector.One, 1.7e308 * Vector.One).Centre);
+    public void Centre_OfAnEnormousBox_IsFinite() =>
+        Assert.Equal(Vector.Zero, new BoundingBox(-1.7e308 * Vector.One, 1.7e308 * Vector.One).Centre);
 
     [Fact]
     public void Transform_ByAnyMap_IsTheSmallestBoxAroundTheImagesOfTheCorners() => Seeded.Run(200, random =>

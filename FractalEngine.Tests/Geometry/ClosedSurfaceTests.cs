@@ -40,6 +40,9 @@ public sealed class ClosedSurfaceTests
     {
         var cube = RenderScenes.Cube(1);
         var small = RenderScenes.Cube(0.5).Transform(vertex => new Vector(5, 0, 0) - vertex);
-        Assert.False(ClosedSurface.IsSolid(new([.. cube.Positions, .. small.Positions], [.. cube.VertexIndices, .. small.VertexIndices.Select(vertex => vertex + 8)])));
+        Assert.False(
+            ClosedSurface.IsSolid(
+                new([.. cube.Positions, .. small.Positions],
+                [.. cube.VertexIndices, .. small.VertexIndices.Select(vertex => vertex + 8)])));
     }
 }

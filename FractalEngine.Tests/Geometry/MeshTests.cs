@@ -25,7 +25,8 @@ public class MeshTests
     [InlineData(-1)]
     [InlineData(1)]
     [InlineData(int.MaxValue)]
-    public void Mesh_WithAVertexNumberOutOfRange_IsRefused(int number) => Assert.Throws<ArgumentException>(() => new Mesh([1, 2, 3], [0, 0, number]));
+    public void Mesh_WithAVertexNumberOutOfRange_IsRefused(int number) =>
+        Assert.Throws<ArgumentException>(() => new Mesh([1, 2, 3], [0, 0, number]));
 
     [Theory]
     [InlineData(-2)]
@@ -56,7 +57,8 @@ public class MeshTests
     }
 
     [Fact]
-    public void Radius_UnderTheIdentity_IsTheFarthestVertexFromTheOrigin() => Assert.Equal(3, Samples.Tetrahedron.Radius(AffineMap.Identity));
+    public void Radius_UnderTheIdentity_IsTheFarthestVertexFromTheOrigin() =>
+        Assert.Equal(3, Samples.Tetrahedron.Radius(AffineMap.Identity));
 
     [Fact]
     public void Radius_UnderAnyMap_IsThePapersMaximum() => Seeded.Run(100, random =>
@@ -68,7 +70,8 @@ public class MeshTests
     });
 
     [Fact]
-    public void Radius_OfAMovedMesh_IsThatOfTheUnmoved() => Assert.Equal(3, Samples.Tetrahedron.Radius(AffineMap.Translate(new(1e9, -1e9, 1e9))));
+    public void Radius_OfAMovedMesh_IsThatOfTheUnmoved() =>
+        Assert.Equal(3, Samples.Tetrahedron.Radius(AffineMap.Translate(new(1e9, -1e9, 1e9))));
 
     [Fact]
     public void Transform_AppliesTheFunctionToEveryVertexAndKeepsTheFaces()

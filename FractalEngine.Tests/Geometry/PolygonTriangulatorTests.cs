@@ -31,7 +31,8 @@ public class PolygonTriangulatorTests
     };
 
     [Fact]
-    public void Triangulate_ATriangle_GivesItself() => Assert.Equal([0, 1, 2], Triangulate([Vector.Zero, Vector.I, Vector.J]).SelectMany(t => t).Order());
+    public void Triangulate_ATriangle_GivesItself() =>
+        Assert.Equal([0, 1, 2], Triangulate([Vector.Zero, Vector.I, Vector.J]).SelectMany(t => t).Order());
 
     [Theory]
     [MemberData(nameof(Concave))]
@@ -49,7 +50,9 @@ public class PolygonTriangulatorTests
     {
         var count = random.Next(3, 40);
         var angles = Enumerable.Range(0, count).Select(i => (i + random.Between(0.05, 0.95)) * 2 * Math.PI / count);
-        AssertCovered(random, [.. angles.Select(angle => random.Between(0.2, 3) switch { var r => (r * Math.Cos(angle), r * Math.Sin(angle)) })], random.Next(2) == 0);
+        AssertCovered(random,
+            [.. angles.Select(angle => random.Between(0.2, 3) switch { var r => (r * Math.Cos(angle), r * Math.Sin(angle)) })],
+            random.Next(2) == 0);
     });
 
     [Fact]
@@ -80,7 +83,8 @@ public class PolygonTriangulatorTests
     [Fact]
     public void Triangulate_ALargeCircle_TakesNoLongerThanASecond()
     {
-        var circle = Enumerable.Range(0, 20_000).Select(i => i * 2 * Math.PI / 20_000).Select(a => new Vector(Math.Cos(a), Math.Sin(a), 0)).ToArray();
+        var circle = Enumerable.Range(0, 20_000).Select(i => i * 2 * Math.PI / 20_000).Select(a => new Vector(Math.Cos(a), Math.Sin(a), 0))
+            .ToArray();
         var start = System.Diagnostics.Stopwatch.StartNew();
         Assert.Equal(19_998, Triangulate(circle).Count);
         // It takes milliseconds; the limit leaves room for a busy machine.
@@ -128,10 +132,12 @@ public class PolygonTriangulatorTests
     private static double Area((double X, double Y)[] polygon, int[] t) =>
         (Cross(polygon[t[0]], polygon[t[1]]) + Cross(polygon[t[1]], polygon[t[2]]) + Cross(polygon[t[2]], polygon[t[0]])) / 2;
 
-    private static (double X, double Y) Centre((double X, double Y)[] polygon, int[] t) => (t.Average(i => polygon[i].X), t.Average(i => polygon[i].Y));
+    private static (double X, double Y) Centre((double X, double Y)[] polygon, int[] t) =>
+        (t.Average(i => polygon[i].X), t.Average(i => polygon[i].Y));
 
     // A ray to the right crosses the border an odd number of times.
     private static bool IsInside((double X, double Y)[] polygon, (double X, double Y) p) => Enumerable.Range(0, polygon.Length)
         .Select(i => (A: polygon[i], B: polygon[(i + 1) % polygon.Length]))
-        .Count(edge => edge.A.Y > p.Y != edge.B.Y > p.Y && p.X < edge.A.X + ((p.Y - edge.A.Y) / (edge.B.Y - edge.A.Y) * (edge.B.X - edge.A.X))) % 2 == 1;
+        .Count(edge => edge.A.Y > p.Y != edge.B.Y > p.Y
+        && p.X < edge.A.X + ((p.Y - edge.A.Y) / (edge.B.Y - edge.A.Y) * (edge.B.X - edge.A.X))) % 2 == 1;
 }

@@ -66,7 +66,8 @@ public class AffineMapTests
     [Fact]
     public void ChainOfScaleAndRotation_Shears()
     {
-        var map = AffineMap.Rotate(new(0, 0, 45), Vector.Zero) * AffineMap.Scale(new(4, 1, 1), Vector.Zero) * AffineMap.Rotate(new(0, 0, 45), Vector.Zero);
+        var map = AffineMap.Rotate(new(0, 0, 45), Vector.Zero) * AffineMap.Scale(new(4, 1, 1), Vector.Zero)
+            * AffineMap.Rotate(new(0, 0, 45), Vector.Zero);
         Assert.True(Math.Abs(Vector.Dot(map * Vector.I, map * Vector.J)) > 1, "the axes stay perpendicular");
     }
 

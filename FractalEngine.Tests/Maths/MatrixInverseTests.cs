@@ -7,7 +7,8 @@ public class MatrixInverseTests
 {
     [Fact]
     public void Inverse_OfAKnownMatrix_IsExact() => Assert.Equal(
-        Matrix.FromRows(new(0, 1, 0), new(0, 0, 0.5), new(0.25, 0, 0)), Matrix.FromRows(new(0, 0, 4), new(1, 0, 0), new(0, 2, 0)).Inverse());
+        Matrix.FromRows(new(0, 1, 0), new(0, 0, 0.5), new(0.25, 0, 0)), Matrix.FromRows(new(0, 0, 4), new(1, 0, 0), new(0, 2, 0))
+        .Inverse());
 
     [Theory]
     [InlineData(1, 1e-14)]

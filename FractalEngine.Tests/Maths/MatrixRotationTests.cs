@@ -57,7 +57,8 @@ public class MatrixRotationTests
     public void LocalAxesFromDegrees_OfQuarterTurns_AreExact(double angle)
     {
         Vector[] rotations = [new(angle, 0, 0), new(0, angle, 0), new(0, 0, angle), new(angle, angle, angle)];
-        Assert.All(rotations.SelectMany(rotation => Entries(rotation.LocalAxesFromDegrees())), entry => Assert.Contains(Math.Abs(entry), new[] { 0.0, 1.0 }));
+        Assert.All(rotations.SelectMany(rotation => Entries(rotation.LocalAxesFromDegrees())),
+            entry => Assert.Contains(Math.Abs(entry), new[] { 0.0, 1.0 }));
     }
 
     [Fact]

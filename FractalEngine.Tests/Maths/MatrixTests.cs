@@ -44,7 +44,8 @@ public class MatrixTests
     [Fact]
     public void Determinant_OfAProduct_IsTheProductOfDeterminants() => Seeded.Run(200, random =>
     {
-        var (m1, m2) = (new Matrix(random.Vector(), random.Vector(), random.Vector()), new Matrix(random.Vector(), random.Vector(), random.Vector()));
+        var (m1, m2) =
+            (new Matrix(random.Vector(), random.Vector(), random.Vector()), new Matrix(random.Vector(), random.Vector(), random.Vector()));
         // Entries up to 3: some dozens of roundings of numbers up to 27.
         Near.Equal(m1.Determinant() * m2.Determinant(), (m1 * m2).Determinant(), 1e-13);
     });
@@ -54,7 +55,8 @@ public class MatrixTests
         t.Item1.Cofactors() * Vector.Cross(t.Item2.Item1, t.Item2.Item2) == Vector.Cross(t.Item1 * t.Item2.Item1, t.Item1 * t.Item2.Item2));
 
     [Fact]
-    public void Outer_SendsVToDotTimesTheFirst() => Assert.Equal(new(32, 64, 96), Matrix.Outer(new(1, 2, 3), new(4, 5, 6)) * new Vector(1, 2, 3));
+    public void Outer_SendsVToDotTimesTheFirst() =>
+        Assert.Equal(new(32, 64, 96), Matrix.Outer(new(1, 2, 3), new(4, 5, 6)) * new Vector(1, 2, 3));
 
     [Fact]
     public void CrossProduct_SendsVToTheCrossProduct() =>

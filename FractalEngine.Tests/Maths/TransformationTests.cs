@@ -33,7 +33,8 @@ public class TransformationTests
     [Fact]
     public void ComposeComponentwise_AddsPositionsAndRotationsAndMultipliesScales() => Assert.Equal(
         new(new(11, 22, 33), new(90, 0, -45), new(2, -6, 12)),
-        Transformation.ComposeComponentwise(new(new(1, 2, 3), new(45, 0, 45), new(1, 2, 3)), new(new(10, 20, 30), new(45, 0, -90), new(2, -3, 4))));
+        Transformation.ComposeComponentwise(new(new(1, 2, 3), new(45, 0, 45), new(1, 2, 3)),
+        new(new(10, 20, 30), new(45, 0, -90), new(2, -3, 4))));
 
     [Fact]
     public void ComposeComponentwise_InEitherOrder_IsTheSame() => Seeded.Run(100, random =>

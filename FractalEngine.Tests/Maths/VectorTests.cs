@@ -13,7 +13,8 @@ public class VectorTests
 
     [Fact]
     public void Addition_AnyVectors_IsCommutativeAndUndoneBySubtraction() =>
-        Laws.Hold(Laws.Vectors.Two(), pair => pair.Item1 + pair.Item2 == pair.Item2 + pair.Item1 && pair.Item1 + pair.Item2 - pair.Item2 == pair.Item1);
+        Laws.Hold(Laws.Vectors.Two(), pair => pair.Item1 + pair.Item2 == pair.Item2 + pair.Item1
+        && pair.Item1 + pair.Item2 - pair.Item2 == pair.Item1);
 
     [Fact]
     public void Negation_AnyVector_IsTheDifferenceFromZero() => Laws.Hold(Laws.Vectors, v => -v == Vector.Zero - v);
@@ -30,7 +31,8 @@ public class VectorTests
 
     [Fact]
     public void Cross_OfTheAxes_IsTheThird() => Assert.Equal(
-        [Vector.K, Vector.I, Vector.J], new[] { Vector.Cross(Vector.I, Vector.J), Vector.Cross(Vector.J, Vector.K), Vector.Cross(Vector.K, Vector.I) });
+        [Vector.K, Vector.I, Vector.J],
+        new[] { Vector.Cross(Vector.I, Vector.J), Vector.Cross(Vector.J, Vector.K), Vector.Cross(Vector.K, Vector.I) });
 
     [Fact]
     public void Cross_AnyVectors_IsPerpendicularToBothAndAntisymmetric() => Laws.Hold(Laws.Vectors.Two(), pair =>
@@ -69,7 +71,8 @@ public class VectorTests
     [InlineData(0)]
     [InlineData(double.NaN)]
     [InlineData(double.PositiveInfinity)]
-    public void UnitVector_WithoutDirection_IsRefused(double size) => Assert.Throws<InvalidOperationException>(() => new Vector(size, 0, 0).UnitVector());
+    public void UnitVector_WithoutDirection_IsRefused(double size) =>
+        Assert.Throws<InvalidOperationException>(() => new Vector(size, 0, 0).UnitVector());
 
     [Fact]
     public void MinAndMax_AreComponentwise() => Assert.Equal(
@@ -79,7 +82,8 @@ public class VectorTests
     [InlineData(1, 2, 3, true)]
     [InlineData(double.NaN, 0, 0, false)]
     [InlineData(0, double.NegativeInfinity, 0, false)]
-    public void IsFinite_LooksAtEveryComponent(double x, double y, double z, bool expected) => Assert.Equal(expected, new Vector(x, y, z).IsFinite());
+    public void IsFinite_LooksAtEveryComponent(double x, double y, double z, bool expected) =>
+        Assert.Equal(expected, new Vector(x, y, z).IsFinite());
 
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]

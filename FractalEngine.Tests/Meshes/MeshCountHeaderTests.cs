@@ -57,7 +57,8 @@ public sealed class MeshCountHeaderTests : IDisposable
         const string text = "# a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
         var path = _folder.Write("a.obj", text);
         MeshCountHeader.Update(path, 1);
-        Assert.Equal(Samples.ParseObj(text).Mesh.VertexIndices.ToArray(), Samples.ParseObj(File.ReadAllText(path)).Mesh.VertexIndices.ToArray());
+        Assert.Equal(Samples.ParseObj(text).Mesh.VertexIndices.ToArray(),
+            Samples.ParseObj(File.ReadAllText(path)).Mesh.VertexIndices.ToArray());
     }
 
     [Fact]

@@ -42,7 +42,8 @@ public class MtlParserTests
 
     [Fact]
     public void Material_WithoutStatements_IsWhiteMattAndOpaque() => Assert.Equal(
-        new Material("m") { Diffuse = Colour.White, Ambient = Colour.White, Specular = Colour.Black, SpecularExponent = 1, Opacity = 1, Texture = null },
+        new Material("m") { Diffuse = Colour.White, Ambient = Colour.White, Specular = Colour.Black, SpecularExponent = 1, Opacity = 1,
+        Texture = null },
         Only("newmtl m"));
 
     [Fact]
@@ -67,7 +68,8 @@ public class MtlParserTests
     [InlineData("Tr 0.5\nd 0.75", 0.75)]
     [InlineData("Tr 1", 1)] // as some programs write what is opaque
     [InlineData("Tr 0", 1)]
-    public void Opacity_ByEitherStatement_IsKept(string statements, double expected) => Assert.Equal(expected, Only($"newmtl m\n{statements}\n").Opacity);
+    public void Opacity_ByEitherStatement_IsKept(string statements, double expected) =>
+        Assert.Equal(expected, Only($"newmtl m\n{statements}\n").Opacity);
 
     [Theory]
     [InlineData("wood.png", "wood.png")]
@@ -171,7 +173,9 @@ public class MtlParserTests
     [Fact]
     public void Parse_OfAnyText_NeverFails() => Seeded.Run(2000, random =>
     {
-        var text = new System.Text.StringBuilder("newmtl a\nKd 1 1 1\nKa 0 0 0\nKs 1 1 1\nNs 10\nd 1\nTr 0\nmap_Kd -clamp on -o 1 1 -s 2 a b.png # c\nillum 2\n");
+        var text =
+            new System.Text.StringBuilder(
+                "newmtl a\nKd 1 1 1\nKa 0 0 0\nKs 1 1 1\nNs 10\nd 1\nTr 0\nmap_Kd -clamp on -o 1 1 -s 2 a b.png # c\nillum 2\n");
         for (var change = random.Next(1, 6); change > 0; change--)
         {
             const string characters = "\0\t\n\r #,-.019\\KTadesmnpw_§\uD83D";
@@ -185,7 +189,8 @@ public class MtlParserTests
 
         var file = Parse(text.ToString());
         Assert.All(file.Warnings, warning => Assert.Matches(@"^test\.mtl:[1-9]\d*:[1-9]\d*: warning: \S", warning.ToString()));
-        Assert.All(file.Materials.Values, material => Assert.True(material.Texture is null || file.TextureNameOffsets.ContainsKey(material.Name)));
+        Assert.All(file.Materials.Values,
+            material => Assert.True(material.Texture is null || file.TextureNameOffsets.ContainsKey(material.Name)));
         Assert.All(file.Materials.Values, material => Assert.InRange(material.Opacity, 0, 1));
     });
 

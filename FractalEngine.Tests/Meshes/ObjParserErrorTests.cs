@@ -33,7 +33,8 @@ public class ObjParserErrorTests
     [InlineData("v 1 2 -1e400", 7, "the number -1e400 is beyond the range of a double")]
     [InlineData("v 1 2", 6, "unexpected end of line, expected a number")]
     public void Line_ThatIsWrong_PointsAtTheFault(string line, int column, string message) => Errors.Are(
-        $"test.obj:4:{column}: error: {message}\n  {line}\n  {new string(' ', column - 1)}^", () => Samples.ParseObj($"{Triangle}{line}\nv 9 9 9\n"));
+        $"test.obj:4:{column}: error: {message}\n  {line}\n  {new string(' ', column - 1)}^",
+        () => Samples.ParseObj($"{Triangle}{line}\nv 9 9 9\n"));
 
     [Theory]
     [InlineData("f", 1)]
@@ -68,7 +69,9 @@ public class ObjParserErrorTests
     [Fact]
     public void Parse_OfAnyText_EndsInAMeshOrOneProperError() => Seeded.Run(3000, random =>
     {
-        var text = new StringBuilder("mtllib m\nv 0 0 0\nv 1 0 0 1\nv 1 1 0 # c\nv 0 1 0\nvt 0 1\nvn 0 0 1\no x\ns 1\nf 1/1/1 2//1 3/1 \\\n -1\nf 1 2 3\ncurv 1\n");
+        var text =
+            new StringBuilder(
+                "mtllib m\nv 0 0 0\nv 1 0 0 1\nv 1 1 0 # c\nv 0 1 0\nvt 0 1\nvn 0 0 1\no x\ns 1\nf 1/1/1 2//1 3/1 \\\n -1\nf 1 2 3\ncurv 1\n");
         for (var change = random.Next(1, 6); change > 0; change--)
         {
             const string characters = "\0\t\n\r \"#,-.0123456789/\\flnopstv§\uD83D";

@@ -32,7 +32,8 @@ public class ObjParserTests
     [InlineData("v 1 2 3#trailing")]
     [InlineData("v 1 \\\n 2 \\\n3")]
     [InlineData("v 1 \\\r\n 2 3")]
-    public void Vertex_WithWeightColourBlanksOrComment_IsItsPosition(string line) => Assert.Equal(new(1, 2, 3), Parse(line + "\n").Vertex(0));
+    public void Vertex_WithWeightColourBlanksOrComment_IsItsPosition(string line) =>
+        Assert.Equal(new(1, 2, 3), Parse(line + "\n").Vertex(0));
 
     [Theory]
     [InlineData("f 1 2 3", new int[0], new int[0])]
@@ -69,7 +70,9 @@ public class ObjParserTests
     [Fact]
     public void Polygon_OfNCorners_IsNMinusTwoTriangles()
     {
-        var circle = string.Concat(Enumerable.Range(0, 100).Select(i => FormattableString.Invariant($"v {Math.Cos(i * Math.PI / 50)} {Math.Sin(i * Math.PI / 50)} 0\n")));
+        var circle =
+            string.Concat(Enumerable.Range(0, 100)
+            .Select(i => FormattableString.Invariant($"v {Math.Cos(i * Math.PI / 50)} {Math.Sin(i * Math.PI / 50)} 0\n")));
         Assert.Equal(98, Parse(circle + "f " + string.Join(' ', Enumerable.Range(1, 100))).FaceCount);
     }
 
@@ -83,7 +86,8 @@ public class ObjParserTests
         // An arrow head with its notch at vertex 4; a fan from the wrong corner would cover the notch.
         var mesh = Parse("v 0 0 0\nv 4 2 0\nv 0 4 0\nv 1 2 0\n" + face);
         // Half of 4 × 4, less half of 4 × 1.
-        Assert.Equal(6, Enumerable.Range(0, 2).Sum(i => mesh.Face(i) switch { var (a, b, c) => Vector.Cross(b - a, c - a).Length() / 2 }), 1e-12);
+        Assert.Equal(6, Enumerable.Range(0, 2).Sum(i => mesh.Face(i) switch { var (a, b, c) => Vector.Cross(b - a, c - a).Length() / 2 }),
+            1e-12);
     }
 
     [Fact]
@@ -96,10 +100,13 @@ public class ObjParserTests
     [Fact]
     public void Names_OfObjectsGroupsAndMaterials_AreRecorded()
     {
-        var mesh = Parse("mtllib a b.mtl\nmtllib c.mtl\n" + Square + "o thing one\ng left wing\nusemtl red paint\ns 1\nf 1 2 3\nf 1 3 4\ns off\nusemtl blue\nf 1 2 4 # four");
+        var mesh =
+            Parse("mtllib a b.mtl\nmtllib c.mtl\n" + Square
+                + "o thing one\ng left wing\nusemtl red paint\ns 1\nf 1 2 3\nf 1 3 4\ns off\nusemtl blue\nf 1 2 4 # four");
         Assert.Equal(["a b.mtl", "c.mtl"], mesh.MaterialLibraries.ToArray());
         Assert.Equal(
-            [new MeshGroup(0, 2, "thing one", "left wing", "red paint", 1), new MeshGroup(2, 1, "thing one", "left wing", "blue", 0)], mesh.Groups.ToArray());
+            [new MeshGroup(0, 2, "thing one", "left wing", "red paint", 1), new MeshGroup(2, 1, "thing one", "left wing", "blue", 0)],
+            mesh.Groups.ToArray());
     }
 
     [Fact]
@@ -143,7 +150,8 @@ public class ObjParserTests
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
     public void Parse_InAnyCulture_ReadsPointsAndSigns(string culture) =>
-        Assert.Equal(new(0.5, -1.25, 1e-7), InCulture.Get(culture, () => Parse("v 0.5 -1.25 1e-7\nv 0 0 0\nv 1 0 0\nf -3 -2 -1\n")).Vertex(0));
+        Assert.Equal(new(0.5, -1.25, 1e-7), InCulture.Get(culture, () => Parse("v 0.5 -1.25 1e-7\nv 0 0 0\nv 1 0 0\nf -3 -2 -1\n"))
+        .Vertex(0));
 
     [Fact]
     public void Progress_NeverRunsBackwards()

@@ -13,7 +13,8 @@ public class ObjWriterTests
     private static LoadedScene Scene(params (Model Model, Transformation Placement)[] placed)
     {
         var objects = placed.Select(p => (Declared: new SceneObject(p.Model.Path, p.Placement), p.Model)).ToArray();
-        return new(new() { Objects = [.. objects.Select(o => o.Declared)] }, [.. objects.Select(o => new PlacedModel(o.Declared, o.Model))]);
+        return new(new() { Objects = [.. objects.Select(o => o.Declared)] },
+            [.. objects.Select(o => new PlacedModel(o.Declared, o.Model))]);
     }
 
     private static string Write(LoadedScene scene, long limit = 1_000_000)
@@ -48,10 +49,12 @@ public class ObjWriterTests
     {
         var (fractal, placement) = (RandomFractals.Draw(random, composition), random.Transformation());
         var written = WriteAndParse(Scene((Model(fractal), placement)));
-        // Without repeated instances; the corners of a face keep their order but for mirrored ones, so faces are compared as sets of corners.
+        // Without repeated instances; the corners of a face keep their order but for mirrored ones, so faces are compared as sets of
+        // corners.
         var expected = Naive.Distinct(Naive.Chains(fractal.Description), 1e-12)
             .Select(chain => Naive.Compose(Naive.Map(placement), chain))
-            .SelectMany(map => fractal.BaseMesh.VertexIndices.Chunk(3).Select(face => Key(face.Select(v => Naive.Apply(map, fractal.BaseMesh.Vertex(v))))));
+            .SelectMany(map => fractal.BaseMesh.VertexIndices.Chunk(3)
+            .Select(face => Key(face.Select(v => Naive.Apply(map, fractal.BaseMesh.Vertex(v))))));
         var actual = written.VertexIndices.Chunk(3).Select(face => Key(face.Select(written.Vertex)));
         AssertNear(expected, actual);
     });
@@ -64,7 +67,8 @@ public class ObjWriterTests
         for (var instance = 0; instance < written.FaceCount; instance += Samples.Tetrahedron.FaceCount)
         {
             // The signed volume under outward faces is positive, for each instance by itself.
-            var volume = Enumerable.Range(instance, Samples.Tetrahedron.FaceCount).Sum(face => written.Face(face) switch { var (a, b, c) => Vector.Dot(a, Vector.Cross(b, c)) / 6 });
+            var volume = Enumerable.Range(instance, Samples.Tetrahedron.FaceCount)
+                .Sum(face => written.Face(face) switch { var (a, b, c) => Vector.Dot(a, Vector.Cross(b, c)) / 6 });
             Assert.True(volume > 0, $"instance {instance / 4} has volume {volume}");
         }
     });
@@ -93,10 +97,14 @@ public class ObjWriterTests
     public void Write_OfTextureCoordinates_KeepsThem()
     {
         var mesh = Samples.Triangle.WithTextureCoordinates([0, 0, 1, 0, 0, 1], [0, 1, 2]);
-        var written = WriteAndParse(Scene((Model(new(Samples.Repeated(1, Samples.Move(1, 0, 0), Samples.Move(2, 0, 0)).Description, mesh)), Transformation.Identity)));
+        var written =
+            WriteAndParse(
+                Scene((Model(new(Samples.Repeated(1, Samples.Move(1, 0, 0), Samples.Move(2, 0, 0)).Description, mesh)),
+                Transformation.Identity)));
         Assert.Equal(
             [0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1],
-            written.TextureIndices.SelectMany(number => new[] { written.TextureCoordinates[2 * number], written.TextureCoordinates[(2 * number) + 1] }));
+            written.TextureIndices.SelectMany(
+                number => new[] { written.TextureCoordinates[2 * number], written.TextureCoordinates[(2 * number) + 1] }));
     }
 
     [Fact]
@@ -130,7 +138,9 @@ public class ObjWriterTests
 
     [Fact]
     public void Write_OfTheInfinite_IsRefused() => Assert.Throws<FractalLimitException>(
-        () => Write(Scene((Model(Samples.Repeated(null, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(1, 0, 0, 0.5))), Transformation.Identity))));
+        () => Write(
+            Scene((Model(Samples.Repeated(null, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(1, 0, 0, 0.5))),
+            Transformation.Identity))));
 
     // The corners of a face in an order that does not depend on the winding; crooked weights keep ties apart.
     private static double[] Key(IEnumerable<Vector> corners) =>

@@ -9,7 +9,8 @@ namespace FractalEngine.Tests.Meshes;
 public class SharedModelTests
 {
     // Sound but for normals that the files name and do not have.
-    private static readonly string[] WithoutNormals = ["tinyobjloader/smoothing-group-two-squares.obj", "tinyobjloader/catmark_torus_creases0.obj"];
+    private static readonly string[] WithoutNormals =
+        ["tinyobjloader/smoothing-group-two-squares.obj", "tinyobjloader/catmark_torus_creases0.obj"];
 
     // Wrong on purpose: references to nothing, no numbers. One proper message is as good as a mesh.
     private static readonly string[] NastyWords = ["invalid", "nan", "zero", "failure", "leading-spaces"];
@@ -50,6 +51,7 @@ public class SharedModelTests
     {
         Skip.If(SharedModels.Folder is null, "there is no folder of real models beside the checkout");
         // They are no nasty ones: every other program shows them.
-        Assert.All(SharedModels.Table().Where(row => WithoutNormals.Contains(row.File)), row => Assert.Equal(row.Triangles, Parse(row.File).Mesh.FaceCount));
+        Assert.All(SharedModels.Table().Where(row => WithoutNormals.Contains(row.File)),
+            row => Assert.Equal(row.Triangles, Parse(row.File).Mesh.FaceCount));
     }
 }

@@ -11,7 +11,8 @@ public class AllocationTests
     [Fact]
     public void Step_WithBodiesOnAFractal_AllocatesNothing()
     {
-        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = 0 }, Worlds.Place(AssetFractals.Load("menger", 3)), Worlds.Place(PhysicsMeshes.Floor(), Samples.Move(0, -0.6, 0)));
+        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = 0 }, Worlds.Place(AssetFractals.Load("menger", 3)),
+            Worlds.Place(PhysicsMeshes.Floor(), Samples.Move(0, -0.6, 0)));
         Fill(world, 0.04);
         CheckSteps(world);
     }
@@ -19,7 +20,8 @@ public class AllocationTests
     [Fact]
     public void Step_WithBodiesOnAnInfiniteFractal_AllocatesNothing()
     {
-        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = 0 }, Worlds.Place(AssetFractals.Load("infinite-menger")), Worlds.Place(PhysicsMeshes.Floor(), Samples.Move(0, -0.6, 0)));
+        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = 0 }, Worlds.Place(AssetFractals.Load("infinite-menger")),
+            Worlds.Place(PhysicsMeshes.Floor(), Samples.Move(0, -0.6, 0)));
         Fill(world, 0.06);
         CheckSteps(world);
     }
@@ -28,7 +30,8 @@ public class AllocationTests
     public void Step_WithSkewObjectsAndSleepers_AllocatesNothing()
     {
         var skew = Samples.Move(0, -0.2, 0) with { Rotation = new(20, 30, 40), Scale = new(1, 0.4, -0.7) };
-        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Cube, skew), Worlds.Place(PhysicsMeshes.Scaled(PhysicsMeshes.Room, 4)));
+        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Cube, skew),
+            Worlds.Place(PhysicsMeshes.Scaled(PhysicsMeshes.Room, 4)));
         Fill(world, 0.06);
         CheckSteps(world);
     }
@@ -36,7 +39,8 @@ public class AllocationTests
     private static void Fill(PhysicsWorld world, double radius)
     {
         var random = new Random(1);
-        world.AddRange(Enumerable.Range(0, 25).Select(i => new BodyDescription(new Vector((i % 5 * 0.2) - 0.4, 0.6, (i / 5 % 5 * 0.2) - 0.4) + random.Vector(0.01), radius)
+        world.AddRange(Enumerable.Range(0, 25)
+            .Select(i => new BodyDescription(new Vector((i % 5 * 0.2) - 0.4, 0.6, (i / 5 % 5 * 0.2) - 0.4) + random.Vector(0.01), radius)
         {
             Restitution = i % 3 * 0.4, Friction = i % 2 * 0.3, Damping = i % 4 * 0.05, Shrinkage = i % 7 == 0 ? 0.01 : 0,
         }));

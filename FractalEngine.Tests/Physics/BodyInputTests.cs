@@ -16,8 +16,10 @@ public class BodyInputTests
     {
         BodyDescription[] wrong =
         [
-            Ball with { Position = new(0, number, 0) }, Ball with { Velocity = new(0, 0, number) }, Ball with { Radius = number }, Ball with { Mass = number },
-            Ball with { Restitution = number }, Ball with { Friction = number }, Ball with { Damping = number }, Ball with { Shrinkage = number },
+            Ball with { Position = new(0, number, 0) }, Ball with { Velocity = new(0, 0, number) }, Ball with { Radius = number },
+            Ball with { Mass = number },
+            Ball with { Restitution = number }, Ball with { Friction = number }, Ball with { Damping = number },
+            Ball with { Shrinkage = number },
             Ball with { MinimumScale = number }, Ball with { LinearPart = new(Vector.I, new(number, 0, 0), Vector.K) },
         ];
         CheckRefused(wrong);
@@ -26,8 +28,10 @@ public class BodyInputTests
     [Fact]
     public void Add_OutOfRange_NamesTheBody() => CheckRefused(
     [
-        Ball with { Radius = 0 }, Ball with { Radius = -1 }, Ball with { Mass = 0 }, Ball with { Mass = -1 }, Ball with { Restitution = -0.1 }, Ball with { Restitution = 1.1 },
-        Ball with { Friction = -0.1 }, Ball with { Damping = -0.1 }, Ball with { Shrinkage = -0.1 }, Ball with { MinimumScale = 0 }, Ball with { MinimumScale = -0.5 },
+        Ball with { Radius = 0 }, Ball with { Radius = -1 }, Ball with { Mass = 0 }, Ball with { Mass = -1 },
+        Ball with { Restitution = -0.1 }, Ball with { Restitution = 1.1 },
+        Ball with { Friction = -0.1 }, Ball with { Damping = -0.1 }, Ball with { Shrinkage = -0.1 }, Ball with { MinimumScale = 0 },
+        Ball with { MinimumScale = -0.5 },
         Ball with { MinimumScale = 1.5 },
     ]);
 
@@ -62,8 +66,11 @@ public class BodyInputTests
     {
         PhysicsSettings[] wrong =
         [
-            .. new[] { 0, -1, double.NaN, double.PositiveInfinity, double.NegativeInfinity }.Select(step => new PhysicsSettings { TimeStep = step }),
-            .. new[] { -1, double.NaN }.SelectMany(number => new[] { new PhysicsSettings { RestitutionThreshold = number }, new() { SleepSpeed = number }, new() { TimeBeforeSleep = number } }),
+            .. new[] { 0, -1, double.NaN, double.PositiveInfinity, double.NegativeInfinity }.Select(
+                step => new PhysicsSettings { TimeStep = step }),
+            .. new[] { -1, double.NaN }.SelectMany(
+                number => new[] { new PhysicsSettings { RestitutionThreshold = number }, new() { SleepSpeed = number },
+                new() { TimeBeforeSleep = number } }),
             new() { MaxStepsPerAdvance = 0 }, new() { MaxStepsPerAdvance = -1 },
         ];
         Assert.All(wrong, settings => Assert.Throws<ArgumentException>(() => Worlds.Of(Worlds.Gravity, settings)));
@@ -100,7 +107,9 @@ public class BodyInputTests
     private static void CheckRefused(BodyDescription[] wrong)
     {
         var world = Worlds.Of(Worlds.Gravity, 0.01);
-        Assert.All(wrong, description => Assert.Contains("ball 7", Assert.Throws<ArgumentException>(() => world.Add(description)).Message, StringComparison.Ordinal));
+        Assert.All(wrong,
+            description => Assert.Contains("ball 7", Assert.Throws<ArgumentException>(() => world.Add(description)).Message,
+            StringComparison.Ordinal));
         Assert.Empty(world.Bodies);
     }
 }

@@ -30,9 +30,12 @@ public class CornerTests
             {
                 var world = Worlds.Of(Worlds.Gravity, random.Between(0.002, 0.03), placed);
                 var size = placed.Bounds.Diagonal;
-                world.Add(new(placed.Bounds.Centre + new Vector(random.Between(-0.2, 0.2) * size, 0.7 * size, random.Between(-0.2, 0.2) * size), random.Between(0.01, 0.1) * size)
+                world.Add(
+                    new(placed.Bounds.Centre + new Vector(random.Between(-0.2, 0.2) * size, 0.7 * size, random.Between(-0.2, 0.2) * size),
+                    random.Between(0.01, 0.1) * size)
                 {
-                    Restitution = random.Next(2) * random.NextDouble(), Friction = random.Next(2) * random.NextDouble(), Velocity = random.Vector(3),
+                    Restitution = random.Next(2) * random.NextDouble(), Friction = random.Next(2) * random.NextDouble(),
+                    Velocity = random.Vector(3),
                 });
                 CheckEnergy(world, 300, size);
             });
@@ -51,17 +54,25 @@ public class CornerTests
         Near.Equal(-4.9, body.Position.Y, 1e-6);
     }
 
-    /// <summary>The moment of an impact lies between two neighbouring numbers here, of which the later is even: halving the time between them never ends.</summary>
+    /// <summary>
+    /// The moment of an impact lies between two neighbouring numbers here, of which the later is even: halving the time between them never
+    /// ends.
+    /// </summary>
     [Fact]
     public void Step_WithoutATimeInBetween_Ends()
     {
         Vector[] normals =
         [
-            new(0.17257901991850758, 0.8028422418663766, 0.5706669927014685), new(-0.7585652770047524, 0.5649615159364958, 0.32464935859083366),
+            new(0.17257901991850758, 0.8028422418663766, 0.5706669927014685),
+            new(-0.7585652770047524, 0.5649615159364958, 0.32464935859083366),
             new(-0.02770280104002601, 0.5215446756759484, -0.8527741237212856),
         ];
-        var world = Worlds.Of(Worlds.Gravity, 0.045447124385289764, Worlds.Place(PhysicsMeshes.Of([.. normals.Select(normal => PhysicsMeshes.Plane(Vector.Zero, normal, 1000))])));
-        world.Add(new(new(0, 0.7219706945285043, 0), 0.08265429241889093) { Velocity = new(0.9551074220589868, 9.029697821955057, 5.162879012135267) });
+        var world =
+            Worlds.Of(Worlds.Gravity, 0.045447124385289764,
+            Worlds.Place(PhysicsMeshes.Of([.. normals.Select(normal => PhysicsMeshes.Plane(Vector.Zero, normal, 1000))])));
+        world.Add(
+            new(new(0, 0.7219706945285043, 0),
+            0.08265429241889093) { Velocity = new(0.9551074220589868, 9.029697821955057, 5.162879012135267) });
         var run = new Thread(() => world.Run(300)) { IsBackground = true };
         run.Start();
         // 300 steps of one body take some milliseconds.
@@ -75,14 +86,17 @@ public class CornerTests
         Vector[] normals = [.. Enumerable.Range(0, 3).Select(i => turn + ((i + random.Between(-0.35, 0.35)) * 2 * Math.PI / 3))
             .Select(angle => new Vector(Math.Cos(angle), random.Between(0.05, 2), Math.Sin(angle)).UnitVector())];
         var radius = Math.Pow(10, random.Between(-1.5, 0));
-        var world = Worlds.Of(Worlds.Gravity, Math.Pow(10, random.Between(-3, -1)), Worlds.Place(PhysicsMeshes.Of([.. normals.Select(normal => PhysicsMeshes.Plane(Vector.Zero, normal, FarEdge))])));
+        var world =
+            Worlds.Of(Worlds.Gravity, Math.Pow(10, random.Between(-3, -1)),
+            Worlds.Place(PhysicsMeshes.Of([.. normals.Select(normal => PhysicsMeshes.Plane(Vector.Zero, normal, FarEdge))])));
         var start = random.Between(3, 30) * radius * Vector.J;
         var lowest = normals.Min(normal => Vector.Dot(start, normal));
         // Clear of all of them at first.
         start *= lowest < 1.5 * radius ? 1.5 * radius / lowest : 1;
         world.Add(new(start, radius)
         {
-            Velocity = random.Vector(10), Restitution = random.Next(3) switch { 0 => 0, 1 => 0.95, _ => random.NextDouble() }, Friction = random.Next(2) * random.NextDouble(),
+            Velocity = random.Vector(10), Restitution = random.Next(3) switch { 0 => 0, 1 => 0.95, _ => random.NextDouble() },
+            Friction = random.Next(2) * random.NextDouble(),
         });
         var body = world.Bodies[0];
         CheckEnergy(world, steps, start.Length(), () =>
@@ -90,7 +104,8 @@ public class CornerTests
             foreach (var normal in normals)
             {
                 var height = Vector.Dot(body.Position, normal);
-                Assert.True(height >= radius * (1 - Overlap), $"{body.Description}, step {world.Settings.TimeStep:R}, after {world.StepCount}: {height:R} from a plane");
+                Assert.True(height >= radius * (1 - Overlap),
+                    $"{body.Description}, step {world.Settings.TimeStep:R}, after {world.StepCount}: {height:R} from a plane");
             }
         });
     });

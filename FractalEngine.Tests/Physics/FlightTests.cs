@@ -32,10 +32,13 @@ public class FlightTests
     [Fact]
     public void FreeFlight_PastSurfaces_IsTheParabola() => Seeded.Run(20, random =>
     {
-        var world = Worlds.Of(Worlds.Gravity, random.Between(1e-3, 0.05), Worlds.Place(PhysicsMeshes.Cube, Samples.Move(0, -1e5, 0)), Worlds.Place(PhysicsMeshes.Cube, Samples.Move(-5, 0, 0)));
+        var world = Worlds.Of(Worlds.Gravity, random.Between(1e-3, 0.05), Worlds.Place(PhysicsMeshes.Cube, Samples.Move(0, -1e5, 0)),
+            Worlds.Place(PhysicsMeshes.Cube, Samples.Move(-5, 0, 0)));
         var velocity = new Vector(random.Between(1, 20), random.Between(-5, 20), random.Between(-5, 5));
         var body = world.Add(new(Vector.Zero, 0.1) { Velocity = velocity });
-        world.Run(200, () => Near.Equal((world.Time * velocity) + (0.5 * world.Time * world.Time * Worlds.Gravity), body.Position, Rounding * world.StepCount * 1000));
+        world.Run(200,
+            () => Near.Equal((world.Time * velocity) + (0.5 * world.Time * world.Time * Worlds.Gravity), body.Position,
+            Rounding * world.StepCount * 1000));
     });
 
     [Theory]
@@ -46,7 +49,8 @@ public class FlightTests
         var world = Worlds.Of(Worlds.Gravity, step, Worlds.Place(PhysicsMeshes.Floor()));
         var body = world.Add(new(new(0.3, radius + height, -0.2), radius) { Restitution = restitution });
         var (rises, gravity) = (height, 9.8);
-        for (var (steps, fallen) = (0, 0.0); steps * step < 2 && Math.Sqrt(8 * rises * restitution * restitution / gravity) > 2 * step; steps++)
+        for (var (steps, fallen) = (0, 0.0); steps * step < 2 && Math.Sqrt(8 * rises * restitution * restitution / gravity) > 2 * step;
+            steps++)
         {
             world.Step();
             // Seconds until the ball comes down again: fall, then flights up and down.
@@ -57,7 +61,8 @@ public class FlightTests
                 (fallen, rises) = (contact, rises * restitution * restitution);
             }
 
-            // From speed and height the top follows, wherever in the flight the step ends. Impacts are found to 1e-10 of the radius, and the promise is 1 %.
+            // From speed and height the top follows, wherever in the flight the step ends. Impacts are found to 1e-10 of the radius, and
+            // the promise is 1 %.
             var top = body.Position.Y - radius + (body.Velocity.Y * body.Velocity.Y / (2 * gravity));
             Near.Equal(rises, top, 1e-6 * height);
         }
@@ -68,7 +73,8 @@ public class FlightTests
     {
         var normal = random.Direction();
         var (restitution, radius) = (random.NextDouble(), random.Between(0.01, 0.5));
-        var world = Worlds.Of(Vector.Zero, random.Between(0.001, 0.1), Worlds.Place(PhysicsMeshes.Of(PhysicsMeshes.Plane(Vector.Zero, normal))));
+        var world =
+            Worlds.Of(Vector.Zero, random.Between(0.001, 0.1), Worlds.Place(PhysicsMeshes.Of(PhysicsMeshes.Plane(Vector.Zero, normal))));
         var velocity = random.Vector(10);
         velocity -= (Vector.Dot(velocity, normal) + random.Between(1, 10)) * normal;
         var body = world.Add(new((radius + 0.5) * normal, radius) { Velocity = velocity, Restitution = restitution });

@@ -27,10 +27,12 @@ public class FrictionTests
         var body = OnSlope(random, angle, friction, out var world, out var down);
         var acceleration = 9.8 * (Math.Sin(angle) - (friction * Math.Cos(angle)));
         world.Run(100);
-        // It begins with nothing known of the slope and falls a touch, 1e-9 of the radius at most, before friction acts: that takes √(2e-9/9.8) seconds.
+        // It begins with nothing known of the slope and falls a touch, 1e-9 of the radius at most, before friction acts: that takes
+        // √(2e-9/9.8) seconds.
         const double Late = 1.5e-5;
         Near.Equal(world.Time * acceleration * down, body.Velocity, 9.8 * Late);
-        Near.Equal(body.Description.Position + (0.5 * world.Time * world.Time * acceleration * down), body.Position, (9.8 * Late * world.Time) + (1e-6 * body.Radius));
+        Near.Equal(body.Description.Position + (0.5 * world.Time * world.Time * acceleration * down), body.Position,
+            (9.8 * Late * world.Time) + (1e-6 * body.Radius));
     });
 
     [Fact]
@@ -48,7 +50,8 @@ public class FrictionTests
     [Fact]
     public void Bounce_WithFriction_TakesFrictionTimesTheImpulse() => Seeded.Run(100, random =>
     {
-        var (friction, restitution, along, into) = (random.Between(0, 0.5), random.NextDouble(), random.Between(0, 10), random.Between(1, 5));
+        var (friction, restitution, along, into) = (random.Between(0, 0.5), random.NextDouble(), random.Between(0, 10),
+            random.Between(1, 5));
         var world = Worlds.Of(Vector.Zero, 0.01, Worlds.Place(PhysicsMeshes.Floor()));
         var body = world.Add(new(new(0, 1, 0), 0.5) { Velocity = new(along, -into, 0), Friction = friction, Restitution = restitution });
         world.Run(60);
@@ -85,7 +88,8 @@ public class FrictionTests
     [Fact]
     public void Force_OnABody_AcceleratesByForceOverMass() => Seeded.Run(50, random =>
     {
-        var (gravity, force, mass, velocity) = (random.Vector(10), random.Vector(20), Math.Pow(10, random.Between(-1, 2)), random.Vector(5));
+        var (gravity, force, mass, velocity) = (random.Vector(10), random.Vector(20), Math.Pow(10, random.Between(-1, 2)),
+            random.Vector(5));
         var world = Worlds.Of(gravity, random.Between(0.001, 0.1));
         var body = world.Add(new(Vector.Zero, 0.5) { Mass = mass, Velocity = velocity });
         world.SetForce(body, force);
@@ -106,7 +110,8 @@ public class FrictionTests
         foreach (var (force, isMoving) in new[] { (0.99 * 0.4 * 3 * 9.8, false), (1.01 * 0.4 * 3 * 9.8, true) })
         {
             // A body so slow would fall asleep.
-            var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { TimeStep = 0.01, SleepSpeed = 0 }, Worlds.Place(PhysicsMeshes.Floor()));
+            var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { TimeStep = 0.01, SleepSpeed = 0 },
+                Worlds.Place(PhysicsMeshes.Floor()));
             var body = world.Add(new(new(0, 0.5, 0), 0.5) { Mass = 3, Friction = 0.4 });
             world.Run(10);
             world.SetForce(body, new(force, 0, 0));
@@ -121,7 +126,8 @@ public class FrictionTests
         var (turn, radius) = (random.Between(0, 2 * Math.PI), random.Between(0.1, 1));
         var normal = new Vector(Math.Sin(angle) * Math.Cos(turn), Math.Cos(angle), Math.Sin(angle) * Math.Sin(turn));
         down = new(Math.Cos(angle) * Math.Cos(turn), -Math.Sin(angle), Math.Cos(angle) * Math.Sin(turn));
-        world = Worlds.Of(Worlds.Gravity, random.Between(0.002, 0.02), Worlds.Place(PhysicsMeshes.Of(PhysicsMeshes.Plane(Vector.Zero, normal))));
+        world = Worlds.Of(Worlds.Gravity, random.Between(0.002, 0.02),
+            Worlds.Place(PhysicsMeshes.Of(PhysicsMeshes.Plane(Vector.Zero, normal))));
         return world.Add(new(radius * normal, radius) { Friction = friction, Mass = random.Between(0.1, 10) });
     }
 }

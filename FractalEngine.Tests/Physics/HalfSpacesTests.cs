@@ -27,10 +27,12 @@ public sealed class HalfSpacesTests
             Assert.True(Vector.Dot(normals[i], nearest) >= offsets[i] - 1e-12);
         }
 
-        // Dykstra's projections converge to it, slowly where planes meet at sharp angles: by as much as they still violate one, they may be nearer.
+        // Dykstra's projections converge to it, slowly where planes meet at sharp angles: by as much as they still violate one, they may be
+        // nearer.
         var other = Dykstra(target, normals, offsets);
         var violation = Enumerable.Range(0, count).Max(i => Math.Max(0, offsets[i] - Vector.Dot(normals[i], other)));
-        Assert.True((nearest - target).Length() <= (other - target).Length() + 1e-6 + (100 * violation), $"{nearest} is farther than {other}");
+        Assert.True((nearest - target).Length() <= (other - target).Length() + 1e-6 + (100 * violation),
+            $"{nearest} is farther than {other}");
     });
 
     [Fact]
@@ -68,5 +70,6 @@ public sealed class HalfSpacesTests
         return point;
     }
 
-    private static Vector RandomVector(Random random) => new(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5);
+    private static Vector RandomVector(Random random) =>
+        new(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5);
 }

@@ -36,7 +36,9 @@ public class ImpactTests
         var (u1, u2) = (random.Vector(10), random.Vector(10));
         // Both aim at one place, at most 0.8 apart there: balls of radius 0.5 meet.
         var body1 = world.Add(new(target - u1, 0.5) { Mass = m1, Velocity = u1, Restitution = e });
-        var body2 = world.Add(new(target - u2 + (0.8 * random.NextDouble() * random.Direction()), 0.5) { Mass = m2, Velocity = u2, Restitution = e });
+        var body2 =
+            world.Add(new(target - u2 + (0.8 * random.NextDouble() * random.Direction()), 0.5) { Mass = m2, Velocity = u2,
+            Restitution = e });
         if ((body1.Position - body2.Position).Length() <= 1.01)
         {
             return;
@@ -65,7 +67,8 @@ public class ImpactTests
         world.Run((int)(1.5 / velocity.X / Step));
         var normal = new Vector(Math.Sqrt(1 - (beside * beside)), beside, 0);
         var expected = velocity - (2 * velocity.X * normal.X * normal);
-        // Within a step one ball moves after the other, which turns the line of centres by the way of a step at most: 8·step over cos ≥ 0.6, times twice the speed.
+        // Within a step one ball moves after the other, which turns the line of centres by the way of a step at most: 8·step over cos ≥
+        // 0.6, times twice the speed.
         Near.Equal(expected, body1.Velocity, 8 * Step / 0.6 * 2 * 4);
         Near.Equal(-expected, body2.Velocity, 8 * Step / 0.6 * 2 * 4);
     });
@@ -79,7 +82,8 @@ public class ImpactTests
         foreach (var step in new[] { 1e-3, 1 / 60.0, 0.1 })
         {
             var world = Worlds.Of(Vector.Zero, step);
-            var bodies = new[] { 0, 2, 3 + gap, 4 + (2 * gap) }.Select(x => world.Add(new(new(x, 0, 0), 0.5) { Restitution = 1 })).ToArray();
+            var bodies = new[] { 0, 2, 3 + gap, 4 + (2 * gap) }.Select(x => world.Add(new(new(x, 0, 0), 0.5) { Restitution = 1 }))
+                .ToArray();
             world.SetVelocity(bodies[0], new(3, 0, 0));
             world.Run((int)(2 / step));
             Near.Equal(new(3, 0, 0), bodies[3].Velocity, Rounding);
@@ -94,7 +98,9 @@ public class ImpactTests
         var restitution = random.Next(2) == 0 ? 1 : random.NextDouble();
         for (var i = 0; i < 4; i++)
         {
-            world.Add(new(new(1.2 * i, 0, 0), 0.5) { Mass = random.Between(0.1, 10), Restitution = restitution, Velocity = new(i == 0 ? 5 : random.Next(2) * -0.5, 0, 0) });
+            world.Add(
+                new(new(1.2 * i, 0, 0), 0.5) { Mass = random.Between(0.1, 10), Restitution = restitution,
+                Velocity = new(i == 0 ? 5 : random.Next(2) * -0.5, 0, 0) });
         }
 
         var (momentum, energy) = (world.Momentum(), world.Energy());
@@ -124,7 +130,8 @@ public class ImpactTests
     /// <summary>Axes don't meet in a box: each coordinate goes to and fro between two walls, as if there were no others.</summary>
     private static void CheckBox(int bounces) => Seeded.Run(3, random =>
     {
-        var (radius, velocity, start, step) = (random.Between(0.02, 0.2), random.Vector(10) + new Vector(3, -1, 2), random.Vector(0.25), random.Between(0.01, 0.1));
+        var (radius, velocity, start, step) = (random.Between(0.02, 0.2), random.Vector(10) + new Vector(3, -1, 2), random.Vector(0.25),
+            random.Between(0.01, 0.1));
         var world = Worlds.Of(Vector.Zero, step, Worlds.Place(PhysicsMeshes.Room));
         var body = world.Add(new(start, radius) { Velocity = velocity, Restitution = 1 });
         var width = 1 - (2 * radius);
@@ -133,7 +140,8 @@ public class ImpactTests
         {
             Near.Equal(velocity.Absolute(), body.Velocity.Absolute(), 1e-8);
             // Each bounce is found to 1e-10 of the radius.
-            Near.Equal(new(ToAndFro(start.X, velocity.X), ToAndFro(start.Y, velocity.Y), ToAndFro(start.Z, velocity.Z)), body.Position, 1e-9 + (1e-9 * radius * bounces));
+            Near.Equal(new(ToAndFro(start.X, velocity.X), ToAndFro(start.Y, velocity.Y), ToAndFro(start.Z, velocity.Z)), body.Position,
+                1e-9 + (1e-9 * radius * bounces));
         });
 
         double ToAndFro(double from, double speed)
@@ -147,7 +155,8 @@ public class ImpactTests
     {
         var (radius, step) = (random.Between(0.02, 0.2), random.Between(0.002, 0.02));
         var world = Worlds.Of(Worlds.Gravity, step, Worlds.Place(PhysicsMeshes.Room));
-        // Fast enough to reach the ceiling with some speed left: what arrives more slowly than gravity works in half a step does not bounce.
+        // Fast enough to reach the ceiling with some speed left: what arrives more slowly than gravity works in half a step does not
+        // bounce.
         var velocity = new Vector(random.Between(2, 4), random.Between(6, 8), random.Between(-4, -2));
         var body = world.Add(new(random.Vector(0.2), radius) { Velocity = velocity, Restitution = 1 });
         var energy = world.Energy();

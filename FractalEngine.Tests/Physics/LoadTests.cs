@@ -88,7 +88,9 @@ public sealed class LoadTests
     [InlineData(-1, 0.55)]
     public void Start_AtASolidsSkin_EndsOutside(double mirror, double height)
     {
-        var world = Worlds.Of(Vector.Zero, new PhysicsSettings(), Worlds.Place(PhysicsMeshes.Cube, new(Vector.Zero, Vector.Zero, new(mirror, 1, 1))));
+        var world =
+            Worlds.Of(Vector.Zero, new PhysicsSettings(),
+            Worlds.Place(PhysicsMeshes.Cube, new(Vector.Zero, Vector.Zero, new(mirror, 1, 1))));
         var body = world.Add(new(new(0.05, height, 0.1), 0.1));
         world.Step();
         Near.Equal(new(0.05, 0.6, 0.1), body.Position, 1e-6);

@@ -27,7 +27,8 @@ public class ManyBodiesTests
         {
             var place = new Vector(i % 4, i / 4 % 4, i / 16) - (1.5 * Vector.One);
             // Towards the middle, so that they meet.
-            world.Add(new(place, random.Between(0.1, 0.45)) { Mass = random.Between(0.1, 10), Velocity = (-1 * place) + random.Vector(0.5), Restitution = random.NextDouble(), Friction = random.Next(2) * 0.3 });
+            world.Add(new(place, random.Between(0.1, 0.45)) { Mass = random.Between(0.1, 10), Velocity = (-1 * place) + random.Vector(0.5),
+                Restitution = random.NextDouble(), Friction = random.Next(2) * 0.3 });
         }
 
         var (momentum, energy) = (world.Momentum(), world.Energy());
@@ -39,7 +40,8 @@ public class ManyBodiesTests
             energy = world.Energy();
             CheckApart(world);
         });
-        Assert.True(energy < 0.99 * (0.5 * world.Bodies.Sum(body => body.Description.Mass * body.Description.Velocity.LengthSquared())), "nothing met");
+        Assert.True(energy < 0.99 * (0.5 * world.Bodies.Sum(body => body.Description.Mass * body.Description.Velocity.LengthSquared())),
+            "nothing met");
     });
 
     [Fact]
@@ -48,7 +50,9 @@ public class ManyBodiesTests
         var world = Worlds.Of(Vector.Zero, 1 / 120.0, Worlds.Place(PhysicsMeshes.Scaled(PhysicsMeshes.Room, 6)));
         for (var i = 0; i < 27; i++)
         {
-            world.Add(new(1.5 * (new Vector(i % 3, i / 3 % 3, i / 9) - Vector.One), random.Between(0.2, 0.6)) { Mass = random.Between(0.1, 10), Velocity = random.Vector(3), Restitution = 1 });
+            world.Add(
+                new(1.5 * (new Vector(i % 3, i / 3 % 3, i / 9) - Vector.One), random.Between(0.2, 0.6)) { Mass = random.Between(0.1, 10),
+                Velocity = random.Vector(3), Restitution = 1 });
         }
 
         var energy = world.Energy();
@@ -63,11 +67,15 @@ public class ManyBodiesTests
     {
         const double Half = 3;
         var random = new Random(seed);
-        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Inwards(PhysicsMeshes.Cube.Transform(v => (2 * Half * v).Stretch(new(1, 4, 1))))));
+        var world =
+            Worlds.Of(Worlds.Gravity, 1 / 60.0,
+            Worlds.Place(PhysicsMeshes.Inwards(PhysicsMeshes.Cube.Transform(v => (2 * Half * v).Stretch(new(1, 4, 1))))));
         // One 50 times as large as the smallest.
         world.Add(new(new(0.2, -8, 0.1), 2) { Mass = 50, Friction = 0.5 });
         world.AddRange(Enumerable.Range(0, count - 1).Select(i => new BodyDescription(
-            new Vector(-2.5 + (i % 6), -5 + (1.1 * (i / 36)), -2.5 + (i / 6 % 6)) + random.Vector(0.04), i == 0 ? 0.04 : 0.04 * Math.Pow(11, random.NextDouble()))
+            new Vector(-2.5 + (i % 6), -5 + (1.1 * (i / 36)), -2.5 + (i / 6 % 6)) + random.Vector(0.04), i == 0
+            ? 0.04
+            : 0.04 * Math.Pow(11, random.NextDouble()))
         {
             Mass = random.Between(0.1, 5), Friction = 0.5, Restitution = random.Between(0, 0.5),
         }));
@@ -77,14 +85,16 @@ public class ManyBodiesTests
             {
                 var room = new Vector(Half, 4 * Half, Half) - body.Position.Absolute();
                 var gap = Math.Min(room.X, Math.Min(room.Y, room.Z));
-                Assert.True(gap >= body.Radius * (1 - Overlap), $"{body.Name} of radius {body.Radius:R} is {gap:R} from a wall after {world.StepCount} steps");
+                Assert.True(gap >= body.Radius * (1 - Overlap),
+                    $"{body.Name} of radius {body.Radius:R} is {gap:R} from a wall after {world.StepCount} steps");
                 Assert.False(body.IsStuck, $"{body.Name} is stuck after {world.StepCount} steps");
             }
 
             CheckApart(world);
         });
         var awake = world.Bodies.Where(body => !body.IsAsleep).ToArray();
-        Assert.True(awake.Length == 0, $"{awake.Length} of {count} are awake, such as {awake.FirstOrDefault()?.Name} of radius {awake.FirstOrDefault()?.Radius:R} at {awake.FirstOrDefault()?.Position}, {awake.FirstOrDefault()?.Velocity}");
+        Assert.True(awake.Length == 0,
+            $"{awake.Length} of {count} are awake, such as {awake.FirstOrDefault()?.Name} of radius {awake.FirstOrDefault()?.Radius:R} at {awake.FirstOrDefault()?.Position}, {awake.FirstOrDefault()?.Velocity}");
     }
 
     private static void CheckApart(PhysicsWorld world)
@@ -97,7 +107,8 @@ public class ManyBodiesTests
                 var gap = (body.Position - other.Position).Length() - body.Radius - other.Radius;
                 if (gap < -Overlap * Math.Min(body.Radius, other.Radius))
                 {
-                    Assert.Fail($"{body.Name} and {other.Name} overlap by {-gap:R} after {world.StepCount} steps: radii {body.Radius:R} and {other.Radius:R}");
+                    Assert.Fail(
+                        $"{body.Name} and {other.Name} overlap by {-gap:R} after {world.StepCount} steps: radii {body.Radius:R} and {other.Radius:R}");
                 }
             }
         }

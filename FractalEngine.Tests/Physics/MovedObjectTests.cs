@@ -14,7 +14,8 @@ public class MovedObjectTests
     [InlineData(true)]
     public void Floor_ThatIsMovedAway_LetsTheBodyFall(bool sleeps)
     {
-        var world = Worlds.Of(Worlds.Gravity, new Core.Physics.PhysicsSettings { SleepSpeed = sleeps ? null : 0 }, Worlds.Place(PhysicsMeshes.Cube));
+        var world = Worlds.Of(Worlds.Gravity, new Core.Physics.PhysicsSettings { SleepSpeed = sleeps ? null : 0 },
+            Worlds.Place(PhysicsMeshes.Cube));
         var body = world.Add(new(new(0.1, 0.7, 0.1), 0.2));
         world.Run(120);
         Assert.Equal(sleeps, body.IsAsleep);
@@ -38,7 +39,8 @@ public class MovedObjectTests
         var outside = Vector.Max(local.Absolute() - (0.5 * Vector.One), Vector.Zero).Length();
         var within = 0.5 - local.MaxAbsComponent();
         Assert.False(body.IsStuck);
-        Assert.True(outside >= body.Radius * (1 - 1e-6) || within >= body.Radius * (1 - 1e-6), $"{body.Description}: {outside:R} outside, {within:R} within, after {moved}");
+        Assert.True(outside >= body.Radius * (1 - 1e-6) || within >= body.Radius * (1 - 1e-6),
+            $"{body.Description}: {outside:R} outside, {within:R} within, after {moved}");
     });
 
     [Fact]
@@ -58,17 +60,21 @@ public class MovedObjectTests
     [Fact]
     public void MoveObject_OfABody_IsRefused()
     {
-        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, new PlacedModel(new PhysicsObject("c.obj", Transformation.Identity, 0.5), new MeshModel("/c.obj", 0, PhysicsMeshes.Cube)));
+        var world =
+            Worlds.Of(Worlds.Gravity, 1 / 60.0,
+            new PlacedModel(new PhysicsObject("c.obj", Transformation.Identity, 0.5), new MeshModel("/c.obj", 0, PhysicsMeshes.Cube)));
         Assert.Throws<ArgumentException>(() => world.MoveObject(0, Transformation.Identity));
     }
 
     [Fact]
     public void PhysicsObject_UnderAnyMatrix_IsTheBallThatHoldsItsVertices() => Seeded.Run(100, random =>
     {
-        var placed = new PlacedModel(new PhysicsObject("c.obj", random.Transformation(), 0.5) { Name = "it" }, new MeshModel("/c.obj", 0, Samples.Tetrahedron));
+        var placed = new PlacedModel(new PhysicsObject("c.obj", random.Transformation(), 0.5) { Name = "it" },
+            new MeshModel("/c.obj", 0, Samples.Tetrahedron));
         var body = Worlds.Of(Worlds.Gravity, 0.01, placed).Bodies[0];
         var map = Naive.Map(placed.Declaration.Placement);
-        var farthest = Naive.Vertices(Samples.Tetrahedron).Max(vertex => (Naive.Apply(map, vertex) - placed.Declaration.Placement.Position).Length());
+        var farthest = Naive.Vertices(Samples.Tetrahedron)
+            .Max(vertex => (Naive.Apply(map, vertex) - placed.Declaration.Placement.Position).Length());
         Near.Equal(placed.Declaration.Placement.Position, body.Position, 0);
         Near.Equal(farthest, body.Radius, 1e-12 * farthest);
     });
@@ -81,8 +87,11 @@ public class MovedObjectTests
         var placement = random.Transformation(0.3, 2);
         var placed = fractal is null ? Worlds.Place(Samples.Tetrahedron, placement) : Worlds.Place(fractal, placement);
         (Vector A, Vector B, Vector C)[] faces = fractal is null
-            ? [.. PhysicsMeshes.Faces(Samples.Tetrahedron).Select(face => (Naive.Apply(Naive.Map(placement), face.A), Naive.Apply(Naive.Map(placement), face.B), Naive.Apply(Naive.Map(placement), face.C)))]
-            : [.. Naive.Corners(fractal.Description, fractal.BaseMesh, Naive.Map(placement)).Chunk(3).Select(face => (face[0], face[1], face[2]))];
+            ? [.. PhysicsMeshes.Faces(Samples.Tetrahedron)
+            .Select(face => (Naive.Apply(Naive.Map(placement), face.A), Naive.Apply(Naive.Map(placement), face.B),
+            Naive.Apply(Naive.Map(placement), face.C)))]
+            : [.. Naive.Corners(fractal.Description, fractal.BaseMesh, Naive.Map(placement)).Chunk(3)
+            .Select(face => (face[0], face[1], face[2]))];
         var plain = new PlainFaces(faces);
         var world = Worlds.Of(random.Vector(10), Math.Pow(10, random.Between(-3, -1)), placed);
         for (var shot = 0; shot < 5; shot++)
@@ -95,16 +104,20 @@ public class MovedObjectTests
             }
 
             world.Reset();
-            var body = world.Add(new(start, radius) { Velocity = Math.Pow(10, random.Between(0, 2)) * (aim - start).UnitVector(), Restitution = random.NextDouble() });
+            var body =
+                world.Add(new(start, radius) { Velocity = Math.Pow(10, random.Between(0, 2)) * (aim - start).UnitVector(),
+                Restitution = random.NextDouble() });
             world.Run(15, () => Assert.True(
-                plain.Distance(body.Position) >= radius * (1 - 1e-6), $"{body.Description}, step {world.Settings.TimeStep:R}, {placement}: {plain.Distance(body.Position):R} from the surface"));
+                plain.Distance(body.Position) >= radius * (1 - 1e-6),
+                $"{body.Description}, step {world.Settings.TimeStep:R}, {placement}: {plain.Distance(body.Position):R} from the surface"));
         }
     });
 
     [Fact]
     public void Colliders_ThatAreExact_GiveTheSameMotion()
     {
-        var placed = Worlds.Place(Core.Fractals.FractalGenerator.Flatten(AssetFractals.Load("menger", 1), 1000), Samples.Move(0, 0, 0) with { Rotation = new(10, 20, 30) });
+        var placed = Worlds.Place(Core.Fractals.FractalGenerator.Flatten(AssetFractals.Load("menger", 1), 1000),
+            Samples.Move(0, 0, 0) with { Rotation = new(10, 20, 30) });
         var runs = new[] { ColliderKind.Exact, ColliderKind.Hierarchy, ColliderKind.Simple }.Select(kind =>
         {
             var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, placed);
@@ -120,7 +133,9 @@ public class MovedObjectTests
     [Fact]
     public void TryFindClosest_OfAWorld_LeavesBodiesOut()
     {
-        var world = Worlds.Of(Worlds.Gravity, 0.01, Worlds.Place(PhysicsMeshes.Cube), new PlacedModel(new PhysicsObject("c.obj", Samples.Move(0, 3, 0), 0.5), new MeshModel("/c.obj", 0, PhysicsMeshes.Cube)));
+        var world =
+            Worlds.Of(Worlds.Gravity, 0.01, Worlds.Place(PhysicsMeshes.Cube),
+            new PlacedModel(new PhysicsObject("c.obj", Samples.Move(0, 3, 0), 0.5), new MeshModel("/c.obj", 0, PhysicsMeshes.Cube)));
         Assert.True(world.TryFindClosest(new(0, 2, 0), ColliderKind.Exact, out ClosestPoint closest));
         Assert.Equal(1.5, closest.Distance, 1e-12);
     }

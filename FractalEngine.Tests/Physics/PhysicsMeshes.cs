@@ -18,7 +18,8 @@ internal static class PhysicsMeshes
     public static Mesh Scaled(Mesh mesh, double factor) => mesh.Transform(v => factor * v);
 
     public static Mesh Of(params (Vector A, Vector B, Vector C)[] faces) => new(
-        [.. faces.SelectMany(face => new[] { face.A, face.B, face.C }).SelectMany(v => new[] { v.X, v.Y, v.Z })], [.. Enumerable.Range(0, 3 * faces.Length)]);
+        [.. faces.SelectMany(face => new[] { face.A, face.B, face.C }).SelectMany(v => new[] { v.X, v.Y, v.Z })],
+        [.. Enumerable.Range(0, 3 * faces.Length)]);
 
     public static (Vector A, Vector B, Vector C)[] Faces(Mesh mesh) => [.. Enumerable.Range(0, mesh.FaceCount).Select(mesh.Face)];
 

@@ -21,7 +21,9 @@ internal sealed class PlainFaces((Vector A, Vector B, Vector C)[] faces)
         return nearest;
     }
 
-    /// <summary>When a ball on a straight way first touches a face, and where; null where it never does. It must overlap none at first.</summary>
+    /// <summary>
+    /// When a ball on a straight way first touches a face, and where; null where it never does. It must overlap none at first.
+    /// </summary>
     public (double Time, Vector Point)? FirstHit(Vector start, Vector velocity, double radius)
     {
         (double Time, Vector Point)? first = null;

@@ -14,7 +14,9 @@ internal static class PlainMenger
            select new Vector(x, y, z) / 3,
     ];
 
-    /// <summary>Right to 1e-9, and not above the truth: the distance of the nearest cube so small that nothing hangs on where the sponge is in it.</summary>
+    /// <summary>
+    /// Right to 1e-9, and not above the truth: the distance of the nearest cube so small that nothing hangs on where the sponge is in it.
+    /// </summary>
     public static double Distance(Vector position)
     {
         var open = new PriorityQueue<(Vector Centre, double Size), double>();

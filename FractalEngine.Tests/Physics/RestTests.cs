@@ -17,7 +17,8 @@ public class RestTests
 
     public static TheoryData<string, double> Places => new()
     {
-        { "menger 2", 0 }, { "menger 3", 0 }, { "infinite menger", 0 }, { "menger 2", 0.5 }, { "groove", 0 }, { "groove", 0.3 }, { "corner", 0 }, { "floor", 0 },
+        { "menger 2", 0 }, { "menger 3", 0 }, { "infinite menger", 0 }, { "menger 2", 0.5 }, { "groove", 0 }, { "groove", 0.3 },
+        { "corner", 0 }, { "floor", 0 },
     };
 
     [Theory]
@@ -43,7 +44,9 @@ public class RestTests
     {
         var (n1, n2) = (Tilted(-random.Between(20, 80)), Tilted(random.Between(20, 80)));
         var radius = random.Between(0.05, 0.5);
-        var world = Worlds.Of(Worlds.Gravity, random.Between(0.001, 0.03), Worlds.Place(PhysicsMeshes.Of(PhysicsMeshes.Plane(Vector.Zero, n1), PhysicsMeshes.Plane(Vector.Zero, n2))));
+        var world =
+            Worlds.Of(Worlds.Gravity, random.Between(0.001, 0.03),
+            Worlds.Place(PhysicsMeshes.Of(PhysicsMeshes.Plane(Vector.Zero, n1), PhysicsMeshes.Plane(Vector.Zero, n2))));
         var body = world.Add(new(new(0, 1 + (3 * radius), 0), radius));
         world.Run((int)(4 / world.Settings.TimeStep));
         // c·n1 = c·n2 = r, in the plane z = 0.
@@ -56,7 +59,8 @@ public class RestTests
     public void Sleep_OnAFractal_CostsNothing()
     {
         var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(AssetFractals.Load("menger", 3)));
-        world.AddRange(Enumerable.Range(0, 9).Select(i => new BodyDescription(new((i % 3 * 0.33) - 0.33, 0.8, (i / 3 * 0.33) - 0.33), 0.1) { Friction = 0.5 }));
+        world.AddRange(Enumerable.Range(0, 9)
+            .Select(i => new BodyDescription(new((i % 3 * 0.33) - 0.33, 0.8, (i / 3 * 0.33) - 0.33), 0.1) { Friction = 0.5 }));
         world.Add(new(new(0, 1.2, 0), 0.2));
         world.Run(600);
         // The one that is as wide as the hole in the middle has fallen through or rests; whoever rests sleeps.
@@ -165,9 +169,12 @@ public class RestTests
             "menger 2" => [Worlds.Place(AssetFractals.Load("menger", 2))],
             "menger 3" => [Worlds.Place(AssetFractals.Load("menger", 3))],
             "infinite menger" => [Worlds.Place(AssetFractals.Load("infinite-menger"))],
-            "groove" => [Worlds.Place(PhysicsMeshes.Of(PhysicsMeshes.Plane(Vector.Zero, Tilted(-35)), PhysicsMeshes.Plane(Vector.Zero, Tilted(50))))],
+            "groove" =>
+                [Worlds.Place(
+                    PhysicsMeshes.Of(PhysicsMeshes.Plane(Vector.Zero, Tilted(-35)), PhysicsMeshes.Plane(Vector.Zero, Tilted(50))))],
             "corner" => [Worlds.Place(PhysicsMeshes.Of(
-                PhysicsMeshes.Plane(Vector.Zero, new(1, 1, 0.2)), PhysicsMeshes.Plane(Vector.Zero, new(-0.5, 1, 1)), PhysicsMeshes.Plane(Vector.Zero, new(-0.3, 1, -1.2))))],
+                PhysicsMeshes.Plane(Vector.Zero, new(1, 1, 0.2)), PhysicsMeshes.Plane(Vector.Zero, new(-0.5, 1, 1)),
+                PhysicsMeshes.Plane(Vector.Zero, new(-0.3, 1, -1.2))))],
             _ => [Worlds.Place(PhysicsMeshes.Floor())],
         };
         var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = sleepSpeed }, objects);

@@ -20,11 +20,14 @@ public class ShotTests
     private const double Overlap = 1e-6;
 
     /// <summary>Meshes and small fractals.</summary>
-    public static TheoryData<string> Targets => ["sphere", "cube", "plate", "soup", "small soup", "needles", "rough grid", "menger", "sierpinski", "tetrahedron", "terrain", "snowflake", "appendix-b"];
+    public static TheoryData<string> Targets =>
+        ["sphere", "cube", "plate", "soup", "small soup", "needles", "rough grid", "menger", "sierpinski", "tetrahedron", "terrain",
+        "snowflake", "appendix-b"];
 
     /// <summary>
-    /// A ball in free space against triangles: until it hits them a second time, its way is known. A sweep may pass what is grazed by less than 1/128 of
-    /// the radius, so the way is followed only where the angle to the surface has a sine above 0.15: then the overlap would be 1 − √(1 − 0.15²) > 1/128.
+    /// A ball in free space against triangles: until it hits them a second time, its way is known. A sweep may pass what is grazed by less
+    /// than 1/128 of the radius, so the way is followed only where the angle to the surface has a sine above 0.15: then the overlap would
+    /// be 1 − √(1 − 0.15²) > 1/128.
     /// </summary>
     [Theory]
     [InlineData(1)]
@@ -56,13 +59,15 @@ public class ShotTests
 
         var normal = (random.Next(2) == 0 ? 1 : -1) * cross.UnitVector();
         var (radius, speed) = (Math.Pow(10, random.Between(-3, 0)), Math.Pow(10, random.Between(0, 2.7)));
-        var aim = (1 / 3.0 * (a + b + c)) + (random.Between(0, 0.3) * (random.Next(3) switch { 0 => a, 1 => b, _ => c } - (1 / 3.0 * (a + b + c))));
+        var aim = (1 / 3.0 * (a + b + c))
+            + (random.Between(0, 0.3) * (random.Next(3) switch { 0 => a, 1 => b, _ => c } - (1 / 3.0 * (a + b + c))));
         var world = Worlds.Of(Vector.Zero, Math.Pow(10, random.Between(-4, -1)), Worlds.Place(PhysicsMeshes.Of((a, b, c))));
         var body = world.Add(new(aim + ((radius + random.Between(0.001, 2)) * normal), radius) { Velocity = -speed * normal });
         world.Run((int)Math.Min(30, 2 + (3 / speed / world.Settings.TimeStep)), () =>
         {
             var height = Vector.Dot(body.Position - aim, normal);
-            Assert.True(height >= radius * (1 - Overlap), $"radius {radius:R}, speed {speed:R}, step {world.Settings.TimeStep:R}: {height:R} from its plane");
+            Assert.True(height >= radius * (1 - Overlap),
+                $"radius {radius:R}, speed {speed:R}, step {world.Settings.TimeStep:R}: {height:R} from its plane");
         });
     });
 
@@ -73,14 +78,16 @@ public class ShotTests
     [Theory]
     [MemberData(nameof(Targets))]
     [Trait("Category", "Soak")]
-    public void Shot_AtATargetForLong_NeverOverlapsIt(string name) => Parallel.For(0, 40, part => new Target(name).Shoot(1000 * (part + 1), 1000));
+    public void Shot_AtATargetForLong_NeverOverlapsIt(string name) =>
+        Parallel.For(0, 40, part => new Target(name).Shoot(1000 * (part + 1), 1000));
 
     [Fact]
     public void Shot_AtRandomFractals_NeverOverlapsThem() => Seeded.Run(40, random => ShootAtFractal(random, 10));
 
     [Fact]
     [Trait("Category", "Soak")]
-    public void Shot_AtRandomFractalsForLong_NeverOverlapsThem() => Parallel.For(1, 1001, seed => Seeded.RunOne(seed, random => ShootAtFractal(random, 50)));
+    public void Shot_AtRandomFractalsForLong_NeverOverlapsThem() =>
+        Parallel.For(1, 1001, seed => Seeded.RunOne(seed, random => ShootAtFractal(random, 50)));
 
     [Fact]
     public void Shot_InAClosedRoom_StaysInside() => ShootInside(2000);
@@ -99,7 +106,8 @@ public class ShotTests
     /// <summary>Returns how many were followed beyond a bounce.</summary>
     private static int ShootAtTriangles(Random random, int count, int shots)
     {
-        var faces = Enumerable.Range(0, count).Select(_ => random.Vector()).Select(corner => (A: corner, B: corner + random.Vector(0.7), C: corner + random.Vector(0.7)))
+        var faces = Enumerable.Range(0, count).Select(_ => random.Vector())
+            .Select(corner => (A: corner, B: corner + random.Vector(0.7), C: corner + random.Vector(0.7)))
             .Where(face => Vector.Cross(face.B - face.A, face.C - face.A).Length() > 0.01).ToArray();
         if (faces.Length == 0)
         {
@@ -116,14 +124,17 @@ public class ShotTests
             var (u, v) = (random.NextDouble(), random.NextDouble());
             var aim = u + v > 1 ? c : a + (u * (b - a)) + (v * (c - a));
             // One in four in the plane of the face, at its edges. All arrive within some steps.
-            var direction = random.Next(4) == 0 ? ((random.Between(-1, 1) * (b - a)) + (random.Between(-1, 1) * (c - a))).UnitVector() : random.Direction();
+            var direction = random.Next(4) == 0
+                ? ((random.Between(-1, 1) * (b - a)) + (random.Between(-1, 1) * (c - a))).UnitVector()
+                : random.Direction();
             var start = aim + (Math.Max(1.5 * radius, Math.Min(random.Between(0.1, 3), 20 * speed * world.Settings.TimeStep)) * direction);
             if (plain.Distance(start) < radius * (1 + 1e-6))
             {
                 continue;
             }
 
-            bounced += Follow(world, plain, new(start, radius) { Velocity = speed * (aim - start).UnitVector(), Restitution = random.Between(0.1, 1) }) ? 1 : 0;
+            bounced += Follow(world, plain,
+                new(start, radius) { Velocity = speed * (aim - start).UnitVector(), Restitution = random.Between(0.1, 1) }) ? 1 : 0;
         }
 
         return bounced;
@@ -161,9 +172,11 @@ public class ShotTests
             // At the second hit an error has grown by the way over the radius: that would have to be looked at more closely.
             if (hits < 2 && !(hits == 1 && from + hit?.Time <= time * (1 + 1e-9)))
             {
-                // The impact is found to 1e-10 of the radius; at a sine of 0.15 the point moves by 7 times as much and the normal by that over the radius; some units of way.
+                // The impact is found to 1e-10 of the radius; at a sine of 0.15 the point moves by 7 times as much and the normal by that
+                // over the radius; some units of way.
                 isFollowed |= hits == 1;
-                Require((body.Position - (start + ((time - from) * velocity))).Length() <= 1e-8 * (1 + ((time - from) * velocity.Length())), $"is not at {start + ((time - from) * velocity)}");
+                Require((body.Position - (start + ((time - from) * velocity))).Length() <= 1e-8 * (1 + ((time - from) * velocity.Length())),
+                    $"is not at {start + ((time - from) * velocity)}");
             }
             else
             {
@@ -177,7 +190,8 @@ public class ShotTests
         {
             if (!condition)
             {
-                throw new XunitException($"{shot}, step {world.Settings.TimeStep:R}, after {world.StepCount}: at {body.Position} it {what}; distance {plain.Distance(body.Position):R}");
+                throw new XunitException(
+                    $"{shot}, step {world.Settings.TimeStep:R}, after {world.StepCount}: at {body.Position} it {what}; distance {plain.Distance(body.Position):R}");
             }
         }
     }
@@ -192,7 +206,8 @@ public class ShotTests
 
         var mesh = FractalGenerator.Flatten(fractal, 1_000_000);
         // Every face of every instance, by maps that share nothing with the engine's.
-        var corners = Naive.Corners(fractal.Description, fractal.BaseMesh, Naive.Map(Transformation.Identity)).Chunk(3).Select(face => (face[0], face[1], face[2])).ToArray();
+        var corners = Naive.Corners(fractal.Description, fractal.BaseMesh, Naive.Map(Transformation.Identity)).Chunk(3)
+            .Select(face => (face[0], face[1], face[2])).ToArray();
         var plain = new PlainFaces(corners);
         var world = Worlds.Of(random.Vector(10), Math.Pow(10, random.Between(-4, -1)), Worlds.Place(fractal));
         for (var shot = 0; shot < shots; shot++)
@@ -223,7 +238,8 @@ public class ShotTests
                 var height = Vector.Dot(body.Position - a, Vector.Cross(b - a, c - a).UnitVector());
                 if (!(height >= radius * (1 - Overlap)))
                 {
-                    throw new XunitException($"{body.Description}, step {world.Settings.TimeStep:R}, after {world.StepCount}: {height:R} from a wall");
+                    throw new XunitException(
+                        $"{body.Description}, step {world.Settings.TimeStep:R}, after {world.StepCount}: {height:R} from a wall");
                 }
             }
         });
@@ -258,7 +274,9 @@ public class ShotTests
             };
             var record = new QueryContext();
             Collider other = _mesh.FaceCount <= 400 ? new SimpleCollider(_mesh) : new HierarchyCollider(_mesh);
-            _distance = position => other.TryFindClosest(position, double.PositiveInfinity, record, out var closest) ? closest.Distance : double.PositiveInfinity;
+            _distance = position => other.TryFindClosest(position, double.PositiveInfinity, record, out var closest)
+                ? closest.Distance
+                : double.PositiveInfinity;
             if (name is "menger")
             {
                 _cells = [.. Naive.Chains(((FractalModel)_placed.Model).Fractal.Description)];
@@ -268,10 +286,14 @@ public class ShotTests
         public void Shoot(int firstSeed, int shots)
         {
             var (steps, hits) = (new Random(firstSeed), 0);
-            PhysicsWorld[] worlds = [.. Enumerable.Range(0, 4).Select(i => Worlds.Of(i == 0 ? Vector.Zero : Worlds.Gravity, Math.Pow(10, steps.Between(-4, -1)), _placed))];
+            PhysicsWorld[] worlds =
+                [.. Enumerable.Range(0, 4)
+                .Select(i => Worlds.Of(i == 0 ? Vector.Zero : Worlds.Gravity, Math.Pow(10, steps.Between(-4, -1)), _placed))];
             for (var seed = firstSeed; seed < firstSeed + shots; seed++)
             {
-                Seeded.RunOne(seed, random => hits += ShootOnce(random, worlds[random.Next(worlds.Length)], _mesh, _distance, IsInside) ? 1 : 0);
+                Seeded.RunOne(seed, random => hits += ShootOnce(random, worlds[random.Next(worlds.Length)], _mesh, _distance, IsInside)
+                    ? 1
+                    : 0);
             }
 
             // Some begin too near, others are deflected by so little that they don't count.
@@ -279,13 +301,16 @@ public class ShotTests
         }
 
         /// <summary>True when it hit something.</summary>
-        public static bool ShootOnce(Random random, PhysicsWorld world, Mesh mesh, Func<Vector, double> distance, Func<Vector, bool>? isInside = null)
+        public static bool ShootOnce(Random random, PhysicsWorld world, Mesh mesh, Func<Vector, double> distance, Func<Vector,
+            bool>? isInside = null)
         {
             var (bounds, size) = (mesh.Bounds, mesh.Bounds.Diagonal);
             var radius = size * Math.Pow(10, random.Between(-3, -0.7));
             var (a, b, c) = mesh.Face(random.Next(mesh.FaceCount));
             var (aim, speed) = (1 / 3.0 * (a + b + c), size * Math.Pow(10, random.Between(0, 2.7)));
-            var start = aim + (Math.Max(1.5 * radius, Math.Min(random.Between(0.1, 1) * size, 10 * speed * world.Settings.TimeStep)) * random.Direction());
+            var start = aim
+                + (Math.Max(1.5 * radius, Math.Min(random.Between(0.1, 1) * size, 10 * speed * world.Settings.TimeStep))
+                    * random.Direction());
             if (distance(start) < radius * (1 + 1e-6) || isInside?.Invoke(start) == true)
             {
                 return false;
@@ -305,11 +330,13 @@ public class ShotTests
                 var gap = distance(body.Position);
                 if (!(gap >= radius * (1 - Overlap)) || isInside?.Invoke(body.Position) == true || body.IsStuck)
                 {
-                    throw new XunitException($"{body.Description}, step {world.Settings.TimeStep:R}, gravity {world.Gravity}, after {world.StepCount}: at {body.Position}, {gap:R} from the surface, inside: {isInside?.Invoke(body.Position)}, stuck: {body.IsStuck}");
+                    throw new XunitException(
+                        $"{body.Description}, step {world.Settings.TimeStep:R}, gravity {world.Gravity}, after {world.StepCount}: at {body.Position}, {gap:R} from the surface, inside: {isInside?.Invoke(body.Position)}, stuck: {body.IsStuck}");
                 }
             }
 
-            return Vector.Cross(body.Velocity - (world.Time * world.Gravity), velocity).Length() > 1e-6 * speed * speed || Vector.Dot(body.Velocity, velocity) <= 0;
+            return Vector.Cross(body.Velocity - (world.Time * world.Gravity), velocity).Length() > 1e-6 * speed * speed
+                || Vector.Dot(body.Velocity, velocity) <= 0;
         }
 
         /// <summary>Within one of the solids: for cubes only.</summary>

@@ -89,5 +89,6 @@ public class ShrinkageTests
         }
     });
 
-    private static Vector Ring(double radius, double height, int i) => new(radius * Math.Cos(i * Math.PI / 12), height, radius * Math.Sin(i * Math.PI / 12));
+    private static Vector Ring(double radius, double height, int i) =>
+        new(radius * Math.Cos(i * Math.PI / 12), height, radius * Math.Sin(i * Math.PI / 12));
 }

@@ -25,7 +25,8 @@ public class SlidingTests
     public void Sliding_OverATurnedPlane_KeepsHeightAndVelocity() => Seeded.Run(40, random =>
     {
         var mesh = Grid(random, 20);
-        var turn = Transformation.Identity with { Rotation = random.Degrees(), Position = random.Vector(5), Scale = new(random.Between(0.5, 2), 1, random.Between(0.5, 2)) };
+        var turn = Transformation.Identity with { Rotation = random.Degrees(), Position = random.Vector(5),
+            Scale = new(random.Between(0.5, 2), 1, random.Between(0.5, 2)) };
         var placed = Worlds.Place(mesh, turn);
         var normal = placed.ObjectToWorld.Linear.Cofactors().V2.UnitVector();
         var (radius, step) = (random.Between(0.1, 1), random.Between(0.002, 0.05));
@@ -51,7 +52,12 @@ public class SlidingTests
     {
         var half = Math.Pow(2, -depth) / 2;
         // Cubes side by side: 4^depth make a slab, whose sides of 15 digits meet.
-        var placed = Worlds.Place(new Core.Fractals.Fractal(Samples.Repeated(depth, [.. from x in new[] { -0.25, 0.25 } from z in new[] { -0.25, 0.25 } select Samples.MoveAndScale(x, 0, z, 0.5)]).Description, PhysicsMeshes.Cube));
+        var placed =
+            Worlds.Place(
+                new Core.Fractals.Fractal(
+                    Samples.Repeated(depth,
+                    [.. from x in new[] { -0.25, 0.25 } from z in new[] { -0.25, 0.25 } select Samples.MoveAndScale(x, 0, z,
+                    0.5)]).Description, PhysicsMeshes.Cube));
         CheckSliding(random, placed, new(-0.4, half, -0.4), 0.6, random.Between(0.02, 0.5));
     });
 
@@ -85,7 +91,10 @@ public class SlidingTests
         });
     });
 
-    /// <summary>School physics: without friction a ball leaves the sphere under it where the cosine of the angle from the top is (2 + v²/(g·r))/3, and until then v² grows by 2·g·height.</summary>
+    /// <summary>
+    /// School physics: without friction a ball leaves the sphere under it where the cosine of the angle from the top is (2 + v²/(g·r))/3,
+    /// and until then v² grows by 2·g·height.
+    /// </summary>
     [Theory]
     [InlineData(1.0 / 60)]
     [InlineData(1.0 / 240)]

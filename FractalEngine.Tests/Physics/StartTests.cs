@@ -64,7 +64,9 @@ public class StartTests
         var start = (1 / 3.0 * (a + b + c)) + (random.Between(-0.9, 0.9) * Math.Min(radius, 0.1) * normal);
         var world = Worlds.Of(Vector.Zero, 1 / 60.0, Worlds.Place(mesh));
         CheckFree(world, world.Add(new(start, radius)), new PlainFaces(mesh).Distance, radius);
-        Assert.True(PhysicsMeshes.Faces(mesh).Any(face => Vector.Dot(world.Bodies[0].Position - face.A, Vector.Cross(face.B - face.A, face.C - face.A)) > 0), "within the solid");
+        Assert.True(PhysicsMeshes.Faces(mesh)
+            .Any(face => Vector.Dot(world.Bodies[0].Position - face.A, Vector.Cross(face.B - face.A, face.C - face.A)) > 0),
+            "within the solid");
     });
 
     [Theory]
@@ -75,9 +77,11 @@ public class StartTests
         var mesh = Solid(name);
         var size = mesh.Bounds.Size.X;
         var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(mesh));
-        var body = world.Add(new(random.Vector(0.1 * size), 0.1 * size) { Velocity = random.Vector(10), Restitution = random.NextDouble() });
+        var body =
+            world.Add(new(random.Vector(0.1 * size), 0.1 * size) { Velocity = random.Vector(10), Restitution = random.NextDouble() });
         world.Run(100, () => Assert.All(PhysicsMeshes.Faces(mesh), face => Assert.InRange(
-            Vector.Dot(body.Position - face.A, Vector.Cross(face.B - face.A, face.C - face.A).UnitVector()), double.NegativeInfinity, -body.Radius * (1 - Overlap))));
+            Vector.Dot(body.Position - face.A, Vector.Cross(face.B - face.A, face.C - face.A).UnitVector()), double.NegativeInfinity,
+            -body.Radius * (1 - Overlap))));
     });
 
     [Fact]
@@ -152,7 +156,8 @@ public class StartTests
             world.Run(5, () =>
             {
                 Assert.True(collider.TryFindClosest(body.Position, double.PositiveInfinity, new(), out var closest, out _));
-                Assert.True(body.IsStuck || closest.Distance >= radius * (1 - Overlap), $"{body.Description}: {closest.Distance:R} from the surface at {body.Position}");
+                Assert.True(body.IsStuck || closest.Distance >= radius * (1 - Overlap),
+                    $"{body.Description}: {closest.Distance:R} from the surface at {body.Position}");
                 Assert.True(!body.IsStuck || body.Velocity == Vector.Zero);
             });
         });
@@ -165,7 +170,8 @@ public class StartTests
         world.Run(3, () =>
         {
             Assert.False(body.IsStuck, $"{body.Description} is stuck at {body.Position}");
-            Assert.True(distance(body.Position) >= radius * (1 - Overlap), $"{body.Description}: {distance(body.Position):R} from the surface at {body.Position}");
+            Assert.True(distance(body.Position) >= radius * (1 - Overlap),
+                $"{body.Description}: {distance(body.Position):R} from the surface at {body.Position}");
             // No further than to the nearest free place, and a little.
             Assert.InRange((body.Position - body.Description.Position).Length(), 0, 10 * (radius + 2));
             Assert.Equal(Vector.Zero, body.Velocity);
@@ -187,7 +193,8 @@ public class StartTests
             foreach (var other in world.Bodies.Skip(body.Index + 1))
             {
                 var gap = (body.Position - other.Position).Length() - body.Radius - other.Radius;
-                Assert.True(gap >= -Overlap * Math.Min(body.Radius, other.Radius) || body.IsStuck || other.IsStuck, $"{body.Name} and {other.Name} overlap by {-gap:R}");
+                Assert.True(gap >= -Overlap * Math.Min(body.Radius, other.Radius) || body.IsStuck
+                    || other.IsStuck, $"{body.Name} and {other.Name} overlap by {-gap:R}");
             }
         }
     }

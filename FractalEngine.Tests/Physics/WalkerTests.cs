@@ -179,7 +179,8 @@ public sealed class WalkerTests
     {
         var sponge = Worlds.Place(AssetFractals.Load("menger-3"));
         var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings(), sponge, Worlds.Place(Box(new(-9, -2, -9), new(9, -1, 9))));
-        var player = new Player(new((2 * random.NextDouble()) - 1, 1.2, (2 * random.NextDouble()) - 1), 0.01 + (0.04 * random.NextDouble()), 0.2);
+        var player = new Player(new((2 * random.NextDouble()) - 1, 1.2, (2 * random.NextDouble()) - 1), 0.01 + (0.04 * random.NextDouble()),
+            0.2);
         var walker = world.AddCharacter(player);
         walker.IsActive = true;
         for (var step = 0; step < 300; step++)

@@ -14,7 +14,8 @@ internal static class Worlds
     public static PhysicsWorld Of(Vector gravity, PhysicsSettings settings, params PlacedModel[] objects) =>
         new(new(new Scene { Gravity = gravity }, [.. objects]), settings);
 
-    public static PhysicsWorld Of(Vector gravity, double step, params PlacedModel[] objects) => Of(gravity, new PhysicsSettings { TimeStep = step }, objects);
+    public static PhysicsWorld Of(Vector gravity, double step, params PlacedModel[] objects) =>
+        Of(gravity, new PhysicsSettings { TimeStep = step }, objects);
 
     public static PlacedModel Place(Mesh mesh, Transformation? placement = null) =>
         new(new("mesh.obj", placement ?? Transformation.Identity), new MeshModel("/mesh.obj", 0, mesh));
@@ -33,7 +34,8 @@ internal static class Worlds
 
     /// <summary>Of motion and height, joules.</summary>
     public static double Energy(this PhysicsWorld world) =>
-        world.Bodies.Sum(body => body.Description.Mass * ((0.5 * body.Velocity.LengthSquared()) - Vector.Dot(world.Gravity, body.Position)));
+        world.Bodies.Sum(body => body.Description.Mass
+            * ((0.5 * body.Velocity.LengthSquared()) - Vector.Dot(world.Gravity, body.Position)));
 
     public static Vector Momentum(this PhysicsWorld world) =>
         world.Bodies.Aggregate(Vector.Zero, (sum, body) => sum + (body.Description.Mass * body.Velocity));

@@ -13,7 +13,9 @@ using static System.FormattableString;
 
 namespace FractalEngine.Tests.Render;
 
-/// <summary>Pictures for which instances are chosen, beside those of every instance and those of the truth: the same with 36 samples a pixel.</summary>
+/// <summary>
+/// Pictures for which instances are chosen, beside those of every instance and those of the truth: the same with 36 samples a pixel.
+/// </summary>
 [Collection(GlTests.Name)]
 public sealed class DetailDrawingTests
 {
@@ -28,11 +30,15 @@ public sealed class DetailDrawingTests
     private static readonly RenderSettings All = Chosen with { Culling = null };
     private static readonly Camera Aside = new(new(-3.2, 2.6, -4), CameraFraming.LookRotation(new(3.2, -2.6, 4)), 45);
 
-    /// <summary>Each fractal of the assets at a depth where half of the instances are larger than two pixels; −1 for what has no depth.</summary>
+    /// <summary>
+    /// Each fractal of the assets at a depth where half of the instances are larger than two pixels; −1 for what has no depth.
+    /// </summary>
     public static TheoryData<string, int> Large => new()
     {
-        { "appendix-b", 1 }, { "appendix-b-structure", 2 }, { "diamond", 2 }, { "fern", 1 }, { "googol", 3 }, { "infinite-menger", 2 }, { "menger", 3 }, { "menger-3", 2 }, { "menger-4", 2 },
-        { "romanesco", 2 }, { "shell", -1 }, { "sierpinski", 3 }, { "terrain", 4 }, { "tetrahedron", 4 }, { "tree", 5 }, { "tree-leaves", 5 },
+        { "appendix-b", 1 }, { "appendix-b-structure", 2 }, { "diamond", 2 }, { "fern", 1 }, { "googol", 3 }, { "infinite-menger", 2 },
+        { "menger", 3 }, { "menger-3", 2 }, { "menger-4", 2 },
+        { "romanesco", 2 }, { "shell", -1 }, { "sierpinski", 3 }, { "terrain", 4 }, { "tetrahedron", 4 }, { "tree", 5 },
+        { "tree-leaves", 5 },
     };
 
     /// <summary>Some with smaller instances.</summary>
@@ -41,7 +47,9 @@ public sealed class DetailDrawingTests
     /// <summary>The rest, and deeper ones, up to 200,000 instances.</summary>
     public static TheoryData<string, int> SmallForSoak => new()
     {
-        { "appendix-b-structure", 3 }, { "appendix-b", 3 }, { "diamond", 3 }, { "fern", 2 }, { "fern", 3 }, { "googol", 5 }, { "menger-3", 3 }, { "menger-4", 4 }, { "romanesco", 3 }, { "sierpinski", 5 }, { "sierpinski", 6 }, { "terrain", 8 }, { "tetrahedron", 8 }, { "tree", 7 },
+        { "appendix-b-structure", 3 }, { "appendix-b", 3 }, { "diamond", 3 }, { "fern", 2 }, { "fern", 3 }, { "googol", 5 },
+        { "menger-3", 3 }, { "menger-4", 4 }, { "romanesco", 3 }, { "sierpinski", 5 }, { "sierpinski", 6 }, { "terrain", 8 },
+        { "tetrahedron", 8 }, { "tree", 7 },
         { "tree-leaves", 7 },
     };
 
@@ -92,7 +100,8 @@ public sealed class DetailDrawingTests
         var scene = RenderScenes.Scene(
             new Scene(),
             (RenderScenes.Menger(2), RenderScenes.At(0, 0, 3), new Colour(1, 0.5, 0)),
-            (RenderScenes.Menger(3), Transformation.Identity with { Scale = new(-1, 1.3, 0.8), Rotation = new(20, 30, 40) }, new Colour(0, 0.5, 1)),
+            (RenderScenes.Menger(3), Transformation.Identity with { Scale = new(-1, 1.3, 0.8), Rotation = new(20, 30, 40) },
+            new Colour(0, 0.5, 1)),
             (ModelOf("tree", 4), new Transformation(new(0.5, -1, -1), new(0, 30, 0), new(1, 1, -1)), new Colour(0, 1, 0)),
             (RenderScenes.Model(RenderScenes.Ball(6)), RenderScenes.At(-1, 0.8, -1), null),
             (RenderScenes.Model(RenderScenes.Ball(40), "large.obj"), RenderScenes.At(1.5, 1, 0.5), null));
@@ -108,10 +117,13 @@ public sealed class DetailDrawingTests
     [InlineData(9, 9)]
     public void Picture_OfFewPixels_IsThatOfEveryInstance(int width, int height)
     {
-        var scene = RenderScenes.Scene(new Scene { Background = Colour.Black }, (RenderScenes.Menger(2), Transformation.Identity, Colour.White));
+        var scene =
+            RenderScenes.Scene(new Scene { Background = Colour.Black }, (RenderScenes.Menger(2), Transformation.Identity, Colour.White));
         var view = View.Of(scene, (double)width / height);
         // Of a picture of few pixels, the sponge as a whole is what is small.
-        var (all, chosen) = (RenderScenes.Draw(scene, view, width, height, All), RenderScenes.Draw(scene, view, width, height, Chosen with { Culling = new() { MinProjectedSize = 0 } }));
+        var (all, chosen) =
+            (RenderScenes.Draw(scene, view, width, height, All),
+            RenderScenes.Draw(scene, view, width, height, Chosen with { Culling = new() { MinProjectedSize = 0 } }));
         Assert.True(Pictures.Ratio(chosen, all) >= Pictures.Same, Invariant($"{Pictures.Ratio(chosen, all):F1} dB"));
         RenderScenes.Draw(scene, view, width, height, Chosen with { Samples = 4 });
     }
@@ -121,11 +133,15 @@ public sealed class DetailDrawingTests
     {
         var glass = TexturedScenes.Of(RenderScenes.Cube(1), new("glass") { Diffuse = new(1, 0, 0), Opacity = 0.4 });
         var scene = RenderScenes.Scene(
-            new Scene { Background = Colour.Black }, (glass, Transformation.Identity with { Position = new(0, 0, -2), Scale = new(3, 3, 0.1) }, null), (RenderScenes.Menger(2), Transformation.Identity, Colour.White));
+            new Scene { Background = Colour.Black },
+            (glass, Transformation.Identity with { Position = new(0, 0, -2), Scale = new(3, 3, 0.1) }, null),
+            (RenderScenes.Menger(2), Transformation.Identity, Colour.White));
         AssertSame(scene, RenderScenes.FrontView);
         // Behind the glass the sponge is seen: about as many pixels with blue in them as without the glass.
-        var alone = RenderScenes.Scene(new Scene { Background = Colour.Black }, (RenderScenes.Menger(2), Transformation.Identity, Colour.White));
-        var (through, without) = (RenderScenes.Draw(scene, RenderScenes.FrontView, settings: Chosen), RenderScenes.Draw(alone, RenderScenes.FrontView, settings: Chosen));
+        var alone =
+            RenderScenes.Scene(new Scene { Background = Colour.Black }, (RenderScenes.Menger(2), Transformation.Identity, Colour.White));
+        var (through, without) = (RenderScenes.Draw(scene, RenderScenes.FrontView, settings: Chosen),
+            RenderScenes.Draw(alone, RenderScenes.FrontView, settings: Chosen));
         Assert.InRange(CountBlue(through), 0.99 * CountBlue(without), CountBlue(without));
     }
 
@@ -133,12 +149,16 @@ public sealed class DetailDrawingTests
     public void Transparent_FractalBeforeAFractal_IsThatOfEveryInstance()
     {
         var glass = TexturedScenes.Of(RenderScenes.Cube(1), new("glass") { Diffuse = new(1, 0, 0), Opacity = 0.4 });
-        var fractal = new FractalModel("glass.fdo", 1, new(RenderScenes.Menger(1).Fractal.Description, glass.Mesh)) { Materials = glass.Materials };
+        var fractal =
+            new FractalModel("glass.fdo", 1, new(RenderScenes.Menger(1).Fractal.Description, glass.Mesh)) { Materials = glass.Materials };
         // Transparent instances are drawn in no stated order, so those of the fractal are side by side.
         var scene = RenderScenes.Scene(
             new Scene { Background = Colour.Black },
-            (fractal, Transformation.Identity with { Position = new(0, 0, -2), Scale = new(1, 1, 0.01) }, null), (RenderScenes.Menger(2), Transformation.Identity, Colour.White));
-        var (all, chosen) = (RenderScenes.Draw(scene, RenderScenes.FrontView, settings: All), RenderScenes.Draw(scene, RenderScenes.FrontView, settings: Chosen));
+            (fractal, Transformation.Identity with { Position = new(0, 0, -2), Scale = new(1, 1, 0.01) }, null),
+            (RenderScenes.Menger(2), Transformation.Identity, Colour.White));
+        var (all, chosen) =
+            (RenderScenes.Draw(scene, RenderScenes.FrontView, settings: All),
+            RenderScenes.Draw(scene, RenderScenes.FrontView, settings: Chosen));
         Assert.InRange(CountBlue(chosen), 0.99 * CountBlue(all), 1.01 * CountBlue(all));
     }
 
@@ -146,11 +166,14 @@ public sealed class DetailDrawingTests
     public void Move_OfAnObject_DrawsItInItsNewPlace()
     {
         var scene = RenderScenes.Scene(
-            new Scene(), (RenderScenes.Menger(2), RenderScenes.At(-1, 0, 0), null), (RenderScenes.Menger(2), RenderScenes.At(1.5, 0, 0), null));
+            new Scene(), (RenderScenes.Menger(2), RenderScenes.At(-1, 0, 0), null),
+            (RenderScenes.Menger(2), RenderScenes.At(1.5, 0, 0), null));
         var view = new View(Aside, Projection.Perspective) { Clip = (1, 20) };
         var places = (Vector[])[new(2, 1, 1), new(-1, 0, 0.5), new(-1, 0, 0)];
         var there = places.Select(place => RenderScenes.Draw(
-            scene with { Objects = RenderScenes.Scene(new Scene(), (scene.Objects[0].Model, RenderScenes.At(place.X, place.Y, place.Z), null), (scene.Objects[1].Model, RenderScenes.At(1.5, 0, 0), null)).Objects },
+            scene with { Objects =
+            RenderScenes.Scene(new Scene(), (scene.Objects[0].Model, RenderScenes.At(place.X, place.Y, place.Z), null),
+            (scene.Objects[1].Model, RenderScenes.At(1.5, 0, 0), null)).Objects },
             view, Width, Height, All)).ToArray();
         using var context = GlTests.Open();
         using var frame = new FrameRenderer(context);
@@ -162,7 +185,8 @@ public sealed class DetailDrawingTests
             renderer.Move(0, AffineMap.Translate(places[i]));
             frame.Draw(renderer, view, Width, Height, Chosen);
             var moved = frame.Capture();
-            Assert.True(Pictures.Ratio(moved, there[i]) >= Pictures.Same, Invariant($"{Pictures.Ratio(moved, there[i]):F1} dB at {places[i]}"));
+            Assert.True(Pictures.Ratio(moved, there[i]) >= Pictures.Same,
+                Invariant($"{Pictures.Ratio(moved, there[i]):F1} dB at {places[i]}"));
             // At the end it is back where it was.
             Assert.Equal(i == places.Length - 1, before.Pixels.AsSpan().SequenceEqual(moved.Pixels));
         }
@@ -171,7 +195,8 @@ public sealed class DetailDrawingTests
     [SkippableFact]
     public void Draw_WithNothingChanged_ChoosesAndUploadsNothing()
     {
-        var scene = RenderScenes.Scene(new Scene(), (RenderScenes.Menger(3), Transformation.Identity, null), (ModelOf("tree", 5), RenderScenes.At(0, 0, 2), null));
+        var scene = RenderScenes.Scene(new Scene(), (RenderScenes.Menger(3), Transformation.Identity, null),
+            (ModelOf("tree", 5), RenderScenes.At(0, 0, 2), null));
         var view = new View(Aside, Projection.Perspective);
         using var context = GlTests.Open();
         using var frame = new FrameRenderer(context);
@@ -189,7 +214,8 @@ public sealed class DetailDrawingTests
         }
 
         // What does not change the choice: colours, shading, and settings of the same values.
-        foreach (var same in (RenderSettings[])[Chosen, Chosen with { Shading = Shading.PerPixel }, new() { Samples = 0, Background = Colour.White }])
+        foreach (var same in (RenderSettings[])[Chosen, Chosen with { Shading = Shading.PerPixel },
+            new() { Samples = 0, Background = Colour.White }])
         {
             frame.Draw(renderer, view with { }, Width, Height, same);
             AssertKept();
@@ -223,9 +249,12 @@ public sealed class DetailDrawingTests
     {
         // Behind a cube that fills the picture.
         var scene = RenderScenes.Scene(
-            new Scene { Background = Colour.Black }, (RenderScenes.Model(RenderScenes.Cube(1)), Transformation.Identity with { Scale = new(4, 4, 0.1) }, Colour.White), (RenderScenes.Menger(2), RenderScenes.At(0, 0, 3), Colour.White));
+            new Scene { Background = Colour.Black },
+            (RenderScenes.Model(RenderScenes.Cube(1)), Transformation.Identity with { Scale = new(4, 4, 0.1) }, Colour.White),
+            (RenderScenes.Menger(2), RenderScenes.At(0, 0, 3), Colour.White));
         var view = RenderScenes.FrontView;
-        var (all, chosen) = (RenderScenes.Draw(scene, view, Width, Height, All with { Wireframe = true }), RenderScenes.Draw(scene, view, Width, Height, Chosen with { Wireframe = true }));
+        var (all, chosen) = (RenderScenes.Draw(scene, view, Width, Height, All with { Wireframe = true }),
+            RenderScenes.Draw(scene, view, Width, Height, Chosen with { Wireframe = true }));
         Assert.True(Pictures.Ratio(chosen, all) >= Pictures.Same, Invariant($"{Pictures.Ratio(chosen, all):F1} dB"));
         Assert.True(RenderScenes.CountOther(chosen, (0, 0, 0, 255)) > 2000);
         AssertSame(scene, view);
@@ -236,16 +265,22 @@ public sealed class DetailDrawingTests
     [InlineData(20)]
     public void Picture_OfABaseBesideItsFractal_IsNoFartherFromTheTruth(double distance)
     {
-        // A Sierpiński triangle whose maps shrink towards points far from the base mesh, so that the base at a level stands beside what is below it.
+        // A Sierpiński triangle whose maps shrink towards points far from the base mesh, so that the base at a level stands beside what is
+        // below it.
         var set = new TransformationSet([
-            Samples.MoveAndScale(distance, 0, 0, 0.5), Samples.MoveAndScale(distance + 1, 0, 0, 0.5), Samples.MoveAndScale(distance, 1, 0, 0.5)]);
+            Samples.MoveAndScale(distance, 0, 0, 0.5), Samples.MoveAndScale(distance + 1, 0, 0, 0.5),
+            Samples.MoveAndScale(distance, 1, 0, 0.5)]);
         var fractal = new Fractal(new("cube.obj", [new Repetition([set], 9)]), RenderScenes.Cube(1));
         var model = new FractalModel("beside.fdo", 1, fractal);
         var scene = RenderScenes.Scene(new Scene { Background = Colour.Black }, (model, Transformation.Identity, Colour.White));
         var view = View.Of(scene, (double)Width / Height);
-        var (all, chosen) = (RenderScenes.Draw(scene, view, 3 * Width, 3 * Height, All), RenderScenes.Draw(scene, view, Width, Height, Chosen));
-        var (missing, beside) = (Pictures.ShareNotNear(Pictures.Shrunk(all, 3), chosen), Pictures.ShareNotNear(chosen, Pictures.Shrunk(all, 3)));
-        Assert.True(missing < 0.02 && beside < 0.02, Invariant($"{missing:P1} of the pixels have nothing near them in the picture, {beside:P1} of the picture's are near nothing"));
+        var (all, chosen) =
+            (RenderScenes.Draw(scene, view, 3 * Width, 3 * Height, All), RenderScenes.Draw(scene, view, Width, Height, Chosen));
+        var (missing, beside) =
+            (Pictures.ShareNotNear(Pictures.Shrunk(all, 3), chosen), Pictures.ShareNotNear(chosen, Pictures.Shrunk(all, 3)));
+        Assert.True(missing < 0.02
+            && beside < 0.02,
+            Invariant($"{missing:P1} of the pixels have nothing near them in the picture, {beside:P1} of the picture's are near nothing"));
         AssertNoFarther(model, Projection.Perspective, $"base {distance} units beside the fractal");
     }
 
@@ -254,7 +289,9 @@ public sealed class DetailDrawingTests
     {
         // Copies so small that all of them are less than a pixel, far from each other.
         var random = new Random(7);
-        var set = new TransformationSet([.. Enumerable.Range(0, 60).Select(_ => new Transformation(random.Vector(), Vector.Zero, 0.002 * Vector.One))]);
+        var set =
+            new TransformationSet(
+                [.. Enumerable.Range(0, 60).Select(_ => new Transformation(random.Vector(), Vector.Zero, 0.002 * Vector.One))]);
         AssertNoFarther(new FractalModel("dust.fdo", 1, new(new("cube.obj", [set]), RenderScenes.Cube(1))), Projection.Perspective, "dust");
     }
 
@@ -265,7 +302,8 @@ public sealed class DetailDrawingTests
         var infinite = RenderScenes.Scene(new Scene(), (RenderScenes.Menger(null), Transformation.Identity, null));
         var deep = RenderScenes.Scene(new Scene(), (RenderScenes.Menger(8), Transformation.Identity, null));
         var view = new View(Aside, Projection.Perspective) { Clip = (1, 20) };
-        var (picture1, picture2) = (RenderScenes.Draw(infinite, view, Width, Height, Chosen), RenderScenes.Draw(deep, view, Width, Height, Chosen));
+        var (picture1, picture2) =
+            (RenderScenes.Draw(infinite, view, Width, Height, Chosen), RenderScenes.Draw(deep, view, Width, Height, Chosen));
         Assert.True(Pictures.Ratio(picture1, picture2) >= Pictures.Same, Invariant($"{Pictures.Ratio(picture1, picture2):F1} dB"));
     }
 
@@ -281,7 +319,8 @@ public sealed class DetailDrawingTests
         }
     }
 
-    private static FractalModel ModelOf(string name, int depth) => new(name, 1, depth < 0 ? AssetFractals.Load(name) : AssetFractals.Load(name, depth));
+    private static FractalModel ModelOf(string name, int depth) =>
+        new(name, 1, depth < 0 ? AssetFractals.Load(name) : AssetFractals.Load(name, depth));
 
     private static void CheckSmall(string name, int depth)
     {
@@ -295,11 +334,15 @@ public sealed class DetailDrawingTests
     {
         foreach (var (samples, difference, toAll) in DifferencesToTruth(model, projection))
         {
-            Assert.True(difference >= -NoFarther, Invariant($"{what}, {projection}, {samples} samples: {difference:F2} dB; {toAll:F1} dB from the picture of every instance"));
+            Assert.True(difference >= -NoFarther,
+                Invariant(
+                    $"{what}, {projection}, {samples} samples: {difference:F2} dB; {toAll:F1} dB from the picture of every instance"));
         }
     }
 
-    /// <summary>By how much the picture is nearer to the truth than that of every instance is, decibels; and how far it is from that one.</summary>
+    /// <summary>
+    /// By how much the picture is nearer to the truth than that of every instance is, decibels; and how far it is from that one.
+    /// </summary>
     private static List<(int Samples, double Difference, double ToAll)> DifferencesToTruth(FractalModel model, Projection projection)
     {
         var scene = RenderScenes.Scene(new Scene { Projection = projection }, (model, Transformation.Identity, null));
@@ -343,5 +386,6 @@ public sealed class DetailDrawingTests
         context.Resources.ThrowOnError("drawing");
     }
 
-    private static int CountBlue(PixelImage image) => Enumerable.Range(0, image.Width * image.Height).Count(i => image.Pixels[(4 * i) + 2] > 0);
+    private static int CountBlue(PixelImage image) =>
+        Enumerable.Range(0, image.Width * image.Height).Count(i => image.Pixels[(4 * i) + 2] > 0);
 }

@@ -121,7 +121,8 @@ public sealed class DrawingTests
         Assert.True(image[100, 75].Red > 100 && image[85, 75].Red > 100 && image[100, 60].Red > 100);
 
         var gone = RenderScenes.Draw(
-            scene with { Objects = [new(new SceneObject("x.obj", Transformation.Identity with { Scale = Vector.Zero }), scene.Objects[0].Model)] },
+            scene with { Objects =
+            [new(new SceneObject("x.obj", Transformation.Identity with { Scale = Vector.Zero }), scene.Objects[0].Model)] },
             RenderScenes.FrontView);
         Assert.Equal(0, RenderScenes.CountOther(gone, (0, 0, 0, 255)));
     }
@@ -155,7 +156,8 @@ public sealed class DrawingTests
     public void Samples_None_GivesNoIntermediateColours()
     {
         var image = RenderScenes.Draw(
-            RenderScenes.WhiteOnBlack(RenderScenes.Ball(12), Transformation.Identity), RenderScenes.FrontView, settings: new() { Samples = 0 });
+            RenderScenes.WhiteOnBlack(RenderScenes.Ball(12), Transformation.Identity), RenderScenes.FrontView,
+            settings: new() { Samples = 0 });
         Assert.DoesNotContain(image.Pixels, component => component is not 0 and not 255);
         var smooth = RenderScenes.Draw(RenderScenes.WhiteOnBlack(RenderScenes.Ball(12), Transformation.Identity), RenderScenes.FrontView);
         Assert.Contains(smooth.Pixels, component => component is not 0 and not 255);
@@ -168,7 +170,8 @@ public sealed class DrawingTests
         var view = new View(Aside, Projection.Perspective);
         Assert.Equal(0, RenderScenes.CountOther(RenderScenes.Draw(empty, view), (0, 0, 0, 255)));
         Assert.InRange(
-            RenderScenes.CountOther(RenderScenes.Draw(empty, view, settings: new() { Grid = true, Axes = true }), (0, 0, 0, 255)), 200, 30_000);
+            RenderScenes.CountOther(RenderScenes.Draw(empty, view, settings: new() { Grid = true, Axes = true }), (0, 0, 0, 255)), 200,
+            30_000);
     }
 
     [SkippableFact]
@@ -198,7 +201,8 @@ public sealed class DrawingTests
     {
         using var context = GlTests.Open();
         var scene = RenderScenes.Scene(
-            new Scene { Lights = [new PointLight(new(0, 3, -3), Colour.White, 1, 30)] }, (RenderScenes.Menger(1), Transformation.Identity, null));
+            new Scene { Lights = [new PointLight(new(0, 3, -3), Colour.White, 1, 30)] },
+            (RenderScenes.Menger(1), Transformation.Identity, null));
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, new()));
         using var frame = new FrameRenderer(context);
         var (view, settings) = (RenderScenes.FrontView, new RenderSettings { Grid = true });

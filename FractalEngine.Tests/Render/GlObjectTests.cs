@@ -68,7 +68,8 @@ public sealed class GlObjectTests
         var other = new Thread(() => caught = Record.Exception(() => new VertexArray(context.Resources, "foreign")));
         other.Start();
         other.Join();
-        Assert.Equal("GL objects can be used on the thread of their context only", Assert.IsType<InvalidOperationException>(caught).Message);
+        Assert.Equal("GL objects can be used on the thread of their context only",
+            Assert.IsType<InvalidOperationException>(caught).Message);
         Assert.Empty(context.LiveObjects);
     }
 
@@ -130,7 +131,8 @@ public sealed class GlObjectTests
         Assert.DoesNotContain(lines, line => line.StartsWith("#include", StringComparison.Ordinal));
         var original = EmbeddedResource.ReadText("Shaders/mesh.frag").Split('\n');
         var next = Array.FindLastIndex(lines, line => line.StartsWith("#line ", StringComparison.Ordinal));
-        Assert.Equal(original[(int.Parse(lines[next][6..], System.Globalization.CultureInfo.InvariantCulture) - 1)..], lines[(next + 1)..^1]);
+        Assert.Equal(original[(int.Parse(lines[next][6..], System.Globalization.CultureInfo.InvariantCulture) - 1)..],
+            lines[(next + 1)..^1]);
     }
 
     [SkippableFact]

@@ -68,9 +68,12 @@ public sealed class GlStateTests
         var checks = textures.Texture("a.png", 2, 2, (x, y) => ((byte)(255 * x), (byte)(255 * y), 90, 255));
         LoadedScene[] scenes =
         [
-            RenderScenes.Scene(new Scene(), (RenderScenes.Menger(2), Transformation.Identity, null), (glass, RenderScenes.At(1, 1, -1), null)),
-            RenderScenes.Scene(new Scene(), (TexturedScenes.Square(1, new("m") { Texture = checks }), Transformation.Identity, null), (RenderScenes.Model(RenderScenes.Ball(9)), RenderScenes.At(-1, 0, 1), null)),
-            RenderScenes.Scene(new Scene { Lights = [RenderScenes.FullLight] }, (RenderScenes.Model(RenderScenes.Cube(0.7)), Transformation.Identity, Colour.White)),
+            RenderScenes.Scene(new Scene(), (RenderScenes.Menger(2), Transformation.Identity, null),
+            (glass, RenderScenes.At(1, 1, -1), null)),
+            RenderScenes.Scene(new Scene(), (TexturedScenes.Square(1, new("m") { Texture = checks }), Transformation.Identity, null),
+            (RenderScenes.Model(RenderScenes.Ball(9)), RenderScenes.At(-1, 0, 1), null)),
+            RenderScenes.Scene(new Scene { Lights = [RenderScenes.FullLight] },
+            (RenderScenes.Model(RenderScenes.Cube(0.7)), Transformation.Identity, Colour.White)),
         ];
         var expected = scenes.Select(scene => RenderScenes.Draw(scene, RenderScenes.FrontView, settings: new())).ToArray();
         using var context = GlTests.Open();

@@ -35,7 +35,8 @@ public sealed class GradientTests
     [SkippableFact]
     public void Level_OfSetsWithoutTheIdentity_IsTheSameForAll()
     {
-        var fractal = Of(new Repetition([new TransformationSet([Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)])], 2));
+        var fractal =
+            Of(new Repetition([new TransformationSet([Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)])], 2));
         Check(fractal, GradientKind.Level, false, (new(-3, 0, 0), 1), (new(-1, 0, 0), 1), (new(1, 0, 0), 1), (new(3, 0, 0), 1));
     }
 
@@ -43,22 +44,28 @@ public sealed class GradientTests
     public void Level_WhereASetHasOneMap_CountsIt()
     {
         // GradientKind.Level: how many maps other than the identity lead to an instance. Here always two, of two levels.
-        var fractal = Of(new TransformationSet([Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)]), new TransformationSet([Samples.MoveAndScale(0, 1, 0, 0.5)]));
+        var fractal = Of(new TransformationSet([Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)]),
+            new TransformationSet([Samples.MoveAndScale(0, 1, 0, 0.5)]));
         Check(fractal, GradientKind.Level, false, (new(-2, 0.5, 0), 1), (new(2, 0.5, 0), 1));
     }
 
     [SkippableFact]
     public void Path_OfTwoLevels_IsAHalfOfTheFirstAndAQuarterOfTheSecond()
     {
-        var fractal = Of(new Repetition([new TransformationSet([Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(0, 2, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)])], 2));
+        var fractal =
+            Of(new Repetition(
+                [new TransformationSet(
+                    [Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(0, 2, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)])], 2));
         // Places 0, 1/2 and 1 in the set.
-        Check(fractal, GradientKind.Path, true, (new(-3, 0, 0), 0), (new(-2, 1, 0), 0.125), (new(-1, 0, 0), 0.25), (new(0, 3, 0), 0.375), (new(1, 2, 0), 0.5), (new(3, 0, 0), 0.75));
+        Check(fractal, GradientKind.Path, true, (new(-3, 0, 0), 0), (new(-2, 1, 0), 0.125), (new(-1, 0, 0), 0.25), (new(0, 3, 0), 0.375),
+            (new(1, 2, 0), 0.5), (new(3, 0, 0), 0.75));
     }
 
     [SkippableFact]
     public void NoGradient_HasTheColourOfTheObject()
     {
-        var fractal = Of(new Repetition([new TransformationSet([Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)])], 2));
+        var fractal =
+            Of(new Repetition([new TransformationSet([Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)])], 2));
         Check(fractal, GradientKind.None, false, (new(-3, 0, 0), 0), (new(3, 0, 0), 0));
     }
 
@@ -66,14 +73,16 @@ public sealed class GradientTests
     public void Gradient_BesideFractalsWithout_IsDrawn()
     {
         // In any order of distance, and where nothing of the one with the gradient is in the picture, or in some strips of it.
-        var fractal = Of(new Repetition([new TransformationSet([Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)])], 2));
+        var fractal =
+            Of(new Repetition([new TransformationSet([Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)])], 2));
         var model = new FractalModel("a.fdo", 1, fractal);
         foreach (var place in (Vector[])[new(5, 0, 2), new(5, 0, -2), new(0, 0, -100), new(0, 0, 5)])
         {
             var scene = new LoadedScene(new() { Background = Colour.Black, Lights = [RenderScenes.FullLight] },
             [
                 new(new SceneObject("a.fdo", Transformation.Identity) { Colour = new(0, 1, 0) }, model),
-                new(new SceneObject("a.fdo", RenderScenes.At(place.X, place.Y, place.Z)) { Colour = Near, Gradient = new(GradientKind.Level, Far) }, model),
+                new(new SceneObject("a.fdo", RenderScenes.At(place.X, place.Y, place.Z)) { Colour = Near,
+                Gradient = new(GradientKind.Level, Far) }, model),
             ]);
             var view = new View(new(new(0, 0, -14), Vector.Zero, 60), Projection.Perspective);
             var picture = RenderScenes.Draw(scene, view, 400, 300, new() { Samples = 0 });
@@ -94,7 +103,8 @@ public sealed class GradientTests
         {
             var item = DetailViews.Object(fractal) with { GradientKind = kind };
             var tints = new Dictionary<string, float>();
-            foreach (var (from, width) in from eye in (Vector[])[new(0, 0, -4), new(-3, 2, -2.5), new(0.1, 0.2, 0.05)] from width in (int[])[4, 40, 400] select (eye, width))
+            foreach (var (from, width) in from eye in (Vector[])[new(0, 0, -4), new(-3, 2, -2.5),
+                new(0.1, 0.2, 0.05)] from width in (int[])[4, 40, 400] select (eye, width))
             {
                 var set = new VisibleSet();
                 set.Cull(DetailViews.Look(from, new(0.1, 0.1, 0.1), width: width, height: width), [item], DetailViews.Everything);
@@ -108,8 +118,11 @@ public sealed class GradientTests
                     {
                         var row = rows[(i * VisibleSet.FloatsPerInstance)..];
                         // The place in steps of the smallest cube.
-                        var place = Invariant($"{Math.Round(9 * (row[3] + from.X)) + 0.0} {Math.Round(9 * (row[7] + from.Y)) + 0.0} {Math.Round(9 * (row[11] + from.Z)) + 0.0}");
-                        Assert.True(tints.TryAdd(place, found[i]) || tints[place] == found[i], $"{kind}, {width} columns, {place}: {found[i]} and {tints[place]}");
+                        var place =
+                            Invariant(
+                                $"{Math.Round(9 * (row[3] + from.X)) + 0.0} {Math.Round(9 * (row[7] + from.Y)) + 0.0} {Math.Round(9 * (row[11] + from.Z)) + 0.0}");
+                        Assert.True(tints.TryAdd(place, found[i]) || tints[place] == found[i],
+                            $"{kind}, {width} columns, {place}: {found[i]} and {tints[place]}");
                         distinct.Add(place);
                         count++;
                     }
@@ -127,11 +140,14 @@ public sealed class GradientTests
     private static Fractal Of(params ReadOnlySpan<FractalStep> steps) => new(new("square.obj", [.. steps]), RenderScenes.Square(0.5));
 
     /// <summary>Draws it from before, and looks at the middles of instances.</summary>
-    private static void Check(Fractal fractal, GradientKind kind, bool hasSamples, params ReadOnlySpan<(Vector Place, double Tint)> expected)
+    private static void Check(Fractal fractal, GradientKind kind, bool hasSamples,
+        params ReadOnlySpan<(Vector Place, double Tint)> expected)
     {
         var scene = new LoadedScene(
             new() { Background = Colour.Black, Lights = [RenderScenes.FullLight] },
-            [new(new SceneObject("a.fdo", Transformation.Identity) { Colour = Near, Gradient = kind == GradientKind.None ? null : new(kind, Far) }, new FractalModel("a.fdo", 1, fractal))]);
+            [new(new SceneObject("a.fdo", Transformation.Identity) { Colour = Near, Gradient = kind == GradientKind.None
+            ? null
+            : new(kind, Far) }, new FractalModel("a.fdo", 1, fractal))]);
         var view = new View(new(new(0, 0.5, -8), Vector.Zero, 60), Projection.Perspective);
         var picture = RenderScenes.Draw(scene, view, 800, 600, new() { Samples = hasSamples ? 4 : 0 });
         foreach (var (place, tint) in expected)

@@ -43,6 +43,7 @@ public sealed class ImageFileTests : IDisposable
     {
         var path = Path.Combine(_directory.FullName, "text.png");
         File.WriteAllText(path, "no picture");
-        Assert.StartsWith($"{path} can't be read: ", Assert.Throws<IOException>(() => ImageFile.Load(path)).Message, StringComparison.Ordinal);
+        Assert.StartsWith($"{path} can't be read: ", Assert.Throws<IOException>(() => ImageFile.Load(path)).Message,
+            StringComparison.Ordinal);
     }
 }

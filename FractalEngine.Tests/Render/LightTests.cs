@@ -59,7 +59,8 @@ public sealed class LightTests
     {
         var scene = new Scene
         {
-            Lights = [new AmbientLight(new(1, 0, 0), 0.2), new DirectionalLight(Vector.K, new(0, 1, 0), 0.3), new DirectionalLight(Vector.K, new(0, 1, 0), 0.2)],
+            Lights = [new AmbientLight(new(1, 0, 0), 0.2), new DirectionalLight(Vector.K, new(0, 1, 0), 0.3),
+            new DirectionalLight(Vector.K, new(0, 1, 0), 0.2)],
         };
         var (red, green, blue, _) = Middle(scene, Camera.Default);
         AssertLinear(0.2, red);
@@ -71,7 +72,8 @@ public sealed class LightTests
 
     private static (byte Red, byte Green, byte Blue, byte Alpha) Middle(Scene scene, Camera camera) => RenderScenes.Draw(
         // Small, so that the light's angle and distance hardly change over it.
-        RenderScenes.Scene(scene with { Background = Colour.Black }, (RenderScenes.Model(RenderScenes.Square(0.01)), Transformation.Identity, Colour.White)),
+        RenderScenes.Scene(scene with { Background = Colour.Black },
+        (RenderScenes.Model(RenderScenes.Square(0.01)), Transformation.Identity, Colour.White)),
         new(camera with { FieldOfView = 1 }, Projection.Perspective), 40, 30)[20, 15];
 
     /// <summary>Within half a step of 8 bits and the difference that a light makes over the square.</summary>

@@ -12,7 +12,8 @@ namespace FractalEngine.Tests.Render;
 [Collection(GlTests.Name)]
 public sealed class MaterialTests : IDisposable
 {
-    private static readonly (byte, byte, byte, byte)[] Quarters = [(200, 30, 40, 255), (50, 180, 60, 255), (70, 80, 210, 255), (230, 220, 90, 255)];
+    private static readonly (byte, byte, byte, byte)[] Quarters =
+        [(200, 30, 40, 255), (50, 180, 60, 255), (70, 80, 210, 255), (230, 220, 90, 255)];
 
     // The square of half size 1 fills a picture of 200 × 200 pixels from edge to edge.
     private static readonly View Square = new(Camera.Default, Projection.Orthographic) { OrthographicHeight = 2 };
@@ -59,10 +60,13 @@ public sealed class MaterialTests : IDisposable
     [SkippableFact]
     public void Texture_FarAway_IsTheMeanOfItsLight()
     {
-        var texture = _scenes.Texture("chess.png", 256, 256, (x, y) => (x + y) % 2 == 0 ? (byte.MaxValue, byte.MaxValue, byte.MaxValue, byte.MaxValue) : ((byte)0, (byte)0, (byte)0, byte.MaxValue));
+        var texture = _scenes.Texture("chess.png", 256, 256, (x, y) => (x + y) % 2 == 0
+            ? (byte.MaxValue, byte.MaxValue, byte.MaxValue, byte.MaxValue)
+            : ((byte)0, (byte)0, (byte)0, byte.MaxValue));
         var view = Square with { OrthographicHeight = 16 };
         var image = RenderScenes.Draw(
-            RenderScenes.Scene(Full, (TexturedScenes.Square(1, new("m") { Texture = texture }), Transformation.Identity, null)), view, 200, 200,
+            RenderScenes.Scene(Full, (TexturedScenes.Square(1, new("m") { Texture = texture }), Transformation.Identity, null)), view, 200,
+            200,
             new() { Samples = 0 });
         for (var x = 90; x < 110; x++)
         {
@@ -115,7 +119,9 @@ public sealed class MaterialTests : IDisposable
             [-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0, -1, 3, 0, 1, 3, 0],
             [0, 2, 1, 2, 4, 3, 1, 2, 3, 3, 4, 5])
             .WithTextureCoordinates([0.5, 0.5], [0, 0, 0, -1, -1, -1, -1, -1, -1, -1, -1, -1])
-            .WithGroups([new(0, 1, "", "", "blue", 0), new(1, 1, "", "", "red", 0), new(2, 1, "", "", "blue", 0), new(3, 1, "", "", "unknown", 0)], []);
+            .WithGroups(
+                [new(0, 1, "", "", "blue", 0), new(1, 1, "", "", "red", 0), new(2, 1, "", "", "blue", 0), new(3, 1, "", "", "unknown", 0)],
+                []);
         var model = new MeshModel("m.obj", 1, mesh)
         {
             Materials = ImmutableDictionary<string, Material>.Empty
@@ -148,7 +154,8 @@ public sealed class MaterialTests : IDisposable
             Materials = ImmutableDictionary<string, Material>.Empty.Add("even", new("even")).Add("odd", new("odd")),
         };
         var batches = DrawableScene.Prepare(RenderScenes.Scene(Full, (model, Transformation.Identity, null)), new()).Models[0].Batches;
-        Assert.Equal([(0, 18, "even"), (18, 18, "odd")], batches.Select(batch => (batch.FirstIndex, batch.IndexCount, batch.Material!.Material.Name)));
+        Assert.Equal([(0, 18, "even"), (18, 18, "odd")],
+            batches.Select(batch => (batch.FirstIndex, batch.IndexCount, batch.Material!.Material.Name)));
     }
 
     [SkippableTheory]
@@ -158,7 +165,8 @@ public sealed class MaterialTests : IDisposable
     {
         var model = TexturedScenes.Square(1, new("m") { Ambient = new(0.5, 0, 1) });
         var lights = new Scene { Lights = [new AmbientLight(Colour.White, 0.4), new DirectionalLight(Vector.K, Colour.White, 0.3)] };
-        var middle = RenderScenes.Draw(RenderScenes.Scene(lights, (model, Transformation.Identity, null)), Square, 200, 200, new() { Shading = shading })[100, 100];
+        var middle = RenderScenes.Draw(RenderScenes.Scene(lights, (model, Transformation.Identity, null)), Square, 200, 200,
+            new() { Shading = shading })[100, 100];
         AssertLinear(0.5, middle.Red);
         AssertLinear(0.3, middle.Green);
         AssertLinear(0.7, middle.Blue);
@@ -199,8 +207,10 @@ public sealed class MaterialTests : IDisposable
     public void Shading_OfAFlatFaceInParallelLight_IsTheSameAtVerticesAndPixels()
     {
         var scene = RenderScenes.Scene(
-            new() { Lights = [new AmbientLight(new(0.4, 0.5, 0.9), 0.3), new DirectionalLight(new(0.3, -0.5, 0.7), new(1, 0.8, 0.6), 0.8)] },
-            (TexturedScenes.Square(1, new("m") { Texture = Quartered(), Diffuse = new(0.9, 0.8, 0.7) }), new(Vector.Zero, new(20, 30, 10), new(1, 0.7, 1)), null));
+            new() { Lights =
+            [new AmbientLight(new(0.4, 0.5, 0.9), 0.3), new DirectionalLight(new(0.3, -0.5, 0.7), new(1, 0.8, 0.6), 0.8)] },
+            (TexturedScenes.Square(1, new("m") { Texture = Quartered(), Diffuse = new(0.9, 0.8, 0.7) }),
+            new(Vector.Zero, new(20, 30, 10), new(1, 0.7, 1)), null));
         var perVertex = RenderScenes.Draw(scene, RenderScenes.FrontView);
         var perPixel = RenderScenes.Draw(scene, RenderScenes.FrontView, settings: new() { Shading = Shading.PerPixel });
         // Interpolation and normalisation round otherwise.
@@ -216,7 +226,8 @@ public sealed class MaterialTests : IDisposable
     {
         // Inner scale, turned, outer scale: a map that skews. The eye's side is the outer one whatever the map does.
         var model = new FractalModel("ball.fdo", 1, new Core.Fractals.Fractal(
-            new("ball.obj", [new Core.Fractals.TransformationSet([new(Vector.Zero, new(30, 40, 20), new(x, 0.6 * y, z))])]), RenderScenes.Ball(48)));
+            new("ball.obj", [new Core.Fractals.TransformationSet([new(Vector.Zero, new(30, 40, 20), new(x, 0.6 * y, z))])]),
+            RenderScenes.Ball(48)));
         var placement = new Transformation(Vector.Zero, new(10, 20, 70), new(1.2, 0.8, 1));
         var scene = RenderScenes.Scene(new(), (model, placement, null));
         var perVertex = RenderScenes.Draw(scene, RenderScenes.FrontView, 400, 300);
@@ -226,8 +237,10 @@ public sealed class MaterialTests : IDisposable
         // The same surface with its vertices moved and its normals made anew has no map that could spoil them.
         var moved = RenderScenes.Ball(48).Transform(vertex => placement.ToAffineMap() * (model.Fractal.LevelAt(0).Maps[0] * vertex));
         var expected = RenderScenes.Draw(
-            RenderScenes.Scene(new(), (RenderScenes.Model(moved), Transformation.Identity, null)), RenderScenes.FrontView, 400, 300, new() { Shading = Shading.PerPixel });
-        Assert.True(RenderScenes.Difference(expected, perPixel) is { Mean: < 0.5, Share: < 0.005 } difference, $"{RenderScenes.Difference(expected, perPixel)}");
+            RenderScenes.Scene(new(), (RenderScenes.Model(moved), Transformation.Identity, null)), RenderScenes.FrontView, 400, 300,
+            new() { Shading = Shading.PerPixel });
+        Assert.True(RenderScenes.Difference(expected, perPixel) is { Mean: < 0.5, Share: < 0.005 } difference,
+            $"{RenderScenes.Difference(expected, perPixel)}");
     }
 
     [SkippableTheory]
@@ -258,7 +271,8 @@ public sealed class MaterialTests : IDisposable
         {
             var model = TexturedScenes.Of(RenderScenes.Cube(0.5), new("m") { Diffuse = Colour.Black, Opacity = 0.5 });
             var scene = RenderScenes.Scene(
-                new() { Lights = [RenderScenes.FullLight], Background = Colour.White }, (model, Transformation.Identity with { Scale = new(1, 1, mirror) }, null));
+                new() { Lights = [RenderScenes.FullLight], Background = Colour.White },
+                (model, Transformation.Identity with { Scale = new(1, 1, mirror) }, null));
             AssertLinear(0.25, RenderScenes.Draw(scene, Square, 200, 200)[100, 100].Red);
         }
     }
@@ -294,9 +308,12 @@ public sealed class MaterialTests : IDisposable
     {
         var ball = RenderScenes.Ball(6);
         var settings = new RenderSettings { Wireframe = true, Shading = Shading.PerPixel };
-        var plain = RenderScenes.Draw(RenderScenes.Scene(Full, (RenderScenes.Model(ball), Transformation.Identity, null)), RenderScenes.FrontView, settings: settings);
+        var plain = RenderScenes.Draw(RenderScenes.Scene(Full, (RenderScenes.Model(ball), Transformation.Identity, null)),
+            RenderScenes.FrontView, settings: settings);
         var glass = TexturedScenes.Of(ball, new("m") { Opacity = 0.1, Specular = Colour.White });
-        Assert.Equal(plain.Pixels, RenderScenes.Draw(RenderScenes.Scene(Full, (glass, Transformation.Identity, null)), RenderScenes.FrontView, settings: settings).Pixels);
+        Assert.Equal(plain.Pixels,
+            RenderScenes.Draw(RenderScenes.Scene(Full, (glass, Transformation.Identity, null)), RenderScenes.FrontView,
+            settings: settings).Pixels);
     }
 
     [SkippableFact]
@@ -327,7 +344,8 @@ public sealed class MaterialTests : IDisposable
         var textured = TexturedScenes.Square(1, new("t") { Texture = Quartered() });
         var scene = RenderScenes.Scene(
             new() { Lights = [new PointLight(new(0, 3, -3), Colour.White, 1, 30)] },
-            (glass, Transformation.Identity, null), (textured, Transformation.Identity, null), (glass, RenderScenes.At(1, 0, 0), Colour.Black));
+            (glass, Transformation.Identity, null), (textured, Transformation.Identity, null),
+            (glass, RenderScenes.At(1, 0, 0), Colour.Black));
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, new()));
         using var frame = new FrameRenderer(context);
         var (view, settings) = (RenderScenes.FrontView, new RenderSettings { Shading = shading });
@@ -348,7 +366,8 @@ public sealed class MaterialTests : IDisposable
     private static LoadedScene Lit(MaterialTexture texture) =>
         RenderScenes.Scene(Full, (TexturedScenes.Square(1, new("m") { Texture = texture }), Transformation.Identity, null));
 
-    private static PixelImage Draw(LoadedScene scene, Shading shading) => RenderScenes.Draw(scene, Square, 200, 200, new() { Shading = shading });
+    private static PixelImage Draw(LoadedScene scene, Shading shading) =>
+        RenderScenes.Draw(scene, Square, 200, 200, new() { Shading = shading });
 
     private static double Linear(double component) => new Colour(component, 0, 0).ToLinear().Red;
 
@@ -356,9 +375,12 @@ public sealed class MaterialTests : IDisposable
         ((byte)Math.Round(255 * colour.Red), (byte)Math.Round(255 * colour.Green), (byte)Math.Round(255 * colour.Blue), byte.MaxValue);
 
     /// <summary>Within half a step of 8 bits where steps are largest, and what a driver's interpolation adds.</summary>
-    private static void AssertLinear(double expected, byte found) => Assert.InRange(Linear(found / 255.0), expected - 0.006, expected + 0.006);
+    private static void AssertLinear(double expected, byte found) =>
+        Assert.InRange(Linear(found / 255.0), expected - 0.006, expected + 0.006);
 
-    private static void AssertNear((byte Red, byte Green, byte Blue, byte Alpha) expected, (byte Red, byte Green, byte Blue, byte Alpha) found) => Assert.True(
-        Math.Abs(expected.Red - found.Red) <= 1 && Math.Abs(expected.Green - found.Green) <= 1 && Math.Abs(expected.Blue - found.Blue) <= 1 && expected.Alpha == found.Alpha,
+    private static void AssertNear((byte Red, byte Green, byte Blue, byte Alpha) expected,
+        (byte Red, byte Green, byte Blue, byte Alpha) found) => Assert.True(
+        Math.Abs(expected.Red - found.Red) <= 1 && Math.Abs(expected.Green - found.Green) <= 1 && Math.Abs(expected.Blue - found.Blue) <= 1
+        && expected.Alpha == found.Alpha,
         $"expected {expected}, found {found}");
 }

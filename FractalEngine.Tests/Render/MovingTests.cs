@@ -36,7 +36,8 @@ public sealed class MovingTests
     {
         using var context = GlTests.Open();
         using var frame = new FrameRenderer(context);
-        using var renderer = new SceneRenderer(context, DrawableScene.Prepare(SceneOf(RenderScenes.At(-2, 0.5, -1), isBody: true), Settings));
+        using var renderer =
+            new SceneRenderer(context, DrawableScene.Prepare(SceneOf(RenderScenes.At(-2, 0.5, -1), isBody: true), Settings));
         var before = Draw(frame, renderer);
         var choices = renderer.Statistics.CullCount;
         for (var i = 0; i < 5; i++)
@@ -56,7 +57,8 @@ public sealed class MovingTests
     {
         using var context = GlTests.Open();
         using var frame = new FrameRenderer(context);
-        using var renderer = new SceneRenderer(context, DrawableScene.Prepare(SceneOf(RenderScenes.At(-2, 0.5, -1), isBody: true), Settings));
+        using var renderer =
+            new SceneRenderer(context, DrawableScene.Prepare(SceneOf(RenderScenes.At(-2, 0.5, -1), isBody: true), Settings));
         var without = Draw(frame, renderer);
         var (centre, radius) = (new Vector(2, 2.5, -3), 0.5);
         renderer.Spheres = [new(centre, radius)];
@@ -67,7 +69,9 @@ public sealed class MovingTests
         {
             for (var x = 0; x < Width; x++)
             {
-                changed += without.Pixels.AsSpan(4 * ((y * Width) + x), 4).SequenceEqual(with.Pixels.AsSpan(4 * ((y * Width) + x), 4)) ? 0 : 1;
+                changed += without.Pixels.AsSpan(4 * ((y * Width) + x), 4).SequenceEqual(with.Pixels.AsSpan(4 * ((y * Width) + x), 4))
+                    ? 0
+                    : 1;
             }
         }
 

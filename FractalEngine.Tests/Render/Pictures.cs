@@ -6,8 +6,8 @@ namespace FractalEngine.Tests.Render;
 internal static class Pictures
 {
     /// <summary>
-    /// Decibels from which pictures count as the same: a picture of every instance of a fractal is itself 24 to 40 dB from the truth, so that differences of 40 dB and more are
-    /// not seen beside that.
+    /// Decibels from which pictures count as the same: a picture of every instance of a fractal is itself 24 to 40 dB from the truth, so
+    /// that differences of 40 dB and more are not seen beside that.
     /// </summary>
     public const double Same = 40;
 
@@ -28,7 +28,8 @@ internal static class Pictures
     /// <summary>A smaller picture: averages of squares of pixels in linear light.</summary>
     public static PixelImage Shrunk(PixelImage image, int factor)
     {
-        var linear = Enumerable.Range(0, 256).Select(i => i <= 10 ? i / 255.0 / 12.92 : Math.Pow(((i / 255.0) + 0.055) / 1.055, 2.4)).ToArray();
+        var linear = Enumerable.Range(0, 256).Select(i => i <= 10 ? i / 255.0 / 12.92 : Math.Pow(((i / 255.0) + 0.055) / 1.055, 2.4))
+            .ToArray();
         var (width, height) = (image.Width / factor, image.Height / factor);
         var (pixels, source) = (new byte[4 * width * height], image.Pixels);
         Parallel.For(0, height, y =>
@@ -45,13 +46,16 @@ internal static class Pictures
                 }
 
                 var mean = sum / (factor * factor);
-                pixels[(y * 4 * width) + i] = (byte)Math.Round(255 * (mean <= 0.0031308 ? 12.92 * mean : (1.055 * Math.Pow(mean, 1 / 2.4)) - 0.055));
+                pixels[(y * 4 * width) + i] =
+                    (byte)Math.Round(255 * (mean <= 0.0031308 ? 12.92 * mean : (1.055 * Math.Pow(mean, 1 / 2.4)) - 0.055));
             }
         });
         return new(width, height, pixels);
     }
 
-    /// <summary>The share of pixels that are not black in one picture and black, with all around them up to two pixels away, in another.</summary>
+    /// <summary>
+    /// The share of pixels that are not black in one picture and black, with all around them up to two pixels away, in another.
+    /// </summary>
     public static double ShareNotNear(PixelImage image1, PixelImage image2)
     {
         var (count, far) = (0, 0);

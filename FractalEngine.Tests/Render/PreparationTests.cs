@@ -17,7 +17,8 @@ public sealed class PreparationTests
     {
         var scene = Prepare(new() { Culling = null, InstanceBudget = 10_000 }, RenderScenes.Menger(6));
         Assert.Equal(8000, scene.Models[0].InstanceCount);
-        Assert.Equal("menger.fdo: 64,000,000 instances are more than the budget of 10,000: drawn at depth 3 of 6", Assert.Single(scene.Notices));
+        Assert.Equal("menger.fdo: 64,000,000 instances are more than the budget of 10,000: drawn at depth 3 of 6",
+            Assert.Single(scene.Notices));
     }
 
     [Theory]
@@ -75,7 +76,8 @@ public sealed class PreparationTests
     {
         var mesh = RenderScenes.Square(1).WithNormals([0, 0.6, -0.8, 0, 0, 5, 0, 0, 0], [0, 0, 0, 1, 1, 2]);
         var model = Prepare(new(), RenderScenes.Model(mesh)).Models[0];
-        var normals = model.Vertices.ToArray().Chunk(DrawableModel.FloatsPerVertex).Select(vertex => (vertex[3], vertex[4], vertex[5])).Distinct();
+        var normals = model.Vertices.ToArray().Chunk(DrawableModel.FloatsPerVertex).Select(vertex => (vertex[3], vertex[4], vertex[5]))
+            .Distinct();
         // As given; opposing the winding, so turned round; of no direction at all.
         Assert.Equal([(0f, 0.6f, -0.8f), (0f, 0f, -1f), (0f, 0f, 0f)], normals);
     }
@@ -84,7 +86,8 @@ public sealed class PreparationTests
     public void Prepare_ModelFarFromItsOrigin_KeepsItsShape()
     {
         var far = RenderScenes.Cube(1).Transform(vertex => vertex + new Vector(1e9, 0, 0));
-        var (near, moved) = (Prepare(new(), RenderScenes.Model(RenderScenes.Cube(1))).Models[0], Prepare(new(), RenderScenes.Model(far)).Models[0]);
+        var (near, moved) = (Prepare(new(), RenderScenes.Model(RenderScenes.Cube(1))).Models[0],
+            Prepare(new(), RenderScenes.Model(far)).Models[0]);
         Assert.Equal(near.Vertices.ToArray(), moved.Vertices.ToArray());
         Assert.Equal(new(1e9, 0, 0), moved.Origin);
     }

@@ -109,7 +109,9 @@ internal static class RenderScenes
         return (sumX / sum, sumY / sum);
     }
 
-    /// <summary>The mean absolute difference of all components, and the share of pixels with a component that differs by more than 8.</summary>
+    /// <summary>
+    /// The mean absolute difference of all components, and the share of pixels with a component that differs by more than 8.
+    /// </summary>
     public static (double Mean, double Share) Difference(PixelImage image1, PixelImage image2)
     {
         Assert.Equal((image1.Width, image1.Height), (image2.Width, image2.Height));

@@ -13,7 +13,8 @@ public sealed class ScenePreparationTests
     private static readonly Model Before = RenderScenes.Model(RenderScenes.Ball(8), "before.obj");
     private static readonly Model Behind = RenderScenes.Model(RenderScenes.Ball(6), "behind.obj");
     private static readonly LoadedScene Scene = RenderScenes.Scene(
-        new Scene(), (Before, Transformation.Identity, null), (Behind, RenderScenes.At(0, 0, -12), null), (Behind, RenderScenes.At(3, 0, -12), null));
+        new Scene(), (Before, Transformation.Identity, null), (Behind, RenderScenes.At(0, 0, -12), null),
+        (Behind, RenderScenes.At(3, 0, -12), null));
 
     private static readonly View Back = new(Camera.Default with { Rotation = new(0, Math.PI, 0) }, Projection.Perspective);
 
@@ -76,7 +77,8 @@ public sealed class ScenePreparationTests
     [InlineData(Projection.Orthographic)]
     public void MaySee_OfBoxesThatReachIntoThePicture_IsTrue(Projection projection) => Seeded.Run(300, random =>
     {
-        var view = new View(new(random.Vector(3), random.Vector(3), 20 + (100 * random.NextDouble())), projection) { OrthographicHeight = 1 + (5 * random.NextDouble()) };
+        var view = new View(new(random.Vector(3), random.Vector(3), 20 + (100 * random.NextDouble())), projection) { OrthographicHeight = 1
+            + (5 * random.NextDouble()) };
         var (corner1, corner2) = (random.Vector(8), random.Vector(8));
         var box = Core.Geometry.BoundingBox.Empty.Including(corner1).Including(corner2);
         for (var i = 0; i < 20; i++)

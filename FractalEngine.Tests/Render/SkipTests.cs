@@ -71,8 +71,11 @@ public sealed class SkipTests : IDisposable
             foreach (var samples in (int[])[0, 4])
             {
                 var settings = new RenderSettings { Samples = samples };
-                var (with, without) = (Draw(path, new(), settings).Picture, Draw(path, new() { ShareModels = skip != "sharing" }, Without[skip](settings)).Picture);
-                Assert.True(Pictures.Ratio(without, with) >= Pictures.Same, Invariant($"{Path.GetFileName(path)}, {samples} samples: {Pictures.Ratio(without, with):F1} dB"));
+                var (with, without) =
+                    (Draw(path, new(), settings).Picture,
+                    Draw(path, new() { ShareModels = skip != "sharing" }, Without[skip](settings)).Picture);
+                Assert.True(Pictures.Ratio(without, with) >= Pictures.Same,
+                    Invariant($"{Path.GetFileName(path)}, {samples} samples: {Pictures.Ratio(without, with):F1} dB"));
             }
         }
     }
@@ -82,7 +85,10 @@ public sealed class SkipTests : IDisposable
     {
         var path = SmallScene();
         var settings = new RenderSettings();
-        OptimisationStatistics Of(string? skip = null) => Draw(path, new() { ShareModels = skip != "sharing" }, skip is null ? settings : Without[skip](settings)).Statistics.Optimisations;
+        OptimisationStatistics Of(string? skip = null) =>
+            Draw(path, new() { ShareModels = skip != "sharing" }, skip is null
+            ? settings
+            : Without[skip](settings)).Statistics.Optimisations;
         var all = Of();
         // Three squares and a cube in sight, a cube and a row of cubes behind the camera; cubes have the only picture.
         Assert.Equal((6, 3, 1, 1), (all.ObjectCount, all.ModelCount, all.PlaceholderCount, all.TextureCount));
@@ -105,7 +111,8 @@ public sealed class SkipTests : IDisposable
     {
         var path = SmallScene();
         var settings = new RenderSettings();
-        var (all, outside, hidden) = (Draw(path, new(), settings), Draw(path, new(), Without["outside"](settings)), Draw(path, new(), Without["hidden"](settings)));
+        var (all, outside, hidden) = (Draw(path, new(), settings), Draw(path, new(), Without["outside"](settings)),
+            Draw(path, new(), Without["hidden"](settings)));
         Assert.True(all.Statistics.Culling.OutsideFrustum > 0);
         Assert.Equal(0, outside.Statistics.Culling.OutsideFrustum);
         Assert.Equal(0, hidden.Statistics.Culling.Occluded);

@@ -14,7 +14,8 @@ internal sealed class TexturedScenes : IDisposable
     public void Dispose() => _folder.Dispose();
 
     /// <summary>Writes a picture and returns the texture that shows it.</summary>
-    public MaterialTexture Texture(string name, int width, int height, Func<int, int, (byte Red, byte Green, byte Blue, byte Alpha)> colourAt)
+    public MaterialTexture Texture(string name, int width, int height, Func<int, int,
+        (byte Red, byte Green, byte Blue, byte Alpha)> colourAt)
     {
         var pixels = new List<byte>();
         for (var y = 0; y < height; y++)

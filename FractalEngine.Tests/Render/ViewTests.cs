@@ -85,6 +85,7 @@ public sealed class ViewTests
     [InlineData(1.0, 300, 100, 100, 0, 100, 100)]
     [InlineData(2.0, 100, 100, 0, 25, 100, 50)]
     [InlineData(1e9, 100, 100, 0, 49, 100, 1)]
-    public void Viewport_FixedAspect_IsTheLargestMiddlePart(double aspect, int width, int height, int x, int y, int shownWidth, int shownHeight) =>
+    public void Viewport_FixedAspect_IsTheLargestMiddlePart(double aspect, int width, int height, int x, int y, int shownWidth,
+    int shownHeight) =>
         Assert.Equal((x, y, shownWidth, shownHeight), (RenderScenes.FrontView with { Aspect = aspect }).Viewport(width, height));
 }

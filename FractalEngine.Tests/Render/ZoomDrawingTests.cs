@@ -15,7 +15,9 @@ using static System.FormattableString;
 
 namespace FractalEngine.Tests.Render;
 
-/// <summary>Pictures from deep in a fractal, beside those that world space still can tell, and beside each other at different depths.</summary>
+/// <summary>
+/// Pictures from deep in a fractal, beside those that world space still can tell, and beside each other at different depths.
+/// </summary>
 [Collection(GlTests.Name)]
 public sealed class ZoomDrawingTests
 {
@@ -24,7 +26,9 @@ public sealed class ZoomDrawingTests
     private const int Ancestors = 30;
 
     private static readonly RenderSettings Settings = new() { Samples = 0 };
-    private static readonly Light[] Directions = [new AmbientLight(Colour.White, 0.1), new DirectionalLight(new(0.3, -0.5, 0.9), Colour.White, 0.9), new DirectionalLight(new(0.9, 0.4, 0.2), new(0.4, 0.6, 1), 0.5)];
+    private static readonly Light[] Directions =
+        [new AmbientLight(Colour.White, 0.1), new DirectionalLight(new(0.3, -0.5, 0.9), Colour.White, 0.9),
+        new DirectionalLight(new(0.9, 0.4, 0.2), new(0.4, 0.6, 1), 0.5)];
 
     [SkippableTheory]
     [InlineData("menger", 0)]
@@ -46,10 +50,13 @@ public sealed class ZoomDrawingTests
                 var (near, far) = (0.01 * dive.Target(Vector.Zero).Length(), 100.0);
                 var unit = Math.Exp(dive.Address.LogUnit);
                 var ordinary = stage.Draw(new(camera, Projection.Perspective) { Clip = (near * unit, far) });
-                var zoomed = stage.Draw(new(camera, Projection.Perspective) { Clip = (near, far / unit), DeepZoom = stage.Zoom(dive.Address) });
+                var zoomed =
+                    stage.Draw(new(camera, Projection.Perspective) { Clip = (near, far / unit), DeepZoom = stage.Zoom(dive.Address) });
                 var ratio = Pictures.Ratio(zoomed, ordinary);
                 var (_, share) = RenderScenes.Difference(zoomed, ordinary);
-                Assert.True(ratio >= Pictures.Same || share < 0.01, Invariant($"{name}, {placement}, depth {dive.Address.Depth}: {ratio:F1} dB, {share:P2} of the pixels"));
+                Assert.True(ratio >= Pictures.Same
+                    || share < 0.01,
+                    Invariant($"{name}, {placement}, depth {dive.Address.Depth}: {ratio:F1} dB, {share:P2} of the pixels"));
                 Assert.True(RenderScenes.CountOther(zoomed, (0, 0, 0, 255)) > 50, "there is nothing to see");
             }
         }
@@ -91,9 +98,11 @@ public sealed class ZoomDrawingTests
         {
             var unit = Math.Exp(shallow.Address.LogUnit);
             var view = new View(camera with { Position = shallow.Address.WorldPosition(AffineMap.Identity) }, Projection.Perspective);
-            expected.Add(RenderScenes.Centroid(stage.Draw(view with { Clip = (0.01 * distance * unit, 100) }, settings, Width / 2, Height / 2)).X);
+            expected.Add(
+                RenderScenes.Centroid(stage.Draw(view with { Clip = (0.01 * distance * unit, 100) }, settings, Width / 2, Height / 2)).X);
             centroids.Add(RenderScenes.Centroid(stage.Draw(
-                view with { Camera = camera with { Position = deep.Address.WorldPosition(AffineMap.Identity) }, Clip = (0.01 * distance, 100 / unit), DeepZoom = stage.Zoom(deep.Address) }, settings, Width / 2, Height / 2)).X);
+                view with { Camera = camera with { Position = deep.Address.WorldPosition(AffineMap.Identity) },
+                Clip = (0.01 * distance, 100 / unit), DeepZoom = stage.Zoom(deep.Address) }, settings, Width / 2, Height / 2)).X);
             shallow.Move(step);
             deep.Move(step);
         }
@@ -101,14 +110,18 @@ public sealed class ZoomDrawingTests
         for (var i = 0; i < centroids.Count; i++)
         {
             Assert.True(Math.Abs(centroids[i] - expected[i]) < 0.25, Invariant($"step {i}: {centroids[i]} for {expected[i]}"));
-            Assert.True(i == 0 || Math.Abs(centroids[i] - centroids[i - 1]) < 0.5, Invariant($"step {i}: from {centroids[Math.Max(0, i - 1)]} to {centroids[i]}"));
+            Assert.True(i == 0 || Math.Abs(centroids[i] - centroids[i - 1]) < 0.5,
+                Invariant($"step {i}: from {centroids[Math.Max(0, i - 1)]} to {centroids[i]}"));
         }
     }
 
     [SkippableFact]
     public void Light_WithAPlace_ShinesTheSameAtAnyDepth()
     {
-        using var stage = new Stage("menger", Transformation.Identity, [new PointLight(new(-2, -1.5, -4), Colour.White, 1, 40), new SpotLight(new(-5, -4, -3), new(4, 3, 2), 60, new(1, 0.5, 0.2), 1, 80)]);
+        using var stage =
+            new Stage("menger", Transformation.Identity,
+            [new PointLight(new(-2, -1.5, -4), Colour.White, 1, 40),
+            new SpotLight(new(-5, -4, -3), new(4, 3, 2), 60, new(1, 0.5, 0.2), 1, 80)]);
         var dive = new FractalDive(stage.Table, 0, AffineMap.Identity, Direction("menger"));
         PixelImage? last = null;
         foreach (var depth in (int[])[10, 11, 12, 13, 14, 50, 700, 2000])
@@ -131,14 +144,20 @@ public sealed class ZoomDrawingTests
     [InlineData(0.9)]
     public void Picture_DeepInWhatHardlyShrinks_IsTheOrdinaryOne(double scale)
     {
-        // After 50 levels of 0.8 what world space tells has ten digits left: nothing but what is left out further out can make a difference.
+        // After 50 levels of 0.8 what world space tells has ten digits left: nothing but what is left out further out can make a
+        // difference.
         var placement = Transformation.Identity;
         var fractal = new Fractal(
-            new("cube.obj", [new Repetition([new TransformationSet([Samples.MoveAndScale(0, 0, 0, scale), Samples.MoveAndScale(3, 0.5, 4, 0.1), Samples.MoveAndScale(-2, 1, 3, 0.1)])], null)]), DetailViews.Cube);
+            new("cube.obj",
+            [new Repetition(
+                [new TransformationSet(
+                    [Samples.MoveAndScale(0, 0, 0, scale), Samples.MoveAndScale(3, 0.5, 4, 0.1), Samples.MoveAndScale(-2, 1, 3, 0.1)])],
+                    null)]), DetailViews.Cube);
         using var stage = new Stage(fractal, placement, Directions);
         var table = stage.Table;
         var camera = new Camera(new(0, 0, -5), Vector.Zero, 60);
-        var controls = new CameraControls(table.NodeAt(table.LevelCount).Box, camera, Projection.Perspective, null, new(0, table, AffineMap.Identity));
+        var controls = new CameraControls(table.NodeAt(table.LevelCount).Box, camera, Projection.Perspective, null,
+            new(0, table, AffineMap.Identity));
         for (var i = 0; i < 400 && controls.Depth < 50; i++)
         {
             controls.Handle(new WheelTurned(1, KeyModifiers.None), (double)Width / Height);
@@ -203,7 +222,8 @@ public sealed class ZoomDrawingTests
         {
             var scene = new LoadedScene(
                 new() { Background = Colour.Black, Lights = [.. lights] },
-                [new(new SceneObject("a.fdo", placement) { Colour = gradient is null ? Colour.White : new(1, 0, 0), Gradient = gradient }, new FractalModel("a.fdo", 1, fractal))]);
+                [new(new SceneObject("a.fdo", placement) { Colour = gradient is null ? Colour.White : new(1, 0, 0), Gradient = gradient },
+                new FractalModel("a.fdo", 1, fractal))]);
             var drawable = DrawableScene.Prepare(scene, Settings);
             Table = drawable.Objects[0].Model.LodHierarchy!;
             _context = GlTests.Open();

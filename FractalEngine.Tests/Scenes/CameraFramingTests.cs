@@ -40,7 +40,8 @@ public class CameraFramingTests
     {
         var box = Box(random);
         var camera = CameraFraming.Frame(new(Vector.Zero, random.Vector(3), 60), box, 1);
-        var largest = Corners(box).Select(camera.ToCameraSpace).Max(v => Math.Max(Math.Abs(v.X), Math.Abs(v.Y)) / v.Z / camera.HalfHeightAtUnitDepth);
+        var largest = Corners(box).Select(camera.ToCameraSpace)
+            .Max(v => Math.Max(Math.Abs(v.X), Math.Abs(v.Y)) / v.Z / camera.HalfHeightAtUnitDepth);
         // A third of the picture at least, whatever margin is left.
         Assert.InRange(largest, 1.0 / 3, 1);
     });
@@ -85,7 +86,9 @@ public class CameraFramingTests
     };
 
     private static IEnumerable<Vector> Corners(BoundingBox box) => Enumerable.Range(0, 8).Select(i => new Vector(
-        i % 2 == 0 ? box.Minimum.X : box.Maximum.X, i / 2 % 2 == 0 ? box.Minimum.Y : box.Maximum.Y, i / 4 == 0 ? box.Minimum.Z : box.Maximum.Z));
+        i % 2 == 0 ? box.Minimum.X : box.Maximum.X, i / 2 % 2 == 0 ? box.Minimum.Y : box.Maximum.Y, i / 4 == 0
+        ? box.Minimum.Z
+        : box.Maximum.Z));
 
     private static void AssertVisible(Camera camera, Vector corner, double aspect)
     {

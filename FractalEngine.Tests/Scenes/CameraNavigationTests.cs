@@ -26,7 +26,8 @@ public class CameraNavigationTests
         var angle = random.Between(-3, 3);
         var turned = CameraNavigation.Turn(camera, angle, 0);
         Assert.All(
-            new[] { (camera.LocalAxes.V1, turned.LocalAxes.V1), (camera.LocalAxes.V2, turned.LocalAxes.V2), (camera.LocalAxes.V3, turned.LocalAxes.V3) },
+            new[] { (camera.LocalAxes.V1, turned.LocalAxes.V1), (camera.LocalAxes.V2, turned.LocalAxes.V2),
+            (camera.LocalAxes.V3, turned.LocalAxes.V3) },
             axis => Near.Equal(AroundUp(axis.Item1, angle), axis.Item2, Tolerance));
     });
 

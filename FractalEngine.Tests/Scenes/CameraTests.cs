@@ -13,7 +13,8 @@ public class CameraTests
     {
         var (right, up, depth) = AppendixA.ToCameraSpace(Vector.Zero) switch { var v => (v.X, v.Y, v.Z) };
         Assert.True(depth > 0, "the origin is behind the camera");
-        Assert.True(Math.Abs(up) < depth * Math.Tan(Math.PI / 6) && Math.Abs(right) < depth * Math.Tan(Math.PI / 6), "the origin is outside the angle of view");
+        Assert.True(Math.Abs(up) < depth * Math.Tan(Math.PI / 6) && Math.Abs(right) < depth * Math.Tan(Math.PI / 6),
+            "the origin is outside the angle of view");
     }
 
     [Fact]

@@ -16,7 +16,8 @@ public class SceneParserErrorTests
         line, $"test.sdo:1:{column}: error: {message}\n  {line}\n  {new string(' ', column - 1)}^");
 
     [Fact]
-    public void File_WithoutAnything_SaysSo() => Fails("", "test.sdo:1:1: error: the scene declares nothing: it has no camera, object or light");
+    public void File_WithoutAnything_SaysSo() =>
+        Fails("", "test.sdo:1:1: error: the scene declares nothing: it has no camera, object or light");
 
     [Fact]
     public void File_OfComments_SaysSo() => Fails("# nothing\n\n", """
@@ -43,7 +44,8 @@ public class SceneParserErrorTests
     [InlineData("o a.obj #", 3, "unexpected 'a', expected a file name in quotes")]
     [InlineData("o \"a.png\" #", 3, "expected the name of a .obj or .fdo file")]
     [InlineData("o \"a.obj #", 11, "unexpected end of file, expected '\"'")]
-    [InlineData("o \"a.obj\" (#, #, (1, 0, 1))", 18, "the scale (1, 0, 1) is singular: each factor must lie between 1e-100 and 1e100 in size")]
+    [InlineData("o \"a.obj\" (#, #, (1, 0, 1))", 18,
+        "the scale (1, 0, 1) is singular: each factor must lie between 1e-100 and 1e100 in size")]
     [InlineData("p \"a.obj\" #", 12, "unexpected end of file, expected a number")]
     [InlineData("p \"a.obj\" # 1.5", 13, "the coefficient of restitution must lie between 0 and 1")]
     [InlineData("p \"a.obj\" # -0.5", 13, "the coefficient of restitution must lie between 0 and 1")]
@@ -134,7 +136,8 @@ public class SceneParserErrorTests
     [InlineData("gravity #")]
     [InlineData("player (0, 0, 0) 1 2")]
     public void Declaration_OfWhatThereIsOnlyOneOf_IsRefusedTwice(string line) =>
-        Fails($"{line}\n# again\n{line}\n", $"test.sdo:3:1: error: '{line.Split(' ')[0]}' is declared twice, first in line 1\n  {line}\n  ^");
+        Fails($"{line}\n# again\n{line}\n",
+        $"test.sdo:3:1: error: '{line.Split(' ')[0]}' is declared twice, first in line 1\n  {line}\n  ^");
 
     [Fact]
     public void Error_WithCommaDecimalsUnderAGermanCulture_IsTheSameEverywhere() => Assert.Equal(
@@ -143,7 +146,9 @@ public class SceneParserErrorTests
     [Fact]
     public void Parse_OfAnyText_EndsInAResultOrOneProperError() => Seeded.Run(3000, random =>
     {
-        var text = new StringBuilder(Samples.AppendixA + "\nlight spot (1, 2, 3) (0, -1, 0) 40 (0, 1, 0) 2, 30\np \"b.fdo\" # 1 mass 2 friction 1 shrink 0.1 0.5 name \"x\"\naspect 16:9\nplayer (0, 0, 0) 1 2 speed 1 step 0.5");
+        var text =
+            new StringBuilder(Samples.AppendixA
+                + "\nlight spot (1, 2, 3) (0, -1, 0) 40 (0, 1, 0) 2, 30\np \"b.fdo\" # 1 mass 2 friction 1 shrink 0.1 0.5 name \"x\"\naspect 16:9\nplayer (0, 0, 0) 1 2 speed 1 step 0.5");
         for (var change = random.Next(1, 6); change > 0; change--)
         {
             const string characters = "\0\t\n\r \"#(),-.0159:acelmops§\uD83D";

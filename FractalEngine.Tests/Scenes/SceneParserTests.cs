@@ -31,7 +31,8 @@ public class SceneParserTests
         var scene = Parse("o \"a.obj\" #");
         Assert.Equal(
             (null, Projection.Perspective, null, null, null, null, new Vector(0, -9.8, 0), null),
-            (scene.Camera, scene.Projection, scene.OrthographicHeight, scene.Aspect, scene.Clip, scene.Background, scene.Gravity, scene.Player));
+            (scene.Camera, scene.Projection, scene.OrthographicHeight, scene.Aspect, scene.Clip, scene.Background, scene.Gravity,
+            scene.Player));
         Assert.Empty(scene.Lights);
     }
 
@@ -42,10 +43,12 @@ public class SceneParserTests
     [InlineData("c (1 , 2 ,3) , (4,5 , 6) , 60")]
     [InlineData("\tc\t( 1\t2\t3 )\t(4,5,6)\t60\t")]
     [InlineData("c (1., +2, 3e0), (.4e1, 5.0, 6) 6E+1")]
-    public void Camera_WithAnySeparators_IsRead(string line) => Assert.Equal(new Camera(new(1, 2, 3), new(4, 5, 6), 60), Parse(line).Camera);
+    public void Camera_WithAnySeparators_IsRead(string line) =>
+        Assert.Equal(new Camera(new(1, 2, 3), new(4, 5, 6), 60), Parse(line).Camera);
 
     [Fact]
-    public void Camera_WithHashes_IsAtTheOriginUnturned() => Assert.Equal(new Camera(Vector.Zero, Vector.Zero, 45), Parse("c # # 45").Camera);
+    public void Camera_WithHashes_IsAtTheOriginUnturned() =>
+        Assert.Equal(new Camera(Vector.Zero, Vector.Zero, 45), Parse("c # # 45").Camera);
 
     [Theory]
     [InlineData("#", 0, 0, 1)]
@@ -78,7 +81,8 @@ public class SceneParserTests
     {
         Assert.Equal(new Gradient(GradientKind.Level, new(1, 0.5, 0)), Object("o \"a.fdo\" # gradient level (1, 0.5, 0)").Gradient);
         var declared = Object("o \"a.fdo\" # colour (0, 0, 1) gradient path (1 .5 0) name \"x\"");
-        Assert.Equal(("x", new Colour(0, 0, 1), new Gradient(GradientKind.Path, new(1, 0.5, 0))), (declared.Name, declared.Colour, declared.Gradient));
+        Assert.Equal(("x", new Colour(0, 0, 1), new Gradient(GradientKind.Path, new(1, 0.5, 0))),
+            (declared.Name, declared.Colour, declared.Gradient));
         Assert.Null(Object("o \"a.fdo\" # colour (0, 0, 1)").Gradient);
         Assert.NotNull(Object("p \"a.fdo\" # 0.5 mass 2 gradient path (1, 1, 1)").Gradient);
     }
@@ -98,7 +102,8 @@ public class SceneParserTests
     [InlineData("bounding-box", ColliderKind.BoundingBox)]
     [InlineData("simple", ColliderKind.Simple)]
     public void PhysicsObject_WithOptions_HasThem(string name, ColliderKind collider) => Assert.Equal(
-        new PhysicsObject("a.fdo", Samples.Move(1, 2, 3), 1) { Velocity = new(4, 5, 6), Mass = 2.5, Collider = collider, Name = "n", Colour = Colour.White },
+        new PhysicsObject("a.fdo", Samples.Move(1, 2, 3), 1) { Velocity = new(4, 5, 6), Mass = 2.5, Collider = collider, Name = "n",
+        Colour = Colour.White },
         Object($"p \"a.fdo\" ((1,2,3),#,#) 1 velocity (4, 5, 6) mass 2.5 collider {name} name \"n\" colour (1,1,1)"));
 
     [Theory]
@@ -114,7 +119,8 @@ public class SceneParserTests
     [InlineData("shrink 0.1 0.2 damping 0.25 name \"x\" friction 0.5", 0.5, 0.25, 0.1, 0.2)]
     [InlineData("friction 1 friction 0", 0, 0, 0, 0.05)]
     [InlineData("shrink 1 0.5 shrink 2", 0, 0, 2, 0.05)]
-    public void PhysicsObject_WithFrictionDampingAndShrinking_HasThemTheLastCounts(string options, double friction, double damping, double rate, double minimum)
+    public void PhysicsObject_WithFrictionDampingAndShrinking_HasThemTheLastCounts(string options, double friction, double damping,
+    double rate, double minimum)
     {
         var body = Assert.IsType<PhysicsObject>(Object($"p \"a.obj\" # 0.5 {options}"));
         Assert.Equal((friction, damping, rate, minimum), (body.Friction, body.Damping, body.Shrinkage, body.MinimumScale));
@@ -149,13 +155,15 @@ public class SceneParserTests
     }
 
     [Fact]
-    public void Player_HasAPositionARadiusAndAHeight() => Assert.Equal(new Player(new(1, 2, 3), 0.3, 1.8), Parse("player (1, 2, 3) 0.3 1.8").Player);
+    public void Player_HasAPositionARadiusAndAHeight() =>
+        Assert.Equal(new Player(new(1, 2, 3), 0.3, 1.8), Parse("player (1, 2, 3) 0.3 1.8").Player);
 
     [Fact]
     public void Player_WithoutOptions_GoesAsFarAsItsHeightLets()
     {
         var player = new Player(Vector.Zero, 0.3, 1.8);
-        Assert.Equal((null, null, 50.0, null), (player.WalkingSpeedOverride, player.JumpSpeedOverride, player.MaxSlopeAngle, player.StepHeightOverride));
+        Assert.Equal((null, null, 50.0, null),
+            (player.WalkingSpeedOverride, player.JumpSpeedOverride, player.MaxSlopeAngle, player.StepHeightOverride));
         // 2.5 · 1.8; 1.8 / 4; and the height v²/2g of the jump is 0.6 · 1.8. Roundings of a few products.
         Near.Equal(4.5, player.WalkingSpeed, 1e-15);
         Near.Equal(0.45, player.StepHeight, 1e-16);
@@ -170,7 +178,8 @@ public class SceneParserTests
     public void Player_WithOptions_HasThem(string options)
     {
         var player = Parse($"player (1, 2, 3) 0.3 1.8 {options}").Player!;
-        Assert.Equal(new Player(new(1, 2, 3), 0.3, 1.8) { WalkingSpeedOverride = 4, JumpSpeedOverride = 5, MaxSlopeAngle = 60, StepHeightOverride = 0.5 }, player);
+        Assert.Equal(new Player(new(1, 2, 3), 0.3, 1.8) { WalkingSpeedOverride = 4, JumpSpeedOverride = 5, MaxSlopeAngle = 60,
+            StepHeightOverride = 0.5 }, player);
         Assert.Equal((4, 5, 0.5), (player.WalkingSpeed, player.JumpSpeed(9.8), player.StepHeight));
     }
 
@@ -178,7 +187,8 @@ public class SceneParserTests
     [InlineData("speed 0 jump 0 slope 0 step 0", 0, 0)]
     [InlineData("speed 0 jump 0 slope 89 step 1.7999999999999998", 89, 1.7999999999999998)]
     public void Player_AtTheEndsOfTheRanges_IsRead(string options, double slope, double step) => Assert.Equal(
-        new Player(Vector.Zero, 0.9, 1.8) { WalkingSpeedOverride = 0, JumpSpeedOverride = 0, MaxSlopeAngle = slope, StepHeightOverride = step }, Parse($"player (0, 0, 0) 0.9 1.8 {options}").Player);
+        new Player(Vector.Zero, 0.9, 1.8) { WalkingSpeedOverride = 0, JumpSpeedOverride = 0, MaxSlopeAngle = slope,
+        StepHeightOverride = step }, Parse($"player (0, 0, 0) 0.9 1.8 {options}").Player);
 
     [Fact]
     public void Lights_OfAllKinds_AreReadInOrder() => Assert.Equal(
@@ -209,13 +219,15 @@ public class SceneParserTests
 
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
-    public void Parse_InAnyCulture_ReadsPoints(string culture) => Assert.Equal(Parse(Samples.AppendixA), InCulture.Get(culture, () => Parse(Samples.AppendixA)));
+    public void Parse_InAnyCulture_ReadsPoints(string culture) =>
+        Assert.Equal(Parse(Samples.AppendixA), InCulture.Get(culture, () => Parse(Samples.AppendixA)));
 
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
     public void Parse_OfBodiesAndThePlayerInAnyCulture_ReadsPoints(string culture)
     {
-        const string text = "p \"a.obj\" # 0.5 friction 0.5 damping 1.5 shrink 0.1 0.2\nplayer (0, 0, 0) 0.3 1.8 speed 1.5 jump 2.5 slope 30.5 step 0.1";
+        const string text =
+            "p \"a.obj\" # 0.5 friction 0.5 damping 1.5 shrink 0.1 0.2\nplayer (0, 0, 0) 0.3 1.8 speed 1.5 jump 2.5 slope 30.5 step 0.1";
         Assert.Equal(Parse(text), InCulture.Get(culture, () => Parse(text)));
     }
 

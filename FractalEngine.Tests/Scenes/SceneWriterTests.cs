@@ -24,26 +24,35 @@ public class SceneWriterTests
 
     private static readonly Gen<Vector> AnyVector = Laws.AnyFinite.Three().Select(t => new Vector(t.Item1, t.Item2, t.Item3));
     private static readonly Gen<double> Positive = Laws.AnyFinite.Where(number => number > 0);
-    private static readonly Gen<double> Unit = Gen.OneOf(Gen.Elements(0.0, -0.0, 1.0, double.Epsilon, 1.0 / 3), Gen.Choose(0, int.MaxValue).Select(i => (double)i / int.MaxValue));
+    private static readonly Gen<double> Unit = Gen.OneOf(Gen.Elements(0.0, -0.0, 1.0, double.Epsilon, 1.0 / 3), Gen.Choose(0, int.MaxValue)
+        .Select(i => (double)i / int.MaxValue));
     private static readonly Gen<double> NotNegative = Gen.OneOf(Gen.Elements(0.0, -0.0), Laws.AnyFinite.Select(Math.Abs));
     private static readonly Gen<Colour> Colours = Unit.Three().Select(t => new Colour(t.Item1, t.Item2, t.Item3));
     private static readonly Gen<Vector> Directions = AnyVector.Where(v => v != Vector.Zero);
     private static readonly Gen<double> Factor = Laws.AnyFinite.Where(number => Math.Abs(number) is > 1e-100 and < 1e100);
     private static readonly Gen<Transformation> Placements = Gen.Elements(true, false).Three().SelectMany(given =>
         AnyVector.Two().Zip(Factor.Three(), (vectors, scale) => new Transformation(
-            given.Item1 ? vectors.Item1 : Vector.Zero, given.Item2 ? vectors.Item2 : Vector.Zero, given.Item3 ? new(scale.Item1, scale.Item2, scale.Item3) : Vector.One)));
+            given.Item1 ? vectors.Item1 : Vector.Zero, given.Item2 ? vectors.Item2 : Vector.Zero, given.Item3
+            ? new(scale.Item1, scale.Item2, scale.Item3)
+            : Vector.One)));
 
     private static readonly Gen<string?> Names = Gen.Elements(null, "", "x", "with blanks # and (brackets)", "größer, 2");
 
-    private static readonly Gen<SceneObject> Plain = Gen.Elements("a.obj", "../some folder/b.fdo").Zip(Placements, (file, placement) => new SceneObject(file, placement))
+    private static readonly Gen<SceneObject> Plain = Gen.Elements("a.obj", "../some folder/b.fdo")
+        .Zip(Placements, (file, placement) => new SceneObject(file, placement))
         .Zip(Names, (declared, name) => declared with { Name = name })
-        .Zip(Gen.OneOf(Gen.Constant<Colour?>(null), Colours.Select(colour => (Colour?)colour)), (declared, colour) => declared with { Colour = colour })
-        .Zip(Colours.Zip(Gen.Elements(GradientKind.None, GradientKind.Level, GradientKind.Path)), (declared, g) => declared with { Gradient = g.Item2 == GradientKind.None ? null : new(g.Item2, g.Item1) });
+        .Zip(Gen.OneOf(Gen.Constant<Colour?>(null), Colours.Select(colour => (Colour?)colour)),
+        (declared, colour) => declared with { Colour = colour })
+        .Zip(Colours.Zip(Gen.Elements(GradientKind.None, GradientKind.Level, GradientKind.Path)),
+        (declared, g) => declared with { Gradient = g.Item2 == GradientKind.None ? null : new(g.Item2, g.Item1) });
 
-    private static readonly Gen<SceneObject> Bodies = Plain.Zip(Unit).Zip(AnyVector.Zip(Positive), (o, b) => (SceneObject)new PhysicsObject(o.Item1.File, o.Item1.Placement, o.Item2)
+    private static readonly Gen<SceneObject> Bodies = Plain.Zip(Unit)
+        .Zip(AnyVector.Zip(Positive), (o, b) => (SceneObject)new PhysicsObject(o.Item1.File, o.Item1.Placement, o.Item2)
     {
-        Name = o.Item1.Name, Colour = o.Item1.Colour, Gradient = o.Item1.Gradient, Velocity = b.Item1, Mass = b.Item2, Collider = (ColliderKind)(b.Item2.GetHashCode() & 3),
-    }).Zip(NotNegative.Three().Zip(Gen.Elements(1, double.Epsilon, 0.05, 1.0 / 3)), (declared, more) => Gen.Elements(declared, (PhysicsObject)declared with
+        Name = o.Item1.Name, Colour = o.Item1.Colour, Gradient = o.Item1.Gradient, Velocity = b.Item1, Mass = b.Item2,
+        Collider = (ColliderKind)(b.Item2.GetHashCode() & 3),
+    }).Zip(NotNegative.Three().Zip(Gen.Elements(1, double.Epsilon, 0.05, 1.0 / 3)),
+    (declared, more) => Gen.Elements(declared, (PhysicsObject)declared with
     {
         Friction = more.Item1.Item1, Damping = more.Item1.Item2, Shrinkage = more.Item1.Item3, MinimumScale = more.Item2,
     })).SelectMany(declared => declared);
@@ -121,7 +130,8 @@ public class SceneWriterTests
     [Theory]
     [InlineData("p \"a.obj\" # 0.5 friction 0 damping 0 shrink 0 0.05 mass 1 collider exact", "p \"a.obj\" # 0.5\n")]
     [InlineData("player (0, 0, 0) 0.3 1.8 slope 50", "player (0, 0, 0) 0.3 1.8\n")]
-    public void Write_OfStatedDefaults_LeavesThemOut(string line, string expected) => Assert.Equal(expected, SceneWriter.Write(Parse(line).Scene));
+    public void Write_OfStatedDefaults_LeavesThemOut(string line, string expected) =>
+        Assert.Equal(expected, SceneWriter.Write(Parse(line).Scene));
 
     [Theory]
     [InlineData(Commented)]
@@ -140,7 +150,8 @@ public class SceneWriterTests
     {
         var original = Parse(Commented.ReplaceLineEndings(lineBreak));
         var written = SceneWriter.Write(original.Scene with { Camera = new(new(0.1, -0.0, 7), new(1, 2, 3), 45) }, original);
-        Assert.Equal(original.Source.Text.Replace("c   (1,2,3)   (0,0,0)   60", "c (0.1, -0, 7) (1, 2, 3) 45", StringComparison.Ordinal), written);
+        Assert.Equal(original.Source.Text.Replace("c   (1,2,3)   (0,0,0)   60", "c (0.1, -0, 7) (1, 2, 3) 45", StringComparison.Ordinal),
+            written);
     }
 
     [Theory]
@@ -158,7 +169,8 @@ public class SceneWriterTests
     {
         var original = Parse(Commented);
         Assert.Equal(
-            Commented.Replace("c   (1,2,3)   (0,0,0)   60\n", "", StringComparison.Ordinal), SceneWriter.Write(original.Scene with { Camera = null }, original));
+            Commented.Replace("c   (1,2,3)   (0,0,0)   60\n", "", StringComparison.Ordinal),
+            SceneWriter.Write(original.Scene with { Camera = null }, original));
     }
 
     [Fact]
@@ -183,6 +195,7 @@ public class SceneWriterTests
         var scene = Parse("o \"models/a.obj\" #\no \"../b.fdo\" #").Scene;
         Assert.Equal(
             ["../scenes/models/a.obj", "../b.fdo"],
-            SceneRelocation.Relocate(scene, Path.GetFullPath("/assets/scenes/x.sdo"), Path.GetFullPath("/assets/saved/y.sdo")).Objects.Select(declared => declared.File));
+            SceneRelocation.Relocate(scene, Path.GetFullPath("/assets/scenes/x.sdo"),
+            Path.GetFullPath("/assets/saved/y.sdo")).Objects.Select(declared => declared.File));
     }
 }

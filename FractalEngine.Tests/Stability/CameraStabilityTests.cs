@@ -13,7 +13,10 @@ using Xunit.Abstractions;
 
 namespace FractalEngine.Tests.Stability;
 
-/// <summary>A camera that goes down in a fractal and comes back. FractalAddressTests do so for more fractals, ZoomDrawingTests compare neighbouring levels and what world space still tells.</summary>
+/// <summary>
+/// A camera that goes down in a fractal and comes back. FractalAddressTests do so for more fractals, ZoomDrawingTests compare neighbouring
+/// levels and what world space still tells.
+/// </summary>
 [Collection(GlTests.Name)]
 public sealed class CameraStabilityTests(ITestOutputHelper output)
 {
@@ -64,7 +67,8 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
             dive.GoBack();
             Assert.Equal((0, 0.0), (dive.Address.Depth, dive.Address.LogUnit));
             // As FractalAddressTests ask. What is lost deep down is a part of the unit there; coming back, the last steps outside decide.
-            report.Require("place after the return by depth (of the distance)", Near.Difference(about, dive.Address.FrameToCamera) / size, 1e-9, () => $"depth {depth}", depth);
+            report.Require("place after the return by depth (of the distance)", Near.Difference(about, dive.Address.FrameToCamera) / size,
+                1e-9, () => $"depth {depth}", depth);
         }
     }
 
@@ -72,8 +76,10 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
     {
         using var report = new StabilityReport(output, name, test);
         var scene = new LoadedScene(
-            new() { Background = Colour.Black, Lights = [new AmbientLight(Colour.White, 0.1), new DirectionalLight(new(0.3, -0.5, 0.9), Colour.White, 0.9)] },
-            [new(new SceneObject("a.fdo", Transformation.Identity) { Colour = Colour.White }, new FractalModel("a.fdo", 1, FractalAddressTests.Infinite(name)))]);
+            new() { Background = Colour.Black,
+            Lights = [new AmbientLight(Colour.White, 0.1), new DirectionalLight(new(0.3, -0.5, 0.9), Colour.White, 0.9)] },
+            [new(new SceneObject("a.fdo", Transformation.Identity) { Colour = Colour.White },
+            new FractalModel("a.fdo", 1, FractalAddressTests.Infinite(name)))]);
         var drawable = DrawableScene.Prepare(scene, Settings);
         using var context = GlTests.Open();
         using var renderer = new SceneRenderer(context, drawable);
@@ -85,7 +91,8 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
         {
             var (mean, share) = RenderScenes.Difference(first, At(depth));
             Assert.Equal(depth, dive.Address.Depth);
-            report.Require("picture beside that at depth 40: share of pixels that differ by more than 8 of 255", share, 0, () => $"depth {depth}");
+            report.Require("picture beside that at depth 40: share of pixels that differ by more than 8 of 255", share, 0,
+                () => $"depth {depth}");
             report.Require("picture beside that at depth 40: mean difference of 255", mean, 0, () => $"depth {depth}");
         }
 
@@ -94,7 +101,8 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
             dive.GoTo(depth, 0.2);
             // A place that is in no copy's reach and within the sub-fractal's own: the same at each level.
             dive.Settle(1.5 * Direction);
-            var camera = new Camera(dive.Address.WorldPosition(AffineMap.Identity), CameraFraming.LookRotation(dive.Target(Vector.Zero)), 50);
+            var camera = new Camera(dive.Address.WorldPosition(AffineMap.Identity), CameraFraming.LookRotation(dive.Target(Vector.Zero)),
+                50);
             var zoom = new DeepZoom(0, dive.Address.CollectRoots(Ancestors), dive.Address.LogUnit);
             frame.Draw(renderer, new(camera, Projection.Perspective) { Clip = (0.02, 1e12), DeepZoom = zoom }, Width, Height, Settings);
             context.Resources.ThrowOnError("drawing");

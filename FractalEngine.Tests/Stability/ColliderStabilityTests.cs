@@ -15,8 +15,9 @@ using Vector = FractalEngine.Core.Maths.Vector;
 namespace FractalEngine.Tests.Stability;
 
 /// <summary>
-/// Exact colliders where objects are tiny, huge, far away, mirrored and squeezed; at places that are equally near to many parts; and at every depth from 1 to 200.
-/// What faces alone can break is in FaceKernelTests, what fractals can in ExactFractalAttackTests, depths to a million in DeepExactnessTests.
+/// Exact colliders where objects are tiny, huge, far away, mirrored and squeezed; at places that are equally near to many parts; and at
+/// every depth from 1 to 200. What faces alone can break is in FaceKernelTests, what fractals can in ExactFractalAttackTests, depths to a
+/// million in DeepExactnessTests.
 /// </summary>
 public class ColliderStabilityTests(ITestOutputHelper output)
 {
@@ -27,8 +28,11 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     private static readonly (string Name, Func<Random, Model> Draw)[] Shapes =
     [
         ("mesh", random => new MeshModel("/mesh.obj", 0, CollisionMeshes.Soup(random.Next(), 40, 0.3))),
-        ("similar fractal", random => new FractalModel("/similar.fdo", 0, Samples.Repeated(3, Similar(random), Similar(random), Similar(random)))),
-        ("skewed fractal", random => new FractalModel("/skewed.fdo", 0, Samples.Repeated(3, random.Transformation(), random.Transformation(), random.Transformation()))),
+        ("similar fractal",
+        random => new FractalModel("/similar.fdo", 0, Samples.Repeated(3, Similar(random), Similar(random), Similar(random)))),
+        ("skewed fractal",
+        random => new FractalModel("/skewed.fdo", 0,
+        Samples.Repeated(3, random.Transformation(), random.Transformation(), random.Transformation()))),
         ("fractal of sums", random => new FractalModel("/sums.fdo", 0, RandomFractals.Draw(random, Composition.Componentwise))),
     ];
 
@@ -45,7 +49,8 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     public void Find_OnAPlacedObjectForLong_IsThatOfExactArithmetic(string placement) => CheckPlaced(placement, 1000);
 
     /// <summary>What an object's placement has one at a time, and its powers of ten.</summary>
-    public static TheoryData<string, int, int> Decades => new() { { "translation in sizes", 0, 9 }, { "scale", -12, 12 }, { "condition", 0, 6 } };
+    public static TheoryData<string, int, int> Decades =>
+        new() { { "translation in sizes", 0, 9 }, { "scale", -12, 12 }, { "condition", 0, 6 } };
 
     [Theory]
     [MemberData(nameof(Decades))]
@@ -54,9 +59,12 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     [Theory]
     [MemberData(nameof(Decades))]
     [Trait("Category", "Soak")]
-    public void Find_OnAnObjectOfEveryPlacementForLong_IsThatOfExactArithmetic(string by, int first, int last) => CheckDecades(by, first, last, 150);
+    public void Find_OnAnObjectOfEveryPlacementForLong_IsThatOfExactArithmetic(string by, int first, int last) =>
+        CheckDecades(by, first, last, 150);
 
-    /// <summary>A cube's 48 symmetries are the sponge's: what is asked at the images of a position must be the same, in the middle 48 times at once.</summary>
+    /// <summary>
+    /// A cube's 48 symmetries are the sponge's: what is asked at the images of a position must be the same, in the middle 48 times at once.
+    /// </summary>
     [Theory]
     [InlineData(1)]
     [InlineData(3)]
@@ -69,21 +77,27 @@ public class ColliderStabilityTests(ITestOutputHelper output)
         var (collider, record) = (new ExactFractalCollider(DetailViews.Menger(depth)), new QueryContext());
         Seeded.Run(60, random =>
         {
-            var position = random.Next(3) switch { 0 => random.Vector(1.5), 1 => new(random.NextDouble(), 0, 0), _ => 0.5 * random.Next(4) * Vector.One };
+            var position = random.Next(3) switch { 0 => random.Vector(1.5), 1 => new(random.NextDouble(), 0, 0), _ =>
+                0.5 * random.Next(4) * Vector.One };
             var distances = Symmetric(position).Select(image =>
             {
                 Assert.True(collider.TryFindClosest(image, double.PositiveInfinity, record, out var closest));
                 Assert.True(closest.Normal.IsFinite());
                 return closest.Distance;
             }).ToArray();
-            report.Require("48 symmetric places of the sponge (of the size)", (distances.Max() - distances.Min()) / Math.Sqrt(12), Tolerance, () => $"{position}");
+            report.Require("48 symmetric places of the sponge (of the size)", (distances.Max() - distances.Min()) / Math.Sqrt(12),
+                Tolerance, () => $"{position}");
         });
         // The hole in the middle has edges at a third: 1/3·√2 from the middle of a cube of half 1.
         Assert.True(collider.TryFindClosest(Vector.Zero, double.PositiveInfinity, record, out var middle));
-        report.Require("distance of the middle of the sponge", Math.Abs(middle.Distance - (Math.Sqrt(2) / 3)), Tolerance, () => $"{middle}");
+        report.Require("distance of the middle of the sponge", Math.Abs(middle.Distance - (Math.Sqrt(2) / 3)), Tolerance,
+            () => $"{middle}");
     }
 
-    /// <summary>Corners, edges and middles of the tetrahedron fractal, whose maps halve: each position of an instance's face lies on the fractal, to the last place.</summary>
+    /// <summary>
+    /// Corners, edges and middles of the tetrahedron fractal, whose maps halve: each position of an instance's face lies on the fractal, to
+    /// the last place.
+    /// </summary>
     [Fact]
     public void Find_AtEveryDepthTo200_IsOnTheInstanceThatThePathNames()
     {
@@ -102,7 +116,8 @@ public class ColliderStabilityTests(ITestOutputHelper output)
                     var local = i % 3 == 0 ? a : i % 3 == 1 ? 0.5 * (a + b) : (0.25 * a) + (0.5 * b) + (0.25 * c);
                     var position = Exactly(path, local, 1);
                     Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest));
-                    report.Require("distance of what lies on an instance (of the size)", closest.Distance / fractal.Bounds.Diagonal, Tolerance, () => $"depth {depth}, path {string.Join(' ', path)}, at {local}");
+                    report.Require("distance of what lies on an instance (of the size)", closest.Distance / fractal.Bounds.Diagonal,
+                        Tolerance, () => $"depth {depth}, path {string.Join(' ', path)}, at {local}");
                 }
             });
         }
@@ -133,13 +148,17 @@ public class ColliderStabilityTests(ITestOutputHelper output)
         Assert.InRange(compared, 400, 600);
     }
 
-    /// <summary>A place told by a path and where in its frame it is, beside the same in exact arithmetic. Maps halve, so that each is exact in a double.</summary>
+    /// <summary>
+    /// A place told by a path and where in its frame it is, beside the same in exact arithmetic. Maps halve, so that each is exact in a
+    /// double.
+    /// </summary>
     [Fact]
     public void WorldPosition_OfAPathAndAPlaceInItsFrame_IsThatOfExactArithmetic()
     {
         using var report = new StabilityReport(output);
         var fractal = Corners(null, 1);
-        var (table, probe, oracle, record) = (LodHierarchy.Build(fractal), new FractalProbe("halves", fractal), new DeepOracle(fractal), new QueryContext());
+        var (table, probe, oracle, record) = (LodHierarchy.Build(fractal), new FractalProbe("halves", fractal), new DeepOracle(fractal),
+            new QueryContext());
         var deepest = 0;
         Seeded.Run(10, random =>
         {
@@ -152,7 +171,8 @@ public class ColliderStabilityTests(ITestOutputHelper output)
                 var local = address.FrameToCamera.Inverse() * Vector.Zero;
                 var (position, expected) = (address.WorldPosition(AffineMap.Identity), Exactly([.. address.Path], local, 1));
                 var size = FractalPositions.SizeOf(fractal, position);
-                report.Require("world position of a path and a place in its frame (of the size)", Near.Difference(expected, position) / size, Tolerance, () => $"depth {address.Depth}, {local}");
+                report.Require("world position of a path and a place in its frame (of the size)",
+                    Near.Difference(expected, position) / size, Tolerance, () => $"depth {address.Depth}, {local}");
                 deepest = Math.Max(deepest, address.Depth);
                 if (random.Next(10) == 0)
                 {
@@ -170,7 +190,8 @@ public class ColliderStabilityTests(ITestOutputHelper output)
         {
             foreach (var (name, draw) in Shapes)
             {
-                CheckQueries(report, random, $"distance from placed objects (of the magnitude): {name}", draw(random), Place(random, placement), null);
+                CheckQueries(report, random, $"distance from placed objects (of the magnitude): {name}", draw(random),
+                    Place(random, placement), null);
             }
         }));
     }
@@ -183,7 +204,8 @@ public class ColliderStabilityTests(ITestOutputHelper output)
             var decade = RoundNumbers.PowerOfTen(first + (i / seeds));
             foreach (var (name, draw) in Shapes)
             {
-                CheckQueries(report, random, $"distance by the {by} (of the magnitude): {name}", draw(random), PlaceBy(random, by, decade), decade);
+                CheckQueries(report, random, $"distance by the {by} (of the magnitude): {name}", draw(random), PlaceBy(random, by, decade),
+                    decade);
             }
         }));
     }
@@ -209,7 +231,9 @@ public class ColliderStabilityTests(ITestOutputHelper output)
         }
     }
 
-    /// <summary>Checks that the answer is a point of the fractal, and that nothing is nearer; false where the oracle takes too long.</summary>
+    /// <summary>
+    /// Checks that the answer is a point of the fractal, and that nothing is nearer; false where the oracle takes too long.
+    /// </summary>
     private static bool IsNearest(StabilityReport report, FractalProbe probe, DeepOracle oracle, Vector position, QueryContext record)
     {
         Assert.True(probe.Exact.TryFindClosest(position, double.PositiveInfinity, record, out var closest));
@@ -219,7 +243,8 @@ public class ColliderStabilityTests(ITestOutputHelper output)
             return false;
         }
 
-        report.Require("farther than by branch and bound with balls (of the size)", (closest.Distance - nearest) / FractalPositions.SizeOf(probe.Fractal, position), Tolerance, () => $"{position}");
+        report.Require("farther than by branch and bound with balls (of the size)",
+            (closest.Distance - nearest) / FractalPositions.SizeOf(probe.Fractal, position), Tolerance, () => $"{position}");
         return true;
     }
 
@@ -246,15 +271,24 @@ public class ColliderStabilityTests(ITestOutputHelper output)
         _ => throw new ArgumentOutOfRangeException(nameof(by), by, null),
     };
 
-    private static Transformation Similar(Random random) => new(random.Vector(2), random.Degrees(), random.Between(0.3, 0.7) * (random.Next(2) == 0 ? Vector.One : new(-1, 1, 1)));
+    private static Transformation Similar(Random random) =>
+        new(random.Vector(2), random.Degrees(), random.Between(0.3, 0.7) * (random.Next(2) == 0 ? Vector.One : new(-1, 1, 1)));
 
-    /// <summary>Four copies of a tetrahedron in its corners, halves or quarters or smaller: whole numbers and powers of two, so that a map rounds nothing.</summary>
+    /// <summary>
+    /// Four copies of a tetrahedron in its corners, halves or quarters or smaller: whole numbers and powers of two, so that a map rounds
+    /// nothing.
+    /// </summary>
     private static Fractal Corners(int? depth, int halvings) => Math.ScaleB(1, -halvings) switch
     {
-        var ratio => Samples.Repeated(depth, [.. Enumerable.Range(0, 4).Select(Samples.Tetrahedron.Vertex).Select(corner => (1 - ratio) * corner).Select(v => Samples.MoveAndScale(v.X, v.Y, v.Z, ratio))]),
+        var ratio =>
+            Samples.Repeated(depth,
+            [.. Enumerable.Range(0, 4).Select(Samples.Tetrahedron.Vertex).Select(corner => (1 - ratio) * corner)
+            .Select(v => Samples.MoveAndScale(v.X, v.Y, v.Z, ratio))]),
     };
 
-    /// <summary>The place in the world, rounded once: (1 − r)·corner + r·((1 − r)·corner + …), with a common denominator of a power of two.</summary>
+    /// <summary>
+    /// The place in the world, rounded once: (1 − r)·corner + r·((1 − r)·corner + …), with a common denominator of a power of two.
+    /// </summary>
     private static Vector Exactly(int[] path, Vector local, int halvings)
     {
         // 2⁻¹⁰⁷⁴ is the smallest power that a double has: every coordinate is a whole number of it.
@@ -275,7 +309,8 @@ public class ColliderStabilityTests(ITestOutputHelper output)
         }
     }
 
-    private static BigInteger Whole(double x, int exponent) => x == 0 ? 0 : new BigInteger(Math.ScaleB(x, 52 - Math.ILogB(x))) << (Math.ILogB(x) - 52 - exponent);
+    private static BigInteger Whole(double x, int exponent) =>
+        x == 0 ? 0 : new BigInteger(Math.ScaleB(x, 52 - Math.ILogB(x))) << (Math.ILogB(x) - 52 - exponent);
 
     private static IEnumerable<Vector> Symmetric(Vector v) =>
         from order in (Vector[])[v, new(v.Y, v.Z, v.X), new(v.Z, v.X, v.Y), new(v.Y, v.X, v.Z), new(v.X, v.Z, v.Y), new(v.Z, v.Y, v.X)]

@@ -26,7 +26,10 @@ public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
     /// <summary>Far plane divided by near plane.</summary>
     public static TheoryData<double> Ranges => [1e2, 1e4, 1e7];
 
-    /// <summary>Oracle: the red one is nearer, so each pixel is red. Turned by 40°, both still are the same part of the distance apart along every line of sight.</summary>
+    /// <summary>
+    /// Oracle: the red one is nearer, so each pixel is red. Turned by 40°, both still are the same part of the distance apart along every
+    /// line of sight.
+    /// </summary>
     [SkippableTheory]
     [MemberData(nameof(Ranges))]
     public void Surfaces_ATenThousandthApart_KeepTheirOrder(double range)
@@ -38,12 +41,15 @@ public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
             // Turned, they reach from two thirds of their distance to twice as far: there neither plane may cut them.
             foreach (var degrees in distance < 2 * Near || distance > 0.5 * range ? (double[])[0] : [0, 40])
             {
-                report.Require("pixels that show what is 1e-4 of the distance behind", stage.CountWrong(distance, range, degrees, Gap), 0, () => $"at {distance} of {range}, turned by {degrees}");
+                report.Require("pixels that show what is 1e-4 of the distance behind", stage.CountWrong(distance, range, degrees, Gap), 0,
+                    () => $"at {distance} of {range}, turned by {degrees}");
             }
         }
     }
 
-    /// <summary>How near surfaces can be. Without any gap one of both orders of drawing shows what it should not, or the test would see nothing.</summary>
+    /// <summary>
+    /// How near surfaces can be. Without any gap one of both orders of drawing shows what it should not, or the test would see nothing.
+    /// </summary>
     [SkippableTheory]
     [MemberData(nameof(Ranges))]
     public void Surfaces_ThatAreNearer_KeepTheirOrderDownToAMillionth(double range)
@@ -62,15 +68,18 @@ public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
             }
 
             largestMixedUp = Math.Max(largestMixedUp, gap);
-            // A float has 24 bits: two depths that are one part in 10⁷ apart are next to each other. Ten of these, for the roundings of the matrices.
-            report.Require("smallest gap that keeps its order by distance (of the distance)", least, Millionth, () => $"at {distance} of {range}", distance);
+            // A float has 24 bits: two depths that are one part in 10⁷ apart are next to each other. Ten of these, for the roundings of the
+            // matrices.
+            report.Require("smallest gap that keeps its order by distance (of the distance)", least, Millionth,
+                () => $"at {distance} of {range}", distance);
         }
 
         Assert.InRange(largestMixedUp, 1e-9, Millionth);
     }
 
     private static IEnumerable<double> Distances(double range) =>
-        Enumerable.Range(0, 30).Select(i => Near * Math.Pow(10, i / 3.0)).Where(distance => distance < 0.7 * range).Select(distance => Math.Max(distance, 1.01 * Near)).Append(0.999 * range);
+        Enumerable.Range(0, 30).Select(i => Near * Math.Pow(10, i / 3.0)).Where(distance => distance < 0.7 * range)
+        .Select(distance => Math.Max(distance, 1.01 * Near)).Append(0.999 * range);
 
     /// <summary>Draws two squares that fill the picture, in full light.</summary>
     private sealed class Stage : IDisposable
@@ -97,7 +106,8 @@ public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
         {
             var scene = RenderScenes.Scene(new Scene { Background = Colour.Black, Lights = [RenderScenes.FullLight] }, squares);
             using var renderer = new SceneRenderer(_context, DrawableScene.Prepare(scene, Settings));
-            _frame.Draw(renderer, new(new(Vector.Zero, Vector.Zero, 60), Projection.Perspective) { Clip = (Near, range * Near) }, Size, Size, Settings);
+            _frame.Draw(renderer, new(new(Vector.Zero, Vector.Zero, 60), Projection.Perspective) { Clip = (Near, range * Near) }, Size,
+                Size, Settings);
             _context.Resources.ThrowOnError("drawing");
             return RenderScenes.CountOther(_frame.Capture(), (255, 0, 0, 255));
         }

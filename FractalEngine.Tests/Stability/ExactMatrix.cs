@@ -4,7 +4,10 @@ using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Tests.Stability;
 
-/// <summary>The determinant and the inverse of a matrix of doubles in exact arithmetic: entries are integers times a common power of two, and only the last quotient rounds.</summary>
+/// <summary>
+/// The determinant and the inverse of a matrix of doubles in exact arithmetic: entries are integers times a common power of two, and only
+/// the last quotient rounds.
+/// </summary>
 internal sealed class ExactMatrix
 {
     private readonly BigInteger[][] _rows;

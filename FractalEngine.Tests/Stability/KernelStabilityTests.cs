@@ -64,7 +64,8 @@ public class KernelStabilityTests(ITestOutputHelper output)
                 var face = Thin(random, Math.Pow(10, random.Between(-decade - 1, -decade)));
                 // Measured, since rounding the corners changes it. What is thinner than 1e-16 or has no area is in the last decade.
                 var least = Math.Clamp(Math.Floor(Math.Log10(FaceOracle.SmallestSine(face.A, face.B, face.C))) + 1, -16, 0);
-                report.Require("distance by the sine of the smallest angle (of the magnitude)", LargestError(face), Tolerance, () => $"{face}", RoundNumbers.PowerOfTen((int)least));
+                report.Require("distance by the sine of the smallest angle (of the magnitude)", LargestError(face), Tolerance,
+                    () => $"{face}", RoundNumbers.PowerOfTen((int)least));
             }
         }));
     }
@@ -78,7 +79,8 @@ public class KernelStabilityTests(ITestOutputHelper output)
             {
                 var (offset, (position, a, b, c)) = (Math.Pow(10, decade) * random.Direction(), Thin(random, random.NextDouble()));
                 var face = new NastyFace(position + offset, a + offset, b + offset, c + offset);
-                report.Require("distance by the offset in sizes (of the magnitude)", LargestError(face), Tolerance, () => $"{face}", RoundNumbers.PowerOfTen(decade));
+                report.Require("distance by the offset in sizes (of the magnitude)", LargestError(face), Tolerance, () => $"{face}",
+                    RoundNumbers.PowerOfTen(decade));
             }
         }));
     }
@@ -96,13 +98,15 @@ public class KernelStabilityTests(ITestOutputHelper output)
             Assert.True(answer.Point.IsFinite() && answer.Barycentrics.IsFinite(), $"{face}: {answer}");
             report.Require("distance (of the magnitude)", Of(distance - exact, face), Tolerance, () => $"{face}");
             // The point itself is on the face, and as far away as was said; so it is a nearest one, of which there may be several.
-            report.Require("distance of the point that is named (of the magnitude)", Of((position - answer.Point).Length() - exact, face), Tolerance, () => $"{face}");
+            report.Require("distance of the point that is named (of the magnitude)", Of((position - answer.Point).Length() - exact, face),
+                Tolerance, () => $"{face}");
             var normal = TriangleKernel.UnitNormal(first, second, third);
             report.Require("length of the normal − 1", Math.Abs(normal.Length() - 1), 1e-15, () => $"{face}");
         }
 
         report.Require("difference between the six orders (of the magnitude)", Of(farthest - nearest, face), Tolerance, () => $"{face}");
-        report.Require("point that is named off the face (of the magnitude)", Of(FaceOracle.Distance(TriangleKernel.ClosestPoint(position, a, b, c).Point, a, b, c), face), Tolerance, () => $"{face}");
+        report.Require("point that is named off the face (of the magnitude)",
+            Of(FaceOracle.Distance(TriangleKernel.ClosestPoint(position, a, b, c).Point, a, b, c), face), Tolerance, () => $"{face}");
     }
 
     /// <summary>Of the distances that the six orders of the corners give.</summary>
@@ -110,14 +114,18 @@ public class KernelStabilityTests(ITestOutputHelper output)
     {
         var (position, a, b, c) = face;
         var exact = FaceOracle.Distance(position, a, b, c);
-        return Orders(a, b, c).Max(order => Of(Math.Sqrt(TriangleKernel.ClosestPoint(position, order.A, order.B, order.C).DistanceSquared) - exact, face));
+        return Orders(a, b, c)
+            .Max(order => Of(Math.Sqrt(TriangleKernel.ClosestPoint(position, order.A, order.B, order.C).DistanceSquared) - exact, face));
     }
 
-    private static (Vector A, Vector B, Vector C)[] Orders(Vector a, Vector b, Vector c) => [(a, b, c), (b, c, a), (c, a, b), (a, c, b), (c, b, a), (b, a, c)];
+    private static (Vector A, Vector B, Vector C)[] Orders(Vector a, Vector b, Vector c) =>
+        [(a, b, c), (b, c, a), (c, a, b), (a, c, b), (c, b, a), (b, a, c)];
 
     private static double Of(double error, NastyFace face) => face.Magnitude == 0 ? Math.Abs(error) : Math.Abs(error) / face.Magnitude;
 
-    /// <summary>One in four is moved by up to 10¹² of its largest coordinate: what is left of its shape is what doubles hold there.</summary>
+    /// <summary>
+    /// One in four is moved by up to 10¹² of its largest coordinate: what is left of its shape is what doubles hold there.
+    /// </summary>
     private static NastyFace FarOff(Random random, NastyFace face)
     {
         var offset = random.Next(4) == 0 ? Math.Pow(10, random.Between(0, 12)) * face.Magnitude * NastyFace.Cube(random) : Vector.Zero;
@@ -125,7 +133,10 @@ public class KernelStabilityTests(ITestOutputHelper output)
         return moved.Magnitude <= Largest ? moved : face;
     }
 
-    /// <summary>A needle, two of whose corners are close together, or a sliver, whose corners are nearly on a line; anywhere, or where rounding the corners does not make it thicker.</summary>
+    /// <summary>
+    /// A needle, two of whose corners are close together, or a sliver, whose corners are nearly on a line; anywhere, or where rounding the
+    /// corners does not make it thicker.
+    /// </summary>
     private static NastyFace Thin(Random random, double sine)
     {
         var (start, end, aside) = (NastyFace.Cube(random), NastyFace.Cube(random), sine * NastyFace.Cube(random));

@@ -32,12 +32,15 @@ public class MatrixStabilityTests(ITestOutputHelper output)
             var inverse = exact.Inverse;
             var condition = 3 * matrix.MaxAbsEntry() * inverse.MaxAbsEntry();
             report.Note("condition", condition);
-            // Cofactors are right to two last places each, and so is each product of the determinant's sum; that the sum cancels down to a part of 1/condition is what the condition means.
+            // Cofactors are right to two last places each, and so is each product of the determinant's sum; that the sum cancels down to a
+            // part of 1/condition is what the condition means.
             var error = Error(matrix, inverse);
-            report.Require("inverse by the condition (relative error)", error, 8 * Epsilon * condition, () => $"{matrix}", RoundNumbers.PowerOfTen(exponent));
+            report.Require("inverse by the condition (relative error)", error, 8 * Epsilon * condition, () => $"{matrix}",
+                RoundNumbers.PowerOfTen(exponent));
             report.Require("inverse (relative error of condition × 2⁻⁵²)", error / (Epsilon * condition), 8, () => $"{matrix}");
             var largest = matrix.V1.Length() * matrix.V2.Length() * matrix.V3.Length();
-            report.Require("determinant (error of the product of the columns' lengths)", Math.Abs(matrix.Determinant() - exact.Determinant) / largest, 8 * Epsilon, () => $"{matrix}");
+            report.Require("determinant (error of the product of the columns' lengths)",
+                Math.Abs(matrix.Determinant() - exact.Determinant) / largest, 8 * Epsilon, () => $"{matrix}");
             report.Note("determinant (relative error)", Math.Abs((matrix.Determinant() - exact.Determinant) / exact.Determinant));
         });
     }
@@ -56,14 +59,17 @@ public class MatrixStabilityTests(ITestOutputHelper output)
             (sum, mixed, kept) = (turn * sum, turns[i % turns.Length] * mixed, (turns[i % turns.Length] * kept).Orthonormalized());
         }
 
-        // Three products and two sums an entry, and the factor itself is off by as much: at most 6 units of 2⁻⁵³ a turn, were they all on one side.
+        // Three products and two sums an entry, and the factor itself is off by as much: at most 6 units of 2⁻⁵³ a turn, were they all on
+        // one side.
         const double Worst = Turns * 6 * Epsilon;
         report.Require("one rotation a million times: columns' scalar products", Skew(sum), Worst, () => $"{sum}");
-        report.Require("one rotation a million times: from the sum of the angles", Near.Difference(Matrix.Rotation(axis, 0.001 * Turns), sum), Worst, () => $"{sum}");
+        report.Require("one rotation a million times: from the sum of the angles",
+            Near.Difference(Matrix.Rotation(axis, 0.001 * Turns), sum), Worst, () => $"{sum}");
         report.Require("random rotations a million times: columns' scalar products", Skew(mixed), Worst, () => $"{mixed}");
         // Made orthonormal each time, only the last time's roundings are left.
         report.Require("random rotations made orthonormal each time: columns' scalar products", Skew(kept), 8 * Epsilon, () => $"{kept}");
-        report.Require("random rotations made orthonormal each time: determinant − 1", Math.Abs(new ExactMatrix(kept).Determinant - 1), 8 * Epsilon, () => $"{kept}");
+        report.Require("random rotations made orthonormal each time: determinant − 1", Math.Abs(new ExactMatrix(kept).Determinant - 1),
+            8 * Epsilon, () => $"{kept}");
     }
 
     /// <summary>EulerAngleTests go there and back once, at distances from 1e-13 on.</summary>
@@ -80,11 +86,14 @@ public class MatrixStabilityTests(ITestOutputHelper output)
             for (var i = 0; i < 100; i++)
             {
                 axes = axes.EulerAngles().LocalAxes();
-                report.Note(i == 0 ? "angles of a rotation and back: once" : "angles of a rotation and back: a hundred times", Near.Difference(first, axes));
+                report.Note(i == 0 ? "angles of a rotation and back: once" : "angles of a rotation and back: a hundred times",
+                    Near.Difference(first, axes));
             }
 
-            // Near the lock the first trip may take it as complete, which is worth 1e-12 as in EulerAngleTests; the others add some roundings each.
-            report.Require("angles of a rotation and back: at the end", Near.Difference(first, axes), 1e-12 + (100 * 8 * Epsilon), () => $"yaw {yaw:R}");
+            // Near the lock the first trip may take it as complete, which is worth 1e-12 as in EulerAngleTests; the others add some
+            // roundings each.
+            report.Require("angles of a rotation and back: at the end", Near.Difference(first, axes), 1e-12 + (100 * 8 * Epsilon),
+                () => $"yaw {yaw:R}");
         });
     }
 
@@ -100,18 +109,26 @@ public class MatrixStabilityTests(ITestOutputHelper output)
         }
 
         // A camera's axes are made from its angles anew each time.
-        report.Require("camera turned a million times: axes' scalar products", Math.Max(Skew(around.LocalAxes), Skew(wandering.LocalAxes)), 8 * Epsilon, () => $"{wandering.LocalAxes}");
-        report.Require("camera turned a million times: inverse of its axes", Near.Difference(Matrix.Identity, wandering.LocalAxes * wandering.LocalAxesInverse), 8 * Epsilon, () => $"{wandering.LocalAxes}");
+        report.Require("camera turned a million times: axes' scalar products", Math.Max(Skew(around.LocalAxes), Skew(wandering.LocalAxes)),
+            8 * Epsilon, () => $"{wandering.LocalAxes}");
+        report.Require("camera turned a million times: inverse of its axes",
+            Near.Difference(Matrix.Identity, wandering.LocalAxes * wandering.LocalAxesInverse), 8 * Epsilon,
+            () => $"{wandering.LocalAxes}");
         // Each step's angle, matrix and angles back are off by some last places of π.
-        report.Require("camera's heading after a hundred full turns", Near.Difference(Matrix.Identity, around.LocalAxes), Around * 6 * Epsilon, () => $"{around.Rotation}");
-        // Right stays level: what of it points up is roll. Steps near the zenith, 0.1° away at most, magnify roundings by their distance's reciprocal, 573.
-        report.Require("camera's roll after a million random turns", Math.Abs(wandering.LocalAxes.V1.Y), Turns * 6 * Epsilon, () => $"{wandering.LocalAxes}");
+        report.Require("camera's heading after a hundred full turns", Near.Difference(Matrix.Identity, around.LocalAxes),
+            Around * 6 * Epsilon, () => $"{around.Rotation}");
+        // Right stays level: what of it points up is roll. Steps near the zenith, 0.1° away at most, magnify roundings by their distance's
+        // reciprocal, 573.
+        report.Require("camera's roll after a million random turns", Math.Abs(wandering.LocalAxes.V1.Y), Turns * 6 * Epsilon,
+            () => $"{wandering.LocalAxes}");
     }
 
     private static Matrix Draw(Random random, double condition) =>
         random.Orthogonal() * Matrix.Diagonal(new(1, Math.Pow(condition, -random.NextDouble()), 1 / condition)) * random.Orthogonal();
 
-    /// <summary>Of the largest entry. At a condition of 1e16 the determinant may round to 0: that is said, and an error as large as the inverse.</summary>
+    /// <summary>
+    /// Of the largest entry. At a condition of 1e16 the determinant may round to 0: that is said, and an error as large as the inverse.
+    /// </summary>
     private static double Error(Matrix matrix, Matrix expected)
     {
         try

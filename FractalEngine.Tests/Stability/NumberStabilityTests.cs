@@ -17,7 +17,10 @@ using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Tests.Stability;
 
-/// <summary>Numbers as text, beyond what NumberReaderTests ask: to and fro, beside exact arithmetic, and in files of every format under other cultures.</summary>
+/// <summary>
+/// Numbers as text, beyond what NumberReaderTests ask: to and fro, beside exact arithmetic, and in files of every format under other
+/// cultures.
+/// </summary>
 public class NumberStabilityTests(ITestOutputHelper output)
 {
     private const int Batch = 10_000;
@@ -58,11 +61,15 @@ public class NumberStabilityTests(ITestOutputHelper output)
                 var text = Text(random);
                 var expected = double.Parse(text, NumberStyles.Float, CultureInfo.InvariantCulture);
                 Assert.True(NumberReader.TryRead(text, out var value, out var length) && length == text.Length, text);
-                report.Require("decimal texts whose bits are not those of double.Parse", BitConverter.DoubleToInt64Bits(expected) == BitConverter.DoubleToInt64Bits(value) ? 0 : 1, 0, () => $"{text}: {value}, not {expected}");
+                report.Require("decimal texts whose bits are not those of double.Parse",
+                    BitConverter.DoubleToInt64Bits(expected) == BitConverter.DoubleToInt64Bits(value)
+                    ? 0
+                    : 1, 0, () => $"{text}: {value}, not {expected}");
                 // That takes long.
                 if (i % 50 == 0 && double.IsFinite(value))
                 {
-                    report.Require("decimal texts off rational arithmetic (units in the last place)", UnitsOff(text, value), 0.5, () => $"{text}: {value}");
+                    report.Require("decimal texts off rational arithmetic (units in the last place)", UnitsOff(text, value), 0.5,
+                        () => $"{text}: {value}");
                 }
             }
         }));
@@ -77,12 +84,15 @@ public class NumberStabilityTests(ITestOutputHelper output)
             {
                 var number = Finite(random);
                 Assert.True(NumberReader.TryRead(number.ToString("R", CultureInfo.InvariantCulture), out var value, out _));
-                report.Require("numbers written and read whose bits changed: doubles", BitConverter.DoubleToInt64Bits(number) == BitConverter.DoubleToInt64Bits(value) ? 0 : 1, 0, () => $"{number}: {value}");
+                report.Require("numbers written and read whose bits changed: doubles",
+                    BitConverter.DoubleToInt64Bits(number) == BitConverter.DoubleToInt64Bits(value) ? 0 : 1, 0, () => $"{number}: {value}");
                 var single = BitConverter.Int32BitsToSingle(random.Next());
                 if (float.IsFinite(single))
                 {
                     Assert.True(NumberReader.TryRead(single.ToString("R", CultureInfo.InvariantCulture), out value, out _));
-                    report.Require("numbers written and read whose bits changed: floats", single.Equals((float)value) ? 0 : 1, 0, () => $"{single}: {value}");
+                    report.Require("numbers written and read whose bits changed: floats", single.Equals((float)value)
+                        ? 0
+                        : 1, 0, () => $"{single}: {value}");
                 }
             }
         }));
@@ -97,7 +107,8 @@ public class NumberStabilityTests(ITestOutputHelper output)
         3 => $"{Digits(random, 1, 17)}e-{random.Next(305, 345)}",
         4 => $".{Digits(random, 1, 800)}e{random.Next(-400, 300)}",
         5 => Between(BitConverter.Int64BitsToDouble(random.NextInt64(1L << 52)), random.Next(3)),
-        _ => Between(BitConverter.Int64BitsToDouble(random.NextInt64(0x7FEFFFFFFFFFFFFF)) switch { var d when d > 1e250 => Math.Sqrt(d), var d => d }, random.Next(3)),
+        _ => Between(BitConverter.Int64BitsToDouble(random.NextInt64(0x7FEFFFFFFFFFFFFF)) switch { var d when d > 1e250 =>
+            Math.Sqrt(d), var d => d }, random.Next(3)),
     };
 
     /// <summary>All digits of the middle between a number and its neighbour; or the same a little less or more.</summary>
@@ -115,7 +126,9 @@ public class NumberStabilityTests(ITestOutputHelper output)
         };
     }
 
-    /// <summary>How far a double is from a decimal text, in units of the double's last place; a tie that did not go to the even one counts as 1.</summary>
+    /// <summary>
+    /// How far a double is from a decimal text, in units of the double's last place; a tie that did not go to the even one counts as 1.
+    /// </summary>
     private static double UnitsOff(string text, double value)
     {
         var (mantissa, exponent) = Parts(value);
@@ -124,7 +137,8 @@ public class NumberStabilityTests(ITestOutputHelper output)
         var decimals = BigInteger.Parse("0" + whole + fraction, CultureInfo.InvariantCulture);
         var power = (lower.Length > 1 ? int.Parse(lower[1], CultureInfo.InvariantCulture) : 0) - fraction.Length;
         // decimals·10^power against mantissa·2^exponent, both as whole numbers.
-        var (left, right) = (decimals * BigInteger.Pow(10, Math.Max(0, power)) * BigInteger.Pow(2, Math.Max(0, -exponent)), mantissa * BigInteger.Pow(2, Math.Max(0, exponent)) * BigInteger.Pow(10, Math.Max(0, -power)));
+        var (left, right) = (decimals * BigInteger.Pow(10, Math.Max(0, power)) * BigInteger.Pow(2, Math.Max(0, -exponent)),
+            mantissa * BigInteger.Pow(2, Math.Max(0, exponent)) * BigInteger.Pow(10, Math.Max(0, -power)));
         var unit = BigInteger.Pow(2, Math.Max(0, exponent)) * BigInteger.Pow(10, Math.Max(0, -power));
         var twice = 2 * BigInteger.Abs(left - right);
         return twice > unit || (twice == unit && !mantissa.IsEven) ? 1 : (double)(1000 * twice / unit) / 2000;
@@ -158,7 +172,8 @@ public class NumberStabilityTests(ITestOutputHelper output)
         var world = new PhysicsWorld(new(new Scene(), []), new());
         world.Add(new(new(numbers[0], numbers[1], numbers[2]), 1) { Velocity = new(numbers[3] % 1e6, 0.5, -1.25) });
         new BodyCsvWriter(table).WriteStep(world);
-        return string.Join('\n', Encoding.UTF8.GetString(stream.ToArray()), SceneWriter.Write(SceneOf(numbers)), table, new Diagnostic("ı.fdo", 1234567, 89, DiagnosticSeverity.Warning, "i"), DecimalText.FormatApproximately(1234567));
+        return string.Join('\n', Encoding.UTF8.GetString(stream.ToArray()), SceneWriter.Write(SceneOf(numbers)), table,
+            new Diagnostic("ı.fdo", 1234567, 89, DiagnosticSeverity.Warning, "i"), DecimalText.FormatApproximately(1234567));
     }
 
     /// <summary>The bits of all numbers; fails unless all formats agree.</summary>
@@ -168,13 +183,19 @@ public class NumberStabilityTests(ITestOutputHelper output)
         ObjWriter.Write(MeshOf(numbers), "mesh", stream);
         var mesh = ObjParser.Parse(new SourceText("a.obj", Encoding.UTF8.GetString(stream.ToArray()))).Mesh;
         var scene = SceneParser.Parse(new("a.sdo", SceneWriter.Write(SceneOf(numbers)))).Scene;
-        var points = PointsParser.Parse(new("a.txt", string.Join('\n', numbers.Chunk(3).Select(point => new Vector(point[0], point[1], point[2]).ToString().Trim('(', ')')))));
-        var fractal = Samples.ParseFractal($"v {Invariant(numbers[0])} {Invariant(numbers[1])} {Invariant(numbers[2])}\nt.a. (a, #, #)\nx. \"b.obj\"\n<$>. [t.1] x\n");
+        var points =
+            PointsParser.Parse(
+                new("a.txt",
+                string.Join('\n', numbers.Chunk(3).Select(point => new Vector(point[0], point[1], point[2]).ToString().Trim('(', ')')))));
+        var fractal =
+            Samples.ParseFractal(
+                $"v {Invariant(numbers[0])} {Invariant(numbers[1])} {Invariant(numbers[2])}\nt.a. (a, #, #)\nx. \"b.obj\"\n<$>. [t.1] x\n");
         var material = MtlParser.Parse(new("a.mtl", $"newmtl m\nNs {Invariant(Math.Abs(numbers[0]) % 1000)}\n"));
         Assert.Equal(Math.Abs(numbers[0]) % 1000, material.Materials["m"].SpecularExponent);
         Assert.Equal(new Vector(numbers[0], numbers[1], numbers[2]), Naive.Levels(fractal.Description.Steps).Single()[0].Position);
         Assert.Equal(string.Join(' ', numbers.Select(Bits)), string.Join(' ', points.SelectMany(Components).Select(Bits)));
-        Assert.Equal(string.Join(' ', numbers[..6].Select(Bits)), string.Join(' ', scene.Objects.Select(o => o.Placement.Position).SelectMany(Components).Select(Bits)));
+        Assert.Equal(string.Join(' ', numbers[..6].Select(Bits)),
+            string.Join(' ', scene.Objects.Select(o => o.Placement.Position).SelectMany(Components).Select(Bits)));
         return string.Join(' ', mesh.Positions.Select(Bits));
     }
 
@@ -186,6 +207,7 @@ public class NumberStabilityTests(ITestOutputHelper output)
 
     private static Scene SceneOf(double[] numbers) => new()
     {
-        Objects = [new("a.obj", Samples.Move(numbers[0], numbers[1], numbers[2])), new("b.obj", Samples.Move(numbers[3], numbers[4], numbers[5]))],
+        Objects =
+        [new("a.obj", Samples.Move(numbers[0], numbers[1], numbers[2])), new("b.obj", Samples.Move(numbers[3], numbers[4], numbers[5]))],
     };
 }

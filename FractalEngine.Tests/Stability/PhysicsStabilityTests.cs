@@ -40,7 +40,8 @@ public class PhysicsStabilityTests(ITestOutputHelper output)
 
             var top = body.Position.Y - 0.1 + (body.Velocity.Y * body.Velocity.Y / (2 * 9.8));
             // What is promised is 1 %; the moment of an impact is found to 1e-10 of the radius.
-            report.Require("height of a bounce off e²·h (of h)", Math.Abs(top - (e * e * height)) / height, 1e-8, () => $"e {e}, h {height}: {top}");
+            report.Require("height of a bounce off e²·h (of h)", Math.Abs(top - (e * e * height)) / height, 1e-8,
+                () => $"e {e}, h {height}: {top}");
         });
     }
 
@@ -51,11 +52,14 @@ public class PhysicsStabilityTests(ITestOutputHelper output)
     public void Rest_OnASponge_DoesNotMove(bool sleeps)
     {
         using var report = new StabilityReport(output, sleeps ? "asleep" : "awake");
-        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = sleeps ? null : 0 }, Worlds.Place(AssetFractals.Load("menger", 2)));
+        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = sleeps ? null : 0 },
+            Worlds.Place(AssetFractals.Load("menger", 2)));
         var body = world.Add(new(new(0.02, 0.9, 0.01), 0.2) { Friction = 0.5 });
         world.Run(600);
         var place = body.Position;
-        world.Run(20_000, () => report.Require("way from the place of rest on a sponge (units)", (body.Position - place).Length(), 1e-9, () => $"after {world.StepCount} steps"));
+        world.Run(20_000,
+            () => report.Require("way from the place of rest on a sponge (units)", (body.Position - place).Length(), 1e-9,
+            () => $"after {world.StepCount} steps"));
     }
 
     /// <summary>Many worlds at once, each on some thread: what one computes is nothing to another. DeterminismTests compare six.</summary>
@@ -69,7 +73,9 @@ public class PhysicsStabilityTests(ITestOutputHelper output)
         Assert.Equal(alone.Length, alone.Distinct().Count());
         for (var i = 0; i < together.Length; i++)
         {
-            report.Require("worlds that differ when they run in parallel", together[i] == alone[i % alone.Length] ? 0 : 1, 0, () => $"world {i}");
+            report.Require("worlds that differ when they run in parallel", together[i] == alone[i % alone.Length]
+                ? 0
+                : 1, 0, () => $"world {i}");
         }
     }
 
@@ -92,7 +98,9 @@ public class PhysicsStabilityTests(ITestOutputHelper output)
     private static string Hash(int seed)
     {
         var (random, world) = (new Random(seed), Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(AssetFractals.Load("menger", 2))));
-        world.AddRange(Enumerable.Range(0, 6).Select(i => new BodyDescription(new((i % 3 * 0.3) - 0.3, 0.8, (i / 3 * 0.3) - 0.2), 0.1) { Velocity = random.Vector(), Restitution = random.NextDouble() }));
+        world.AddRange(Enumerable.Range(0, 6)
+            .Select(i => new BodyDescription(new((i % 3 * 0.3) - 0.3, 0.8, (i / 3 * 0.3) - 0.2), 0.1) { Velocity = random.Vector(),
+            Restitution = random.NextDouble() }));
         world.Run(120);
         return world.StateHash;
     }

@@ -13,7 +13,8 @@ internal static class RoundNumbers
         select (int)number;
 
     /// <summary>The double next to a power of ten.</summary>
-    public static double PowerOfTen(int exponent) => double.Parse(string.Create(CultureInfo.InvariantCulture, $"1e{exponent}"), CultureInfo.InvariantCulture);
+    public static double PowerOfTen(int exponent) =>
+        double.Parse(string.Create(CultureInfo.InvariantCulture, $"1e{exponent}"), CultureInfo.InvariantCulture);
 
     /// <summary>The first that is not smaller.</summary>
     /// <param name="number">From 1 to 10⁹.</param>

@@ -7,20 +7,23 @@ using Xunit.Sdk;
 namespace FractalEngine.Tests.Stability;
 
 /// <summary>
-/// The worst number of each kind that a test has met, written to the test's output at its end: what docs/stability.md states as measured. Any number of threads may note.
-/// Where the environment variable FRACTALENGINE_STABILITY names a folder, a file there holds the same: a part of docs/benchmarks/stability.csv.
+/// The worst number of each kind that a test has met, written to the test's output at its end: what docs/stability.md states as measured.
+/// Any number of threads may note. Where the environment variable FRACTALENGINE_STABILITY names a folder, a file there holds the same: a
+/// part of docs/benchmarks/stability.csv.
 /// </summary>
 /// <param name="output">Of the test.</param>
 /// <param name="argument">What tells the cases of a theory apart.</param>
 /// <param name="method">The test's.</param>
 /// <param name="file">The test class's, which has its name.</param>
-internal sealed class StabilityReport(ITestOutputHelper output, object? argument = null, [CallerMemberName] string method = "", [CallerFilePath] string file = "") : IDisposable
+internal sealed class StabilityReport(ITestOutputHelper output, object? argument = null, [CallerMemberName] string method = "",
+    [CallerFilePath] string file = "") : IDisposable
 {
     private readonly Dictionary<(string What, double? At), Noted> _noted = [];
     private readonly Lock _lock = new();
 
     /// <summary>Class, method, argument.</summary>
-    public string Test { get; } = $"{Path.GetFileNameWithoutExtension(file)}.{method}" + (argument is null ? "" : string.Create(CultureInfo.InvariantCulture, $"({argument})"));
+    public string Test { get; } = $"{Path.GetFileNameWithoutExtension(file)}.{method}"
+        + (argument is null ? "" : string.Create(CultureInfo.InvariantCulture, $"({argument})"));
 
     /// <summary>Keeps the largest; NaN is worse than any number.</summary>
     /// <param name="what">What the value is of.</param>
@@ -39,11 +42,16 @@ internal sealed class StabilityReport(ITestOutputHelper output, object? argument
         Add(what, error, bound, at);
         if (!(error <= bound))
         {
-            throw new XunitException(string.Create(CultureInfo.InvariantCulture, $"{what}: {error:R}, allowed {bound:R}: {about().ToString(CultureInfo.InvariantCulture)}"));
+            throw new XunitException(
+                string.Create(CultureInfo.InvariantCulture,
+                $"{what}: {error:R}, allowed {bound:R}: {about().ToString(CultureInfo.InvariantCulture)}"));
         }
     }
 
-    /// <summary>Writes what was noted to a file of the test's own: the whole test first, then each place of its curves, whatever order it was noted in.</summary>
+    /// <summary>
+    /// Writes what was noted to a file of the test's own: the whole test first, then each place of its curves, whatever order it was noted
+    /// in.
+    /// </summary>
     /// <param name="folder">Made where it is missing.</param>
     /// <exception cref="IOException">The folder can't be written to, or has a test of this name already.</exception>
     public void Save(string folder)

@@ -7,7 +7,8 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.Stability;
 
 /// <summary>
-/// Every face of every instance of a placed shape, in world space by the arrays of <see cref="Naive"/>, and the distance from them in exact arithmetic. Nothing of it is the engine's.
+/// Every face of every instance of a placed shape, in world space by the arrays of <see cref="Naive"/>, and the distance from them in exact
+/// arithmetic. Nothing of it is the engine's.
 /// </summary>
 internal sealed class WorldFaces
 {
@@ -18,7 +19,8 @@ internal sealed class WorldFaces
         var faces = mesh.VertexIndices.Chunk(3).ToArray();
         _faces = [.. from map in maps
                      from face in faces
-                     select Ball(Naive.Apply(map, mesh.Vertex(face[0])), Naive.Apply(map, mesh.Vertex(face[1])), Naive.Apply(map, mesh.Vertex(face[2])))];
+                     select Ball(Naive.Apply(map, mesh.Vertex(face[0])), Naive.Apply(map, mesh.Vertex(face[1])),
+                     Naive.Apply(map, mesh.Vertex(face[2])))];
         Box = Naive.Box(_faces.SelectMany(face => new[] { face.A, face.B, face.C }));
     }
 
@@ -32,14 +34,16 @@ internal sealed class WorldFaces
 
     /// <summary>What errors are measured against: the larger of the size and of the coordinates.</summary>
     public double Magnitude(Vector position) =>
-        Math.Max(Box.Diagonal, Math.Max(position.MaxAbsComponent(), Math.Max(Box.Minimum.MaxAbsComponent(), Box.Maximum.MaxAbsComponent())));
+        Math.Max(Box.Diagonal,
+        Math.Max(position.MaxAbsComponent(), Math.Max(Box.Minimum.MaxAbsComponent(), Box.Maximum.MaxAbsComponent())));
 
     /// <summary>Exact for these corners. Faces whose balls are farther than what was found are left out.</summary>
     public double Distance(Vector position)
     {
         var margin = 1e-12 * Magnitude(position);
         var nearest = double.PositiveInfinity;
-        foreach (var (bound, (a, b, c, _, _)) in _faces.Select(face => (Bound: (position - face.Centre).Length() - face.Radius - margin, face)).OrderBy(item => item.Bound))
+        foreach (var (bound, (a, b, c, _, _)) in _faces.Select(
+            face => (Bound: (position - face.Centre).Length() - face.Radius - margin, face)).OrderBy(item => item.Bound))
         {
             if (bound > nearest)
             {
@@ -72,7 +76,8 @@ internal sealed class WorldFaces
         };
     }
 
-    private static (Vector A, Vector B, Vector C, Vector Centre, double Radius) Ball(Vector a, Vector b, Vector c) => ((a + b + c) / 3) switch
+    private static (Vector A, Vector B, Vector C, Vector Centre, double Radius) Ball(Vector a, Vector b, Vector c) =>
+        ((a + b + c) / 3) switch
     {
         var centre => (a, b, c, centre, Math.Max((a - centre).Length(), Math.Max((b - centre).Length(), (c - centre).Length()))),
     };

@@ -3,7 +3,9 @@ using System.Reflection;
 
 namespace FractalEngine.Tests.Support;
 
-/// <summary>The program as its users start it, or that of the benchmarks: another process, with arguments, streams and an exit code.</summary>
+/// <summary>
+/// The program as its users start it, or that of the benchmarks: another process, with arguments, streams and an exit code.
+/// </summary>
 internal static class AppProcess
 {
     // Long enough for a loaded machine; a hang is a failure.
@@ -15,13 +17,16 @@ internal static class AppProcess
     public static AppResult Run(string folder, params string[] arguments) => Run(folder, [], arguments);
 
     /// <summary>Runs the program to its end with some variables of the environment changed; null removes one.</summary>
-    public static AppResult Run(string folder, Dictionary<string, string?> environment, params string[] arguments) => End(Start(folder, environment, arguments), arguments);
+    public static AppResult Run(string folder, Dictionary<string, string?> environment, params string[] arguments) =>
+        End(Start(folder, environment, arguments), arguments);
 
     /// <summary>Runs the program of the benchmarks to its end.</summary>
-    public static AppResult RunBenchmarks(string folder, params string[] arguments) => End(Start("FractalEngine.Benchmarks", folder, [], arguments), arguments);
+    public static AppResult RunBenchmarks(string folder, params string[] arguments) =>
+        End(Start("FractalEngine.Benchmarks", folder, [], arguments), arguments);
 
     /// <summary>Starts the program; whoever calls waits for its end.</summary>
-    public static Process Start(string folder, Dictionary<string, string?> environment, params string[] arguments) => Start("FractalEngine.App", folder, environment, arguments);
+    public static Process Start(string folder, Dictionary<string, string?> environment, params string[] arguments) =>
+        Start("FractalEngine.App", folder, environment, arguments);
 
     private static AppResult End(Process process, string[] arguments)
     {

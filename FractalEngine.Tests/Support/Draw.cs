@@ -29,7 +29,9 @@ internal static class Draw
 
     /// <summary>Skewed when chained; half of the factors are negative, so that mirrors occur.</summary>
     public static Transformation Transformation(this Random random, double smallestScale = 0.3, double largestScale = 0.7) => new(
-        random.Vector(2), random.Degrees(), new(Factor(random, smallestScale, largestScale), Factor(random, smallestScale, largestScale), Factor(random, smallestScale, largestScale)));
+        random.Vector(2), random.Degrees(),
+        new(Factor(random, smallestScale, largestScale), Factor(random, smallestScale, largestScale),
+        Factor(random, smallestScale, largestScale)));
 
     private static double Factor(Random random, double smallest, double largest) =>
         random.Between(smallest, largest) * (random.Next(4) == 0 ? -1 : 1);

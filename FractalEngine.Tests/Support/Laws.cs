@@ -21,7 +21,8 @@ internal static class Laws
 
     /// <summary>Of any size that a double has, ±0, subnormals and the largest among them.</summary>
     public static Gen<double> AnyFinite { get; } = Gen.OneOf(
-        Gen.Elements(0.0, -0.0, double.Epsilon, -double.Epsilon, 2.2250738585072014e-308, 2.225073858507201e-308, double.MaxValue, double.MinValue, 1e308, 0.1, 1.0 / 3),
+        Gen.Elements(0.0, -0.0, double.Epsilon, -double.Epsilon, 2.2250738585072014e-308, 2.225073858507201e-308, double.MaxValue,
+        double.MinValue, 1e308, 0.1, 1.0 / 3),
         Gen.Choose(int.MinValue, int.MaxValue).Two().Select(t => BitConverter.Int64BitsToDouble(((long)t.Item1 << 32) | (uint)t.Item2))
             .Where(double.IsFinite));
 

@@ -52,7 +52,8 @@ internal static class Naive
         return [.. chains.Select(chain => description.Composition == Composition.Affine
             ? chain.Select(Map).Aggregate(Map(Transformation.Identity), Compose)
             : Map(chain.Aggregate(Transformation.Identity, (sum, t) => new(
-                sum.Position + t.Position, sum.Rotation + t.Rotation, new(sum.Scale.X * t.Scale.X, sum.Scale.Y * t.Scale.Y, sum.Scale.Z * t.Scale.Z)))))];
+                sum.Position + t.Position, sum.Rotation + t.Rotation,
+                new(sum.Scale.X * t.Scale.X, sum.Scale.Y * t.Scale.Y, sum.Scale.Z * t.Scale.Z)))))];
     }
 
     /// <summary>The chains without those that differ by less than <paramref name="tolerance"/> from an earlier one.</summary>

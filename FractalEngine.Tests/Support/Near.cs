@@ -14,13 +14,17 @@ internal static class Near
     public static double Difference(AffineMap map1, AffineMap map2) =>
         Math.Max(Difference(map1.Linear, map2.Linear), Difference(map1.Translation, map2.Translation));
 
-    public static void Equal(double expected, double actual, double tolerance) => Check(expected, actual, Math.Abs(expected - actual), tolerance);
+    public static void Equal(double expected, double actual, double tolerance) =>
+        Check(expected, actual, Math.Abs(expected - actual), tolerance);
 
-    public static void Equal(Vector expected, Vector actual, double tolerance) => Check(expected, actual, Difference(expected, actual), tolerance);
+    public static void Equal(Vector expected, Vector actual, double tolerance) =>
+        Check(expected, actual, Difference(expected, actual), tolerance);
 
-    public static void Equal(Matrix expected, Matrix actual, double tolerance) => Check(expected, actual, Difference(expected, actual), tolerance);
+    public static void Equal(Matrix expected, Matrix actual, double tolerance) =>
+        Check(expected, actual, Difference(expected, actual), tolerance);
 
-    public static void Equal(AffineMap expected, AffineMap actual, double tolerance) => Check(expected, actual, Difference(expected, actual), tolerance);
+    public static void Equal(AffineMap expected, AffineMap actual, double tolerance) =>
+        Check(expected, actual, Difference(expected, actual), tolerance);
 
     // Written so that NaN fails.
     private static void Check(object expected, object actual, double difference, double tolerance)

@@ -29,5 +29,6 @@ internal static class RandomFractals
     }
 
     private static TransformationSet Set(Random random, int most = 4) =>
-        new([.. Enumerable.Range(0, random.Next(1, most + 1)).Select(_ => random.Next(6) == 0 ? Transformation.Identity : random.Transformation())]);
+        new([.. Enumerable.Range(0, random.Next(1, most + 1))
+        .Select(_ => random.Next(6) == 0 ? Transformation.Identity : random.Transformation())]);
 }

@@ -62,7 +62,8 @@ internal static class Samples
     public static FractalFile ParseFractal(string text) => FractalParser.Parse(new("test.fdo", text));
 
     /// <summary>As from a file: a byte order mark is none of its characters.</summary>
-    public static FractalFile ParseFractalBytes(string text) => FractalParser.Parse(SourceText.Decode(Encoding.UTF8.GetBytes(text), "test.fdo"));
+    public static FractalFile ParseFractalBytes(string text) =>
+        FractalParser.Parse(SourceText.Decode(Encoding.UTF8.GetBytes(text), "test.fdo"));
 
     public static ObjFile ParseObj(string text) => ObjParser.Parse(new SourceText("test.obj", text));
 
@@ -75,5 +76,6 @@ internal static class Samples
 
     public static Transformation Move(double x, double y, double z) => Transformation.Identity with { Position = new(x, y, z) };
 
-    public static Transformation MoveAndScale(double x, double y, double z, double scale) => new(new(x, y, z), Vector.Zero, scale * Vector.One);
+    public static Transformation MoveAndScale(double x, double y, double z, double scale) =>
+        new(new(x, y, z), Vector.Zero, scale * Vector.One);
 }

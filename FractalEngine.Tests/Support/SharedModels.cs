@@ -11,7 +11,8 @@ internal static class SharedModels
     public static IEnumerable<(string File, int Vertices, int Triangles)> Table() =>
         from line in File.ReadLines(Path.Combine(Folder!, "TABLE.tsv")).Skip(1)
         let cells = line.Split('\t')
-        select (cells[0], int.Parse(cells[2], System.Globalization.CultureInfo.InvariantCulture), int.Parse(cells[4], System.Globalization.CultureInfo.InvariantCulture));
+        select (cells[0], int.Parse(cells[2], System.Globalization.CultureInfo.InvariantCulture),
+        int.Parse(cells[4], System.Globalization.CultureInfo.InvariantCulture));
 
     private static IEnumerable<string> Above(string folder)
     {

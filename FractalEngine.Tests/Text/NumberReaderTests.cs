@@ -17,7 +17,8 @@ public class NumberReaderTests
                 0 => $"{Sign(random)}{Digits(random, 1, 20)}.{Digits(random, 0, 20)}",
                 1 => $"{Sign(random)}{Digits(random, 1, 17)}e{random.Next(-345, 312)}",
                 2 => $"{Sign(random)}0.{new string('0', random.Next(0, 40))}{Digits(random, 1, 60)}E{(random.Next(2) == 0 ? "+" : "-")}{random.Next(0, 330):00}",
-                3 => BitConverter.Int64BitsToDouble(random.NextInt64()) switch { var d when double.IsFinite(d) => d.ToString("R", CultureInfo.InvariantCulture), _ => "1" },
+                3 => BitConverter.Int64BitsToDouble(random.NextInt64()) switch { var d when double.IsFinite(d) =>
+                    d.ToString("R", CultureInfo.InvariantCulture), _ => "1" },
                 _ => $"{Sign(random)}.{Digits(random, 1, 9)}",
             });
         }

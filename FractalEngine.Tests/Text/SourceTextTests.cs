@@ -38,7 +38,9 @@ public sealed class SourceTextTests : IDisposable
     [InlineData(false)]
     [InlineData(true)]
     public void Read_OfABinaryFile_IsRefusedInEveryEncoding(bool acceptLatin1) =>
-        Assert.Contains(": error: the file is binary", Errors.Of(() => Read([0x89, (byte)'P', (byte)'N', (byte)'G', 13, 10, 26, 10, 0, 0, 0, 13], acceptLatin1)), StringComparison.Ordinal);
+        Assert.Contains(": error: the file is binary",
+        Errors.Of(() => Read([0x89, (byte)'P', (byte)'N', (byte)'G', 13, 10, 26, 10, 0, 0, 0, 13], acceptLatin1)),
+        StringComparison.Ordinal);
 
     [Fact]
     public void Read_OfLatin1_IsRefusedWithItsPlace()
@@ -49,18 +51,22 @@ public sealed class SourceTextTests : IDisposable
     }
 
     [Fact]
-    public void Read_OfLatin1WhereAccepted_IsTheText() => Assert.Equal("# Größe", Read(Encoding.Latin1.GetBytes("# Größe"), acceptLatin1: true).Text);
+    public void Read_OfLatin1WhereAccepted_IsTheText() =>
+        Assert.Equal("# Größe", Read(Encoding.Latin1.GetBytes("# Größe"), acceptLatin1: true).Text);
 
     [Fact]
-    public void Read_OfUtf8WhereLatin1IsAccepted_IsStillUtf8() => Assert.Equal("# Größe", Read(Encoding.UTF8.GetBytes("# Größe"), acceptLatin1: true).Text);
+    public void Read_OfUtf8WhereLatin1IsAccepted_IsStillUtf8() =>
+        Assert.Equal("# Größe", Read(Encoding.UTF8.GetBytes("# Größe"), acceptLatin1: true).Text);
 
     [Fact]
-    public void Read_OfADirectory_SaysSo() => Errors.Are("named:1:1: error: this is a directory, expected a file", () => SourceText.Read(_folder.Path, "named", 100));
+    public void Read_OfADirectory_SaysSo() =>
+        Errors.Are("named:1:1: error: this is a directory, expected a file", () => SourceText.Read(_folder.Path, "named", 100));
 
     [Theory]
     [InlineData("missing.obj")]
     [InlineData("no/such/folder.obj")]
-    public void Read_OfAMissingFile_SaysSo(string name) => Errors.Are("named:1:1: error: file not found", () => SourceText.Read(_folder[name], "named", 100));
+    public void Read_OfAMissingFile_SaysSo(string name) =>
+        Errors.Are("named:1:1: error: file not found", () => SourceText.Read(_folder[name], "named", 100));
 
     [Fact]
     public void Read_BeyondTheLimit_NamesIt()
@@ -71,13 +77,15 @@ public sealed class SourceTextTests : IDisposable
     }
 
     [Fact]
-    public void Read_AtTheLimit_Succeeds() => Assert.Equal(100, SourceText.Read(_folder.Write("f", new string('#', 100)), "named", 100).Text.Length);
+    public void Read_AtTheLimit_Succeeds() =>
+        Assert.Equal(100, SourceText.Read(_folder.Write("f", new string('#', 100)), "named", 100).Text.Length);
 
     [SkippableFact]
     public void Read_OfADevice_IsRefused()
     {
         Skip.IfNot(File.Exists("/dev/zero"), "there is no /dev/zero");
-        Assert.Equal("named:1:1: error: this is a pipe or a device, expected a file", Errors.Thrown(() => SourceText.Read("/dev/zero", "named", 100)).Diagnostic.ToString());
+        Assert.Equal("named:1:1: error: this is a pipe or a device, expected a file",
+            Errors.Thrown(() => SourceText.Read("/dev/zero", "named", 100)).Diagnostic.ToString());
     }
 
     private SourceText Read(byte[] bytes, bool acceptLatin1 = false)

@@ -6,15 +6,18 @@ namespace FractalEngine.Tests.Visibility;
 public class CoverageBufferTests
 {
     [Fact]
-    public void IsHidden_OfRandomTriangles_IsTheAnswerOfEveryPixel() => Seeded.Run(80, random => Compare(random, TriangleOf(random, random.Next(4)), random.Next(1, 30)));
+    public void IsHidden_OfRandomTriangles_IsTheAnswerOfEveryPixel() =>
+        Seeded.Run(80, random => Compare(random, TriangleOf(random, random.Next(4)), random.Next(1, 30)));
 
     [Fact]
-    public void IsHidden_OfThinTriangles_IsNeverTrueWhereAPixelIsFarther() => Seeded.Run(80, random => Compare(random, ThinTriangle, random.Next(1, 10)));
+    public void IsHidden_OfThinTriangles_IsNeverTrueWhereAPixelIsFarther() =>
+        Seeded.Run(80, random => Compare(random, ThinTriangle, random.Next(1, 10)));
 
     [Fact]
     [Trait("Category", "Soak")]
     public void IsHidden_OfManyRandomTriangles_IsTheAnswerOfEveryPixel() =>
-        Seeded.Run(2_000, random => Compare(random, random.Next(3) == 0 ? ThinTriangle : TriangleOf(random, random.Next(4)), random.Next(1, 40)));
+        Seeded.Run(2_000,
+        random => Compare(random, random.Next(3) == 0 ? ThinTriangle : TriangleOf(random, random.Next(4)), random.Next(1, 40)));
 
     [Theory]
     [InlineData(0, 1, 1)]
@@ -83,7 +86,8 @@ public class CoverageBufferTests
             var corners = new (float, float, float)[3];
             for (var i = 0; i < 3; i++)
             {
-                corners[i] = (Snapped(x + random.Between(-size, size)), Snapped(y + random.Between(-size, size)), (float)random.Between(0.1, 1));
+                corners[i] = (Snapped(x + random.Between(-size, size)), Snapped(y + random.Between(-size, size)),
+                    (float)random.Between(0.1, 1));
             }
 
             return corners;
@@ -105,7 +109,8 @@ public class CoverageBufferTests
         [
             (Snapped(x1), Snapped(y1), (float)random.Between(0.1, 1)),
             (Snapped(x2), Snapped(y2), (float)random.Between(0.1, 1)),
-            (Snapped(x1 + (share * (x2 - x1)) + (random.Next(-1, 2) * step)), Snapped(y1 + (share * (y2 - y1)) + (random.Next(-1, 2) * step)), (float)random.Between(0.1, 1)),
+            (Snapped(x1 + (share * (x2 - x1)) + (random.Next(-1, 2) * step)),
+            Snapped(y1 + (share * (y2 - y1)) + (random.Next(-1, 2) * step)), (float)random.Between(0.1, 1)),
         ];
     }
 
@@ -137,18 +142,29 @@ public class CoverageBufferTests
                 var (x1, x2, y1, y2) = (random.Next(left, right), random.Next(left, right), random.Next(0, height), random.Next(0, height));
                 (x1, x2, y1, y2) = query < 3 ? (x1, x1, y1, y1) : (Math.Min(x1, x2), Math.Max(x1, x2), Math.Min(y1, y2), Math.Max(y1, y2));
                 var (least, most) = picture.FarthestIn(x1, y1, x2, y2);
-                var nearness = query % 2 == 0 || !double.IsFinite(least) ? (float)random.Between(0.1, 1) : (float)(least * random.Between(0.98, 1.02));
+                var nearness = query % 2 == 0 || !double.IsFinite(least)
+                    ? (float)random.Between(0.1, 1)
+                    : (float)(least * random.Between(0.98, 1.02));
                 var isHidden = buffer.IsOccluded(x1, y1, x2, y2, nearness);
-                Assert.True(!isHidden || most >= nearness, FormattableString.Invariant($"({x1}, {y1}) to ({x2}, {y2}) of columns {left} to {right} is said to be hidden at {nearness}; a pixel there has {most}"));
-                Assert.True(isHidden || least < nearness, FormattableString.Invariant($"({x1}, {y1}) to ({x2}, {y2}) of columns {left} to {right} is said not to be hidden at {nearness}; all pixels have {least}"));
+                Assert.True(!isHidden
+                    || most >= nearness,
+                    FormattableString.Invariant(
+                        $"({x1}, {y1}) to ({x2}, {y2}) of columns {left} to {right} is said to be hidden at {nearness}; a pixel there has {most}"));
+                Assert.True(isHidden
+                    || least < nearness,
+                    FormattableString.Invariant(
+                        $"({x1}, {y1}) to ({x2}, {y2}) of columns {left} to {right} is said not to be hidden at {nearness}; all pixels have {least}"));
             }
         }
     }
 
-    /// <summary>The same in double precision: at each pixel the least and the most that it can hold, given that single precision rounds.</summary>
+    /// <summary>
+    /// The same in double precision: at each pixel the least and the most that it can hold, given that single precision rounds.
+    /// </summary>
     private sealed class Oracle(int left, int right, int height)
     {
-        // Middles of pixels closer to an edge than this (pixels) may fall to either side; of nearness, in parts of its range on the triangle.
+        // Middles of pixels closer to an edge than this (pixels) may fall to either side; of nearness, in parts of its range on the
+        // triangle.
         private const double Edge = 1e-3;
         private const double Rounding = 2e-3;
 
@@ -225,7 +241,8 @@ public class CoverageBufferTests
             var weightB = ((cx - x) * (ay - y) - (cy - y) * (ax - x)) / area;
             var weightC = ((ax - x) * (by - y) - (ay - y) * (bx - x)) / area;
             var distance = Math.Min(
-                weightA * Math.Abs(area) / Length(bx - cx, by - cy), Math.Min(weightB * Math.Abs(area) / Length(cx - ax, cy - ay), weightC * Math.Abs(area) / Length(ax - bx, ay - by)));
+                weightA * Math.Abs(area) / Length(bx - cx, by - cy),
+                Math.Min(weightB * Math.Abs(area) / Length(cx - ax, cy - ay), weightC * Math.Abs(area) / Length(ax - bx, ay - by)));
             return (distance, (weightA * an) + (weightB * bn) + (weightC * cn));
         }
 

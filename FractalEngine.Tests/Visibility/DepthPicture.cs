@@ -4,7 +4,9 @@ using FractalEngine.Core.Visibility;
 
 namespace FractalEngine.Tests.Visibility;
 
-/// <summary>The nearest surface at the middle of each pixel, in double precision: every face of every instance, cut at the near and the far plane.</summary>
+/// <summary>
+/// The nearest surface at the middle of each pixel, in double precision: every face of every instance, cut at the near and the far plane.
+/// </summary>
 internal sealed class DepthPicture
 {
     private readonly CullingView _view;
@@ -14,7 +16,9 @@ internal sealed class DepthPicture
 
     /// <summary>Without any surface.</summary>
     /// <param name="view">How it is looked at.</param>
-    /// <param name="hasSamples">True for four samples a pixel, where graphics hardware has them: the picture then has twice the size.</param>
+    /// <param name="hasSamples">
+    /// True for four samples a pixel, where graphics hardware has them: the picture then has twice the size.
+    /// </param>
     public DepthPicture(CullingView view, bool hasSamples = false)
     {
         view = hasSamples ? view with { Width = 2 * view.Width, Height = 2 * view.Height } : view;

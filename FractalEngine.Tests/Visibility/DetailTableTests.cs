@@ -14,19 +14,23 @@ public class DetailTableTests
     /// <summary>Every fractal of the assets at a depth of at most some thousand instances.</summary>
     public static TheoryData<string, int> Assets => new()
     {
-        { "appendix-b", 2 }, { "appendix-b-structure", 2 }, { "diamond", 1 }, { "fern", 1 }, { "googol", 3 }, { "infinite-menger", 2 }, { "menger", 2 }, { "menger-3", 2 },
-        { "menger-4", 2 }, { "romanesco", 1 }, { "shell", -1 }, { "sierpinski", 3 }, { "snowflake", -1 }, { "terrain", 4 }, { "tetrahedron", 3 }, { "tree", 3 }, { "tree-leaves", 3 },
+        { "appendix-b", 2 }, { "appendix-b-structure", 2 }, { "diamond", 1 }, { "fern", 1 }, { "googol", 3 }, { "infinite-menger", 2 },
+        { "menger", 2 }, { "menger-3", 2 },
+        { "menger-4", 2 }, { "romanesco", 1 }, { "shell", -1 }, { "sierpinski", 3 }, { "snowflake", -1 }, { "terrain", 4 },
+        { "tetrahedron", 3 }, { "tree", 3 }, { "tree-leaves", 3 },
     };
 
     [Theory]
     [MemberData(nameof(Assets))]
-    public void Table_OfAnAsset_HasItsInstancesInItsBoxes(string name, int depth) => Check(depth < 0 ? AssetFractals.Load(name) : AssetFractals.Load(name, depth));
+    public void Table_OfAnAsset_HasItsInstancesInItsBoxes(string name, int depth) =>
+        Check(depth < 0 ? AssetFractals.Load(name) : AssetFractals.Load(name, depth));
 
     [Fact]
     public void Table_OfRandomFractals_HasTheirInstancesInTheirBoxes() => Seeded.Run(25, random => Check(RandomFractals.Draw(random)));
 
     [Fact]
-    public void Table_OfRandomFractalsComponentwise_HasTheirInstancesInTheirBoxes() => Seeded.Run(40, random => Check(RandomFractals.Draw(random, Composition.Componentwise)));
+    public void Table_OfRandomFractalsComponentwise_HasTheirInstancesInTheirBoxes() =>
+        Seeded.Run(40, random => Check(RandomFractals.Draw(random, Composition.Componentwise)));
 
     [Fact]
     [Trait("Category", "Soak")]
@@ -36,7 +40,9 @@ public class DetailTableTests
     [Fact]
     public void Table_OfRepetitionsInRepetitions_HasTheirInstancesInTheirBoxes() => Seeded.Run(30, random =>
     {
-        TransformationSet Set() => new([.. Enumerable.Range(0, random.Next(1, 3)).Select(_ => random.Next(3) == 0 ? Transformation.Identity : random.Transformation())]);
+        TransformationSet Set() =>
+            new([.. Enumerable.Range(0, random.Next(1, 3))
+            .Select(_ => random.Next(3) == 0 ? Transformation.Identity : random.Transformation())]);
         var inner = new Repetition([Set(), Set()], random.Next(0, 3));
         var middle = new Repetition([Set(), inner], random.Next(1, 3));
         Check(new(new("base.obj", [Set(), new Repetition([middle, Set()], random.Next(1, 3))]), Samples.Tetrahedron));
@@ -46,7 +52,10 @@ public class DetailTableTests
     public void Table_OfManyIdentitiesAndSums_HasEachComponentwiseInstanceOnce()
     {
         // Sums commute, so that most chains are equal to others.
-        var set = new TransformationSet([Transformation.Identity, Samples.Move(1, 0, 0), Samples.Move(0, 1, 0), new(new(0, 0, 1), new(10, 20, 30), 0.9 * Vector.One)]);
+        var set =
+            new TransformationSet(
+                [Transformation.Identity, Samples.Move(1, 0, 0), Samples.Move(0, 1, 0),
+                new(new(0, 0, 1), new(10, 20, 30), 0.9 * Vector.One)]);
         Check(new(new("base.obj", [new Repetition([set], 9)], Composition.Componentwise), Samples.Tetrahedron));
     }
 
@@ -91,7 +100,10 @@ public class DetailTableTests
     public void Table_OfOnePoint_HoldsIt()
     {
         var point = new Mesh([1, 2, 3], [0, 0, 0]);
-        var table = LodHierarchy.Build(new Fractal(Samples.Repeated(4, Samples.MoveAndScale(1, 0, 0, 0.5), Samples.MoveAndScale(0, 1, 0, -0.5)).Description, point));
+        var table =
+            LodHierarchy.Build(
+                new Fractal(Samples.Repeated(4, Samples.MoveAndScale(1, 0, 0, 0.5), Samples.MoveAndScale(0, 1, 0, -0.5)).Description,
+                point));
         Assert.Equal(16, Expand(table).Count);
         Assert.True(table.NodeAt(table.LevelCount).Box.Size.IsFinite());
     }
@@ -99,8 +111,10 @@ public class DetailTableTests
     [Fact]
     public void Table_OfAFractalThatGrowsWithoutEnd_IsRefused()
     {
-        Assert.Throws<FractalLimitException>(() => LodHierarchy.Build(Samples.Repeated(null, Samples.MoveAndScale(1, 0, 0, 2), Samples.MoveAndScale(0, 1, 0, 0.5))));
-        Assert.Throws<FractalLimitException>(() => LodHierarchy.Build(Samples.Repeated(null, Samples.Move(1, 0, 0), Samples.MoveAndScale(0, 1, 0, 0.5))));
+        Assert.Throws<FractalLimitException>(
+            () => LodHierarchy.Build(Samples.Repeated(null, Samples.MoveAndScale(1, 0, 0, 2), Samples.MoveAndScale(0, 1, 0, 0.5))));
+        Assert.Throws<FractalLimitException>(
+            () => LodHierarchy.Build(Samples.Repeated(null, Samples.Move(1, 0, 0), Samples.MoveAndScale(0, 1, 0, 0.5))));
         Assert.Throws<FractalLimitException>(() => LodHierarchy.Build(Samples.Repeated(10_000, Samples.MoveAndScale(1, 0, 0, 2))));
     }
 
@@ -130,7 +144,8 @@ public class DetailTableTests
         // What equal chains give in general is undecidable; identities of one repetition are promised to give nothing twice.
         if (!RepeatsIdentities(fractal.Description))
         {
-            Assert.True(expected.Length == found.Count, $"{found.Count} instances for {expected.Length} distinct ones of {fractal.InstanceCount}");
+            Assert.True(expected.Length == found.Count,
+                $"{found.Count} instances for {expected.Length} distinct ones of {fractal.InstanceCount}");
         }
         var seen = new HashSet<long>();
         CheckBoxes(table, table.LevelCount, seen);
@@ -138,7 +153,8 @@ public class DetailTableTests
 
     /// <summary>True where a set with the identity comes again after its repetition has ended, as in repetitions of repetitions.</summary>
     private static bool RepeatsIdentities(FractalDescription description) => description.Composition == Composition.Affine
-        && description.Steps.OfType<Repetition>().Any(repetition => repetition.NestingDepth > 1 && Naive.Levels([repetition]).Any(level => level.Any(map => map.IsIdentity)));
+        && description.Steps.OfType<Repetition>()
+        .Any(repetition => repetition.NestingDepth > 1 && Naive.Levels([repetition]).Any(level => level.Any(map => map.IsIdentity)));
 
     private static List<AffineMap> Expand(LodHierarchy table)
     {
@@ -166,7 +182,8 @@ public class DetailTableTests
         }
     }
 
-    private static long Below(LodNode state, int child, long levels) => state.ChildLevelSteps[child] < 0 ? ~state.ChildLevelSteps[child] : levels - state.ChildLevelSteps[child];
+    private static long Below(LodNode state, int child, long levels) =>
+        state.ChildLevelSteps[child] < 0 ? ~state.ChildLevelSteps[child] : levels - state.ChildLevelSteps[child];
 
     /// <summary>Each state's box holds all vertices of what it is expanded to, and its children's boxes those of the children.</summary>
     private static void CheckBoxes(LodHierarchy table, long levels, HashSet<long> seen)
@@ -189,7 +206,9 @@ public class DetailTableTests
             var below = Below(state, i, levels);
             Expand(table.NodeAt, below, state.ChildMaps[i].ToAffineMap(), child);
             var start = (i / LodNode.Lanes * LodNode.Lanes * LodNode.BoxRows) + (i % LodNode.Lanes);
-            Vector Row(int row) => new(state.ChildBoxes[start + (row * 8)], state.ChildBoxes[start + ((row + 1) * 8)], state.ChildBoxes[start + ((row + 2) * 8)]);
+            Vector Row(int row) =>
+                new(state.ChildBoxes[start + (row * 8)], state.ChildBoxes[start + ((row + 1) * 8)],
+                state.ChildBoxes[start + ((row + 2) * 8)]);
             var centre = state.Box.Centre + Row(0);
             // Documented to hold the copies as they are, in single precision: no tolerance but that of the sums here.
             AssertHeld(table.Mesh, child, new(centre - Row(3), centre + Row(3)), rounding, $"copy {i} with {levels} levels left");

@@ -11,7 +11,8 @@ namespace FractalEngine.Tests.Visibility;
 internal static class DetailViews
 {
     /// <summary>Everything is drawn.</summary>
-    public static readonly CullingSettings Everything = new() { MinProjectedSize = 0, FrustumCulling = false, OcclusionCulling = false, ThreadCount = 1 };
+    public static readonly CullingSettings Everything = new() { MinProjectedSize = 0, FrustumCulling = false, OcclusionCulling = false,
+        ThreadCount = 1 };
 
     public static CulledObject Object(Fractal fractal) => Object(fractal, AffineMap.Identity);
 
@@ -19,14 +20,17 @@ internal static class DetailViews
         new(LodHierarchy.Build(fractal), map, fractal.BaseMesh.FaceCount == 0 ? Vector.Zero : fractal.BaseMesh.Bounds.Centre, solidSign);
 
     /// <summary>From a place towards another.</summary>
-    public static CullingView Look(Vector from, Vector to, bool isPerspective = true, int width = 160, int height = 120, double near = 0.01, double far = 1e4, double halfHeight = 0.5) => new(
-        from, CameraFraming.LookRotation(to - from).LocalAxes(), isPerspective, halfHeight, width, height, (double)width / height, near, far);
+    public static CullingView Look(Vector from, Vector to, bool isPerspective = true, int width = 160, int height = 120, double near = 0.01,
+        double far = 1e4, double halfHeight = 0.5) => new(
+        from, CameraFraming.LookRotation(to - from).LocalAxes(), isPerspective, halfHeight, width, height, (double)width / height, near,
+        far);
 
     /// <summary>Shows a whole box from some side.</summary>
     public static CullingView Around(BoundingBox box, Vector direction, bool isPerspective = true, int width = 160, int height = 120)
     {
         var size = Math.Max(box.Diagonal, 1e-300);
-        return Look(box.Centre - (1.5 * size * direction.UnitVector()), box.Centre, isPerspective, width, height, 0.5 * size, 3 * size, isPerspective ? 0.5 : 0.6 * size);
+        return Look(box.Centre - (1.5 * size * direction.UnitVector()), box.Centre, isPerspective, width, height, 0.5 * size, 3 * size,
+            isPerspective ? 0.5 : 0.6 * size);
     }
 
     /// <summary>A view of a fractal from anywhere: around it, near it, within it; both projections; planes that often cut it.</summary>
@@ -43,7 +47,9 @@ internal static class DetailViews
         var isPerspective = random.Next(3) > 0;
         var near = (random.Next(2) == 0 ? 1e-3 : random.Between(0, 1)) * size;
         return Look(
-            from, to, isPerspective, width, height, Math.Max(near, 1e-6 * size), near + (random.Between(0.2, 4) * size), isPerspective ? random.Between(0.2, 1) : random.Between(0.1, 0.7) * size);
+            from, to, isPerspective, width, height, Math.Max(near, 1e-6 * size), near + (random.Between(0.2, 4) * size), isPerspective
+            ? random.Between(0.2, 1)
+            : random.Between(0.1, 0.7) * size);
     }
 
     /// <summary>What was chosen of an object: maps from the frame of the base mesh to world axes about the camera.</summary>
@@ -55,7 +61,8 @@ internal static class DetailViews
             var rows = set.Instances(index, part);
             for (var i = 0; i < rows.Length; i += VisibleSet.FloatsPerInstance)
             {
-                var linear = Matrix.FromRows(new(rows[i], rows[i + 1], rows[i + 2]), new(rows[i + 4], rows[i + 5], rows[i + 6]), new(rows[i + 8], rows[i + 9], rows[i + 10]));
+                var linear = Matrix.FromRows(new(rows[i], rows[i + 1], rows[i + 2]), new(rows[i + 4], rows[i + 5], rows[i + 6]),
+                    new(rows[i + 8], rows[i + 9], rows[i + 10]));
                 maps.Add(new(linear, new Vector(rows[i + 3], rows[i + 7], rows[i + 11]) - (linear * item.VertexOrigin)));
             }
         }
@@ -65,7 +72,8 @@ internal static class DetailViews
 
     /// <summary>All bits of what was chosen, object after object and part after part.</summary>
     public static float[] Bits(VisibleSet set, int objects) =>
-        [.. from item in Enumerable.Range(0, objects) from part in Enumerable.Range(0, VisibleSet.ChunkCount) from number in set.Instances(item, part).ToArray() select number];
+        [.. from item in Enumerable.Range(0, objects) from part in Enumerable.Range(0, VisibleSet.ChunkCount) from number in set.Instances(
+            item, part).ToArray() select number];
 
     /// <summary>The distinct instances of an object as maps to world axes about the camera.</summary>
     public static AffineMap[] Expected(Fractal fractal, AffineMap map, in CullingView view)
@@ -75,8 +83,8 @@ internal static class DetailViews
     }
 
     /// <summary>
-    /// For each expected map how often it was chosen. Rows are single floats, of maps that were composed in another order: they may differ by a
-    /// few units in the seventh place of the largest entry of their kind.
+    /// For each expected map how often it was chosen. Rows are single floats, of maps that were composed in another order: they may differ
+    /// by a few units in the seventh place of the largest entry of their kind.
     /// </summary>
     /// <param name="expected">All maps.</param>
     /// <param name="chosen">What must be found among them.</param>
@@ -104,7 +112,8 @@ internal static class DetailViews
             for (place = place < 0 ? ~place : place; place < keys.Length && keys[place] <= map.Translation.X + length; place++)
             {
                 var other = expected[order[place]];
-                var difference = Math.Max(Near.Difference(map.Translation, other.Translation) / length, Near.Difference(map.Linear, other.Linear) / factor);
+                var difference = Math.Max(Near.Difference(map.Translation, other.Translation) / length,
+                    Near.Difference(map.Linear, other.Linear) / factor);
                 // Of several that are equal within rounding (an overlap of copies) the one that is not taken yet.
                 if (difference <= 1 && (counts[order[place]], difference).CompareTo((best < 0 ? int.MaxValue : counts[best], nearest)) < 0)
                 {
@@ -128,10 +137,14 @@ internal static class DetailViews
             $"{chosen.Count} chosen of {expected.Length} instances: {counts.Count(count => count == 0)} are missing, {counts.Count(count => count > 1)} are there more than once");
     }
 
-    /// <summary>Places that differ by more than rounding, so that <see cref="Count(AffineMap[], IReadOnlyList{AffineMap})"/> tells them apart.</summary>
+    /// <summary>
+    /// Places that differ by more than rounding, so that <see cref="Count(AffineMap[], IReadOnlyList{AffineMap})"/> tells them apart.
+    /// </summary>
     public static Fractal Menger(int? depth) => new(
-        new("cube.obj", [new Repetition([new TransformationSet([.. from x in (int[])[-1, 0, 1] from y in (int[])[-1, 0, 1] from z in (int[])[-1, 0, 1]
-            where Math.Abs(x) + Math.Abs(y) + Math.Abs(z) >= 2 select Samples.MoveAndScale(2 * x / 3.0, 2 * y / 3.0, 2 * z / 3.0, 1 / 3.0)])], depth)]),
+        new("cube.obj",
+        [new Repetition([new TransformationSet([.. from x in (int[])[-1, 0, 1] from y in (int[])[-1, 0, 1] from z in (int[])[-1, 0, 1]
+            where Math.Abs(x) + Math.Abs(y)
+            + Math.Abs(z) >= 2 select Samples.MoveAndScale(2 * x / 3.0, 2 * y / 3.0, 2 * z / 3.0, 1 / 3.0)])], depth)]),
         Cube);
 
     /// <summary>From −1 to 1, wound outwards.</summary>

@@ -57,11 +57,13 @@ public class VisibleSetLimitTests
     [InlineData(0.99, 3, 3000, 20_000)]
     [InlineData(0.9, 3, 3000, 20_000)]
     [InlineData(0.9, 3, 3000, 1_000_000)]
-    public void Fill_OfSeveralMapsThatHardlyShrink_EndsSoon(double factor, int maps, int depth, int budget) => FillHardlyShrinking(factor, maps, depth, budget, 20);
+    public void Fill_OfSeveralMapsThatHardlyShrink_EndsSoon(double factor, int maps, int depth, int budget) =>
+        FillHardlyShrinking(factor, maps, depth, budget, 20);
 
     private static void FillHardlyShrinking(double factor, int maps, int depth, int budget, double seconds)
     {
-        var set = Enumerable.Range(0, maps).Select(i => new Transformation(new(0.02 * i, 0.1, 0.03 * i), new(0, 20 * i, 7), factor * Vector.One)).ToArray();
+        var set = Enumerable.Range(0, maps)
+            .Select(i => new Transformation(new(0.02 * i, 0.1, 0.03 * i), new(0, 20 * i, 7), factor * Vector.One)).ToArray();
         LodHierarchy table;
         try
         {
@@ -138,7 +140,8 @@ public class VisibleSetLimitTests
         {
             var sets = sizes.Select(factor =>
             {
-                var view = DetailViews.Look(factor * new Vector(1.3, 0.9, -2.4), Vector.Zero, isPerspective, 400, 300, 0.3 * factor, 10 * factor, isPerspective ? 0.5 : 1.2 * factor);
+                var view = DetailViews.Look(factor * new Vector(1.3, 0.9, -2.4), Vector.Zero, isPerspective, 400, 300, 0.3 * factor,
+                    10 * factor, isPerspective ? 0.5 : 1.2 * factor);
                 var set = new VisibleSet();
                 set.Cull(in view, [new(table, new(factor * Matrix.Identity, Vector.Zero), Vector.Zero, 1)], Ordinary);
                 return set;
@@ -158,7 +161,8 @@ public class VisibleSetLimitTests
         var counts = ((Vector[])[Vector.Zero, new(1e6, -1e6, 1e6)]).Select(place =>
         {
             var set = new VisibleSet();
-            var view = DetailViews.Look(place + new Vector(1.3, 0.9, -2.4), place, true, 400, 300) with { Axes = DetailViews.Look(new(1.3, 0.9, -2.4), Vector.Zero).Axes };
+            var view = DetailViews.Look(place + new Vector(1.3, 0.9, -2.4), place, true, 400,
+                300) with { Axes = DetailViews.Look(new(1.3, 0.9, -2.4), Vector.Zero).Axes };
             set.Cull(in view, [new(table, AffineMap.Translate(place), Vector.Zero, 1)], Ordinary);
             return set.InstanceCount;
         }).ToArray();
@@ -185,7 +189,8 @@ public class VisibleSetLimitTests
             return;
         }
 
-        var set = FillTimed(new(table, random.Transformation(0.5, 2).ToAffineMap(), Vector.Zero, 0), DetailViews.Random(random, box, 400, 300), Ordinary with { InstanceBudget = 50_000, IsMultisampled = random.Next(2) == 0 }, 5);
+        var set = FillTimed(new(table, random.Transformation(0.5, 2).ToAffineMap(), Vector.Zero, 0),
+            DetailViews.Random(random, box, 400, 300), Ordinary with { InstanceBudget = 50_000, IsMultisampled = random.Next(2) == 0 }, 5);
         Assert.InRange(set.InstanceCount, 0, 50_000);
     });
 
@@ -218,7 +223,8 @@ public class VisibleSetLimitTests
         var set = new VisibleSet();
         var watch = Stopwatch.StartNew();
         set.Cull(in view, [item], settings);
-        Assert.True(watch.Elapsed.TotalSeconds < seconds, $"took {watch.Elapsed}: {set.InstanceCount} instances, {set.Statistics}, {set.MinProjectedSize} pixels");
+        Assert.True(watch.Elapsed.TotalSeconds < seconds,
+            $"took {watch.Elapsed}: {set.InstanceCount} instances, {set.Statistics}, {set.MinProjectedSize} pixels");
         Assert.DoesNotContain(DetailViews.Bits(set, 1), number => !float.IsFinite(number));
         return set;
     }

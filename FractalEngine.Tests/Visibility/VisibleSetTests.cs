@@ -38,7 +38,8 @@ public class VisibleSetTests
         for (var i = 0; i < expected.Length; i++)
         {
             Assert.True(counts[i] <= 1, $"instance {i} of {expected.Length} was chosen {counts[i]} times");
-            Assert.True(counts[i] == 1 || IsOutside(in view, fractal.BaseMesh, expected[i]), $"instance {i} of {expected.Length} was left out, and is not outside");
+            Assert.True(counts[i] == 1 || IsOutside(in view, fractal.BaseMesh, expected[i]),
+                $"instance {i} of {expected.Length} was left out, and is not outside");
         }
     });
 
@@ -47,11 +48,15 @@ public class VisibleSetTests
     [InlineData(true)]
     public void Fill_SkippingHidden_LeavesOutWhatShowsNoPixel(bool hasSamples) => Seeded.Run(40, random =>
     {
-        var fractal = random.Next(3) switch { 0 => RandomFractal(random), 1 => AssetFractals.Load("sierpinski", 2), _ => DetailViews.Menger(2) };
+        var fractal = random.Next(3) switch { 0 => RandomFractal(random), 1 => AssetFractals.Load("sierpinski", 2), _ =>
+            DetailViews.Menger(2) };
         var map = random.Transformation(0.5, 2).ToAffineMap();
-        var sign = ReferenceEquals(fractal.BaseMesh, DetailViews.Cube) || ReferenceEquals(fractal.BaseMesh, Samples.Tetrahedron) ? random.Next(2) : 0;
+        var sign = ReferenceEquals(fractal.BaseMesh, DetailViews.Cube) || ReferenceEquals(fractal.BaseMesh, Samples.Tetrahedron)
+            ? random.Next(2)
+            : 0;
         var view = DetailViews.Random(random, fractal.Bounds.Transform(map), random.Next(8, 200), random.Next(1, 160));
-        CheckPicture(fractal.BaseMesh, DetailViews.Object(fractal, map, sign), DetailViews.Expected(fractal, map, in view), in view, DetailViews.Everything with
+        CheckPicture(fractal.BaseMesh, DetailViews.Object(fractal, map, sign), DetailViews.Expected(fractal, map, in view), in view,
+            DetailViews.Everything with
         {
             OcclusionCulling = true,
             FrustumCulling = random.Next(2) == 0,
@@ -97,7 +102,8 @@ public class VisibleSetTests
                 Assert.All(counts, count => Assert.InRange(count, 0, 1));
                 for (var j = 0; j < expected.Length; j++)
                 {
-                    Assert.True(counts[j] == 1 || VisiblePixels(truth, in view, expected[j]) <= 2, $"a transparent instance of object {i} was left out");
+                    Assert.True(counts[j] == 1 || VisiblePixels(truth, in view, expected[j]) <= 2,
+                        $"a transparent instance of object {i} was left out");
                 }
             }
         }
@@ -109,9 +115,12 @@ public class VisibleSetTests
     public void Fill_OnAnyNumberOfThreadsAndAgain_GivesTheSameBits() => Seeded.Run(8, random =>
     {
         var fractals = new[] { DetailViews.Menger(4), RandomFractal(random), AssetFractals.Load("tree", 6) };
-        var objects = fractals.Select(fractal => DetailViews.Object(fractal, random.Transformation(0.5, 2).ToAffineMap(), random.Next(2))).ToArray();
-        var view = DetailViews.Random(random, objects.Select((item, i) => fractals[i].Bounds.Transform(item.ObjectToWorld)).Aggregate(BoundingBox.Union), 400, 300);
-        var settings = new CullingSettings { ThreadCount = 1, IsMultisampled = random.Next(2) == 0, OcclusionCulling = random.Next(4) > 0, InstanceBudget = random.Next(2) == 0 ? 1_000_000 : 500 };
+        var objects = fractals.Select(fractal => DetailViews.Object(fractal, random.Transformation(0.5, 2).ToAffineMap(), random.Next(2)))
+            .ToArray();
+        var view = DetailViews.Random(random, objects.Select((item, i) => fractals[i].Bounds.Transform(item.ObjectToWorld))
+            .Aggregate(BoundingBox.Union), 400, 300);
+        var settings = new CullingSettings { ThreadCount = 1, IsMultisampled = random.Next(2) == 0, OcclusionCulling = random.Next(4) > 0,
+            InstanceBudget = random.Next(2) == 0 ? 1_000_000 : 500 };
         var set = new VisibleSet();
         set.Cull(in view, objects, settings);
         var (first, cost) = (DetailViews.Bits(set, 3), set.Statistics);
@@ -145,7 +154,8 @@ public class VisibleSetTests
         foreach (var hasSamples in (bool[])[false, true])
         {
             var set = new VisibleSet();
-            set.Cull(in view, [item], DetailViews.Everything with { FrustumCulling = true, OcclusionCulling = skipsHidden, IsMultisampled = hasSamples });
+            set.Cull(in view, [item],
+                DetailViews.Everything with { FrustumCulling = true, OcclusionCulling = skipsHidden, IsMultisampled = hasSamples });
             DetailViews.AssertEachOnce(DetailViews.Expected(fractal, AffineMap.Identity, in view), DetailViews.Chosen(set, item));
         }
     }
@@ -194,7 +204,8 @@ public class VisibleSetTests
     [InlineData(1000)]
     public void Fill_BeyondTheBudget_ChoosesNoMoreAndSaysSo(int budget)
     {
-        foreach (var fractal in (Fractal[])[DetailViews.Menger(5), DetailViews.Menger(null), AssetFractals.Load("tree"), AssetFractals.Load("fern"), AssetFractals.Load("appendix-b")])
+        foreach (var fractal in (Fractal[])[DetailViews.Menger(5), DetailViews.Menger(null), AssetFractals.Load("tree"),
+            AssetFractals.Load("fern"), AssetFractals.Load("appendix-b")])
         {
             var view = DetailViews.Around(fractal.Bounds, new(0.4, 0.3, 1), true, 400, 300);
             var set = new VisibleSet();
@@ -213,7 +224,9 @@ public class VisibleSetTests
     public async Task Fill_WithMoreObjectsThanTheBudget_Ends()
     {
         // Each object is one instance at least, however coarse: the budget can only be approached ("avoided by raising").
-        var objects = Enumerable.Range(0, 10).Select(i => new CulledObject(LodHierarchy.Build(DetailViews.Cube), AffineMap.Translate(new(3 * i, 0, 0)), Vector.Zero, 1)).ToArray();
+        var objects = Enumerable.Range(0, 10)
+            .Select(i => new CulledObject(LodHierarchy.Build(DetailViews.Cube), AffineMap.Translate(new(3 * i, 0, 0)), Vector.Zero, 1))
+            .ToArray();
         var view = DetailViews.Look(new(15, 0, -40), new(15, 0, 0));
         var fill = Task.Run(() =>
         {
@@ -228,9 +241,13 @@ public class VisibleSetTests
     [Fact]
     public void Fill_AfterTheFirstPictures_AllocatesNothing()
     {
-        var objects = new[] { DetailViews.Object(DetailViews.Menger(5), AffineMap.Identity, 1), DetailViews.Object(AssetFractals.Load("tree"), AffineMap.Translate(new(0, 0, 3))) };
+        var objects = new[] { DetailViews.Object(DetailViews.Menger(5), AffineMap.Identity, 1),
+            DetailViews.Object(AssetFractals.Load("tree"), AffineMap.Translate(new(0, 0, 3))) };
         var settings = new CullingSettings { ThreadCount = 1 };
-        var views = Enumerable.Range(0, 6).Select(i => DetailViews.Look(new(3 * Math.Sin(i), 1, -3 * Math.Cos(i)), Vector.Zero, i % 3 > 0, 320, 240, halfHeight: i % 3 > 0 ? 0.5 : 2)).ToArray();
+        var views = Enumerable.Range(0, 6)
+            .Select(i => DetailViews.Look(new(3 * Math.Sin(i), 1, -3 * Math.Cos(i)), Vector.Zero, i % 3 > 0, 320, 240, halfHeight: i % 3 > 0
+            ? 0.5
+            : 2)).ToArray();
         var set = new VisibleSet();
         void FillAll()
         {
@@ -253,13 +270,15 @@ public class VisibleSetTests
     {
         var item = DetailViews.Object(DetailViews.Menger(2), AffineMap.Identity, 1);
         var set = new VisibleSet();
-        foreach (var (width, height) in ((int, int)[])[(1, 1), (2, 3), (3, 1), (5, 7), (7, 9), (8, 8), (9, 1), (15, 17), (17, 300), (300, 1), (1, 300), (4, 400)])
+        foreach (var (width, height) in ((int, int)[])[(1, 1), (2, 3), (3, 1), (5, 7), (7, 9), (8, 8), (9, 1), (15, 17), (17, 300),
+            (300, 1), (1, 300), (4, 400)])
         {
             foreach (var hasSamples in (bool[])[false, true])
             {
                 foreach (var isPerspective in (bool[])[false, true])
                 {
-                    var view = DetailViews.Look(new(1.1, 0.9, -3), Vector.Zero, isPerspective, width, height, halfHeight: 0.4 * Math.Min(1, (double)height / width));
+                    var view = DetailViews.Look(new(1.1, 0.9, -3), Vector.Zero, isPerspective, width, height,
+                        halfHeight: 0.4 * Math.Min(1, (double)height / width));
                     set.Cull(in view, [item], new() { IsMultisampled = hasSamples, ThreadCount = 1 });
                     // The samples of a single row may all miss what is smaller than a pixel.
                     Assert.True(set.InstanceCount > 0 || Math.Min(width, height) == 1, $"{width}×{height}: nothing was chosen");
@@ -321,8 +340,10 @@ public class VisibleSetTests
         var slack = 1e-2 * Math.Max(1 / view.PixelsPerUnitX, 1 / view.PixelsPerUnitY);
         double Reach(Vector corner) => isPerspective ? corner.Z : 1;
         return corners.All(corner => corner.Z < near * (1 + 1e-6)) || corners.All(corner => corner.Z > far * (1 - 1e-6))
-            || corners.All(corner => corner.X > (halfX - slack) * Reach(corner)) || corners.All(corner => -corner.X > (halfX - slack) * Reach(corner))
-            || corners.All(corner => corner.Y > (halfY - slack) * Reach(corner)) || corners.All(corner => -corner.Y > (halfY - slack) * Reach(corner));
+            || corners.All(corner => corner.X > (halfX - slack) * Reach(corner))
+            || corners.All(corner => -corner.X > (halfX - slack) * Reach(corner))
+            || corners.All(corner => corner.Y > (halfY - slack) * Reach(corner))
+            || corners.All(corner => -corner.Y > (halfY - slack) * Reach(corner));
     }
 
     private static void CheckPicture(Mesh mesh, CulledObject item, AffineMap[] expected, in CullingView view, CullingSettings settings)
@@ -355,7 +376,8 @@ public class VisibleSetTests
             different += depth.Equals(found) || Math.Abs(depth - found) <= SameDepth * (view.IsPerspective ? depth : view.Far) ? 0 : 1;
         }
 
-        Assert.True(different <= 2 + (OutlinePixels * truth.Winner.Length), $"{different} of {truth.Winner.Length} pixels ({view.Width}×{view.Height}) show something else with {what}");
+        Assert.True(different <= 2 + (OutlinePixels * truth.Winner.Length),
+            $"{different} of {truth.Winner.Length} pixels ({view.Width}×{view.Height}) show something else with {what}");
     }
 
     /// <summary>Pixels at which an instance is clearly nearer than everything in a picture.</summary>

@@ -23,10 +23,12 @@ public sealed class HierarchyCollider(Mesh mesh) : Collider
     internal override bool SupportsTransformedQueries => true;
 
     /// <inheritdoc/>
-    internal override bool FindClosestTransformed(Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
+    internal override bool FindClosestTransformed(Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context,
+        out ClosestPoint closest)
     {
         var (closestDistanceSquared, closestFace, faceTests, boundTests) = (InitialCutoffSquared(maxDistance), -1, 0L, 0L);
-        _bvh.FindClosestTransformed(position, in map, ref closestDistanceSquared, ref closestFace, (1 + epsilon) * (1 + epsilon), ref faceTests, ref boundTests);
+        _bvh.FindClosestTransformed(position, in map, ref closestDistanceSquared, ref closestFace, (1 + epsilon) * (1 + epsilon),
+            ref faceTests, ref boundTests);
         if (closestFace < 0 && NeedsExactRetry(maxDistance, epsilon))
         {
             _bvh.FindClosestTransformed(position, in map, ref closestDistanceSquared, ref closestFace, 1, ref faceTests, ref boundTests);
@@ -38,10 +40,12 @@ public sealed class HierarchyCollider(Mesh mesh) : Collider
     }
 
     /// <inheritdoc/>
-    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
+    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
+        out ClosestPoint closest)
     {
         var (closestDistanceSquared, closestFace, faceTests, boundTests) = (InitialCutoffSquared(maxDistance), -1, 0L, 0L);
-        _bvh.FindClosest(position, ref closestDistanceSquared, ref closestFace, (1 + epsilon) * (1 + epsilon), ref faceTests, ref boundTests);
+        _bvh.FindClosest(position, ref closestDistanceSquared, ref closestFace, (1 + epsilon) * (1 + epsilon), ref faceTests,
+            ref boundTests);
         if (closestFace < 0 && NeedsExactRetry(maxDistance, epsilon))
         {
             _bvh.FindClosest(position, ref closestDistanceSquared, ref closestFace, 1, ref faceTests, ref boundTests);

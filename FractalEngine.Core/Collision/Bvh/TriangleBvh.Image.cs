@@ -17,7 +17,8 @@ internal sealed partial class TriangleBvh
     /// <param name="faceTests">Increased by the faces looked at.</param>
     /// <param name="boundTests">Increased by the bounds looked at.</param>
     public void FindClosestTransformed(
-        Vector position, in AffineMap map, ref double closestDistanceSquared, ref int closestFace, double boundFactor, ref long faceTests, ref long boundTests)
+        Vector position, in AffineMap map, ref double closestDistanceSquared, ref int closestFace, double boundFactor, ref long faceTests,
+        ref long boundTests)
     {
         if (_mesh.FaceCount <= MaxBruteForceFaces)
         {
@@ -37,7 +38,8 @@ internal sealed partial class TriangleBvh
         var boxes = _nodeBounds.AsSpan(node * BvhLayout.VectorsPerNode, BvhLayout.VectorsPerNode);
         var inverseScale = 1 / _scale;
         var fromOrigin = VectorX4.Broadcast(state.Position - (map * _origin));
-        var (v1, v2, v3) = (VectorX4.Broadcast(inverseScale * map.Linear.V1), VectorX4.Broadcast(inverseScale * map.Linear.V2), VectorX4.Broadcast(inverseScale * map.Linear.V3));
+        var (v1, v2, v3) = (VectorX4.Broadcast(inverseScale * map.Linear.V1), VectorX4.Broadcast(inverseScale * map.Linear.V2),
+            VectorX4.Broadcast(inverseScale * map.Linear.V3));
         Span<double> bounds = stackalloc double[TriangleBvhBuilder.BranchingFactor];
         var half = Vector256.Create(0.5);
         for (var halfIndex = 0; halfIndex < 2; halfIndex++)
@@ -76,7 +78,8 @@ internal sealed partial class TriangleBvh
             var encodedLeaf = (uint)~next;
             var leaf = (int)(encodedLeaf / TriangleBvhBuilder.MaxLeafTriangles);
             state.FaceTests += (encodedLeaf % TriangleBvhBuilder.MaxLeafTriangles) + 1;
-            TryUpdateClosest(TransformedDistancesSquared(leaf, in state.Position, in map), leaf, ref state.ClosestDistanceSquared, ref state.ClosestFace);
+            TryUpdateClosest(TransformedDistancesSquared(leaf, in state.Position, in map), leaf, ref state.ClosestDistanceSquared,
+                ref state.ClosestFace);
         }
     }
 
@@ -89,7 +92,8 @@ internal sealed partial class TriangleBvh
     /// <param name="closestDistanceSquared">As in <see cref="FindClosest"/>.</param>
     /// <param name="closestFace">As in <see cref="FindClosest"/>.</param>
     /// <param name="faceTests">Increased by the faces of the mesh.</param>
-    public void TestAllTransformedTriangles(Vector position, in AffineMap map, ref double closestDistanceSquared, ref int closestFace, ref long faceTests)
+    public void TestAllTransformedTriangles(Vector position, in AffineMap map, ref double closestDistanceSquared, ref int closestFace,
+        ref long faceTests)
     {
         for (var leaf = 0; leaf < _leaves.Length; leaf++)
         {

@@ -13,9 +13,11 @@ namespace FractalEngine.Core.Collision.Bvh;
 /// <remarks>
 /// Boxes are floats relative to the mesh's centre and size, rounded outwards, and a position becomes an interval of floats that holds
 /// it, so that a box's distance comes out too large by no more than the rounding of four sums and three products. The limit that it is
-/// compared with is raised by more than that and by more than the rounding of the kernel (see <see cref="CutoffCoefficients"/>): no box is passed over whose faces
-/// could be nearer. Positions so far away that an interval of floats would hold all boxes are compared in double precision.
-/// <para>Faces are looked at in double precision, four at once, where the mesh has them; meshes of up to 64 faces keep what they can in advance.</para>
+/// compared with is raised by more than that and by more than the rounding of the kernel (see <see cref="CutoffCoefficients"/>): no box is
+/// passed over whose faces could be nearer. Positions so far away that an interval of floats would hold all boxes are compared in double
+/// precision.
+/// <para>Faces are looked at in double precision, four at once, where the mesh has them; meshes of up to 64 faces keep what they can in
+/// advance.</para>
 /// </remarks>
 internal sealed partial class TriangleBvh
 {
@@ -66,7 +68,9 @@ internal sealed partial class TriangleBvh
     public int FaceCount => _mesh.FaceCount;
 
     /// <summary>Bytes kept beside the mesh.</summary>
-    public long StorageBytes => (_nodeBounds.Length * 32L) + (_children.Length * 4L) + (_leaves.Length * 64L) + (_triangles.Length * (long)Unsafe.SizeOf<TriangleX4>());
+    public long StorageBytes =>
+        (_nodeBounds.Length * 32L) + (_children.Length * 4L) + (_leaves.Length * 64L)
+        + (_triangles.Length * (long)Unsafe.SizeOf<TriangleX4>());
 
     /// <summary>Looks for a face nearer than the nearest so far.</summary>
     /// <param name="position">In the mesh's frame.</param>
@@ -76,7 +80,8 @@ internal sealed partial class TriangleBvh
     /// <param name="faceTests">Increased by the faces looked at.</param>
     /// <param name="boundTests">Increased by the bounds looked at.</param>
     public void FindClosest(
-        Vector position, ref double closestDistanceSquared, ref int closestFace, double boundFactor, ref long faceTests, ref long boundTests)
+        Vector position, ref double closestDistanceSquared, ref int closestFace, double boundFactor, ref long faceTests,
+        ref long boundTests)
     {
         if (_mesh.FaceCount <= MaxBruteForceFaces)
         {
@@ -111,7 +116,8 @@ internal sealed partial class TriangleBvh
     {
         for (var leaf = 0; leaf < _leaves.Length; leaf++)
         {
-            TryUpdateClosest(DistancesSquared(leaf, in position, closestDistanceSquared), leaf, ref closestDistanceSquared, ref closestFace);
+            TryUpdateClosest(DistancesSquared(leaf, in position, closestDistanceSquared), leaf, ref closestDistanceSquared,
+                ref closestFace);
         }
 
         faceTests += _mesh.FaceCount;
@@ -136,7 +142,8 @@ internal sealed partial class TriangleBvh
     /// With rounding, the kernel may find a face nearer than it is by δ = 2⁻⁴⁶·magnitude, some hundred last places of its coordinates; the
     /// face matters if its bound is below (d + δ)² ≤ (1 + s)·d² + (1 + 1/s)·δ², whatever the s.
     /// </remarks>
-    private (double Factor, double Summand) CutoffCoefficients(double inverseBoundFactor, double slack, double magnitude) => (magnitude * Rounding) switch
+    private (double Factor, double Summand) CutoffCoefficients(double inverseBoundFactor, double slack, double magnitude) =>
+        (magnitude * Rounding) switch
     {
         var rounding => ((1 + (4 * slack)) * _scale * _scale * inverseBoundFactor, (1 + (1 / slack)) * rounding * rounding),
     };
@@ -213,11 +220,14 @@ internal sealed partial class TriangleBvh
     {
         var (factor, summand) = CutoffCoefficients(inverseBoundFactor, FarSlack, _magnitude + state.LocalPosition.MaxAbsComponent());
         Span<double> bounds = stackalloc double[TriangleBvhBuilder.BranchingFactor];
-        var boxes = MemoryMarshal.Cast<Vector256<float>, float>(_nodeBounds.AsSpan(node * BvhLayout.VectorsPerNode, BvhLayout.VectorsPerNode));
+        var boxes = MemoryMarshal.Cast<Vector256<float>,
+            float>(_nodeBounds.AsSpan(node * BvhLayout.VectorsPerNode, BvhLayout.VectorsPerNode));
         for (var child = 0; child < bounds.Length; child++)
         {
-            Vector minimum = new(boxes[child], boxes[8 + child], boxes[16 + child]), maximum = new(boxes[24 + child], boxes[32 + child], boxes[40 + child]);
-            bounds[child] = Vector.Max(Vector.Max(minimum - state.LocalPosition, state.LocalPosition - maximum), Vector.Zero).LengthSquared();
+            Vector minimum = new(boxes[child], boxes[8 + child], boxes[16 + child]),
+                maximum = new(boxes[24 + child], boxes[32 + child], boxes[40 + child]);
+            bounds[child] = Vector.Max(Vector.Max(minimum - state.LocalPosition, state.LocalPosition - maximum), Vector.Zero)
+                .LengthSquared();
         }
 
         state.BoundTests += TriangleBvhBuilder.BranchingFactor;
@@ -252,11 +262,13 @@ internal sealed partial class TriangleBvh
         var encodedLeaf = (uint)~childReference;
         var leaf = (int)(encodedLeaf / TriangleBvhBuilder.MaxLeafTriangles);
         state.FaceTests += (encodedLeaf % TriangleBvhBuilder.MaxLeafTriangles) + 1;
-        return TryUpdateClosest(DistancesSquared(leaf, in state.Position, state.ClosestDistanceSquared), leaf, ref state.ClosestDistanceSquared, ref state.ClosestFace);
+        return TryUpdateClosest(DistancesSquared(leaf, in state.Position, state.ClosestDistanceSquared), leaf,
+            ref state.ClosestDistanceSquared, ref state.ClosestFace);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private Vector256<double> DistancesSquared(int leaf, ref readonly Vector position, double closestDistanceSquared) => _triangles.Length > 0
+    private Vector256<double> DistancesSquared(int leaf, ref readonly Vector position, double closestDistanceSquared) =>
+        _triangles.Length > 0
         ? TriangleX4.DistancesSquared(in _triangles[leaf], in position, closestDistanceSquared)
         : TriangleX4.DistancesSquared(in _leaves[leaf], _mesh.Positions.AsSpan(), in position);
 
@@ -272,7 +284,8 @@ internal sealed partial class TriangleBvh
         return true;
     }
 
-    private static void SelectClosest(Vector256<double> distancesSquared, ref readonly BvhLeaf leaf, ref double closestDistanceSquared, ref int closestFace)
+    private static void SelectClosest(Vector256<double> distancesSquared, ref readonly BvhLeaf leaf, ref double closestDistanceSquared,
+        ref int closestFace)
     {
         for (var i = 0; i < TriangleBvhBuilder.MaxLeafTriangles; i++)
         {
@@ -286,7 +299,8 @@ internal sealed partial class TriangleBvh
     private TriangleX4 GatherTriangles(BvhLeaf leaf) => _mesh.Positions.AsSpan() switch
     {
         var positions => new(
-            VectorX4.Gather(positions, leaf.IndicesA), VectorX4.Gather(positions, leaf.IndicesB), VectorX4.Gather(positions, leaf.IndicesC)),
+            VectorX4.Gather(positions, leaf.IndicesA), VectorX4.Gather(positions, leaf.IndicesB),
+            VectorX4.Gather(positions, leaf.IndicesC)),
     };
 
     /// <summary>Rounded to single precision, to nearest.</summary>

@@ -7,7 +7,8 @@ namespace FractalEngine.Core.Collision.Bvh;
 
 /// <summary>
 /// Builds the tree of a <see cref="TriangleBvh"/>, from the top downwards: a node takes all its faces as one range and divides the
-/// range with the largest surface in two, by the surface area heuristic over bins, until there are eight or all are small enough for a leaf.
+/// range with the largest surface in two, by the surface area heuristic over bins, until there are eight or all are small enough for a
+/// leaf.
 /// </summary>
 /// <remarks>
 /// What becomes of a range depends on nothing but its faces and their order, and ranges are numbered from the top, level by level, then
@@ -83,7 +84,8 @@ internal sealed class TriangleBvhBuilder
             var minimum = Vector256.MinNative(Vector256.MinNative(a, b), c);
             var maximum = Vector256.MaxNative(Vector256.MaxNative(a, b), c);
             var triangleBounds = new TriangleBounds(
-                RoundDown((minimum - simdOrigin) * simdScale).AsInt32().WithElement(3, face).AsSingle(), RoundUp((maximum - simdOrigin) * simdScale));
+                RoundDown((minimum - simdOrigin) * simdScale).AsInt32().WithElement(3, face).AsSingle(),
+                RoundUp((maximum - simdOrigin) * simdScale));
             _triangles[face] = triangleBounds;
             bounds = bounds.Including(triangleBounds.Minimum, triangleBounds.Maximum);
             doubledCentreBounds = doubledCentreBounds.Including(triangleBounds.DoubledCentre, triangleBounds.DoubledCentre);
@@ -121,7 +123,8 @@ internal sealed class TriangleBvhBuilder
         while (currentLevel.Count > 0)
         {
             var largeRanges = currentLevel.Where(entry => entry.Range.Count > MaxSubtreeTriangles).ToArray();
-            subtrees.AddRange(currentLevel.Where(entry => entry.Range.Count <= MaxSubtreeTriangles).Select(entry => (entry.Range, entry.Slot, depth)));
+            subtrees.AddRange(currentLevel.Where(entry => entry.Range.Count <= MaxSubtreeTriangles)
+                .Select(entry => (entry.Range, entry.Slot, depth)));
             var childRanges = new TriangleRange[largeRanges.Length][];
             ParallelFor(largeRanges.Length, i =>
             {
@@ -228,7 +231,8 @@ internal sealed class TriangleBvhBuilder
         }
 
         var triangles = _triangles.AsSpan(range.Start, range.Count);
-        var (leftBox, leftCentres, rightBox, rightCentres) = (SimdBoundingBox.Empty, SimdBoundingBox.Empty, SimdBoundingBox.Empty, SimdBoundingBox.Empty);
+        var (leftBox, leftCentres, rightBox, rightCentres) = (SimdBoundingBox.Empty, SimdBoundingBox.Empty, SimdBoundingBox.Empty,
+            SimdBoundingBox.Empty);
         var (left, right) = (0, triangles.Length - 1);
         while (left <= right)
         {
@@ -346,7 +350,8 @@ internal sealed class TriangleBvhBuilder
 
     /// <summary>Surface times leaves.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static float SahCost(SimdBoundingBox box, int triangleCount) => triangleCount == 0 ? 0 : box.HalfArea * ((triangleCount + MaxLeafTriangles - 1) / MaxLeafTriangles);
+    private static float SahCost(SimdBoundingBox box, int triangleCount) =>
+        triangleCount == 0 ? 0 : box.HalfArea * ((triangleCount + MaxLeafTriangles - 1) / MaxLeafTriangles);
 
     private void ParallelFor(int count, Action<int> body)
     {

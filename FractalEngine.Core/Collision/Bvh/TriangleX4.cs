@@ -22,9 +22,12 @@ internal readonly struct TriangleX4
     /// <summary>The squared distances of a position from four faces.</summary>
     /// <param name="triangles">The four.</param>
     /// <param name="position">In their frame.</param>
-    /// <param name="closestDistanceSquared">The squared distance of the nearest so far: where the planes of all four are farther, the result is infinite.</param>
+    /// <param name="closestDistanceSquared">
+    /// The squared distance of the nearest so far: where the planes of all four are farther, the result is infinite.
+    /// </param>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public static Vector256<double> DistancesSquared(ref readonly TriangleX4 triangles, ref readonly Vector position, double closestDistanceSquared) =>
+    public static Vector256<double> DistancesSquared(ref readonly TriangleX4 triangles, ref readonly Vector position,
+    double closestDistanceSquared) =>
         ComputeDistancesSquared(in position, triangles._a, triangles._b, triangles._c, triangles._terms, closestDistanceSquared);
 
     /// <summary>The same for four faces of a mesh.</summary>
@@ -32,7 +35,8 @@ internal readonly struct TriangleX4
     /// <param name="positions">Of the mesh's vertices, [vertices × 3].</param>
     /// <param name="position">In the mesh's frame.</param>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public static Vector256<double> DistancesSquared(ref readonly BvhLeaf leaf, ReadOnlySpan<double> positions, ref readonly Vector position)
+    public static Vector256<double> DistancesSquared(ref readonly BvhLeaf leaf, ReadOnlySpan<double> positions,
+    ref readonly Vector position)
     {
         var a = VectorX4.Gather(positions, leaf.IndicesA);
         var b = VectorX4.Gather(positions, leaf.IndicesB);
@@ -57,12 +61,14 @@ internal readonly struct TriangleX4
 
     /// <summary>Normals, not of length 1, squares of lengths, and a mask of the faces that are thin.</summary>
     private readonly record struct PrecomputedTerms(
-        VectorX4 Normal, Vector256<double> NormalSquared, Vector256<double> LengthSquaredAB, Vector256<double> LengthSquaredBC, Vector256<double> LengthSquaredCA)
+        VectorX4 Normal, Vector256<double> NormalSquared, Vector256<double> LengthSquaredAB, Vector256<double> LengthSquaredBC,
+        Vector256<double> LengthSquaredCA)
     {
         public Vector256<double> ThinMask
         {
             [MethodImpl(MethodImplOptions.AggressiveInlining)]
-            get => ~Vector256.GreaterThan(NormalSquared, Vector256.Create(TriangleKernel.ThinTriangleSineSquared) * (LengthSquaredAB * LengthSquaredCA));
+            get => ~Vector256.GreaterThan(NormalSquared, Vector256.Create(TriangleKernel.ThinTriangleSineSquared)
+                * (LengthSquaredAB * LengthSquaredCA));
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -75,7 +81,8 @@ internal readonly struct TriangleX4
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static Vector256<double> ComputeDistancesSquared(ref readonly Vector position, VectorX4 a, VectorX4 b, VectorX4 c, PrecomputedTerms terms, double? closestDistanceSquared)
+    private static Vector256<double> ComputeDistancesSquared(ref readonly Vector position, VectorX4 a, VectorX4 b, VectorX4 c,
+    PrecomputedTerms terms, double? closestDistanceSquared)
     {
         var p = VectorX4.Broadcast(position);
         var (normal, normalSquared) = (terms.Normal, terms.NormalSquared);
@@ -85,7 +92,8 @@ internal readonly struct TriangleX4
         var height = VectorX4.Dot(ap, normal);
         var thinMask = terms.ThinMask;
         // A fifth less time where the normals are at hand, nothing where they must be computed first.
-        if (closestDistanceSquared is { } cutoffSquared && ArePlanesFarther(height * height / normalSquared, cutoffSquared, ap) && thinMask.AsInt64() == Vector256<long>.Zero)
+        if (closestDistanceSquared is { } cutoffSquared && ArePlanesFarther(height * height / normalSquared, cutoffSquared, ap)
+            && thinMask.AsInt64() == Vector256<long>.Zero)
         {
             return Vector256.Create(double.PositiveInfinity);
         }
@@ -95,11 +103,14 @@ internal readonly struct TriangleX4
         var weightA = Vector256<double>.One - weightB - weightC;
         var insideMask = Vector256.GreaterThanOrEqual(
             Vector256.MinNative(Vector256.MinNative(weightB, weightC), weightA), Vector256<double>.Zero);
-        var distancesSquared = Vector256.ConditionalSelect(insideMask, height * height / normalSquared, Vector256.Create(double.PositiveInfinity));
+        var distancesSquared = Vector256.ConditionalSelect(insideMask, height * height / normalSquared,
+            Vector256.Create(double.PositiveInfinity));
         distancesSquared = Vector256.MinNative(EdgeDistancesSquared(p, ap, a, b, ab, terms.LengthSquaredAB), distancesSquared);
         distancesSquared = Vector256.MinNative(EdgeDistancesSquared(p, p - b, b, c, c - b, terms.LengthSquaredBC), distancesSquared);
         distancesSquared = Vector256.MinNative(EdgeDistancesSquared(p, p - c, c, a, a - c, terms.LengthSquaredCA), distancesSquared);
-        return thinMask.AsInt64() == Vector256<long>.Zero ? distancesSquared : RecomputeThinTriangles(position, distancesSquared, thinMask, a, b, c);
+        return thinMask.AsInt64() == Vector256<long>.Zero
+            ? distancesSquared
+            : RecomputeThinTriangles(position, distancesSquared, thinMask, a, b, c);
     }
 
     /// <summary>True when all four planes are farther than the limit, and by more than rounding.</summary>
@@ -109,7 +120,8 @@ internal readonly struct TriangleX4
     /// </remarks>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static bool ArePlanesFarther(Vector256<double> heightSquared, double cutoffSquared, VectorX4 ap) =>
-        Vector256.GreaterThanAll(heightSquared, Vector256.Create(1.000001 * cutoffSquared) + (Vector256.Create(1e-17) * ap.LengthSquared()));
+        Vector256.GreaterThanAll(heightSquared, Vector256.Create(1.000001 * cutoffSquared)
+            + (Vector256.Create(1e-17) * ap.LengthSquared()));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static Vector256<double> EdgeDistancesSquared(

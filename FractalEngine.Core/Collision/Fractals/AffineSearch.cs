@@ -5,7 +5,9 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>Search for any maps: bounds are taken into the frame of the whole, since distances there are not those of the copies' frames.</summary>
+/// <summary>
+/// Search for any maps: bounds are taken into the frame of the whole, since distances there are not those of the copies' frames.
+/// </summary>
 internal sealed class AffineSearch(SubFractalTable table, TriangleBvh bvh)
 {
     /// <summary>Looks at the whole fractal.</summary>
@@ -16,7 +18,8 @@ internal sealed class AffineSearch(SubFractalTable table, TriangleBvh bvh)
     {
         SimdAffineMap simdMap = new(map);
         search.MinRadiusSquared =
-            ExactFractalCollider.RelativePrecision * ExactFractalCollider.RelativePrecision * table.RadiusSquared * simdMap.FrobeniusNormSquared();
+            ExactFractalCollider.RelativePrecision * ExactFractalCollider.RelativePrecision * table.RadiusSquared
+            * simdMap.FrobeniusNormSquared();
         Visit(table.Root, table.Levels, SimdAffineMap.ToVector256(position), in simdMap, new(map.Inverse()), 0, 0, ref search);
     }
 
@@ -30,7 +33,8 @@ internal sealed class AffineSearch(SubFractalTable table, TriangleBvh bvh)
     /// <param name="offset">Of free memory.</param>
     /// <param name="search">What is found so far.</param>
     private void Visit(
-        SubFractal subFractal, long remainingLevels, Vector256<double> position, in SimdAffineMap map, in SimdAffineMap inverse, int depth, int offset, ref FractalSearchState search)
+        SubFractal subFractal, long remainingLevels, Vector256<double> position, in SimdAffineMap map, in SimdAffineMap inverse, int depth,
+        int offset, ref FractalSearchState search)
     {
         if (remainingLevels == 0 || subFractal.RadiusSquared * map.FrobeniusNormSquared() <= search.MinRadiusSquared)
         {
@@ -62,7 +66,8 @@ internal sealed class AffineSearch(SubFractalTable table, TriangleBvh bvh)
                 search.BoundTests++;
                 if (refinedBound < cutoffSquared && childSubFractal.Hull is { } hull)
                 {
-                    refinedBound = Math.Max(refinedBound, hull.TransformedLowerBoundSquared(position, in childMap, in childInverse, cutoffSquared));
+                    refinedBound =
+                        Math.Max(refinedBound, hull.TransformedLowerBoundSquared(position, in childMap, in childInverse, cutoffSquared));
                     search.BoundTests++;
                 }
 
@@ -89,7 +94,8 @@ internal sealed class AffineSearch(SubFractalTable table, TriangleBvh bvh)
     private void TestTriangles(Vector256<double> position, in SimdAffineMap map, int depth, ref FractalSearchState search)
     {
         var (closestDistanceSquared, closestFace) = (search.ClosestDistanceSquared, -1);
-        bvh.FindClosestTransformed(SimdAffineMap.ToVector(position), map.ToAffineMap(), ref closestDistanceSquared, ref closestFace, search.BoundFactor, ref search.FaceTests, ref search.BoundTests);
+        bvh.FindClosestTransformed(SimdAffineMap.ToVector(position), map.ToAffineMap(), ref closestDistanceSquared, ref closestFace,
+            search.BoundFactor, ref search.FaceTests, ref search.BoundTests);
         if (closestFace >= 0)
         {
             search.UpdateClosest(closestDistanceSquared, closestFace, depth);

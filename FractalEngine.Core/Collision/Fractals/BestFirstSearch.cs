@@ -6,8 +6,9 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// Search that always goes on with the nearest copy of all, wherever it is. A search into the depth is faster on most fractals, but where levels
-/// hardly shrink it goes down thousands of them, perhaps once for each copy on its way back; this one then begins again, with what was found as its limit.
+/// Search that always goes on with the nearest copy of all, wherever it is. A search into the depth is faster on most fractals, but where
+/// levels hardly shrink it goes down thousands of them, perhaps once for each copy on its way back; this one then begins again, with what
+/// was found as its limit.
 /// </summary>
 internal sealed class BestFirstSearch(SubFractalTable table, TriangleBvh bvh)
 {
@@ -35,7 +36,8 @@ internal sealed class BestFirstSearch(SubFractalTable table, TriangleBvh bvh)
         }
     }
 
-    private void Visit(in ExpandedChild expandedChild, Vector256<double> position, double cutoffSquared, ExpandedChildren expandedChildren, ref FractalSearchState search)
+    private void Visit(in ExpandedChild expandedChild, Vector256<double> position, double cutoffSquared, ExpandedChildren expandedChildren,
+        ref FractalSearchState search)
     {
         ref readonly var parent = ref expandedChildren.Node(expandedChild.ParentNode);
         var child = parent.SubFractal.Children[expandedChild.ChildIndex];
@@ -56,7 +58,8 @@ internal sealed class BestFirstSearch(SubFractalTable table, TriangleBvh bvh)
             {
                 if (bound < cutoffSquared)
                 {
-                    expandedChildren.Add(expandedChild with { Bound = bound, IsRefined = true }, expandedChild.Key + (bound - expandedChild.Bound));
+                    expandedChildren.Add(expandedChild with { Bound = bound, IsRefined = true },
+                        expandedChild.Key + (bound - expandedChild.Bound));
                 }
 
                 return;
@@ -75,7 +78,8 @@ internal sealed class BestFirstSearch(SubFractalTable table, TriangleBvh bvh)
         }
     }
 
-    private static void Expand(in SearchNode node, Vector256<double> position, ExpandedChildren expandedChildren, ref FractalSearchState search)
+    private static void Expand(in SearchNode node, Vector256<double> position, ExpandedChildren expandedChildren,
+        ref FractalSearchState search)
     {
         var subFractal = node.SubFractal;
         ChildQueue queue = new(search.ScratchSlice(0, ChildQueue.ValuesPerChild * subFractal.PaddedCount));
@@ -94,10 +98,12 @@ internal sealed class BestFirstSearch(SubFractalTable table, TriangleBvh bvh)
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private void TestTriangles(in SearchNode node, Vector256<double> position, ExpandedChildren expandedChildren, ref FractalSearchState search)
+    private void TestTriangles(in SearchNode node, Vector256<double> position, ExpandedChildren expandedChildren,
+    ref FractalSearchState search)
     {
         var (closestDistanceSquared, closestFace) = (search.ClosestDistanceSquared, -1);
-        bvh.FindClosestTransformed(SimdAffineMap.ToVector(position), node.Map.ToAffineMap(), ref closestDistanceSquared, ref closestFace, search.BoundFactor, ref search.FaceTests, ref search.BoundTests);
+        bvh.FindClosestTransformed(SimdAffineMap.ToVector(position), node.Map.ToAffineMap(), ref closestDistanceSquared, ref closestFace,
+            search.BoundFactor, ref search.FaceTests, ref search.BoundTests);
         if (closestFace < 0)
         {
             return;

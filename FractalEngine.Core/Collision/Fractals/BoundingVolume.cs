@@ -52,7 +52,8 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
     /// <param name="child">In its own frame.</param>
     /// <param name="map">Of the frame.</param>
     /// <param name="operatorNormBound">The most by which the map lengthens.</param>
-    public static BoundingVolume Create(BoundingVolume child, AffineMap map, double operatorNormBound) => child.TransformedBox(map, operatorNormBound) switch
+    public static BoundingVolume Create(BoundingVolume child, AffineMap map, double operatorNormBound) =>
+        child.TransformedBox(map, operatorNormBound) switch
     {
         var box when child.Hull is null => new(box, null, 0),
         var box => new BoundingVolume(box, child.Hull.Transform(map), (child.Margin * operatorNormBound) + RoundingMargin(box)).Tightened(),
@@ -80,13 +81,17 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
     }
 
     /// <summary>A box grown to all sides.</summary>
-    public static BoundingBox Inflate(BoundingBox box, double margin) => new(box.Minimum - (margin * Vector.One), box.Maximum + (margin * Vector.One));
+    public static BoundingBox Inflate(BoundingBox box, double margin) =>
+        new(box.Minimum - (margin * Vector.One), box.Maximum + (margin * Vector.One));
 
-    private static double RoundingMargin(BoundingBox box) => Rounding * Math.Max(box.Minimum.MaxAbsComponent(), box.Maximum.MaxAbsComponent());
+    private static double RoundingMargin(BoundingBox box) =>
+        Rounding * Math.Max(box.Minimum.MaxAbsComponent(), box.Maximum.MaxAbsComponent());
 
     /// <summary>With a box that is no larger than that of the hull.</summary>
     private BoundingVolume Tightened() =>
-        this with { Box = Intersection(Box, Inflate(Hull!.Vertices.Aggregate(BoundingBox.Empty, (sum, vertex) => sum.Including(vertex)), Margin)) };
+        this with { Box =
+        Intersection(Box, Inflate(Hull!.Vertices.Aggregate(BoundingBox.Empty, (sum, vertex) => sum.Including(vertex)), Margin)) };
 
-    private static BoundingBox Intersection(BoundingBox box1, BoundingBox box2) => new(Vector.Max(box1.Minimum, box2.Minimum), Vector.Min(box1.Maximum, box2.Maximum));
+    private static BoundingBox Intersection(BoundingBox box1, BoundingBox box2) =>
+        new(Vector.Max(box1.Minimum, box2.Minimum), Vector.Min(box1.Maximum, box2.Maximum));
 }

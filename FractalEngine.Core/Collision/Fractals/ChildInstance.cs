@@ -2,7 +2,9 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>A copy that a sub-fractal makes of one further down, by one map after another. Shared by all sub-fractals that make it alike.</summary>
+/// <summary>
+/// A copy that a sub-fractal makes of one further down, by one map after another. Shared by all sub-fractals that make it alike.
+/// </summary>
 internal sealed class ChildInstance
 {
     private readonly SimdAffineMap _simdMap;

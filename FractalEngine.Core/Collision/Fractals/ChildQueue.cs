@@ -14,8 +14,8 @@ internal readonly ref struct ChildQueue(Span<double> values)
     /// <summary>Numbers for each copy.</summary>
     public const int ValuesPerChild = 3;
 
-    // Copies around the position have no distance; they are looked at in the order of their centres. For copies apart from it that only decides
-    // between equal bounds: far away, small copies differ by so little.
+    // Copies around the position have no distance; they are looked at in the order of their centres. For copies apart from it that only
+    // decides between equal bounds: far away, small copies differ by so little.
     private const double CentreWeight = 1e-4;
     private const double SeparatedFactor = 1e-8;
 
@@ -32,7 +32,8 @@ internal readonly ref struct ChildQueue(Span<double> values)
         ref var values = ref MemoryMarshal.GetReference(_values);
         bounds.StoreUnsafe(ref values, (nuint)firstChild);
         var weights = Vector256.ConditionalSelect(
-            Vector256.GreaterThan(bounds, Vector256<double>.Zero), Vector256.Create(CentreWeight * SeparatedFactor), Vector256.Create(CentreWeight));
+            Vector256.GreaterThan(bounds, Vector256<double>.Zero), Vector256.Create(CentreWeight * SeparatedFactor),
+            Vector256.Create(CentreWeight));
         (bounds + (weights * centreDistances)).StoreUnsafe(ref values, (nuint)(_paddedCount + firstChild));
         Vector256<double>.Zero.StoreUnsafe(ref values, (nuint)((2 * _paddedCount) + firstChild));
     }
@@ -46,7 +47,8 @@ internal readonly ref struct ChildQueue(Span<double> values)
         var bounds = Vector256.MaxNative(previousBounds, newBounds);
         bounds.StoreUnsafe(ref values, (nuint)firstChild);
         var keys = Vector256.LoadUnsafe(ref values, (nuint)(_paddedCount + firstChild));
-        // What was around the position and is no longer has the weight of what is apart. NaN where there is no copy; that is never compared.
+        // What was around the position and is no longer has the weight of what is apart. NaN where there is no copy; that is never
+        // compared.
         var wasSeparated = Vector256.GreaterThan(previousBounds, Vector256<double>.Zero) | Vector256.Equals(bounds, previousBounds);
         keys *= Vector256.ConditionalSelect(wasSeparated, Vector256<double>.One, Vector256.Create(SeparatedFactor));
         (keys + (bounds - previousBounds)).StoreUnsafe(ref values, (nuint)(_paddedCount + firstChild));

@@ -21,7 +21,8 @@ internal readonly record struct CollapsedEdge(AffineMap Map, double OperatorNorm
     public static CollapsedEdge Collapse(ChildEdge edge, long parentLevels, Func<long, ChildEdge[]> edgesAt)
     {
         var (map, remainingLevels) = (edge.Map, edge.RemainingLevels(parentLevels));
-        for (var collapsedCount = 0; collapsedCount < MaxCollapsedEdges && remainingLevels > 0 && edgesAt(remainingLevels) is [var only]; collapsedCount++)
+        for (var collapsedCount = 0; collapsedCount < MaxCollapsedEdges && remainingLevels > 0 && edgesAt(remainingLevels) is [var only];
+            collapsedCount++)
         {
             (map, remainingLevels) = (map * only.Map, only.RemainingLevels(remainingLevels));
         }

@@ -121,7 +121,8 @@ internal sealed partial class ConvexHull
         }
 
         private void TrackOutsidePoint(int point, Facet facet) => _maxOutsideDistance = Math.Max(
-            _maxOutsideDistance, Math.Sqrt(TriangleKernel.ClosestPoint(points[point], points[facet.A], points[facet.B], points[facet.C]).DistanceSquared));
+            _maxOutsideDistance,
+            Math.Sqrt(TriangleKernel.ClosestPoint(points[point], points[facet.A], points[facet.B], points[facet.C]).DistanceSquared));
 
         [MethodImpl(MethodImplOptions.AggressiveOptimization)]
         private IEnumerable<HullPlane> MergePlanes()

@@ -22,7 +22,8 @@ internal sealed partial class ConvexHull
     private readonly ImmutableArray<(Vector A, Vector B, Vector C)> _facets;
 
     private ConvexHull(
-        ImmutableArray<Vector> vertices, ImmutableArray<HullPlane> planes, double maxOutsideDistance, ImmutableArray<(Vector A, Vector B, Vector C)> facets) =>
+        ImmutableArray<Vector> vertices, ImmutableArray<HullPlane> planes, double maxOutsideDistance,
+        ImmutableArray<(Vector A, Vector B, Vector C)> facets) =>
         (Vertices, Planes, MaxOutsideDistance, _facets) = (vertices, planes, maxOutsideDistance, facets);
 
     /// <summary>Its corners, some of the points.</summary>
@@ -66,20 +67,24 @@ internal sealed partial class ConvexHull
             : BuildFlatHull(points, direction, normal, height, maxVertices);
     }
 
-    /// <summary>The hull's image under a map, which is the hull of the images. Misses as much as this times the factor by which the map lengthens.</summary>
+    /// <summary>
+    /// The hull's image under a map, which is the hull of the images. Misses as much as this times the factor by which the map lengthens.
+    /// </summary>
     public ConvexHull Transform(AffineMap map)
     {
         // Normals go with the cofactors; a mirror turns them inside out.
         var (normals, orientation) = (map.Linear.Cofactors(), map.Linear.Determinant() < 0 ? -1 : 1);
         return new ConvexHull(
             [.. Vertices.Select(vertex => map * vertex)],
-            [.. Planes.Select(plane => plane with { Normal = orientation * (normals * plane.Normal).UnitVector(), Offset = double.NegativeInfinity })],
+            [.. Planes.Select(
+                plane => plane with { Normal = orientation * (normals * plane.Normal).UnitVector(), Offset = double.NegativeInfinity })],
             0,
             [.. _facets.Select(facet => (map * facet.A, map * facet.B, map * facet.C))]).WithConservativeOffsets();
     }
 
     /// <summary>Cubic scene units; 0 where it is flat.</summary>
-    public double Volume() => Math.Abs(_facets.Sum(facet => Vector.Dot(facet.A - Vertices[0], Vector.Cross(facet.B - Vertices[0], facet.C - Vertices[0])))) / 6;
+    public double Volume() =>
+        Math.Abs(_facets.Sum(facet => Vector.Dot(facet.A - Vertices[0], Vector.Cross(facet.B - Vertices[0], facet.C - Vertices[0])))) / 6;
 
     /// <summary>The largest product of a direction with a corner.</summary>
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
@@ -131,14 +136,17 @@ internal sealed partial class ConvexHull
             foreach (var j in extremes)
             {
                 var distanceSquared = (points[i] - points[j]).LengthSquared();
-                (first, second, maxDistanceSquared) = distanceSquared > maxDistanceSquared ? (i, j, distanceSquared) : (first, second, maxDistanceSquared);
+                (first, second, maxDistanceSquared) = distanceSquared > maxDistanceSquared
+                    ? (i, j, distanceSquared)
+                    : (first, second, maxDistanceSquared);
             }
         }
 
         return (first, second);
     }
 
-    private static int FindFarthest(ReadOnlySpan<Vector> points, Vector origin, Func<Vector, Vector, double> measure, out double maxDistance)
+    private static int FindFarthest(ReadOnlySpan<Vector> points, Vector origin, Func<Vector, Vector, double> measure,
+        out double maxDistance)
     {
         var farthest = 0;
         maxDistance = 0;
@@ -187,19 +195,24 @@ internal sealed partial class ConvexHull
             {
                 if (Vector.Dot(outwards, point - start) > 0)
                 {
-                    maxOutsideDistance = Math.Max(maxOutsideDistance, Math.Sqrt(TriangleKernel.ClosestPoint(point, start, end, end).DistanceSquared));
+                    maxOutsideDistance =
+                        Math.Max(maxOutsideDistance, Math.Sqrt(TriangleKernel.ClosestPoint(point, start, end, end).DistanceSquared));
                 }
             }
         }
 
         var planeOffset = Vector.Dot(normal, points[0]);
-        var hull = new ConvexHull([.. vertices], [new(normal, planeOffset, 1), new(-normal, -planeOffset, 1), .. planes], maxOutsideDistance, [.. Enumerable.Range(1, Math.Max(1, vertices.Count - 2)).Select(i => (vertices[0], vertices[i % vertices.Count], vertices[(i + 1) % vertices.Count]))]);
+        var hull = new ConvexHull([.. vertices], [new(normal, planeOffset, 1), new(-normal, -planeOffset, 1), .. planes],
+            maxOutsideDistance,
+            [.. Enumerable.Range(1, Math.Max(1, vertices.Count - 2))
+            .Select(i => (vertices[0], vertices[i % vertices.Count], vertices[(i + 1) % vertices.Count]))]);
         return hull.WithConservativeOffsets();
     }
 
     /// <summary>The same hull, with no corner above its planes by rounding.</summary>
     private ConvexHull WithConservativeOffsets() =>
-        new(Vertices, [.. Planes.Select(plane => plane with { Offset = Math.Max(plane.Offset, Support(plane.Normal)) })], MaxOutsideDistance, _facets);
+        new(Vertices, [.. Planes.Select(plane => plane with { Offset = Math.Max(plane.Offset, Support(plane.Normal)) })],
+        MaxOutsideDistance, _facets);
 }
 
 /// <summary>A plane that a hull lies below: normal · point ≤ offset.</summary>

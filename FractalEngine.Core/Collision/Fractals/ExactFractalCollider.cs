@@ -5,13 +5,13 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// Exact search on fractals of any depth, by branch and bound over their levels: each sub-fractal is bounded by a box that provably holds it,
-/// the nearest is looked at first, and what can't be nearer than the best so far is left out. Memory and time follow the levels, not the
-/// faces; why the bounds hold stands in docs/colliders.md.
+/// Exact search on fractals of any depth, by branch and bound over their levels: each sub-fractal is bounded by a box that provably holds
+/// it, the nearest is looked at first, and what can't be nearer than the best so far is left out. Memory and time follow the levels, not
+/// the faces; why the bounds hold stands in docs/colliders.md.
 /// </summary>
 /// <remarks>
-/// Sub-fractals smaller than <see cref="RelativePrecision"/> of the whole are answered by the base mesh in their place: that is the last place of a
-/// coordinate. Infinite fractals end there too.
+/// Sub-fractals smaller than <see cref="RelativePrecision"/> of the whole are answered by the base mesh in their place: that is the last
+/// place of a coordinate. Infinite fractals end there too.
 /// </remarks>
 public sealed class ExactFractalCollider : Collider
 {
@@ -26,9 +26,13 @@ public sealed class ExactFractalCollider : Collider
     private readonly BestFirstSearch _bestFirstSearch;
 
     /// <summary>Prepares a fractal in affine composition for queries.</summary>
-    /// <exception cref="FractalLimitException">The bounds of some level are beyond a double, or don't settle; the message names it.</exception>
+    /// <exception cref="FractalLimitException">
+    /// The bounds of some level are beyond a double, or don't settle; the message names it.
+    /// </exception>
     /// <exception cref="ArgumentException">The fractal is composed componentwise.</exception>
-    /// <exception cref="SingularMatrixException">A map flattens what it maps, as a scale of 0 does; fractal files with one are refused.</exception>
+    /// <exception cref="SingularMatrixException">
+    /// A map flattens what it maps, as a scale of 0 does; fractal files with one are refused.
+    /// </exception>
     /// <remarks>Cost: microseconds to milliseconds, whatever the depth.</remarks>
     public ExactFractalCollider(Fractal fractal)
     {
@@ -51,15 +55,18 @@ public sealed class ExactFractalCollider : Collider
     internal override bool SupportsTransformedQueries => true;
 
     /// <inheritdoc/>
-    internal override bool FindClosestTransformed(Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest) =>
+    internal override bool FindClosestTransformed(Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context,
+        out ClosestPoint closest) =>
         FindClosestCore(position, map, isSimilarity: false, maxDistance, epsilon, context, out closest);
 
     /// <inheritdoc/>
-    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest) =>
+    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
+        out ClosestPoint closest) =>
         FindClosestCore(position, AffineMap.Identity, _table.HasOnlySimilarities, maxDistance, epsilon, context, out closest);
 
     private bool FindClosestCore(
-        Vector position, in AffineMap map, bool isSimilarity, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
+        Vector position, in AffineMap map, bool isSimilarity, double maxDistance, double epsilon, QueryContext context,
+        out ClosestPoint closest)
     {
         context.ClearPath();
         closest = default;
@@ -94,10 +101,12 @@ public sealed class ExactFractalCollider : Collider
         context.BoundTests += search.BoundTests;
         if (search.ClosestFace < 0)
         {
-            return NeedsExactRetry(maxDistance, epsilon) && FindClosestCore(position, in map, isSimilarity, maxDistance, 0, context, out closest);
+            return NeedsExactRetry(maxDistance, epsilon)
+                && FindClosestCore(position, in map, isSimilarity, maxDistance, 0, context, out closest);
         }
 
-        closest = ClosestPointFactory.Create(_fractal.BaseMesh, search.ClosestFace, map * ResolveInstance(search.ClosestPath, context), position);
+        closest = ClosestPointFactory.Create(_fractal.BaseMesh, search.ClosestFace, map * ResolveInstance(search.ClosestPath, context),
+            position);
         return closest.Distance <= maxDistance;
     }
 

@@ -1,7 +1,9 @@
 
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>The copies that a <see cref="BestFirstSearch"/> has yet to look at, and the sub-fractals that make them; kept for the next search.</summary>
+/// <summary>
+/// The copies that a <see cref="BestFirstSearch"/> has yet to look at, and the sub-fractals that make them; kept for the next search.
+/// </summary>
 internal sealed class ExpandedChildren
 {
     private readonly PriorityQueue<ExpandedChild, double> _queue = new();

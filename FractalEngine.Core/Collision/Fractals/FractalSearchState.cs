@@ -32,8 +32,11 @@ internal ref struct FractalSearchState
         _closestPath = context.BestPathBuffer(MaxStackDepth);
         _scratch = context.ScratchBuffer(1);
         // One ulp more, so that a face at exactly the distance is found.
-        ClosestDistanceSquared = maxDistance < double.PositiveInfinity ? Math.BitIncrement(maxDistance * maxDistance) : double.PositiveInfinity;
-        (CutoffSquared, BoundFactor, _tolerance, ClosestFace) = (ClosestDistanceSquared, (1 + epsilon) * (1 + epsilon), Rounding * magnitude, -1);
+        ClosestDistanceSquared = maxDistance < double.PositiveInfinity
+            ? Math.BitIncrement(maxDistance * maxDistance)
+            : double.PositiveInfinity;
+        (CutoffSquared, BoundFactor, _tolerance, ClosestFace) =
+            (ClosestDistanceSquared, (1 + epsilon) * (1 + epsilon), Rounding * magnitude, -1);
     }
 
     /// <summary>Squared distance of the nearest face so far, or of the limit that was asked for.</summary>
@@ -93,7 +96,8 @@ internal ref struct FractalSearchState
     }
 
     /// <summary>Begins once more after giving up; nothing farther than what was found matters.</summary>
-    public void ResetBudget() => (HasExceededBudget, CutoffSquared) = (false, ClosestFace < 0 ? ClosestDistanceSquared : CutoffFor(ClosestDistanceSquared));
+    public void ResetBudget() =>
+        (HasExceededBudget, CutoffSquared) = (false, ClosestFace < 0 ? ClosestDistanceSquared : CutoffFor(ClosestDistanceSquared));
 
     /// <summary>A face that is nearer than all before.</summary>
     /// <param name="distanceSquared">Its squared distance in the frame of the whole.</param>
@@ -125,7 +129,8 @@ internal ref struct FractalSearchState
         return _scratch.Slice(offset, length);
     }
 
-    // Distances that differ by no more than they round by are the same: without this, positions far from small copies would look at all of them.
+    // Distances that differ by no more than they round by are the same: without this, positions far from small copies would look at all of
+    // them.
     private readonly double CutoffFor(double distanceSquared)
     {
         var distance = Math.Max(0, Math.Sqrt(distanceSquared) - _tolerance);

@@ -37,11 +37,15 @@ internal sealed class HullBound
     /// <param name="hull">May be flat.</param>
     /// <param name="box">Around the hull.</param>
     /// <param name="margin">Not negative.</param>
-    /// <param name="includeAxisPlanes">False where the planes of an axis-parallel box are looked at elsewhere. Skewed maps need them, and more of the others.</param>
+    /// <param name="includeAxisPlanes">
+    /// False where the planes of an axis-parallel box are looked at elsewhere. Skewed maps need them, and more of the others.
+    /// </param>
     public HullBound(ConvexHull hull, BoundingBox box, double margin, bool includeAxisPlanes)
     {
-        var planes = hull.Planes.Where(plane => includeAxisPlanes || plane.Normal.MaxAbsComponent() < AxisParallelCosine).Take(includeAxisPlanes ? MaxPlanesWithAxes : MaxPlanes).ToArray();
-        (_centre, _farDistanceSquared, _margin) = (SimdAffineMap.ToVector256(box.Centre), FarFactor * FarFactor * 0.25 * box.Size.LengthSquared(), margin);
+        var planes = hull.Planes.Where(plane => includeAxisPlanes || plane.Normal.MaxAbsComponent() < AxisParallelCosine)
+            .Take(includeAxisPlanes ? MaxPlanesWithAxes : MaxPlanes).ToArray();
+        (_centre, _farDistanceSquared, _margin) =
+            (SimdAffineMap.ToVector256(box.Centre), FarFactor * FarFactor * 0.25 * box.Size.LengthSquared(), margin);
         Planes = [.. planes.Select(plane => plane with { Offset = plane.Offset + margin })];
         (_planeCount, _vertexCount) = (RoundUpToLanes(planes.Length), RoundUpToLanes(hull.Vertices.Length));
         (_planes, _vertices) = (new double[4 * _planeCount], new double[3 * _vertexCount]);
@@ -61,7 +65,9 @@ internal sealed class HullBound
 
         if (_vertexCount <= MaxSmallHullVertices)
         {
-            _smallHullVertices = [.. Enumerable.Range(0, _vertexCount).Select(i => Vector256.Create(_vertices[i], _vertices[_vertexCount + i], _vertices[(2 * _vertexCount) + i], 0))];
+            _smallHullVertices =
+                [.. Enumerable.Range(0, _vertexCount)
+                .Select(i => Vector256.Create(_vertices[i], _vertices[_vertexCount + i], _vertices[(2 * _vertexCount) + i], 0))];
         }
     }
 
@@ -94,7 +100,8 @@ internal sealed class HullBound
             return Math.Max(bound, SeparationSquared(direction, directionLengthSquared, position, VertexSupport(direction)));
         }
 
-        bound = Math.Max(bound, SeparationSquared(direction, directionLengthSquared, position, VertexSupport(direction, out var supportVertex)));
+        bound = Math.Max(bound,
+            SeparationSquared(direction, directionLengthSquared, position, VertexSupport(direction, out var supportVertex)));
         if (bound < cutoffSquared)
         {
             // Seen from the corner that reaches farthest: exact where that is the nearest, as it mostly is for solids of few corners.
@@ -136,7 +143,8 @@ internal sealed class HullBound
     /// <param name="map">From the solid's frame to that of the image.</param>
     /// <param name="inverse">Its inverse, which need not be accurate: it only says where to look.</param>
     /// <param name="cutoffSquared">A bound so large is as good as any larger one.</param>
-    public double TransformedLowerBoundSquared(Vector256<double> position, in SimdAffineMap map, in SimdAffineMap inverse, double cutoffSquared)
+    public double TransformedLowerBoundSquared(Vector256<double> position, in SimdAffineMap map, in SimdAffineMap inverse,
+        double cutoffSquared)
     {
         var bound = TransformedSeparationSquared(position - map.Apply(_centre), position, in map);
         if (bound < cutoffSquared && _planeCount > 0)
@@ -155,7 +163,8 @@ internal sealed class HullBound
     private double TransformedSeparationSquared(Vector256<double> direction, Vector256<double> position, in SimdAffineMap map)
     {
         var localDirection = map.MultiplyTransposed(direction);
-        var separation = Vector256.Dot(direction, position - map.Translation) - VertexSupport(localDirection) - (_margin * Length(localDirection));
+        var separation = Vector256.Dot(direction, position - map.Translation) - VertexSupport(localDirection)
+            - (_margin * Length(localDirection));
         return separation > 0 ? separation * separation / Vector256.Dot(direction, direction) : 0;
     }
 
@@ -168,7 +177,9 @@ internal sealed class HullBound
         var maxHeight = Vector256.Create(double.NegativeInfinity);
         for (var i = 0; i < count; i += Lanes)
         {
-            maxHeight = Vector256.MaxNative(maxHeight, DotX4(ref planes, i, count, x, y, z) - Vector256.LoadUnsafe(ref planes, (nuint)((3 * count) + i)));
+            maxHeight =
+                Vector256.MaxNative(maxHeight, DotX4(ref planes, i, count, x, y, z)
+                    - Vector256.LoadUnsafe(ref planes, (nuint)((3 * count) + i)));
         }
 
         return HorizontalMax(maxHeight);
@@ -199,7 +210,9 @@ internal sealed class HullBound
         var (bestHeightSquared, plane) = (maxHeightSquared[0], index[0]);
         for (var lane = 1; lane < Lanes; lane++)
         {
-            (bestHeightSquared, plane) = maxHeightSquared[lane] > bestHeightSquared ? (maxHeightSquared[lane], index[lane]) : (bestHeightSquared, plane);
+            (bestHeightSquared, plane) = maxHeightSquared[lane] > bestHeightSquared
+                ? (maxHeightSquared[lane], index[lane])
+                : (bestHeightSquared, plane);
         }
 
         return inverse.MultiplyTransposed(Vector256.Create(_planes[plane], _planes[count + plane], _planes[(2 * count) + plane], 0));

@@ -3,20 +3,22 @@ using FractalEngine.Core.Geometry;
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// Shows that the last round of a repetition, widened a little, holds all rounds above it, however many. If all that a round above is made of is
-/// held by the widened one, provided that what is below is, then, by induction, so it is at every depth.
+/// Shows that the last round of a repetition, widened a little, holds all rounds above it, however many. If all that a round above is made
+/// of is held by the widened one, provided that what is below is, then, by induction, so it is at every depth.
 /// </summary>
 /// <param name="topLevel">Its uppermost level.</param>
 /// <param name="period">Its number of levels.</param>
 /// <param name="volumeAt">Of all levels up to the top.</param>
 /// <param name="edgesAt">Of all levels up to the top.</param>
 /// <param name="toleranceFactor">
-/// From 1 upwards: what may change, as a multiple of the usual. Which corners a hull keeps may change a little from round to round without end.
+/// From 1 upwards: what may change, as a multiple of the usual. Which corners a hull keeps may change a little from round to round without
+/// end.
 /// </param>
-internal sealed class PeriodicBound(long topLevel, int period, Func<long, BoundingVolume> volumeAt, Func<long, ChildEdge[]> edgesAt, double toleranceFactor)
+internal sealed class PeriodicBound(long topLevel, int period, Func<long, BoundingVolume> volumeAt, Func<long, ChildEdge[]> edgesAt,
+    double toleranceFactor)
 {
-    // Bounds settle when a round changes them by less than this part of their size, or of the margin by which they are too large anyway. They are
-    // then widened by ten times as much as they changed, or by what rounding may change.
+    // Bounds settle when a round changes them by less than this part of their size, or of the margin by which they are too large anyway.
+    // They are then widened by ten times as much as they changed, or by what rounding may change.
     private const double ConvergenceTolerance = 1e-7;
     private const double MarginTolerance = 0.05;
     private const double InflationFactor = 10;
@@ -54,21 +56,27 @@ internal sealed class PeriodicBound(long topLevel, int period, Func<long, Boundi
         var coveredLevels = Enumerable.Range(0, period).Select(i => new HashSet<long> { FirstLevel + i }).ToArray();
         for (var level = topLevel + 1; level < InductionLevel; level++)
         {
-            foreach (var childLevel in children[PhaseOf(level)].Where(child => child.LevelStep >= 0).Select(child => child.RemainingLevels(level)).Where(childLevel => childLevel < FirstLevel))
+            foreach (var childLevel in children[PhaseOf(level)].Where(child => child.LevelStep >= 0)
+                .Select(child => child.RemainingLevels(level)).Where(childLevel => childLevel < FirstLevel))
             {
                 coveredLevels[PhaseOf(childLevel)].Add(childLevel);
             }
         }
 
-        if (!coveredLevels.Select((levels, i) => levels.Max(level => RelativeChange(volumeAt(level).Box, volumeAt(FirstLevel + i).Box))).All(change => change <= ConvergenceThreshold()))
+        if (!coveredLevels.Select((levels, i) => levels.Max(level => RelativeChange(volumeAt(level).Box, volumeAt(FirstLevel + i).Box)))
+            .All(change => change <= ConvergenceThreshold()))
         {
             return null;
         }
 
-        var volumesWithMargins = WithInvariantMargins([.. Enumerable.Range(0, period).Select(i => volumeAt(FirstLevel + i))], coveredLevels);
-        for (var inflation = Math.Max(InflationFactor * MaxRelativeChange(), Rounding); inflation < MaxInflation; inflation *= InflationGrowth)
+        var volumesWithMargins = WithInvariantMargins([.. Enumerable.Range(0, period).Select(i => volumeAt(FirstLevel + i))],
+            coveredLevels);
+        for (var inflation = Math.Max(InflationFactor * MaxRelativeChange(), Rounding); inflation < MaxInflation;
+            inflation *= InflationGrowth)
         {
-            BoundingVolume[] volumes = [.. volumesWithMargins.Select((volume, i) => volume with { Box = Inflate(coveredLevels[i].Select(level => volumeAt(level).Box), inflation) })];
+            BoundingVolume[] volumes =
+                [.. volumesWithMargins.Select(
+                    (volume, i) => volume with { Box = Inflate(coveredLevels[i].Select(level => volumeAt(level).Box), inflation) })];
             if (Enumerable.Range(0, period).All(i => ContainsChildren(volumes, i)))
             {
                 return volumes;
@@ -79,7 +87,8 @@ internal sealed class PeriodicBound(long topLevel, int period, Func<long, Boundi
     }
 
     private static BoundingBox Inflate(IEnumerable<BoundingBox> boxes, double fraction) =>
-        boxes.Aggregate(BoundingBox.Union) switch { var box => BoundingVolume.Inflate(box, (fraction * box.Diagonal) + (Rounding * Magnitude(box))) };
+        boxes.Aggregate(BoundingBox.Union) switch { var box =>
+            BoundingVolume.Inflate(box, (fraction * box.Diagonal) + (Rounding * Magnitude(box))) };
 
     /// <summary>By which part of its size a box changes, rounding left out: what shrinks to a point does no more.</summary>
     private static double RelativeChange(BoundingBox box1, BoundingBox box2)
@@ -91,26 +100,34 @@ internal sealed class PeriodicBound(long topLevel, int period, Func<long, Boundi
     private static double Magnitude(BoundingBox box) =>
         box.IsEmpty ? 0 : Math.Max(box.Minimum.MaxAbsComponent(), box.Maximum.MaxAbsComponent());
 
-    private static BoundingVolume[] WithoutHulls(BoundingVolume[] volumes) => [.. volumes.Select(volume => volume with { Hull = null, Margin = 0 })];
+    private static BoundingVolume[] WithoutHulls(BoundingVolume[] volumes) =>
+        [.. volumes.Select(volume => volume with { Hull = null, Margin = 0 })];
 
     private double ConvergenceThreshold() => Math.Max(
-        ConvergenceTolerance, Math.Min(1, toleranceFactor * MarginTolerance) * Enumerable.Range(0, period).Select(i => volumeAt(FirstLevel + i)).Min(volume => volume.Margin / volume.Box.Diagonal));
+        ConvergenceTolerance, Math.Min(1, toleranceFactor * MarginTolerance) * Enumerable.Range(0, period)
+        .Select(i => volumeAt(FirstLevel + i)).Min(volume => volume.Margin / volume.Box.Diagonal));
 
-    private double MaxRelativeChange() => Enumerable.Range(0, period).Max(i => RelativeChange(volumeAt(FirstLevel + i).Box, volumeAt(FirstLevel + i - period).Box));
+    private double MaxRelativeChange() =>
+        Enumerable.Range(0, period).Max(i => RelativeChange(volumeAt(FirstLevel + i).Box, volumeAt(FirstLevel + i - period).Box));
 
     private bool ContainsChildren(BoundingVolume[] volumes, int phase)
     {
         var outerBox = volumes[phase].Box;
-        return edgesAt(FirstLevel + phase).Select(edge => CollapsedEdge.Collapse(edge, InductionLevel + phase, level => edgesAt(EquivalentLevel(level))))
-            .Select(collapsedEdge => VolumeAt(volumes, collapsedEdge.RemainingLevels).TransformedBox(collapsedEdge.Map, collapsedEdge.OperatorNormBound)).All(box => BoundingBox.Union(outerBox, box) == outerBox);
+        return edgesAt(FirstLevel + phase)
+            .Select(edge => CollapsedEdge.Collapse(edge, InductionLevel + phase, level => edgesAt(EquivalentLevel(level))))
+            .Select(collapsedEdge => VolumeAt(volumes, collapsedEdge.RemainingLevels)
+            .TransformedBox(collapsedEdge.Map, collapsedEdge.OperatorNormBound)).All(box => BoundingBox.Union(outerBox, box) == outerBox);
     }
 
     /// <summary>Gives the hulls margins by which they hold the rounds above as well; takes the hulls away where there are none.</summary>
     private BoundingVolume[] WithInvariantMargins(BoundingVolume[] volumes, HashSet<long>[] coveredLevels)
     {
         var collapsedEdges = Enumerable.Range(0, period)
-            .SelectMany(i => edgesAt(FirstLevel + i).Select(edge => (Place: i, Part: CollapsedEdge.Collapse(edge, InductionLevel + i, level => edgesAt(EquivalentLevel(level)))))).ToArray();
-        var childVolumes = collapsedEdges.Where(item => item.Part.RemainingLevels < FirstLevel).Select(item => item.Part.RemainingLevels).Concat(coveredLevels.SelectMany(levels => levels)).Select(volumeAt);
+            .SelectMany(i => edgesAt(FirstLevel + i)
+            .Select(edge => (Place: i, Part: CollapsedEdge.Collapse(edge, InductionLevel + i, level => edgesAt(EquivalentLevel(level))))))
+            .ToArray();
+        var childVolumes = collapsedEdges.Where(item => item.Part.RemainingLevels < FirstLevel).Select(item => item.Part.RemainingLevels)
+            .Concat(coveredLevels.SelectMany(levels => levels)).Select(volumeAt);
         if (volumes.Any(volume => volume.Hull is null) || childVolumes.Any(volume => volume.Hull is null && !volume.Box.IsEmpty))
         {
             return WithoutHulls(volumes);
@@ -128,7 +145,11 @@ internal sealed class PeriodicBound(long topLevel, int period, Func<long, Boundi
             for (var i = 0; i < collapsedEdges.Length; i++)
             {
                 var (phase, collapsedEdge) = collapsedEdges[i];
-                var requiredMargin = vertexDistances[i] + (collapsedEdge.OperatorNormBound * (collapsedEdge.RemainingLevels < FirstLevel ? volumeAt(collapsedEdge.RemainingLevels).Margin : margins[PhaseOf(collapsedEdge.RemainingLevels)]));
+                var requiredMargin = vertexDistances[i]
+                    + (collapsedEdge.OperatorNormBound
+                        * (collapsedEdge.RemainingLevels < FirstLevel
+                        ? volumeAt(collapsedEdge.RemainingLevels).Margin
+                        : margins[PhaseOf(collapsedEdge.RemainingLevels)]));
                 isInvariant &= requiredMargin <= margins[phase];
                 // A little more than needed, so that it ends.
                 margins[phase] = Math.Max(margins[phase], requiredMargin * (1 + ConvergenceTolerance));
@@ -143,5 +164,6 @@ internal sealed class PeriodicBound(long topLevel, int period, Func<long, Boundi
         return WithoutHulls(volumes);
     }
 
-    private static double MaxDistanceOutside(BoundingVolume outerVolume, IEnumerable<Maths.Vector> points) => points.Max(outerVolume.Hull!.DistanceUpperBound);
+    private static double MaxDistanceOutside(BoundingVolume outerVolume, IEnumerable<Maths.Vector> points) =>
+        points.Max(outerVolume.Hull!.DistanceUpperBound);
 }

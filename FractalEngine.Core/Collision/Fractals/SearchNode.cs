@@ -10,7 +10,8 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// <param name="parentNode">The sub-fractal that it is a copy in, −1 for none.</param>
 /// <param name="childIndex">Its number there.</param>
 /// <param name="depth">How many copies lead to it.</param>
-internal struct SearchNode(SubFractal subFractal, long remainingLevels, SimdAffineMap map, SimdAffineMap inverse, int parentNode, int childIndex, int depth)
+internal struct SearchNode(SubFractal subFractal, long remainingLevels, SimdAffineMap map, SimdAffineMap inverse, int parentNode,
+    int childIndex, int depth)
 {
     public readonly SubFractal SubFractal = subFractal;
     public readonly long RemainingLevels = remainingLevels;
@@ -29,6 +30,8 @@ internal struct SearchNode(SubFractal subFractal, long remainingLevels, SimdAffi
     public readonly double LowerBoundSquared(Vector256<double> position, double cutoffSquared)
     {
         var boxDistanceSquared = SubFractal.TransformedBoxDistanceSquared(position, in Map);
-        return boxDistanceSquared < cutoffSquared && SubFractal.Hull is { } hull ? Math.Max(boxDistanceSquared, hull.TransformedLowerBoundSquared(position, in Map, in Inverse, cutoffSquared)) : boxDistanceSquared;
+        return boxDistanceSquared < cutoffSquared && SubFractal.Hull is { } hull
+            ? Math.Max(boxDistanceSquared, hull.TransformedLowerBoundSquared(position, in Map, in Inverse, cutoffSquared))
+            : boxDistanceSquared;
     }
 }

@@ -10,7 +10,8 @@ internal readonly struct SimdAffineMap
     private readonly Vector256<double> _translation;
 
     public SimdAffineMap(AffineMap map) =>
-        (V1, V2, V3, _translation) = (ToVector256(map.Linear.V1), ToVector256(map.Linear.V2), ToVector256(map.Linear.V3), ToVector256(map.Translation));
+        (V1, V2, V3, _translation) = (ToVector256(map.Linear.V1), ToVector256(map.Linear.V2), ToVector256(map.Linear.V3),
+        ToVector256(map.Translation));
 
     private SimdAffineMap(Vector256<double> v1, Vector256<double> v2, Vector256<double> v3, Vector256<double> translation) =>
         (V1, V2, V3, _translation) = (v1, v2, v3, translation);
@@ -60,5 +61,6 @@ internal readonly struct SimdAffineMap
     public AffineMap ToAffineMap() => new(new(ToVector(V1), ToVector(V2), ToVector(V3)), ToVector(_translation));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private Vector256<double> ApplyLinear(Vector256<double> v) => (Vector256.Create(v[0]) * V1) + (Vector256.Create(v[1]) * V2) + (Vector256.Create(v[2]) * V3);
+    private Vector256<double> ApplyLinear(Vector256<double> v) =>
+        (Vector256.Create(v[0]) * V1) + (Vector256.Create(v[1]) * V2) + (Vector256.Create(v[2]) * V3);
 }

@@ -7,8 +7,8 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// Search where all maps keep distances in proportion: the position is taken into the frame of each sub-fractal, and distances there are multiplied
-/// by the scale.
+/// Search where all maps keep distances in proportion: the position is taken into the frame of each sub-fractal, and distances there are
+/// multiplied by the scale.
 /// </summary>
 internal sealed class SimilaritySearch(SubFractalTable table, TriangleBvh bvh)
 {
@@ -30,7 +30,8 @@ internal sealed class SimilaritySearch(SubFractalTable table, TriangleBvh bvh)
     /// <param name="depth">How many copies lead to it.</param>
     /// <param name="offset">Of free memory.</param>
     /// <param name="search">What is found so far.</param>
-    private void Visit(SubFractal subFractal, long remainingLevels, Vector256<double> position, double scaleSquared, int depth, int offset, ref FractalSearchState search)
+    private void Visit(SubFractal subFractal, long remainingLevels, Vector256<double> position, double scaleSquared, int depth, int offset,
+        ref FractalSearchState search)
     {
         if (remainingLevels == 0 || subFractal.RadiusSquared * scaleSquared <= search.MinRadiusSquared)
         {
@@ -74,7 +75,8 @@ internal sealed class SimilaritySearch(SubFractalTable table, TriangleBvh bvh)
             if (!queue.IsRefined(closestChild) && (childLevels > 0 || bvh.FaceCount > MaxFacesWithoutHull))
             {
                 // The sub-fractal's own bounds are tighter than the box around its image. Only those that seem nearest are asked for.
-                var refinedBound = RefinedBound(subFractal, childSubFractal, localPosition, cutoffSquared / child.ScaleSquared, ref search) * child.ScaleSquared;
+                var refinedBound = RefinedBound(subFractal, childSubFractal, localPosition, cutoffSquared / child.ScaleSquared, ref search)
+                    * child.ScaleSquared;
                 if (queue.Refine(closestChild, refinedBound))
                 {
                     hasNext = queue.TryPeek(cutoffSquared, out var next);
@@ -99,7 +101,8 @@ internal sealed class SimilaritySearch(SubFractalTable table, TriangleBvh bvh)
     {
         var (closestDistanceSquared, closestFace) = (search.ClosestDistanceSquared / scaleSquared, -1);
         bvh.FindClosest(
-            SimdAffineMap.ToVector(position), ref closestDistanceSquared, ref closestFace, search.BoundFactor, ref search.FaceTests, ref search.BoundTests);
+            SimdAffineMap.ToVector(position), ref closestDistanceSquared, ref closestFace, search.BoundFactor, ref search.FaceTests,
+            ref search.BoundTests);
         if (closestFace >= 0)
         {
             search.UpdateClosest(closestDistanceSquared * scaleSquared, closestFace, depth);
@@ -108,7 +111,8 @@ internal sealed class SimilaritySearch(SubFractalTable table, TriangleBvh bvh)
 
     /// <summary>A sub-fractal's own bound.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static double RefinedBound(SubFractal parent, SubFractal child, Vector256<double> localPosition, double cutoffSquared, ref FractalSearchState search)
+    private static double RefinedBound(SubFractal parent, SubFractal child, Vector256<double> localPosition, double cutoffSquared,
+    ref FractalSearchState search)
     {
         var bound = 0.0;
         if (parent.HasRotatedChildren)

@@ -26,9 +26,11 @@ internal sealed class SubFractal
     /// <param name="baseBox">Of the base mesh.</param>
     /// <param name="hull">Of everything, if that is a bound better than the box.</param>
     /// <param name="childHull">The hull of what the first copy is of.</param>
-    public SubFractal(MapSet? set, ChildInstance[] children, ReadOnlySpan<BoundingBox> childBoxes, BoundingVolume boundingVolume, BoundingBox baseBox, HullBound? hull, HullBound? childHull)
+    public SubFractal(MapSet? set, ChildInstance[] children, ReadOnlySpan<BoundingBox> childBoxes, BoundingVolume boundingVolume,
+        BoundingBox baseBox, HullBound? hull, HullBound? childHull)
     {
-        (Set, Children, Box, Centre, Hull) = (set, children, boundingVolume.Box, SimdAffineMap.ToVector256(boundingVolume.Box.Centre), hull);
+        (Set, Children, Box, Centre, Hull) = (set, children, boundingVolume.Box, SimdAffineMap.ToVector256(boundingVolume.Box.Centre),
+            hull);
         _halfSize = SimdAffineMap.ToVector256(0.5 * boundingVolume.Box.Size);
         PaddedCount = (children.Length + Lanes - 1) / Lanes * Lanes;
         ChildBounds = new double[ValuesPerChild * PaddedCount];
@@ -91,10 +93,13 @@ internal sealed class SubFractal
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public double TransformedBoxDistanceSquared(Vector256<double> position, in SimdAffineMap map)
     {
-        var outside = Vector256.MaxNative(Vector256.Abs(position - map.Apply(Centre)) - map.TransformHalfSize(_halfSize), Vector256<double>.Zero);
+        var outside = Vector256.MaxNative(Vector256.Abs(position - map.Apply(Centre)) - map.TransformHalfSize(_halfSize),
+            Vector256<double>.Zero);
         return Vector256.Dot(outside, outside);
     }
 
     /// <summary>Bytes of the arrays.</summary>
-    public long StorageBytes => (sizeof(double) * ChildBounds.Length) + (UnrotatedBounds?.StorageBytes ?? 0) + (Children.Length * 24) + (Hull?.StorageBytes ?? 0) + 160;
+    public long StorageBytes =>
+        (sizeof(double) * ChildBounds.Length) + (UnrotatedBounds?.StorageBytes ?? 0) + (Children.Length * 24) + (Hull?.StorageBytes ?? 0)
+        + 160;
 }

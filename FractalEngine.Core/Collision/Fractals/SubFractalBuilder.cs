@@ -6,8 +6,8 @@ namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>Builds the sub-fractals of a <see cref="SubFractalTable"/>, from the base mesh upwards.</summary>
 /// <remarks>
-/// The identity is not a copy like the others: where all levels below have it, the base mesh stands at the level itself, and a copy may pass
-/// over levels that have it. Each chain of the other maps is then reached in one way, on its earliest levels (docs/colliders.md).
+/// The identity is not a copy like the others: where all levels below have it, the base mesh stands at the level itself, and a copy may
+/// pass over levels that have it. Each chain of the other maps is then reached in one way, on its earliest levels (docs/colliders.md).
 /// </remarks>
 internal sealed class SubFractalBuilder
 {
@@ -103,7 +103,8 @@ internal sealed class SubFractalBuilder
         {
             if (hasOnlySets && round >= nextAttempt)
             {
-                if (TryRepeatRound(levelsBelowRepetition, repetition.Body.Length, (repetition.Count - round) * repetition.LevelsPerRound, Math.Max(1, 0.125 * round)))
+                if (TryRepeatRound(levelsBelowRepetition, repetition.Body.Length, (repetition.Count - round) * repetition.LevelsPerRound,
+                    Math.Max(1, 0.125 * round)))
                 {
                     return;
                 }
@@ -146,15 +147,21 @@ internal sealed class SubFractalBuilder
 
         var level = Levels + 1;
         var edges = ChildInstanceBuilder.EdgesAt(level, levelsBelowRepetition, period, mapSet, below => At(below).Set!);
-        var collapsedEdges = edges.Select(edge => CollapsedEdge.Collapse(edge, level, EdgesAt)).Where(collapsedEdge => !VolumeAt(collapsedEdge.RemainingLevels).Box.IsEmpty).ToArray();
-        if (collapsedEdges.Any(collapsedEdge => !(VolumeAt(collapsedEdge.RemainingLevels).TransformedBox(collapsedEdge.Map, collapsedEdge.OperatorNormBound) is var box && box.Minimum.IsFinite() && box.Size.IsFinite())))
+        var collapsedEdges = edges.Select(edge => CollapsedEdge.Collapse(edge, level, EdgesAt))
+            .Where(collapsedEdge => !VolumeAt(collapsedEdge.RemainingLevels).Box.IsEmpty).ToArray();
+        if (collapsedEdges.Any(
+            collapsedEdge => !(VolumeAt(collapsedEdge.RemainingLevels)
+            .TransformedBox(collapsedEdge.Map, collapsedEdge.OperatorNormBound) is var box && box.Minimum.IsFinite()
+            && box.Size.IsFinite())))
         {
             throw new FractalLimitException($"the bounds of the fractal are beyond the range of a double {level} levels above its base");
         }
 
         var volume = VolumeOf(collapsedEdges);
         var children = _childBuilder.ExpandChildren(level, edges, EdgesAt);
-        Append(1, new BuiltLevel(CreateSubFractal(mapSet, children, children.Select(child => VolumeAt(child.RemainingLevels(level))), volume), volume, edges));
+        Append(1,
+            new BuiltLevel(CreateSubFractal(mapSet, children, children.Select(child => VolumeAt(child.RemainingLevels(level))), volume),
+            volume, edges));
     }
 
     /// <summary>Lets one round, widened a little, stand for all rounds that are left, if it can be shown to hold them.</summary>
@@ -170,10 +177,12 @@ internal sealed class SubFractalBuilder
             return false;
         }
 
-        // In rounds so far up that their copies are of levels in rounds like the last one, and in those between, the copies must be the same.
+        // In rounds so far up that their copies are of levels in rounds like the last one, and in those between, the copies must be the
+        // same.
         ChildInstance[] ChildrenAt(long level) => _childBuilder.ExpandChildren(
             level,
-            ChildInstanceBuilder.EdgesAt(level, levelsBelowRepetition, period, At(periodicBound.EquivalentLevel(level)).Set!, below => At(periodicBound.EquivalentLevel(below)).Set!),
+            ChildInstanceBuilder.EdgesAt(level, levelsBelowRepetition, period, At(periodicBound.EquivalentLevel(level)).Set!,
+            below => At(periodicBound.EquivalentLevel(below)).Set!),
             below => EdgesAt(periodicBound.EquivalentLevel(below)));
         var children = Enumerable.Range(0, period).Select(i => ChildrenAt(periodicBound.InductionLevel + i)).ToArray();
         for (var level = Levels + 1; level < periodicBound.InductionLevel; level++)
@@ -191,7 +200,8 @@ internal sealed class SubFractalBuilder
 
         // No search goes down 10¹² levels.
         Append(remainingLevels ?? (period << 20) * (1L << 20), [.. volumes.Select((volume, i) => new BuiltLevel(
-            CreateSubFractal(At(periodicBound.FirstLevel + i).Set!, children[i], children[i].Select(child => periodicBound.VolumeAt(volumes, child.RemainingLevels(periodicBound.InductionLevel + i))), volume),
+            CreateSubFractal(At(periodicBound.FirstLevel + i).Set!, children[i],
+            children[i].Select(child => periodicBound.VolumeAt(volumes, child.RemainingLevels(periodicBound.InductionLevel + i))), volume),
             volume,
             EdgesAt(periodicBound.FirstLevel + i)))]);
         return true;
@@ -202,28 +212,39 @@ internal sealed class SubFractalBuilder
     {
         if (collapsedEdges is [] or [_])
         {
-            return collapsedEdges is [var only] ? BoundingVolume.Create(VolumeAt(only.RemainingLevels), only.Map, only.OperatorNormBound) : BoundingVolume.Empty;
+            return collapsedEdges is [var only]
+                ? BoundingVolume.Create(VolumeAt(only.RemainingLevels), only.Map, only.OperatorNormBound)
+                : BoundingVolume.Empty;
         }
 
         var volumes = collapsedEdges.Select(collapsedEdge => VolumeAt(collapsedEdge.RemainingLevels)).ToArray();
-        var box = collapsedEdges.Zip(volumes, (collapsedEdge, volume) => volume.TransformedBox(collapsedEdge.Map, collapsedEdge.OperatorNormBound)).Aggregate(BoundingBox.Union);
+        var box =
+            collapsedEdges.Zip(volumes,
+            (collapsedEdge, volume) => volume.TransformedBox(collapsedEdge.Map, collapsedEdge.OperatorNormBound))
+            .Aggregate(BoundingBox.Union);
         var vertices = volumes.All(volume => volume.Hull is not null)
             ? collapsedEdges.Zip(volumes).SelectMany(pair => pair.Second.Hull!.Vertices.Select(vertex => pair.First.Map * vertex)).ToArray()
             : null;
-        return BoundingVolume.Create(box, vertices, collapsedEdges.Zip(volumes, (collapsedEdge, volume) => collapsedEdge.OperatorNormBound * volume.Margin).Max());
+        return BoundingVolume.Create(box, vertices,
+            collapsedEdges.Zip(volumes, (collapsedEdge, volume) => collapsedEdge.OperatorNormBound * volume.Margin).Max());
     }
 
     private SubFractal CreateSubFractal(MapSet set, ChildInstance[] children, IEnumerable<BoundingVolume> volumes, BoundingVolume volume)
     {
         BoundingVolume[] childVolumes = [.. volumes];
-        var boxes = children.Zip(childVolumes, (child, childVolume) => childVolume.TransformedBox(child.Map, child.OperatorNormBound)).ToArray();
-        return new(set, children, boxes, volume, _volumes[0].Box, CreateHullBound(volume), childVolumes.Length > 0 ? CreateHullBound(childVolumes[0]) : null);
+        var boxes = children.Zip(childVolumes, (child, childVolume) => childVolume.TransformedBox(child.Map, child.OperatorNormBound))
+            .ToArray();
+        return new(set, children, boxes, volume, _volumes[0].Box, CreateHullBound(volume), childVolumes.Length > 0
+            ? CreateHullBound(childVolumes[0])
+            : null);
     }
 
     private HullBound? CreateHullBound(BoundingVolume volume)
     {
         var (x, y, z) = volume.Box.Size;
-        return volume.Hull is null || volume.Hull.Volume() > MaxHullFillRatio * x * y * z ? null : new(volume.Hull, volume.Box, volume.Margin, includeAxisPlanes: !HasOnlySimilarities);
+        return volume.Hull is null || volume.Hull.Volume() > MaxHullFillRatio * x * y * z
+            ? null
+            : new(volume.Hull, volume.Box, volume.Margin, includeAxisPlanes: !HasOnlySimilarities);
     }
 
     private readonly record struct BuiltLevel(SubFractal SubFractal, BoundingVolume Volume, ChildEdge[] Edges);

@@ -3,8 +3,8 @@ using FractalEngine.Core.Fractals;
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// The sub-fractals of a fractal, one for each number of levels that are left. Deep repetitions share those of one round once their bounds have
-/// settled, so the table stays in kilobytes at any depth.
+/// The sub-fractals of a fractal, one for each number of levels that are left. Deep repetitions share those of one round once their bounds
+/// have settled, so the table stays in kilobytes at any depth.
 /// </summary>
 internal sealed class SubFractalTable
 {
@@ -53,7 +53,9 @@ internal sealed class SubFractalTable
     /// <summary>The sub-fractal with so many levels left.</summary>
     public SubFractal At(long levels) => _subFractals[LevelRegion.FindIndex(_regions, levels)]!;
 
-    /// <summary>The set on top of the sub-fractal with so many levels left, which may be one that is never looked at; null for the base.</summary>
+    /// <summary>
+    /// The set on top of the sub-fractal with so many levels left, which may be one that is never looked at; null for the base.
+    /// </summary>
     public MapSet? MapSetAt(long levels) => _mapSets[LevelRegion.FindIndex(_regions, levels)];
 
     /// <summary>Which states a search can come to; all, where finding that out would take long.</summary>

@@ -62,7 +62,8 @@ public sealed class BoundingBoxCollider : Collider
     public static int DefaultDepth(int faceCount) => faceCount <= 1 ? 0 : (int)Math.Round(3 * Math.Log(faceCount, 8));
 
     /// <inheritdoc/>
-    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
+    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
+        out ClosestPoint closest)
     {
         context.ClearPath();
         closest = default;
@@ -107,7 +108,8 @@ public sealed class BoundingBoxCollider : Collider
             new((octant & 1) != 0 ? x1 : x, (octant & 2) != 0 ? y1 : y, (octant & 4) != 0 ? z1 : z));
     }
 
-    private static int OctantOf(Vector v, Vector centre) => (v.X >= centre.X ? 1 : 0) | (v.Y >= centre.Y ? 2 : 0) | (v.Z >= centre.Z ? 4 : 0);
+    private static int OctantOf(Vector v, Vector centre) =>
+        (v.X >= centre.X ? 1 : 0) | (v.Y >= centre.Y ? 2 : 0) | (v.Z >= centre.Z ? 4 : 0);
 
     private (Node Node, BoundingBox Box) ClosestChild(Vector position, Node node, BoundingBox box, QueryContext context)
     {
@@ -120,7 +122,8 @@ public sealed class BoundingBoxCollider : Collider
             }
 
             var childBox = ChildBox(box, octant);
-            var distanceSquared = Vector.Max(Vector.Max(childBox.Minimum - position, position - childBox.Maximum), Vector.Zero).LengthSquared();
+            var distanceSquared = Vector.Max(Vector.Max(childBox.Minimum - position, position - childBox.Maximum), Vector.Zero)
+                .LengthSquared();
             if (distanceSquared < closestDistanceSquared || child == node.FirstFaceOrChild)
             {
                 (closestNode, closestBox, closestDistanceSquared) = (_nodes[child], childBox, distanceSquared);
@@ -159,7 +162,8 @@ public sealed class BoundingBoxCollider : Collider
         {
             if ((childMask & (1 << octant)) != 0)
             {
-                Subdivide(child++, first + octantStarts[octant], octantStarts[octant + 1] - octantStarts[octant], ChildBox(box, octant), remainingDepth - 1, centroids);
+                Subdivide(child++, first + octantStarts[octant], octantStarts[octant + 1] - octantStarts[octant], ChildBox(box, octant),
+                    remainingDepth - 1, centroids);
             }
         }
     }

@@ -18,7 +18,8 @@ internal sealed class DescentBeam
     /// <param name="DistanceSquared">Distance of the base there.</param>
     /// <param name="ClosestFace">The nearest of the base there.</param>
     /// <param name="PathNode">Where its way from the root ends; −1 at the root.</param>
-    public readonly record struct Entry(AffineMap Map, Vector LocalPosition, double ScaleSquared, double DistanceSquared, int ClosestFace, int PathNode);
+    public readonly record struct Entry(AffineMap Map, Vector LocalPosition, double ScaleSquared, double DistanceSquared, int ClosestFace,
+        int PathNode);
 
     private readonly record struct Candidate(double DistanceSquared, int ParentEntry, int ChildIndex, int ClosestFace);
 
@@ -38,7 +39,9 @@ internal sealed class DescentBeam
         Entries.Add(root);
     }
 
-    /// <summary>Keeps a copy of an entry if it is nearer than <see cref="CutoffSquared"/>; of copies at the same distance the first.</summary>
+    /// <summary>
+    /// Keeps a copy of an entry if it is nearer than <see cref="CutoffSquared"/>; of copies at the same distance the first.
+    /// </summary>
     /// <param name="distanceSquared">Its distance.</param>
     /// <param name="parentEntry">The entry.</param>
     /// <param name="childIndex">Its number in the set; −1 for the entry itself, which goes on as it is.</param>
@@ -75,7 +78,9 @@ internal sealed class DescentBeam
             {
                 _pathNodes.Add((entry.PathNode, childIndex));
                 entry = new(
-                    entry.Map * set.Maps[childIndex], hasOnlySimilarities ? set.Inverses[childIndex] * entry.LocalPosition : entry.LocalPosition, entry.ScaleSquared * set.ScalesSquared[childIndex],
+                    entry.Map * set.Maps[childIndex], hasOnlySimilarities
+                    ? set.Inverses[childIndex] * entry.LocalPosition
+                    : entry.LocalPosition, entry.ScaleSquared * set.ScalesSquared[childIndex],
                     distanceSquared, closestFace, _pathNodes.Count - 1);
             }
 

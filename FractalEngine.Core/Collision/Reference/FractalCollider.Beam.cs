@@ -64,12 +64,14 @@ public sealed partial class FractalCollider
             {
                 var scaleSquared = entry.ScaleSquared * set.ScalesSquared[childIndex];
                 distanceSquared /= scaleSquared;
-                _baseBvh.TestAllTriangles(set.Inverses[childIndex] * entry.LocalPosition, ref distanceSquared, ref closestFace, ref faceTests);
+                _baseBvh.TestAllTriangles(set.Inverses[childIndex] * entry.LocalPosition, ref distanceSquared, ref closestFace,
+                    ref faceTests);
                 distanceSquared *= scaleSquared;
             }
             else
             {
-                _baseBvh.TestAllTransformedTriangles(position, entry.Map * set.Maps[childIndex], ref distanceSquared, ref closestFace, ref faceTests);
+                _baseBvh.TestAllTransformedTriangles(position, entry.Map * set.Maps[childIndex], ref distanceSquared, ref closestFace,
+                    ref faceTests);
             }
 
             if (closestFace >= 0)

@@ -8,12 +8,12 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision.Reference;
 
 /// <summary>
-/// The paper's descent (§4.4.3): at each level every transformation is looked at as if the base object stood there alone, and the search goes on
-/// in the nearest one only. Approximate: a copy of the base can be farther away while the sub-fractal that stands on it is nearer.
+/// The paper's descent (§4.4.3): at each level every transformation is looked at as if the base object stood there alone, and the search
+/// goes on in the nearest one only. Approximate: a copy of the base can be farther away while the sub-fractal that stands on it is nearer.
 /// </summary>
 /// <remarks>
-/// A round of a recursion is one level, its sets concatenated; sets below the last recursion belong to the base object. So a query costs exactly
-/// b·t face tests a level, b·t·d in all; it keeps t maps and the base object.
+/// A round of a recursion is one level, its sets concatenated; sets below the last recursion belong to the base object. So a query costs
+/// exactly b·t face tests a level, b·t·d in all; it keeps t maps and the base object.
 /// </remarks>
 public sealed partial class FractalCollider : Collider
 {
@@ -30,11 +30,14 @@ public sealed partial class FractalCollider : Collider
     /// <summary>Prepares a fractal in affine composition.</summary>
     /// <param name="fractal">Of any depth.</param>
     /// <param name="beamWidth">
-    /// In how many of the nearest copies of each level the search goes on: 1 is the paper's descent; more cost up to as many times as much and err less, but are not exact either.
+    /// In how many of the nearest copies of each level the search goes on: 1 is the paper's descent; more cost up to as many times as much
+    /// and err less, but are not exact either.
     /// </param>
     /// <exception cref="ArgumentOutOfRangeException">The width is less than 1.</exception>
     /// <exception cref="ArgumentException">The fractal is composed componentwise.</exception>
-    /// <exception cref="SingularMatrixException">A map flattens what it maps, as a scale of 0 does; fractal files with one are refused.</exception>
+    /// <exception cref="SingularMatrixException">
+    /// A map flattens what it maps, as a scale of 0 does; fractal files with one are refused.
+    /// </exception>
     /// <exception cref="FractalLimitException">A round, or the base object, has more than a million instances of its own.</exception>
     public FractalCollider(Fractal fractal, int beamWidth = 1)
     {
@@ -56,7 +59,9 @@ public sealed partial class FractalCollider : Collider
         }
 
         var baseMaps = Concatenate(steps[levelSteps..]);
-        _baseMesh = baseMaps is [var only] && only == AffineMap.Identity ? fractal.BaseMesh : FractalGenerator.Flatten(fractal.BaseMesh, [.. baseMaps]);
+        _baseMesh = baseMaps is [var only] && only == AffineMap.Identity
+            ? fractal.BaseMesh
+            : FractalGenerator.Flatten(fractal.BaseMesh, [.. baseMaps]);
         _baseBvh = new(_baseMesh);
         _hasOnlySimilarities = _levels.All(level => level.Set.AreSimilarities);
         _hasNoLevels = _levels.All(level => level.Rounds == 0);
@@ -68,10 +73,12 @@ public sealed partial class FractalCollider : Collider
 
     /// <inheritdoc/>
     public override long StorageBytes =>
-        _levels.Sum(level => level.Set.StorageBytes) + (sizeof(double) * (long)_baseMesh.Positions.Length) + (sizeof(int) * (long)_baseMesh.VertexIndices.Length) + _baseBvh.StorageBytes;
+        _levels.Sum(level => level.Set.StorageBytes) + (sizeof(double) * (long)_baseMesh.Positions.Length)
+        + (sizeof(int) * (long)_baseMesh.VertexIndices.Length) + _baseBvh.StorageBytes;
 
     /// <inheritdoc/>
-    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
+    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
+        out ClosestPoint closest)
     {
         context.ClearPath();
         if (_beamWidth > 1)
@@ -110,7 +117,9 @@ public sealed partial class FractalCollider : Collider
         return closestFace >= 0 && closest.Distance <= maxDistance;
     }
 
-    /// <summary>Looks at all faces of the base under each map of a set, and says under which the nearest is; −1 where there are no faces.</summary>
+    /// <summary>
+    /// Looks at all faces of the base under each map of a set, and says under which the nearest is; −1 where there are no faces.
+    /// </summary>
     private int ClosestChild(MapSet set, Vector position, Vector localPosition, in AffineMap map, ref int closestFace, ref long faceTests)
     {
         var (closestDistanceSquared, closestChild) = (double.PositiveInfinity, -1);
@@ -126,7 +135,8 @@ public sealed partial class FractalCollider : Collider
             }
             else
             {
-                _baseBvh.TestAllTransformedTriangles(position, map * set.Maps[childIndex], ref closestDistanceSquared, ref candidateFace, ref faceTests);
+                _baseBvh.TestAllTransformedTriangles(position, map * set.Maps[childIndex], ref closestDistanceSquared, ref candidateFace,
+                    ref faceTests);
             }
 
             if (candidateFace >= 0)

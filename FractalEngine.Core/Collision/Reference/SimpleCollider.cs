@@ -16,7 +16,8 @@ public sealed class SimpleCollider(Mesh mesh) : Collider
     internal override bool SupportsTransformedQueries => true;
 
     /// <inheritdoc/>
-    internal override bool FindClosestTransformed(Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
+    internal override bool FindClosestTransformed(Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context,
+        out ClosestPoint closest)
     {
         context.ClearPath();
         context.FaceTests += mesh.FaceCount;
@@ -25,7 +26,9 @@ public sealed class SimpleCollider(Mesh mesh) : Collider
         {
             var (a, b, c) = mesh.Face(face);
             var distanceSquared = TriangleKernel.ClosestPoint(position, map * a, map * b, map * c).DistanceSquared;
-            (closestDistanceSquared, closestFace) = distanceSquared < closestDistanceSquared ? (distanceSquared, face) : (closestDistanceSquared, closestFace);
+            (closestDistanceSquared, closestFace) = distanceSquared < closestDistanceSquared
+                ? (distanceSquared, face)
+                : (closestDistanceSquared, closestFace);
         }
 
         closest = closestFace < 0 ? default : ClosestPointFactory.Create(mesh, closestFace, map, position);
@@ -33,7 +36,8 @@ public sealed class SimpleCollider(Mesh mesh) : Collider
     }
 
     /// <inheritdoc/>
-    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
+    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
+        out ClosestPoint closest)
     {
         context.ClearPath();
         context.FaceTests += mesh.FaceCount;

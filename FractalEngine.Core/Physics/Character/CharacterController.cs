@@ -4,8 +4,8 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Core.Physics.Character;
 
 /// <summary>
-/// A player who walks: a capsule that slides along walls, climbs slopes and steps, and jumps. Owned by a <see cref="PhysicsWorld"/>, which moves it at each step
-/// while it <see cref="IsActive"/>.
+/// A player who walks: a capsule that slides along walls, climbs slopes and steps, and jumps. Owned by a <see cref="PhysicsWorld"/>, which
+/// moves it at each step while it <see cref="IsActive"/>.
 /// </summary>
 /// <remarks>The capsule is a row of spheres half a radius apart: between them it is 3 % of the radius thinner.</remarks>
 public sealed class CharacterController
@@ -44,7 +44,9 @@ public sealed class CharacterController
         (_jumpSpeed, _stepHeight) = (player.JumpSpeed(world.Gravity.Length()), player.StepHeight);
         var halfSegment = (0.5 * player.Height) - player.Radius;
         var intervalCount = (int)Math.Ceiling(2 * halfSegment / (SphereSpacing * player.Radius));
-        _sphereOffsets = [.. Enumerable.Range(0, intervalCount + 1).Select(i => (intervalCount == 0 ? 0 : (2.0 * i / intervalCount) - 1) * halfSegment * Up)];
+        _sphereOffsets =
+            [.. Enumerable.Range(0, intervalCount + 1)
+            .Select(i => (intervalCount == 0 ? 0 : (2.0 * i / intervalCount) - 1) * halfSegment * Up)];
         Reset();
     }
 
@@ -82,7 +84,9 @@ public sealed class CharacterController
         }
     }
 
-    /// <summary>Where to walk: a direction, and as its length the part of the full speed, at most 1. What leads up or down is left out.</summary>
+    /// <summary>
+    /// Where to walk: a direction, and as its length the part of the full speed, at most 1. What leads up or down is left out.
+    /// </summary>
     public Vector MoveInput { get; set; }
 
     /// <summary>The spheres of the capsule beside its position.</summary>
@@ -101,7 +105,8 @@ public sealed class CharacterController
             throw new ArgumentException("expected finite coordinates", nameof(position));
         }
 
-        (Position, PreviousPosition, Velocity, IsGrounded, _isOverlapResolved, _jumpBufferTime) = (position, position, Vector.Zero, false, false, 0);
+        (Position, PreviousPosition, Velocity, IsGrounded, _isOverlapResolved, _jumpBufferTime) =
+            (position, position, Vector.Zero, false, false, 0);
         _safeDistance.Invalidate();
     }
 
@@ -208,7 +213,9 @@ public sealed class CharacterController
 
         var averageVelocity = (Position - PreviousPosition) / timeStep;
         // The ground may fall away as steeply as may be walked, or by a step.
-        var maxDrop = _stepHeight + (timeStep * desiredVelocity.Length() * Math.Sqrt(1 - (_minGroundCosine * _minGroundCosine)) / Math.Max(_minGroundCosine, 0.01));
+        var maxDrop = _stepHeight
+            + (timeStep * desiredVelocity.Length()
+                * Math.Sqrt(1 - (_minGroundCosine * _minGroundCosine)) / Math.Max(_minGroundCosine, 0.01));
         IsGrounded = TrySnapToGround(maxDrop);
         // Who walks over an edge falls, and does not fly on upwards.
         Velocity = averageVelocity - (Math.Max(0, Vector.Dot(averageVelocity, Up)) * Up);
@@ -254,7 +261,8 @@ public sealed class CharacterController
         }
 
         // Between two steep walls one stands as well.
-        IsGrounded |= _planes.Count > 0 && gravity != Vector.Zero && ProjectOrZero(gravity).LengthSquared() <= 1e-12 * gravity.LengthSquared();
+        IsGrounded |= _planes.Count > 0 && gravity != Vector.Zero && ProjectOrZero(gravity).LengthSquared() <= 1e-12
+            * gravity.LengthSquared();
         Velocity = velocity;
     }
 
@@ -273,7 +281,8 @@ public sealed class CharacterController
         // As far on as a foot: on the edge itself nothing tells whether there is something to stand on.
         fractionLeft = 1;
         var isBlocked = MoveStraight(Math.Max(1, Description.Radius / length) * displacement, ref fractionLeft, out _);
-        var isHigher = !isBlocked && TrySnapToGround(_stepHeight) && Vector.Dot(Position - start, Up) > MinMoveDistance * Description.Radius;
+        var isHigher = !isBlocked && TrySnapToGround(_stepHeight) && Vector.Dot(Position - start, Up) > MinMoveDistance
+            * Description.Radius;
         Position = raised;
         fractionLeft = 1;
         if (!isHigher || MoveStraight(displacement, ref fractionLeft, out _))
