@@ -32,7 +32,7 @@ public static class ColliderFactory
     public static Collider Create(PlacedModel placed, ColliderKind kind) => placed.Model switch
     {
         FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } =>
-            Create(new Fractal(fractal.Description.WithPlacement(placed.Declaration.Placement), fractal.BaseMesh), kind),
+            Create(fractal.WithPlacement(placed.Declaration.Placement), kind),
         FractalModel { Fractal: var fractal } => CreateExpanded(fractal, placed.ObjectToWorld, kind),
         _ => Create(FractalGenerator.Flatten(placed.Model.Mesh, [placed.ObjectToWorld]), kind),
     };

@@ -5,15 +5,11 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>
-/// The factory of fractals (paper §4.2.4): makes a fractal from a description and a base mesh, and, for those who ask,
-/// concatenates its levels into one list of instances.
+/// The paper's generator (§4.2.4): expands the levels of a fractal into one list of instances, or into one mesh, for callers that need
+/// them all.
 /// </summary>
 public static class FractalGenerator
 {
-    /// <summary>Makes the fractal. <paramref name="loadMesh"/> is called once, with the base file as the description names it.</summary>
-    public static Fractal Create(FractalDescription description, Func<string, Mesh> loadMesh) =>
-        new(description, loadMesh(description.BaseFile));
-
     /// <summary>
     /// The distinct instances of a fractal as maps from the base mesh's frame to the fractal's.
     /// </summary>
