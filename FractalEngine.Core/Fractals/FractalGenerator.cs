@@ -59,11 +59,18 @@ public static class FractalGenerator
     public static Mesh Flatten(Fractal fractal, long maxFaces) =>
         Flatten(fractal.BaseMesh, Expand(fractal, maxFaces / Math.Max(1, fractal.BaseMesh.FaceCount)));
 
-    /// <summary>Copies of a mesh as one mesh.</summary>
+    /// <summary>Expands instances of a mesh into one mesh.</summary>
+    /// <exception cref="FractalLimitException">There are more vertices or faces than an array holds.</exception>
     public static Mesh Flatten(Mesh mesh, ImmutableArray<AffineMap> instances)
     {
-        var (positions, faces) =
-            (new double[instances.Length * mesh.Positions.Length], new int[instances.Length * mesh.VertexIndices.Length]);
+        if ((long)instances.Length * Math.Max(mesh.Positions.Length, mesh.VertexIndices.Length) > Array.MaxLength)
+        {
+            throw new FractalLimitException(
+                $"{instances.Length} instances of {mesh.VertexCount} vertices and {mesh.FaceCount} faces are more than one mesh can hold");
+        }
+
+        var positions = new double[instances.Length * mesh.Positions.Length];
+        var faces = new int[instances.Length * mesh.VertexIndices.Length];
         var (nextPosition, nextFace) = (0, 0);
         for (var instance = 0; instance < instances.Length; instance++)
         {
