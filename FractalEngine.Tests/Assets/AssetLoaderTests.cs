@@ -14,7 +14,7 @@ public sealed class AssetLoaderTests : IDisposable
     public void Dispose() => _folder.Dispose();
 
     private string Fails(string file, LoadOptions? options = null) =>
-        Errors.Of(() => AssetLoader.Load(_folder[file], options)).Replace(_folder.Path + "/", "", StringComparison.Ordinal);
+        Errors.MessageOf(() => AssetLoader.Load(_folder[file], options)).Replace(_folder.Path + "/", "", StringComparison.Ordinal);
 
     [Fact]
     public void Load_OfAMesh_IsASceneOfThatObject()
@@ -241,7 +241,7 @@ public sealed class AssetLoaderTests : IDisposable
         _folder.Write("A.OBJ", Triangle);
         _folder.Write("F.FDO", "<$>. \"A.OBJ\"");
         var path = _folder.Write("S.SDO", "o \"F.FDO\" #");
-        Assert.Equal(FileKind.Scene, InCulture.Get(culture, () => AssetLoader.Load(path)).Kind);
+        Assert.Equal(FileKind.Scene, InCulture.Run(culture, () => AssetLoader.Load(path)).Kind);
     }
 
     [Fact]

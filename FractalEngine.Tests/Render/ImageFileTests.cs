@@ -39,7 +39,7 @@ public sealed class ImageFileTests : IDisposable
     }
 
     [Fact]
-    public void Load_NoPicture_IsAnErrorThatNamesTheFile()
+    public void Load_NoImage_IsAnErrorThatNamesTheFile()
     {
         var path = Path.Combine(_directory.FullName, "text.png");
         File.WriteAllText(path, "no picture");
