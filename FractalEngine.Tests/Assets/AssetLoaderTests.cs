@@ -55,7 +55,7 @@ public sealed class AssetLoaderTests : IDisposable
             "o \"a.obj\" #\no \"a.obj\" ((1, 0, 0), #, #)\no \"a.obj\" ((2, 0, 0), #, #)\no \"f.fdo\" #\no \"f.fdo\" #");
         Assert.Equal(2, AssetLoader.Load(scene).Scene.Models.Count());
         var models = AssetLoader.Load(scene, new() { ShareModels = false }).Scene.Models.ToArray();
-        Assert.Equal((5, 5), (models.Length, models.Select(model => model.Mesh).Distinct().Count()));
+        Assert.Equal((5, 5), (models.Length, models.Select(model => model.Mesh).Distinct(ReferenceEqualityComparer.Instance).Count()));
     }
 
     [Fact]

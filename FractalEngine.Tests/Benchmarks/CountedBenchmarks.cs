@@ -21,7 +21,7 @@ public class CountedBenchmarks : IExtraMetrics
     public int Second() => _double + 1;
 
     /// <inheritdoc/>
-    IEnumerable<ExtraMetric> IExtraMetrics.Measure(string method) =>
+    IEnumerable<ExtraMetric> IExtraMetrics.MeasureExtra(string method) =>
     [
         new("double_size", _double), new("only_second", method == nameof(Second) ? 0.5 : null),
         new("amount_a_second", _double, IsPerSecond: true),
