@@ -1,5 +1,5 @@
 using FractalEngine.Benchmarks.Drawing;
-using FractalEngine.Render.Images;
+using FractalEngine.Core.Images;
 
 namespace FractalEngine.Tests.Benchmarks;
 
