@@ -1,9 +1,9 @@
 using System.Diagnostics;
 using System.Globalization;
 using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Windowing;
 

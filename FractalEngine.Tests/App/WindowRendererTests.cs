@@ -1,7 +1,7 @@
 using FractalEngine.App.Window;
+using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Windowing;
 using FractalEngine.Tests.Support;

@@ -1,5 +1,6 @@
 using System.Diagnostics;
 using System.Globalization;
+using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Scenes;
 using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;

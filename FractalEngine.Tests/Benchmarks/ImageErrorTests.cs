@@ -1,5 +1,5 @@
+using FractalEngine.Core.Images;
 using FractalEngine.Benchmarks.Drawing;
-using FractalEngine.Render.Images;
 
 namespace FractalEngine.Tests.Benchmarks;
 

@@ -1,11 +1,11 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Tests.Collision;
 using FractalEngine.Tests.Support;

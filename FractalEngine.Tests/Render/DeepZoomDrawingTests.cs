@@ -1,11 +1,11 @@
 using FractalEngine.App.Window;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Windowing;
 using FractalEngine.Tests.Fractals;

@@ -1,9 +1,9 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Tests.Render;

@@ -1,8 +1,8 @@
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Tests.Render;

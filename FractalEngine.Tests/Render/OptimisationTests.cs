@@ -1,3 +1,4 @@
+using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 using FractalEngine.Render.Images;

@@ -1,6 +1,6 @@
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Ui;
 
 namespace FractalEngine.Tests.Render;

@@ -1,10 +1,10 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Tests.Render;

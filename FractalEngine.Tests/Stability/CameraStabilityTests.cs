@@ -1,10 +1,10 @@
 using System.Runtime.CompilerServices;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Tests.Fractals;
 using FractalEngine.Tests.Render;
