@@ -33,7 +33,7 @@ internal static class CommandLine
     private static RootCommand CreateRootCommand()
     {
         var root = new RootCommand(
-            "Draw, measure and simulate fractals of up to 10^30 faces, together with regular meshes. "
+            "Draw, measure and simulate fractals of any size, together with regular meshes. "
             + "Without a command, FILE or the gallery is opened in a window.");
         foreach (var command in (Command[])[
             ViewCommand.Create(), RenderCommand.Create(), InfoCommand.Create(), CountCommand.Create(), ExportCommand.Create(),

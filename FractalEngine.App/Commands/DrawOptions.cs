@@ -49,7 +49,8 @@ internal sealed class DrawOptions
 
     private readonly Option<Optimisation[]> _disabled = WordOption.Repeatable(
         "--without", "OPTIMISATION",
-        $"Disable one optimisation, for comparison; repeatable. One of {string.Join(", ", OptimisationWords.Select(static word => word.Word))}.",
+        "Disable one optimisation, for comparison; repeatable. "
+        + $"One of {string.Join(", ", OptimisationWords.Select(static word => word.Word))}.",
         OptimisationWords);
 
     private readonly Option<Projection?> _projection = SharedOptions.ProjectionOption();

@@ -17,7 +17,10 @@ internal static class ExportCommand
         var depth = NumberOption.Integer("--depth", "N", 0, int.MaxValue, "Recursion depth, overriding the fractal's file.");
         var maxFaces = NumberOption.Integer(
             "--limit", "FACES", 1, int.MaxValue, $"Maximum number of faces to write (default: {FractalLimits.MaxExportedFaces}).");
-        var command = new Command("export", "Write all faces of FILE as one flat mesh, with fractals expanded.") { output, depth, maxFaces };
+        var command = new Command("export", "Write all faces of FILE as one flat mesh, with fractals expanded.")
+        {
+            output, depth, maxFaces,
+        };
         shared.AddTo(command);
         command.SetAction(result => Run(
             result.GetRequiredValue(shared.File), shared.LoadOptions(result) with { Depth = result.GetValue(depth) },

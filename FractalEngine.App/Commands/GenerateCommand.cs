@@ -41,6 +41,6 @@ internal static class GenerateCommand
 
     private static string Names() => string.Join(", ", MeshGenerators.All.Select(generator => generator.Name));
 
-    private static string Descriptions() => string.Join(" ", MeshGenerators.All.Select(generator => string.Create(
+    private static string Descriptions() => string.Join('\n', MeshGenerators.All.Select(generator => string.Create(
         CultureInfo.InvariantCulture, $"{generator.Name}: {generator.Description} (default: {generator.DefaultFaceCount} faces).")));
 }

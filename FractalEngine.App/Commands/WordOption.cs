@@ -39,7 +39,8 @@ internal static class WordOption
             var index = Array.FindIndex(words, word => word.Word == token.Value);
             if (index < 0)
             {
-                result.AddError($"{name}: expected one of {string.Join(", ", words.Select(static word => word.Word))}, not '{token.Value}'");
+                var expected = string.Join(", ", words.Select(static word => word.Word));
+                result.AddError($"{name}: expected one of {expected}, not '{token.Value}'");
                 return [];
             }
 

@@ -14,4 +14,8 @@ public sealed record LoadedScene(Scene Scene, ImmutableArray<PlacedModel> Object
 
     /// <summary>The models, each file once, in the order of their first use.</summary>
     public IEnumerable<Model> Models => Objects.Select(placed => placed.Model).Distinct();
+
+    /// <summary>The models of the objects that no physics moves, each file once.</summary>
+    public IEnumerable<Model> StaticModels =>
+        Objects.Where(static placed => placed.Declaration is not PhysicsObject).Select(static placed => placed.Model).Distinct();
 }
