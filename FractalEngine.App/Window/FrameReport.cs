@@ -27,15 +27,17 @@ internal readonly record struct FrameReport(
     private OverlayPanel CostPanel(FrameStatistics statistics)
     {
         var drawTime = DrawTime.TotalMilliseconds;
+        // Adding zero turns a rounded -0 into 0.
+        var magnification = Math.Round(Log10Magnification, 1) + 0.0;
         var cullTime = statistics.CullWaitTime.TotalMilliseconds;
         return OverlayPanel.OfTable(OverlayAnchor.BottomRight, "Last frame",
         [
-            ("draw time", Invariant($"{drawTime:F1} ms, {cullTime:F1} waiting for culling")),
+            ("draw time", Invariant($"{drawTime:F1} ms, culling {cullTime:F1}")),
             ("instances", Invariant($"{statistics.InstanceCount:N0}")),
             ("triangles", Invariant($"{statistics.TriangleCount:N0}")),
             ("visited nodes", Invariant($"{statistics.Culling.VisitedNodes:N0}")),
             ("proxies", Invariant($"{statistics.Culling.Proxies:N0}")),
-            ("fractal depth", Invariant($"{Depth:N0}, magnified 10^{Log10Magnification:F1} times")),
+            ("fractal depth", Invariant($"{Depth:N0}, magnified 10^{magnification:F1}")),
             ("culling runs", Invariant($"{statistics.CullCount:N0}")),
             ("uploaded", Invariant($"{statistics.UploadedBytes / 1e6:F1} MB")),
         ]);

@@ -66,7 +66,7 @@ internal sealed class ScenePhysics
     /// <summary>The fraction of a step by which frames follow the last step, from 0 to 1; see <see cref="Body.InterpolatedMap"/>.</summary>
     public double InterpolationAlpha => IsPaused || World is not { } world ? 1 : world.InterpolationAlpha;
 
-    /// <summary>One line about the bodies, their collider and the cost of the last step.</summary>
+    /// <summary>Two lines about the bodies, their collider and the cost of the last step.</summary>
     public string StatusText
     {
         get
@@ -80,9 +80,10 @@ internal sealed class ScenePhysics
             var collider = world.ColliderOverride is { } kind ? SceneParser.GetColliderName(kind) : "each body's own";
             var (faceTests, boundTests) = world.LastStepCost;
             var paused = IsPaused ? " · paused" : "";
-            return FormattableString.Invariant($"{world.Bodies.Count:N0} bodies, {awakeCount:N0} awake · collider: {collider}")
-                + FormattableString.Invariant($" · last step: {faceTests:N0} face tests, {boundTests:N0} bound tests")
-                + FormattableString.Invariant($", {_stepTime.TotalMilliseconds:F2} ms{paused}");
+            var bodies = FormattableString.Invariant($"bodies: {world.Bodies.Count:N0}, {awakeCount:N0} awake · collider: {collider}{paused}");
+            var cost = FormattableString.Invariant(
+                $"last step: {faceTests:N0} face tests, {boundTests:N0} bound tests, {_stepTime.TotalMilliseconds:F2} ms");
+            return $"{bodies}\n{cost}";
         }
     }
 

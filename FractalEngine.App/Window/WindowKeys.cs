@@ -40,8 +40,7 @@ internal sealed class WindowKeys(RenderWindow window, WindowRenderer renderer, W
         {
             case Key.T when document.Trail is { } trail:
                 document.ToggleTrail();
-                overlay.ShowMessage(
-                    document.IsTrailEnabled ? $"the paper's zoom: m ← m·t, with a trail of {trail.Length}" : "the engine's zoom", now);
+                overlay.ShowMessage(document.IsTrailEnabled ? $"paper's zoom: m ← m·t, trail {trail.Length}" : "engine's zoom", now);
                 return Redraw.Scene;
             case Key.F12:
                 var image = renderer.Capture(document, Settings, window.Width, window.Height);

@@ -49,7 +49,7 @@ internal sealed class WindowOverlay
     /// <summary>The error of a file that can't be shown; null if there is none.</summary>
     public string? Error { get; set; }
 
-    /// <summary>One line about the bodies of the scene; null if there is none to show.</summary>
+    /// <summary>Lines about the bodies of the scene; null if there are none to show.</summary>
     public string? PhysicsStatus { get; set; }
 
     /// <summary>Whether the list of keys is shown.</summary>
