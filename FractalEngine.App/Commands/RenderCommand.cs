@@ -1,5 +1,4 @@
 using System.CommandLine;
-using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
@@ -49,7 +48,7 @@ internal static class RenderCommand
             : file.Scene;
         // A default camera frames the scene as it is at time 0, so that images of several times show the same view.
         var view = View.Of(scene, (double)size.Width / size.Height);
-        var drawable = DrawableScene.Prepare(time > 0 ? Simulate(scene, time) : scene, settings);
+        var drawable = DrawableScene.Prepare(time > 0 ? Simulate(path, scene, time) : scene, settings);
         foreach (var notice in drawable.Notices)
         {
             Console.Error.WriteLine(notice);
@@ -61,12 +60,12 @@ internal static class RenderCommand
         return ExitCode.Done;
     }
 
-    private static LoadedScene Simulate(LoadedScene scene, double seconds)
+    private static LoadedScene Simulate(string path, LoadedScene scene, double seconds)
     {
-        var world = new PhysicsWorld(scene);
+        var world = SceneWorld.Create(path, scene, new());
         while (world.Time + (0.5 * world.Settings.TimeStep) < seconds)
         {
-            world.Step();
+            SceneWorld.Step(path, world);
         }
 
         return world.GetCurrentScene();

@@ -34,14 +34,14 @@ internal static class SaveCommand
     public static void Save(LoadedFile file, Core.Scenes.Scene scene, string output)
     {
         var relocated = SceneRelocation.Relocate(scene, file.Path, Path.GetFullPath(output));
-        if (relocated.Objects.Any(declared => declared.File.IndexOfAny(['"', '\n', '\r']) >= 0))
+        if (relocated.Objects.Any(declared => declared.File!.IndexOfAny(['"', '\n', '\r']) >= 0))
         {
             throw new UsageException("a scene can't refer to a file with a quote or a line break in its path");
         }
 
         AtomicFile.Write(output, stream => stream.Write(Encoding.UTF8.GetBytes(SceneWriter.Write(relocated, file.SceneFile))));
         var folder = AssetFolder.ForFile(Path.GetFullPath(output));
-        if (file.Scene.Models.Any(model => !folder.Contains(model.Path)))
+        if (file.Scene.Models.Any(model => !folder.Contains(model.SourcePath!)))
         {
             Console.Error.WriteLine($"warning: {output} refers to files outside its folder, so it opens only with --allow-outside");
         }

@@ -2,12 +2,9 @@ using System.CommandLine;
 using System.Diagnostics;
 using System.Globalization;
 using System.Text;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.App.Commands;
 
@@ -61,8 +58,10 @@ internal static class SimulateCommand
         }
 
         var buildClock = Stopwatch.StartNew();
-        var world = CreateWorld(path, file.Scene, step, collider);
-        BuildColliders(world, file.Scene);
+        var world = SceneWorld.Create(path, file.Scene, new() { TimeStep = step });
+        world.ColliderOverride = collider;
+        // Built ahead, so that the steps are timed without it and can't fail because of it.
+        world.BuildColliders();
         var buildTime = buildClock.Elapsed;
         var stepTime = TimeSpan.Zero;
         using (var interruption = new InterruptSignal())
@@ -81,44 +80,6 @@ internal static class SimulateCommand
         return ExitCode.Done;
     }
 
-    private static PhysicsWorld CreateWorld(string path, LoadedScene scene, double step, ColliderKind? collider)
-    {
-        try
-        {
-            return new(scene, new() { TimeStep = step }) { ColliderOverride = collider };
-        }
-        catch (ArgumentException exception)
-        {
-            // The time step is known to be valid, so the scene describes a body that is not.
-            throw new SourceException(path, exception.Message);
-        }
-    }
-
-    /// <summary>Builds the colliders ahead, so that the steps are timed without them and can't fail because of them.</summary>
-    private static void BuildColliders(PhysicsWorld world, LoadedScene scene)
-    {
-        foreach (var kind in world.Bodies.Select(body => world.ColliderOverride ?? body.Description.Collider).Distinct().Order())
-        {
-            foreach (var placed in scene.Objects)
-            {
-                if (placed.Declaration is PhysicsObject || placed.Bounds == BoundingBox.Empty)
-                {
-                    continue;
-                }
-
-                try
-                {
-                    // At the centre of its own bounds an object is always tested, so its collider is built.
-                    world.TryFindClosest(placed.Bounds.Centre, kind, out _);
-                }
-                catch (ColliderMismatchException exception)
-                {
-                    throw new UsageException($"{placed.Declaration.File}: {exception.Message}");
-                }
-            }
-        }
-    }
-
     /// <summary>Advances the world by a number of steps, and writes one row per body after each of them.</summary>
     /// <returns>The time that the steps took, without the writing.</returns>
     private static TimeSpan Simulate(string path, PhysicsWorld world, long steps, Stream stream, InterruptSignal interruption)
@@ -131,15 +92,7 @@ internal static class SimulateCommand
         {
             interruption.ThrowIfRequested();
             clock.Start();
-            try
-            {
-                world.Step();
-            }
-            catch (InvalidOperationException exception)
-            {
-                throw new SourceException(path, exception.Message);
-            }
-
+            SceneWorld.Step(path, world);
             clock.Stop();
             table.WriteStep(world);
         }

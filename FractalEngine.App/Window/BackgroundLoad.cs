@@ -1,6 +1,5 @@
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Parsing.Text;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 
@@ -60,17 +59,12 @@ internal sealed class BackgroundLoad
         {
             return _task.GetAwaiter().GetResult();
         }
-        catch (SourceException exception)
+        catch (FractalEngineException exception)
         {
-            exitCode = exception.Diagnostic.IsLimitExceeded ? ExitCode.OverLimit : ExitCode.BadInput;
-            error = exception.Diagnostic.ToString();
+            var failure = Failure.Of(exception);
+            exitCode = failure.ExitCode;
+            error = failure.Text;
+            return null;
         }
-        catch (FractalLimitException exception)
-        {
-            exitCode = ExitCode.OverLimit;
-            error = $"error: {exception.Message}";
-        }
-
-        return null;
     }
 }

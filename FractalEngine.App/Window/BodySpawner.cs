@@ -1,6 +1,5 @@
 using System.Diagnostics.CodeAnalysis;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
@@ -95,7 +94,7 @@ internal static class BodySpawner
 
             return true;
         }
-        catch (Exception exception) when (exception is ColliderMismatchException or FractalLimitException)
+        catch (FractalEngineException exception)
         {
             problem = $"error: {exception.Message}";
             return false;
