@@ -6,7 +6,7 @@ using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>Adds balls and players to a world at the camera, small enough for the free space there.</summary>
+/// <summary>Adds spheres and players to a world at the camera, small enough for the free space there.</summary>
 internal static class BodySpawner
 {
     // Fractions of the scene's size.
@@ -22,8 +22,8 @@ internal static class BodySpawner
     private const double SphereRestitution = 0.6;
     private const double SphereFriction = 0.3;
 
-    /// <summary>Drops a ball in front of the camera.</summary>
-    /// <param name="world">The world that the ball is added to.</param>
+    /// <summary>Drops a sphere in front of the camera.</summary>
+    /// <param name="world">The world that the sphere is added to.</param>
     /// <param name="sceneSize">The size of the scene in scene units.</param>
     /// <param name="camera">The present camera.</param>
     /// <returns>A message for the user.</returns>

@@ -2,7 +2,7 @@ using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>Maps keys to commands of the physics: pausing, dropping balls, walking and showing contacts.</summary>
+/// <summary>Maps keys to commands of the physics: pausing, dropping spheres, walking and showing contacts.</summary>
 internal static class PhysicsKeys
 {
     /// <summary>Runs the command of a key.</summary>

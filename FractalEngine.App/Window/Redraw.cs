@@ -1,6 +1,6 @@
 namespace FractalEngine.App.Window;
 
-/// <summary>The parts of a window's contents that are out of date.</summary>
+/// <summary>The layers of a window's contents that are out of date.</summary>
 [Flags]
 internal enum Redraw
 {

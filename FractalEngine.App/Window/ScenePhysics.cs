@@ -80,7 +80,8 @@ internal sealed class ScenePhysics
             var collider = world.ColliderOverride is { } kind ? SceneParser.GetColliderName(kind) : "each body's own";
             var (faceTests, boundTests) = world.LastStepCost;
             var paused = IsPaused ? " · paused" : "";
-            var bodies = FormattableString.Invariant($"bodies: {world.Bodies.Count:N0}, {awakeCount:N0} awake · collider: {collider}{paused}");
+            var bodies = FormattableString.Invariant(
+                $"bodies: {world.Bodies.Count:N0}, {awakeCount:N0} awake · collider: {collider}{paused}");
             var cost = FormattableString.Invariant(
                 $"last step: {faceTests:N0} face tests, {boundTests:N0} bound tests, {_stepTime.TotalMilliseconds:F2} ms");
             return $"{bodies}\n{cost}";
@@ -161,7 +162,7 @@ internal sealed class ScenePhysics
         return "bodies reset";
     }
 
-    /// <summary>Drops a ball in front of the camera.</summary>
+    /// <summary>Drops a sphere in front of the camera.</summary>
     public string DropSphere(Camera camera) => WhenReady(world => BodySpawner.DropSphere(world, _sceneSize, camera));
 
     /// <summary>Lets the player walk, or the camera fly.</summary>
