@@ -36,7 +36,7 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
     {
         output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{Width}x{Height}, {samples} samples a pixel, best of {rounds}"));
         output.WriteLine(
-            "picture                          drawn             instances        ms   share   to brute   to truth  choosing ms");
+            "picture                          drawn                 instances        ms   share   to brute   to truth  choosing ms");
         foreach (var frameCase in cases)
         {
             using var context = new OffscreenContext();
@@ -55,9 +55,9 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
         (string Name, RenderSettings Settings)[] variants =
         [
             ("detail", settings with { Culling = detail }),
-            ("- hidden", settings with { Culling = detail with { OcclusionCulling = false } }),
-            ("- outside", settings with { Culling = detail with { FrustumCulling = false } }),
-            ("- backs", settings with { Culling = detail, BackFaceCulling = false }),
+            ("- occlusion-culling", settings with { Culling = detail with { OcclusionCulling = false } }),
+            ("- frustum-culling", settings with { Culling = detail with { FrustumCulling = false } }),
+            ("- backface-culling", settings with { Culling = detail, BackFaceCulling = false }),
             ("- threads", settings with { Culling = detail with { ThreadCount = 1 } }),
             ("- size", settings with { Culling = detail with { MinProjectedSize = 0 } }),
             ("3 pixels", settings with { Culling = detail with { MinProjectedSize = 3 } }),
@@ -81,7 +81,7 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
         var flight = CameraFlight.Measure(frame, renderer, frameCase, settings, (Width, Height));
         output.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
-            $"{frameCase.Name,-32} {"flight",-15} {flight.MeanInstanceCount,11} {1000 * flight.Seconds / flight.FrameCount,9:F1}  {flight.FrameCount / flight.Seconds:F1} pictures a second, the slowest {flight.SlowestMilliseconds:F0} ms"));
+            $"{frameCase.Name,-32} {"flight",-19} {flight.MeanInstanceCount,11} {1000 * flight.Seconds / flight.FrameCount,9:F1}  {flight.FrameCount / flight.Seconds:F1} pictures a second, the slowest {flight.SlowestMilliseconds:F0} ms"));
         table?.Add(
             frameCase.Name, "flight", flight.MeanInstanceCount, Math.Round(1000 * flight.Seconds / flight.FrameCount, 3), null, null, null,
             Math.Round(flight.SlowestMilliseconds, 1));
@@ -95,7 +95,7 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
         var prepared = DrawableScene.Prepare(frameCase.Scene, all);
         if (prepared.Notices.Length > 0)
         {
-            output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{frameCase.Name,-32} every instance    {prepared.Notices[0]}"));
+            output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{frameCase.Name,-32} every instance        {prepared.Notices[0]}"));
             return (null, null, double.NaN);
         }
 
@@ -155,7 +155,7 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
         var toTruth = image is null || truth is null ? double.NaN : ImageError.PeakSignalToNoiseRatio(image, truth);
         output.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
-            $"{name,-32} {drawn,-15} {instances,11} {time,9:F1}  {(double.IsNaN(everyInstanceTime) ? "     -" : $"1/{everyInstanceTime / time:F1}"),6} {FormatDecibels(toEveryInstance),10} {FormatDecibels(toTruth),10} {cullingTime,12:F1}"));
+            $"{name,-32} {drawn,-19} {instances,11} {time,9:F1}  {(double.IsNaN(everyInstanceTime) ? "     -" : $"1/{everyInstanceTime / time:F1}"),6} {FormatDecibels(toEveryInstance),10} {FormatDecibels(toTruth),10} {cullingTime,12:F1}"));
         output.Flush();
         table?.Add(name, drawn, instances, Math.Round(time, 3), cullingTime > 0
             ? Math.Round(cullingTime, 3)

@@ -17,22 +17,22 @@ internal sealed record OptimisationCase(string Name, LoadOptions Load, RenderSet
 
     private static OptimisationCase[] CreateAll(LoadOptions load, RenderSettings settings) =>
     [
-        new("everything skipped", load, settings, "", static _ => 0),
-        new("- backs", load, settings with { BackFaceCulling = false }, "objects without backs",
+        new("all optimisations", load, settings, "", static _ => 0),
+        new("- backface-culling", load, settings with { BackFaceCulling = false }, "back-face culled objects",
         static sample => sample.StillStatistics.Optimisations.BackFaceCulledCount),
-        new("- outside", load, settings with { Culling = new() { FrustumCulling = false } }, "parts outside",
+        new("- frustum-culling", load, settings with { Culling = new() { FrustumCulling = false } }, "nodes outside",
         static sample => sample.StillStatistics.Culling.OutsideFrustum),
-        new("- hidden", load, settings with { Culling = new() { OcclusionCulling = false } }, "parts hidden or covering nothing",
+        new("- occlusion-culling", load, settings with { Culling = new() { OcclusionCulling = false } }, "nodes hidden or without coverage",
         static sample => sample.StillStatistics.Culling.Occluded + sample.StillStatistics.Culling.ZeroCoverage),
-        new("- empty-faces", load, settings with { RemoveDegenerateTriangles = false }, "empty faces left out",
+        new("- degenerate-removal", load, settings with { RemoveDegenerateTriangles = false }, "degenerate triangles removed",
         static sample => sample.StillStatistics.Optimisations.DegenerateTriangleCount),
-        new("- state", load, settings with { FilterRedundantState = false }, "state changes a picture",
+        new("- state-filtering", load, settings with { FilterRedundantState = false }, "state changes per frame",
         static sample => sample.StillStatistics.Optimisations.StateChanges.Performed),
-        new("- buffers", load, settings with { ReuseBuffers = false }, "uploads a standing picture",
+        new("- buffer-reuse", load, settings with { ReuseBuffers = false }, "uploads per still frame",
         static sample => sample.StillStatistics.Optimisations.Uploads.Performed),
-        new("- sharing", load with { ShareModels = false }, settings with { ShareTextures = false }, "files and textures",
+        new("- mesh-sharing", load with { ShareModels = false }, settings with { ShareTextures = false }, "models and textures",
         static sample => sample.StillStatistics.Optimisations.ModelCount + sample.StillStatistics.Optimisations.TextureCount),
-        new("- sight", load, settings with { LazyLoading = false }, "models not prepared",
+        new("- lazy-loading", load, settings with { LazyLoading = false }, "models not prepared",
         static sample => sample.StillStatistics.Optimisations.PlaceholderCount),
     ];
 }

@@ -42,7 +42,7 @@ internal static class WindowCommand
             ? null
             : new CsvTable(Path.Combine(folder, "window.csv"), string.Join(' ', ["window", .. files]), "scene", "switched_off",
             "percent_of_a_core");
-        foreach (var (name, options) in ((string, string[])[])[("everything skipped", []), ("- still", ["--without", "still"])])
+        foreach (var (name, options) in ((string, string[])[])[("all optimisations", []), ("- idle", ["--without", "idle"])])
         {
             if (MeasureCoreUsage([program, "view", file, .. options]) is not { } usage)
             {
@@ -51,7 +51,7 @@ internal static class WindowCommand
             }
 
             Console.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{name,-20} {100 * usage,8:F2} % of a core"));
-            csv?.Add(Path.GetFileNameWithoutExtension(file), options is [] ? "nothing" : "still", Math.Round(100 * usage, 3));
+            csv?.Add(Path.GetFileNameWithoutExtension(file), options is [] ? "nothing" : "idle", Math.Round(100 * usage, 3));
         }
 
         csv?.Save();

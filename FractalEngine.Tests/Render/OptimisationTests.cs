@@ -45,14 +45,14 @@ public sealed class OptimisationTests : IDisposable
 
     private static readonly Dictionary<string, Func<RenderSettings, RenderSettings>> DisableOptimisation = new()
     {
-        ["backs"] = settings => settings with { BackFaceCulling = false },
-        ["outside"] = settings => settings with { Culling = settings.Culling! with { FrustumCulling = false } },
-        ["hidden"] = settings => settings with { Culling = settings.Culling! with { OcclusionCulling = false } },
-        ["empty-faces"] = settings => settings with { RemoveDegenerateTriangles = false },
-        ["state"] = settings => settings with { FilterRedundantState = false },
-        ["buffers"] = settings => settings with { ReuseBuffers = false },
-        ["sharing"] = settings => settings with { ShareTextures = false },
-        ["sight"] = settings => settings with { LazyLoading = false },
+        ["backface-culling"] = settings => settings with { BackFaceCulling = false },
+        ["frustum-culling"] = settings => settings with { Culling = settings.Culling! with { FrustumCulling = false } },
+        ["occlusion-culling"] = settings => settings with { Culling = settings.Culling! with { OcclusionCulling = false } },
+        ["degenerate-removal"] = settings => settings with { RemoveDegenerateTriangles = false },
+        ["state-filtering"] = settings => settings with { FilterRedundantState = false },
+        ["buffer-reuse"] = settings => settings with { ReuseBuffers = false },
+        ["mesh-sharing"] = settings => settings with { ShareTextures = false },
+        ["lazy-loading"] = settings => settings with { LazyLoading = false },
     };
 
     private static string Textured => Path.Combine(AssetFractals.Folder, "..", "scenes", "textured.sdo");
@@ -72,9 +72,9 @@ public sealed class OptimisationTests : IDisposable
             foreach (var samples in (int[])[0, 4])
             {
                 var settings = new RenderSettings { Samples = samples };
-                var (with, without) =
-                    (Draw(path, new(), settings).Picture,
-                    Draw(path, new() { ShareModels = optimisation != "sharing" }, DisableOptimisation[optimisation](settings)).Picture);
+                var withoutOptions = new LoadOptions { ShareModels = optimisation != "mesh-sharing" };
+                var with = Draw(path, new(), settings).Picture;
+                var without = Draw(path, withoutOptions, DisableOptimisation[optimisation](settings)).Picture;
                 Assert.True(ImageComparison.PeakSignalToNoiseRatio(without, with) >= ImageComparison.MinSameDecibels,
                     Invariant(
                         $"{Path.GetFileName(path)}, {samples} samples: {ImageComparison.PeakSignalToNoiseRatio(without, with):F1} dB"));
@@ -88,23 +88,23 @@ public sealed class OptimisationTests : IDisposable
         var path = WriteSmallScene();
         var settings = new RenderSettings();
         OptimisationStatistics Of(string? optimisation = null) =>
-            Draw(path, new() { ShareModels = optimisation != "sharing" }, optimisation is null
+            Draw(path, new() { ShareModels = optimisation != "mesh-sharing" }, optimisation is null
             ? settings
             : DisableOptimisation[optimisation](settings)).Statistics.Optimisations;
         var all = Of();
         // Three squares and a cube in sight, a cube and a row of cubes behind the camera; cubes have the only picture.
         Assert.Equal((6, 3, 1, 1), (all.ObjectCount, all.ModelCount, all.PlaceholderCount, all.TextureCount));
-        Assert.Equal((2, 0), (all.DegenerateTriangleCount, Of("empty-faces").DegenerateTriangleCount));
-        Assert.Equal((6, 2), (Of("sharing").ModelCount, Of("sharing").PlaceholderCount));
-        Assert.Equal(0, Of("sight").PlaceholderCount);
+        Assert.Equal((2, 0), (all.DegenerateTriangleCount, Of("degenerate-removal").DegenerateTriangleCount));
+        Assert.Equal((6, 2), (Of("mesh-sharing").ModelCount, Of("mesh-sharing").PlaceholderCount));
+        Assert.Equal(0, Of("lazy-loading").PlaceholderCount);
         Assert.True(all.BackFaceCulledCount > 0);
-        Assert.Equal(0, Of("backs").BackFaceCulledCount);
+        Assert.Equal(0, Of("backface-culling").BackFaceCulledCount);
         // The last picture is like the one before: all its buffers are kept, or none.
         Assert.Equal(0, all.Uploads.Performed);
-        Assert.Equal(all.Uploads.Skipped, Of("buffers").Uploads.Performed);
-        Assert.Equal(0, Of("state").StateChanges.Skipped);
+        Assert.Equal(all.Uploads.Skipped, Of("buffer-reuse").Uploads.Performed);
+        Assert.Equal(0, Of("state-filtering").StateChanges.Skipped);
         // What is skipped as one, such as the camera of a program, may be several changes.
-        Assert.True(Of("state").StateChanges.Performed >= all.StateChanges.Performed + all.StateChanges.Skipped);
+        Assert.True(Of("state-filtering").StateChanges.Performed >= all.StateChanges.Performed + all.StateChanges.Skipped);
         Assert.True(all.StateChanges.Skipped > 0);
     }
 
@@ -113,8 +113,8 @@ public sealed class OptimisationTests : IDisposable
     {
         var path = WriteSmallScene();
         var settings = new RenderSettings();
-        var (all, outside, hidden) = (Draw(path, new(), settings), Draw(path, new(), DisableOptimisation["outside"](settings)),
-            Draw(path, new(), DisableOptimisation["hidden"](settings)));
+        var (all, outside, hidden) = (Draw(path, new(), settings), Draw(path, new(), DisableOptimisation["frustum-culling"](settings)),
+            Draw(path, new(), DisableOptimisation["occlusion-culling"](settings)));
         Assert.True(all.Statistics.Culling.OutsideFrustum > 0);
         Assert.Equal(0, outside.Statistics.Culling.OutsideFrustum);
         Assert.Equal(0, hidden.Statistics.Culling.Occluded);

@@ -1,8 +1,8 @@
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.App;
+namespace FractalEngine.Tests.App.Commands;
 
-/// <summary>The generate command, run as a process.</summary>
+/// <summary>Tests the command <c>generate</c>, which runs as a process.</summary>
 public sealed class GenerateCommandTests : IDisposable
 {
     private readonly TemporaryFolder _folder = new();
@@ -10,7 +10,7 @@ public sealed class GenerateCommandTests : IDisposable
     public void Dispose() => _folder.Dispose();
 
     [Fact]
-    public void Generate_WritesAMeshWithItsCountAtTheHead()
+    public void Generate_OfATerrain_WritesAMeshWithItsCountAtTheHead()
     {
         var (exitCode, output, error) = Run("generate", "terrain", "--output", "land.obj", "--seed", "7", "--faces", "1000");
         Assert.Equal((0, "1000", ""), (exitCode, output.Trim(), error));
@@ -27,12 +27,12 @@ public sealed class GenerateCommandTests : IDisposable
     }
 
     [Fact]
-    public void Generate_OfAnUnknownName_NamesThoseThatThereAre()
+    public void Generate_OfAnUnknownName_ListsTheKnownOnes()
     {
         var (exitCode, output, error) = Run("generate", "teapot", "-o", "a.obj");
         Assert.Equal((2, ""), (exitCode, output));
         Assert.Equal(
-            "error: 'teapot' is nothing that can be generated, expected one of: spaceship-interior, tree-stump, terrain, icosphere, torus-knot\n",
+            "error: unknown mesh 'teapot', expected one of: spaceship-interior, tree-stump, terrain, icosphere, torus-knot\n",
             error.ReplaceLineEndings("\n"));
         Assert.False(File.Exists(_folder["a.obj"]));
     }
@@ -42,7 +42,7 @@ public sealed class GenerateCommandTests : IDisposable
     [InlineData("--seed", "1.5")]
     [InlineData("--faces", "0")]
     [InlineData("--faces", "many")]
-    public void Generate_OfNumbersThatMakeNoSense_IsWrongUsage(string option, string value) =>
+    public void Generate_OfInvalidNumbers_IsWrongUsage(string option, string value) =>
         Assert.Equal(2, Run("generate", "terrain", "-o", "a.obj", option, value).ExitCode);
 
     private AppResult Run(params string[] arguments) => AppProcess.Run(_folder.Path, arguments);

@@ -5,13 +5,13 @@ using FractalEngine.Parsing.Scenes;
 using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.App;
+namespace FractalEngine.Tests.App.Window;
 
 /// <summary>
-/// The window as its users meet it: driven with keys, mouse and resizes from outside, on the display that the tests run on.
+/// Tests the window as users see it: a process on the display of the tests, driven with keys, mouse and resizes by xdotool.
 /// </summary>
 [Collection("GL")]
-public sealed class WindowTests : IDisposable
+public sealed class SceneWindowTests : IDisposable
 {
     private const string Scene = "# kept\nc (2, 1.5, -3) (0.3, 0.6, 0) 60\n# kept too\no \"cube.obj\" #\n";
 
@@ -19,7 +19,7 @@ public sealed class WindowTests : IDisposable
 
     private readonly TemporaryFolder _folder = new();
 
-    public WindowTests()
+    public SceneWindowTests()
     {
         _folder.Write("cube.obj", SampleFiles.Cube);
         _folder.Write("scene.sdo", Scene);
@@ -60,7 +60,7 @@ public sealed class WindowTests : IDisposable
         var text = WaitFor(() => File.ReadAllText(_folder["scene.sdo"]) is var now && now != Scene ? now : null);
         var lines = text.Split('\n');
         Assert.Equal(("# kept", "# kept too", "o \"cube.obj\" #", "projection orthographic"), (lines[0], lines[2], lines[3], lines[4]));
-        // Enter had led back to the camera of the file, so its line is as it was.
+        // Enter has returned to the camera of the file, so its line is unchanged.
         Assert.Equal(Scene.Split('\n')[1], lines[1]);
         Assert.NotNull(SceneParser.Parse(new("scene.sdo", text)).Scene.Camera);
 
@@ -81,18 +81,24 @@ public sealed class WindowTests : IDisposable
     }
 
     [SkippableFact]
-    public void Window_OfBodies_StopsStepsResetsDropsAndWalks()
+    public void Window_OfBodies_PausesStepsResetsDropsAndWalks()
     {
         _folder.Write("fall.sdo",
-            "c (0, 1, -6) (0, 0, 0) 60\no \"cube.obj\" ((0, -1, 0), #, (8, 1, 8))\np \"cube.obj\" ((0, 40, 0), #, #) 0 colour (1, 0, 0)\nplayer (2, 1, -2) 0.3 1.6\n");
+            """
+            c (0, 1, -6) (0, 0, 0) 60
+            o "cube.obj" ((0, -1, 0), #, (8, 1, 8))
+            p "cube.obj" ((0, 40, 0), #, #) 0 colour (1, 0, 0)
+            player (2, 1, -2) 0.3 1.6
+
+            """);
         using var window = Open("fall.sdo");
-        // Time goes on from the beginning; a scene of one falling body stands still soon after.
+        // The simulation runs from the beginning, until Space pauses it.
         window.Send("key space");
         var stopped = window.Screenshot(1);
         Thread.Sleep(TimeSpan.FromSeconds(0.5));
         Assert.Equal(0, DifferingFraction(stopped, window.Screenshot(2)));
 
-        // After 4 s the body lies before the camera.
+        // After 4 s the body lies in front of the camera.
         window.Send(string.Join(' ', Enumerable.Repeat("key n", 240)));
         var fallen = window.Screenshot(3);
         Assert.True(DifferingFraction(stopped, fallen) > 0.01, "240 steps changed nothing");
@@ -112,17 +118,17 @@ public sealed class WindowTests : IDisposable
     }
 
     [SkippableFact]
-    public void Window_WithNothingToDo_Sleeps()
+    public void Window_WithoutChanges_Sleeps()
     {
         using var window = Open("scene.sdo");
         window.Screenshot(1);
-        // The message of the screenshot is shown for four seconds, then one more picture follows.
+        // The message of the screenshot is shown for four seconds, then one more frame is presented.
         Thread.Sleep(TimeSpan.FromSeconds(5));
         var before = window.ProcessorTime;
         Thread.Sleep(TimeSpan.FromSeconds(2));
-        var share = (window.ProcessorTime - before).TotalSeconds / 2;
-        // A loop that draws or polls takes a core; waiting for events takes next to nothing. Between them is room for a noisy machine.
-        Assert.True(share < 0.15, $"an idle window took {share:P0} of a core");
+        var coreFraction = (window.ProcessorTime - before).TotalSeconds / 2;
+        // A loop that draws or polls takes a whole core, and waiting for events almost nothing. The limit allows for a noisy machine.
+        Assert.True(coreFraction < 0.15, $"an idle window took {coreFraction:P0} of a core");
         Assert.Equal(0, window.CloseWith("key Escape"));
     }
 
@@ -143,7 +149,7 @@ public sealed class WindowTests : IDisposable
         return new(_folder.Path, file);
     }
 
-    /// <summary>The share of pixels that differ visibly; 1 for pictures of different sizes.</summary>
+    /// <summary>Computes the fraction of pixels that differ visibly; it is 1 for images of different sizes.</summary>
     private static double DifferingFraction(PixelImage image1, PixelImage image2)
     {
         if ((image1.Width, image1.Height) != (image2.Width, image2.Height))
@@ -171,10 +177,10 @@ public sealed class WindowTests : IDisposable
             }
         }
 
-        throw new TimeoutException($"nothing came within {Timeout}");
+        throw new TimeoutException($"no result within {Timeout}");
     }
 
-    /// <summary>A running program, and xdotool to press its keys.</summary>
+    /// <summary>A process of the program whose window xdotool drives.</summary>
     private sealed class DrivenWindow : IDisposable
     {
         private readonly Process _process;
@@ -185,7 +191,8 @@ public sealed class WindowTests : IDisposable
 
         public DrivenWindow(string folder, string file)
         {
-            (_folder, _name) = (folder, Path.GetFileNameWithoutExtension(file));
+            _folder = folder;
+            _name = Path.GetFileNameWithoutExtension(file);
             _process = AppProcess.Start(folder, new() { ["FRACTALENGINE_NO_WINDOW"] = null }, "view", file, "--resolution", "640x480");
             _error = _process.StandardError.ReadToEndAsync();
             _window = WaitFor(() => _process.HasExited
@@ -210,7 +217,7 @@ public sealed class WindowTests : IDisposable
 
         public void Send(string commands) => RunXdotool(commands.Replace("{window}", _window, StringComparison.Ordinal));
 
-        /// <summary>Takes a screenshot, which the program numbers, and waits for it: everything before has been handled by then.</summary>
+        /// <summary>Takes a screenshot under the program's next number. Once it exists, all earlier input has been handled.</summary>
         public PixelImage Screenshot(int number)
         {
             var path = Path.Combine(_folder, "out", string.Create(CultureInfo.InvariantCulture, $"{_name}-{number:D3}.png"));
@@ -218,7 +225,7 @@ public sealed class WindowTests : IDisposable
             {
                 if (!File.Exists(path))
                 {
-                    // A key pressed while the file is still loading saves nothing: it is pressed again until it does.
+                    // The key has no effect while the file is being loaded, so it is pressed until the image exists.
                     Send("key F12 sleep 0.5");
                     return null;
                 }
@@ -246,8 +253,8 @@ public sealed class WindowTests : IDisposable
 
         private static string RunXdotool(string commands)
         {
-            using var tool =
-                Process.Start(new ProcessStartInfo("xdotool", commands) { RedirectStandardOutput = true, RedirectStandardError = true })!;
+            var start = new ProcessStartInfo("xdotool", commands) { RedirectStandardOutput = true, RedirectStandardError = true };
+            using var tool = Process.Start(start)!;
             var output = tool.StandardOutput.ReadToEnd();
             tool.WaitForExit();
             return output;

@@ -1,9 +1,9 @@
 using System.Text.Json;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.App;
+namespace FractalEngine.Tests.App.Commands;
 
-/// <summary>The query command: one line a point, in order, or one error.</summary>
+/// <summary>Tests the command <c>query</c>, which prints one line per position in order, or one error.</summary>
 public sealed class QueryCommandTests : IDisposable
 {
     private readonly TemporaryFolder _folder = new();
@@ -43,13 +43,13 @@ public sealed class QueryCommandTests : IDisposable
     }
 
     [Fact]
-    public void Query_OfADeepFractal_AnswersAtOnce()
+    public void Query_OfADeepFractal_IsAccurate()
     {
         _folder.Write("points.txt", "0.1 2 0\n");
         var (exitCode, output, _) = Run("query", "row.fdo", "--points", "points.txt", "--json");
         Assert.Equal(0, exitCode);
         using var results = JsonDocument.Parse(output);
-        // The row is as thin as 2⁻¹⁰⁰⁰⁰⁰⁰; the answer is right to the last places of its coordinates.
+        // The row is only 2⁻¹⁰⁰⁰⁰⁰⁰ thick, so its distance is 2 to the last digits of the coordinates.
         Assert.Equal(2, results.RootElement[0].GetProperty("distance").GetDouble(), 1e-14);
     }
 
@@ -76,7 +76,7 @@ public sealed class QueryCommandTests : IDisposable
     [InlineData("--collider", "magic")]
     [InlineData("--within", "-1")]
     [InlineData("--epsilon", "NaN")]
-    public void Query_WithWhatDoesNotFit_IsWrongUsage(params string[] options)
+    public void Query_WithInvalidOptions_IsWrongUsage(params string[] options)
     {
         _folder.Write("points.txt", "1 2 3\n");
         var (exitCode, output, error) = Run(["query", "cube.obj", "--points", "points.txt", .. options]);

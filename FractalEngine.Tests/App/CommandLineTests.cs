@@ -4,12 +4,12 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
 
-/// <summary>The commands that need no display, run as processes: their outputs and exit codes are a contract.</summary>
-public sealed class CommandTests : IDisposable
+/// <summary>Tests outputs and exit codes of the commands that need no display. Each command runs as a process.</summary>
+public sealed class CommandLineTests : IDisposable
 {
     private readonly TemporaryFolder _folder = new();
 
-    public CommandTests()
+    public CommandLineTests()
     {
         _folder.Write("cube.obj", SampleFiles.Cube);
         _folder.Write("row.fdo", SampleFiles.Row("3"));
@@ -49,12 +49,12 @@ public sealed class CommandTests : IDisposable
     }
 
     [Fact]
-    public void Info_OfDepthAMillion_WritesEveryDigit()
+    public void Info_OfDepthOneMillion_WritesEveryDigit()
     {
         _folder.Write("deep.fdo", SampleFiles.Row("1000000"));
         var (exitCode, output, _) = Run("info", "deep.fdo");
         Assert.Equal(0, exitCode);
-        // 2^1000000 has 301,030 digits; the first and the last ones are known (OEIS A000079 by its leading terms).
+        // 2^1000000 has 301,030 digits, the first and last of which are known (OEIS A000079).
         var digits = output.Split('\n').First(line => line.StartsWith("instances", StringComparison.Ordinal))[18..].Trim();
         Assert.Equal(301_030, digits.Length);
         Assert.StartsWith("99006562292958982506979236163", digits, StringComparison.Ordinal);
@@ -90,7 +90,7 @@ public sealed class CommandTests : IDisposable
     }
 
     [Fact]
-    public void Export_IntoAFolderThatIsNotThere_MakesIt()
+    public void Export_IntoAMissingFolder_CreatesIt()
     {
         Assert.Equal(0, Run("export", "row.fdo", "--output", "a/b/flat.obj").ExitCode);
         Assert.True(File.Exists(_folder["a/b/flat.obj"]));
@@ -106,13 +106,13 @@ public sealed class CommandTests : IDisposable
     }
 
     [Fact]
-    public void Export_BeyondTheDeepest_ExitsWith3() =>
+    public void Export_BeyondTheMaxDepth_ExitsWith3() =>
         Assert.Equal(3, Run("export", "row.fdo", "--output", "flat.obj", "--depth", "1000001").ExitCode);
 
     [SkippableFact]
-    public void Check_OfAPipe_DoesNotWait()
+    public void Check_OfANamedPipe_DoesNotWait()
     {
-        Skip.If(OperatingSystem.IsWindows(), "there are no such files");
+        Skip.If(OperatingSystem.IsWindows(), "there are no named pipes");
         System.Diagnostics.Process.Start("mkfifo", _folder["pipe.obj"]).WaitForExit();
         Assert.Equal(new AppResult(1, "", "pipe.obj:1:1: error: this is a pipe or a device, expected a file\n"), Run("check", "pipe.obj"));
     }
@@ -162,7 +162,7 @@ public sealed class CommandTests : IDisposable
     }
 
     [Fact]
-    public void Check_OfABadBase_NamesTheLineThatNamesIt()
+    public void Check_OfABadBase_NamesTheReferringLine()
     {
         _folder.Write("bad.fdo", "x. \"nope.obj\"\n<$>. x\n");
         Assert.Equal(
@@ -187,7 +187,7 @@ public sealed class CommandTests : IDisposable
     [InlineData("render", "cube.obj", "--output", "a.png", "--resolution", "0x10")]
     [InlineData("render", "cube.obj", "--output", "a.png", "--projection", "fisheye")]
     [InlineData("render", "cube.obj", "--output", "a.png", "--shading", "flat")]
-    public void WrongUsage_ExitsWith2AndOnlyTalksOnStderr(params string[] arguments)
+    public void Arguments_OfWrongUsage_ExitWith2AndAMessageOnStderr(params string[] arguments)
     {
         var (exitCode, output, error) = Run(arguments);
         Assert.Equal((2, ""), (exitCode, output));
@@ -200,10 +200,12 @@ public sealed class CommandTests : IDisposable
     [InlineData("view", "cube.obj")]
     public void Without_AnUnknownWord_NamesItAndTheKnownOnes(params string[] arguments)
     {
-        var (exitCode, _, error) = Run([.. arguments, "--without", "backs", "--without", "nonsense"]);
+        var (exitCode, _, error) = Run([.. arguments, "--without", "backface-culling", "--without", "nonsense"]);
         Assert.Equal(2, exitCode);
         Assert.StartsWith(
-            "error: --without: expected one of backs, outside, hidden, empty-faces, state, buffers, sharing, sight, still, not 'nonsense'\n", error, StringComparison.Ordinal);
+            "error: --without: expected one of backface-culling, frustum-culling, occlusion-culling, degenerate-removal, "
+            + "state-filtering, buffer-reuse, mesh-sharing, lazy-loading, idle, not 'nonsense'\n",
+            error, StringComparison.Ordinal);
     }
 
     [Theory]
@@ -211,7 +213,7 @@ public sealed class CommandTests : IDisposable
     [InlineData("missing.sdo")]
     [InlineData(".")]
     [InlineData("notes.txt")]
-    public void Info_OfWhatIsNoInput_ExitsWith1(string file)
+    public void Info_OfAnUnreadableFile_ExitsWith1(string file)
     {
         _folder.Write("notes.txt", "hello\n");
         var (exitCode, output, error) = Run("info", file);
@@ -247,7 +249,7 @@ public sealed class CommandTests : IDisposable
     [InlineData("--version")]
     [InlineData("render", "--help")]
     [InlineData("render", "--version")]
-    public void Help_ExitsWith0(params string[] arguments)
+    public void HelpOrVersion_OfAnyCommand_ExitsWith0(params string[] arguments)
     {
         var (exitCode, output, error) = Run(arguments);
         Assert.Equal((0, ""), (exitCode, error));

@@ -2,9 +2,9 @@ using System.Diagnostics;
 using System.Globalization;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.App;
+namespace FractalEngine.Tests.App.Commands;
 
-/// <summary>The simulate command, run as a process: a row for each body and step, the same in every run.</summary>
+/// <summary>Tests the command <c>simulate</c>, which writes one row per body and step, the same in every run.</summary>
 public sealed class SimulateCommandTests : IDisposable
 {
     private const string Header = "time,body,x,y,z,vx,vy,vz,asleep,faceTests";
@@ -16,7 +16,7 @@ public sealed class SimulateCommandTests : IDisposable
         _folder.Write("cube.obj", SampleFiles.Cube);
         _folder.Write("row.fdo", SampleFiles.Row("3"));
         _folder.Write("still.sdo", "o \"cube.obj\" #\n");
-        // The second body has no name; the first one's needs quotes. Half a cube's diagonal is the radius, 0.866 of the side.
+        // The name of the first body needs quotes, and the second body has none. A radius is half a cube's diagonal, 0.866 sides.
         _folder.Write("scene.sdo", """
             o "cube.obj" ((0, -0.5, 0), #, (20, 1, 20)) name "ground"
             o "row.fdo" ((3, 0, 0), #, #)
@@ -29,7 +29,7 @@ public sealed class SimulateCommandTests : IDisposable
     public void Dispose() => _folder.Dispose();
 
     [Fact]
-    public void Simulate_WritesARowForEachBodyAndStep()
+    public void Simulate_OfAScene_WritesOneRowPerBodyAndStep()
     {
         var (exitCode, output, error) = Run("simulate", "scene.sdo", "--seconds", "2");
         Assert.Equal(0, exitCode);
@@ -42,7 +42,7 @@ public sealed class SimulateCommandTests : IDisposable
             Assert.Equal((string[])["\"red, large\"", "#1", "thin"], rows.Skip(i / 3 * 3).Take(3).Select(row => row.Body));
         }
 
-        // Free fall at first: h = 2 − g·t²/2, to a rounding of the sum.
+        // The first step is free fall, h = 2 − g·t²/2, up to the rounding of the sum.
         Near.Equal(2 - (0.5 * 9.8 / 3600), rows[0].Numbers[2], 1e-15);
         Near.Equal(-9.8 / 60, rows[0].Numbers[5], 1e-15);
         Assert.Matches(@"^bodies 3\nbuild [\d.]+ ms\nsteps 120\nstep [\d.]+ ms\nasleep \d\nstuck 0\nstate [0-9a-f]{16}\n$",
@@ -50,14 +50,14 @@ public sealed class SimulateCommandTests : IDisposable
     }
 
     [Fact]
-    public void Simulate_UntilAllRest_SaysThatTheySleep()
+    public void Simulate_UntilAllBodiesRest_ReportsThemAsleep()
     {
         var (_, output, error) = Run("simulate", "scene.sdo", "--seconds", "20");
         var last = Rows(output)[^3..];
         Assert.All(last, row => Assert.Equal((0, 0, 0, 1), (row.Numbers[4], row.Numbers[5], row.Numbers[6], row.Numbers[7])));
         Assert.Contains("asleep 3", error, StringComparison.Ordinal);
-        // Balls of radius √3/2 on a floor at height 0, one of them shrunk to half; the speed at which a body is put to rest is 1e-3 of a
-        // step's.
+        // Balls of radius √3/2 lie on a floor at height 0, and one of them has shrunk to half. The tolerance covers their last motion
+        // before they fall asleep.
         Near.Equal(Math.Sqrt(3) / 2, last[0].Numbers[2], 1e-6);
         Near.Equal(Math.Sqrt(3) / 4, last[2].Numbers[2], 1e-6);
     }
@@ -103,7 +103,7 @@ public sealed class SimulateCommandTests : IDisposable
     [InlineData("1", "0.3", 4)]
     [InlineData("10", "0.0166667", 600)]
     [InlineData("0.001", "1", 1)]
-    public void Simulate_MakesAsManyStepsAsReachTheEnd(string seconds, string step, int steps) =>
+    public void Simulate_OfADuration_MakesAsManyStepsAsReachItsEnd(string seconds, string step, int steps) =>
         Assert.Equal(3 * steps, Rows(Run("simulate", "scene.sdo", "--seconds", seconds, "--step", step).Output).Length);
 
     [Theory]
@@ -115,7 +115,7 @@ public sealed class SimulateCommandTests : IDisposable
             (Rows(Run("simulate", "scene.sdo").Output), Rows(Run("simulate", "scene.sdo", "--collider", collider).Output));
         for (var i = 0; i < expected.Length; i++)
         {
-            // The same nearest points but for rounding, which some bounces make larger.
+            // The closest points are equal up to rounding, which some bounces amplify.
             Near.Equal(expected[i].Numbers[2], actual[i].Numbers[2], 1e-6);
         }
     }
@@ -123,9 +123,10 @@ public sealed class SimulateCommandTests : IDisposable
     [Fact]
     public void Simulate_WithAColliderThatDoesNotFit_NamesTheFile()
     {
-        var expected =
-            new AppResult(2, "",
-            "error: cube.obj: the collider 'fractal' needs a fractal, and this is a mesh: expected exact, hierarchy, bounding-box or simple\n");
+        var expected = new AppResult(
+            2, "",
+            "error: cube.obj: the collider 'fractal' needs a fractal, and this is a mesh: "
+            + "expected exact, hierarchy, bounding-box or simple\n");
         Assert.Equal(expected, Run("simulate", "scene.sdo", "--collider", "fractal"));
         _folder.Write("own.sdo", "o \"cube.obj\" #\np \"cube.obj\" ((0, 500, 0), #, #) 1 collider fractal\n");
         Assert.Equal(expected, Run("simulate", "own.sdo", "--output", "bodies.csv"));
@@ -137,7 +138,7 @@ public sealed class SimulateCommandTests : IDisposable
     [InlineData("still.sdo")]
     [InlineData("cube.obj")]
     [InlineData("row.fdo")]
-    public void Simulate_OfWhatHasNoBodies_SaysSo(string file) => Assert.Equal(
+    public void Simulate_WithoutBodies_ReportsThatNothingMoves(string file) => Assert.Equal(
         new AppResult(2, "", $"error: {file} has no physics objects, so there is nothing to simulate\n"), Run("simulate", file));
 
     [Theory]
@@ -153,7 +154,7 @@ public sealed class SimulateCommandTests : IDisposable
     [InlineData("--collider", "sphere")]
     [InlineData("--output", "bodies.txt")]
     [InlineData("--output", "row.fdo/bodies.csv")]
-    public void Simulate_WithWhatMakesNoSense_IsWrongUsage(params string[] options)
+    public void Simulate_WithInvalidOptions_IsWrongUsage(params string[] options)
     {
         var (exitCode, output, error) = Run(["simulate", "scene.sdo", .. options]);
         Assert.Equal((2, ""), (exitCode, output));
@@ -170,7 +171,7 @@ public sealed class SimulateCommandTests : IDisposable
     }
 
     [Fact]
-    public void Simulate_BeyondTheRangeOfADouble_WritesNothingAndSaysWhichBody()
+    public void Simulate_BeyondTheRangeOfADouble_WritesNothingAndNamesTheBody()
     {
         _folder.Write("far.sdo", "p \"cube.obj\" # 0.5 name \"comet\" velocity (1e308, 0, 0)\n");
         File.WriteAllText(_folder["bodies.csv"], "before");
@@ -186,16 +187,16 @@ public sealed class SimulateCommandTests : IDisposable
     [InlineData("TERM")]
     public void Simulate_Interrupted_WritesNothing(string signal)
     {
-        Skip.If(OperatingSystem.IsWindows(), "there are no such signals");
+        Skip.If(OperatingSystem.IsWindows(), "there are no POSIX signals");
         Skip.If(signal == "INT" && IgnoresInterrupts(),
-            "what a shell starts in the background ignores interrupts, and so does all that it starts");
+            "processes that a shell starts in the background ignore interrupts, and so do their children");
         using var process = AppProcess.Start(_folder.Path, [], "simulate", "scene.sdo", "--seconds", "100000", "--output", "bodies.csv");
         try
         {
             Assert.True(SpinWait.SpinUntil(() => Directory.GetFiles(_folder.Path, "*.tmp").Length > 0, TimeSpan.FromSeconds(60)),
-                "it does not begin to write");
+                "no output file appears");
             Process.Start("kill", ["-s", signal, process.Id.ToString(CultureInfo.InvariantCulture)]).WaitForExit();
-            Assert.True(process.WaitForExit(TimeSpan.FromSeconds(60)), "it does not end");
+            Assert.True(process.WaitForExit(TimeSpan.FromSeconds(60)), "the process does not end");
         }
         finally
         {
@@ -213,7 +214,7 @@ public sealed class SimulateCommandTests : IDisposable
     private static string State(string error) =>
         Assert.Single(error.Split('\n'), line => line.StartsWith("state ", StringComparison.Ordinal)).Trim();
 
-    /// <summary>The rows below the header: the body as it is written, and the nine numbers around it.</summary>
+    /// <summary>Parses the rows below the header: the body as written, and the nine numbers around it.</summary>
     private static (string Body, double[] Numbers)[] Rows(string table)
     {
         var lines = table.Split('\n');

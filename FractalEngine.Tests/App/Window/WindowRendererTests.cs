@@ -6,9 +6,9 @@ using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Windowing;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.App;
+namespace FractalEngine.Tests.App.Window;
 
-/// <summary>What a window draws while the camera moves and when it stands.</summary>
+/// <summary>Tests the frames that a window draws while the camera moves and when it stands still.</summary>
 [Collection("GL")]
 public sealed class WindowRendererTests : IDisposable
 {
@@ -23,7 +23,7 @@ public sealed class WindowRendererTests : IDisposable
     public void Dispose() => _folder.Dispose();
 
     [SkippableFact]
-    public void Capture_WhileMoving_IsTheViewOnTheScreenInFullDetail()
+    public void Capture_WhileMoving_IsTheViewOnTheScreenInFullQuality()
     {
         using var window = Open();
         using var frame = new FrameRenderer(window);
@@ -38,18 +38,18 @@ public sealed class WindowRendererTests : IDisposable
             expected.Add(frame.Capture());
             windowRenderer.Draw(document, Settings, Width, Height);
             Assert.True(windowRenderer.IsReducedQuality);
-            // One behind, but for the first.
+            // Each frame but the first is one view behind.
             Assert.Equal(expected[Math.Max(0, i - 1)].Pixels, windowRenderer.Capture(document, Settings, Width, Height).Pixels);
         }
 
         Assert.NotEqual(expected[0].Pixels, expected[1].Pixels);
-        // When the camera stands, it is that of its place, drawn or not.
+        // A camera that stands still is captured as it is, whether its frame has been drawn or not.
         document.CameraControls.Handle(new KeyReleased(Key.D, KeyModifiers.None), window.Aspect);
         Assert.Equal(expected[2].Pixels, windowRenderer.Capture(document, Settings, Width, Height).Pixels);
         windowRenderer.Draw(document, Settings, Width, Height);
         Assert.False(windowRenderer.IsReducedQuality);
         Assert.Equal(expected[2].Pixels, frame.Capture().Pixels);
-        Assert.Equal((4, 0, 6), windowRenderer.CountFrames(10));
+        Assert.Equal(new FrameCounts(4, 0, 6), windowRenderer.CountFrames(10));
     }
 
     [SkippableFact]
@@ -62,16 +62,16 @@ public sealed class WindowRendererTests : IDisposable
         windowRenderer.Draw(document, Settings, Width, Height);
         windowRenderer.Draw(document, Settings, Width, Height);
         windowRenderer.CountPresentedAgain();
-        var rows = new FrameReport(document.Renderer, Settings.Culling, Time, 0, 0, document.Physics).ToPanels(
-            windowRenderer.CountFrames(60))
-            .SelectMany(panel => panel.Lines).ToDictionary(line => line.Text, line => line.SecondColumn);
-        Assert.Equal("2 objects, 2 files, 0 textures", rows["shared"]);
-        Assert.Equal("1 of 2 models", rows["not in sight yet"]);
-        Assert.Equal("2 of 2 colliders", rows["not asked yet"]);
-        Assert.Equal("of 1 of 2 objects", rows["backs"]);
-        // The instances of the near cube, both objects, the lights.
-        Assert.Equal("4; 0 made", rows["uploads"]);
-        Assert.Equal("57; 2 drawn, 1 shown again", rows["pictures at 60/s"]);
+        var report = new FrameReport(document.Renderer, Settings.Culling, Time, 0, 0, document.Physics);
+        var rows = report.ToPanels(windowRenderer.CountFrames(60)).SelectMany(panel => panel.Lines)
+            .ToDictionary(line => line.Text, line => line.SecondColumn);
+        Assert.Equal("2 objects, 2 models, 0 textures", rows["sharing"]);
+        Assert.Equal("1 of 2 models pending", rows["lazy loading"]);
+        Assert.Equal("2 of 2 not built", rows["lazy colliders"]);
+        Assert.Equal("1 of 2 objects", rows["back-face culling"]);
+        // The buffers are the instances of the near cube, both objects and the lights.
+        Assert.Equal("4 uploads skipped, 0 made", rows["buffer reuse"]);
+        Assert.Equal("57 frames skipped, 2 drawn, 1 reused", rows["idle"]);
     }
 
     [SkippableFact]
@@ -82,7 +82,7 @@ public sealed class WindowRendererTests : IDisposable
         Assert.Equal(1, document.Renderer.Scene.Models.Count(model => model.IsPlaceholder));
         document.FirstSightLoader.Start(document.UpdateView(window.Aspect), window.Aspect);
         Assert.False(document.FirstSightLoader.IsRunning);
-        // All of the scene.
+        // F frames the whole scene.
         document.CameraControls.Handle(new KeyPressed(Key.F, KeyModifiers.None, false), window.Aspect);
         document.FirstSightLoader.Start(document.UpdateView(window.Aspect), window.Aspect);
         Assert.True(document.FirstSightLoader.IsRunning);
@@ -100,7 +100,7 @@ public sealed class WindowRendererTests : IDisposable
     {
         try
         {
-            return new("pictures", Width, Height);
+            return new("WindowRenderer", Width, Height);
         }
         catch (GraphicsUnavailableException exception)
         {
