@@ -172,8 +172,8 @@ public sealed partial class FractalAddress
         return colourPath with { MapCount = _mapCounts[depth] };
     }
 
-    private static long ChildRemainingLevels(long remainingLevels, long levelStep) =>
-        levelStep < 0 ? ~levelStep : remainingLevels - levelStep;
+    private static long ChildRemainingLevels(long remainingLevels, LevelStep levelStep) =>
+        levelStep.RemainingLevels(remainingLevels);
 
     /// <summary>The distance of the camera from a box.</summary>
     private static double DistanceToBox(BoundingBox box, Vector position) => Math.Sqrt(box.DistanceSquared(position));

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -54,7 +55,7 @@ internal sealed class InstanceBvh
         {
             foreach (var instance in instances)
             {
-                children.Add(new(_maps[instance], _boxes[instance], ~0L, instance));
+                children.Add(new(_maps[instance], _boxes[instance], LevelStep.To(0), instance));
             }
         }
         else
@@ -72,7 +73,7 @@ internal sealed class InstanceBvh
         if (remainingSplits == 0 || instances.Length <= MaxLeafSize)
         {
             var node = BuildNode(instances);
-            children.Add(new(AffineMap.Identity, _nodes[node].Box, ~(long)node, -1));
+            children.Add(new(AffineMap.Identity, _nodes[node].Box, LevelStep.To(node), -1));
             return;
         }
 

@@ -1,5 +1,6 @@
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -34,7 +35,7 @@ internal sealed class LodNode
         IsProxyIdentity = proxyMap == AffineMap.Identity;
         var paddedCount = (children.Length + Lanes - 1) / Lanes * Lanes;
         (ChildMaps, ChildLevelSteps, ChildMapIndices, ChildBoxes) =
-            (new SimdAffineMap[children.Length], new long[children.Length], new int[children.Length], new float[paddedCount * BoxRows]);
+            (new SimdAffineMap[children.Length], new LevelStep[children.Length], new int[children.Length], new float[paddedCount * BoxRows]);
         if (IsEmpty)
         {
             return;
@@ -85,8 +86,8 @@ internal sealed class LodNode
     /// <summary>The size of the largest copy as a part of this one's.</summary>
     public double MaxChildSizeRatio { get; }
 
-    /// <summary>How many levels the copies go down, see <see cref="ChildEdge"/>.</summary>
-    public long[] ChildLevelSteps { get; }
+    /// <summary>Lead from the remaining levels of this node to those of its children.</summary>
+    public LevelStep[] ChildLevelSteps { get; }
 
     /// <summary>The numbers of the copies' maps in their sets; −1 for the identity, which changes no colour.</summary>
     public int[] ChildMapIndices { get; }
@@ -101,6 +102,6 @@ internal sealed class LodNode
 /// <summary>One of the copies that a <see cref="LodNode"/> is made of.</summary>
 /// <param name="Map">From its frame.</param>
 /// <param name="Box">Holds it, in the frame of the state.</param>
-/// <param name="LevelStep">As in <see cref="ChildEdge"/>.</param>
+/// <param name="LevelStep">Leads from the remaining levels of the parent to those of the child.</param>
 /// <param name="MapIndex">Of the map in its set, −1 for the identity.</param>
-internal readonly record struct LodChild(AffineMap Map, BoundingBox Box, long LevelStep, int MapIndex);
+internal readonly record struct LodChild(AffineMap Map, BoundingBox Box, LevelStep LevelStep, int MapIndex);

@@ -230,8 +230,7 @@ internal sealed partial class StripCuller
                 continue;
             }
 
-            var levelStep = node.ChildLevelSteps[child];
-            var childLevels = levelStep < 0 ? ~levelStep : remainingLevels - levelStep;
+            var childLevels = node.ChildLevelSteps[child].RemainingLevels(remainingLevels);
             var childNode = _object.Hierarchy.NodeAt(childLevels);
             var childMap = SimdAffineMap.Compose(in map, in node.ChildMaps[child]);
             var childDepth = depth + 1;
@@ -241,7 +240,7 @@ internal sealed partial class StripCuller
                 // Nothing to choose: the same seen more closely.
                 childMap = SimdAffineMap.Compose(in childMap, in childNode.ChildMaps[0]);
                 childPath = childPath.Append(0, childDepth, childNode.ChildMapIndices[0], 1, _object.GradientKind);
-                childLevels = childNode.ChildLevelSteps[0] < 0 ? ~childNode.ChildLevelSteps[0] : childLevels - childNode.ChildLevelSteps[0];
+                childLevels = childNode.ChildLevelSteps[0].RemainingLevels(childLevels);
                 childNode = _object.Hierarchy.NodeAt(childLevels);
                 childDepth++;
             }

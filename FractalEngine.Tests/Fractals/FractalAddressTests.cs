@@ -266,7 +266,7 @@ public class FractalAddressTests
         for (var copy = 0; copy < table.NodeAt(table.LevelCount).ChildMaps.Length; copy++)
         {
             if (table.NodeAt(Below(table, table.LevelCount, copy)).ChildMaps.Length == 0
-                || table.NodeAt(table.LevelCount).ChildLevelSteps[copy] != 1)
+                || table.NodeAt(table.LevelCount).ChildLevelSteps[copy] != LevelStep.Down(1))
             {
                 continue;
             }
@@ -426,9 +426,7 @@ public class FractalAddressTests
 
         for (var child = 0; child < state.ChildMaps.Length; child++)
         {
-            AddInstances(found, table, state.ChildLevelSteps[child] < 0
-                ? ~state.ChildLevelSteps[child]
-                : levels - state.ChildLevelSteps[child], map * state.ChildMaps[child].ToAffineMap());
+            AddInstances(found, table, state.ChildLevelSteps[child].RemainingLevels(levels), map * state.ChildMaps[child].ToAffineMap());
         }
     }
 
@@ -495,7 +493,7 @@ public class FractalAddressTests
     }
 
     private static long Below(LodHierarchy table, long levels, int copy) =>
-        table.NodeAt(levels).ChildLevelSteps[copy] switch { < 0 and var down => ~down, var down => levels - down };
+        table.NodeAt(levels).ChildLevelSteps[copy].RemainingLevels(levels);
 
     private static void AssertFinite(FractalAddress address) => Assert.True(
         address.FrameToCamera.IsFinite() && double.IsFinite(address.LogUnit) && address.FrameToCamera.Linear.Determinant() != 0,

@@ -183,7 +183,7 @@ public class DetailTableTests
     }
 
     private static long Below(LodNode state, int child, long levels) =>
-        state.ChildLevelSteps[child] < 0 ? ~state.ChildLevelSteps[child] : levels - state.ChildLevelSteps[child];
+        state.ChildLevelSteps[child].RemainingLevels(levels);
 
     /// <summary>Each state's box holds all vertices of what it is expanded to, and its children's boxes those of the children.</summary>
     private static void CheckBoxes(LodHierarchy table, long levels, HashSet<long> seen)
