@@ -1,25 +1,27 @@
 namespace FractalEngine.Core.Maths;
 
-/// <summary>A matrix without an inverse was to be inverted: its determinant is zero or out of the range of a double.</summary>
+/// <summary>
+/// The exception for the inversion of a matrix that has no inverse: its determinant is zero or out of the range of a double.
+/// </summary>
 public sealed class SingularMatrixException : ArithmeticException
 {
-    /// <summary>For the given matrix.</summary>
+    /// <summary>Creates an exception whose message names the matrix and its determinant.</summary>
     public SingularMatrixException(Matrix matrix)
         : base($"the matrix {matrix} has no inverse: its determinant is {FormatDeterminant(matrix)}") => Matrix = matrix;
 
-    /// <summary>With a message of one's own.</summary>
+    /// <summary>Creates an exception with a message.</summary>
     public SingularMatrixException(string message)
         : base(message)
     {
     }
 
-    /// <summary>With a message and a cause.</summary>
+    /// <summary>Creates an exception with a message and a cause.</summary>
     public SingularMatrixException(string message, Exception innerException)
         : base(message, innerException)
     {
     }
 
-    /// <summary>Without details.</summary>
+    /// <summary>Creates an exception with the default message.</summary>
     public SingularMatrixException()
     {
     }
