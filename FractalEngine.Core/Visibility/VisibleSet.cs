@@ -42,7 +42,8 @@ public sealed class VisibleSet
         _cullStrip = CullStrip;
     }
 
-    /// <summary>Number of floats of one instance: the rows of a 3×4 map from the drawn mesh's frame to world axes about the camera.</summary>
+    /// <summary>Number of floats of one instance.</summary>
+    /// <remarks>They are the rows of a 3×4 map from the drawn mesh's frame to world axes about the camera.</remarks>
     public static int FloatsPerInstance => InstanceRows.FloatsPerInstance;
 
     /// <summary>Number of chunks that the instances of each object come in.</summary>
