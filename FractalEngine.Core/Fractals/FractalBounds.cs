@@ -101,19 +101,8 @@ public static class FractalBounds
         var mesh = fractal.BaseMesh;
         return FractalSteps.HasAtMostInstances(fractal.Description.Steps, MaxEnumeratedVertices / mesh.VertexCount)
             ? FractalGenerator.Expand(fractal, MaxEnumeratedVertices).Aggregate(
-                BoundingBox.Empty, (box, map) => BoundingBox.Union(box, ComputeBox(mesh, map)))
+                BoundingBox.Empty, (box, map) => BoundingBox.Union(box, mesh.ComputeBounds(map)))
             : ComputeSummedBox(fractal);
-    }
-
-    private static BoundingBox ComputeBox(Mesh mesh, AffineMap map)
-    {
-        var box = BoundingBox.Empty;
-        for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
-        {
-            box = box.Including(map * mesh.Vertex(vertex));
-        }
-
-        return box;
     }
 
     /// <summary>

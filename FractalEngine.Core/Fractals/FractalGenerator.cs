@@ -6,17 +6,11 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>
-/// The factory of fractals (paper §4.2.4): creates a fractal from a description and a base mesh, and expands it on request into a list of
-/// instances or one mesh.
+/// The paper's generator (§4.2.4): expands the levels of a fractal into one list of instances, or into one mesh, for callers that need
+/// them all.
 /// </summary>
 public static class FractalGenerator
 {
-    /// <summary>Creates a fractal from its description.</summary>
-    /// <param name="description">Description that names the base file.</param>
-    /// <param name="loadMesh">Loads the base mesh; called once, with the base file as the description names it.</param>
-    public static Fractal Create(FractalDescription description, Func<string, Mesh> loadMesh) =>
-        new(description, loadMesh(description.BaseFile));
-
     /// <summary>Expands a fractal into its distinct instances, as maps from the base mesh's frame to the fractal's.</summary>
     /// <param name="fractal">Fractal with finitely many levels.</param>
     /// <param name="maxInstances">
@@ -68,8 +62,15 @@ public static class FractalGenerator
     /// <summary>Joins instances of a mesh into one mesh.</summary>
     /// <param name="mesh">Mesh whose vertices and faces are repeated for each instance.</param>
     /// <param name="instances">Maps from the mesh's frame to that of the result.</param>
+    /// <exception cref="FractalLimitException">There are more vertices or faces than an array holds.</exception>
     public static Mesh Flatten(Mesh mesh, ImmutableArray<AffineMap> instances)
     {
+        if ((long)instances.Length * Math.Max(mesh.Positions.Length, mesh.VertexIndices.Length) > Array.MaxLength)
+        {
+            throw new FractalLimitException(
+                $"{instances.Length} instances of {mesh.VertexCount} vertices and {mesh.FaceCount} faces are more than one mesh can hold");
+        }
+
         var positions = new double[instances.Length * mesh.Positions.Length];
         var indices = new int[instances.Length * mesh.VertexIndices.Length];
         var nextPosition = 0;

@@ -148,11 +148,11 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
     /// <remarks>
     /// Each column then has at most one entry that is not zero: scales, mirrors and quarter turns, flattening ones too.
     /// </remarks>
-    public bool KeepsBoxesAxisAligned() => HasAtMostOneNonzero(V1) && HasAtMostOneNonzero(V2) && HasAtMostOneNonzero(V3);
+    internal bool KeepsBoxesAxisAligned() => HasAtMostOneNonzero(V1) && HasAtMostOneNonzero(V2) && HasAtMostOneNonzero(V3);
 
     /// <summary>Tells whether the matrix scales and permutes the axes, and has an inverse.</summary>
     /// <remarks>Each column then has exactly one entry that is not zero, each in a row of its own.</remarks>
-    public bool IsScaledAxisPermutation() => KeepsBoxesAxisAligned() && Determinant() != 0;
+    internal bool IsScaledAxisPermutation() => KeepsBoxesAxisAligned() && Determinant() != 0;
 
     /// <summary>Tells whether all entries are finite numbers.</summary>
     public bool IsFinite() => V1.IsFinite() && V2.IsFinite() && V3.IsFinite();
