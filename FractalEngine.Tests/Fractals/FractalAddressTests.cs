@@ -269,7 +269,7 @@ public class FractalAddressTests
         for (var mapIndex = 0; mapIndex < hierarchy.NodeAt(hierarchy.LevelCount).ChildMaps.Length; mapIndex++)
         {
             if (hierarchy.NodeAt(ChildLevels(hierarchy, hierarchy.LevelCount, mapIndex)).ChildMaps.Length == 0
-                || hierarchy.NodeAt(hierarchy.LevelCount).ChildLevelSteps[mapIndex] != 1)
+                || hierarchy.NodeAt(hierarchy.LevelCount).ChildLevelSteps[mapIndex] != LevelStep.Down(1))
             {
                 continue;
             }
@@ -430,9 +430,8 @@ public class FractalAddressTests
 
         for (var child = 0; child < node.ChildMaps.Length; child++)
         {
-            AddInstances(found, hierarchy, node.ChildLevelSteps[child] < 0
-                ? ~node.ChildLevelSteps[child]
-                : levels - node.ChildLevelSteps[child], map * node.ChildMaps[child].ToAffineMap());
+            var childLevels = node.ChildLevelSteps[child].RemainingLevels(levels);
+            AddInstances(found, hierarchy, childLevels, map * node.ChildMaps[child].ToAffineMap());
         }
     }
 
@@ -500,7 +499,7 @@ public class FractalAddressTests
     }
 
     private static long ChildLevels(LodHierarchy hierarchy, long levels, int mapIndex) =>
-        hierarchy.NodeAt(levels).ChildLevelSteps[mapIndex] switch { < 0 and var down => ~down, var down => levels - down };
+        hierarchy.NodeAt(levels).ChildLevelSteps[mapIndex].RemainingLevels(levels);
 
     private static void AssertFinite(FractalAddress address) => Assert.True(
         address.FrameToCamera.IsFinite() && double.IsFinite(address.LogUnit) && address.FrameToCamera.Linear.Determinant() != 0,

@@ -184,7 +184,7 @@ public class LodHierarchyTests
     }
 
     private static long ChildLevels(LodNode node, int child, long levels) =>
-        node.ChildLevelSteps[child] < 0 ? ~node.ChildLevelSteps[child] : levels - node.ChildLevelSteps[child];
+        node.ChildLevelSteps[child].RemainingLevels(levels);
 
     /// <summary>Each state's box holds all vertices of what it is expanded to, and its children's boxes those of the children.</summary>
     private static void CheckBoxes(LodHierarchy hierarchy, long levels, HashSet<long> visited)

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
@@ -22,8 +23,7 @@ internal sealed class ChildInstance
             inverse = set.Inverses[mapIndex] * inverse;
             ScaleSquared *= set.ScalesSquared[mapIndex];
             OperatorNormBound *= set.OperatorNormBounds[mapIndex];
-            // Levels that are left say so, whatever was above; else levels that it goes down add up.
-            LevelStep = levelStep < 0 ? levelStep : LevelStep < 0 ? ~(~LevelStep - levelStep) : LevelStep + levelStep;
+            LevelStep = LevelStep.Then(levelStep);
         }
 
         (_simdMap, _inverseSimdMap) = (new(map), new(inverse));
@@ -47,11 +47,11 @@ internal sealed class ChildInstance
     /// <summary>The most by which the map lengthens.</summary>
     public double OperatorNormBound { get; }
 
-    /// <summary>As in <see cref="ChildEdge"/>.</summary>
-    public long LevelStep { get; }
+    /// <summary>Leads from the remaining levels of the parent to those of the child.</summary>
+    public LevelStep LevelStep { get; }
 
     /// <summary>The levels left in the copy, for a sub-fractal that has so many.</summary>
-    public long RemainingLevels(long parentLevels) => LevelStep < 0 ? ~LevelStep : parentLevels - LevelStep;
+    public long RemainingLevels(long parentLevels) => LevelStep.RemainingLevels(parentLevels);
 
     /// <summary>Bytes of the numbers.</summary>
     public long StorageBytes => (35 * sizeof(double)) + (24 * Edges.Length) + 40;
@@ -61,10 +61,10 @@ internal sealed class ChildInstance
 /// <param name="Set">Whose map it is.</param>
 /// <param name="MapIndex">Of the map in the set.</param>
 /// <param name="LevelStep">
-/// How many levels it goes down: 1, and 1 more for each level that is passed over by its identity. Where a whole repetition is
-/// passed over, the number of levels that are left below it, as its bitwise complement.
+/// Goes down 1 level, and 1 more for each level that its identity skips. Where a whole repetition is skipped, it leads to the level
+/// below the repetition.
 /// </param>
-internal readonly record struct ChildEdge(MapSet Set, int MapIndex, long LevelStep)
+internal readonly record struct ChildEdge(MapSet Set, int MapIndex, LevelStep LevelStep)
 {
     /// <summary>The map.</summary>
     public AffineMap Map => Set.Maps[MapIndex];
@@ -73,8 +73,8 @@ internal readonly record struct ChildEdge(MapSet Set, int MapIndex, long LevelSt
     public double OperatorNormBound => Set.OperatorNormBounds[MapIndex];
 
     /// <summary>A copy of what is below a repetition, as it stands.</summary>
-    public static ChildEdge SkipTo(long remainingLevels) => new(MapSet.Identity, 0, ~remainingLevels);
+    public static ChildEdge SkipTo(long remainingLevels) => new(MapSet.Identity, 0, LevelStep.To(remainingLevels));
 
     /// <summary>The levels left below it, for a level that has so many.</summary>
-    public long RemainingLevels(long parentLevels) => LevelStep < 0 ? ~LevelStep : parentLevels - LevelStep;
+    public long RemainingLevels(long parentLevels) => LevelStep.RemainingLevels(parentLevels);
 }

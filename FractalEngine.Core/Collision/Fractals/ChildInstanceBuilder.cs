@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
@@ -48,7 +49,7 @@ internal sealed class ChildInstanceBuilder
             if (edges.Count > MaxEdges)
             {
                 // Short lists matter more than the last duplicate: the rest is left to the next level, as it stands.
-                return [.. edges, new(MapSet.Identity, 0, levelsDown)];
+                return [.. edges, new(MapSet.Identity, 0, LevelStep.Down(levelsDown))];
             }
 
             currentSet = setAt(level - levelsDown);
@@ -99,7 +100,7 @@ internal sealed class ChildInstanceBuilder
             var isNew = offeredMaps.Add(set.Maps[i]) || set.IdentityIndex < 0;
             if (set.Maps[i] != AffineMap.Identity && mapsOfThisLevel.Add(set.Maps[i]) && isNew)
             {
-                edges.Add(new(set, i, levelsDown));
+                edges.Add(new(set, i, LevelStep.Down(levelsDown)));
             }
         }
     }

@@ -56,7 +56,7 @@ internal sealed class PeriodicBound(long topLevel, int period, Func<long, Boundi
         var coveredLevels = Enumerable.Range(0, period).Select(i => new HashSet<long> { FirstLevel + i }).ToArray();
         for (var level = topLevel + 1; level < InductionLevel; level++)
         {
-            foreach (var childLevel in children[PhaseOf(level)].Where(child => child.LevelStep >= 0)
+            foreach (var childLevel in children[PhaseOf(level)].Where(child => !child.LevelStep.IsAbsolute)
                 .Select(child => child.RemainingLevels(level)).Where(childLevel => childLevel < FirstLevel))
             {
                 coveredLevels[PhaseOf(childLevel)].Add(childLevel);
