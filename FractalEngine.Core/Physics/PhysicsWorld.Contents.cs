@@ -38,7 +38,7 @@ public sealed partial class PhysicsWorld
     {
         var actualPlacement = placement ?? Transformation.Identity;
         ArgumentCheck.RequirePlacement(actualPlacement, nameof(placement));
-        var added = AppendStatic(StaticObjectSet.Place(model, actualPlacement), objectIndex: null);
+        var added = AppendStatic(new(new SceneObject(model) { Placement = actualPlacement }), objectIndex: null);
         InvalidateSurroundings(mayOverlap: true);
         return added;
     }

@@ -37,11 +37,19 @@ public sealed partial class PhysicsWorld
     {
     }
 
+    /// <summary>Creates the world of a scene that was made in code, or loaded from a file.</summary>
+    /// <inheritdoc cref="PhysicsWorld(LoadedScene, PhysicsSettings?)"/>
+    /// <exception cref="FractalEngineException">An object names a file that is not loaded.</exception>
+    public PhysicsWorld(Scene scene, PhysicsSettings? settings = null)
+        : this(LoadedScene.Of(scene), settings)
+    {
+    }
+
     /// <summary>
     /// Creates the world of a scene: a body for each physics object, a static object for each other one. Colliders are built when they are
     /// first queried.
     /// </summary>
-    /// <param name="scene">The scene with its models; also gives gravity and character.</param>
+    /// <param name="scene">The scene with its models; it also gives gravity and character.</param>
     /// <param name="settings">Null for the default settings.</param>
     /// <exception cref="ArgumentException">A setting or a body is out of range; the message names it.</exception>
     public PhysicsWorld(LoadedScene scene, PhysicsSettings? settings = null)

@@ -14,7 +14,7 @@ internal sealed class StaticColliders
     public StaticColliders(StaticObjectSet set, ColliderKind kind)
     {
         _set = set;
-        Scene = new(new(new Scene(), [.. set.Objects.Select(static placed => placed.Placed)]), kind);
+        Scene = new(new LoadedScene(new(), [.. set.Objects.Select(static placed => placed.Placed)]), kind);
     }
 
     /// <summary>Answers queries for the closest point, in world space.</summary>

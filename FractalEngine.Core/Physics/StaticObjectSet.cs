@@ -1,6 +1,5 @@
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;
@@ -18,13 +17,10 @@ internal sealed class StaticObjectSet
 
     /// <summary>The model of a fractal: the same one whenever the same fractal is asked for.</summary>
     public Model ModelOf(Fractal fractal) =>
-        _models.TryGetValue(fractal, out var model) ? model : _models[fractal] = new FractalModel("", 0, fractal);
+        _models.TryGetValue(fractal, out var model) ? model : _models[fractal] = new FractalModel(fractal);
 
     /// <summary>The model of a mesh: the same one whenever the same mesh is asked for.</summary>
-    public Model ModelOf(Mesh mesh) => _models.TryGetValue(mesh, out var model) ? model : _models[mesh] = new MeshModel("", 0, mesh);
-
-    /// <summary>A model at a placement, as a scene would hold it.</summary>
-    public static PlacedModel Place(Model model, Transformation placement) => new(new("", placement), model);
+    public Model ModelOf(Mesh mesh) => _models.TryGetValue(mesh, out var model) ? model : _models[mesh] = new MeshModel(mesh);
 
     /// <summary>Adds an object. Colliders that exist are kept.</summary>
     /// <param name="added">Its <see cref="StaticObject.Index"/> must be the next one.</param>
