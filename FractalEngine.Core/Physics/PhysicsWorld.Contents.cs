@@ -11,7 +11,7 @@ namespace FractalEngine.Core.Physics;
 public sealed partial class PhysicsWorld
 {
     /// <summary>
-    /// Adds a fractal that bodies collide with. Adding the same fractal again shares its collider; existing colliders are kept.
+    /// Adds a fractal that bodies collide with. Equal fractals share one collider, and existing colliders are kept.
     /// </summary>
     /// <param name="fractal">May be infinite.</param>
     /// <param name="placement">Placement in world space; null to leave the fractal in its own frame.</param>
@@ -21,7 +21,7 @@ public sealed partial class PhysicsWorld
     public StaticObject AddStatic(Fractal fractal, Transformation? placement = null) => AddStatic(_statics.ModelOf(fractal), placement);
 
     /// <summary>
-    /// Adds a mesh that bodies collide with. Adding the same mesh again shares its collider; existing colliders are kept.
+    /// Adds a mesh that bodies collide with. Equal meshes share one collider, and existing colliders are kept.
     /// </summary>
     /// <inheritdoc cref="AddStatic(Fractal, Transformation?)"/>
     /// <param name="mesh">Need not be closed.</param>
@@ -29,7 +29,7 @@ public sealed partial class PhysicsWorld
     public StaticObject AddStatic(Mesh mesh, Transformation? placement = null) => AddStatic(_statics.ModelOf(mesh), placement);
 
     /// <summary>
-    /// Adds a model that bodies collide with. Adding the same model again shares its collider; existing colliders are kept.
+    /// Adds a model that bodies collide with. Objects with the same model share its collider, and existing colliders are kept.
     /// </summary>
     /// <inheritdoc cref="AddStatic(Fractal, Transformation?)"/>
     /// <param name="model">A mesh or a fractal, possibly of the world's scene.</param>

@@ -9,17 +9,17 @@ internal sealed class StaticObjectSet
 {
     private readonly List<StaticObject> _objects = [];
     private readonly Dictionary<ColliderKind, StaticColliders> _colliders = [];
-    private readonly Dictionary<object, Model> _models = new(ReferenceEqualityComparer.Instance);
+    private readonly Dictionary<object, Model> _models = [];
     private readonly Dictionary<Mesh, bool> _isSolid = new(ReferenceEqualityComparer.Instance);
 
     /// <summary>All static objects, in the order in which they were added.</summary>
     public IReadOnlyList<StaticObject> Objects => _objects;
 
-    /// <summary>The model of a fractal: the same one whenever the same fractal is asked for.</summary>
+    /// <summary>The model of a fractal: the same one for equal fractals, so that they share a collider.</summary>
     public Model ModelOf(Fractal fractal) =>
         _models.TryGetValue(fractal, out var model) ? model : _models[fractal] = new FractalModel(fractal);
 
-    /// <summary>The model of a mesh: the same one whenever the same mesh is asked for.</summary>
+    /// <summary>The model of a mesh: the same one for equal meshes, so that they share a collider.</summary>
     public Model ModelOf(Mesh mesh) => _models.TryGetValue(mesh, out var model) ? model : _models[mesh] = new MeshModel(mesh);
 
     /// <summary>Adds an object. Colliders that exist are kept.</summary>
