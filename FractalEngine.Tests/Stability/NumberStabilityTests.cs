@@ -170,7 +170,7 @@ public class NumberStabilityTests(ITestOutputHelper output)
         using var stream = new MemoryStream();
         ObjWriter.Write(MeshOf(numbers), "mesh", stream);
         using var table = new StringWriter { NewLine = "\n" };
-        var world = new PhysicsWorld(new(new Scene(), []), new());
+        var world = new PhysicsWorld();
         world.Add(new(new(numbers[0], numbers[1], numbers[2]), 1) { Velocity = new(numbers[3] % 1e6, 0.5, -1.25) });
         new BodyCsvWriter(table).WriteStep(world);
         return string.Join('\n', Encoding.UTF8.GetString(stream.ToArray()), SceneWriter.Write(SceneOf(numbers)), table,
