@@ -30,6 +30,9 @@ public readonly record struct Transformation(Vector Position, Vector Rotation, V
     public AffineMap ToAffineMap() =>
         new(Rotation.LocalAxesFromDegrees() * Matrix.Diagonal(Scale), Position);
 
+    /// <summary>True when no component is NaN or infinite.</summary>
+    public bool IsFinite() => Position.IsFinite() && Rotation.IsFinite() && Scale.IsFinite();
+
     /// <summary>Formats the transformation as files write it, in the invariant culture.</summary>
     public override string ToString() => string.Create(CultureInfo.InvariantCulture, $"({Position}, {Rotation}, {Scale})");
 }
