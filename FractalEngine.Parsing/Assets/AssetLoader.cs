@@ -83,7 +83,7 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
 
     private LoadedFile LoadScene(string fullPath, string displayName)
     {
-        var file = SceneParser.Parse(ReadText(fullPath, displayName, ParsingLimits.DescriptionBytes));
+        var file = SceneParser.Parse(ReadText(fullPath, displayName, ParsingLimits.MaxDescriptionBytes));
         var placed = ImmutableArray.CreateBuilder<PlacedModel>();
         foreach (var (declared, offset) in file.Scene.Objects.Zip(file.FileNameOffsets))
         {
@@ -126,7 +126,7 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
     private FractalModel LoadFractal(string fullPath, string displayName)
     {
         var bytesBefore = StorageBytes;
-        var file = FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.DescriptionBytes));
+        var file = FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.MaxDescriptionBytes));
         var ownBytes = StorageBytes - bytesBefore;
         var (baseFullPath, baseDisplayName) = _references!.Resolve(file.Source, file.BaseFileNameOffset, fullPath,
             file.Description.BaseFile);
@@ -164,7 +164,7 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
         }
 
         var bytesBefore = StorageBytes;
-        var source = ReadText(fullPath, displayName, ParsingLimits.ObjBytes, acceptLatin1: true);
+        var source = ReadText(fullPath, displayName, ParsingLimits.MaxObjBytes, acceptLatin1: true);
         var file = ObjParser.Parse(source, progress is null ? null : new FileProgress(displayName, progress));
         _warnings.AddRange(file.Warnings);
         var materials = _materials!.Load(file, source, fullPath);

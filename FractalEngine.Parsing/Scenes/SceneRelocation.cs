@@ -2,7 +2,7 @@ using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Parsing.Scenes;
 
-/// <summary>Scenes that move to another folder while the files they name stay.</summary>
+/// <summary>Adapts scenes that move to another folder to the files they name, which stay where they are.</summary>
 public static class SceneRelocation
 {
     /// <summary>The scene with file names that mean the same files from its new place.</summary>
