@@ -21,7 +21,7 @@ internal sealed record FrameCase(string Name, LoadedScene Scene, View View)
     {
         var words = text.Split(':');
         var fractal = FractalCase.Parse(string.Join(':', words[..^1]));
-        var model = new FractalModel(fractal.Name, 0, fractal.Fractal);
+        var model = new FractalModel(fractal.Fractal) { SourcePath = fractal.Name };
         var scene = new LoadedScene(new Scene(), [new PlacedModel(new SceneObject(fractal.Name, Transformation.Identity), model)]);
         return new($"{fractal.Name} {words[^1]}", scene, View.Of(scene, Aspect, CameraOf(words[^1], scene.Bounds)));
     }

@@ -49,7 +49,7 @@ internal static class GrowthByMaps
             (Maps, Seed) = (maps, seed);
             var random = new Random(seed);
             var set = new TransformationSet([.. Enumerable.Range(0, maps).Select(_ => RandomMap(random, ScaleOf(maps)))]);
-            _fractal = new(new FractalDescription("base.obj", [new Repetition([set], Depth)]),
+            _fractal = new(new FractalDescription([new Repetition([set], Depth)]),
                 FractalCase.Load("sierpinski").Fractal.BaseMesh);
             var positions = Enumerable.Range(0, queries).Select(_ => QueryPositions.Near(random, _fractal)).ToArray();
             (Exact, Greedy) = (new(new ExactFractalCollider(_fractal), positions), new(new FractalCollider(_fractal), positions));

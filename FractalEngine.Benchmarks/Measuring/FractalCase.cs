@@ -75,7 +75,7 @@ internal sealed record FractalCase(string Name, Fractal Fractal)
         new(new(0, 0.8, 0), new(0, -40, -31), 0.7 * Vector.One));
 
     private static FractalDescription Repeated(params Transformation[] maps) =>
-        new("base.obj", [new Repetition([new TransformationSet([.. maps])], 5)]);
+        new([new Repetition([new TransformationSet([.. maps])], 5)]);
 
     private static Mesh Mesh(string name) => Model("models", name + ".obj").Mesh;
 

@@ -95,8 +95,8 @@ internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? tabl
     {
         var box = fractal.Fractal.Bounds;
         var scale = 1 / box.Size.MaxAbsComponent();
-        var model = new FractalModel(fractal.Name, 0, fractal.Fractal);
-        var floor = new MeshModel("floor", 0, new([-9, 0, -9, 9, 0, -9, 9, 0, 9, -9, 0, 9], [0, 2, 1, 0, 3, 2]));
+        var model = new FractalModel(fractal.Fractal) { SourcePath = fractal.Name };
+        var floor = new MeshModel(new([-9, 0, -9, 9, 0, -9, 9, 0, 9, -9, 0, 9], [0, 2, 1, 0, 3, 2])) { SourcePath = "floor" };
         var scene = new LoadedScene(new Scene(),
         [
             new(new(fractal.Name, new Transformation(-scale * box.Centre, Vector.Zero, scale * Vector.One)), model),

@@ -12,4 +12,21 @@ internal static class FileKinds
         ".SDO" => FileKind.Scene,
         _ => null,
     };
+
+    /// <summary>Requires the path of a caller to have the ending of a kind.</summary>
+    /// <exception cref="ArgumentException">The path has another ending.</exception>
+    public static void Require(string path, FileKind kind)
+    {
+        if (FromName(path) != kind)
+        {
+            throw new ArgumentException($"expected the name of a {Ending(kind)} file", nameof(path));
+        }
+    }
+
+    private static string Ending(FileKind kind) => kind switch
+    {
+        FileKind.Mesh => ".obj",
+        FileKind.Fractal => ".fdo",
+        _ => ".sdo",
+    };
 }

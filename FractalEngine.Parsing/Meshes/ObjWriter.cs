@@ -49,7 +49,7 @@ public sealed class ObjWriter
     }
 
     private static string ObjectName(PlacedModel placed) =>
-        placed.Declaration.Name ?? Path.GetFileNameWithoutExtension(placed.Declaration.File);
+        placed.Declaration.Name ?? Path.GetFileNameWithoutExtension(placed.Declaration.DisplayName);
 
     private static ImmutableArray<AffineMap> ExpandInstances(Model model, long maxFaces)
     {
@@ -65,7 +65,7 @@ public sealed class ObjWriter
         catch (FractalLimitException exception)
         {
             var message = string.Create(CultureInfo.InvariantCulture,
-                $"{Path.GetFileName(model.Path)} has more faces than the limit of {maxFaces}: {exception.Message}");
+                $"{model.Name} has more faces than the limit of {maxFaces}: {exception.Message}");
             throw new FractalLimitException(message, exception);
         }
     }

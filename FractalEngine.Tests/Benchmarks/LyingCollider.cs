@@ -13,7 +13,7 @@ internal sealed class LyingCollider(Collider truth, bool isExact, Func<double, d
 
     public override long StorageBytes => truth.StorageBytes;
 
-    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
+    protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
         var found = truth.TryFindClosest(position, maxDistance, context, out closest);

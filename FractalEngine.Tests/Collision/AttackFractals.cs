@@ -116,14 +116,14 @@ internal static class AttackFractals
 
     private static Repetition Repeat(ImmutableArray<FractalStep> body, int count) => new(body, count);
 
-    private static Fractal Of(params FractalStep[] steps) => new(new("base.obj", [.. steps]), Samples.Tetrahedron);
+    private static Fractal Of(params FractalStep[] steps) => new(new([.. steps]), Samples.Tetrahedron);
 
     private static Fractal On(Mesh mesh, TransformationSet set) => On(mesh, set, 5);
 
-    private static Fractal On(Mesh mesh, TransformationSet set, int depth) => new(new("base.obj", [new Repetition([set], depth)]), mesh);
+    private static Fractal On(Mesh mesh, TransformationSet set, int depth) => new(new([new Repetition([set], depth)]), mesh);
 
     private static Fractal On(Mesh mesh, TransformationSet set, Transformation above) =>
-        new(new("base.obj", [Set(above), new Repetition([set], 5)]), mesh);
+        new(new([Set(above), new Repetition([set], 5)]), mesh);
 
     /// <summary>The same fractal in another size.</summary>
     private static Fractal Scaled(double scale, TransformationSet set) => On(

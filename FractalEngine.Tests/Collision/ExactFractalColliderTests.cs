@@ -148,7 +148,7 @@ public class ExactFractalColliderTests
     [Fact]
     public void Find_OnTheEmptyFractal_FindsNothing()
     {
-        Fractal[] empty = [new(new("base.obj", [new TransformationSet([])]), Samples.Tetrahedron), new(new("base.obj", []), Mesh.Empty)];
+        Fractal[] empty = [new(new([new TransformationSet([])]), Samples.Tetrahedron), new(new([]), Mesh.Empty)];
         Assert.All(empty,
             fractal => Assert.False(new ExactFractalCollider(fractal).TryFindClosest(Vector.Zero, double.PositiveInfinity, new(), out _)));
     }
@@ -168,7 +168,7 @@ public class ExactFractalColliderTests
                      from z in Enumerable.Range(-1, 3)
                      where Math.Abs(x) + Math.Abs(y) + Math.Abs(z) > 1
                      select Samples.MoveAndScale(x / 3.0, y / 3.0, z / 3.0, 1 / 3.0);
-        return new(new("cube.obj", [new Repetition([new TransformationSet([.. places])], depth)]), Samples.ParseObj(Files.Cube).Mesh);
+        return new(new([new Repetition([new TransformationSet([.. places])], depth)]), Samples.ParseObj(Files.Cube).Mesh);
     }
 
     /// <summary>Anywhere around the fractal, near its surface, or exactly on it.</summary>

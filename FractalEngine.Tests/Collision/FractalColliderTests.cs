@@ -20,7 +20,7 @@ public class FractalColliderTests
     public void Find_CostsExactlyBaseTimesTransformationsTimesDepth(int faces, int transformations, int depth, long cost)
     {
         var set = Enumerable.Range(0, transformations).Select(i => Samples.MoveAndScale(i, 0.5 * i, 0, 0.3));
-        var fractal = new Fractal(new("base.obj", [new Repetition([new TransformationSet([.. set])], depth)]), Fan(faces));
+        var fractal = new Fractal(new([new Repetition([new TransformationSet([.. set])], depth)]), Fan(faces));
         var record = new QueryContext();
         Assert.True(new FractalCollider(fractal).TryFindClosest(new(1, 2, 3), double.PositiveInfinity, record, out _));
         Assert.Equal((cost, depth), (record.FaceTests, record.InstancePath.Length));
@@ -54,7 +54,7 @@ public class FractalColliderTests
     {
         // From (2.6, 0, 0) the copy at 0 ends at 1 and that at 4 begins at 4, so the latter is nearer; but the parts of the first reach on
         // to the right at the next level.
-        var fractal = new Fractal(new("base.obj",
+        var fractal = new Fractal(new(
         [
             new TransformationSet([Transformation.Identity, Samples.Move(4, 0, 0)]),
             new TransformationSet([Samples.Move(1.5, 0, 0), Samples.Move(9, 9, 9)]),

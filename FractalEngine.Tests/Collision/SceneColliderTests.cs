@@ -40,7 +40,7 @@ public class SceneColliderTests
     public void Find_NamesTheNearestObjectAndItsInstance()
     {
         var model =
-            new FractalModel("/f.fdo", 0, Samples.Repeated(2, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(5, 0, 0, 0.5)));
+            new FractalModel(Samples.Repeated(2, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(5, 0, 0, 0.5))) { SourcePath = "/f.fdo" };
         var scene = new LoadedScene(new(),
         [
             new(new("f.fdo", Samples.Move(0, 0, 0)), model),
@@ -56,12 +56,12 @@ public class SceneColliderTests
 
     [Fact]
     public void Find_InAnEmptyScene_FindsNothing() =>
-        Assert.False(new SceneCollider(new(new(), [])).TryFindClosest(Vector.Zero, double.PositiveInfinity, new(), out _, out _));
+        Assert.False(new SceneCollider(new Scene()).TryFindClosest(Vector.Zero, double.PositiveInfinity, new(), out _, out _));
 
     [Fact]
     public void Find_WithTheGreedyColliderOnAMesh_SaysWhichFit()
     {
-        var scene = new LoadedScene(new(), [new(new("m.obj", Transformation.Identity), new MeshModel("/m.obj", 0, Samples.Tetrahedron))]);
+        var scene = new LoadedScene(new(), [new(new("m.obj", Transformation.Identity), new MeshModel(Samples.Tetrahedron) { SourcePath = "/m.obj" })]);
         Assert.Contains("expected exact, hierarchy",
             Assert.Throws<ColliderMismatchException>(() => new SceneCollider(scene, ColliderKind.Fractal).Build()).Message,
             StringComparison.Ordinal);
@@ -71,9 +71,9 @@ public class SceneColliderTests
     {
         Model[] models =
         [
-            new MeshModel("/mesh.obj", 0, Samples.Tetrahedron),
-            new FractalModel("/fractal.fdo", 0, RandomFractals.Draw(random)),
-            new FractalModel("/sums.fdo", 0, RandomFractals.Draw(random, Composition.Componentwise)),
+            new MeshModel(Samples.Tetrahedron) { SourcePath = "/mesh.obj" },
+            new FractalModel(RandomFractals.Draw(random)) { SourcePath = "/fractal.fdo" },
+            new FractalModel(RandomFractals.Draw(random, Composition.Componentwise)) { SourcePath = "/sums.fdo" },
         ];
         return new(new(),
             [.. Enumerable.Range(0, 5)

@@ -339,7 +339,7 @@ public class FractalAddressTests
             new(new(1, 0, 0), new(50, 0, 70), new(0.5, 0.5, -0.5)), new(new(0, 1.5, 0), Vector.Zero, 0.4 * Vector.One)),
         // Cubes that do not touch.
         "apart" =>
-            new(new("cube.obj",
+            new(new(
             [new Repetition(
                 [new TransformationSet(
                     [.. from x in (int[])[-1, 1] from y in (int[])[-1, 1] from z in (int[])[-1, 1] select Samples.MoveAndScale(0.8 * x,

@@ -33,7 +33,7 @@ public class FractalBoundsTests
     {
         // Nine million products of 96 bytes.
         var set = new TransformationSet([.. Enumerable.Range(0, 3000).Select(_ => random.Transformation())]);
-        var fractal = new Fractal(new("base.obj", [new Repetition([set, set], 3)]), Samples.Triangle);
+        var fractal = new Fractal(new([new Repetition([set, set], 3)]), Samples.Triangle);
         var before = GC.GetAllocatedBytesForCurrentThread();
         Assert.True(LevelBounds.Compute(fractal).At(0).IsFinite());
         Assert.InRange(GC.GetAllocatedBytesForCurrentThread() - before, 0, 10_000_000);

@@ -71,7 +71,7 @@ public class FractalCountTests
     public void LevelAt_InTheMiddleOfAMillionLevels_IsImmediate()
     {
         TransformationSet one = new([.. Row(2)]), other = new([.. Row(3)]);
-        var fractal = new Fractal(new("base.obj", [new Repetition([one, other], 500_000)]), Samples.Triangle);
+        var fractal = new Fractal(new([new Repetition([one, other], 500_000)]), Samples.Triangle);
         Assert.Same(one, fractal.LevelAt(777_776));
         Assert.Same(other, fractal.LevelAt(777_777));
     }
@@ -87,7 +87,7 @@ public class FractalCountTests
     [Fact]
     public void WithDepth_WithoutARecursive_IsRefused()
     {
-        var description = new FractalDescription("base.obj", [new TransformationSet([.. Row(3)])]);
+        var description = new FractalDescription([new TransformationSet([.. Row(3)])]);
         Assert.False(description.HasDepth);
         Assert.Throws<InvalidOperationException>(() => description.WithDepth(3));
     }

@@ -159,19 +159,6 @@ public class FractalExpansionTests
     public void ConcatenatePair_IsEveryPairInOrder() =>
         Assert.Equal(["ac", "ad", "bc", "bd"], FractalGenerator.ConcatenatePair<string>(["a", "b"], ["c", "d"], (x, y) => x + y));
 
-    [Fact]
-    public void Create_LoadsTheBaseMeshOnce()
-    {
-        List<string> loaded = [];
-        var fractal = FractalGenerator.Create(Samples.AppendixBAt(2).Description, file =>
-        {
-            loaded.Add(file);
-            return Samples.Tetrahedron;
-        });
-        Assert.Equal(["FractalBase.obj"], loaded);
-        Assert.Same(Samples.Tetrahedron, fractal.BaseMesh);
-    }
-
     // Different maps of Appendix B at depth 3 (factors 0.001 × 0.125) differ by far more than 1e-7, equal ones by far less. The factor
     // is crooked, so that no entry lies between two whole numbers, where rounding would part equal ones.
     private static string Key(double[][] map) =>

@@ -359,7 +359,7 @@ public class FractalParserErrorTests
 
         try
         {
-            Assert.NotEmpty(Samples.ParseFractal(text.ToString()).Description.BaseFile);
+            Assert.NotEmpty(Samples.ParseFractal(text.ToString()).BaseFile);
         }
         catch (SourceException error)
         {
@@ -394,5 +394,5 @@ public class FractalParserErrorTests
 
     [Fact]
     public void Comment_BeforeACarriageReturnAlone_EndsThere() =>
-        Assert.Equal("b.obj", Samples.ParseFractal("# comment\r<$>. \"b.obj\"\r").Description.BaseFile);
+        Assert.Equal("b.obj", Samples.ParseFractal("# comment\r<$>. \"b.obj\"\r").BaseFile);
 }

@@ -12,7 +12,7 @@ public class ObjWriterTests
 {
     private static LoadedScene Scene(params (Model Model, Transformation Placement)[] placed)
     {
-        var objects = placed.Select(p => (Declared: new SceneObject(p.Model.Path, p.Placement), p.Model)).ToArray();
+        var objects = placed.Select(p => (Declared: new SceneObject(p.Model.SourcePath!, p.Placement), p.Model)).ToArray();
         return new(new() { Objects = [.. objects.Select(o => o.Declared)] },
             [.. objects.Select(o => new PlacedModel(o.Declared, o.Model))]);
     }
@@ -31,13 +31,13 @@ public class ObjWriterTests
         return file.Mesh;
     }
 
-    private static FractalModel Model(Fractal fractal) => new("/a/fractal.fdo", 0, fractal);
+    private static FractalModel Model(Fractal fractal) => new(fractal) { SourcePath = "/a/fractal.fdo" };
 
     [Fact]
     public void Write_OfAMesh_KeepsEveryBitAndFace()
     {
         var mesh = new Mesh([0.1, 1.0 / 3, -0.0, 1e-300, 1e300, 5, 6, 7, 8], [0, 1, 2]);
-        var written = WriteAndParse(Scene((new MeshModel("/a/m.obj", 0, mesh), Transformation.Identity)));
+        var written = WriteAndParse(Scene((new MeshModel(mesh) { SourcePath = "/a/m.obj" }, Transformation.Identity)));
         Assert.Equal(mesh.Positions.ToArray(), written.Positions.ToArray());
         Assert.Equal(mesh.VertexIndices.ToArray(), written.VertexIndices.ToArray());
     }
@@ -76,7 +76,7 @@ public class ObjWriterTests
     [Fact]
     public void Write_OfSeveralObjects_PutsThemBehindEachOtherInWorldSpace()
     {
-        var model = new MeshModel("/a/m.obj", 0, Samples.Triangle);
+        var model = new MeshModel(Samples.Triangle) { SourcePath = "/a/m.obj" };
         var written = WriteAndParse(Scene((model, Samples.Move(10, 0, 0)), (model, Samples.Move(0, 20, 0))));
         Assert.Equal([new(10, 0, 0), new(11, 0, 0), new(10, 1, 0), new(0, 20, 0), new(1, 20, 0), new(0, 21, 0)], Naive.Vertices(written));
         Assert.Equal([0, 1, 2, 3, 4, 5], written.VertexIndices.ToArray());
@@ -87,7 +87,7 @@ public class ObjWriterTests
     {
         // A normal that is that of its face stays so, under skew and mirrors too.
         var mesh = Samples.Triangle.WithNormals([0, 0, 1], [0, 0, 0]);
-        var written = WriteAndParse(Scene((new MeshModel("/a/m.obj", 0, mesh), random.Transformation())));
+        var written = WriteAndParse(Scene((new MeshModel(mesh) { SourcePath = "/a/m.obj" }, random.Transformation())));
         var (a, b, c) = written.Face(0);
         var normal = new Vector(written.Normals[0], written.Normals[1], written.Normals[2]);
         Near.Equal(Vector.Cross(b - a, c - a).UnitVector(), normal.UnitVector(), 1e-13);

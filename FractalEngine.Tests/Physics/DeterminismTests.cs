@@ -100,6 +100,6 @@ public class DeterminismTests
         .. Enumerable.Range(0, 6).Select(i => new Core.Scenes.PlacedModel(
             new Core.Scenes.PhysicsObject("cube.obj", Support.Samples.MoveAndScale((i * 0.15) - 0.4, 0.8, 0.01 * i, 0.1),
             0.7) { Velocity = new(0.3, 0, 0.2 * i) },
-            new Core.Scenes.MeshModel("/cube.obj", 0, PhysicsMeshes.Cube))),
+            new Core.Scenes.MeshModel(PhysicsMeshes.Cube))),
     ]);
 }

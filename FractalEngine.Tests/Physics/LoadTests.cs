@@ -102,7 +102,7 @@ public sealed class LoadTests
         var scene = new LoadedScene(new Scene(),
         [
             Worlds.Place(PhysicsMeshes.Floor()),
-            new(new PhysicsObject("cube.obj", At(2), 0.5), new MeshModel("cube.obj", 0, PhysicsMeshes.Cube)),
+            new(new PhysicsObject("cube.obj", At(2), 0.5), new MeshModel(PhysicsMeshes.Cube) { SourcePath = "cube.obj" }),
         ]);
         var world = new PhysicsWorld(scene);
         world.Run(120);

@@ -62,7 +62,7 @@ public class MovedObjectTests
     {
         var world =
             Worlds.Of(Worlds.Gravity, 1 / 60.0,
-            new PlacedModel(new PhysicsObject("c.obj", Transformation.Identity, 0.5), new MeshModel("/c.obj", 0, PhysicsMeshes.Cube)));
+            new PlacedModel(new PhysicsObject("c.obj", Transformation.Identity, 0.5), new MeshModel(PhysicsMeshes.Cube) { SourcePath = "/c.obj" }));
         Assert.Throws<ArgumentException>(() => world.MoveObject(0, Transformation.Identity));
     }
 
@@ -70,7 +70,7 @@ public class MovedObjectTests
     public void PhysicsObject_UnderAnyMatrix_IsTheBallThatHoldsItsVertices() => Seeded.Run(100, random =>
     {
         var placed = new PlacedModel(new PhysicsObject("c.obj", random.Transformation(), 0.5) { Name = "it" },
-            new MeshModel("/c.obj", 0, Samples.Tetrahedron));
+            new MeshModel(Samples.Tetrahedron) { SourcePath = "/c.obj" });
         var body = Worlds.Of(Worlds.Gravity, 0.01, placed).Bodies[0];
         var map = Naive.Map(placed.Declaration.Placement);
         var farthest = Naive.Vertices(Samples.Tetrahedron)
@@ -135,7 +135,7 @@ public class MovedObjectTests
     {
         var world =
             Worlds.Of(Worlds.Gravity, 0.01, Worlds.Place(PhysicsMeshes.Cube),
-            new PlacedModel(new PhysicsObject("c.obj", Samples.Move(0, 3, 0), 0.5), new MeshModel("/c.obj", 0, PhysicsMeshes.Cube)));
+            new PlacedModel(new PhysicsObject("c.obj", Samples.Move(0, 3, 0), 0.5), new MeshModel(PhysicsMeshes.Cube) { SourcePath = "/c.obj" }));
         Assert.True(world.TryFindClosest(new(0, 2, 0), ColliderKind.Exact, out ClosestPoint closest));
         Assert.Equal(1.5, closest.Distance, 1e-12);
     }

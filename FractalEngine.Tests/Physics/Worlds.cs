@@ -18,10 +18,10 @@ internal static class Worlds
         Of(gravity, new PhysicsSettings { TimeStep = step }, objects);
 
     public static PlacedModel Place(Mesh mesh, Transformation? placement = null) =>
-        new(new("mesh.obj", placement ?? Transformation.Identity), new MeshModel("/mesh.obj", 0, mesh));
+        new(new("mesh.obj", placement ?? Transformation.Identity), new MeshModel(mesh) { SourcePath = "/mesh.obj" });
 
     public static PlacedModel Place(Fractal fractal, Transformation? placement = null) =>
-        new(new("fractal.fdo", placement ?? Transformation.Identity), new FractalModel("/fractal.fdo", 0, fractal));
+        new(new("fractal.fdo", placement ?? Transformation.Identity), new FractalModel(fractal) { SourcePath = "/fractal.fdo" });
 
     public static void Run(this PhysicsWorld world, int steps, Action? afterEach = null)
     {

@@ -150,7 +150,7 @@ public sealed class DetailDrawingTests
     {
         var glass = TexturedScenes.Of(RenderScenes.Cube(1), new("glass") { Diffuse = new(1, 0, 0), Opacity = 0.4 });
         var fractal =
-            new FractalModel("glass.fdo", 1, new(RenderScenes.Menger(1).Fractal.Description, glass.Mesh)) { Materials = glass.Materials };
+            new FractalModel(new(RenderScenes.Menger(1).Fractal.Description, glass.Mesh)) { SourcePath = "glass.fdo", Materials = glass.Materials };
         // Transparent instances are drawn in no stated order, so those of the fractal are side by side.
         var scene = RenderScenes.Scene(
             new Scene { Background = Colour.Black },
@@ -270,8 +270,8 @@ public sealed class DetailDrawingTests
         var set = new TransformationSet([
             Samples.MoveAndScale(distance, 0, 0, 0.5), Samples.MoveAndScale(distance + 1, 0, 0, 0.5),
             Samples.MoveAndScale(distance, 1, 0, 0.5)]);
-        var fractal = new Fractal(new("cube.obj", [new Repetition([set], 9)]), RenderScenes.Cube(1));
-        var model = new FractalModel("beside.fdo", 1, fractal);
+        var fractal = new Fractal(new([new Repetition([set], 9)]), RenderScenes.Cube(1));
+        var model = new FractalModel(fractal) { SourcePath = "beside.fdo" };
         var scene = RenderScenes.Scene(new Scene { Background = Colour.Black }, (model, Transformation.Identity, Colour.White));
         var view = View.Of(scene, (double)Width / Height);
         var (all, chosen) =
@@ -292,7 +292,7 @@ public sealed class DetailDrawingTests
         var set =
             new TransformationSet(
                 [.. Enumerable.Range(0, 60).Select(_ => new Transformation(random.Vector(), Vector.Zero, 0.002 * Vector.One))]);
-        AssertNoFarther(new FractalModel("dust.fdo", 1, new(new("cube.obj", [set]), RenderScenes.Cube(1))), Projection.Perspective, "dust");
+        AssertNoFarther(new FractalModel(new(new([set]), RenderScenes.Cube(1))) { SourcePath = "dust.fdo" }, Projection.Perspective, "dust");
     }
 
     [SkippableFact]
@@ -314,13 +314,13 @@ public sealed class DetailDrawingTests
         foreach (var transformation in (Transformation[])[Samples.MoveAndScale(1, 0, 0, 1.5), new(Vector.I, Vector.Zero, new(0.5, 0.5, 0))])
         {
             var set = new TransformationSet(ImmutableArray.Create(transformation, Samples.MoveAndScale(0, 1, 0, 0.5)));
-            var model = new FractalModel("odd.fdo", 1, new(new("cube.obj", [new Repetition([set], 3)]), RenderScenes.Cube(1)));
+            var model = new FractalModel(new(new([new Repetition([set], 3)]), RenderScenes.Cube(1))) { SourcePath = "odd.fdo" };
             AssertSame(RenderScenes.Scene(new Scene(), (model, Transformation.Identity, null)));
         }
     }
 
     private static FractalModel ModelOf(string name, int depth) =>
-        new(name, 1, depth < 0 ? AssetFractals.Load(name) : AssetFractals.Load(name, depth));
+        new(depth < 0 ? AssetFractals.Load(name) : AssetFractals.Load(name, depth)) { SourcePath = name };
 
     private static void CheckSmall(string name, int depth)
     {

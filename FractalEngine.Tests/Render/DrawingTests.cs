@@ -38,9 +38,9 @@ public sealed class DrawingTests
         var solid = RenderScenes.Menger(2);
         // The same with a face inside the cubes that nobody sees: no longer a closed surface, so both sides are drawn.
         var cube = RenderScenes.Cube(1);
-        var open = new FractalModel("open.fdo", 1, new Fractal(
+        var open = new FractalModel(new Fractal(
             solid.Fractal.Description,
-            new Mesh([.. cube.Positions, 0, 0, 0, 0.1, 0, 0, 0, 0.1, 0], [.. cube.VertexIndices, 8, 9, 10])));
+            new Mesh([.. cube.Positions, 0, 0, 0, 0.1, 0, 0, 0, 0.1, 0], [.. cube.VertexIndices, 8, 9, 10]))) { SourcePath = "open.fdo" };
         var placement = Transformation.Identity with { Scale = new(mirror, 1, 1) };
         var view = new View(Aside, Projection.Perspective);
         var (solidScene, openScene) = (
@@ -101,8 +101,8 @@ public sealed class DrawingTests
             RenderScenes.Scene(
                 new Scene(), (RenderScenes.Model(RenderScenes.Ball(16)), Transformation.Identity with { Scale = new(x, y, z) }, null)),
             view);
-        var fractal = new FractalModel("mirror.fdo", 1, new Fractal(
-            new("ball.obj", [new TransformationSet([Transformation.Identity with { Scale = new(x, y, z) }])]), RenderScenes.Ball(16)));
+        var fractal = new FractalModel(new Fractal(
+            new([new TransformationSet([Transformation.Identity with { Scale = new(x, y, z) }])]), RenderScenes.Ball(16))) { SourcePath = "mirror.fdo" };
         var instance = RenderScenes.Draw(RenderScenes.Scene(new Scene(), (fractal, Transformation.Identity, null)), view);
 
         // The diagonals of the faces lie the other way round, which moves silhouettes and interpolated colours a little.

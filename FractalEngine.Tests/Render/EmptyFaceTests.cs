@@ -65,8 +65,7 @@ public sealed class EmptyFaceTests
         var mesh = Square.WithGroups([new(0, 1, "", "", "red", 0), new(1, 3, "", "", "none", 0), new(4, 1, "", "", "red", 0)], ["a.mtl"]);
         var materials = ((string[])["red", "none"]).Select(name => new Material(name)).ToArray();
         var model =
-            Prepare(new MeshModel("mesh.obj", 1,
-            mesh) { Materials = [.. materials.Select(material => KeyValuePair.Create(material.Name, material))] }, new());
+            Prepare(new MeshModel(mesh) { SourcePath = "mesh.obj", Materials = [.. materials.Select(material => KeyValuePair.Create(material.Name, material))] }, new());
         Assert.Equal((0, 6, "red"),
             (model.Batches.Single().FirstIndex, model.Batches.Single().IndexCount, model.Batches.Single().Material!.Material.Name));
         Assert.Equal(3, model.DegenerateTriangleCount);
@@ -77,7 +76,7 @@ public sealed class EmptyFaceTests
     {
         var mesh = new Mesh([0, 0, 0, 1, 0, 0, 2, 0, 0], [0, 1, 2, 0, 0, 1]);
         foreach (var model in (Model[])[RenderScenes.Model(mesh), TexturedScenes.Of(mesh, new("m")),
-            new FractalModel("a.fdo", 1, new(RenderScenes.Menger(2).Fractal.Description, mesh))])
+            new FractalModel(new(RenderScenes.Menger(2).Fractal.Description, mesh)) { SourcePath = "a.fdo" }])
         {
             Assert.Equal(2, Prepare(model, new()).DegenerateTriangleCount);
             foreach (var settings in (RenderSettings[])[new(), new() { Wireframe = true }, new() { Culling = null }])

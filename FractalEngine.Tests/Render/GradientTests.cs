@@ -75,7 +75,7 @@ public sealed class GradientTests
         // In any order of distance, and where nothing of the one with the gradient is in the picture, or in some strips of it.
         var fractal =
             Of(new Repetition([new TransformationSet([Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)])], 2));
-        var model = new FractalModel("a.fdo", 1, fractal);
+        var model = new FractalModel(fractal) { SourcePath = "a.fdo" };
         foreach (var place in (Vector[])[new(5, 0, 2), new(5, 0, -2), new(0, 0, -100), new(0, 0, 5)])
         {
             var scene = new LoadedScene(new() { Background = Colour.Black, Lights = [RenderScenes.FullLight] },
@@ -137,7 +137,7 @@ public sealed class GradientTests
         }
     }
 
-    private static Fractal Of(params ReadOnlySpan<FractalStep> steps) => new(new("square.obj", [.. steps]), RenderScenes.Square(0.5));
+    private static Fractal Of(params ReadOnlySpan<FractalStep> steps) => new(new([.. steps]), RenderScenes.Square(0.5));
 
     /// <summary>Draws it from before, and looks at the middles of instances.</summary>
     private static void Check(Fractal fractal, GradientKind kind, bool hasSamples,
@@ -147,7 +147,7 @@ public sealed class GradientTests
             new() { Background = Colour.Black, Lights = [RenderScenes.FullLight] },
             [new(new SceneObject("a.fdo", Transformation.Identity) { Colour = Near, Gradient = kind == GradientKind.None
             ? null
-            : new(kind, Far) }, new FractalModel("a.fdo", 1, fractal))]);
+            : new(kind, Far) }, new FractalModel(fractal) { SourcePath = "a.fdo" })]);
         var view = new View(new(new(0, 0.5, -8), Vector.Zero, 60), Projection.Perspective);
         var picture = RenderScenes.Draw(scene, view, 800, 600, new() { Samples = hasSamples ? 4 : 0 });
         foreach (var (place, tint) in expected)

@@ -122,8 +122,8 @@ public sealed class MaterialTests : IDisposable
             .WithGroups(
                 [new(0, 1, "", "", "blue", 0), new(1, 1, "", "", "red", 0), new(2, 1, "", "", "blue", 0), new(3, 1, "", "", "unknown", 0)],
                 []);
-        var model = new MeshModel("m.obj", 1, mesh)
-        {
+        var model = new MeshModel(mesh)
+        { SourcePath = "m.obj",
             Materials = ImmutableDictionary<string, Material>.Empty
                 .Add("blue", new("blue") { Texture = texture, Diffuse = new(1, 1, 0) })
                 .Add("red", new("red") { Diffuse = new(1, 0, 0) }),
@@ -149,8 +149,8 @@ public sealed class MaterialTests : IDisposable
     {
         var mesh = RenderScenes.Cube(1).WithGroups(
             [.. Enumerable.Range(0, 12).Select(face => new MeshGroup(face, 1, "", "", face % 2 == 0 ? "even" : "odd", 0))], []);
-        var model = new MeshModel("m.obj", 1, mesh)
-        {
+        var model = new MeshModel(mesh)
+        { SourcePath = "m.obj",
             Materials = ImmutableDictionary<string, Material>.Empty.Add("even", new("even")).Add("odd", new("odd")),
         };
         var batches = DrawableScene.Prepare(RenderScenes.Scene(Full, (model, Transformation.Identity, null)), new()).Models[0].Batches;
@@ -225,9 +225,9 @@ public sealed class MaterialTests : IDisposable
     public void Shading_OfAFinelyCutBall_IsTheSameAtVerticesAndPixels_AlsoSkewedAndMirrored(double x, double y, double z)
     {
         // Inner scale, turned, outer scale: a map that skews. The eye's side is the outer one whatever the map does.
-        var model = new FractalModel("ball.fdo", 1, new Core.Fractals.Fractal(
-            new("ball.obj", [new Core.Fractals.TransformationSet([new(Vector.Zero, new(30, 40, 20), new(x, 0.6 * y, z))])]),
-            RenderScenes.Ball(48)));
+        var model = new FractalModel(new Core.Fractals.Fractal(
+            new([new Core.Fractals.TransformationSet([new(Vector.Zero, new(30, 40, 20), new(x, 0.6 * y, z))])]),
+            RenderScenes.Ball(48))) { SourcePath = "ball.fdo" };
         var placement = new Transformation(Vector.Zero, new(10, 20, 70), new(1.2, 0.8, 1));
         var scene = RenderScenes.Scene(new(), (model, placement, null));
         var perVertex = RenderScenes.Draw(scene, RenderScenes.FrontView, 400, 300);
@@ -321,9 +321,9 @@ public sealed class MaterialTests : IDisposable
     {
         var texture = Quartered();
         var square = TexturedScenes.Square(1, new("m") { Texture = texture });
-        var pair = new FractalModel("pair.fdo", 1, new Core.Fractals.Fractal(
-            new("square.obj", [new Core.Fractals.TransformationSet([Half(-0.5), Half(0.5)])]), square.Mesh))
-        {
+        var pair = new FractalModel(new Core.Fractals.Fractal(
+            new([new Core.Fractals.TransformationSet([Half(-0.5), Half(0.5)])]), square.Mesh))
+        { SourcePath = "pair.fdo",
             Materials = square.Materials,
         };
         var instanced = RenderScenes.Draw(RenderScenes.Scene(Full, (pair, Transformation.Identity, null)), Square, 200, 200);

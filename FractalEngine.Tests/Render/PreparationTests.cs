@@ -119,8 +119,8 @@ public sealed class PreparationTests
     public void Prepare_SolidOfGlass_KeepsItsInnerSides(double opacity, int sign)
     {
         var menger = RenderScenes.Menger(2);
-        var glass = new FractalModel("glass.fdo", 1, new Fractal(menger.Fractal.Description, TexturedScenes.Of(menger.Mesh, new("m")).Mesh))
-        {
+        var glass = new FractalModel(new Fractal(menger.Fractal.Description, TexturedScenes.Of(menger.Mesh, new("m")).Mesh))
+        { SourcePath = "glass.fdo",
             Materials = TexturedScenes.Of(menger.Mesh, new("m") { Opacity = opacity }).Materials,
         };
         Assert.Equal(sign, Prepare(new(), glass).Models[0].WindingSign);

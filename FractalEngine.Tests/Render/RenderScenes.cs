@@ -49,17 +49,18 @@ internal static class RenderScenes
         return new(positions.ToImmutable(), faces.ToImmutable());
     }
 
-    public static Model Model(Mesh mesh, string file = "mesh.obj") => new MeshModel(file, 1, mesh);
+    public static Model Model(Mesh mesh, string file = "mesh.obj") => new MeshModel(mesh) { SourcePath = file };
 
     public static FractalModel Menger(int? depth, Composition composition = Composition.Affine) =>
-        new("menger.fdo", 1, new Fractal(
-            new FractalDescription("cube.obj", [new Repetition([new TransformationSet(MengerSet())], depth)], composition), Cube(1)));
+        new(new Fractal(
+            new FractalDescription([new Repetition([new TransformationSet(MengerSet())], depth)], composition), Cube(1)))
+        { SourcePath = "menger.fdo" };
 
     public static Transformation At(double x, double y, double z) => Transformation.Identity with { Position = new(x, y, z) };
 
     public static LoadedScene Scene(Scene scene, params ReadOnlySpan<(Model Model, Transformation Placement, Colour? Colour)> objects) =>
         new(scene, [.. objects.ToArray().Select(item =>
-            new PlacedModel(new SceneObject(item.Model.Path, item.Placement) { Colour = item.Colour }, item.Model))]);
+            new PlacedModel(new SceneObject(item.Model.Name, item.Placement) { Colour = item.Colour }, item.Model))]);
 
     /// <summary>A white thing in full light on black.</summary>
     public static LoadedScene WhiteOnBlack(Mesh mesh, Transformation placement) => Scene(

@@ -36,8 +36,8 @@ internal sealed class TexturedScenes : IDisposable
 
     /// <summary>A square in the plane z = 0 that looks towards −z; the picture of its material fits it.</summary>
     public static Model Square(double half, Material material, string file = "square.obj") =>
-        new MeshModel(file, 1, TexturedSquare(half).WithGroups([new(0, 2, "", "", material.Name, 0)], ["a.mtl"]))
-        {
+        new MeshModel(TexturedSquare(half).WithGroups([new(0, 2, "", "", material.Name, 0)], ["a.mtl"]))
+        { SourcePath = file,
             Materials = ImmutableDictionary<string, Material>.Empty.Add(material.Name, material),
         };
 
@@ -46,8 +46,8 @@ internal sealed class TexturedScenes : IDisposable
 
     /// <summary>A mesh all of one material.</summary>
     public static Model Of(Mesh mesh, Material material) =>
-        new MeshModel("mesh.obj", 1, mesh.WithGroups([new(0, mesh.FaceCount, "", "", material.Name, 0)], ["a.mtl"]))
-        {
+        new MeshModel(mesh.WithGroups([new(0, mesh.FaceCount, "", "", material.Name, 0)], ["a.mtl"]))
+        { SourcePath = "mesh.obj",
             Materials = ImmutableDictionary<string, Material>.Empty.Add(material.Name, material),
         };
 }

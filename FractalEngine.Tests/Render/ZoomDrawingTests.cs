@@ -148,7 +148,7 @@ public sealed class ZoomDrawingTests
         // difference.
         var placement = Transformation.Identity;
         var fractal = new Fractal(
-            new("cube.obj",
+            new(
             [new Repetition(
                 [new TransformationSet(
                     [Samples.MoveAndScale(0, 0, 0, scale), Samples.MoveAndScale(3, 0.5, 4, 0.1), Samples.MoveAndScale(-2, 1, 3, 0.1)])],
@@ -223,7 +223,7 @@ public sealed class ZoomDrawingTests
             var scene = new LoadedScene(
                 new() { Background = Colour.Black, Lights = [.. lights] },
                 [new(new SceneObject("a.fdo", placement) { Colour = gradient is null ? Colour.White : new(1, 0, 0), Gradient = gradient },
-                new FractalModel("a.fdo", 1, fractal))]);
+                new FractalModel(fractal) { SourcePath = "a.fdo" })]);
             var drawable = DrawableScene.Prepare(scene, Settings);
             Table = drawable.Objects[0].Model.LodHierarchy!;
             _context = GlTests.Open();

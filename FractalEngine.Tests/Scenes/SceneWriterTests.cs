@@ -47,7 +47,7 @@ public class SceneWriterTests
         (declared, g) => declared with { Gradient = g.Item2 == GradientKind.None ? null : new(g.Item2, g.Item1) });
 
     private static readonly Gen<SceneObject> Bodies = Plain.Zip(Unit)
-        .Zip(AnyVector.Zip(Positive), (o, b) => (SceneObject)new PhysicsObject(o.Item1.File, o.Item1.Placement, o.Item2)
+        .Zip(AnyVector.Zip(Positive), (o, b) => (SceneObject)new PhysicsObject(o.Item1.File!, o.Item1.Placement, o.Item2)
     {
         Name = o.Item1.Name, Colour = o.Item1.Colour, Gradient = o.Item1.Gradient, Velocity = b.Item1, Mass = b.Item2,
         Collider = (ColliderKind)(b.Item2.GetHashCode() & 3),

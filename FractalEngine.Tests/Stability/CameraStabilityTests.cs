@@ -79,7 +79,7 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
             new() { Background = Colour.Black,
             Lights = [new AmbientLight(Colour.White, 0.1), new DirectionalLight(new(0.3, -0.5, 0.9), Colour.White, 0.9)] },
             [new(new SceneObject("a.fdo", Transformation.Identity) { Colour = Colour.White },
-            new FractalModel("a.fdo", 1, FractalAddressTests.Infinite(name)))]);
+            new FractalModel(FractalAddressTests.Infinite(name)) { SourcePath = "a.fdo" })]);
         var drawable = DrawableScene.Prepare(scene, Settings);
         using var context = GlTests.Open();
         using var renderer = new SceneRenderer(context, drawable);

@@ -27,13 +27,12 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     /// <summary>What there are exact colliders for.</summary>
     private static readonly (string Name, Func<Random, Model> Draw)[] Shapes =
     [
-        ("mesh", random => new MeshModel("/mesh.obj", 0, CollisionMeshes.Soup(random.Next(), 40, 0.3))),
+        ("mesh", random => new MeshModel(CollisionMeshes.Soup(random.Next(), 40, 0.3)) { SourcePath = "/mesh.obj" }),
         ("similar fractal",
-        random => new FractalModel("/similar.fdo", 0, Samples.Repeated(3, Similar(random), Similar(random), Similar(random)))),
+        random => new FractalModel(Samples.Repeated(3, Similar(random), Similar(random), Similar(random))) { SourcePath = "/similar.fdo" }),
         ("skewed fractal",
-        random => new FractalModel("/skewed.fdo", 0,
-        Samples.Repeated(3, random.Transformation(), random.Transformation(), random.Transformation()))),
-        ("fractal of sums", random => new FractalModel("/sums.fdo", 0, RandomFractals.Draw(random, Composition.Componentwise))),
+        random => new FractalModel(Samples.Repeated(3, random.Transformation(), random.Transformation(), random.Transformation())) { SourcePath = "/skewed.fdo" }),
+        ("fractal of sums", random => new FractalModel(RandomFractals.Draw(random, Composition.Componentwise)) { SourcePath = "/sums.fdo" }),
     ];
 
     /// <summary>How objects are placed, sizes aside.</summary>
@@ -219,7 +218,7 @@ public class ColliderStabilityTests(ITestOutputHelper output)
         }
 
         var faces = model is FractalModel { Fractal: var fractal } ? WorldFaces.Of(fractal, place) : WorldFaces.Of(model.Mesh, place);
-        var (collider, record) = (new SceneCollider(new(new(), [new(new("object", place), model)])), new QueryContext());
+        var (collider, record) = (new SceneCollider(new Scene { Objects = [new(model) { Placement = place }] }), new QueryContext());
         for (var query = 0; query < 10; query++)
         {
             var position = faces.Position(random);

@@ -25,7 +25,7 @@ internal static class RandomFractals
             steps.Add(new Repetition([new Repetition([Set(random, 2)], 1)], 2));
         }
 
-        return new(new("base.obj", [.. steps], composition), Samples.Tetrahedron);
+        return new(new([.. steps], composition), Samples.Tetrahedron);
     }
 
     private static TransformationSet Set(Random random, int most = 4) =>

@@ -45,7 +45,7 @@ public class DetailTableTests
             .Select(_ => random.Next(3) == 0 ? Transformation.Identity : random.Transformation())]);
         var inner = new Repetition([Set(), Set()], random.Next(0, 3));
         var middle = new Repetition([Set(), inner], random.Next(1, 3));
-        Check(new(new("base.obj", [Set(), new Repetition([middle, Set()], random.Next(1, 3))]), Samples.Tetrahedron));
+        Check(new(new([Set(), new Repetition([middle, Set()], random.Next(1, 3))]), Samples.Tetrahedron));
     });
 
     [Fact]
@@ -56,7 +56,7 @@ public class DetailTableTests
             new TransformationSet(
                 [Transformation.Identity, Samples.Move(1, 0, 0), Samples.Move(0, 1, 0),
                 new(new(0, 0, 1), new(10, 20, 30), 0.9 * Vector.One)]);
-        Check(new(new("base.obj", [new Repetition([set], 9)], Composition.Componentwise), Samples.Tetrahedron));
+        Check(new(new([new Repetition([set], 9)], Composition.Componentwise), Samples.Tetrahedron));
     }
 
     [Theory]
@@ -81,10 +81,10 @@ public class DetailTableTests
     {
         Fractal[] nothing =
         [
-            new(new("empty.obj", [new Repetition([new TransformationSet([Transformation.Identity])], 3)]), Mesh.Empty),
-            new(new("base.obj", [new TransformationSet([])]), Samples.Tetrahedron),
-            new(new("base.obj", [new TransformationSet([])], Composition.Componentwise), Samples.Tetrahedron),
-            new(new("empty.obj", [new TransformationSet([Transformation.Identity])], Composition.Componentwise), Mesh.Empty),
+            new(new([new Repetition([new TransformationSet([Transformation.Identity])], 3)]), Mesh.Empty),
+            new(new([new TransformationSet([])]), Samples.Tetrahedron),
+            new(new([new TransformationSet([])], Composition.Componentwise), Samples.Tetrahedron),
+            new(new([new TransformationSet([Transformation.Identity])], Composition.Componentwise), Mesh.Empty),
         ];
         foreach (var fractal in nothing)
         {

@@ -141,7 +141,7 @@ internal static class DetailViews
     /// Places that differ by more than rounding, so that <see cref="Count(AffineMap[], IReadOnlyList{AffineMap})"/> tells them apart.
     /// </summary>
     public static Fractal Menger(int? depth) => new(
-        new("cube.obj",
+        new(
         [new Repetition([new TransformationSet([.. from x in (int[])[-1, 0, 1] from y in (int[])[-1, 0, 1] from z in (int[])[-1, 0, 1]
             where Math.Abs(x) + Math.Abs(y)
             + Math.Abs(z) >= 2 select Samples.MoveAndScale(2 * x / 3.0, 2 * y / 3.0, 2 * z / 3.0, 1 / 3.0)])], depth)]),

@@ -148,7 +148,7 @@ public class VisibleSetTests
     {
         // 64 cubes side by side that are 20 pixels wide each: the borders of strips are borders of cubes.
         var row = new TransformationSet([.. Enumerable.Range(0, 64).Select(i => Samples.Move((2 * (i % 8)) - 7, 2 * (i / 8), 0))]);
-        var fractal = new Fractal(new("cube.obj", [row]), DetailViews.Cube);
+        var fractal = new Fractal(new([row]), DetailViews.Cube);
         var view = DetailViews.Look(new(0, 7, -20), new(0, 7, 0), false, 160, 160, 1, 100, 8);
         var item = DetailViews.Object(fractal);
         foreach (var hasSamples in (bool[])[false, true])
