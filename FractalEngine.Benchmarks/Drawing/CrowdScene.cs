@@ -44,7 +44,7 @@ internal sealed class CrowdScene : IDisposable
     private void Write(Mesh mesh, string name)
     {
         using var stream = File.Create(In(name + ".obj"));
-        ObjWriter.Write(mesh, name, stream);
+        ObjMeshWriter.Write(mesh, stream, name);
     }
 
     private static string Text()

@@ -21,8 +21,9 @@ internal static class FileReference
     {
         if (!WritableNames.IsQuotable(name))
         {
+            var shown = WritableNames.Escape(name);
             throw new FractalEngineException(
-                $"the name '{WritableNames.Escape(name)}' can't be written into a file: it has a quote, a line break or a faulty character");
+                $"the name '{shown}' can't be written into a file: it has a quote, a line break or a faulty character");
         }
     }
 }

@@ -33,7 +33,7 @@ public static class FractalFile
     /// <param name="fractal">Fractal made in code or read from a file.</param>
     /// <exception cref="ArgumentException">The path does not end in <c>.fdo</c>.</exception>
     /// <exception cref="FractalEngineException">The fractal or its base mesh can't be expressed in the files.</exception>
-    /// <exception cref="IOException">A file can't be written. Then nothing is left behind, and an existing file stays as it was.</exception>
+    /// <exception cref="IOException">A file can't be written. No new file is left then, and old ones are unchanged.</exception>
     /// <remarks>
     /// A base mesh that was loaded from a file keeps that file, which is named relative to the new one. Reading needs
     /// <see cref="LoadOptions.AllowOutsideFiles"/> if it lies outside the new file's <see cref="AssetFolder"/>. Any other base mesh is

@@ -18,6 +18,9 @@ namespace FractalEngine.Parsing.Fractals;
 /// </remarks>
 public sealed class FractalWriter
 {
+    // The letters of the paper and of the examples; 'v' declares a vector.
+    private const string FunctionLetters = "turspqw";
+
     private readonly StringBuilder _text = new();
     private readonly FractalVectors _vectors = new();
     private readonly Dictionary<TransformationSet, FractalSetForm> _forms = new(ReferenceEqualityComparer.Instance);
@@ -152,7 +155,8 @@ public sealed class FractalWriter
 
         if (lines.Count > 0)
         {
-            AppendLine(lines.Count == 1 ? $"# {first}: {name}." : $"# {first} to {_vectors.Count}: {pluralName}.");
+            var separator = lines.Count == 2 ? "and" : "to";
+            AppendLine(lines.Count == 1 ? $"# {first}: {name}." : $"# {first} {separator} {_vectors.Count}: {pluralName}.");
             lines.ForEach(AppendLine);
         }
     }
@@ -222,8 +226,8 @@ public sealed class FractalWriter
         var definition = $"{string.Concat(parameters.Select(parameter => $"{parameter}."))} ({string.Join(", ", outputs)})";
         if (!_functionNames.TryGetValue(definition, out var name))
         {
-            var functionCount = _functionNames.Count;
-            name = NextName("t", ref functionCount);
+            var index = _functionNames.Count;
+            name = index < FunctionLetters.Length ? $"{FunctionLetters[index]}" : FormattableString.Invariant($"t{index + 1}");
             _functionNames.Add(definition, name);
             AppendLine($"{name}.{definition}");
         }

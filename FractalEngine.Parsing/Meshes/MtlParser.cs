@@ -145,7 +145,9 @@ public sealed partial class MtlParser : Parser
         ParseNumber(cursor, out var number, out var rest) && ParseEndOfStatement(rest)
         && UpdateMaterial(statement, material => update(material, number));
 
-    /// <summary>Parses an opacity. <c>d</c> overrides <c>Tr</c> in any order, because programs disagree about the meaning of <c>Tr</c>.</summary>
+    /// <summary>
+    /// Parses an opacity. <c>d</c> overrides <c>Tr</c> in any order, because programs disagree about the meaning of <c>Tr</c>.
+    /// </summary>
     private bool ParseOpacity(Cursor statement, Cursor cursor)
     {
         if (cursor.Rest.StartsWith("-halo", StringComparison.Ordinal))

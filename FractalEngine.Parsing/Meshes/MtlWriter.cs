@@ -18,7 +18,8 @@ internal static class MtlWriter
         var text = new StringBuilder();
         foreach (var material in materials)
         {
-            Require(material.Name.Length > 0 && WritableNames.IsRestOfLine(material.Name), material, "its name has a line break or a comment");
+            var isNameWritable = material.Name.Length > 0 && WritableNames.IsRestOfLine(material.Name);
+            Require(isNameWritable, material, "its name is empty, or has a line break or a comment");
             text.Append(text.Length > 0 ? "\n" : "").Append("newmtl ").Append(material.Name).Append('\n');
             AppendSurface(text, material);
             if (material.Texture is { } texture)

@@ -131,7 +131,9 @@ internal sealed class ObjMeshBuilder
         Add(_positionIndices, a.PositionIndex, b.PositionIndex, c.PositionIndex);
     }
 
-    /// <summary>Adds the indices of a triangle. The list stays empty until a face has any; earlier faces are then filled with <see cref="ObjCorner.None"/>.</summary>
+    /// <summary>
+    /// Adds the indices of a triangle. The list stays empty until a face has any; earlier faces then get <see cref="ObjCorner.None"/>.
+    /// </summary>
     private void AddOptionalIndices(List<int> indices, int a, int b, int c)
     {
         if (indices.Count == 0)

@@ -25,7 +25,7 @@ public static class SceneFile
     /// <param name="scene">Scene made in code or read from a file.</param>
     /// <exception cref="ArgumentException">The path does not end in <c>.sdo</c>.</exception>
     /// <exception cref="FractalEngineException">The scene or a model can't be expressed in the files.</exception>
-    /// <exception cref="IOException">A file can't be written. Then nothing is left behind, and an existing file stays as it was.</exception>
+    /// <exception cref="IOException">A file can't be written. No new file is left then, and old ones are unchanged.</exception>
     /// <remarks>
     /// Models that were loaded from files keep their files, which are named relative to the new one. Reading needs
     /// <see cref="LoadOptions.AllowOutsideFiles"/> if they lie outside its <see cref="AssetFolder"/>. Other models are written beside the

@@ -20,8 +20,8 @@ internal sealed class SceneModelWriter(string scenePath, NewFiles companions)
     {
         if (declared.Model is not { } model)
         {
-            return declared.File
-                ?? throw new FractalEngineException($"the object '{declared.DisplayName}' can't be written: it has neither a model nor a file");
+            return declared.File ?? throw new FractalEngineException(
+                $"the object '{declared.DisplayName}' can't be written: it has neither a model nor a file");
         }
 
         if (!_files.TryGetValue(model, out var file))
