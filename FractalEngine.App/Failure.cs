@@ -4,7 +4,9 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.App;
 
-/// <summary>What the user is told of an error: the exit code and the text for stderr. The one place that knows which error is which.</summary>
+/// <summary>
+/// What the user is told of an error: the exit code and the text for stderr. The one place that knows which error is which.
+/// </summary>
 /// <param name="ExitCode">See <see cref="App.ExitCode"/>.</param>
 /// <param name="Text">One line; a line of source and a caret follow where the error is in a file.</param>
 internal sealed record Failure(int ExitCode, string Text)

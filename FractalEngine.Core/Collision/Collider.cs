@@ -12,8 +12,7 @@ namespace FractalEngine.Core.Collision;
 /// </summary>
 public abstract class Collider
 {
-    [ThreadStatic]
-    private static QueryContext? _threadContext;
+    private readonly SpareContext _spareContext = new();
 
     /// <summary>False for colliders that may miss the closest point.</summary>
     public abstract bool IsExact { get; }
@@ -62,8 +61,9 @@ public abstract class Collider
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the radius is negative or NaN.</exception>
     public bool TryFindClosest(Vector position, double maxDistance, [NotNullWhen(true)] out ClosestHit? hit)
     {
-        var context = ThreadContext;
+        var context = _spareContext.Take();
         hit = TryFindClosest(position, maxDistance, context, out var closest) ? ClosestHit.Of(closest, context) : null;
+        _spareContext.Return(context);
         return hit is not null;
     }
 
@@ -83,9 +83,6 @@ public abstract class Collider
         ThrowIfInvalid(position, maxDistance, epsilon);
         return FindClosestCore(position, maxDistance, epsilon, context, out closest);
     }
-
-    /// <summary>A context for the queries of this thread that nobody counts.</summary>
-    internal static QueryContext ThreadContext => _threadContext ??= new();
 
     /// <summary>Finds the closest point of the shape under any map, which costs more than in the shape's own frame.</summary>
     /// <param name="position">In the frame that the map leads to, finite.</param>

@@ -20,6 +20,7 @@ public sealed class SceneCollider
     private readonly ImmutableArray<ColliderInstance> _instances;
     private readonly Dictionary<Model, Lazy<Collider>> _sharedColliders;
     private readonly ColliderKind _kind;
+    private readonly SpareContext _spareContext = new();
 
     /// <summary>Prepares the colliders of a scene made in code, or loaded from a file. Builds none of them yet.</summary>
     /// <param name="scene">With its models.</param>
@@ -124,10 +125,11 @@ public sealed class SceneCollider
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the radius is negative or NaN.</exception>
     public bool TryFindClosest(Vector position, double maxDistance, [NotNullWhen(true)] out ClosestHit? hit)
     {
-        var context = Collider.ThreadContext;
+        var context = _spareContext.Take();
         hit = TryFindClosest(position, maxDistance, context, out var closest, out var objectIndex)
             ? ClosestHit.Of(closest, context, objectIndex)
             : null;
+        _spareContext.Return(context);
         return hit is not null;
     }
 

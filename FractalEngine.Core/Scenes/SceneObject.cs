@@ -6,8 +6,9 @@ namespace FractalEngine.Core.Scenes;
 
 /// <summary>An object of a scene: a model and where it stands (paper §4.1.5).</summary>
 /// <remarks>
-/// An object made in code has a <see cref="Model"/>. One that a scene file declares has the name of a <see cref="File"/>, and its model once
-/// that file is loaded. Two objects are equal when all that a scene file says of them is equal, models included where no file is named.
+/// An object made in code has a <see cref="Model"/>. One that a scene file declares has the name of a <see cref="File"/>, and its model
+/// once that file is loaded. Two objects are equal when all that a scene file says of them is equal, models included where no file is
+/// named.
 /// </remarks>
 public record SceneObject
 {

@@ -1,25 +1,24 @@
 using System.Buffers.Binary;
+using FractalEngine.Core.Images;
 
 namespace FractalEngine.Parsing.Assets;
 
-/// <summary>Reads how large a picture is from the head of its file, so that it is known before any memory is asked for.</summary>
+/// <summary>Reads the size of an image from the header of its file, so that it is known before any memory is allocated.</summary>
 internal static class ImageSizeReader
 {
-    // Far enough for what a PNG, BMP or TGA says of its size.
+    // Bytes that hold the size in a PNG, BMP or TGA file.
     private const int HeaderBytes = 26;
 
-    private static ReadOnlySpan<byte> PngSignature => [0x89, (byte)'P', (byte)'N', (byte)'G', 0x0D, 0x0A, 0x1A, 0x0A];
-
-    /// <summary>Width and height in pixels of a PNG, JPEG, BMP or TGA file; null where it is none.</summary>
-    /// <param name="stream">At its beginning; can seek.</param>
-    /// <param name="isTga">Whether the file is called <c>.tga</c>: that format has no mark of its own.</param>
+    /// <summary>Returns width and height in pixels of a PNG, JPEG, BMP or TGA image; null for any other file.</summary>
+    /// <param name="stream">Seekable stream at its beginning.</param>
+    /// <param name="isTga">Whether the name of the file ends in <c>.tga</c>, because that format has no signature.</param>
     public static (long Width, long Height)? Read(Stream stream, bool isTga)
     {
         Span<byte> header = stackalloc byte[HeaderBytes];
         header = header[..stream.ReadAtLeast(header, HeaderBytes, throwOnEndOfStream: false)];
         return header switch
         {
-            _ when header.StartsWith(PngSignature) => ReadPngSize(header),
+            _ when PngReader.IsPng(header) => ReadPngSize(header),
             [0xFF, 0xD8, ..] => ReadJpegSize(stream),
             [(byte)'B', (byte)'M', ..] => ReadBmpSize(header),
             _ when isTga => ReadTgaSize(header),
@@ -30,19 +29,19 @@ internal static class ImageSizeReader
     private static (long Width, long Height)? ReadPngSize(ReadOnlySpan<byte> header) => header.Length < 24 ? null
         : (BinaryPrimitives.ReadUInt32BigEndian(header[16..]), BinaryPrimitives.ReadUInt32BigEndian(header[20..]));
 
-    /// <summary>A header of 12 bytes has small numbers; in all others a negative height means that the rows run downwards.</summary>
+    /// <summary>Reads the size of a BMP image. A header of 12 bytes has 16-bit numbers; in others a negative height means rows from the top.</summary>
     private static (long Width, long Height)? ReadBmpSize(ReadOnlySpan<byte> header) => header.Length < HeaderBytes ? null
         : BinaryPrimitives.ReadUInt32LittleEndian(header[14..]) == 12
             ? (BinaryPrimitives.ReadUInt16LittleEndian(header[18..]), BinaryPrimitives.ReadUInt16LittleEndian(header[20..]))
             : (Math.Abs((long)BinaryPrimitives.ReadInt32LittleEndian(header[18..])),
             Math.Abs((long)BinaryPrimitives.ReadInt32LittleEndian(header[22..])));
 
-    /// <summary>With one of the six kinds of pixels that there are: 1 to 3, and 8 more for each of them in runs.</summary>
+    /// <summary>Reads the size of a TGA image with one of its six pixel types: 1 to 3, and 9 to 11 for run-length encoding.</summary>
     private static (long Width, long Height)? ReadTgaSize(ReadOnlySpan<byte> header) =>
         header.Length < 18 || header[2] is not (1 or 2 or 3 or 9 or 10 or 11) ? null
         : (BinaryPrimitives.ReadUInt16LittleEndian(header[12..]), BinaryPrimitives.ReadUInt16LittleEndian(header[14..]));
 
-    /// <summary>Goes from segment to segment until one begins a frame (ITU-T T.81, §B.2).</summary>
+    /// <summary>Reads the size of a JPEG image from its first frame segment (ITU-T T.81, §B.2).</summary>
     private static (long Width, long Height)? ReadJpegSize(Stream stream)
     {
         Span<byte> segment = stackalloc byte[9];
@@ -57,7 +56,7 @@ internal static class ImageSizeReader
             switch (segment[1])
             {
                 case 0xFF:
-                    // Bytes of filling may stand before a marker.
+                    // Fill bytes may precede a marker.
                     position++;
                     break;
                 case >= 0xC0 and <= 0xCF and not (0xC4 or 0xC8 or 0xCC):
