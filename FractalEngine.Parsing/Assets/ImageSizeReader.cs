@@ -26,20 +26,34 @@ internal static class ImageSizeReader
         };
     }
 
-    private static (long Width, long Height)? ReadPngSize(ReadOnlySpan<byte> header) => header.Length < 24 ? null
+    private static (long Width, long Height)? ReadPngSize(ReadOnlySpan<byte> header) => header.Length < 24
+        ? null
         : (BinaryPrimitives.ReadUInt32BigEndian(header[16..]), BinaryPrimitives.ReadUInt32BigEndian(header[20..]));
 
-    /// <summary>Reads the size of a BMP image. A header of 12 bytes has 16-bit numbers; in others a negative height means rows from the top.</summary>
-    private static (long Width, long Height)? ReadBmpSize(ReadOnlySpan<byte> header) => header.Length < HeaderBytes ? null
-        : BinaryPrimitives.ReadUInt32LittleEndian(header[14..]) == 12
-            ? (BinaryPrimitives.ReadUInt16LittleEndian(header[18..]), BinaryPrimitives.ReadUInt16LittleEndian(header[20..]))
-            : (Math.Abs((long)BinaryPrimitives.ReadInt32LittleEndian(header[18..])),
-            Math.Abs((long)BinaryPrimitives.ReadInt32LittleEndian(header[22..])));
+    private static (long Width, long Height)? ReadBmpSize(ReadOnlySpan<byte> header)
+    {
+        if (header.Length < HeaderBytes)
+        {
+            return null;
+        }
+
+        // The oldest kind of header has 12 bytes and 16-bit numbers.
+        if (BinaryPrimitives.ReadUInt32LittleEndian(header[14..]) == 12)
+        {
+            return (BinaryPrimitives.ReadUInt16LittleEndian(header[18..]), BinaryPrimitives.ReadUInt16LittleEndian(header[20..]));
+        }
+
+        // A negative height means that the rows run from top to bottom.
+        var width = Math.Abs((long)BinaryPrimitives.ReadInt32LittleEndian(header[18..]));
+        var height = Math.Abs((long)BinaryPrimitives.ReadInt32LittleEndian(header[22..]));
+        return (width, height);
+    }
 
     /// <summary>Reads the size of a TGA image with one of its six pixel types: 1 to 3, and 9 to 11 for run-length encoding.</summary>
     private static (long Width, long Height)? ReadTgaSize(ReadOnlySpan<byte> header) =>
-        header.Length < 18 || header[2] is not (1 or 2 or 3 or 9 or 10 or 11) ? null
-        : (BinaryPrimitives.ReadUInt16LittleEndian(header[12..]), BinaryPrimitives.ReadUInt16LittleEndian(header[14..]));
+        header.Length < 18 || header[2] is not (1 or 2 or 3 or 9 or 10 or 11)
+            ? null
+            : (BinaryPrimitives.ReadUInt16LittleEndian(header[12..]), BinaryPrimitives.ReadUInt16LittleEndian(header[14..]));
 
     /// <summary>Reads the size of a JPEG image from its first frame segment (ITU-T T.81, §B.2).</summary>
     private static (long Width, long Height)? ReadJpegSize(Stream stream)

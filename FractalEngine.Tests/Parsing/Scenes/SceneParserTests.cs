@@ -4,7 +4,7 @@ using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Scenes;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Scenes;
+namespace FractalEngine.Tests.Parsing.Scenes;
 
 public class SceneParserTests
 {

@@ -3,7 +3,7 @@ using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Meshes;
+namespace FractalEngine.Tests.Parsing.Meshes;
 
 /// <summary>Files as other programs write them; the numbers of vertices and triangles were counted by an independent script.</summary>
 public class SharedModelTests
@@ -43,8 +43,8 @@ public class SharedModelTests
         Assert.True(start.ElapsedMilliseconds < 5000, $"{start.ElapsedMilliseconds} ms");
     }
 
-    private static ObjFile Parse(string file) =>
-        ObjParser.Parse(SourceText.Read(Path.Combine(SharedModels.Folder!, file), file, ParsingLimits.ObjBytes, acceptLatin1: true));
+    private static ParsedObj Parse(string file) =>
+        ObjParser.Parse(SourceText.Read(Path.Combine(SharedModels.Folder!, file), file, ParsingLimits.MaxObjBytes, acceptLatin1: true));
 
     [SkippableFact]
     public void Parse_OfRealFilesWithoutTheNormalsTheyName_GivesTheirTriangles()

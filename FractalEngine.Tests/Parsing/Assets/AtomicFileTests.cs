@@ -1,7 +1,7 @@
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Assets;
+namespace FractalEngine.Tests.Parsing.Assets;
 
 public sealed class AtomicFileTests : IDisposable
 {

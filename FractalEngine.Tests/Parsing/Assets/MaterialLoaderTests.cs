@@ -6,7 +6,7 @@ using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Assets;
+namespace FractalEngine.Tests.Parsing.Assets;
 
 /// <summary>Materials and pictures that files name: found, shared, or missed with a warning and nothing worse.</summary>
 public sealed class MaterialLoaderTests : IDisposable
@@ -104,7 +104,7 @@ public sealed class MaterialLoaderTests : IDisposable
     {
         using (var stream = File.Create(_folder["a.mtl"]))
         {
-            stream.SetLength(ParsingLimits.MaterialBytes + 1);
+            stream.SetLength(ParsingLimits.MaxMaterialBytes + 1);
         }
 
         Assert.Equal("a.mtl:1:1: warning: the file has 16777217 bytes, more than the limit of 16777216",
@@ -130,14 +130,14 @@ public sealed class MaterialLoaderTests : IDisposable
         _folder.Write("a.mtl", string.Concat(names.Select(name => $"newmtl m{name}\nmap_Kd {name}.png\n")));
         var loaded = Load("mtllib a.mtl\n" + string.Concat(names.Select(name => $"usemtl m{name}\nf 1 2 3\n")));
         Assert.Equal(20, loaded.Warnings.Length);
-        Assert.Equal("the file \"19.png\" is not found: drawn grey; further pictures that can't be had are not named",
+        Assert.Equal("the file \"19.png\" is not found: drawn grey; further unusable textures are not reported",
             loaded.Warnings[^1].Message);
         Assert.All(loaded.Scene.Objects[0].Model.Materials.Values, material => Assert.Null(material.Texture));
     }
 
     [Theory]
-    [InlineData("no picture", "\"a.png\" is no PNG, JPEG, BMP or TGA picture")]
-    [InlineData("", "\"a.png\" is empty, expected a picture")]
+    [InlineData("no picture", "\"a.png\" is not a PNG, JPEG, BMP or TGA image")]
+    [InlineData("", "\"a.png\" is empty, expected an image")]
     public void Load_WithAFileThatIsNoImage_WarnsAndIsGrey(string contents, string message)
     {
         _folder.Write("a.png", contents);
@@ -150,14 +150,14 @@ public sealed class MaterialLoaderTests : IDisposable
         if (!OperatingSystem.IsWindows())
         {
             System.Diagnostics.Process.Start("mkfifo", _folder["a.png"]).WaitForExit();
-            AssertImageIsRefused("\"a.png\" is empty, expected a picture");
+            AssertImageIsRefused("\"a.png\" is empty, expected an image");
         }
     }
 
     [Theory]
-    [InlineData(8193, 1, "the picture \"a.png\" has 8193×1 pixels, more than the limit of 8192 a side")]
-    [InlineData(4, 4_000_000_000, "the picture \"a.png\" has 4×4000000000 pixels, more than the limit of 8192 a side")]
-    [InlineData(0, 5, "\"a.png\" is no PNG, JPEG, BMP or TGA picture")]
+    [InlineData(8193, 1, "the image \"a.png\" has 8193×1 pixels, more than the limit of 8192 per side")]
+    [InlineData(4, 4_000_000_000, "the image \"a.png\" has 4×4000000000 pixels, more than the limit of 8192 per side")]
+    [InlineData(0, 5, "\"a.png\" is not a PNG, JPEG, BMP or TGA image")]
     public void Load_WithAnImageBeyondTheLimit_WarnsAndIsGrey(uint width, uint height, string message)
     {
         WritePngHeader("a.png", width, height);
@@ -170,10 +170,10 @@ public sealed class MaterialLoaderTests : IDisposable
         WritePngHeader("a.png", 1, 1);
         using (var stream = File.OpenWrite(_folder["a.png"]))
         {
-            stream.SetLength(ParsingLimits.ImageBytes + 1);
+            stream.SetLength(ParsingLimits.MaxImageBytes + 1);
         }
 
-        AssertImageIsRefused("the picture \"a.png\" is larger than the limit of 67108864 bytes");
+        AssertImageIsRefused("the image \"a.png\" is larger than the limit of 67108864 bytes");
     }
 
     [Fact]
@@ -187,7 +187,7 @@ public sealed class MaterialLoaderTests : IDisposable
 
         _folder.Write("a.mtl", string.Concat(names.Select(name => $"newmtl {name}\nmap_Kd {name}.png\n")));
         var loaded = Load("mtllib a.mtl\n" + string.Concat(names.Select(name => $"usemtl {name}\nf 1 2 3\n")));
-        Assert.Equal("with \"c.png\" all pictures have more than the limit of 134217728 pixels: drawn grey",
+        Assert.Equal("with \"c.png\" all images have more than the limit of 134217728 pixels: drawn grey",
             Assert.Single(loaded.Warnings).Message);
         Assert.Equal(["a", "b"], loaded.Scene.Objects[0].Model.Materials.Where(item => item.Value.Texture is not null)
             .Select(item => item.Key).Order());

@@ -6,7 +6,7 @@ using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Meshes;
+namespace FractalEngine.Tests.Parsing.Meshes;
 
 public class ObjWriterTests
 {

@@ -2,7 +2,7 @@ using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Fractals;
+namespace FractalEngine.Tests.Parsing.Fractals;
 
 public class FractalParserTests
 {

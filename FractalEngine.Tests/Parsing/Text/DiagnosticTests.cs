@@ -1,7 +1,7 @@
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Text;
+namespace FractalEngine.Tests.Parsing.Text;
 
 public class DiagnosticTests
 {

@@ -2,7 +2,7 @@ using System.Text;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Meshes;
+namespace FractalEngine.Tests.Parsing.Meshes;
 
 public sealed class MeshCountHeaderTests : IDisposable
 {

@@ -4,7 +4,7 @@ using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Assets;
+namespace FractalEngine.Tests.Parsing.Assets;
 
 public sealed class AssetLoaderTests : IDisposable
 {

@@ -3,12 +3,12 @@ using FractalEngine.Parsing.Scenes;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Scenes;
+namespace FractalEngine.Tests.Parsing.Scenes;
 
 /// <summary>Whole messages: these tests are the specification of what a user reads.</summary>
 public class SceneParserErrorTests
 {
-    private static SceneFile Parse(string text) => SceneParser.Parse(new("test.sdo", text));
+    private static ParsedScene Parse(string text) => SceneParser.Parse(new("test.sdo", text));
 
     private static void Fails(string text, string expected) => Errors.AssertMessage(expected, () => Parse(text));
 

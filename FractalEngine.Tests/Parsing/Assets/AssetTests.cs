@@ -8,7 +8,7 @@ using FractalEngine.Parsing.Assets;
 using FractalEngine.Tests.Support;
 using Vector = FractalEngine.Core.Maths.Vector;
 
-namespace FractalEngine.Tests.Assets;
+namespace FractalEngine.Tests.Parsing.Assets;
 
 /// <summary>The files under assets/: each loads, and is what it says that it is.</summary>
 public sealed class AssetTests

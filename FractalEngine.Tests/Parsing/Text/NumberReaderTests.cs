@@ -3,7 +3,7 @@ using System.Numerics;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Text;
+namespace FractalEngine.Tests.Parsing.Text;
 
 public class NumberReaderTests
 {

@@ -2,7 +2,7 @@ using System.Text;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Text;
+namespace FractalEngine.Tests.Parsing.Text;
 
 public sealed class SourceTextTests : IDisposable
 {

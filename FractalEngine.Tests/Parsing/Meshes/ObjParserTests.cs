@@ -4,7 +4,7 @@ using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Meshes;
+namespace FractalEngine.Tests.Parsing.Meshes;
 
 public class ObjParserTests
 {

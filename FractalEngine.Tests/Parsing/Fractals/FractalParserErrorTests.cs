@@ -5,7 +5,7 @@ using FractalEngine.Parsing.Fractals;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Fractals;
+namespace FractalEngine.Tests.Parsing.Fractals;
 
 /// <summary>Whole messages: these tests are the specification of what a user reads.</summary>
 public class FractalParserErrorTests

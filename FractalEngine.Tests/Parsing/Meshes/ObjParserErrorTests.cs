@@ -1,8 +1,9 @@
 using System.Text;
+using FractalEngine.Parsing;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Meshes;
+namespace FractalEngine.Tests.Parsing.Meshes;
 
 /// <summary>Whole messages: these tests are the specification of what a user reads.</summary>
 public class ObjParserErrorTests
@@ -60,7 +61,7 @@ public class ObjParserErrorTests
     {
         var error = Errors.ThrownBy(() => Samples.ParseObj(Triangle + "f " + new StringBuilder().Insert(0, "1 2 3 ", 7000))).Diagnostic;
         Assert.True(error.IsLimitExceeded);
-        Assert.Contains($"{Parsing.ParsingLimits.PolygonCorners}", error.Message, StringComparison.Ordinal);
+        Assert.Contains($"{ParsingLimits.MaxPolygonCorners}", error.Message, StringComparison.Ordinal);
     }
 
     [Fact]

@@ -6,7 +6,7 @@ using FractalEngine.Tests.Support;
 using FsCheck;
 using FsCheck.Fluent;
 
-namespace FractalEngine.Tests.Scenes;
+namespace FractalEngine.Tests.Parsing.Scenes;
 
 public class SceneWriterTests
 {
@@ -96,7 +96,7 @@ public class SceneWriterTests
             Aspect = (given & 3) == 0 ? null : 0.01 + colour.Red,
         };
 
-    private static SceneFile Parse(string text) => SceneParser.Parse(new("test.sdo", text));
+    private static ParsedScene Parse(string text) => SceneParser.Parse(new("test.sdo", text));
 
     [Fact]
     public void Write_OfAnyScene_ReadsBackToTheSameBits() =>

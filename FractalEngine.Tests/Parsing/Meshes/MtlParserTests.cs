@@ -3,11 +3,11 @@ using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Meshes;
+namespace FractalEngine.Tests.Parsing.Meshes;
 
 public class MtlParserTests
 {
-    private static MtlFile Parse(string text) => MtlParser.Parse(new("test.mtl", text));
+    private static ParsedMtl Parse(string text) => MtlParser.Parse(new("test.mtl", text));
 
     private static Material SingleMaterial(string text) => Assert.Single(Parse(text).Materials).Value;
 
@@ -124,21 +124,21 @@ public class MtlParserTests
     {
         var file = Parse($"newmtl m\n{statement}\nd 0.5\n");
         Assert.Equal(
-            $"test.mtl:2:{column}: warning: {message}: the statement is passed over\n  {statement}\n  {new string(' ', column - 1)}^",
+            $"test.mtl:2:{column}: warning: {message}: the statement is ignored\n  {statement}\n  {new string(' ', column - 1)}^",
             Assert.Single(file.Warnings).ToString());
         Assert.Equal(new Material("m") { Opacity = 0.5 }, file.Materials["m"]);
     }
 
     [Fact]
     public void Statement_BeforeAnyMaterial_IsIgnoredWithAWarning() => Assert.Equal(
-        "test.mtl:1:1: warning: no material is declared above: the statement is passed over\n  Kd 1 1 1\n  ^",
+        "test.mtl:1:1: warning: no material is declared above: the statement is ignored\n  Kd 1 1 1\n  ^",
         Assert.Single(Parse("Kd 1 1 1\nnewmtl m\n").Warnings).ToString());
 
     [Fact]
     public void Statements_WrongInSeveralPlaces_GiveOneWarning()
     {
         Assert.Equal(
-            "test.mtl:2:4: warning: unexpected 'x', expected a number: the statement is passed over (3 such statements in all)\n  Kd x\n     ^",
+            "test.mtl:2:4: warning: unexpected 'x', expected a number: the statement is ignored (3 such statements in all)\n  Kd x\n     ^",
             Assert.Single(Parse("newmtl m\nKd x\nKs y\nd z\n").Warnings).ToString());
     }
 
@@ -148,7 +148,7 @@ public class MtlParserTests
         var start = System.Diagnostics.Stopwatch.StartNew();
         var file = Parse("newmtl m\n" + string.Concat(Enumerable.Repeat("Ns 1e999\n", 1_000_000)) + "d 0.5\n");
         Assert.Equal(
-            "the number 1e999 is beyond the range of a double: the statement is passed over (after 100 such statements the rest of the file is, too)",
+            "the number 1e999 is beyond the range of a double: the statement is ignored (after 100 such statements the rest of the file is, too)",
             Assert.Single(file.Warnings).Message);
         Assert.Equal(1, file.Materials["m"].Opacity);
         // It takes milliseconds; a message for each line would take hours.
