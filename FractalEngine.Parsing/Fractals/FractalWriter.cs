@@ -164,7 +164,7 @@ public sealed class FractalWriter
     /// <summary>Writes the declarations that some steps over a base need.</summary>
     /// <param name="steps">Outermost first.</param>
     /// <param name="baseName">Name of the declared object that the steps apply to.</param>
-    /// <returns>Object that the steps make of the base, as it stands behind a declaration.</returns>
+    /// <returns>Object that the steps make of the base, as written behind the name of a declaration.</returns>
     private string WriteSteps(ImmutableArray<FractalStep> steps, string baseName)
     {
         var sets = new List<string>();

@@ -126,8 +126,11 @@ public static class ObjMeshWriter
         Require(mesh.MaterialLibraries.Distinct().Count() == mesh.MaterialLibraries.Length, "a material file is named twice");
     }
 
-    private static void RequireName(string name) => Require(WritableNames.IsRestOfLine(name),
-        $"the name '{WritableNames.Escape(name)}' has a line break, a comment, blanks at an end, or a backslash at its end");
+    private static void RequireName(string name)
+    {
+        const string faults = "a line break, a comment, a faulty character, blanks at an end, or a backslash at its end";
+        Require(WritableNames.IsRestOfLine(name), $"the name '{WritableNames.Escape(name)}' has {faults}");
+    }
 
     private static void Require(bool condition, string fault)
     {

@@ -105,7 +105,7 @@ public sealed class AssetLoaderTests : IDisposable
     [InlineData("missing", "missing:1:1: error: file not found")]
     [InlineData("a.txt", "a.txt:1:1: error: the ending says nothing of the contents, expected .obj, .fdo or .sdo")]
     [InlineData("d.sdo", "d.sdo:1:1: error: this is a directory, expected a file")]
-    public void Load_OfWhatIsNoSuchFile_SaysWhy(string file, string expected)
+    public void Load_OfAPathThatIsNoSuchFile_SaysWhy(string file, string expected)
     {
         _folder.Write("a.txt", "v 1 2 3");
         Directory.CreateDirectory(_folder["d.sdo"]);
@@ -176,7 +176,7 @@ public sealed class AssetLoaderTests : IDisposable
     }
 
     [Fact]
-    public void Load_WithUnknownKeywords_CollectsOneWarningAFile()
+    public void Load_WithUnknownKeywords_CollectsOneWarningPerFile()
     {
         _folder.Write("a.obj", Triangle + "curv 1\nvp 2\n");
         _folder.Write("b.obj", "vp 1\n" + Triangle);

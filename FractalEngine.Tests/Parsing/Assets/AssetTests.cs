@@ -10,7 +10,7 @@ using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Tests.Parsing.Assets;
 
-/// <summary>The files under assets/: each loads, and is what it says that it is.</summary>
+/// <summary>Tests of the files under assets/: each one loads and has the properties that its comments state.</summary>
 public sealed class AssetTests
 {
     public static TheoryData<string> Files => FilesWithExtensions(".obj", ".fdo", ".sdo");
@@ -135,7 +135,7 @@ public sealed class AssetTests
                 "two faces run the same way along an edge");
         }
 
-        // A floor needs no underside.
+        // A floor may be open below.
         Assert.True(file.Contains("floor-", StringComparison.Ordinal) || edges.All(edge => edges.Contains((edge.To, edge.From))),
             "there is a hole");
         var volume = Enumerable.Range(0, mesh.FaceCount).Select(mesh.Face).Sum(face => Vector.Dot(face.A, Vector.Cross(face.B, face.C)));
@@ -175,7 +175,7 @@ public sealed class AssetTests
     [Fact]
     public void Playground_ItsShrinkingBody_LiesOnTheSpongeAndThenFallsThrough()
     {
-        // The sponge reaches from 1 to 4; the hole is as wide as the ball when that has lost 0.22 of 0.72, after about 6 seconds.
+        // The sponge reaches from 1 to 4; the hole is as wide as the sphere of the body when that has lost 0.22 of 0.72, after about 6 seconds.
         Assert.InRange(ShrinkingBody(5 * 60).Position.Y, 4, 4.5);
         Assert.InRange(ShrinkingBody(9 * 60).Position.Y, 0, 1);
 
@@ -188,7 +188,7 @@ public sealed class AssetTests
         var scene = AssetLoader.Load(Full("assets/scenes/playground.sdo")).Scene;
         var player = scene.Scene.Player!;
         Assert.Equal(0, player.Position.Y - (0.5 * player.Height));
-        // The middles of the spheres that bound the body: the lower one touches the ground, and nothing else is as near.
+        // The centres of the capsule's two spheres: the lower sphere touches the ground, and nothing else is as close.
         foreach (var height in new[] { player.Radius, player.Height - player.Radius })
         {
             Assert.True(new SceneCollider(scene).TryFindClosest(player.Position with { Y = height }, 10, new(), out var closest, out _));

@@ -8,7 +8,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Parsing.Assets;
 
-/// <summary>Materials and pictures that files name: found, shared, or missed with a warning and nothing worse.</summary>
+/// <summary>Materials and textures that files name are found and shared; missing ones give a warning only.</summary>
 public sealed class MaterialLoaderTests : IDisposable
 {
     private const string Triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -51,9 +51,9 @@ public sealed class MaterialLoaderTests : IDisposable
     [Fact]
     public void Load_OfAnImageInAnotherFolder_IsRelativeToTheMaterialFile()
     {
-        WritePngHeader("sub/pictures/wood.png", 2, 2);
-        _folder.Write("sub/a.mtl", "newmtl wood\nmap_Kd pictures/wood.png\n");
-        Assert.Equal(_folder["sub/pictures/wood.png"], MaterialOf(Load("mtllib sub/a.mtl\nusemtl wood\nf 1 2 3\n")).Texture!.Path);
+        WritePngHeader("sub/images/wood.png", 2, 2);
+        _folder.Write("sub/a.mtl", "newmtl wood\nmap_Kd images/wood.png\n");
+        Assert.Equal(_folder["sub/images/wood.png"], MaterialOf(Load("mtllib sub/a.mtl\nusemtl wood\nf 1 2 3\n")).Texture!.Path);
     }
 
     [Theory]
@@ -136,7 +136,7 @@ public sealed class MaterialLoaderTests : IDisposable
     }
 
     [Theory]
-    [InlineData("no picture", "\"a.png\" is not a PNG, JPEG, BMP or TGA image")]
+    [InlineData("no image", "\"a.png\" is not a PNG, JPEG, BMP or TGA image")]
     [InlineData("", "\"a.png\" is empty, expected an image")]
     public void Load_WithAFileThatIsNoImage_WarnsAndIsGrey(string contents, string message)
     {
@@ -177,7 +177,7 @@ public sealed class MaterialLoaderTests : IDisposable
     }
 
     [Fact]
-    public void Load_WithImagesBeyondTheTotalPixelLimit_LeavesOutTheLast()
+    public void Load_WithImagesBeyondTheTotalPixelLimit_OmitsTheLast()
     {
         var names = new[] { "a", "b", "c" };
         foreach (var name in names)
@@ -285,7 +285,7 @@ public sealed class MaterialLoaderTests : IDisposable
         Assert.Null(MaterialOf(loaded).Texture);
     }
 
-    /// <summary>As much of a PNG as says how large it is.</summary>
+    /// <summary>Writes the first bytes of a PNG file, which hold its size.</summary>
     private void WritePngHeader(string name, uint width, uint height)
     {
         byte[] head = [0x89, (byte)'P', (byte)'N', (byte)'G', 0x0D, 0x0A, 0x1A, 0x0A, 0, 0, 0, 13, (byte)'I', (byte)'H', (byte)'D',

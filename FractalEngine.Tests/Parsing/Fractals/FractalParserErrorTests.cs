@@ -7,7 +7,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Parsing.Fractals;
 
-/// <summary>Whole messages: these tests are the specification of what a user reads.</summary>
+/// <summary>Compares whole messages: these tests specify what a user reads.</summary>
 public class FractalParserErrorTests
 {
     private const string Head = "v 1 2 3\nv 2 2 2\nt.a. (a, #, #)\nx. \"b.obj\"\nz<x>. [t.1] x\n";
@@ -99,7 +99,7 @@ public class FractalParserErrorTests
     public void Call_WithTheWrongNumberOfArguments_SaysBoth(string call, string message)
     {
         var error = Errors.ThrownBy(() => Samples.ParseFractal(Head + $"<$>. [#, {call}] x")).Diagnostic;
-        // A bare name may as well be a missing dot.
+        // A bare name may also be read as a missing dot.
         Assert.True(error.Message == message || (call == "t" && error.Message == "unexpected ']', expected '.'"), error.Message);
         Assert.Equal(6, error.Line);
     }
@@ -140,7 +140,7 @@ public class FractalParserErrorTests
     }
 
     [Fact]
-    public void Depth_WithAFraction_IsNoNumberOfTimes() =>
+    public void Depth_WithAFraction_IsRefused() =>
         Assert.StartsWith("test.fdo:6:9: error: unexpected '.", Errors.MessageOf(() => Samples.ParseFractal(Head + "<$>. z 2.5")),
         StringComparison.Ordinal);
 
@@ -311,7 +311,7 @@ public class FractalParserErrorTests
             Assert.True(error.Message.Length < 1000, "the message fills the screen");
         }
 
-        // Half a second by itself; the rest is for a machine that runs other tests beside it. A hang is minutes.
+        // It takes half a second alone; the limit leaves room for other tests on the machine. A hang takes minutes.
         Assert.True(start.ElapsedMilliseconds < 15_000, $"{start.ElapsedMilliseconds} ms");
     }
 
@@ -376,7 +376,7 @@ public class FractalParserErrorTests
     private static string Lines(int count, Func<int, string> line) => string.Concat(Enumerable.Range(0, count).Select(line));
 
     [Fact]
-    public void Function_WithAnUnknownOutput_IsTheStyleGuidesExample() => Errors.AssertMessage(
+    public void Function_WithAnUnknownOutput_IsTheManualsExample() => Errors.AssertMessage(
         """
         assets/fractals/tree.fdo:4:12: error: unexpected 'x', expected a vector number, a parameter or '#'
           t.a.b. (a, x, b)

@@ -6,19 +6,19 @@ namespace FractalEngine.Tests.Parsing.Fractals;
 
 public class FractalParserTests
 {
-    // Vectors 1 to 4 and functions of 0 to 3 parameters; tests add what they are about.
+    // Vectors 1 to 4 and functions of 0 to 3 parameters; each test adds its own declarations.
     private const string Head =
         "v 1 2 3\nv 10 20 30\nv 0 90 0\nv 2 2 2\nr. (1, #, #)\ns.a. (a, #, #)\nt.a.b. (a, 3, b)\nu.a.b.c. (a, b, c)\nx. \"Base.obj\"\n";
 
     private static FractalDescription Parse(string text) => Samples.ParseFractal(text).Description;
 
-    /// <summary>The sets of the result of depth 1, outermost first.</summary>
+    /// <summary>Returns the sets along one chain of the result, outermost first.</summary>
     private static IReadOnlyList<Transformation>[] ParseLevels(string text) => [.. NaiveFractal.Levels(Parse(Head + text).Steps)];
 
     private static Transformation SingleTransformation(string call) => Assert.Single(Assert.Single(ParseLevels($"<$>. [{call}] x")));
 
     [Fact]
-    public void Parse_AppendixB_AsItStands()
+    public void Parse_OfAppendixB_GivesItsLevels()
     {
         var description = Parse(Samples.AppendixB);
         Assert.Equal("FractalBase.obj", Samples.ParseFractal(Samples.AppendixB).BaseFile);
@@ -134,7 +134,7 @@ public class FractalParserTests
     [InlineData("composition affine\n", Composition.Affine)]
     [InlineData("composition componentwise\n", Composition.Componentwise)]
     [InlineData("", Composition.Affine)]
-    public void Composition_IsWhatTheFileSays(string line, Composition expected) =>
+    public void Composition_InTheFile_IsRead(string line, Composition expected) =>
         Assert.Equal(expected, Parse(line + Head + "<$>. x").Composition);
 
     [Theory]

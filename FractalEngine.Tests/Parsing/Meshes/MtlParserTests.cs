@@ -47,7 +47,7 @@ public class MtlParserTests
         SingleMaterial("newmtl m"));
 
     [Fact]
-    public void Materials_Several_AreToldApartAndTheFirstOfANameStays()
+    public void Materials_OfTheSameName_KeepTheFirst()
     {
         var file = Parse("newmtl a\nKd 1 0 0\nmap_Kd a.png\nnewmtl b\nKd 0 1 0\r\nnewmtl a\rKd 0 0 1\nmap_Kd second.png\n");
         Assert.Equal(["a", "b"], file.Materials.Keys.Order());
@@ -96,11 +96,11 @@ public class MtlParserTests
     [InlineData("-clamp on a.png", true)]
     [InlineData("-clamp off a.png", false)]
     [InlineData("a.png", false)]
-    public void Texture_Clamped_SaysSo(string statement, bool isClamped) =>
+    public void Texture_WithClampOption_IsClamped(string statement, bool isClamped) =>
         Assert.Equal(isClamped, SingleMaterial($"newmtl m\nmap_Kd {statement}").Texture!.IsClamped);
 
     [Fact]
-    public void Texture_MovedAndScaled_KeepsWhatIsLeftOutAsUsual()
+    public void Texture_MovedAndScaled_KeepsDefaultsOfOmittedNumbers()
     {
         Assert.Equal(
             new MaterialTexture("a.png") { Offset = (0.1, 0), Scale = (2, 3) },
@@ -148,7 +148,8 @@ public class MtlParserTests
         var start = System.Diagnostics.Stopwatch.StartNew();
         var file = Parse("newmtl m\n" + string.Concat(Enumerable.Repeat("Ns 1e999\n", 1_000_000)) + "d 0.5\n");
         Assert.Equal(
-            "the number 1e999 is beyond the range of a double: the statement is ignored (after 100 such statements the rest of the file is, too)",
+            "the number 1e999 is beyond the range of a double: the statement is ignored "
+                + "(after 100 such statements the rest of the file is, too)",
             Assert.Single(file.Warnings).Message);
         Assert.Equal(1, file.Materials["m"].Opacity);
         // It takes milliseconds; a message for each line would take hours.

@@ -71,9 +71,8 @@ public class ObjParserErrorTests
     [Fact]
     public void Parse_OfAnyText_EndsInAMeshOrOneProperError() => Seeded.Run(3000, random =>
     {
-        var text =
-            new StringBuilder(
-                "mtllib m\nv 0 0 0\nv 1 0 0 1\nv 1 1 0 # c\nv 0 1 0\nvt 0 1\nvn 0 0 1\no x\ns 1\nf 1/1/1 2//1 3/1 \\\n -1\nf 1 2 3\ncurv 1\n");
+        var text = new StringBuilder("mtllib m\nv 0 0 0\nv 1 0 0 1\nv 1 1 0 # c\nv 0 1 0\nvt 0 1\nvn 0 0 1\n"
+            + "o x\ns 1\nf 1/1/1 2//1 3/1 \\\n -1\nf 1 2 3\ncurv 1\n");
         for (var change = random.Next(1, 6); change > 0; change--)
         {
             const string characters = "\0\t\n\r \"#,-.0123456789/\\flnopstv§\uD83D";

@@ -5,14 +5,14 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Parsing.Meshes;
 
-/// <summary>Files as other programs write them; the numbers of vertices and triangles were counted by an independent script.</summary>
+/// <summary>Tests files by other programs; an independent script counted their vertices and triangles.</summary>
 public class SharedModelTests
 {
-    // Sound but for normals that the files name and do not have.
+    // Valid except for normals that the faces refer to and the files lack.
     private static readonly string[] WithoutNormals =
         ["tinyobjloader/smoothing-group-two-squares.obj", "tinyobjloader/catmark_torus_creases0.obj"];
 
-    // Wrong on purpose: references to nothing, no numbers. One proper message is as good as a mesh.
+    // Invalid on purpose, with missing elements or numbers: a proper message is accepted as well as a mesh.
     private static readonly string[] InvalidFileWords = ["invalid", "nan", "zero", "failure", "leading-spaces"];
 
     [SkippableFact]
@@ -50,7 +50,7 @@ public class SharedModelTests
     public void Parse_OfRealFilesWithoutTheNormalsTheyName_GivesTheirTriangles()
     {
         Skip.If(SharedModels.Folder is null, "there is no folder of real models beside the checkout");
-        // They are no nasty ones: every other program shows them.
+        // Every other program shows these files.
         Assert.All(SharedModels.ReadTable().Where(row => WithoutNormals.Contains(row.File)),
             row => Assert.Equal(row.Triangles, Parse(row.File).Mesh.FaceCount));
     }

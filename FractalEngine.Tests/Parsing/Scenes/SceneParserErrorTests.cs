@@ -5,7 +5,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Parsing.Scenes;
 
-/// <summary>Whole messages: these tests are the specification of what a user reads.</summary>
+/// <summary>Compares whole messages: these tests specify what a user reads.</summary>
 public class SceneParserErrorTests
 {
     private static ParsedScene Parse(string text) => SceneParser.Parse(new("test.sdo", text));
@@ -135,7 +135,7 @@ public class SceneParserErrorTests
     [InlineData("background (0, 0, 0)")]
     [InlineData("gravity #")]
     [InlineData("player (0, 0, 0) 1 2")]
-    public void Declaration_OfWhatThereIsOnlyOneOf_IsRefusedTwice(string line) =>
+    public void Declaration_OfASingletonTwice_IsRefused(string line) =>
         Fails($"{line}\n# again\n{line}\n",
         $"test.sdo:3:1: error: '{line.Split(' ')[0]}' is declared twice, first in line 1\n  {line}\n  ^");
 
@@ -147,9 +147,8 @@ public class SceneParserErrorTests
     [Fact]
     public void Parse_OfAnyText_EndsInAResultOrOneProperError() => Seeded.Run(3000, random =>
     {
-        var text =
-            new StringBuilder(Samples.AppendixA
-                + "\nlight spot (1, 2, 3) (0, -1, 0) 40 (0, 1, 0) 2, 30\np \"b.fdo\" # 1 mass 2 friction 1 shrink 0.1 0.5 name \"x\"\naspect 16:9\nplayer (0, 0, 0) 1 2 speed 1 step 0.5");
+        var text = new StringBuilder(Samples.AppendixA + "\nlight spot (1, 2, 3) (0, -1, 0) 40 (0, 1, 0) 2, 30\n"
+            + "p \"b.fdo\" # 1 mass 2 friction 1 shrink 0.1 0.5 name \"x\"\naspect 16:9\nplayer (0, 0, 0) 1 2 speed 1 step 0.5");
         for (var change = random.Next(1, 6); change > 0; change--)
         {
             const string characters = "\0\t\n\r \"#(),-.0159:acelmops§\uD83D";

@@ -13,7 +13,7 @@ public class SceneParserTests
     private static SceneObject ParseObject(string line) => Assert.Single(Parse(line).Objects);
 
     [Fact]
-    public void Parse_AppendixA_AsItStands()
+    public void Parse_OfAppendixA_GivesItsCameraAndObjects()
     {
         var scene = Parse(Samples.AppendixA);
         Assert.Equal(new Camera(new(-48.761894, 25.567242, 64.429054), new(-0.071402885, -2.4999454, 0), 60), scene.Camera);
@@ -66,7 +66,7 @@ public class SceneParserTests
     [InlineData("o \"../x.FDO\" #", "../x.FDO")]
     [InlineData("o \"#.obj\" #", "#.obj")]
     [InlineData("o\"a.obj\"#", "a.obj")]
-    public void File_IsAsTheSceneNamesIt(string line, string file) => Assert.Equal(file, ParseObject(line).File);
+    public void File_OfAnObject_IsTheNameInTheScene(string line, string file) => Assert.Equal(file, ParseObject(line).File);
 
     [Fact]
     public void Object_WithOptions_HasThem()
@@ -119,7 +119,7 @@ public class SceneParserTests
     [InlineData("shrink 0.1 0.2 damping 0.25 name \"x\" friction 0.5", 0.5, 0.25, 0.1, 0.2)]
     [InlineData("friction 1 friction 0", 0, 0, 0, 0.05)]
     [InlineData("shrink 1 0.5 shrink 2", 0, 0, 2, 0.05)]
-    public void PhysicsObject_WithFrictionDampingAndShrinking_HasThemTheLastCounts(string options, double friction, double damping,
+    public void PhysicsObject_WithFrictionDampingAndShrinking_HasThemAndTheLastWins(string options, double friction, double damping,
     double rate, double minimum)
     {
         var body = Assert.IsType<PhysicsObject>(ParseObject($"p \"a.obj\" # 0.5 {options}"));
@@ -159,7 +159,7 @@ public class SceneParserTests
         Assert.Equal(new Player(new(1, 2, 3), 0.3, 1.8), Parse("player (1, 2, 3) 0.3 1.8").Player);
 
     [Fact]
-    public void Player_WithoutOptions_GoesAsFarAsItsHeightLets()
+    public void Player_WithoutOptions_HasDefaultsFromItsHeight()
     {
         var player = new Player(Vector.Zero, 0.3, 1.8);
         Assert.Equal((null, null, 50.0, null),
@@ -243,15 +243,6 @@ public class SceneParserTests
     {
         var text = Samples.AppendixA.ReplaceLineEndings("\r\n") + "\n\n# end";
         Assert.Equal(text, string.Concat(SceneParser.Parse(new("test.sdo", text)).Lines.Select(line => line.Text)));
-    }
-
-    [Fact]
-    public void Parse_OfAHundredThousandObjects_TakesNoLongerThanTwoSeconds()
-    {
-        var text = string.Concat(Enumerable.Range(0, 100_000).Select(i => $"o \"a.obj\" (({i}, 0, 0), #, #)\n"));
-        var start = System.Diagnostics.Stopwatch.StartNew();
-        Assert.Equal(100_000, Parse(text).Objects.Length);
-        Assert.True(start.ElapsedMilliseconds < 2000, $"{start.ElapsedMilliseconds} ms");
     }
 
     [Fact]

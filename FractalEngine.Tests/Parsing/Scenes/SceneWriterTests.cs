@@ -121,7 +121,7 @@ public class SceneWriterTests
     [InlineData("p \"a.obj\" # 0.5 shrink 0 0.5")]
     [InlineData("player (0, 0, 0) 0.3 1.8")]
     [InlineData("player (0, 0, 0) 0.3 1.8 speed 4.5 jump 3 slope 45 step 0")]
-    public void Write_OfBodiesAndThePlayer_StatesWhatIsNoDefault(string line)
+    public void Write_OfBodiesAndThePlayer_StatesAllButDefaults(string line)
     {
         Assert.Equal(line + "\n", SceneWriter.Write(Parse(line).Scene));
         Assert.Equal(line + "\n", InCulture.Run("de-DE", () => SceneWriter.Write(Parse(line).Scene)));
@@ -130,7 +130,7 @@ public class SceneWriterTests
     [Theory]
     [InlineData("p \"a.obj\" # 0.5 friction 0 damping 0 shrink 0 0.05 mass 1 collider exact", "p \"a.obj\" # 0.5\n")]
     [InlineData("player (0, 0, 0) 0.3 1.8 slope 50", "player (0, 0, 0) 0.3 1.8\n")]
-    public void Write_OfStatedDefaults_LeavesThemOut(string line, string expected) =>
+    public void Write_OfStatedDefaults_OmitsThem(string line, string expected) =>
         Assert.Equal(expected, SceneWriter.Write(Parse(line).Scene));
 
     [Theory]

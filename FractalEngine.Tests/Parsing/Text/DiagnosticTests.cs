@@ -6,7 +6,7 @@ namespace FractalEngine.Tests.Parsing.Text;
 public class DiagnosticTests
 {
     [Fact]
-    public void ToString_OfAnError_IsTheStyleGuidesForm() => Assert.Equal(
+    public void ToString_OfAnError_IsOneLineAndTheSourceLine() => Assert.Equal(
         "assets/fractals/tree.fdo:4:12: error: unexpected 'x'\n  t.a.b. (a, x, b)\n             ^",
         new Diagnostic("assets/fractals/tree.fdo", 4, 12, DiagnosticSeverity.Error, "unexpected 'x'", "t.a.b. (a, x, b)").ToString());
 

@@ -16,13 +16,20 @@ public class NumberReaderTests
             {
                 0 => $"{RandomSign(random)}{RandomDigits(random, 1, 20)}.{RandomDigits(random, 0, 20)}",
                 1 => $"{RandomSign(random)}{RandomDigits(random, 1, 17)}e{random.Next(-345, 312)}",
-                2 => $"{RandomSign(random)}0.{new string('0', random.Next(0, 40))}{RandomDigits(random, 1, 60)}E{(random.Next(2) == 0 ? "+" : "-")}{random.Next(0, 330):00}",
-                3 => BitConverter.Int64BitsToDouble(random.NextInt64()) switch { var d when double.IsFinite(d) =>
-                    d.ToString("R", CultureInfo.InvariantCulture), _ => "1" },
+                2 => $"{RandomSign(random)}0.{new string('0', random.Next(0, 40))}{RandomDigits(random, 1, 60)}{RandomExponent(random)}",
+                3 => RandomShortestText(random),
                 _ => $"{RandomSign(random)}.{RandomDigits(random, 1, 9)}",
             });
         }
     });
+
+    private static string RandomExponent(Random random) => $"E{(random.Next(2) == 0 ? "+" : "-")}{random.Next(0, 330):00}";
+
+    private static string RandomShortestText(Random random)
+    {
+        var number = BitConverter.Int64BitsToDouble(random.NextInt64());
+        return double.IsFinite(number) ? number.ToString("R", CultureInfo.InvariantCulture) : "1";
+    }
 
     [Fact]
     public void TryRead_OfNumbersHalfwayBetweenTwoDoubles_RoundsAsTheFramework() => Seeded.RunOne(2, random =>

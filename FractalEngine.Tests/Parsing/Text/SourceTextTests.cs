@@ -14,7 +14,34 @@ public sealed class SourceTextTests : IDisposable
     public void Read_OfUtf8_IsTheText() => Assert.Equal("größer 🌲\n", Read(Encoding.UTF8.GetBytes("größer 🌲\n")).Text);
 
     [Fact]
-    public void Read_WithAByteOrderMark_LeavesItOut() => Assert.Equal("c", Read([0xEF, 0xBB, 0xBF, (byte)'c']).Text);
+    public void Read_WithAByteOrderMark_OmitsIt() => Assert.Equal("c", Read([0xEF, 0xBB, 0xBF, (byte)'c']).Text);
+
+    [Fact]
+    public void ByteCount_OfAFile_IncludesItsByteOrderMark()
+    {
+        Assert.Equal(4, Read([0xEF, 0xBB, 0xBF, (byte)'c']).ByteCount);
+        Assert.Equal(0, new SourceText("f", "not from a file").ByteCount);
+    }
+
+    [Theory]
+    [InlineData("", "\n")]
+    [InlineData("a\nb\r", "\n")]
+    [InlineData("a\nb\r\n", "\r\n")]
+    public void LineBreak_OfAText_IsTheOneOfWindowsIfItOccurs(string text, string expected) =>
+        Assert.Equal(expected, new SourceText("f", text).LineBreak);
+
+    [Theory]
+    [InlineData(0, 1)]
+    [InlineData(3, 1)]
+    [InlineData(5, 2)]
+    [InlineData(7, 3)]
+    [InlineData(99, 3)]
+    public void LineOf_AnOffset_IsTheLineOfItsDiagnostic(int offset, int line)
+    {
+        var source = new SourceText("f", "one\r\n\r\nthree");
+        Assert.Equal(line, source.LineOf(offset));
+        Assert.Equal(line, source.Diagnose(offset, "m").Line);
+    }
 
     [Fact]
     public void Read_OfAnEmptyFile_IsEmpty() => Assert.Equal("", Read([]).Text);
@@ -43,7 +70,7 @@ public sealed class SourceTextTests : IDisposable
         StringComparison.Ordinal);
 
     [Fact]
-    public void Read_OfLatin1_IsRefusedWithItsPlace()
+    public void Read_OfLatin1_IsRefusedAtItsPosition()
     {
         var error = Errors.ThrownBy(() => Read(Encoding.Latin1.GetBytes("# one\n# Größe\n"))).Diagnostic;
         Assert.Equal((2, 5), (error.Line, error.Column));
