@@ -34,7 +34,7 @@ internal static class GenerateCommand
         var generator = MeshGenerators.Find(name)
             ?? throw new UsageException($"unknown mesh '{name}', expected one of: {Names()}");
         var mesh = generator.Create(seed, faces);
-        AtomicFile.Write(output, stream => ObjWriter.Write(mesh, name, stream));
+        AtomicFile.Write(output, stream => ObjMeshWriter.Write(mesh, stream, name));
         Console.WriteLine(mesh.FaceCount);
         return ExitCode.Done;
     }

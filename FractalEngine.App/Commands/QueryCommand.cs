@@ -48,7 +48,7 @@ internal static class QueryCommand
         string path, LoadOptions options, string pointsPath, ColliderKind kind, double maxDistance, double epsilon, bool json)
     {
         var file = ConsoleLoader.Load(path, options);
-        var points = PointsParser.Parse(SourceText.Read(pointsPath, pointsPath, ParsingLimits.ObjBytes));
+        var points = PointsParser.Parse(SourceText.Read(pointsPath, pointsPath, ParsingLimits.MaxObjBytes));
         var clock = Stopwatch.StartNew();
         var collider = BuildCollider(file, kind);
         var buildTime = clock.Elapsed;

@@ -29,7 +29,7 @@ internal static class LoadingTable
                 var mesh = MeshGenerators.Create(name, 1, faces);
                 using (var stream = File.Create(file))
                 {
-                    ObjWriter.Write(mesh, name, stream);
+                    ObjMeshWriter.Write(mesh, stream, name);
                 }
 
                 AddMesh(table, name, mesh, file, options.Rounds);

@@ -150,7 +150,7 @@ public sealed class MeshGeneratorTests
     {
         var mesh = MeshGenerators.Create(name, 9, 9_000);
         using var stream = new MemoryStream();
-        ObjWriter.Write(mesh, name, stream);
+        ObjMeshWriter.Write(mesh, stream, name);
         var text = System.Text.Encoding.UTF8.GetString(stream.ToArray());
         Assert.StartsWith($"# Mesh count: {mesh.FaceCount}\n", text, StringComparison.Ordinal);
         var read = ObjParser.Parse(new SourceText(name, text)).Mesh;
