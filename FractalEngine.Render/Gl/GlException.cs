@@ -1,21 +1,21 @@
 namespace FractalEngine.Render.Gl;
 
-/// <summary>OpenGL refused something: a shader, a framebuffer, an allocation. The message says what and why.</summary>
+/// <summary>The exception for an OpenGL operation that failed: a shader, a framebuffer or an allocation. The message names both.</summary>
 public sealed class GlException : Exception
 {
-    /// <summary>With a message.</summary>
+    /// <summary>Creates an exception with a message.</summary>
     public GlException(string message)
         : base(message)
     {
     }
 
-    /// <summary>With a message and a cause.</summary>
+    /// <summary>Creates an exception with a message and a cause.</summary>
     public GlException(string message, Exception innerException)
         : base(message, innerException)
     {
     }
 
-    /// <summary>Without details.</summary>
+    /// <summary>Creates an exception without details.</summary>
     public GlException()
     {
     }
