@@ -85,7 +85,7 @@ internal sealed class CameraControls
         return view with
         {
             DeepZoom = new(_fractal!.ObjectIndex, roots, _address.LogUnit),
-            Clip = (NearPlaneFraction * _address.ClosestSurfaceDistance(), 1.01 * _address.MaxDrawDistance(roots)),
+            FixedClipPlanes = (NearPlaneFraction * _address.ClosestSurfaceDistance(), 1.01 * _address.MaxDrawDistance(roots)),
         };
     }
 

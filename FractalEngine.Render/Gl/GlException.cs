@@ -1,22 +1,25 @@
+using FractalEngine.Core;
+
 namespace FractalEngine.Render.Gl;
 
-/// <summary>The exception for an OpenGL operation that failed: a shader, a framebuffer or an allocation. The message names both.</summary>
-public sealed class GlException : Exception
+/// <summary>The error of an OpenGL operation that failed, such as a shader or an allocation. The message says which and why.</summary>
+public sealed class GlException : FractalEngineException
 {
-    /// <summary>Creates an exception with a message.</summary>
+    /// <summary>Creates an error with a message of one line.</summary>
     public GlException(string message)
-        : base(message)
+        : base(ErrorKind.Limit, message)
     {
     }
 
-    /// <summary>Creates an exception with a message and a cause.</summary>
+    /// <summary>Creates an error with a message of one line and a cause.</summary>
     public GlException(string message, Exception innerException)
-        : base(message, innerException)
+        : base(ErrorKind.Limit, message, innerException)
     {
     }
 
-    /// <summary>Creates an exception without details.</summary>
+    /// <summary>Creates an error without details.</summary>
     public GlException()
+        : this("OpenGL refused a request")
     {
     }
 }

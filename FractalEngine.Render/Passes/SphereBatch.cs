@@ -24,7 +24,7 @@ internal sealed class SphereBatch : IDisposable
     /// <exception cref="GlException">The GPU's memory does not suffice.</exception>
     public SphereBatch(GlResources resources)
     {
-        var model = new MeshModel("sphere", 0, MeshGenerators.Create("icosphere", 0, FaceCount));
+        var model = new MeshModel(MeshGenerators.Create("icosphere", 0, FaceCount)) { SourcePath = "sphere" };
         var scene = new LoadedScene(new Scene(), [new(new SceneObject("sphere", Transformation.Identity), model)]);
         _modelBuffers = new(resources, DrawableScene.Prepare(scene, new() { Culling = null }).Models[0]);
         _instances = new(resources, "spheres", BufferTarget.ArrayBuffer);

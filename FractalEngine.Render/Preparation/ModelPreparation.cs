@@ -22,7 +22,7 @@ internal static class ModelPreparation
     public static DrawableModel Prepare(
         Model model, RenderSettings settings, TextureCache textures, ImmutableArray<string>.Builder notices)
     {
-        var name = Path.GetFileName(model.Path);
+        var name = model.Name;
         var mesh = model.Mesh;
         if (mesh.FaceCount == 0)
         {
@@ -61,7 +61,7 @@ internal static class ModelPreparation
     /// <summary>Creates the box that is shown until a model is prepared. A model without finite bounds has none.</summary>
     public static DrawableModel CreatePlaceholder(Model model)
     {
-        var name = Path.GetFileName(model.Path);
+        var name = model.Name;
         var bounds = model.Bounds;
         if (model.Mesh.FaceCount == 0 || bounds.IsEmpty || !bounds.Size.IsFinite())
         {

@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Render.Images;
 
 namespace FractalEngine.Render.Preparation;

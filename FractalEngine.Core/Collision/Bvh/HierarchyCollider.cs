@@ -40,7 +40,7 @@ public sealed class HierarchyCollider(Mesh mesh) : Collider
     }
 
     /// <inheritdoc/>
-    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
+    protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
         var (closestDistanceSquared, closestFace, faceTests, boundTests) = (InitialCutoffSquared(maxDistance), -1, 0L, 0L);
