@@ -200,7 +200,7 @@ public class CameraControlsTests
                 continue;
             }
 
-            var (near, far) = view.Clip!.Value;
+            var (near, far) = view.FixedClipPlanes!.Value;
             Assert.True(0 < near && near < far && double.IsFinite(far), Text($"planes {near}, {far} at depth {controls.Depth}"));
             Assert.Equal(0, view.DeepZoom!.ObjectIndex);
             Near.Equal(-controls.Log10Magnification * Math.Log(10), view.DeepZoom.LogUnit, 1e-9);
