@@ -54,7 +54,8 @@ internal static class RenderCommand
             Console.Error.WriteLine(notice);
         }
 
-        var image = OffscreenRenderer.Render(drawable, view, size.Width, size.Height, settings);
+        using var renderer = Renderer.Offscreen(size.Width, size.Height, settings);
+        var image = renderer.Draw(drawable, view);
         Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(output))!);
         ImageFile.SavePng(image, output);
         return ExitCode.Done;

@@ -106,7 +106,7 @@ internal sealed class FlyingCamera
         return view with
         {
             DeepZoom = new(_fractal!.ObjectIndex, roots, _address.LogUnit),
-            Clip = (NearPlaneFraction * _address.ClosestSurfaceDistance(), FarPlaneFactor * _address.MaxDrawDistance(roots)),
+            FixedClipPlanes = (NearPlaneFraction * _address.ClosestSurfaceDistance(), FarPlaneFactor * _address.MaxDrawDistance(roots)),
         };
     }
 

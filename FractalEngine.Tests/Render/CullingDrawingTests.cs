@@ -84,7 +84,7 @@ public sealed class CullingDrawingTests
         View[] views =
         [
             .. eyes.Select(eye => new View(new(eye, new(0.2, 0.4, 0), 60), projection) { OrthographicHeight = 1.5 }),
-            new View(ObliqueCamera, projection) { Clip = (4.5, 6.2), OrthographicHeight = 4 },
+            new View(ObliqueCamera, projection) { FixedClipPlanes = (4.5, 6.2), OrthographicHeight = 4 },
             new View(ObliqueCamera, projection) { Aspect = 1, OrthographicHeight = 4 },
         ];
         foreach (var view in views)
@@ -170,7 +170,7 @@ public sealed class CullingDrawingTests
         var scene = RenderScenes.Scene(
             new Scene(), (RenderScenes.Menger(2), RenderScenes.TranslatedTo(-1, 0, 0), null),
             (RenderScenes.Menger(2), RenderScenes.TranslatedTo(1.5, 0, 0), null));
-        var view = new View(ObliqueCamera, Projection.Perspective) { Clip = (1, 20) };
+        var view = new View(ObliqueCamera, Projection.Perspective) { FixedClipPlanes = (1, 20) };
         var positions = (Vector[])[new(2, 1, 1), new(-1, 0, 0.5), new(-1, 0, 0)];
         var expected = positions.Select(position => RenderScenes.Draw(
             scene with { Objects =
@@ -223,7 +223,7 @@ public sealed class CullingDrawingTests
             AssertKept();
         }
 
-        renderer.Move(0, renderer.MapOf(0));
+        renderer.Move(0, renderer.Scene.Objects[0].Map);
         frame.Draw(renderer, view, Width, Height, Culled);
         AssertKept();
         // What does: the camera, the size, the projection, the samples, the settings, a moved object.
@@ -306,7 +306,7 @@ public sealed class CullingDrawingTests
         // At depth 5 the cubes are below a pixel, at the corner nearest to the camera too.
         var infinite = RenderScenes.Scene(new Scene(), (RenderScenes.Menger(null), Transformation.Identity, null));
         var deep = RenderScenes.Scene(new Scene(), (RenderScenes.Menger(8), Transformation.Identity, null));
-        var view = new View(ObliqueCamera, Projection.Perspective) { Clip = (1, 20) };
+        var view = new View(ObliqueCamera, Projection.Perspective) { FixedClipPlanes = (1, 20) };
         var (infiniteImage, deepImage) =
             (RenderScenes.Draw(infinite, view, Width, Height, Culled), RenderScenes.Draw(deep, view, Width, Height, Culled));
         Assert.True(ImageComparison.PeakSignalToNoiseRatio(infiniteImage, deepImage) >= ImageComparison.MinSameDecibels,

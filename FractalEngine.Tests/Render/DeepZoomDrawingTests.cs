@@ -49,10 +49,10 @@ public sealed class DeepZoomDrawingTests
                 var camera = stage.CreateCamera(dive);
                 var (near, far) = (0.01 * dive.LocateTarget(Vector.Zero).Length(), 100.0);
                 var unit = Math.Exp(dive.Address.LogUnit);
-                var ordinary = stage.Draw(new(camera, Projection.Perspective) { Clip = (near * unit, far) });
+                var ordinary = stage.Draw(new(camera, Projection.Perspective) { FixedClipPlanes = (near * unit, far) });
                 var zoomed =
                     stage.Draw(
-                        new(camera, Projection.Perspective) { Clip = (near, far / unit), DeepZoom = stage.CreateDeepZoom(dive.Address) });
+                        new(camera, Projection.Perspective) { FixedClipPlanes = (near, far / unit), DeepZoom = stage.CreateDeepZoom(dive.Address) });
                 var ratio = ImageComparison.PeakSignalToNoiseRatio(zoomed, ordinary);
                 var (_, share) = RenderScenes.Difference(zoomed, ordinary);
                 Assert.True(ratio >= ImageComparison.MinSameDecibels
@@ -100,10 +100,10 @@ public sealed class DeepZoomDrawingTests
             var unit = Math.Exp(shallow.Address.LogUnit);
             var view = new View(camera with { Position = shallow.Address.WorldPosition(AffineMap.Identity) }, Projection.Perspective);
             expected.Add(
-                RenderScenes.Centroid(stage.Draw(view with { Clip = (0.01 * distance * unit, 100) }, settings, Width / 2, Height / 2)).X);
+                RenderScenes.Centroid(stage.Draw(view with { FixedClipPlanes = (0.01 * distance * unit, 100) }, settings, Width / 2, Height / 2)).X);
             centroids.Add(RenderScenes.Centroid(stage.Draw(
                 view with { Camera = camera with { Position = deep.Address.WorldPosition(AffineMap.Identity) },
-                Clip = (0.01 * distance, 100 / unit), DeepZoom = stage.CreateDeepZoom(deep.Address) }, settings, Width / 2, Height / 2)).X);
+                FixedClipPlanes = (0.01 * distance, 100 / unit), DeepZoom = stage.CreateDeepZoom(deep.Address) }, settings, Width / 2, Height / 2)).X);
             shallow.Move(step);
             deep.Move(step);
         }
@@ -172,7 +172,7 @@ public sealed class DeepZoomDrawingTests
             var looking = flyingCamera.Camera with { Rotation = new(0, yaw * Math.PI / 180, 0) };
             var zoomed = flyingCamera.WithDeepZoom(new(looking, Projection.Perspective));
             var unit = Math.Exp(zoomed.DeepZoom!.LogUnit);
-            var ordinary = stage.Draw(new(looking, Projection.Perspective) { Clip = (zoomed.Clip!.Value.Near * unit, 100) });
+            var ordinary = stage.Draw(new(looking, Projection.Perspective) { FixedClipPlanes = (zoomed.FixedClipPlanes!.Value.Near * unit, 100) });
             var ratio = ImageComparison.PeakSignalToNoiseRatio(stage.Draw(zoomed), ordinary);
             Assert.True(ratio >= ImageComparison.MinSameDecibels, Invariant($"depth {flyingCamera.Depth}, turned by {yaw}: {ratio:F1} dB"));
         }
@@ -188,10 +188,10 @@ public sealed class DeepZoomDrawingTests
             dive.GoToDepth(2, 0.2);
             var camera = stage.CreateCamera(dive);
             var unit = Math.Exp(dive.Address.LogUnit);
-            var ordinary = stage.Draw(new(camera, Projection.Perspective) { Clip = (0.01 * unit, 100) });
+            var ordinary = stage.Draw(new(camera, Projection.Perspective) { FixedClipPlanes = (0.01 * unit, 100) });
             var zoomed =
                 stage.Draw(
-                    new(camera, Projection.Perspective) { Clip = (0.01, 100 / unit), DeepZoom = stage.CreateDeepZoom(dive.Address) });
+                    new(camera, Projection.Perspective) { FixedClipPlanes = (0.01, 100 / unit), DeepZoom = stage.CreateDeepZoom(dive.Address) });
             var ratio = ImageComparison.PeakSignalToNoiseRatio(zoomed, ordinary);
             Assert.True(ratio >= ImageComparison.MinSameDecibels, Invariant($"by {kind}: {ratio:F1} dB"));
         }
@@ -203,7 +203,7 @@ public sealed class DeepZoomDrawingTests
         // A place that is in no copy's reach and within the sub-fractal's own: the same at each level.
         dive.ConvergeTo(1.5 * Direction(stage.Name));
         var camera = stage.CreateCamera(dive);
-        return stage.Draw(new(camera, Projection.Perspective) { Clip = (0.02, 1e12), DeepZoom = stage.CreateDeepZoom(dive.Address) });
+        return stage.Draw(new(camera, Projection.Perspective) { FixedClipPlanes = (0.02, 1e12), DeepZoom = stage.CreateDeepZoom(dive.Address) });
     }
 
     private static Vector Direction(string name) => name switch

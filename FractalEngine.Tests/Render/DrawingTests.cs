@@ -83,7 +83,7 @@ public sealed class DrawingTests
     [InlineData(Projection.Orthographic, 4.5, 5.5, 1)]
     public void Clip_ObjectAtDepthFive_IsDrawnBetweenThePlanesOnly(Projection projection, double near, double far, int drawn)
     {
-        var view = new View(Camera.Default, projection) { Clip = (near, far) };
+        var view = new View(Camera.Default, projection) { FixedClipPlanes = (near, far) };
         var image = RenderScenes.Draw(RenderScenes.WhiteOnBlack(RenderScenes.Square(1), Transformation.Identity), view);
         Assert.Equal(drawn, Math.Sign(RenderScenes.CountDifferent(image, (0, 0, 0, 255))));
     }
@@ -225,7 +225,7 @@ public sealed class DrawingTests
         using var frame = new FrameRenderer(context);
         var error = Assert.Throws<GlException>(() => frame.Draw(null, RenderScenes.FrontView, 1_000_000, 10, new()));
         Assert.Equal(
-            $"a picture of 1000000×10 pixels cannot be drawn: this driver allows 1 to {context.MaxFrameSize} pixels a side", error.Message);
+            $"a frame of 1000000×10 pixels cannot be drawn: this driver allows 1 to {context.MaxFrameSize} pixels a side", error.Message);
     }
 
     /// <summary>The fractal as <c>export</c> writes it, read again.</summary>

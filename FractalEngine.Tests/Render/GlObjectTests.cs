@@ -27,10 +27,10 @@ public sealed class GlObjectTests
             frame.Capture(OverlayPanel.OfText(OverlayAnchor.TopLeft, "text"));
             frame.Draw(renderer, RenderScenes.FrontView, 60, 30, new() { Samples = 0 });
             frame.Capture();
-            Assert.NotEmpty(context.LiveObjects);
+            Assert.NotEmpty(context.Resources.LiveObjects);
         }
 
-        Assert.Empty(context.LiveObjects);
+        Assert.Empty(context.Resources.LiveObjects);
         context.Resources.ThrowOnError("disposing");
     }
 
@@ -55,7 +55,7 @@ public sealed class GlObjectTests
         var other = new Thread(buffer.Dispose);
         other.Start();
         other.Join();
-        Assert.Empty(context.LiveObjects);
+        Assert.Empty(context.Resources.LiveObjects);
         context.MakeCurrent();
         context.Resources.ThrowOnError("deleting");
     }
@@ -70,7 +70,7 @@ public sealed class GlObjectTests
         other.Join();
         Assert.Equal("GL objects can be used on the thread of their context only",
             Assert.IsType<InvalidOperationException>(caught).Message);
-        Assert.Empty(context.LiveObjects);
+        Assert.Empty(context.Resources.LiveObjects);
     }
 
     [SkippableFact]
@@ -81,7 +81,7 @@ public sealed class GlObjectTests
             context.Resources, ("good.vert", Trivial), ("bad.frag", "#version 330 core\nvoid main() { colour = nonsense; }")));
         Assert.StartsWith("bad.frag (fragment shader) does not compile:\n", error.Message, StringComparison.Ordinal);
         Assert.Contains("nonsense", error.Message, StringComparison.Ordinal);
-        Assert.Empty(context.LiveObjects);
+        Assert.Empty(context.Resources.LiveObjects);
     }
 
     [SkippableFact]
@@ -93,7 +93,7 @@ public sealed class GlObjectTests
             ("a.vert", "#version 330 core\nout vec2 shared_;\nvoid main() { shared_ = vec2(1.0); gl_Position = vec4(0.0); }"),
             ("b.frag", "#version 330 core\nin vec3 shared_;\nout vec4 colour;\nvoid main() { colour = vec4(shared_, 1.0); }")));
         Assert.StartsWith("a.vert + b.frag does not link:\n", error.Message, StringComparison.Ordinal);
-        Assert.Empty(context.LiveObjects);
+        Assert.Empty(context.Resources.LiveObjects);
     }
 
     [SkippableFact]
@@ -144,7 +144,7 @@ public sealed class GlObjectTests
             new MeshProgram(context, (MeshFeatures)features).Dispose();
         }
 
-        Assert.Empty(context.LiveObjects);
+        Assert.Empty(context.Resources.LiveObjects);
     }
 
     [Fact]

@@ -96,7 +96,7 @@ public sealed class MaterialTests : IDisposable
             RenderScenes.Scene(FullLightOnBlack,
             (TexturedScenes.CreateSquare(1, new("m") { Texture = texture }), Transformation.Identity, null));
         var notice = Assert.Single(DrawableScene.Prepare(scene, new()).Notices);
-        Assert.StartsWith($"{texture.Path}:1:1: warning: the picture can't be decoded, drawn grey: ", notice, StringComparison.Ordinal);
+        Assert.StartsWith($"{texture.Path}:1:1: warning: the texture can't be decoded, drawn grey: ", notice, StringComparison.Ordinal);
         AssertNear((153, 153, 153, 255), RenderScenes.Draw(scene, Square, 200, 200)[100, 100]);
     }
 

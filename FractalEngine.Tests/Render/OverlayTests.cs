@@ -107,7 +107,7 @@ public sealed class OverlayTests
     public void Table_TwoColumns_AlignsTheSecond()
     {
         var panels = new[] { OverlayPanel.OfTable(OverlayAnchor.TopLeft, "Keys", [("W", "||"), ("LONGER", "||")]) };
-        var layout = OverlayLayout.Of(Atlas, panels, 1280, 720);
+        var layout = OverlayLayout.Create(Atlas, panels, 1280, 720);
         var bars = layout.Quads.Where(quad => (int)quad.Glyph == Atlas.GlyphOf('|')).Select(quad => quad.X).Distinct().Order().ToArray();
         Assert.Equal(2, bars.Length);
     }

@@ -44,7 +44,7 @@ public sealed class ViewTests
     [Fact]
     public void ClipPlanes_OfTheScene_AreTaken()
     {
-        var view = RenderScenes.FrontView with { Clip = (2, 3) };
+        var view = RenderScenes.FrontView with { FixedClipPlanes = (2, 3) };
         Assert.Equal((2.0, 3.0), view.ClipPlanes(UnitBox));
     }
 

@@ -106,7 +106,7 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
                 new Camera(dive.Address.WorldPosition(AffineMap.Identity), CameraFraming.LookRotation(dive.LocateTarget(Vector.Zero)),
                 50);
             var zoom = new DeepZoom(0, dive.Address.CollectRoots(MaxAncestors), dive.Address.LogUnit);
-            frame.Draw(renderer, new(camera, Projection.Perspective) { Clip = (0.02, 1e12), DeepZoom = zoom }, Width, Height, Settings);
+            frame.Draw(renderer, new(camera, Projection.Perspective) { FixedClipPlanes = (0.02, 1e12), DeepZoom = zoom }, Width, Height, Settings);
             context.Resources.ThrowOnError("drawing");
             return frame.Capture();
         }

@@ -196,7 +196,7 @@ public class CameraControlsTests
                 continue;
             }
 
-            var (near, far) = view.Clip!.Value;
+            var (near, far) = view.FixedClipPlanes!.Value;
             Assert.True(0 < near && near < far && double.IsFinite(far), Text($"planes {near}, {far} at depth {flight.Camera.Depth}"));
             Assert.Equal(0, view.DeepZoom!.ObjectIndex);
             Near.Equal(-flight.Camera.Log10Magnification * Math.Log(10), view.DeepZoom.LogUnit, 1e-9);
