@@ -18,11 +18,7 @@ var results = BatchQuery.FindClosest(Collider.For(fractal), grid);
 
 Console.WriteLine(FormattableString.Invariant($"{results.Length} distances, mean {results.Average(result => result.Closest.Distance):F9}"));
 Console.WriteLine(FormattableString.Invariant($"{results.Average(result => result.FaceTests):F2} faces tested a query"));
-for (var y = Side - 1; y >= 0; y -= 9)
-{
-    Console.WriteLine(string.Concat(from x in Enumerable.Range(0, Side / 3)
-                                    let distance = results[(y * Side) + (3 * x)].Closest.Distance
-                                    select distance < 0.05 ? '#' : distance < 0.25 ? '+' : distance < 0.5 ? '.' : ' ').TrimEnd());
-}
 
-// Output: (the first two lines)
+// Output:
+// 10000 distances, mean 0.308090126
+// 4.03 faces tested a query
