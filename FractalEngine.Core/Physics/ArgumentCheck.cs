@@ -12,7 +12,8 @@ internal static class ArgumentCheck
     /// <param name="subject">What the requirement is about, before a colon; null for no such prefix.</param>
     /// <param name="parameterName">Name of the caller's parameter; null where the message says enough.</param>
     /// <exception cref="ArgumentException">The requirement is not met.</exception>
-    public static void Require([DoesNotReturnIf(false)] bool isMet, string requirement, string? subject = null, string? parameterName = null)
+    public static void Require(
+        [DoesNotReturnIf(false)] bool isMet, string requirement, string? subject = null, string? parameterName = null)
     {
         if (!isMet)
         {

@@ -67,9 +67,9 @@ internal sealed class BodyStepper
         _mover.Move(body, acceleration, stepLength, restitutionThreshold);
         if (!body.Position.IsFinite() || !body.Velocity.IsFinite())
         {
+            var state = $"position {body.Position}, velocity {body.Velocity}";
             throw new InvalidOperationException(string.Create(
-                CultureInfo.InvariantCulture,
-                $"body {body.Name} has left the range of a double in step {stepIndex}: position {body.Position}, velocity {body.Velocity}"));
+                CultureInfo.InvariantCulture, $"body {body.Name} has left the range of a double in step {stepIndex}: {state}"));
         }
 
         _grid.Update(body.Index);

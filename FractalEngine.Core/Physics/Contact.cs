@@ -10,7 +10,7 @@ namespace FractalEngine.Core.Physics;
 /// <param name="IsFlat">True inside a face, where the surface near the point is a plane.</param>
 internal readonly record struct Contact(Vector Point, double CombinedRadius, Vector SphereOffset, int BodyIndex, bool IsFlat)
 {
-    /// <summary>Stands for the absence of a body where an index is expected.</summary>
+    /// <summary>The index that means no body.</summary>
     public const int NoBody = -1;
 
     /// <summary>True when the obstacle is another body, which moves and gives way.</summary>

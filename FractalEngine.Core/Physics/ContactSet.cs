@@ -115,7 +115,7 @@ internal sealed class ContactSet
     /// <param name="velocity">Velocity of the body.</param>
     /// <param name="bodies">All bodies.</param>
     /// <param name="negligibleSpeed">
-    /// Speed below which a body does not leave a surface: gravity would return it at once, and several edges could pass it to and fro.
+    /// Speed below which a body does not leave a surface: gravity would return it at once, and several edges could pass it back and forth.
     /// </param>
     /// <param name="treatBodiesAsStatic">Other bodies count as left only by a velocity away from where they are.</param>
     /// <returns>The velocity; where it leaves a surface too slowly, only its part along all surfaces.</returns>

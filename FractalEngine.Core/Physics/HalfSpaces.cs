@@ -7,8 +7,8 @@ namespace FractalEngine.Core.Physics;
 /// satisfy all of them at once: one after the other, a body would creep in a groove.
 /// </summary>
 /// <remarks>
-/// The closest point lies on at most three of the planes, so all sets of up to three are tried. That is exact, and faster than any iteration
-/// for so few planes.
+/// The closest point lies on at most three of the planes, so all sets of up to three are tried. That is exact, and faster than any
+/// iteration for so few planes.
 /// </remarks>
 internal sealed class HalfSpaces
 {

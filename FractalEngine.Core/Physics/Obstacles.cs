@@ -14,7 +14,7 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
     // Room for so many bodies near a mover; beyond it the list grows.
     private const int InitialCandidateCapacity = 256;
 
-    // Of the radius: how deep below a surface contact the search for its present closest point begins, and how far it goes.
+    // Of the radius: how far from the centre towards a contact the search for its present closest point begins, and how far it goes.
     private const double UpdateDepth = 0.5;
     private const double UpdateSearchRadius = 0.6;
 
@@ -141,8 +141,8 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
     }
 
     /// <summary>
-    /// Finds the present closest point of a surface that was touched. The search begins half-way below the contact, where nothing else is as
-    /// close.
+    /// Finds the present closest point of a surface that was touched. The search begins half-way between the centre and the old point,
+    /// where nothing else is as close.
     /// </summary>
     /// <param name="position">Position of the mover, world space.</param>
     /// <param name="contact">Contact with a surface, as it was.</param>

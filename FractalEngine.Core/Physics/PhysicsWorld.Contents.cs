@@ -10,9 +10,7 @@ namespace FractalEngine.Core.Physics;
 /// <content>What the world consists of: adding and changing static objects, bodies and the character.</content>
 public sealed partial class PhysicsWorld
 {
-    /// <summary>
-    /// Adds a fractal that bodies collide with. Equal fractals share one collider, and existing colliders are kept.
-    /// </summary>
+    /// <summary>Adds a fractal that bodies collide with. Equal fractals share one collider, and existing colliders are kept.</summary>
     /// <param name="fractal">May be infinite.</param>
     /// <param name="placement">Placement in world space; null to leave the fractal in its own frame.</param>
     /// <returns>The object, which can be moved.</returns>
@@ -20,9 +18,7 @@ public sealed partial class PhysicsWorld
     /// <remarks>Wakes all bodies. The collider is built at its first query, see <see cref="BuildColliders"/>.</remarks>
     public StaticObject AddStatic(Fractal fractal, Transformation? placement = null) => AddStatic(_statics.ModelOf(fractal), placement);
 
-    /// <summary>
-    /// Adds a mesh that bodies collide with. Equal meshes share one collider, and existing colliders are kept.
-    /// </summary>
+    /// <summary>Adds a mesh that bodies collide with. Equal meshes share one collider, and existing colliders are kept.</summary>
     /// <inheritdoc cref="AddStatic(Fractal, Transformation?)"/>
     /// <param name="mesh">Need not be closed.</param>
     /// <param name="placement">Placement in world space; null to leave the mesh in its own frame.</param>
@@ -107,9 +103,8 @@ public sealed partial class PhysicsWorld
         return Character = new(this, _obstacles, player);
     }
 
-    /// <summary>
-    /// Builds all colliders that bodies and character use, instead of at their first queries. Colliders that exist are kept.
-    /// </summary>
+    /// <summary>Builds all colliders that bodies and character use, instead of at their first queries.</summary>
+    /// <remarks>Colliders that exist are kept.</remarks>
     /// <exception cref="ColliderMismatchException">A collider does not fit an object.</exception>
     /// <exception cref="FractalLimitException">A fractal is too large for its collider.</exception>
     public void BuildColliders()

@@ -1,3 +1,6 @@
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+
 namespace FractalEngine.Core.Physics;
 
 /// <content>How time passes in the world.</content>
@@ -31,6 +34,8 @@ public sealed partial class PhysicsWorld
     /// </summary>
     /// <param name="seconds">Length of the step, positive and finite.</param>
     /// <exception cref="ArgumentOutOfRangeException">The length is NaN, infinite, negative or zero.</exception>
+    /// <exception cref="ColliderMismatchException">A collider that is built now does not fit an object.</exception>
+    /// <exception cref="FractalLimitException">A fractal is too large for a collider that is built now.</exception>
     /// <exception cref="InvalidOperationException">A body has left the range of a double; the message names it.</exception>
     public void Step(double seconds)
     {

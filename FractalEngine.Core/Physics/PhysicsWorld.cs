@@ -101,7 +101,9 @@ public sealed partial class PhysicsWorld
         }
     }
 
-    /// <summary>The character that walks in the world; null for none. Inactive until <see cref="CharacterController.IsActive"/> is set.</summary>
+    /// <summary>
+    /// The character that walks in the world; null for none. It is inactive until <see cref="CharacterController.IsActive"/> is set.
+    /// </summary>
     public CharacterController? Character { get; private set; }
 
     /// <summary>All bodies: those of the scene in its order, then those that were added.</summary>
@@ -121,7 +123,7 @@ public sealed partial class PhysicsWorld
     /// </summary>
     public double InterpolationAlpha => Math.Clamp(_accumulatedTime / Settings.TimeStep, 0, 1);
 
-    /// <summary>True while a body is awake and neither stuck nor at its final size.</summary>
+    /// <summary>True while a body is awake, unless it is stuck and does not shrink.</summary>
     public bool IsMoving => _bodies.Exists(static body => !body.IsAsleep && (!body.IsStuck || body.IsShrinking));
 
     /// <summary>Triangles and bounding volumes that the last step tested, for all bodies and the character together.</summary>
@@ -156,8 +158,8 @@ public sealed partial class PhysicsWorld
     /// added are removed. Static objects that were added stay, at the placement they were added with.
     /// </summary>
     /// <remarks>
-    /// <see cref="Gravity"/>, <see cref="ColliderOverride"/>, the character and all colliders are kept. Removed bodies are no longer of this
-    /// world.
+    /// <see cref="Gravity"/>, <see cref="ColliderOverride"/>, the character and all colliders are kept. Removed bodies no longer belong to
+    /// this world.
     /// </remarks>
     public void Reset()
     {

@@ -4,8 +4,8 @@ namespace FractalEngine.Core.Physics;
 
 /// <summary>
 /// Moves spheres along a path until they touch something, by conservative advancement: as far as the free distance allows, then again
-/// (Mirtich and Canny 1995). An advance goes a little beyond that distance, but never so far that a centre could reach a surface. So nothing
-/// is passed through, however fast the spheres move.
+/// (Mirtich and Canny 1995). An advance goes a little beyond that distance, but never so far that a centre could reach a surface. So
+/// nothing is passed through, however fast the spheres move.
 /// </summary>
 internal sealed class SphereSweep(Obstacles obstacles)
 {

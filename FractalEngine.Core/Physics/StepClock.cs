@@ -16,7 +16,7 @@ internal sealed class StepClock
     /// <summary>Seconds since the beginning: the sum of all steps.</summary>
     public double Time => _runStartTime + (_runStepCount * _runStepLength);
 
-    /// <summary>Counts one step.</summary>
+    /// <summary>Counts one step and adds its length.</summary>
     /// <param name="seconds">Length of the step, positive.</param>
     public void Tick(double seconds)
     {

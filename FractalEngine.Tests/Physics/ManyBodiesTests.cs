@@ -103,8 +103,8 @@ public class ManyBodiesTests
         });
         var awake = world.Bodies.Where(body => !body.IsAsleep).ToArray();
         var example = awake.FirstOrDefault();
-        Assert.True(awake.Length == 0,
-            $"{awake.Length} of {count} are awake, such as {example?.Name} of radius {example?.Radius:R} at {example?.Position}, {example?.Velocity}");
+        var state = $"of radius {example?.Radius:R} at {example?.Position}, {example?.Velocity}";
+        Assert.True(awake.Length == 0, $"{awake.Length} of {count} are awake, such as {example?.Name} {state}");
     }
 
     private static void CheckNoOverlap(PhysicsWorld world)

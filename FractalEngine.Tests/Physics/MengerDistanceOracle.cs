@@ -20,13 +20,11 @@ internal static class MengerDistanceOracle
     public static double Distance(Vector position)
     {
         var queue = new PriorityQueue<(Vector Centre, double Size), double>();
-        for (var (centre, size, bound) = (Vector.Zero, 1.0, 0.0); ;)
+        var centre = Vector.Zero;
+        var size = 1.0;
+        var bound = 0.0;
+        while (size >= 1e-9 && bound <= 1e9 * size)
         {
-            if (size < 1e-9 || bound > 1e9 * size)
-            {
-                return bound;
-            }
-
             foreach (var offset in ChildOffsets)
             {
                 var child = centre + (size * offset);
@@ -37,5 +35,7 @@ internal static class MengerDistanceOracle
             _ = queue.TryDequeue(out var next, out bound);
             (centre, size) = next;
         }
+
+        return bound;
     }
 }

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
@@ -33,4 +34,13 @@ internal static class PhysicsMeshes
 
     /// <summary>Makes one large face at y = 0 that faces upwards.</summary>
     public static Mesh FloorMesh(double size = 100) => FromTriangles(PlaneTriangle(Vector.Zero, Vector.J, size));
+
+    /// <summary>Makes the sponge of side 1 about the origin: 20 of 27 cubes, and so on.</summary>
+    public static Fractal CreateSponge(int? depth) => Fractal.Of(Shapes.Cube()).Repeat(
+        [.. from x in new[] { -1, 0, 1 }
+            from y in new[] { -1, 0, 1 }
+            from z in new[] { -1, 0, 1 }
+            where (x * x) + (y * y) + (z * z) > 1
+            select Transformation.At(new Vector(x, y, z) / 3, 1 / 3.0)],
+        depth);
 }

@@ -1,4 +1,3 @@
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
@@ -62,115 +61,6 @@ public sealed class PhysicsWorldTests
         var body = new PhysicsWorld().AddSphere(Vector.J, 0.5);
         Assert.Equal(new BodyDescription(Vector.J, 0.5), body.Description);
         Assert.Equal((Vector.Zero, 1.0, 0.0), (body.Velocity, body.Description.Mass, body.Description.Restitution));
-    }
-
-    [Fact]
-    public void AddStatic_ByCode_GivesTheSameBitsAsAScene()
-    {
-        var sponge = CreateSponge(2);
-        var tilt = Transformation.Identity with { Rotation = new(10, 20, 30), Position = new(0.1, 0.2, 0) };
-        var world = new PhysicsWorld();
-        world.AddStatic(sponge, tilt);
-        world.AddStatic(Floor, Samples.Move(0, -2, 0));
-        var sceneWorld = TestWorlds.Create(
-            Scene.DefaultGravity, new PhysicsSettings(), TestWorlds.Place(sponge, tilt), TestWorlds.Place(Floor, Samples.Move(0, -2, 0)));
-        foreach (var target in new[] { world, sceneWorld })
-        {
-            target.AddSphere(new(0.1, 1.5, 0.1), 0.1, 0.7);
-            target.AddSphere(new(-0.2, 1.7, 0.2), 0.15, 0.3, friction: 0.2);
-            target.Run(200);
-        }
-
-        Assert.Equal(sceneWorld.StateHash, world.StateHash);
-    }
-
-    [Fact]
-    public void AddStatic_OfAnInfiniteFractal_HoldsASphere()
-    {
-        var world = new PhysicsWorld();
-        var sponge = world.AddStatic(CreateSponge(null));
-        var body = world.AddSphere(new(0.42, 0.8, 0.42), 0.05);
-        world.Run(120);
-        // The infinite sponge reaches from −½ to ½, and its edges are solid.
-        Near.Equal(0.5 + 0.05, body.Position.Y, 1e-6);
-        Assert.Equal((0, Transformation.Identity), (sponge.Index, sponge.Placement));
-        Assert.Null(sponge.ObjectIndex);
-    }
-
-    [Fact]
-    public void AddStatic_BelowAFallingSphere_CatchesIt()
-    {
-        var world = new PhysicsWorld();
-        var body = world.AddSphere(new(0.1, 3, 0.2), 0.5);
-        world.Run(30);
-        Assert.True(body.Position.Y is > 1 and < 2);
-        world.AddStatic(Floor);
-        world.Run(120);
-        Near.Equal(0.5, body.Position.Y, 1e-6);
-        Assert.True(body.IsAsleep);
-    }
-
-    [Fact]
-    public void AddStatic_IntoASleepingSphere_WakesItAndPushesItOut()
-    {
-        var world = new PhysicsWorld();
-        world.AddStatic(Floor);
-        var body = world.AddSphere(new(0, 0.5, 0), 0.5);
-        world.Run(120);
-        Assert.True(body.IsAsleep);
-        var cube = Samples.Move(0.6, 0.5, 0);
-        world.AddStatic(Shapes.Cube(), cube);
-        world.Run(2);
-        // The side of the cube is at x = 0.1.
-        Assert.False(body.IsStuck);
-        Assert.True(body.Position.X <= 0.1 - (0.5 * (1 - 1e-6)), $"at {body.Position}");
-    }
-
-    [Fact]
-    public void AddStatic_OfEqualModels_SharesOneCollider()
-    {
-        var world = new PhysicsWorld();
-        var sponge = CreateSponge(3);
-        var first = world.AddStatic(sponge);
-        world.BuildColliders();
-        Assert.Equal((1, 1), world.ColliderCounts);
-        var second = world.AddStatic(sponge, Samples.Move(3, 0, 0));
-        var third = world.AddStatic(CreateSponge(3), Samples.Move(6, 0, 0));
-        var fourth = world.AddStatic(first.Model, Samples.Move(9, 0, 0));
-        Assert.All(new[] { second, third, fourth }, other => Assert.Same(first.Model, other.Model));
-        Assert.Equal((1, 1), world.ColliderCounts);
-        Assert.True(world.TryFindClosest(new(9, 2, 0), ColliderKind.Exact, out var closest));
-        Near.Equal(1.5, closest.Distance, 1e-12);
-    }
-
-    [Fact]
-    public void AddStatic_AfterColliders_BuildsOnlyTheNewOneLazily()
-    {
-        var world = new PhysicsWorld();
-        world.AddStatic(CreateSponge(3));
-        world.BuildColliders();
-        world.AddStatic(Floor, Samples.Move(0, -5, 0));
-        Assert.Equal((1, 2), world.ColliderCounts);
-        Assert.True(world.TryFindClosest(new(0, 1, 0), ColliderKind.Exact, out _));
-        // The floor is farther away than the sponge, so nothing has asked it.
-        Assert.Equal((1, 2), world.ColliderCounts);
-        Assert.True(world.TryFindClosest(new(0, -4, 0), ColliderKind.Exact, out var closest));
-        Assert.Equal((2, 2), world.ColliderCounts);
-        Near.Equal(1, closest.Distance, 1e-12);
-    }
-
-    [Fact]
-    public void AddStatic_AtAPlacementThatIsNone_IsRefusedAndAddsNothing()
-    {
-        var world = new PhysicsWorld();
-        Transformation[] wrong =
-        [
-            Samples.Move(double.NaN, 0, 0), Samples.Move(0, double.PositiveInfinity, 0),
-            Transformation.Identity with { Rotation = new(0, double.NaN, 0) },
-            Transformation.Identity with { Scale = new(1, 0, 1) }, Transformation.Identity with { Scale = new(1, 1, double.NaN) },
-        ];
-        Assert.All(wrong, placement => Assert.Throws<ArgumentException>(() => world.AddStatic(Floor, placement)));
-        Assert.Empty(world.StaticObjects);
     }
 
     [Fact]
@@ -291,26 +181,17 @@ public sealed class PhysicsWorldTests
         {
             Objects = [new SceneObject(Floor), new PhysicsObject(new MeshModel(Shapes.Cube())) { Placement = Samples.Move(0, 9, 0) }],
         });
-        var sponge = CreateSponge(2);
+        var sponge = PhysicsMeshes.CreateSponge(2);
         world.AddStatic(sponge).MoveTo(Samples.Move(1, 2, 3));
         world.AddSphere(Vector.J, 0.1);
         world.Gravity = new(0, -2, 0);
         world.Step(1);
         var scene = world.GetCurrentScene();
         Assert.Equal(3, scene.Objects.Length);
-        Assert.Equal([.. scene.Objects.Select(placed => placed.Declaration)], scene.Scene.Objects);
+        Assert.Equal(scene.Objects.Select(placed => placed.Declaration), scene.Scene.Objects.AsEnumerable());
         Assert.Equal(new Vector(0, 8, 0), scene.Objects[1].Declaration.Placement.Position);
         Assert.Equal((new Vector(1, 2, 3), sponge),
             (scene.Objects[2].Declaration.Placement.Position, Assert.IsType<FractalModel>(scene.Objects[2].Model).Fractal));
         Assert.Equal(world.Gravity, scene.Scene.Gravity);
     }
-
-    /// <summary>The sponge of side 1 about the origin: 20 of 27 cubes, and so on.</summary>
-    private static Fractal CreateSponge(int? depth) => Fractal.Of(Shapes.Cube()).Repeat(
-        [.. from x in new[] { -1, 0, 1 }
-            from y in new[] { -1, 0, 1 }
-            from z in new[] { -1, 0, 1 }
-            where (x * x) + (y * y) + (z * z) > 1
-            select Transformation.At(new Vector(x, y, z) / 3, 1 / 3.0)],
-        depth);
 }

@@ -93,8 +93,9 @@ internal sealed class ShotTarget
             var gap = distance(body.Position);
             if (!(gap >= radius * (1 - ShotTests.MaxOverlap)) || isInside?.Invoke(body.Position) == true || body.IsStuck)
             {
-                throw new XunitException(
-                    $"{body.Description}, step {world.Settings.TimeStep:R}, gravity {world.Gravity}, after {world.StepCount}: at {body.Position}, {gap:R} from the surface, inside: {isInside?.Invoke(body.Position)}, stuck: {body.IsStuck}");
+                var settings = $"step {world.Settings.TimeStep:R}, gravity {world.Gravity}, after {world.StepCount}";
+                var state = $"{gap:R} from the surface, inside: {isInside?.Invoke(body.Position)}, stuck: {body.IsStuck}";
+                throw new XunitException($"{body.Description}, {settings}: at {body.Position}, {state}");
             }
         }
 

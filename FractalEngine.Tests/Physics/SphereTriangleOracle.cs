@@ -3,7 +3,9 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Tests.Physics;
 
-/// <summary>Distances and impacts of spheres on triangles by plain geometry, face by face. It shares nothing with the engine's colliders.</summary>
+/// <summary>
+/// Distances and impacts of spheres on triangles by plain geometry, face by face. It shares nothing with the engine's colliders.
+/// </summary>
 internal sealed class SphereTriangleOracle((Vector A, Vector B, Vector C)[] faces)
 {
     public SphereTriangleOracle(Mesh mesh) : this(PhysicsMeshes.TrianglesOf(mesh))

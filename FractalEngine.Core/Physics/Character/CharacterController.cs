@@ -104,7 +104,7 @@ public sealed class CharacterController
     /// <summary>Discards what is known of surfaces, and lets the next step check for overlaps.</summary>
     internal void InvalidateSurroundings() => _capsule.InvalidateSurroundings();
 
-    /// <summary>Makes one step.</summary>
+    /// <summary>Moves the character through one step.</summary>
     /// <param name="stepLength">Seconds, positive.</param>
     internal void Step(double stepLength)
     {
