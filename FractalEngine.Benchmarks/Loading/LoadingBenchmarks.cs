@@ -16,7 +16,7 @@ public class LoadingBenchmarks : IExtraMetrics
     private SourceText _fractal = null!;
     private Fractal _sponge = null!;
 
-    /// <summary>About the faces of the paper's first model.</summary>
+    /// <summary>Number of faces of the mesh, about that of the paper's first model.</summary>
     [Params(280_000)]
     public int Faces { get; set; }
 
@@ -31,7 +31,7 @@ public class LoadingBenchmarks : IExtraMetrics
         _sponge = FractalCase.Load("menger-4").Fractal;
     }
 
-    /// <summary>The baseline: only splitting the same text into lines and words, which any parser has to do.</summary>
+    /// <summary>Runs the baseline: splits the same text into lines and words, as any parser has to.</summary>
     [Benchmark(Baseline = true)]
     public int SplitWords() => LoadingTable.CountWords(_mesh.Text);
 
