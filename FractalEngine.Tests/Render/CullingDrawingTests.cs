@@ -209,7 +209,8 @@ public sealed class CullingDrawingTests
         }
 
         // Visible instances do not depend on colours and shading, nor on the identity of settings.
-        RenderSettings[] equivalent = [Culled, Culled with { Shading = Shading.PerPixel }, new() { Samples = 0, Background = Colour.White }];
+        RenderSettings[] equivalent =
+            [Culled, Culled with { Shading = Shading.PerPixel }, new() { Samples = 0, Background = Colour.White }];
         foreach (var settings in equivalent)
         {
             frame.Draw(renderer, view with { }, Width, Height, settings);

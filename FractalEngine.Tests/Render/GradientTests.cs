@@ -167,7 +167,8 @@ public sealed class GradientTests
         var found = new Colour(pixel.Red / 255.0, pixel.Green / 255.0, pixel.Blue / 255.0).ToLinear();
         var (red1, green1, blue1) = firstColour.ToLinear();
         var (red2, green2, blue2) = SecondColour.ToLinear();
-        var mixture = new Vector(red1 + (factor * (red2 - red1)), green1 + (factor * (green2 - green1)), blue1 + (factor * (blue2 - blue1)));
+        var mixture = new Vector(
+            red1 + (factor * (red2 - red1)), green1 + (factor * (green2 - green1)), blue1 + (factor * (blue2 - blue1)));
         var difference = (mixture - new Vector(found.Red, found.Green, found.Blue)).MaxAbsComponent();
         Assert.True(difference < Tolerance, Invariant($"{description}: {found}, expected {mixture}"));
     }

@@ -115,8 +115,9 @@ public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
         {
             var scene = RenderScenes.Scene(new Scene { Background = Colour.Black, Lights = [RenderScenes.FullLight] }, squares);
             using var renderer = new SceneRenderer(_context, DrawableScene.Prepare(scene, Settings));
-            _frame.Draw(renderer, new(new(Vector.Zero, Vector.Zero, 60), Projection.Perspective) { FixedClipPlanes = (Near, range * Near) }, Size,
-                Size, Settings);
+            var camera = new Camera(Vector.Zero, Vector.Zero, 60);
+            var view = new View(camera, Projection.Perspective) { FixedClipPlanes = (Near, range * Near) };
+            _frame.Draw(renderer, view, Size, Size, Settings);
             _context.Resources.ThrowOnError("drawing");
             return RenderScenes.CountDifferent(_frame.Capture(), (255, 0, 0, 255));
         }
