@@ -221,13 +221,16 @@ public sealed class CommandLineTests : IDisposable
         Assert.Matches(@"^\S+:1:1: error: [^\n]+\n$", error);
     }
 
-    [Fact]
+    [SkippableFact]
     public void Render_WithoutDisplay_ExitsWith4AndWritesNothing()
     {
+        Skip.IfNot(OperatingSystem.IsLinux(), "only X11 and Wayland find their display by variables of the environment");
         var noDisplay = new Dictionary<string, string?> { ["DISPLAY"] = null, ["WAYLAND_DISPLAY"] = null };
         var (exitCode, output, error) = AppProcess.Run(_folder.Path, noDisplay, "render", "cube.obj", "--output", "a.png");
         Assert.Equal((4, ""), (exitCode, output));
-        Assert.Matches("^error: [^\n]+\n$", error);
+        // The system's own libraries may write lines of theirs.
+        Assert.Matches("(?m)^error: [^\n]+$", error);
+        Assert.DoesNotContain("   at ", error, StringComparison.Ordinal);
         Assert.False(File.Exists(_folder["a.png"]));
     }
 

@@ -139,7 +139,8 @@ public sealed class SceneWindowTests : IDisposable
         using var window = Open("bad.sdo");
         Thread.Sleep(TimeSpan.FromSeconds(1));
         Assert.Equal(1, window.CloseWith("key Escape"));
-        Assert.StartsWith("bad.sdo:1:", window.Error, StringComparison.Ordinal);
+        // The system's own libraries may write lines of theirs.
+        Assert.Matches(@"(?m)^bad\.sdo:1:", window.Error);
     }
 
     private DrivenWindow Open(string file)

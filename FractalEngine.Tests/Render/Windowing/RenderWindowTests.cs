@@ -2,21 +2,31 @@ using System.Diagnostics;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
 
-namespace FractalEngine.Tests.Render;
+namespace FractalEngine.Tests.Render.Windowing;
 
 [Collection(GlTests.Name)]
 public sealed class RenderWindowTests
 {
+    private const double Timeout = 1;
+    private const double MaxWork = 0.5 * Timeout;
+
     [SkippableFact]
     public void WaitEvents_NothingHappens_SleepsUntilTheTimeoutWithoutWork()
     {
         using var window = Open();
         Drain(window);
-        var (clock, before) = (Stopwatch.StartNew(), Process.GetCurrentProcess().TotalProcessorTime);
-        Assert.Empty(window.WaitEvents(TimeSpan.FromSeconds(1.5)));
-        Assert.InRange(clock.Elapsed.TotalSeconds, 1.4, 10);
-        // A loop that polls would take all of the time; the compiler and the test host work beside us now and then.
-        Assert.InRange((Process.GetCurrentProcess().TotalProcessorTime - before).TotalSeconds, 0, 0.8);
+        // A loop that polls takes processor time in each attempt. The compiler and the test host, which share the process, do not.
+        var leastWork = double.PositiveInfinity;
+        for (var attempt = 0; attempt < 3 && leastWork > MaxWork; attempt++)
+        {
+            var clock = Stopwatch.StartNew();
+            var before = Process.GetCurrentProcess().TotalProcessorTime;
+            Assert.Empty(window.WaitEvents(TimeSpan.FromSeconds(Timeout)));
+            Assert.InRange(clock.Elapsed.TotalSeconds, 0.9 * Timeout, 10);
+            leastWork = Math.Min(leastWork, (Process.GetCurrentProcess().TotalProcessorTime - before).TotalSeconds);
+        }
+
+        Assert.InRange(leastWork, 0, MaxWork);
     }
 
     [SkippableFact]
@@ -38,7 +48,7 @@ public sealed class RenderWindowTests
     }
 
     [SkippableFact]
-    public void Present_Frame_IsShownAndKept()
+    public void Present_Frame_KeepsIt()
     {
         using var window = Open();
         using var frame = new FrameRenderer(window);
@@ -71,7 +81,7 @@ public sealed class RenderWindowTests
         }
     }
 
-    /// <summary>Lets the events of opening pass: shown, exposed, the pointer within.</summary>
+    /// <summary>Drops the events of opening: shown, exposed, the pointer inside.</summary>
     private static void Drain(RenderWindow window)
     {
         while (window.WaitEvents(TimeSpan.FromSeconds(0.2)).Count > 0)

@@ -3,7 +3,7 @@ using FractalEngine.Core.Images;
 using FractalEngine.Render;
 using FractalEngine.Render.Ui;
 
-namespace FractalEngine.Tests.Render;
+namespace FractalEngine.Tests.Render.Ui;
 
 [Collection(GlTests.Name)]
 public sealed class OverlayTests
@@ -11,11 +11,11 @@ public sealed class OverlayTests
     private static readonly GlyphAtlas Atlas = GlyphAtlas.Load();
 
     [Fact]
-    public void Atlas_EveryCharacterPromised_HasAGlyphOfItsOwn()
+    public void Atlas_EverySupportedCharacter_HasAGlyphOfItsOwn()
     {
-        const string Promised = "ABCXYZabcxyz0123456789!\"#$%&'()*+,-./:;<=>?@[\\]^_`{|}~äöüßéñÅ·×°µ≤…–→²³⁵⁸";
+        const string Supported = "ABCXYZabcxyz0123456789!\"#$%&'()*+,-./:;<=>?@[\\]^_`{|}~äöüßéñÅ·×°µ≤…–→²³⁵⁸";
         var question = Atlas.GlyphOf('?');
-        Assert.All(Promised.Where(character => character != '?'), character => Assert.NotEqual(question, Atlas.GlyphOf(character)));
+        Assert.All(Supported.Where(character => character != '?'), character => Assert.NotEqual(question, Atlas.GlyphOf(character)));
         Assert.Equal(question, Atlas.GlyphOf('語'));
     }
 
@@ -37,14 +37,15 @@ public sealed class OverlayTests
     }
 
     [SkippableFact]
-    public void Text_OneLetter_IsDrawnTexelForPixel()
+    public void Text_OneLetter_IsDrawnOneTexelAPixel()
     {
         var sheet = Atlas.Sheets.Single(item => item.CellHeight == 19);
         foreach (var character in "AB")
         {
-            // Panel at (margin, margin), text after the padding; see OverlayLayout.
+            // The panel is at (margin, margin), the text after its padding (OverlayLayout).
             var image = Draw(1280, 720, OverlayPanel.OfText(OverlayAnchor.TopLeft, character.ToString()));
-            var (left, top) = ((sheet.CellHeight / 2) + sheet.CellWidth, (sheet.CellHeight / 2) + (sheet.CellWidth * 3 / 4));
+            var left = (sheet.CellHeight / 2) + sheet.CellWidth;
+            var top = (sheet.CellHeight / 2) + (sheet.CellWidth * 3 / 4);
             var cell = sheet.CellWidth * sheet.CellHeight;
             for (var i = 0; i < cell; i++)
             {
@@ -62,13 +63,13 @@ public sealed class OverlayTests
     [InlineData(OverlayAnchor.TopRight, 1, 0)]
     [InlineData(OverlayAnchor.BottomLeft, 0, 1)]
     [InlineData(OverlayAnchor.BottomRight, 1, 1)]
-    public void Panel_AtACorner_StaysInItsQuarter(OverlayAnchor anchor, int right, int below)
+    public void Panel_AtACorner_StaysInItsQuarter(OverlayAnchor anchor, int column, int row)
     {
         var image = Draw(1280, 720, OverlayPanel.OfText(anchor, "one line", "and another"));
         for (var quarter = 0; quarter < 4; quarter++)
         {
             var lit = CountLitPixels(image, 640 * (quarter & 1), 360 * (quarter >> 1), 640, 360);
-            Assert.Equal(quarter == right + (2 * below), lit > 100);
+            Assert.Equal(quarter == column + (2 * row), lit > 100);
         }
     }
 
@@ -77,17 +78,17 @@ public sealed class OverlayTests
     [InlineData(0.25)]
     [InlineData(0.8)]
     [InlineData(1.0)]
-    public void Progress_Fraction_FillsThatPartOfTheBar(double fraction)
+    public void Progress_Fraction_FillsThatFractionOfTheBar(double fraction)
     {
         var image = Draw(1280, 720, new OverlayPanel(OverlayAnchor.Centre, []) { Progress = fraction });
         var row = Enumerable.Range(300, 120).MaxBy(y => CountLitPixels(image, 0, y, 1280, 1));
         var filled = Enumerable.Range(0, 1280).Count(x => image[x, row].Blue > 150);
-        // 32 cells of 10 pixels; the round ends take a few.
+        // The bar has 32 cells of 10 pixels, less a few at its round ends.
         Assert.InRange(filled, (320 * fraction) - 6, (320 * fraction) + 6);
     }
 
     [SkippableFact]
-    public void Text_LargerFrame_IsLarger()
+    public void Text_InALargerFrame_IsLarger()
     {
         var small = Draw(1280, 720, OverlayPanel.OfText(OverlayAnchor.TopLeft, "size"));
         var large = Draw(2560, 1440, OverlayPanel.OfText(OverlayAnchor.TopLeft, "size"));
@@ -98,12 +99,12 @@ public sealed class OverlayTests
     public void Text_LongLine_IsWrappedIntoTheFrame()
     {
         var image = Draw(400, 300, OverlayPanel.OfText(OverlayAnchor.TopLeft, string.Concat(Enumerable.Repeat("word ", 60)) + "end"));
-        // Nothing reaches the last columns, and several lines are lit.
+        // Nothing reaches the last columns, and there are several lines of text.
         Assert.Equal(0, CountLitPixels(image, 395, 0, 5, 300));
         Assert.True(CountLitPixels(image, 0, 60, 400, 20) > 20);
     }
 
-    [SkippableFact]
+    [Fact]
     public void Table_TwoColumns_AlignsTheSecond()
     {
         var panels = new[] { OverlayPanel.OfTable(OverlayAnchor.TopLeft, "Keys", [("W", "||"), ("LONGER", "||")]) };
@@ -113,7 +114,7 @@ public sealed class OverlayTests
     }
 
     [Fact]
-    public void Panel_SameContents_IsEqual()
+    public void Panel_WithTheSameContents_IsEqual()
     {
         Assert.Equal(OverlayPanel.OfText(OverlayAnchor.TopLeft, "a"), OverlayPanel.OfText(OverlayAnchor.TopLeft, "a"));
         Assert.NotEqual(OverlayPanel.OfText(OverlayAnchor.TopLeft, "a"), OverlayPanel.OfText(OverlayAnchor.TopLeft, "b"));
@@ -127,7 +128,7 @@ public sealed class OverlayTests
         return frame.Capture(panels.ToArray());
     }
 
-    /// <summary>How many pixels of a part are brighter than a panel.</summary>
+    /// <summary>Counts the pixels of a rectangle that are brighter than a panel.</summary>
     private static int CountLitPixels(PixelImage image, int x, int y, int width, int height) =>
         Enumerable.Range(y, height).Sum(row => Enumerable.Range(x, width).Count(column => image[column, row].Green > 100));
 }

@@ -2,7 +2,7 @@ using FractalEngine.Core.Images;
 using FractalEngine.Render.Images;
 using FractalEngine.Tests.Images;
 
-namespace FractalEngine.Tests.Render;
+namespace FractalEngine.Tests.Render.Images;
 
 [Collection(SdlComparisonTests.Name)]
 public sealed class ImageFileTests : IDisposable
@@ -39,7 +39,7 @@ public sealed class ImageFileTests : IDisposable
         var path = Path.Combine(_directory.FullName, "missing", "x.png");
         var error = Assert.Throws<IOException>(() => ImageFile.SavePng(new(1, 1, new byte[4]), path));
         Assert.StartsWith($"{path} can't be written: ", error.Message, StringComparison.Ordinal);
-        // Nor does it name the neighbour that is written first.
+        // The temporary file, which is written first, is not mentioned.
         Assert.DoesNotContain(".tmp", error.Message, StringComparison.Ordinal);
     }
 
@@ -47,9 +47,10 @@ public sealed class ImageFileTests : IDisposable
     public void Load_NoImage_IsAnErrorThatNamesTheFile()
     {
         var path = Path.Combine(_directory.FullName, "text.png");
-        File.WriteAllText(path, "no picture");
+        File.WriteAllText(path, "no image");
         Assert.StartsWith($"{path} can't be read: ", ErrorOf(path), StringComparison.Ordinal);
     }
+
     [Fact]
     public void Load_OfAPngByAnotherName_KnowsItByItsFirstBytes()
     {

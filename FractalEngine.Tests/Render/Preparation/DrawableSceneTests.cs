@@ -8,17 +8,17 @@ using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Render;
+namespace FractalEngine.Tests.Render.Preparation;
 
 public sealed class DrawableSceneTests
 {
     [Fact]
-    public void Prepare_FractalBeyondTheBudget_IsDrawnLessDeepAndSaysSo()
+    public void Prepare_FractalBeyondTheBudget_IsDrawnLessDeepWithANotice()
     {
         var scene = Prepare(new() { Culling = null, InstanceBudget = 10_000 }, RenderScenes.Menger(6));
         Assert.Equal(8000, scene.Models[0].InstanceCount);
-        Assert.Equal("menger.fdo: 64,000,000 instances are more than the budget of 10,000: drawn at depth 3 of 6",
-            Assert.Single(scene.Notices));
+        const string Notice = "menger.fdo: 64,000,000 instances are more than the budget of 10,000: drawn at depth 3 of 6";
+        Assert.Equal(Notice, Assert.Single(scene.Notices));
     }
 
     [Theory]
@@ -39,7 +39,7 @@ public sealed class DrawableSceneTests
     [Fact]
     public void Prepare_ComponentwiseFractal_CountsDistinctSumsNotChains()
     {
-        // 20^4 chains are beyond the budget, their distinct sums are not.
+        // The 20^4 chains exceed the budget, their distinct sums do not.
         var scene = Prepare(new() { Culling = null, InstanceBudget = 5000 }, RenderScenes.Menger(4, Composition.Componentwise));
         Assert.Empty(scene.Notices);
         Assert.InRange(scene.Models[0].InstanceCount, 100, 5000);
@@ -66,7 +66,7 @@ public sealed class DrawableSceneTests
     }
 
     [Fact]
-    public void Prepare_UnusedVertices_AreLeftOut()
+    public void Prepare_UnusedVertices_AreOmitted()
     {
         var mesh = new Mesh([9, 9, 9, 0, 0, 0, 1, 0, 0, 0, 1, 0, 8, 8, 8], [1, 2, 3]);
         Assert.Equal(3, Prepare(new(), RenderScenes.Model(mesh)).Models[0].Vertices.Length / DrawableModel.FloatsPerVertex);
@@ -77,9 +77,9 @@ public sealed class DrawableSceneTests
     {
         var mesh = RenderScenes.Square(1).WithNormals([0, 0.6, -0.8, 0, 0, 5, 0, 0, 0], [0, 0, 0, 1, 1, 2]);
         var model = Prepare(new(), RenderScenes.Model(mesh)).Models[0];
-        var normals = model.Vertices.ToArray().Chunk(DrawableModel.FloatsPerVertex).Select(vertex => (vertex[3], vertex[4], vertex[5]))
-            .Distinct();
-        // As given; opposing the winding, so turned round; of no direction at all.
+        var normals = model.Vertices.ToArray().Chunk(DrawableModel.FloatsPerVertex)
+            .Select(vertex => (vertex[3], vertex[4], vertex[5])).Distinct();
+        // As given; negated, since it opposes the winding; without a direction.
         Assert.Equal([(0f, 0.6f, -0.8f), (0f, 0f, -1f), (0f, 0f, 0f)], normals);
     }
 
@@ -87,8 +87,8 @@ public sealed class DrawableSceneTests
     public void Prepare_ModelFarFromItsOrigin_KeepsItsShape()
     {
         var far = RenderScenes.Cube(1).Transform(vertex => vertex + new Vector(1e9, 0, 0));
-        var (near, moved) = (Prepare(new(), RenderScenes.Model(RenderScenes.Cube(1))).Models[0],
-            Prepare(new(), RenderScenes.Model(far)).Models[0]);
+        var near = Prepare(new(), RenderScenes.Model(RenderScenes.Cube(1))).Models[0];
+        var moved = Prepare(new(), RenderScenes.Model(far)).Models[0];
         Assert.Equal(near.Vertices.ToArray(), moved.Vertices.ToArray());
         Assert.Equal(new(1e9, 0, 0), moved.Origin);
     }
@@ -120,9 +120,11 @@ public sealed class DrawableSceneTests
     public void Prepare_SolidOfGlass_KeepsItsInnerSides(double opacity, int sign)
     {
         var menger = RenderScenes.Menger(2);
-        var glass = new FractalModel(new Fractal(menger.Fractal.Description, TexturedScenes.WithMaterial(menger.Mesh, new("m")).Mesh))
-        { SourcePath = "glass.fdo",
-            Materials = TexturedScenes.WithMaterial(menger.Mesh, new("m") { Opacity = opacity }).Materials,
+        var cube = TexturedScenes.WithMaterial(menger.Mesh, new("m") { Opacity = opacity });
+        var glass = new FractalModel(new Fractal(menger.Fractal.Description, cube.Mesh))
+        {
+            SourcePath = "glass.fdo",
+            Materials = cube.Materials,
         };
         Assert.Equal(sign, Prepare(new(), glass).Models[0].WindingSign);
     }
@@ -140,13 +142,14 @@ public sealed class DrawableSceneTests
             }
             catch (SourceException)
             {
-                // Wrong on purpose; other tests look at what is said of such files.
+                // Wrong on purpose; other tests check the errors of such files.
                 continue;
             }
 
             var scene = DrawableScene.Prepare(loaded, new());
             Assert.Empty(scene.Notices);
-            var (next, model) = (0, scene.Models[0]);
+            var next = 0;
+            var model = scene.Models[0];
             foreach (var batch in model.Batches)
             {
                 Assert.Equal((file, next), (file, batch.FirstIndex));

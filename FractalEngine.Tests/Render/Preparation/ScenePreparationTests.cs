@@ -2,14 +2,13 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
-using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Render;
+namespace FractalEngine.Tests.Render.Preparation;
 
 [Collection(GlTests.Name)]
 public sealed class ScenePreparationTests
 {
-    // The camera is at (0, 0, −5) and looks along z: the first is before it, the second behind, and shown twice.
+    // The camera is at (0, 0, −5) and looks along z. The first model is before it, the second behind, with two objects.
     private static readonly Model VisibleModel = RenderScenes.Model(RenderScenes.Sphere(8), "before.obj");
     private static readonly Model HiddenModel = RenderScenes.Model(RenderScenes.Sphere(6), "behind.obj");
     private static readonly LoadedScene Scene = RenderScenes.Scene(
@@ -19,7 +18,7 @@ public sealed class ScenePreparationTests
     private static readonly View ViewBackwards = new(Camera.Default with { Rotation = new(0, Math.PI, 0) }, Projection.Perspective);
 
     [Fact]
-    public void PrepareVisible_OfWhatIsBehindTheCamera_LeavesAPlaceholder()
+    public void PrepareVisible_ModelBehindTheCamera_StaysAPlaceholder()
     {
         var preparation = new ScenePreparation(Scene, new());
         Assert.True(preparation.HasUnpreparedVisibleModels(RenderScenes.FrontView, 1.5));
@@ -46,7 +45,7 @@ public sealed class ScenePreparationTests
     }
 
     [SkippableFact]
-    public void Update_WithWhatBecameVisible_DrawsAsIfPreparedAtOnce()
+    public void Update_WithAModelThatBecameVisible_DrawsAsIfPreparedAtOnce()
     {
         using var context = GlTests.OpenContext();
         using var frame = new FrameRenderer(context);
@@ -66,28 +65,9 @@ public sealed class ScenePreparationTests
         frame.Draw(atOnce, ViewBackwards, 150, 100, new());
         Assert.Equal(frame.Capture().Pixels, late.Pixels);
         Assert.NotEqual(late.Pixels, box.Pixels);
-        // The box is about the ball, so it covers more.
+        // The box encloses the sphere, so that it covers more.
         var background = late[0, 0];
         Assert.True(RenderScenes.CountDifferent(box, background) > RenderScenes.CountDifferent(late, background));
         context.Resources.ThrowOnError("drawing");
     }
-
-    [Theory]
-    [InlineData(Projection.Perspective)]
-    [InlineData(Projection.Orthographic)]
-    public void MayIntersectFrustum_OfBoxesThatReachIntoTheFrame_IsTrue(Projection projection) => Seeded.Run(300, random =>
-    {
-        var view = new View(new(random.Vector(3), random.Vector(3), 20 + (100 * random.NextDouble())), projection) { OrthographicHeight = 1
-            + (5 * random.NextDouble()) };
-        var (corner1, corner2) = (random.Vector(8), random.Vector(8));
-        var box = Core.Geometry.BoundingBox.Empty.Including(corner1).Including(corner2);
-        for (var i = 0; i < 20; i++)
-        {
-            var point = box.Minimum + box.Size.Stretch(new(random.NextDouble(), random.NextDouble(), random.NextDouble()));
-            if (view.Project(point, 300, 200) is var (x, y, depth) && depth > 0 && x is > 0 and < 300 && y is > 0 and < 200)
-            {
-                Assert.True(view.MayIntersectFrustum(box, 1.5), $"{point} of {box}");
-            }
-        }
-    });
 }

@@ -4,12 +4,12 @@ using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 
-namespace FractalEngine.Tests.Render;
+namespace FractalEngine.Tests.Render.Preparation;
 
 [Collection(GlTests.Name)]
 public sealed class DegenerateTriangleTests
 {
-    // A square, a face on a line, one with two equal corners, a point, and the square's other half.
+    // A triangle of a square, one of collinear corners, one with two equal corners, a point, and the other half of the square.
     private static readonly Mesh Square = new(
         [-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0, 0, 0, 0],
         [0, 2, 1, 0, 4, 3, 1, 1, 2, 3, 3, 3, 1, 2, 3]);
@@ -27,18 +27,19 @@ public sealed class DegenerateTriangleTests
         Assert.True(DegenerateTriangle.Test(a, a, b));
         Assert.True(DegenerateTriangle.Test(a, b, a + (2 * (b - a))));
         Assert.False(DegenerateTriangle.Test(a, b, size * new Vector(0.3, 0.4, 0.5)));
-        // A needle whose point is a millionth of a millionth of its length wide.
+        // A needle whose width is a millionth of a millionth of its length.
         Assert.False(DegenerateTriangle.Test(Vector.Zero, size * Vector.I, size * new Vector(1, 1e-12, 0)));
     }
 
     [Fact]
-    public void Test_OfPointsOnALine_IsTrueUnlessRoundingMovedThem()
+    public void Test_OfExactlyCollinearPoints_IsTrue()
     {
         var random = new Random(7);
         for (var i = 0; i < 1000; i++)
         {
-            // Eighths are exact, so the points are on the line.
-            var (start, step) = (RandomEighths(random), RandomEighths(random));
+            // Eighths are exact, so that the points lie on the line without rounding.
+            var start = RandomEighths(random);
+            var step = RandomEighths(random);
             Assert.True(DegenerateTriangle.Test(start, start + (random.Next(-9, 9) * step), start + (random.Next(-9, 9) * step)));
         }
     }
@@ -65,11 +66,14 @@ public sealed class DegenerateTriangleTests
     {
         var mesh = Square.WithGroups([new(0, 1, "", "", "red", 0), new(1, 3, "", "", "none", 0), new(4, 1, "", "", "red", 0)], ["a.mtl"]);
         var materials = ((string[])["red", "none"]).Select(name => new Material(name)).ToArray();
-        var model =
-            Prepare(new MeshModel(mesh) { SourcePath = "mesh.obj",
-            Materials = [.. materials.Select(material => KeyValuePair.Create(material.Name, material))] }, new());
-        Assert.Equal((0, 6, "red"),
-            (model.Batches.Single().FirstIndex, model.Batches.Single().IndexCount, model.Batches.Single().Material!.Material.Name));
+        var meshModel = new MeshModel(mesh)
+        {
+            SourcePath = "mesh.obj",
+            Materials = [.. materials.Select(material => KeyValuePair.Create(material.Name, material))],
+        };
+        var model = Prepare(meshModel, new());
+        var batch = model.Batches.Single();
+        Assert.Equal((0, 6, "red"), (batch.FirstIndex, batch.IndexCount, batch.Material!.Material.Name));
         Assert.Equal(3, model.DegenerateTriangleCount);
     }
 
@@ -77,15 +81,20 @@ public sealed class DegenerateTriangleTests
     public void Draw_MeshOfDegenerateTrianglesOnly_DrawsTheBackground()
     {
         var mesh = new Mesh([0, 0, 0, 1, 0, 0, 2, 0, 0], [0, 1, 2, 0, 0, 1]);
-        foreach (var model in (Model[])[RenderScenes.Model(mesh), TexturedScenes.WithMaterial(mesh, new("m")),
-            new FractalModel(new(RenderScenes.Menger(2).Fractal.Description, mesh)) { SourcePath = "a.fdo" }])
+        Model[] models =
+        [
+            RenderScenes.Model(mesh),
+            TexturedScenes.WithMaterial(mesh, new("m")),
+            new FractalModel(new(RenderScenes.Menger(2).Fractal.Description, mesh)) { SourcePath = "a.fdo" },
+        ];
+        foreach (var model in models)
         {
             Assert.Equal(2, Prepare(model, new()).DegenerateTriangleCount);
             foreach (var settings in (RenderSettings[])[new(), new() { Wireframe = true }, new() { Culling = null }])
             {
                 var scene = RenderScenes.Scene(new Scene { Background = Colour.Black }, (model, Transformation.Identity, Colour.White));
-                Assert.Equal(0,
-                    RenderScenes.CountDifferent(RenderScenes.Draw(scene, RenderScenes.FrontView, settings: settings), (0, 0, 0, 255)));
+                var image = RenderScenes.Draw(scene, RenderScenes.FrontView, settings: settings);
+                Assert.Equal(0, RenderScenes.CountDifferent(image, (0, 0, 0, 255)));
             }
         }
     }

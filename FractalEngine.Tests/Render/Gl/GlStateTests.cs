@@ -6,40 +6,17 @@ using FractalEngine.Render.Gl;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Ui;
 
-namespace FractalEngine.Tests.Render;
+namespace FractalEngine.Tests.Render.Gl;
 
 [Collection(GlTests.Name)]
 public sealed class GlStateTests
 {
-    [Fact]
-    public void RedundancyFilter_OfTheSameValue_SkipsItAndCounts()
-    {
-        var filter = new RedundancyFilter();
-        var last = 0;
-        Assert.Equal([false, true, false, true], ((int[])[0, 1, 1, 0]).Select(now => filter.Update(ref last, now)));
-        Assert.Equal(new(2, 2), filter.Counts);
-        Assert.False(filter.ShouldPerform(true, 3));
-        Assert.True(filter.ShouldPerform(false, 3));
-        Assert.Equal(new(5, 5), filter.Counts);
-    }
-
-    [Fact]
-    public void RedundancyFilter_Disabled_PerformsEverythingAndTracksTheState()
-    {
-        var filter = new RedundancyFilter { IsEnabled = false };
-        var last = 0;
-        Assert.Equal([true, true, true], ((int[])[0, 1, 1]).Select(now => filter.Update(ref last, now)));
-        filter.IsEnabled = true;
-        Assert.False(filter.Update(ref last, 1));
-        Assert.Equal(new(3, 1), filter.Counts);
-    }
-
     [SkippableFact]
     public void Binding_OfADeletedObject_IsForgotten()
     {
         using var context = GlTests.OpenContext();
         var state = context.Resources.State;
-        // Names of deleted objects come again.
+        // GL gives the names of deleted objects to new ones.
         for (var i = 0; i < 5; i++)
         {
             var before = state.Filter.Counts;
@@ -68,12 +45,17 @@ public sealed class GlStateTests
         var checks = textures.CreateTexture("a.png", 2, 2, (x, y) => ((byte)(255 * x), (byte)(255 * y), 90, 255));
         LoadedScene[] scenes =
         [
-            RenderScenes.Scene(new Scene(), (RenderScenes.Menger(2), Transformation.Identity, null),
-            (glass, RenderScenes.TranslatedTo(1, 1, -1), null)),
-            RenderScenes.Scene(new Scene(), (TexturedScenes.CreateSquare(1, new("m") { Texture = checks }), Transformation.Identity, null),
-            (RenderScenes.Model(RenderScenes.Sphere(9)), RenderScenes.TranslatedTo(-1, 0, 1), null)),
-            RenderScenes.Scene(new Scene { Lights = [RenderScenes.FullLight] },
-            (RenderScenes.Model(RenderScenes.Cube(0.7)), Transformation.Identity, Colour.White)),
+            RenderScenes.Scene(
+                new Scene(),
+                (RenderScenes.Menger(2), Transformation.Identity, null),
+                (glass, RenderScenes.TranslatedTo(1, 1, -1), null)),
+            RenderScenes.Scene(
+                new Scene(),
+                (TexturedScenes.CreateSquare(1, new("m") { Texture = checks }), Transformation.Identity, null),
+                (RenderScenes.Model(RenderScenes.Sphere(9)), RenderScenes.TranslatedTo(-1, 0, 1), null)),
+            RenderScenes.Scene(
+                new Scene { Lights = [RenderScenes.FullLight] },
+                (RenderScenes.Model(RenderScenes.Cube(0.7)), Transformation.Identity, Colour.White)),
         ];
         var expected = scenes.Select(scene => RenderScenes.Draw(scene, RenderScenes.FrontView, settings: new())).ToArray();
         using var context = GlTests.OpenContext();
@@ -81,7 +63,7 @@ public sealed class GlStateTests
         for (var i = 0; i < 9; i++)
         {
             using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scenes[i % 3], settings));
-            // Lines and text between the pictures bind objects of their own; the second picture finds what they left.
+            // Lines and text between the frames bind objects of their own, which the second frame finds bound.
             for (var round = 0; round < 2; round++)
             {
                 frame.Draw(renderer, RenderScenes.FrontView, 200, 150, settings with { Grid = true, Axes = true, Wireframe = round == 0 });

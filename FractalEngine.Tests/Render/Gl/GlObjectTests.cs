@@ -8,7 +8,7 @@ using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Ui;
 using FractalEngine.Render.Windowing;
 
-namespace FractalEngine.Tests.Render;
+namespace FractalEngine.Tests.Render.Gl;
 
 [Collection(GlTests.Name)]
 public sealed class GlObjectTests
