@@ -10,7 +10,7 @@ namespace FractalEngine.Core.Fractals;
 /// that sub-fractal.
 /// </summary>
 /// <remarks>
-/// As the camera moves, the sub-fractal is replaced by one further in or further out, so that all numbers stay about 1 and nothing loses
+/// As the camera moves, the sub-fractal is replaced by one further in or further out. So all numbers stay about 1 and nothing loses
 /// precision, however deep the camera goes. This replaces the paper's m ← m·t (§4.3.2), which keeps one matrix and loses it at about
 /// level 50. Memory: 16 bytes a level, at most <see cref="FractalLimits.MaxDepth"/> levels. Lengths are in a unit that changes with the
 /// depth; perspective shows the same in any unit.
@@ -34,9 +34,6 @@ public sealed class FractalAddress
     // Smallest determinant of a frame whose largest entry is 1.
     private const double MinRelativeDeterminant = 1e-8;
 
-    // Deeper in the path the weights are below the last place of a colour.
-    private const int MaxColouredLevels = 64;
-
     // Sub-fractals smaller than this fraction of the whole are below the last place of a coordinate.
     private const double MinRelativeSize = 1e-17;
 
@@ -48,11 +45,7 @@ public sealed class FractalAddress
 
     private readonly LodHierarchy _hierarchy;
     private readonly ClosestNodeSearch _search;
-    private readonly List<int> _path = [];
-    private readonly List<long> _remainingLevels = [];
-
-    // The number of maps that are not the identity, up to each depth.
-    private readonly List<int> _mapCounts = [0];
+    private readonly FractalPath _path;
     private double? _closestDistance;
     private AffineMap _frameToCamera;
     private int _movesSinceFrameChange;
@@ -65,15 +58,15 @@ public sealed class FractalAddress
     {
         _hierarchy = hierarchy;
         _search = new(hierarchy);
+        _path = new(hierarchy);
         _frameToCamera = new(objectToWorld.Linear, objectToWorld.Translation - cameraPosition);
-        _remainingLevels.Add(hierarchy.LevelCount);
     }
 
     /// <summary>Number of child instances that lead to the sub-fractal.</summary>
-    public int Depth => _path.Count;
+    public int Depth => _path.Depth;
 
     /// <summary>The path to the sub-fractal: for each level the index of the child instance.</summary>
-    public IReadOnlyList<int> Path => _path;
+    public IReadOnlyList<int> Path => _path.Children;
 
     /// <summary>Map from the sub-fractal's frame to world axes about the camera, in the present unit.</summary>
     public AffineMap FrameToCamera => _frameToCamera;
@@ -82,12 +75,9 @@ public sealed class FractalAddress
     public double LogUnit { get; private set; }
 
     /// <summary>Memory of the path in bytes.</summary>
-    public long StorageBytes =>
-        (sizeof(int) * ((long)_path.Capacity + _mapCounts.Capacity)) + (sizeof(long) * (long)_remainingLevels.Capacity);
+    public long StorageBytes => _path.StorageBytes;
 
-    private LodNode CurrentNode => _hierarchy.NodeAt(_remainingLevels[^1]);
-
-    private double CurrentDiagonal => CurrentNode.Box.Transform(_frameToCamera).Diagonal;
+    private double CurrentDiagonal => _path.CurrentNode.Box.Transform(_frameToCamera).Diagonal;
 
     /// <summary>Moves the camera, and updates the address.</summary>
     /// <param name="displacement">World axes, in the present unit; finite.</param>
@@ -116,24 +106,24 @@ public sealed class FractalAddress
     public ImmutableArray<LodRoot> CollectRoots(int maxAncestors)
     {
         var roots = ImmutableArray.CreateBuilder<LodRoot>();
-        roots.Add(new(_remainingLevels[^1], _frameToCamera, ColourPathTo(_path.Count)));
+        roots.Add(new(_path.RemainingLevelsAt(Depth), _frameToCamera, _path.ColourPathTo(Depth)));
         var frameToCamera = _frameToCamera;
-        for (var depth = _path.Count - 1; depth >= Math.Max(0, _path.Count - maxAncestors); depth--)
+        for (var depth = Depth - 1; depth >= Math.Max(0, Depth - maxAncestors); depth--)
         {
-            var node = _hierarchy.NodeAt(_remainingLevels[depth]);
-            frameToCamera *= node.ChildMaps[_path[depth]].ToAffineMap().Inverse();
+            var node = _path.NodeAt(depth);
+            frameToCamera *= node.ChildMaps[Path[depth]].ToAffineMap().Inverse();
             if (!IsWithinScale(frameToCamera))
             {
                 break;
             }
 
-            var colourPath = ColourPathTo(depth);
+            var colourPath = _path.ColourPathTo(depth);
             for (var child = 0; child < node.ChildMaps.Length; child++)
             {
-                if (child != _path[depth])
+                if (child != Path[depth])
                 {
                     roots.Add(new(
-                        node.ChildLevelSteps[child].RemainingLevels(_remainingLevels[depth]),
+                        _path.ChildLevels(depth, child),
                         frameToCamera * node.ChildMaps[child].ToAffineMap(),
                         colourPath.Append(node.ChildMapIndices[child], child, node.ChildMaps.Length)));
                 }
@@ -148,16 +138,16 @@ public sealed class FractalAddress
     public Vector WorldPosition(AffineMap objectToWorld)
     {
         var frameToWorld = objectToWorld;
-        var minDiagonal = MinRelativeSize * _hierarchy.NodeAt(_hierarchy.LevelCount).Box.Transform(objectToWorld).Diagonal;
+        var minDiagonal = MinRelativeSize * _path.NodeAt(0).Box.Transform(objectToWorld).Diagonal;
         for (var depth = 0; depth < Depth; depth++)
         {
-            var node = _hierarchy.NodeAt(_remainingLevels[depth]);
+            var node = _path.NodeAt(depth);
             if (!(node.Box.Transform(frameToWorld).Diagonal > minDiagonal))
             {
                 return frameToWorld * node.Box.Centre;
             }
 
-            frameToWorld *= node.ChildMaps[_path[depth]].ToAffineMap();
+            frameToWorld *= node.ChildMaps[Path[depth]].ToAffineMap();
         }
 
         return frameToWorld * CameraInFrame();
@@ -193,7 +183,7 @@ public sealed class FractalAddress
             return cached;
         }
 
-        var node = CurrentNode;
+        var node = _path.CurrentNode;
         var distance = node.ChildMaps.Length == 0
             ? DistanceToBox(node.Box.Transform(_frameToCamera), Vector.Zero)
             : FindClosestNode(RelativeDistanceTolerance).Distance;
@@ -216,22 +206,6 @@ public sealed class FractalAddress
     /// <summary>Computes the camera position in the frame of the sub-fractal.</summary>
     private Vector CameraInFrame() => _frameToCamera.Inverse() * Vector.Zero;
 
-    /// <summary>Computes the colour path to the sub-fractal or one of its ancestors.</summary>
-    /// <param name="depth">Number of child instances that lead there.</param>
-    private ColourPath ColourPathTo(int depth)
-    {
-        var colourPath = ColourPath.Start;
-        for (var i = 0; i < Math.Min(depth, MaxColouredLevels); i++)
-        {
-            var node = _hierarchy.NodeAt(_remainingLevels[i]);
-            colourPath = colourPath.Append(node.ChildMapIndices[_path[i]], _path[i], node.ChildMaps.Length);
-        }
-
-        return colourPath with { MapCount = _mapCounts[depth] };
-    }
-
-    private LodNode ChildNode(int child) => _hierarchy.NodeAt(CurrentNode.ChildLevelSteps[child].RemainingLevels(_remainingLevels[^1]));
-
     private void UpdateFrame()
     {
         while (TryLeave() || TryEnterClosestChild())
@@ -241,8 +215,8 @@ public sealed class FractalAddress
 
     private bool TryLeave()
     {
-        if (_path.Count == 0
-            || !(DistanceToBox(CurrentNode.Box, CameraInFrame()) > LeaveDistanceRatio * CurrentNode.Box.Diagonal))
+        var box = _path.CurrentNode.Box;
+        if (Depth == 0 || !(DistanceToBox(box, CameraInFrame()) > LeaveDistanceRatio * box.Diagonal))
         {
             return false;
         }
@@ -254,18 +228,18 @@ public sealed class FractalAddress
     /// <summary>Enters the child whose distance is smallest compared with its size, if it is close enough.</summary>
     private bool TryEnterClosestChild()
     {
-        if (_path.Count >= FractalLimits.MaxDepth)
+        if (Depth >= FractalLimits.MaxDepth)
         {
             return false;
         }
 
-        var node = CurrentNode;
+        var node = _path.CurrentNode;
         var camera = CameraInFrame();
         var closestChild = -1;
         var minRelativeDistance = double.PositiveInfinity;
         for (var child = 0; child < node.ChildMaps.Length; child++)
         {
-            var childNode = ChildNode(child);
+            var childNode = _path.ChildNode(child);
             if (childNode.ChildMaps.Length == 0)
             {
                 continue;
@@ -287,27 +261,21 @@ public sealed class FractalAddress
     /// <summary>Enters a child, unless its frame is nearly singular or the path is too long.</summary>
     private bool TryEnter(int child)
     {
-        var node = CurrentNode;
-        var childToCamera = _frameToCamera * node.ChildMaps[child].ToAffineMap();
-        if (_path.Count >= FractalLimits.MaxDepth || IsNearlySingular(childToCamera.Linear))
+        var childToCamera = _frameToCamera * _path.CurrentNode.ChildMaps[child].ToAffineMap();
+        if (Depth >= FractalLimits.MaxDepth || IsNearlySingular(childToCamera.Linear))
         {
             return false;
         }
 
-        _remainingLevels.Add(node.ChildLevelSteps[child].RemainingLevels(_remainingLevels[^1]));
-        _path.Add(child);
-        _mapCounts.Add(_mapCounts[^1] + (node.ChildMapIndices[child] < 0 ? 0 : 1));
+        _path.Enter(child);
         SetFrame(childToCamera);
         return true;
     }
 
     private void Leave()
     {
-        var child = _path[^1];
-        _path.RemoveAt(_path.Count - 1);
-        _remainingLevels.RemoveAt(_remainingLevels.Count - 1);
-        _mapCounts.RemoveAt(_mapCounts.Count - 1);
-        SetFrame(_frameToCamera * CurrentNode.ChildMaps[child].ToAffineMap().Inverse());
+        var child = _path.Leave();
+        SetFrame(_frameToCamera * _path.CurrentNode.ChildMaps[child].ToAffineMap().Inverse());
     }
 
     /// <summary>Switches to the frame of the sub-fractal that is closest to the camera, wherever it belongs.</summary>
@@ -330,7 +298,7 @@ public sealed class FractalAddress
 
         foreach (var child in childPath)
         {
-            if (ChildNode(child).ChildMaps.Length == 0 || !TryEnter(child))
+            if (_path.ChildNode(child).ChildMaps.Length == 0 || !TryEnter(child))
             {
                 break;
             }
@@ -344,14 +312,14 @@ public sealed class FractalAddress
     {
         _search.Clear();
         var frameToCamera = _frameToCamera;
-        for (var depth = _path.Count; depth >= Math.Max(0, _path.Count - MaxSearchedAncestors); depth--)
+        for (var depth = Depth; depth >= Math.Max(0, Depth - MaxSearchedAncestors); depth--)
         {
             var childOnPath = -1;
-            if (depth < _path.Count)
+            if (depth < Depth)
             {
                 // The child on the path has been added before.
-                childOnPath = _path[depth];
-                frameToCamera *= _hierarchy.NodeAt(_remainingLevels[depth]).ChildMaps[childOnPath].ToAffineMap().Inverse();
+                childOnPath = Path[depth];
+                frameToCamera *= _path.NodeAt(depth).ChildMaps[childOnPath].ToAffineMap().Inverse();
             }
 
             if (!IsWithinScale(frameToCamera))
@@ -359,7 +327,7 @@ public sealed class FractalAddress
                 break;
             }
 
-            _search.AddStart(_remainingLevels[depth], frameToCamera, _path.Count - depth, childOnPath);
+            _search.AddStart(_path.RemainingLevelsAt(depth), frameToCamera, Depth - depth, childOnPath);
         }
 
         return _search.Find(relativeTolerance);

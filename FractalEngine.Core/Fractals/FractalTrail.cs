@@ -4,11 +4,11 @@ namespace FractalEngine.Core.Fractals;
 
 /// <summary>
 /// The paper's method of showing endless detail (§4.3.2–4.3.4): while the camera is within the radius of the closest sub-transformation t,
-/// the matrix m becomes m·t, so that the whole fractal is drawn in place of its sub-fractal.
+/// the matrix m becomes m·t.
 /// </summary>
 /// <remarks>
-/// A queue, the trail, keeps the last few m, and the oldest of them is drawn, so that what lies behind the camera does not vanish at once.
-/// The class exists for comparison with <see cref="FractalAddress"/>, which loses no precision. Each call starts at the whole fractal
+/// So the whole fractal is drawn in place of its sub-fractal. A queue, the trail, keeps the last few m, and the oldest of them is drawn:
+/// what lies behind the camera does not vanish at once. The class exists for comparison with <see cref="FractalAddress"/>, which loses no precision. Each call starts at the whole fractal
 /// again, as in the paper: cost O(depth · maps). World coordinates end at a depth of about 50 for halves.
 /// </remarks>
 /// <param name="fractal">

@@ -33,9 +33,8 @@ public sealed class MeshGenerator
     /// Seed of random details: the same seed gives the same mesh, on one platform bit for bit.
     /// </param>
     /// <param name="faces">
-    /// Number of faces; null for <see cref="DefaultFaceCount"/>. Fewer than <see cref="MinFaceCount"/> give that number. It is exact
-    /// except for closed shapes, which have an even number (one less than an odd one), and the icosphere, which takes the closest of
-    /// 20, 80, 320, ….
+    /// Number of faces; null for <see cref="DefaultFaceCount"/>. Fewer than <see cref="MinFaceCount"/> give that number. Closed shapes
+    /// have an even number, one less than an odd one, and the icosphere takes the closest of 20, 80, 320, …. All others are exact.
     /// </param>
     /// <exception cref="ArgumentOutOfRangeException">More than <see cref="MeshGenerators.MaxFaceCount"/> faces, or less than 1.</exception>
     public Mesh Create(ulong seed = 0, int? faces = null)

@@ -4,8 +4,8 @@ namespace FractalEngine.Core.Geometry;
 /// A texture of a material: an image file, and how texture coordinates map to it.
 /// </summary>
 /// <remarks>
-/// Texture coordinates (u, v) show the point scale · (u, v) + offset of the image, whose lower left corner is (0, 0) and whose upper right
-/// corner is (1, 1).
+/// Texture coordinates (u, v) show the point scale · (u, v) + offset of the image. Its lower left corner is (0, 0), its upper right corner
+/// (1, 1).
 /// </remarks>
 /// <param name="Path">Path of the image file: as the material file names it, or in full once it has been resolved.</param>
 public sealed record MaterialTexture(string Path)

@@ -7,8 +7,8 @@ namespace FractalEngine.Core.Geometry;
 /// Generates normals for meshes without them: smooth where faces meet at a small angle, sharp where they meet at a large one.
 /// </summary>
 /// <remarks>
-/// The normal at a face's corner is the sum of the normals of the faces around that position whose direction differs from this face's by no
-/// more than the crease angle. Each is weighted with its angle there (G. Thürmer, C. Wüthrich, "Computing vertex normals from polygonal
+/// The normal at a face's corner is a sum over the faces around that position whose direction differs from this face's by no more than the
+/// crease angle. Each normal is weighted with its angle there (G. Thürmer, C. Wüthrich, "Computing vertex normals from polygonal
 /// facets", 1998), so that the result does not depend on how a surface is cut into triangles. Faces without area contribute nothing.
 /// Cost O(faces): 300,000 in about 100 ms.
 /// </remarks>

@@ -191,7 +191,7 @@ public class OcclusionBufferTests
         private readonly double[] _minInverseDepth = [.. Enumerable.Repeat(double.NegativeInfinity, (right - left) * height)];
         private readonly double[] _maxInverseDepth = [.. Enumerable.Repeat(double.NegativeInfinity, (right - left) * height)];
 
-        /// <summary>Rasterizes a triangle.</summary>
+        /// <summary>Rasterizes a triangle into both bounds.</summary>
         /// <returns>Whether the triangle certainly is the closest at some pixel, and whether it possibly is.</returns>
         public (bool Certainly, bool Possibly) RasterizeTriangle((float X, float Y, float InverseDepth)[] corners)
         {
