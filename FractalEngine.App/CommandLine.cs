@@ -1,9 +1,5 @@
 using System.CommandLine;
 using FractalEngine.App.Commands;
-using FractalEngine.Core.Fractals;
-using FractalEngine.Parsing.Text;
-using FractalEngine.Render.Gl;
-using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.App;
 
@@ -57,37 +53,11 @@ internal static class CommandLine
         {
             return result.Invoke(new() { EnableDefaultExceptionHandler = false });
         }
-        catch (SourceException exception)
+        catch (Exception exception)
         {
-            Console.Error.WriteLine(exception.Diagnostic);
-            return exception.Diagnostic.IsLimitExceeded ? ExitCode.OverLimit : ExitCode.BadInput;
+            var failure = Failure.Of(exception);
+            Console.Error.WriteLine(failure.Text);
+            return failure.ExitCode;
         }
-        catch (FractalLimitException exception)
-        {
-            return ReportError(ExitCode.OverLimit, exception.Message);
-        }
-        catch (GlException exception)
-        {
-            return ReportError(ExitCode.OverLimit, exception.Message);
-        }
-        catch (GraphicsUnavailableException exception)
-        {
-            return ReportError(ExitCode.NoGraphics, exception.Message);
-        }
-        catch (OperationCanceledException exception)
-        {
-            return ReportError(ExitCode.Interrupted, exception.Message);
-        }
-        catch (Exception exception) when (exception is UsageException or IOException or UnauthorizedAccessException)
-        {
-            // Input that can't be read has become a SourceException already, so this is about an output.
-            return ReportError(ExitCode.WrongUsage, exception.Message);
-        }
-    }
-
-    private static int ReportError(int exitCode, string message)
-    {
-        Console.Error.WriteLine($"error: {message}");
-        return exitCode;
     }
 }

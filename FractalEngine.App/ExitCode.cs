@@ -18,6 +18,9 @@ internal static class ExitCode
     /// <summary>There is no display, or no OpenGL on it.</summary>
     public const int NoGraphics = 4;
 
+    /// <summary>The program itself is at fault, as sysexits.h counts it (EX_SOFTWARE).</summary>
+    public const int Internal = 70;
+
     /// <summary>Ended from outside, as shells count it: 128 and the number of the signal of Ctrl+C.</summary>
     public const int Interrupted = 130;
 }

@@ -14,12 +14,12 @@ using FractalEngine.Render.Windowing;
 // Measurements that BenchmarkDotNet can't make, since their rows have to take turns, or since they draw; everything else is a class of it.
 var commands = new Dictionary<string, Func<string[], int>>
 {
-    ["front"] = words => FrontCommand.Run(words),
-    ["table"] = words => TableCommand.Run(words),
+    ["front"] = words => ParetoFrontCommand.Run(words),
+    ["table"] = words => ColliderComparisonCommand.Run(words),
     ["growth"] = words => GrowthCommand.Run(words),
     ["loading"] = words => LoadingCommand.Run(words),
     ["frames"] = words => FramesCommand.Run(words),
-    ["skips"] = words => SkipsCommand.Run(words),
+    ["skips"] = words => OptimisationsCommand.Run(words),
     ["window"] = words => WindowCommand.Run(words),
     ["physics"] = words => PhysicsCommand.Run(words),
     ["precision"] = words => PrecisionCommand.Run(words),
@@ -31,7 +31,7 @@ if (args is not [[not '-', ..] name, .. var rest])
     var at = Array.IndexOf(args, "--output");
     var output = at >= 0 && at + 1 < args.Length ? args[at + 1] : null;
     string[] others = output is null ? args : [.. args[..at], .. args[(at + 2)..]];
-    var summaries = BenchmarkSwitcher.FromAssembly(typeof(CommandWords).Assembly).Run(others, ReportedConfig.Create(output));
+    var summaries = BenchmarkSwitcher.FromAssembly(typeof(CommandLineParser).Assembly).Run(others, ReportConfig.Create(output));
     return summaries.Any(summary => summary.HasCriticalValidationErrors || summary.Reports.Any(report => !report.Success)) ? 1 : 0;
 }
 

@@ -1,6 +1,6 @@
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Render.Gl;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Passes;
 using FractalEngine.Render.Ui;
 using FractalEngine.Render.Windowing;

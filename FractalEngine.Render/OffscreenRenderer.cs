@@ -1,5 +1,5 @@
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Windowing;
 

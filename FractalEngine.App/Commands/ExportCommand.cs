@@ -41,7 +41,7 @@ internal static class ExportCommand
         }
 
         var file = ConsoleLoader.Load(path, options);
-        if (file.Scene.Models.Select(model => model.Path).Append(file.Path).Contains(Path.GetFullPath(output)))
+        if (file.Scene.Models.Select(model => model.SourcePath).Append(file.Path).Contains(Path.GetFullPath(output)))
         {
             throw new UsageException($"{output} is one of the files to export: it is not overwritten");
         }

@@ -74,16 +74,9 @@ internal static class QueryCommand
 
     private static SceneCollider BuildCollider(LoadedFile file, ColliderKind kind)
     {
-        try
-        {
-            var collider = new SceneCollider(file.Scene, kind);
-            collider.Build();
-            return collider;
-        }
-        catch (ColliderMismatchException exception)
-        {
-            throw new UsageException(exception.Message);
-        }
+        var collider = new SceneCollider(file.Scene, kind);
+        collider.Build();
+        return collider;
     }
 
     private static StringBuilder FormatText(BatchResult[] results, bool json)

@@ -1,5 +1,4 @@
 using System.CommandLine;
-using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
@@ -45,7 +44,7 @@ internal static class RenderCommand
             : file.Scene;
         // A camera that the scene leaves open frames it as it is at first, so that pictures of several times show the same.
         var view = View.Of(scene, (double)size.Width / size.Height);
-        var drawable = DrawableScene.Prepare(time > 0 ? Simulate(scene, time) : scene, settings);
+        var drawable = DrawableScene.Prepare(time > 0 ? Simulate(path, scene, time) : scene, settings);
         foreach (var notice in drawable.Notices)
         {
             Console.Error.WriteLine(notice);
@@ -57,12 +56,12 @@ internal static class RenderCommand
         return ExitCode.Done;
     }
 
-    private static LoadedScene Simulate(LoadedScene scene, double seconds)
+    private static LoadedScene Simulate(string path, LoadedScene scene, double seconds)
     {
-        var world = new PhysicsWorld(scene);
+        var world = SceneWorld.Create(path, scene, new());
         while (world.Time + (0.5 * world.Settings.TimeStep) < seconds)
         {
-            world.Step();
+            SceneWorld.Step(path, world);
         }
 
         return world.GetCurrentScene();

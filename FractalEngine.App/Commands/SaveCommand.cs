@@ -29,14 +29,14 @@ internal static class SaveCommand
     public static void Save(LoadedFile file, Core.Scenes.Scene scene, string output)
     {
         var relocated = SceneRelocation.Relocate(scene, file.Path, Path.GetFullPath(output));
-        if (relocated.Objects.Any(declared => declared.File.IndexOfAny(['"', '\n', '\r']) >= 0))
+        if (relocated.Objects.Any(declared => declared.File!.IndexOfAny(['"', '\n', '\r']) >= 0))
         {
             throw new UsageException("a scene can't name a file that has a quote or a line break in its path");
         }
 
         AtomicFile.Write(output, stream => stream.Write(Encoding.UTF8.GetBytes(SceneWriter.Write(relocated, file.SceneFile))));
         var folder = AssetFolder.ForFile(Path.GetFullPath(output));
-        if (file.Scene.Models.Any(model => !folder.Contains(model.Path)))
+        if (file.Scene.Models.Any(model => !folder.Contains(model.SourcePath!)))
         {
             Console.Error.WriteLine($"warning: {output} names files outside its folder: it opens only with --allow-outside");
         }

@@ -2,12 +2,9 @@ using System.CommandLine;
 using System.Diagnostics;
 using System.Globalization;
 using System.Text;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.App.Commands;
 
@@ -76,8 +73,10 @@ internal static class SimulateCommand
         }
 
         var clock = Stopwatch.StartNew();
-        var world = CreateWorld(path, file.Scene, step, collider);
-        BuildColliders(world, file.Scene);
+        var world = SceneWorld.Create(path, file.Scene, new() { TimeStep = step });
+        world.ColliderOverride = collider;
+        // Built first, so that building is neither counted with the steps nor an error in the midst of them.
+        world.BuildColliders();
         var buildTime = clock.Elapsed;
         var stepTime = TimeSpan.Zero;
         using (var interruption = new InterruptSignal())
@@ -96,44 +95,6 @@ internal static class SimulateCommand
         return ExitCode.Done;
     }
 
-    private static PhysicsWorld CreateWorld(string path, LoadedScene scene, double step, ColliderKind? collider)
-    {
-        try
-        {
-            return new(scene, new() { TimeStep = step }) { ColliderOverride = collider };
-        }
-        catch (ArgumentException exception)
-        {
-            // The step has been looked at, so this is about what the scene says of a body.
-            throw new SourceException(path, exception.Message);
-        }
-    }
-
-    /// <summary>Builds what bodies will ask, so that it is neither counted with the steps nor an error in the midst of them.</summary>
-    private static void BuildColliders(PhysicsWorld world, LoadedScene scene)
-    {
-        foreach (var kind in world.Bodies.Select(body => world.ColliderOverride ?? body.Description.Collider).Distinct().Order())
-        {
-            foreach (var placed in scene.Objects)
-            {
-                if (placed.Declaration is PhysicsObject || placed.Bounds == BoundingBox.Empty)
-                {
-                    continue;
-                }
-
-                try
-                {
-                    // In its own middle no object is passed over for another one.
-                    world.TryFindClosest(placed.Bounds.Centre, kind, out _);
-                }
-                catch (ColliderMismatchException exception)
-                {
-                    throw new UsageException($"{placed.Declaration.File}: {exception.Message}");
-                }
-            }
-        }
-    }
-
     /// <summary>Makes the steps, and writes a row for each body after each of them.</summary>
     /// <returns>How long the steps took, without the writing.</returns>
     private static TimeSpan Simulate(string path, PhysicsWorld world, long steps, Stream stream, InterruptSignal interruption)
@@ -145,15 +106,7 @@ internal static class SimulateCommand
         {
             interruption.ThrowIfRequested();
             clock.Start();
-            try
-            {
-                world.Step();
-            }
-            catch (InvalidOperationException exception)
-            {
-                throw new SourceException(path, exception.Message);
-            }
-
+            SceneWorld.Step(path, world);
             clock.Stop();
             table.WriteStep(world);
         }

@@ -1,6 +1,5 @@
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Parsing.Text;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 
@@ -54,22 +53,18 @@ internal sealed class BackgroundLoad
     public (LoadedFile File, ScenePreparation Preparation)? TakeResult(out int exitCode, out string? error)
     {
         IsResultTaken = true;
-        (exitCode, error) = (ExitCode.Done, null);
+        exitCode = ExitCode.Done;
+        error = null;
         try
         {
             return _task.GetAwaiter().GetResult();
         }
-        catch (SourceException exception)
+        catch (FractalEngineException exception)
         {
-            (exitCode, error) = (exception.Diagnostic.IsLimitExceeded
-                ? ExitCode.OverLimit
-                : ExitCode.BadInput, exception.Diagnostic.ToString());
+            var failure = Failure.Of(exception);
+            exitCode = failure.ExitCode;
+            error = failure.Text;
+            return null;
         }
-        catch (FractalLimitException exception)
-        {
-            (exitCode, error) = (ExitCode.OverLimit, $"error: {exception.Message}");
-        }
-
-        return null;
     }
 }

@@ -1,6 +1,5 @@
 using System.Numerics;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Scenes;
@@ -51,7 +50,7 @@ internal static class ColliderSwitch
             reason = "";
             return true;
         }
-        catch (Exception exception) when (exception is ColliderMismatchException or FractalLimitException)
+        catch (FractalEngineException exception)
         {
             (world.ColliderOverride, reason) = (previous, exception.Message);
             return false;

@@ -1,6 +1,5 @@
 using System.Diagnostics;
-using FractalEngine.Core.Collision;
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
@@ -315,7 +314,7 @@ internal sealed class ScenePhysics
                 : distance;
             return true;
         }
-        catch (Exception exception) when (exception is ColliderMismatchException or FractalLimitException)
+        catch (FractalEngineException exception)
         {
             problem = $"error: {exception.Message}";
             return false;

@@ -1,4 +1,5 @@
 using FractalEngine.App.Commands;
+using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render.Images;
 

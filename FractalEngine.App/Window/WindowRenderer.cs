@@ -1,6 +1,6 @@
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 
 namespace FractalEngine.App.Window;
 

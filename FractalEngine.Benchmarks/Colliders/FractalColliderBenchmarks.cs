@@ -13,16 +13,16 @@ namespace FractalEngine.Benchmarks.Colliders;
 /// the fractal is small enough to look at every face.
 /// </summary>
 [MemoryDiagnoser]
-public class FractalColliderBenchmarks : IMeasuresMore
+public class FractalColliderBenchmarks : IExtraMetrics
 {
     private const int Queries = 4096;
     private const int ComparedQueries = 512;
 
-    private readonly QueryContext _record = new();
+    private readonly QueryContext _context = new();
     private Fractal _fractal = null!;
-    private Vector[] _near = null!;
-    private Vector[] _far = null!;
-    private double _reach;
+    private Vector[] _nearPositions = null!;
+    private Vector[] _farPositions = null!;
+    private double _maxDistance;
     private FractalCollider _descent = null!;
     private ExactFractalCollider _exact = null!;
 
@@ -36,42 +36,42 @@ public class FractalColliderBenchmarks : IMeasuresMore
         var fractal = FractalCase.Parse(Shape).Fractal;
         _fractal = fractal;
         var random = new Random(1);
-        _near = [.. Enumerable.Range(0, Queries).Select(_ => QueryPositions.Near(random, fractal))];
-        _far = [.. Enumerable.Range(0, Queries).Select(_ => QueryPositions.Far(random, fractal.Bounds))];
-        (_descent, _exact, _reach) = (new(fractal), new(fractal), AnswerErrors.Reach * fractal.Bounds.Diagonal);
+        _nearPositions = [.. Enumerable.Range(0, Queries).Select(_ => QueryPositions.NearSurface(random, fractal))];
+        _farPositions = [.. Enumerable.Range(0, Queries).Select(_ => QueryPositions.Far(random, fractal.Bounds))];
+        (_descent, _exact, _maxDistance) = (new(fractal), new(fractal), DistanceErrors.TouchDistance * fractal.Bounds.Diagonal);
     }
 
     /// <summary>The baseline: approximate, see <see cref="FractalCollider"/>.</summary>
     [Benchmark(Baseline = true, OperationsPerInvoke = Queries)]
-    public double DescentNear() => Sum(_descent, _near, double.PositiveInfinity);
+    public double DescentNear() => SumDistances(_descent, _nearPositions, double.PositiveInfinity);
 
     [Benchmark(OperationsPerInvoke = Queries)]
-    public double ExactNear() => Sum(_exact, _near, double.PositiveInfinity);
+    public double ExactNear() => SumDistances(_exact, _nearPositions, double.PositiveInfinity);
 
     /// <summary>What most bodies of a scene ask most of the time: is anything within 2 % of the size, where there is nothing?</summary>
     [Benchmark(OperationsPerInvoke = Queries)]
-    public double ExactFarWithinReach() => Sum(_exact, _far, _reach);
+    public double ExactFarWithinReach() => SumDistances(_exact, _farPositions, _maxDistance);
 
     /// <inheritdoc/>
-    IEnumerable<MoreValue> IMeasuresMore.Measure(string method)
+    IEnumerable<ExtraMetric> IExtraMetrics.MeasureExtra(string method)
     {
         var isFar = method == nameof(ExactFarWithinReach);
-        var positions = (isFar ? _far : _near)[..ComparedQueries];
-        var isSmall = !isFar && _fractal.FaceCount <= FrontShape.MostFaces;
+        var positions = (isFar ? _farPositions : _nearPositions)[..ComparedQueries];
+        var isSmall = !isFar && _fractal.FaceCount <= BenchmarkShape.MaxFaces;
         return ColliderQuality.Measure(
             method == nameof(DescentNear) ? () => new FractalCollider(_fractal) : () => new ExactFractalCollider(_fractal),
             positions,
-            isFar ? _reach : double.PositiveInfinity,
-            isSmall ? ColliderQuality.Oracle(FractalGenerator.Flatten(_fractal, FrontShape.MostFaces), positions) : null,
+            isFar ? _maxDistance : double.PositiveInfinity,
+            isSmall ? ColliderQuality.ComputeOracleDistances(FractalGenerator.Flatten(_fractal, BenchmarkShape.MaxFaces), positions) : null,
             _fractal.Bounds.Diagonal);
     }
 
-    private double Sum(Collider collider, Vector[] positions, double within)
+    private double SumDistances(Collider collider, Vector[] positions, double maxDistance)
     {
         var sum = 0.0;
         foreach (var position in positions)
         {
-            sum += collider.TryFindClosest(position, within, _record, out var closest) ? closest.Distance : 0;
+            sum += collider.TryFindClosest(position, maxDistance, _context, out var closest) ? closest.Distance : 0;
         }
 
         return sum;

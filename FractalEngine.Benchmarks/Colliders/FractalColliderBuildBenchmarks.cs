@@ -8,7 +8,7 @@ using FractalEngine.Core.Geometry;
 namespace FractalEngine.Benchmarks.Colliders;
 
 /// <summary>How long does it take to build the exact collider of a fractal, and how large is it?</summary>
-public class FractalColliderBuildBenchmarks : IMeasuresMore
+public class FractalColliderBuildBenchmarks : IExtraMetrics
 {
     private Fractal _fractal = null!;
 
@@ -29,5 +29,5 @@ public class FractalColliderBuildBenchmarks : IMeasuresMore
     public Collider Exact() => new ExactFractalCollider(_fractal);
 
     /// <inheritdoc/>
-    IEnumerable<MoreValue> IMeasuresMore.Measure(string method) => [new("bytes", method == nameof(Exact) ? Exact().StorageBytes : null)];
+    IEnumerable<ExtraMetric> IExtraMetrics.MeasureExtra(string method) => [new("bytes", method == nameof(Exact) ? Exact().StorageBytes : null)];
 }

@@ -14,21 +14,21 @@ namespace FractalEngine.Benchmarks.Colliders;
 /// box or near the surface (within 1 % of the diagonal).
 /// </summary>
 [MemoryDiagnoser]
-public class MeshColliderBenchmarks : IMeasuresMore
+public class MeshColliderBenchmarks : IExtraMetrics
 {
     // The simple collider is asked for fewer, since it takes a millisecond each.
     private const int Queries = 8192;
     private const int SimpleQueries = 32;
     private const int ComparedQueries = 1024;
 
-    private readonly QueryContext _record = new();
+    private readonly QueryContext _context = new();
     private Mesh _mesh = null!;
     private Vector[] _positions = null!;
     private SimpleCollider _simple = null!;
-    private BoundingBoxCollider _boxes = null!;
+    private BoundingBoxCollider _boundingBox = null!;
     private HierarchyCollider _hierarchy = null!;
 
-    public enum Place
+    public enum PositionKind
     {
         Uniform,
         Near,
@@ -37,8 +37,8 @@ public class MeshColliderBenchmarks : IMeasuresMore
     [Params("terrain", "tree-stump")]
     public string Mesh { get; set; } = "";
 
-    [Params(Place.Uniform, Place.Near)]
-    public Place Positions { get; set; }
+    [Params(PositionKind.Uniform, PositionKind.Near)]
+    public PositionKind Positions { get; set; }
 
     [GlobalSetup]
     public void SetUp()
@@ -48,21 +48,23 @@ public class MeshColliderBenchmarks : IMeasuresMore
         var random = new Random(1);
         _positions =
             [.. Enumerable.Range(0, Queries)
-            .Select(_ => Positions == Place.Uniform ? QueryPositions.Uniform(random, mesh.Bounds) : QueryPositions.Near(random, mesh))];
-        (_simple, _boxes, _hierarchy) = (new(mesh), new(mesh), new(mesh));
+            .Select(_ => Positions == PositionKind.Uniform
+            ? QueryPositions.Uniform(random, mesh.Bounds)
+            : QueryPositions.NearSurface(random, mesh))];
+        (_simple, _boundingBox, _hierarchy) = (new(mesh), new(mesh), new(mesh));
     }
 
     [Benchmark(Baseline = true, OperationsPerInvoke = SimpleQueries)]
-    public double Simple() => Sum(_simple, SimpleQueries);
+    public double Simple() => SumDistances(_simple, SimpleQueries);
 
     [Benchmark(OperationsPerInvoke = Queries)]
-    public double BoundingBox() => Sum(_boxes, Queries);
+    public double BoundingBox() => SumDistances(_boundingBox, Queries);
 
     [Benchmark(OperationsPerInvoke = Queries)]
-    public double Hierarchy() => Sum(_hierarchy, Queries);
+    public double Hierarchy() => SumDistances(_hierarchy, Queries);
 
     /// <inheritdoc/>
-    IEnumerable<MoreValue> IMeasuresMore.Measure(string method)
+    IEnumerable<ExtraMetric> IExtraMetrics.MeasureExtra(string method)
     {
         var positions = _positions[..ComparedQueries];
         return ColliderQuality.Measure(
@@ -74,16 +76,16 @@ public class MeshColliderBenchmarks : IMeasuresMore
             },
             method == nameof(Simple) ? positions[..SimpleQueries] : positions,
             double.PositiveInfinity,
-            ColliderQuality.Oracle(_mesh, positions)[..(method == nameof(Simple) ? SimpleQueries : ComparedQueries)],
+            ColliderQuality.ComputeOracleDistances(_mesh, positions)[..(method == nameof(Simple) ? SimpleQueries : ComparedQueries)],
             _mesh.Bounds.Diagonal);
     }
 
-    private double Sum(Collider collider, int queries)
+    private double SumDistances(Collider collider, int queries)
     {
         var sum = 0.0;
         foreach (var position in _positions.AsSpan(0, queries))
         {
-            sum += collider.TryFindClosest(position, double.PositiveInfinity, _record, out var closest) ? closest.Distance : 0;
+            sum += collider.TryFindClosest(position, double.PositiveInfinity, _context, out var closest) ? closest.Distance : 0;
         }
 
         return sum;

@@ -9,7 +9,7 @@ using FractalEngine.Core.Geometry;
 namespace FractalEngine.Benchmarks.Colliders;
 
 /// <summary>How long does it take to build the colliders of meshes, and how large are they?</summary>
-public class MeshColliderBuildBenchmarks : IMeasuresMore
+public class MeshColliderBuildBenchmarks : IExtraMetrics
 {
     private Mesh _mesh = null!;
 
@@ -40,7 +40,7 @@ public class MeshColliderBuildBenchmarks : IMeasuresMore
     public Collider Hierarchy() => new HierarchyCollider(_mesh);
 
     /// <inheritdoc/>
-    IEnumerable<MoreValue> IMeasuresMore.Measure(string method)
+    IEnumerable<ExtraMetric> IExtraMetrics.MeasureExtra(string method)
     {
         Collider? collider = method switch
         {
@@ -48,6 +48,7 @@ public class MeshColliderBuildBenchmarks : IMeasuresMore
             nameof(Hierarchy) => Hierarchy(),
             _ => null,
         };
-        return [new("million_faces_a_second", Faces / 1e6, IsAmount: true), new("bytes_a_face", (double?)collider?.StorageBytes / Faces)];
+        return [new("million_faces_a_second", Faces / 1e6, IsPerSecond: true),
+            new("bytes_a_face", (double?)collider?.StorageBytes / Faces)];
     }
 }

@@ -13,10 +13,10 @@ namespace FractalEngine.Benchmarks.Drawing;
 /// </summary>
 internal sealed class CrowdScene : IDisposable
 {
-    private const int Side = 20;
+    private const int ObjectsPerSide = 20;
     private const double Spacing = 1.6;
-    private const int Rings = 24;
-    private const int Pixels = 512;
+    private const int SphereRings = 24;
+    private const int TextureSize = 512;
     private const int KnotFaces = 40_000;
 
     private readonly DirectoryInfo _folder = Directory.CreateTempSubdirectory("crowd");
@@ -24,35 +24,35 @@ internal sealed class CrowdScene : IDisposable
     /// <summary>Writes the files.</summary>
     public CrowdScene()
     {
-        ImageFile.SavePng(new(Pixels, Pixels, Wood()), In("wood.png"));
-        File.WriteAllText(In("wood.mtl"), "newmtl wood\nKd 1 1 1\nmap_Kd wood.png\n");
-        File.WriteAllText(In("crate.obj"), Box(1));
-        File.WriteAllText(In("pillar.obj"), Box(3));
-        Write(Ball(), "ball");
-        Write(MeshGenerators.Create("torus-knot", 0, KnotFaces), "knot");
-        File.WriteAllText(Path, Text());
+        ImageFile.SavePng(new(TextureSize, TextureSize, WoodPixels()), PathOf("wood.png"));
+        File.WriteAllText(PathOf("wood.mtl"), "newmtl wood\nKd 1 1 1\nmap_Kd wood.png\n");
+        File.WriteAllText(PathOf("crate.obj"), BoxObj(1));
+        File.WriteAllText(PathOf("pillar.obj"), BoxObj(3));
+        WriteMesh(SphereMesh(), "ball");
+        WriteMesh(MeshGenerators.Create("torus-knot", 0, KnotFaces), "knot");
+        File.WriteAllText(Path, SceneText());
     }
 
     /// <summary>Of the scene.</summary>
-    public string Path => In("crowd.sdo");
+    public string Path => PathOf("crowd.sdo");
 
     /// <inheritdoc/>
     public void Dispose() => _folder.Delete(recursive: true);
 
-    private string In(string file) => System.IO.Path.Combine(_folder.FullName, file);
+    private string PathOf(string file) => System.IO.Path.Combine(_folder.FullName, file);
 
-    private void Write(Mesh mesh, string name)
+    private void WriteMesh(Mesh mesh, string name)
     {
-        using var stream = File.Create(In(name + ".obj"));
+        using var stream = File.Create(PathOf(name + ".obj"));
         ObjWriter.Write(mesh, name, stream);
     }
 
-    private static string Text()
+    private static string SceneText()
     {
         var text = new StringBuilder("c (0.8, 2.2, -1.6) (-0.2, 0, 0) 60\n");
-        for (var i = 0; i < Side * Side; i++)
+        for (var i = 0; i < ObjectsPerSide * ObjectsPerSide; i++)
         {
-            var (x, z) = (Spacing * ((i % Side) - (Side / 2)), Spacing * ((i / Side) - (Side / 2)));
+            var (x, z) = (Spacing * ((i % ObjectsPerSide) - (ObjectsPerSide / 2)), Spacing * ((i / ObjectsPerSide) - (ObjectsPerSide / 2)));
             var file = z < -3 * Spacing && i % 5 == 0 ? "knot" : (i % 3) switch { 0 => "crate", 1 => "ball", _ => "pillar" };
             text.AppendLine(CultureInfo.InvariantCulture, $"o \"{file}.obj\" (({x:R}, 0, {z:R}), (0, {i * 37 % 90}, 0), #)");
         }
@@ -60,7 +60,7 @@ internal sealed class CrowdScene : IDisposable
         return text.ToString();
     }
 
-    private static string Box(double height)
+    private static string BoxObj(double height)
     {
         var text = new StringBuilder("mtllib wood.mtl\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n");
         for (var i = 0; i < 8; i++)
@@ -79,20 +79,20 @@ internal sealed class CrowdScene : IDisposable
     }
 
     /// <summary>Rings of squares, of which those at the poles have two corners in one place.</summary>
-    private static Mesh Ball()
+    private static Mesh SphereMesh()
     {
         var (positions, faces) = (new List<double>(), new List<int>());
-        for (var i = 0; i <= Rings; i++)
+        for (var i = 0; i <= SphereRings; i++)
         {
-            for (var j = 0; j < 2 * Rings; j++)
+            for (var j = 0; j < 2 * SphereRings; j++)
             {
-                var (sine, cosine) = double.SinCosPi((double)i / Rings);
-                var (acrossSine, acrossCosine) = double.SinCosPi((double)j / Rings);
+                var (sine, cosine) = double.SinCosPi((double)i / SphereRings);
+                var (acrossSine, acrossCosine) = double.SinCosPi((double)j / SphereRings);
                 positions.AddRange([0.6 * sine * acrossCosine, 0.6 * (1 + cosine), 0.6 * sine * acrossSine]);
-                if (i < Rings)
+                if (i < SphereRings)
                 {
-                    var (a, b) = ((i * 2 * Rings) + j, (i * 2 * Rings) + ((j + 1) % (2 * Rings)));
-                    faces.AddRange([a, b, a + (2 * Rings), b, b + (2 * Rings), a + (2 * Rings)]);
+                    var (a, b) = ((i * 2 * SphereRings) + j, (i * 2 * SphereRings) + ((j + 1) % (2 * SphereRings)));
+                    faces.AddRange([a, b, a + (2 * SphereRings), b, b + (2 * SphereRings), a + (2 * SphereRings)]);
                 }
             }
         }
@@ -100,12 +100,12 @@ internal sealed class CrowdScene : IDisposable
         return new([.. positions], [.. faces]);
     }
 
-    private static byte[] Wood()
+    private static byte[] WoodPixels()
     {
-        var pixels = new byte[4 * Pixels * Pixels];
-        for (var i = 0; i < Pixels * Pixels; i++)
+        var pixels = new byte[4 * TextureSize * TextureSize];
+        for (var i = 0; i < TextureSize * TextureSize; i++)
         {
-            var (x, y) = (i % Pixels, i / Pixels);
+            var (x, y) = (i % TextureSize, i / TextureSize);
             var grain = 0.75 + (0.25 * Math.Sin((0.09 * x) + (3 * Math.Sin(0.013 * y))));
             (pixels[4 * i], pixels[(4 * i) + 1], pixels[(4 * i) + 2], pixels[(4 * i) + 3]) =
                 ((byte)(200 * grain), (byte)(140 * grain), (byte)(80 * grain), 255);

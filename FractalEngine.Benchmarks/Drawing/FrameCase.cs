@@ -21,20 +21,20 @@ internal sealed record FrameCase(string Name, LoadedScene Scene, View View)
     {
         var words = text.Split(':');
         var fractal = FractalCase.Parse(string.Join(':', words[..^1]));
-        var model = new FractalModel(fractal.Name, 0, fractal.Fractal);
+        var model = new FractalModel(fractal.Fractal) { SourcePath = fractal.Name };
         var scene = new LoadedScene(new Scene(), [new PlacedModel(new SceneObject(fractal.Name, Transformation.Identity), model)]);
-        return new($"{fractal.Name} {words[^1]}", scene, View.Of(scene, Aspect, CameraOf(words[^1], scene.Bounds)));
+        return new($"{fractal.Name} {words[^1]}", scene, View.Of(scene, Aspect, CreateCamera(words[^1], scene.Bounds)));
     }
 
-    private static Camera CameraOf(string place, BoundingBox bounds)
+    private static Camera CreateCamera(string viewpoint, BoundingBox bounds)
     {
         var afar = CameraFraming.Default(bounds, Aspect);
-        return place switch
+        return viewpoint switch
         {
             "afar" => afar,
             "close" => afar with { Position = bounds.Centre + (0.55 * (afar.Position - bounds.Centre)) },
             "inside" => new(bounds.Centre + bounds.Size.Stretch(new(0.02, 0.03, -0.1)), new(0.2, 0.4, 0), 60),
-            _ => throw new ArgumentException($"expected afar, close or inside, not '{place}'", nameof(place)),
+            _ => throw new ArgumentException($"expected afar, close or inside, not '{viewpoint}'", nameof(viewpoint)),
         };
     }
 }

@@ -1,9 +1,9 @@
 using System.Diagnostics;
 using System.Globalization;
 using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Windowing;
 
@@ -29,7 +29,7 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
     private const int Supersampling = 6;
 
     // Less than a thousandth of a pixel, but another view: nothing may be kept from the picture before.
-    private const double Step = 1e-9;
+    private const double CameraPerturbation = 1e-9;
 
     /// <summary>Writes a block of rows for each picture.</summary>
     public void Write(IEnumerable<FrameCase> cases)
@@ -37,20 +37,20 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
         output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{Width}x{Height}, {samples} samples a pixel, best of {rounds}"));
         output.WriteLine(
             "picture                          drawn             instances        ms   share   to brute   to truth  choosing ms");
-        foreach (var item in cases)
+        foreach (var frameCase in cases)
         {
             using var context = new OffscreenContext();
-            table?.Driver = context.DriverName;
+            table?.GraphicsDriver = context.DriverName;
             using var frame = new FrameRenderer(context);
-            Write(item, context, frame);
+            Write(frameCase, context, frame);
         }
     }
 
-    private void Write(FrameCase item, OffscreenContext context, FrameRenderer frame)
+    private void Write(FrameCase frameCase, OffscreenContext context, FrameRenderer frame)
     {
         var settings = new RenderSettings { Samples = samples };
-        var (brute, truth, bruteTime) = Brute(item, context, frame, settings);
-        using var renderer = new SceneRenderer(context, DrawableScene.Prepare(item.Scene, settings));
+        var (everyInstance, truth, everyInstanceTime) = DrawEveryInstance(frameCase, context, frame, settings);
+        using var renderer = new SceneRenderer(context, DrawableScene.Prepare(frameCase.Scene, settings));
         var detail = settings.Culling! with { InstanceBudget = 20_000_000 };
         (string Name, RenderSettings Settings)[] variants =
         [
@@ -62,56 +62,58 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
             ("- size", settings with { Culling = detail with { MinProjectedSize = 0 } }),
             ("3 pixels", settings with { Culling = detail with { MinProjectedSize = 3 } }),
         ];
-        foreach (var (name, chosen) in variants)
+        foreach (var (name, variant) in variants)
         {
-            var time = Time(() => Draw(frame, renderer, item, chosen));
-            var picture = frame.Capture();
+            var time = MeasureBest(() => DrawPerturbed(frame, renderer, frameCase, variant));
+            var image = frame.Capture();
             var statistics = renderer.Statistics;
-            Row(item.Name, name, statistics.InstanceCount, time, bruteTime, brute, truth, picture, Choosing(renderer, item, chosen));
+            AddRow(frameCase.Name, name, statistics.InstanceCount, time, everyInstanceTime, everyInstance, truth, image,
+                MeasureCulling(renderer, frameCase, variant));
         }
 
         // Nothing has changed: only what is on the GPU already is drawn.
-        var still = Time(() =>
+        var unchangedTime = MeasureBest(() =>
         {
-            frame.Draw(renderer, item.View, Width, Height, settings);
+            frame.Draw(renderer, frameCase.View, Width, Height, settings);
             frame.Finish();
         });
-        Row(item.Name, "kept", renderer.Statistics.InstanceCount, still, bruteTime, null, null, null, 0);
-        var flight = Flight.Of(frame, renderer, item, settings, (Width, Height));
+        AddRow(frameCase.Name, "kept", renderer.Statistics.InstanceCount, unchangedTime, everyInstanceTime, null, null, null, 0);
+        var flight = CameraFlight.Measure(frame, renderer, frameCase, settings, (Width, Height));
         output.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
-            $"{item.Name,-32} {"flight",-15} {flight.Instances,11} {1000 * flight.Seconds / flight.Pictures,9:F1}  {flight.Pictures / flight.Seconds:F1} pictures a second, the slowest {flight.Slowest:F0} ms"));
+            $"{frameCase.Name,-32} {"flight",-15} {flight.MeanInstanceCount,11} {1000 * flight.Seconds / flight.FrameCount,9:F1}  {flight.FrameCount / flight.Seconds:F1} pictures a second, the slowest {flight.SlowestMilliseconds:F0} ms"));
         table?.Add(
-            item.Name, "flight", flight.Instances, Math.Round(1000 * flight.Seconds / flight.Pictures, 3), null, null, null,
-            Math.Round(flight.Slowest, 1));
+            frameCase.Name, "flight", flight.MeanInstanceCount, Math.Round(1000 * flight.Seconds / flight.FrameCount, 3), null, null, null,
+            Math.Round(flight.SlowestMilliseconds, 1));
     }
 
-    private (PixelImage? Brute, PixelImage? Truth, double Time) Brute(FrameCase item, OffscreenContext context, FrameRenderer frame,
+    private (PixelImage? Brute, PixelImage? Truth, double Time) DrawEveryInstance(FrameCase frameCase, OffscreenContext context,
+        FrameRenderer frame,
         RenderSettings settings)
     {
         var all = settings with { Culling = null, InstanceBudget = 20_000_000 };
-        var prepared = DrawableScene.Prepare(item.Scene, all);
+        var prepared = DrawableScene.Prepare(frameCase.Scene, all);
         if (prepared.Notices.Length > 0)
         {
-            output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{item.Name,-32} every instance    {prepared.Notices[0]}"));
+            output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{frameCase.Name,-32} every instance    {prepared.Notices[0]}"));
             return (null, null, double.NaN);
         }
 
         using var renderer = new SceneRenderer(context, prepared);
-        var time = Time(() => Draw(frame, renderer, item, all));
-        var picture = frame.Capture();
+        var time = MeasureBest(() => DrawPerturbed(frame, renderer, frameCase, all));
+        var image = frame.Capture();
         PixelImage? truth = null;
         if (withTruth)
         {
-            frame.Draw(renderer, item.View, Supersampling * Width, Supersampling * Height, all with { Samples = 0 });
-            truth = PictureError.Shrunk(frame.Capture(), Supersampling);
+            frame.Draw(renderer, frameCase.View, Supersampling * Width, Supersampling * Height, all with { Samples = 0 });
+            truth = ImageError.Downsample(frame.Capture(), Supersampling);
         }
 
-        Row(item.Name, "every instance", prepared.InstanceCount, time, time, null, truth, picture, 0);
-        return (picture, truth, time);
+        AddRow(frameCase.Name, "every instance", prepared.InstanceCount, time, time, null, truth, image, 0);
+        return (image, truth, time);
     }
 
-    private double Time(Action draw)
+    private double MeasureBest(Action draw)
     {
         draw();
         var best = double.PositiveInfinity;
@@ -125,39 +127,44 @@ internal sealed class FrameTable(int rounds, int samples, bool withTruth, TextWr
         return best;
     }
 
-    private int _step;
+    private int _drawCount;
 
-    private void Draw(FrameRenderer frame, SceneRenderer renderer, FrameCase item, RenderSettings settings)
+    private void DrawPerturbed(FrameRenderer frame, SceneRenderer renderer, FrameCase frameCase, RenderSettings settings)
     {
-        var camera = item.View.Camera;
-        var moved = item.View with { Camera = camera with { Position = camera.Position + (Step * (++_step % 2) * Vector.One) } };
+        var camera = frameCase.View.Camera;
+        var moved =
+            frameCase.View with { Camera =
+            camera with { Position = camera.Position + (CameraPerturbation * (++_drawCount % 2) * Vector.One) } };
         frame.Draw(renderer, moved, Width, Height, settings);
         frame.Finish();
     }
 
     /// <summary>The time that choosing takes, without any drawing.</summary>
-    private double Choosing(SceneRenderer renderer, FrameCase item, RenderSettings settings) =>
-        Time(() => renderer.Cull(
-            item.View with { Camera =
-            item.View.Camera with { Position = item.View.Camera.Position + (Step * (++_step % 2) * Vector.One) } }, Width, Height,
+    private double MeasureCulling(SceneRenderer renderer, FrameCase frameCase, RenderSettings settings) =>
+        MeasureBest(() => renderer.Cull(
+            frameCase.View with { Camera =
+            frameCase.View.Camera with { Position = frameCase.View.Camera.Position
+                + (CameraPerturbation * (++_drawCount % 2) * Vector.One) } }, Width, Height,
             settings));
 
-    private void Row(
-        string name, string drawn, long instances, double time, double brute, PixelImage? bruteImage, PixelImage? truth,
-        PixelImage? picture, double choosing)
+    private void AddRow(
+        string name, string drawn, long instances, double time, double everyInstanceTime, PixelImage? everyInstance, PixelImage? truth,
+        PixelImage? image, double cullingTime)
     {
-        var toBrute = picture is null || bruteImage is null ? double.NaN : PictureError.Ratio(picture, bruteImage);
-        var toTruth = picture is null || truth is null ? double.NaN : PictureError.Ratio(picture, truth);
+        var toEveryInstance = image is null || everyInstance is null ? double.NaN : ImageError.PeakSignalToNoiseRatio(image, everyInstance);
+        var toTruth = image is null || truth is null ? double.NaN : ImageError.PeakSignalToNoiseRatio(image, truth);
         output.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
-            $"{name,-32} {drawn,-15} {instances,11} {time,9:F1}  {(double.IsNaN(brute) ? "     -" : $"1/{brute / time:F1}"),6} {Decibels(toBrute),10} {Decibels(toTruth),10} {choosing,12:F1}"));
+            $"{name,-32} {drawn,-15} {instances,11} {time,9:F1}  {(double.IsNaN(everyInstanceTime) ? "     -" : $"1/{everyInstanceTime / time:F1}"),6} {FormatDecibels(toEveryInstance),10} {FormatDecibels(toTruth),10} {cullingTime,12:F1}"));
         output.Flush();
-        table?.Add(name, drawn, instances, Math.Round(time, 3), choosing > 0 ? Math.Round(choosing, 3) : null, Rounded(toBrute),
-            Rounded(toTruth), null);
+        table?.Add(name, drawn, instances, Math.Round(time, 3), cullingTime > 0
+            ? Math.Round(cullingTime, 3)
+            : null, RoundDecibels(toEveryInstance),
+            RoundDecibels(toTruth), null);
     }
 
-    private static double? Rounded(double ratio) => double.IsFinite(ratio) ? Math.Round(ratio, 2) : null;
+    private static double? RoundDecibels(double ratio) => double.IsFinite(ratio) ? Math.Round(ratio, 2) : null;
 
-    private static string Decibels(double ratio) =>
+    private static string FormatDecibels(double ratio) =>
         double.IsNaN(ratio) ? "-" : string.Create(CultureInfo.InvariantCulture, $"{ratio:F1} dB");
 }

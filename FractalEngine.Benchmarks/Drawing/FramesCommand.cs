@@ -12,7 +12,7 @@ internal static class FramesCommand
           --output: also as frames.csv.
         """;
 
-    private static readonly string[] Default =
+    private static readonly string[] DefaultCases =
     [
         "menger:5:afar", "menger:5:close", "menger:5:inside", "tetrahedron:12:afar", "appendix-b:5:afar", "appendix-b-structure:5:afar",
         "binary-tree:14:afar",
@@ -22,11 +22,11 @@ internal static class FramesCommand
     public static int Run(ReadOnlySpan<string> args)
     {
         var (rounds, samples, withTruth, folder, names) = (5, 0, true, (string?)null, new List<string>());
-        var words = new CommandWords($"{Usage}\nNames: {string.Join(' ', FractalCase.Names)}")
+        var words = new CommandLineParser($"{Usage}\nNames: {string.Join(' ', FractalCase.Names)}")
             .Count("--rounds", count => rounds = count)
-            .Value("--samples", text => int.TryParse(text, NumberStyles.None, CultureInfo.InvariantCulture, out samples))
-            .Flag("--no-truth", () => withTruth = false).Value("--output", value => folder = value).Names(IsCase, names);
-        if (!words.TryRead(args))
+            .Option("--samples", text => int.TryParse(text, NumberStyles.None, CultureInfo.InvariantCulture, out samples))
+            .Flag("--no-truth", () => withTruth = false).Option("--output", value => folder = value).Names(IsKnown, names);
+        if (!words.TryParse(args))
         {
             return 2;
         }
@@ -37,12 +37,12 @@ internal static class FramesCommand
                 .Replace("  ", " ", StringComparison.Ordinal);
         var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "frames.csv"), command, FrameTable.Columns);
         new FrameTable(rounds, samples, withTruth, Console.Out,
-            csv).Write((names.Count > 0 ? names : [.. Default]).Select(FrameCase.Parse));
+            csv).Write((names.Count > 0 ? names : [.. DefaultCases]).Select(FrameCase.Parse));
         csv?.Save();
         return 0;
     }
 
-    private static bool IsCase(string text) =>
+    private static bool IsKnown(string text) =>
         text.LastIndexOf(':') is > 0 and var colon && text[(colon + 1)..] is "afar" or "close" or "inside"
-        && FractalCase.IsCase(text[..colon]);
+        && FractalCase.IsKnown(text[..colon]);
 }

@@ -30,15 +30,15 @@ public class VisibleSetBenchmarks
 
     /// <summary>The baseline: every instance.</summary>
     [Benchmark(Baseline = true)]
-    public int Everything() => Fill(new() { OcclusionCulling = false, MinProjectedSize = 0, InstanceBudget = 4_000_000, ThreadCount = 1 });
+    public int Everything() => Cull(new() { OcclusionCulling = false, MinProjectedSize = 0, InstanceBudget = 4_000_000, ThreadCount = 1 });
 
     [Benchmark]
-    public int ViewAndSize() => Fill(new() { OcclusionCulling = false, MinProjectedSize = 8, InstanceBudget = 4_000_000, ThreadCount = 1 });
+    public int ViewAndSize() => Cull(new() { OcclusionCulling = false, MinProjectedSize = 8, InstanceBudget = 4_000_000, ThreadCount = 1 });
 
     [Benchmark]
-    public int ViewSizeAndCoverage() => Fill(new() { ThreadCount = 1 });
+    public int ViewSizeAndCoverage() => Cull(new() { ThreadCount = 1 });
 
-    private int Fill(CullingSettings settings)
+    private int Cull(CullingSettings settings)
     {
         _set.Cull(in _view, _objects, settings);
         return _set.InstanceCount;

@@ -15,8 +15,8 @@ internal static class WindowCommand
         """;
 
     // Until the file is loaded and drawn, also on a slow machine.
-    private static readonly TimeSpan Loading = TimeSpan.FromSeconds(10);
-    private static readonly TimeSpan Measured = TimeSpan.FromSeconds(5);
+    private static readonly TimeSpan LoadingDuration = TimeSpan.FromSeconds(10);
+    private static readonly TimeSpan MeasuredDuration = TimeSpan.FromSeconds(5);
 
     public static int Run(ReadOnlySpan<string> args)
     {
@@ -24,8 +24,9 @@ internal static class WindowCommand
             Path.Combine(AppContext.BaseDirectory.Replace("FractalEngine.Benchmarks", "FractalEngine.App", StringComparison.Ordinal),
             "FractalEngine.App.dll");
         var (folder, files) = ((string?)null, new List<string>());
-        if (!new CommandWords(Usage).Value("--output", value => folder = value).Names(name => files.Count == 0 && File.Exists(name), files)
-            .TryRead(args))
+        if (!new CommandLineParser(Usage).Option("--output", value => folder = value)
+            .Names(name => files.Count == 0 && File.Exists(name), files)
+            .TryParse(args))
         {
             return 2;
         }
@@ -43,14 +44,14 @@ internal static class WindowCommand
             "percent_of_a_core");
         foreach (var (name, options) in ((string, string[])[])[("everything skipped", []), ("- still", ["--without", "still"])])
         {
-            if (ShareOfCore([program, "view", file, .. options]) is not { } share)
+            if (MeasureCoreUsage([program, "view", file, .. options]) is not { } usage)
             {
                 Console.Error.WriteLine("error: the window has closed: is there a display?");
                 return 3;
             }
 
-            Console.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{name,-20} {100 * share,8:F2} % of a core"));
-            csv?.Add(Path.GetFileNameWithoutExtension(file), options is [] ? "nothing" : "still", Math.Round(100 * share, 3));
+            Console.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{name,-20} {100 * usage,8:F2} % of a core"));
+            csv?.Add(Path.GetFileNameWithoutExtension(file), options is [] ? "nothing" : "still", Math.Round(100 * usage, 3));
         }
 
         csv?.Save();
@@ -58,20 +59,20 @@ internal static class WindowCommand
     }
 
     /// <summary>Null where the program ended by itself.</summary>
-    private static double? ShareOfCore(string[] arguments)
+    private static double? MeasureCoreUsage(string[] arguments)
     {
         var start = new ProcessStartInfo("dotnet", arguments);
         start.Environment.Remove("FRACTALENGINE_NO_WINDOW");
         using var process = Process.Start(start)!;
         try
         {
-            if (process.WaitForExit(Loading))
+            if (process.WaitForExit(LoadingDuration))
             {
                 return null;
             }
 
             var (before, watch) = (process.TotalProcessorTime, Stopwatch.StartNew());
-            if (process.WaitForExit(Measured))
+            if (process.WaitForExit(MeasuredDuration))
             {
                 return null;
             }

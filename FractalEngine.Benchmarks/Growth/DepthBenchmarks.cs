@@ -12,13 +12,13 @@ namespace FractalEngine.Benchmarks.Growth;
 /// How does the cost of an exact answer grow with the depth? At most linearly, to the depth where sub-fractals are below the precision of a
 /// coordinate, and then not at all. One operation is one query.
 /// </summary>
-public class DepthBenchmarks : IMeasuresMore
+public class DepthBenchmarks : IExtraMetrics
 {
     private const int Queries = 1024;
 
-    private readonly QueryContext _record = new();
+    private readonly QueryContext _context = new();
     private Fractal _fractal = null!;
-    private Vector[] _near = null!;
+    private Vector[] _positions = null!;
     private ExactFractalCollider _exact = null!;
 
     [Params("sierpinski", "menger", "tree", "terrain")]
@@ -32,7 +32,7 @@ public class DepthBenchmarks : IMeasuresMore
     {
         _fractal = FractalCase.Load(Shape, Depth).Fractal;
         var random = new Random(1);
-        _near = [.. Enumerable.Range(0, Queries).Select(_ => QueryPositions.Near(random, _fractal))];
+        _positions = [.. Enumerable.Range(0, Queries).Select(_ => QueryPositions.NearSurface(random, _fractal))];
         _exact = new(_fractal);
     }
 
@@ -40,16 +40,17 @@ public class DepthBenchmarks : IMeasuresMore
     public double ExactNear()
     {
         var sum = 0.0;
-        foreach (var position in _near)
+        foreach (var position in _positions)
         {
-            sum += _exact.TryFindClosest(position, double.PositiveInfinity, _record, out var closest) ? closest.Distance : 0;
+            sum += _exact.TryFindClosest(position, double.PositiveInfinity, _context, out var closest) ? closest.Distance : 0;
         }
 
         return sum;
     }
 
     /// <inheritdoc/>
-    IEnumerable<MoreValue> IMeasuresMore.Measure(string method) =>
-        ColliderQuality.Measure(() => new ExactFractalCollider(_fractal), _near, double.PositiveInfinity, null, _fractal.Bounds.Diagonal)
+    IEnumerable<ExtraMetric> IExtraMetrics.MeasureExtra(string method) =>
+        ColliderQuality.Measure(() => new ExactFractalCollider(_fractal), _positions, double.PositiveInfinity, null,
+        _fractal.Bounds.Diagonal)
         .Where(value => value.Value is not null);
 }

@@ -12,13 +12,13 @@ namespace FractalEngine.Benchmarks.Growth;
 /// </summary>
 internal static class GrowthByBodies
 {
-    private const int StepsOfFall = 60;
-    private const int StepsToSettle = 900;
-    private const int StepsOfRest = 60;
+    private const int FallSteps = 60;
+    private const int MaxStepsToRest = 900;
+    private const int RestSteps = 60;
     private static readonly int[] Counts = [1, 10, 100, 1000, 10_000];
 
     // So many take minutes to settle.
-    private const int MostToSettleQuickly = 1000;
+    private const int MaxBodiesToRestWhenQuick = 1000;
 
     /// <summary>Writes the file.</summary>
     public static void Write(TableOptions options)
@@ -27,19 +27,19 @@ internal static class GrowthByBodies
         var runs = Counts.Select(count => new Run(count)).ToArray();
         for (var round = 0; round < (options.IsQuick ? 3 : 5); round++)
         {
-            foreach (var run in runs.Where(run => round == 0 || Settles(run.Count, options)))
+            foreach (var run in runs.Where(run => round == 0 || MeasuresRest(run.Count, options)))
             {
-                run.Round(sponge, Settles(run.Count, options));
+                run.RunRound(sponge, MeasuresRest(run.Count, options));
             }
         }
 
-        var table = options.Table(
+        var table = options.CreateTable(
             "growth-bodies.csv", "bodies", "phase", "awake_at_end", "ms_a_step_median", "ms_a_step_worst", "us_a_body", "face_tests_a_step",
             "bound_tests_a_step");
         foreach (var run in runs)
         {
             run.Fall.AddTo(table, run.Count, "awake");
-            if (Settles(run.Count, options))
+            if (MeasuresRest(run.Count, options))
             {
                 run.Rest.AddTo(table, run.Count, "settled");
             }
@@ -48,29 +48,29 @@ internal static class GrowthByBodies
         table.Save();
     }
 
-    private static bool Settles(int count, TableOptions options) => !options.IsQuick || count <= MostToSettleQuickly;
+    private static bool MeasuresRest(int count, TableOptions options) => !options.IsQuick || count <= MaxBodiesToRestWhenQuick;
 
     private sealed class Run(int count)
     {
         public int Count => count;
 
-        public Phase Fall { get; } = new(StepsOfFall);
+        public Phase Fall { get; } = new(FallSteps);
 
-        public Phase Rest { get; } = new(StepsOfRest);
+        public Phase Rest { get; } = new(RestSteps);
 
-        public void Round(FractalCase sponge, bool settles)
+        public void RunRound(FractalCase sponge, bool measuresRest)
         {
-            var world = PhysicsTable.WorldOf(sponge, count, ColliderKind.Exact);
+            var world = PhysicsTable.CreateWorld(sponge, count, ColliderKind.Exact);
             world.BuildColliders();
-            Fall.Round(world);
-            while (settles && world.StepCount < StepsToSettle && world.IsMoving)
+            Fall.RunRound(world);
+            while (measuresRest && world.StepCount < MaxStepsToRest && world.IsMoving)
             {
                 world.Step();
             }
 
-            if (settles)
+            if (measuresRest)
             {
-                Rest.Round(world);
+                Rest.RunRound(world);
             }
         }
     }
@@ -78,31 +78,31 @@ internal static class GrowthByBodies
     /// <summary>Some steps, each with the best time of all rounds; all rounds make the same steps.</summary>
     private sealed class Phase(int steps)
     {
-        private readonly double[] _best = [.. Enumerable.Repeat(double.PositiveInfinity, steps)];
-        private long _faces;
-        private long _bounds;
-        private int _awake;
+        private readonly double[] _bestMilliseconds = [.. Enumerable.Repeat(double.PositiveInfinity, steps)];
+        private long _faceTests;
+        private long _boundTests;
+        private int _awakeCount;
 
-        public void Round(PhysicsWorld world)
+        public void RunRound(PhysicsWorld world)
         {
-            (_faces, _bounds) = (0, 0);
+            (_faceTests, _boundTests) = (0, 0);
             for (var step = 0; step < steps; step++)
             {
                 var start = Stopwatch.GetTimestamp();
                 world.Step();
-                _best[step] = Math.Min(_best[step], Stopwatch.GetElapsedTime(start).TotalMilliseconds);
-                (_faces, _bounds) = (_faces + world.LastStepCost.FaceTests, _bounds + world.LastStepCost.BoundTests);
+                _bestMilliseconds[step] = Math.Min(_bestMilliseconds[step], Stopwatch.GetElapsedTime(start).TotalMilliseconds);
+                (_faceTests, _boundTests) = (_faceTests + world.LastStepCost.FaceTests, _boundTests + world.LastStepCost.BoundTests);
             }
 
-            _awake = PhysicsTable.Awake(world);
+            _awakeCount = PhysicsTable.CountAwake(world);
         }
 
         public void AddTo(CsvTable table, int count, string phase)
         {
-            var sorted = _best.Order().ToArray();
+            var sorted = _bestMilliseconds.Order().ToArray();
             var median = sorted[steps / 2];
-            table.Add(count, phase, _awake, median, sorted[^1], Math.Round(1e3 * median / count, 4), (double)_faces / steps,
-                (double)_bounds / steps);
+            table.Add(count, phase, _awakeCount, median, sorted[^1], Math.Round(1e3 * median / count, 4), (double)_faceTests / steps,
+                (double)_boundTests / steps);
         }
     }
 }

@@ -16,7 +16,7 @@ internal static class GrowthByFaces
     private const int Depth = 5;
 
     // Colliders that look at every face of the base are asked for fewer positions.
-    private const int MostFaceTests = 4_000_000;
+    private const int MaxFaceTests = 4_000_000;
 
     /// <summary>Writes the file.</summary>
     public static void Write(TableOptions options)
@@ -27,9 +27,9 @@ internal static class GrowthByFaces
             ("icosphere", [20, 80, 320, 1280, 5120, 20_480, 81_920]),
         ];
         var points =
-            (from item in cases from faces in item.Faces select new Point(item.Name, faces, options.IsQuick ? 256 : 1024)).ToArray();
-        var times = TakeTurns.Best([.. points.SelectMany(point => point.Actions)], options.Rounds);
-        var table = options.Table(
+            (from item in cases from faces in item.Faces select new DataPoint(item.Name, faces, options.IsQuick ? 256 : 1024)).ToArray();
+        var times = InterleavedTiming.MeasureBestSeconds([.. points.SelectMany(point => point.Actions)], options.Rounds);
+        var table = options.CreateTable(
             "growth-faces.csv", "base", "base_faces", "fractal_exact_us", "fractal_greedy_us", "mesh_hierarchy_us", "mesh_simple_us",
             "fractal_exact_face_tests",
             "fractal_greedy_face_tests", "mesh_hierarchy_face_tests", "fractal_exact_bound_tests", "mesh_hierarchy_bound_tests",
@@ -39,52 +39,52 @@ internal static class GrowthByFaces
         {
             var (exact, greedy, hierarchy, simple) = (point.Exact, point.Greedy, point.Hierarchy, point.Simple);
             table.Add(
-                point.Name, point.Mesh.FaceCount, exact.Microseconds, greedy.Microseconds, hierarchy.Microseconds,
-                simple.Microseconds, exact.FaceTests, greedy.FaceTests, hierarchy.FaceTests, exact.BoundTests, hierarchy.BoundTests,
-                exact.Bytes, hierarchy.Bytes,
+                point.Name, point.Mesh.FaceCount, exact.MicrosecondsPerQuery, greedy.MicrosecondsPerQuery, hierarchy.MicrosecondsPerQuery,
+                simple.MicrosecondsPerQuery, exact.FaceTests, greedy.FaceTests, hierarchy.FaceTests, exact.BoundTests, hierarchy.BoundTests,
+                exact.StorageBytes, hierarchy.StorageBytes,
                 Math.Round(1e3 * times[i + 4], 4), Math.Round(1e3 * times[i + 5], 4));
         }
 
         table.Save();
     }
 
-    private sealed class Point
+    private sealed class DataPoint
     {
         private readonly Fractal _fractal;
 
-        public Point(string name, int faces, int queries)
+        public DataPoint(string name, int faces, int queries)
         {
-            (Name, Mesh) = (name, MeshOf(name, faces));
+            (Name, Mesh) = (name, CreateBaseMesh(name, faces));
             _fractal = new(FractalCase.Load("sierpinski", Depth).Fractal.Description, Mesh);
             var random = new Random(1);
-            var onFractal = Enumerable.Range(0, queries).Select(_ => QueryPositions.Near(random, _fractal)).ToArray();
-            var onMesh = Enumerable.Range(0, queries).Select(_ => QueryPositions.Near(random, Mesh)).ToArray();
+            var onFractal = Enumerable.Range(0, queries).Select(_ => QueryPositions.NearSurface(random, _fractal)).ToArray();
+            var onMesh = Enumerable.Range(0, queries).Select(_ => QueryPositions.NearSurface(random, Mesh)).ToArray();
             (Exact, Hierarchy) = (new(new ExactFractalCollider(_fractal), onFractal), new(new HierarchyCollider(Mesh), onMesh));
-            Greedy = new(new FractalCollider(_fractal), onFractal[..Math.Clamp(MostFaceTests / (35 * faces), 1, queries)]);
-            Simple = new(new SimpleCollider(Mesh), onMesh[..Math.Clamp(MostFaceTests / faces, 1, queries)]);
+            Greedy = new(new FractalCollider(_fractal), onFractal[..Math.Clamp(MaxFaceTests / (35 * faces), 1, queries)]);
+            Simple = new(new SimpleCollider(Mesh), onMesh[..Math.Clamp(MaxFaceTests / faces, 1, queries)]);
         }
 
         public string Name { get; }
 
         public Mesh Mesh { get; }
 
-        public AskedCollider Exact { get; }
+        public ColliderWorkload Exact { get; }
 
-        public AskedCollider Greedy { get; }
+        public ColliderWorkload Greedy { get; }
 
-        public AskedCollider Hierarchy { get; }
+        public ColliderWorkload Hierarchy { get; }
 
-        public AskedCollider Simple { get; }
+        public ColliderWorkload Simple { get; }
 
         public Action[] Actions =>
         [
-            Exact.Ask, Greedy.Ask, Hierarchy.Ask, Simple.Ask, () => _ = new ExactFractalCollider(_fractal),
+            Exact.RunQueries, Greedy.RunQueries, Hierarchy.RunQueries, Simple.RunQueries, () => _ = new ExactFractalCollider(_fractal),
             () => _ = new HierarchyCollider(Mesh),
         ];
     }
 
     /// <summary>A generated mesh in the box of side 2, as the fractal's own base is; one face is a triangle.</summary>
-    private static Mesh MeshOf(string name, int faces)
+    private static Mesh CreateBaseMesh(string name, int faces)
     {
         var mesh = faces == 1 ? new Mesh([-1, 0, -1, 1, 0, -1, 0, 0, 1], [0, 2, 1]) : MeshGenerators.Create(name, 1, faces);
         var (centre, scale) = (mesh.Bounds.Centre, 2 / mesh.Bounds.Size.MaxAbsComponent());

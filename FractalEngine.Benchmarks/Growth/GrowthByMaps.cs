@@ -20,10 +20,12 @@ internal static class GrowthByMaps
     {
         int[] counts = options.IsQuick ? [2, 3, 5, 10, 20, 50, 100] : [2, 3, 4, 5, 7, 10, 14, 20, 30, 40, 50, 70, 100];
         var (seeds, queries) = options.IsQuick ? (3, 128) : (5, 512);
-        var points = (from maps in counts from seed in Enumerable.Range(1, seeds) select new Point(maps, seed, queries)).ToArray();
-        var times = TakeTurns.Best([.. points.SelectMany(point => new Action[] { point.Exact.Ask, point.Greedy.Ask, point.Build })],
+        var points = (from maps in counts from seed in Enumerable.Range(1, seeds) select new DataPoint(maps, seed, queries)).ToArray();
+        var times =
+            InterleavedTiming.MeasureBestSeconds(
+                [.. points.SelectMany(point => new Action[] { point.Exact.RunQueries, point.Greedy.RunQueries, point.Build })],
             options.Rounds);
-        var table = options.Table(
+        var table = options.CreateTable(
             "growth-maps.csv", "maps", "scale", "depth", "seed", "exact_us", "greedy_us", "exact_face_tests", "greedy_face_tests",
             "exact_bound_tests", "greedy_bound_tests",
             "exact_bytes", "exact_build_ms");
@@ -31,8 +33,9 @@ internal static class GrowthByMaps
         {
             var (exact, greedy) = (point.Exact, point.Greedy);
             table.Add(
-                point.Maps, Math.Round(ScaleOf(point.Maps), 4), Depth, point.Seed, exact.Microseconds, greedy.Microseconds, exact.FaceTests,
-                greedy.FaceTests, exact.BoundTests, greedy.BoundTests, exact.Bytes, Math.Round(1e3 * times[i + 2], 4));
+                point.Maps, Math.Round(ScaleOf(point.Maps), 4), Depth, point.Seed, exact.MicrosecondsPerQuery, greedy.MicrosecondsPerQuery,
+                exact.FaceTests,
+                greedy.FaceTests, exact.BoundTests, greedy.BoundTests, exact.StorageBytes, Math.Round(1e3 * times[i + 2], 4));
         }
 
         table.Save();
@@ -40,18 +43,18 @@ internal static class GrowthByMaps
 
     private static double ScaleOf(int maps) => 1 / Math.Sqrt(maps);
 
-    private sealed class Point
+    private sealed class DataPoint
     {
         private readonly Fractal _fractal;
 
-        public Point(int maps, int seed, int queries)
+        public DataPoint(int maps, int seed, int queries)
         {
             (Maps, Seed) = (maps, seed);
             var random = new Random(seed);
             var set = new TransformationSet([.. Enumerable.Range(0, maps).Select(_ => RandomMap(random, ScaleOf(maps)))]);
-            _fractal = new(new FractalDescription("base.obj", [new Repetition([set], Depth)]),
+            _fractal = new(new FractalDescription([new Repetition([set], Depth)]),
                 FractalCase.Load("sierpinski").Fractal.BaseMesh);
-            var positions = Enumerable.Range(0, queries).Select(_ => QueryPositions.Near(random, _fractal)).ToArray();
+            var positions = Enumerable.Range(0, queries).Select(_ => QueryPositions.NearSurface(random, _fractal)).ToArray();
             (Exact, Greedy) = (new(new ExactFractalCollider(_fractal), positions), new(new FractalCollider(_fractal), positions));
         }
 
@@ -59,9 +62,9 @@ internal static class GrowthByMaps
 
         public int Seed { get; }
 
-        public AskedCollider Exact { get; }
+        public ColliderWorkload Exact { get; }
 
-        public AskedCollider Greedy { get; }
+        public ColliderWorkload Greedy { get; }
 
         public void Build() => _ = new ExactFractalCollider(_fractal);
     }

@@ -23,11 +23,11 @@ internal static class GrowthCommand
 
     public static int Run(ReadOnlySpan<string> args)
     {
-        var (options, names) = (new TableOptions("growth", false, CommandWords.DefaultFolder), new List<string>());
-        var words = new CommandWords($"{Usage}\nTables: {string.Join(' ', Tables.Keys)}")
+        var (options, names) = (new TableOptions("growth", false, CommandLineParser.DefaultFolder), new List<string>());
+        var words = new CommandLineParser($"{Usage}\nTables: {string.Join(' ', Tables.Keys)}")
             .Flag("--quick", () => options = options with { IsQuick = true })
-            .Value("--output", folder => options = options with { Folder = folder }).Names(Tables.ContainsKey, names);
-        if (!words.TryRead(args))
+            .Option("--output", folder => options = options with { Folder = folder }).Names(Tables.ContainsKey, names);
+        if (!words.TryParse(args))
         {
             return 2;
         }

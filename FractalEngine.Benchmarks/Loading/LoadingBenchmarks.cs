@@ -10,7 +10,7 @@ namespace FractalEngine.Benchmarks.Loading;
 
 /// <summary>How long does it take from text to mesh, and from description to instances?</summary>
 [MemoryDiagnoser]
-public class LoadingBenchmarks : IMeasuresMore
+public class LoadingBenchmarks : IExtraMetrics
 {
     private SourceText _mesh = null!;
     private SourceText _fractal = null!;
@@ -33,7 +33,7 @@ public class LoadingBenchmarks : IMeasuresMore
 
     /// <summary>The baseline: only splitting the same text into lines and words, which any parser has to do.</summary>
     [Benchmark(Baseline = true)]
-    public int SplitWords() => LoadingTable.Words(_mesh.Text);
+    public int SplitWords() => LoadingTable.CountWords(_mesh.Text);
 
     [Benchmark]
     public int ParseMesh() => ObjParser.Parse(_mesh).Mesh.FaceCount;
@@ -45,9 +45,9 @@ public class LoadingBenchmarks : IMeasuresMore
     public int Expand160000Instances() => FractalGenerator.Expand(_sponge, 160_000).Length;
 
     /// <inheritdoc/>
-    IEnumerable<MoreValue> IMeasuresMore.Measure(string method) =>
+    IEnumerable<ExtraMetric> IExtraMetrics.MeasureExtra(string method) =>
     [
-        new("megabytes_a_second", method is nameof(SplitWords) or nameof(ParseMesh) ? _mesh.Text.Length / 1e6 : null, IsAmount: true),
-        new("million_instances_a_second", method == nameof(Expand160000Instances) ? 0.16 : null, IsAmount: true),
+        new("megabytes_a_second", method is nameof(SplitWords) or nameof(ParseMesh) ? _mesh.Text.Length / 1e6 : null, IsPerSecond: true),
+        new("million_instances_a_second", method == nameof(Expand160000Instances) ? 0.16 : null, IsPerSecond: true),
     ];
 }

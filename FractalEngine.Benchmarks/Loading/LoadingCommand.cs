@@ -13,7 +13,7 @@ internal static class LoadingCommand
 
     public static int Run(ReadOnlySpan<string> args)
     {
-        if (TableOptions.TryRead("loading", Usage, args) is not { } options)
+        if (TableOptions.TryParse("loading", Usage, args) is not { } options)
         {
             return 2;
         }
@@ -22,7 +22,7 @@ internal static class LoadingCommand
         ExpansionTable.Write(options);
         try
         {
-            FirstPictureTable.Write(options);
+            FirstFrameTable.Write(options);
         }
         catch (GraphicsUnavailableException exception)
         {

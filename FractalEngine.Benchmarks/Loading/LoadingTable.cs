@@ -19,11 +19,11 @@ internal static class LoadingTable
     /// <summary>Writes the file.</summary>
     public static void Write(TableOptions options)
     {
-        var table = options.Table("loading.csv", "file", "faces", "bytes", "step", "ms", "megabytes_a_second");
+        var table = options.CreateTable("loading.csv", "file", "faces", "bytes", "step", "ms", "megabytes_a_second");
         var folder = Directory.CreateTempSubdirectory("fractalengine");
         try
         {
-            foreach (var (name, faces) in Meshes(options.IsQuick))
+            foreach (var (name, faces) in MeshSizes(options.IsQuick))
             {
                 var file = Path.Combine(folder.FullName, $"{name}.obj");
                 var mesh = MeshGenerators.Create(name, 1, faces);
@@ -44,7 +44,7 @@ internal static class LoadingTable
             .. Directory.GetFiles(Path.Combine(FractalCase.Assets, "scenes"), "*.sdo")];
         foreach (var file in texts.Order(StringComparer.Ordinal))
         {
-            var seconds = TakeTurns.Best([() => AssetLoader.Load(file)], options.Rounds)[0];
+            var seconds = InterleavedTiming.MeasureBestSeconds([() => AssetLoader.Load(file)], options.Rounds)[0];
             var bytes = new FileInfo(file).Length;
             table.Add(Path.GetFileName(file), null, bytes, "load with all it refers to", Math.Round(1e3 * seconds, 4), null);
         }
@@ -52,7 +52,7 @@ internal static class LoadingTable
         table.Save();
     }
 
-    private static IEnumerable<(string Name, int? Faces)> Meshes(bool isQuick) =>
+    private static IEnumerable<(string Name, int? Faces)> MeshSizes(bool isQuick) =>
         [("terrain", 10_000), ("tree-stump", null), ("spaceship-interior", null), .. isQuick
         ? Array.Empty<(string, int?)>()
         : [("icosphere", 1_310_720)]];
@@ -64,13 +64,13 @@ internal static class LoadingTable
         (string Step, Action Do)[] steps =
         [
             ("read the bytes", () => File.ReadAllBytes(file)),
-            ("split into words", () => _sink = Words(source.Text)),
-            ("split, and read numbers with Utf8Parser", () => _sink = Numbers(bytes)),
+            ("split into words", () => _sink = CountWords(source.Text)),
+            ("split, and read numbers with Utf8Parser", () => _sink = SumNumbers(bytes)),
             ("read and decode", () => SourceText.Read(file, file, ByteLimit)),
             ("parse", () => ObjParser.Parse(source)),
             ("load", () => AssetLoader.Load(file)),
         ];
-        var times = TakeTurns.Best([.. steps.Select(step => step.Do)], rounds);
+        var times = InterleavedTiming.MeasureBestSeconds([.. steps.Select(step => step.Do)], rounds);
         foreach (var (step, seconds) in steps.Zip(times))
         {
             table.Add(name, mesh.FaceCount, bytes.Length, step.Step, Math.Round(1e3 * seconds, 4),
@@ -81,24 +81,24 @@ internal static class LoadingTable
     private static double _sink;
 
     /// <summary>What any parser has to do.</summary>
-    public static int Words(string text)
+    public static int CountWords(string text)
     {
-        var words = 0;
+        var count = 0;
         foreach (var line in text.AsSpan().EnumerateLines())
         {
             foreach (var _ in line.Split(' '))
             {
-                words++;
+                count++;
             }
         }
 
-        return words;
+        return count;
     }
 
     /// <summary>
     /// The same with the framework's fastest conversion, and nothing kept: about what a parser without checks would take.
     /// </summary>
-    private static double Numbers(ReadOnlySpan<byte> text)
+    private static double SumNumbers(ReadOnlySpan<byte> text)
     {
         var sum = 0.0;
         foreach (var word in text.SplitAny(" \n"u8))

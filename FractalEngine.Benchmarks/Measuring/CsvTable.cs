@@ -16,7 +16,7 @@ internal sealed class CsvTable(string path, string command, params string[] colu
     private readonly StringBuilder _rows = new();
 
     /// <summary>Of what draws, if something does: stands beside the machine.</summary>
-    public string? Driver { get; set; }
+    public string? GraphicsDriver { get; set; }
 
     /// <summary>Adds a row.</summary>
     /// <param name="values">
@@ -29,26 +29,26 @@ internal sealed class CsvTable(string path, string command, params string[] colu
             throw new ArgumentException($"expected {columns.Length} values, not {values.Length}", nameof(values));
         }
 
-        _rows.AppendJoin(',', values.Select(Text)).Append('\n');
+        _rows.AppendJoin(',', values.Select(FormatField)).Append('\n');
     }
 
     /// <summary>Writes the file.</summary>
     public void Save() => AtomicFile.Write(path, stream => stream.Write(
         Encoding.UTF8.GetBytes(
-            $"# {command}\n# {Machine}{(Driver is null ? "" : $", {Driver}")}\n{string.Join(',', columns.Select(Quoted))}\n{_rows}")));
+            $"# {command}\n# {Machine}{(GraphicsDriver is null ? "" : $", {GraphicsDriver}")}\n{string.Join(',', columns.Select(Quote))}\n{_rows}")));
 
     /// <summary>The machine, in words: no names.</summary>
     private static string Machine =>
         $"{RuntimeInformation.OSArchitecture}, {Environment.ProcessorCount} cores, {RuntimeInformation.FrameworkDescription}, commit {Environment.GetEnvironmentVariable("FRACTALENGINE_COMMIT") ?? "unknown"}";
 
-    private static string Text(object? value) => value switch
+    private static string FormatField(object? value) => value switch
     {
         null => "",
         double number => number.ToString("R", CultureInfo.InvariantCulture),
-        IFormattable other => Quoted(other.ToString(null, CultureInfo.InvariantCulture)),
-        _ => Quoted(value.ToString()!),
+        IFormattable other => Quote(other.ToString(null, CultureInfo.InvariantCulture)),
+        _ => Quote(value.ToString()!),
     };
 
-    private static string Quoted(string text) =>
+    private static string Quote(string text) =>
         text.AsSpan().IndexOfAny(",\"\r\n") < 0 ? text : $"\"{text.Replace("\"", "\"\"", StringComparison.Ordinal)}\"";
 }

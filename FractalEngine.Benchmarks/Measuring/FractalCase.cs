@@ -16,21 +16,22 @@ internal sealed record FractalCase(string Name, Fractal Fractal)
     /// Beside those of the assets: three branches of 0.6, each leaning another way; four maps of which none keeps shapes, like a fern's;
     /// and a tree that keeps its trunk at each level by the identity, so that most of its chains are the same instance.
     /// </summary>
-    private static readonly string[] Written = ["three-branches", "four-fronds", "binary-tree"];
+    private static readonly string[] BuiltInNames = ["three-branches", "four-fronds", "binary-tree"];
 
     /// <summary>The names there are.</summary>
     public static IEnumerable<string> Names =>
         Directory.GetFiles(Path.Combine(Assets, "fractals"), "*.fdo").Select(file => Path.GetFileNameWithoutExtension(file))
-        .Order(StringComparer.Ordinal).Concat(Written);
+        .Order(StringComparer.Ordinal).Concat(BuiltInNames);
 
     /// <summary>The folder of the scenes, fractals and meshes.</summary>
     public static string Assets { get; } = FindAssets();
 
     /// <summary>True for the name of a fractal, or its name and depth: <c>tree</c> or <c>tree:20</c>.</summary>
-    public static bool IsCase(string text) => text.Split(':') switch
+    public static bool IsKnown(string text) => text.Split(':') switch
     {
         [var name] => Names.Contains(name),
-        [var name, var depth] => Names.Contains(name) && CommandWords.TryCount(depth, out var count) && count <= FractalLimits.MaxDepth,
+        [var name, var depth] =>
+            Names.Contains(name) && CommandLineParser.TryParseCount(depth, out var count) && count <= FractalLimits.MaxDepth,
         _ => false,
     };
 
@@ -48,38 +49,39 @@ internal sealed record FractalCase(string Name, Fractal Fractal)
     {
         var fractal = name switch
         {
-            "three-branches" => new(ThreeBranches, Mesh("hexagonal-pyramid")),
-            "four-fronds" => new(FourFronds, Mesh("hexagonal-pyramid")),
-            "binary-tree" => new(BinaryTree, Mesh("hexagonal-pyramid")),
-            _ => ((FractalModel)Model("fractals", name + ".fdo")).Fractal,
+            "three-branches" => new(ThreeBranches, LoadMesh("hexagonal-pyramid")),
+            "four-fronds" => new(FourFronds, LoadMesh("hexagonal-pyramid")),
+            "binary-tree" => new(BinaryTree, LoadMesh("hexagonal-pyramid")),
+            _ => ((FractalModel)LoadModel("fractals", name + ".fdo")).Fractal,
         };
         return depth is { } count && fractal.Description.HasDepth
             ? new($"{name} {count}", fractal.WithDepth(count))
             : new(name, fractal);
     }
 
-    private static FractalDescription ThreeBranches { get; } = Repeated(
+    private static FractalDescription ThreeBranches { get; } = Repeat(
         new(new(0, 1, 0), new(0, 40, 8), 0.6 * Vector.One),
         new(new(0.1, 0.9, 0), new(20, 0, 50), 0.6 * Vector.One),
         new(new(0, 0.8, 0.1), new(-45, 130, 0), 0.6 * Vector.One));
 
-    private static FractalDescription FourFronds { get; } = Repeated(
+    private static FractalDescription FourFronds { get; } = Repeat(
         new(new(0, 0.16, 0), new(0, 10, 3), new(0.85, 0.84, 0.86)),
         new(new(0, 0.16, 0), new(10, 20, 52), new(0.3, 0.34, 0.25)),
         new(new(0, 0.05, 0), new(-10, -20, -49), new(-0.28, 0.37, 0.3)),
         new(new(0, 0, 0), new(0, 0, 0), new(0.05, 0.2, 0.05)));
 
-    private static FractalDescription BinaryTree { get; } = Repeated(
+    private static FractalDescription BinaryTree { get; } = Repeat(
         Transformation.Identity,
         new(new(0, 0.7, 0), new(0, 70, 24), 0.76 * Vector.One),
         new(new(0, 0.8, 0), new(0, -40, -31), 0.7 * Vector.One));
 
-    private static FractalDescription Repeated(params Transformation[] maps) =>
-        new("base.obj", [new Repetition([new TransformationSet([.. maps])], 5)]);
+    private static FractalDescription Repeat(params Transformation[] maps) =>
+        new([new Repetition([new TransformationSet([.. maps])], 5)]);
 
-    private static Mesh Mesh(string name) => Model("models", name + ".obj").Mesh;
+    private static Mesh LoadMesh(string name) => LoadModel("models", name + ".obj").Mesh;
 
-    private static Model Model(string folder, string file) => AssetLoader.Load(Path.Combine(Assets, folder, file)).Scene.Objects[0].Model;
+    private static Model LoadModel(string folder, string file) =>
+        AssetLoader.Load(Path.Combine(Assets, folder, file)).Scene.Objects[0].Model;
 
     private static string FindAssets()
     {

@@ -8,21 +8,22 @@ namespace FractalEngine.Benchmarks.Measuring;
 internal static class QueryPositions
 {
     /// <summary>Anywhere in a box.</summary>
-    public static Vector Uniform(Random random, BoundingBox box) => box.Minimum + box.Size.Stretch(Unit(random));
+    public static Vector Uniform(Random random, BoundingBox box) => box.Minimum + box.Size.Stretch(RandomInUnitCube(random));
 
     /// <summary>Up to 1 % of the diagonal along each axis from a random point of a random face.</summary>
-    public static Vector Near(Random random, Mesh mesh) => OnSurface(random, mesh) + Offset(random, 0.01 * mesh.Bounds.Diagonal);
+    public static Vector NearSurface(Random random, Mesh mesh) =>
+        OnSurface(random, mesh) + RandomOffset(random, 0.01 * mesh.Bounds.Diagonal);
 
     /// <summary>Up to 1 % of the diagonal along each axis from a random point of a random instance.</summary>
-    public static Vector Near(Random random, Fractal fractal) =>
-        OnSurface(random, fractal) + Offset(random, 0.01 * fractal.Bounds.Diagonal);
+    public static Vector NearSurface(Random random, Fractal fractal) =>
+        OnSurface(random, fractal) + RandomOffset(random, 0.01 * fractal.Bounds.Diagonal);
 
     /// <summary>One to one and a half diagonals from the centre of a box, to all sides: so at least half a diagonal from the box.</summary>
     public static Vector Far(Random random, BoundingBox box)
     {
         while (true)
         {
-            var direction = Offset(random, 1);
+            var direction = RandomOffset(random, 1);
             if (direction.Length() is > 0.1 and <= 1)
             {
                 return box.Centre + ((1 + (0.5 * random.NextDouble())) * box.Diagonal * direction.UnitVector());
@@ -34,8 +35,8 @@ internal static class QueryPositions
     public static Vector OnSurface(Random random, Fractal fractal)
     {
         // Deeper levels move a point by less than a coordinate can hold.
-        const int deepest = 120;
-        var levels = (int)Math.Min(fractal.LevelCount ?? deepest, deepest);
+        const int maxLevels = 120;
+        var levels = (int)Math.Min(fractal.LevelCount ?? maxLevels, maxLevels);
         var point = OnSurface(random, fractal.BaseMesh);
         for (var level = levels - 1; level >= 0; level--)
         {
@@ -54,7 +55,7 @@ internal static class QueryPositions
         return a + (u * (b - a)) + (v * (c - a));
     }
 
-    private static Vector Offset(Random random, double most) => most * ((2 * Unit(random)) - Vector.One);
+    private static Vector RandomOffset(Random random, double maxOffset) => maxOffset * ((2 * RandomInUnitCube(random)) - Vector.One);
 
-    private static Vector Unit(Random random) => new(random.NextDouble(), random.NextDouble(), random.NextDouble());
+    private static Vector RandomInUnitCube(Random random) => new(random.NextDouble(), random.NextDouble(), random.NextDouble());
 }

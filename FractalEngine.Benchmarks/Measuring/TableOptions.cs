@@ -10,16 +10,16 @@ internal sealed record TableOptions(string Command, bool IsQuick, string Folder)
     public int Rounds => IsQuick ? 5 : 15;
 
     /// <summary>A file in the folder.</summary>
-    public CsvTable Table(string file, params string[] columns) =>
+    public CsvTable CreateTable(string file, params string[] columns) =>
         new(Path.Combine(Folder, file), IsQuick ? $"{Command} --quick" : Command, columns);
 
     /// <summary>Reads <c>--quick</c> and <c>--output FOLDER</c>; null where other words stand there.</summary>
-    public static TableOptions? TryRead(string command, string usage, ReadOnlySpan<string> words)
+    public static TableOptions? TryParse(string command, string usage, ReadOnlySpan<string> args)
     {
-        var options = new TableOptions(command, false, CommandWords.DefaultFolder);
-        return new CommandWords(usage)
+        var options = new TableOptions(command, false, CommandLineParser.DefaultFolder);
+        return new CommandLineParser(usage)
             .Flag("--quick", () => options = options with { IsQuick = true })
-            .Value("--output", folder => options = options with { Folder = folder })
-            .TryRead(words) ? options : null;
+            .Option("--output", folder => options = options with { Folder = folder })
+            .TryParse(args) ? options : null;
     }
 }

@@ -27,8 +27,8 @@ internal static class PaperCommand
 
     public static int Run(ReadOnlySpan<string> args)
     {
-        var output = CommandWords.DefaultFolder;
-        if (!new CommandWords(Usage).Value("--output", value => output = value).TryRead(args))
+        var output = CommandLineParser.DefaultFolder;
+        if (!new CommandLineParser(Usage).Option("--output", value => output = value).TryParse(args))
         {
             return 2;
         }
@@ -36,7 +36,7 @@ internal static class PaperCommand
         var folder = Directory.CreateTempSubdirectory("fractalengine");
         try
         {
-            Write(output, [.. PaperModel.All.Select(model => Measure(model, model.FileIn(folder.FullName)))]);
+            Write(output, [.. PaperModel.All.Select(model => Measure(model, model.EnsureFile(folder.FullName)))]);
         }
         finally
         {
@@ -56,19 +56,22 @@ internal static class PaperCommand
     {
         var loaded = PaperModel.Load(file);
         var model = PaperModel.ModelOf(loaded);
-        var load = Math.Round(PaperLoading.Seconds(file), 6);
-        var every = Math.Round(PaperLoading.SecondsForEveryInstance(file), 6);
-        var cost = PaperCollision.Of(model);
+        var load = Math.Round(PaperLoading.MeasureSeconds(file), 6);
+        var everyInstanceLoad = Math.Round(PaperLoading.MeasureSecondsWithEveryInstance(file), 6);
+        var cost = PaperCollision.Measure(model);
         return (
             [
-                paper.Id, paper.Name, paper.Shape is null ? "N" : "Y", model.FaceCount, paper.Faces, load, every, paper.LoadSeconds,
+                paper.Id, paper.Name, paper.Shape is null ? "N" : "Y", model.FaceCount, paper.Faces, load, everyInstanceLoad,
+                paper.LoadSeconds,
                 loaded.StorageBytes, paper.StorageBytes,
-                cost.Fractal ?? cost.Simple, paper.FractalCost ?? paper.Faces, cost.Exact.Faces, paper.NoteOnFigure17,
+                cost.FractalFaceTests ?? cost.SimpleFaceTests, paper.FractalCost ?? paper.Faces, cost.ExactTests.Faces,
+                paper.NoteOnFigure17,
             ],
             [
-                paper.Id, paper.Name, model.FaceCount, cost.Simple, paper.Faces, cost.Fractal, paper.FractalCost, cost.Boxes, paper.BoxCost,
-                cost.BoxDepth, cost.Exact.Faces,
-                cost.Exact.Bounds, cost.FractalWrong, cost.BoxesWrong, paper.NoteOnFigure18,
+                paper.Id, paper.Name, model.FaceCount, cost.SimpleFaceTests, paper.Faces, cost.FractalFaceTests, paper.FractalCost,
+                cost.BoundingBoxFaceTests, paper.BoxCost,
+                cost.OctreeDepth, cost.ExactTests.Faces,
+                cost.ExactTests.Bounds, cost.FractalWrongPercent, cost.BoundingBoxWrongPercent, paper.NoteOnFigure18,
             ]);
     }
 

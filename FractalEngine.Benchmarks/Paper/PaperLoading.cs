@@ -13,17 +13,17 @@ internal static class PaperLoading
     private const int Runs = 10;
 
     // More than the paper's largest model needs.
-    private const int AllInstances = 4_000_000;
-    private const long AllTriangles = 50_000_000;
+    private const int MaxInstances = 4_000_000;
+    private const long MaxTriangles = 50_000_000;
 
     /// <summary>As the engine does it: a fractal's instances are chosen picture by picture.</summary>
-    public static double Seconds(string file) => Median(file, new());
+    public static double MeasureSeconds(string file) => MeasureMedian(file, new());
 
     /// <summary>As the paper does it: every instance's matrix is made.</summary>
-    public static double SecondsForEveryInstance(string file) =>
-        Median(file, new() { Culling = null, InstanceBudget = AllInstances, TriangleBudget = AllTriangles });
+    public static double MeasureSecondsWithEveryInstance(string file) =>
+        MeasureMedian(file, new() { Culling = null, InstanceBudget = MaxInstances, TriangleBudget = MaxTriangles });
 
-    private static double Median(string file, RenderSettings settings)
+    private static double MeasureMedian(string file, RenderSettings settings)
     {
         var seconds = new double[Runs];
         for (var run = 0; run < Runs; run++)

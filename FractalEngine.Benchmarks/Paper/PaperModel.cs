@@ -30,24 +30,24 @@ internal sealed record PaperModel(
     ];
 
     /// <summary>b·t·d, what §5.2.3 says of the fractal collider.</summary>
-    public long? FormulaOfFractal => Shape is var (faces, maps, depth) ? (long)faces * maps * depth : null;
+    public long? FractalCostFormula => Shape is var (faces, maps, depth) ? (long)faces * maps * depth : null;
 
     /// <summary>8·12·3·log₈(faces), what figure 18 prints of the bounding box collider, with a depth that is no whole number.</summary>
-    public double FormulaOfBoxes => 8 * 12 * 3 * Math.Log(Faces, 8);
+    public double BoxCostFormula => 8 * 12 * 3 * Math.Log(Faces, 8);
 
     /// <summary>Where the paper's own numbers disagree; empty where they agree.</summary>
-    public string NoteOnFigure17 => FormulaOfFractal is { } formula && formula != FractalCost
+    public string NoteOnFigure17 => FractalCostFormula is { } formula && formula != FractalCost
         ? FormattableString.Invariant(
             $"the paper prints {FractalCost}; its b·t·d is {Shape!.Value.Base}·{Shape.Value.Maps}·{Shape.Value.Depth} = {formula}, and {FractalCost} would be depth {FractalCost / (Shape.Value.Base * Shape.Value.Maps)}")
         : "";
 
     /// <summary>The same of figure 18.</summary>
     public string NoteOnFigure18 => FormattableString.Invariant(
-        $"the paper's {BoxCost} is 8·12·{FormulaOfBoxes / 96:F2} rounded: no octree has {FormulaOfBoxes / 96:F2} levels")
+        $"the paper's {BoxCost} is 8·12·{BoxCostFormula / 96:F2} rounded: no octree has {BoxCostFormula / 96:F2} levels")
         + (NoteOnFigure17 is "" ? "" : "; " + NoteOnFigure17);
 
     /// <summary>The model's file; a generated mesh is written into a folder.</summary>
-    public string FileIn(string folder)
+    public string EnsureFile(string folder)
     {
         if (Shape is not null)
         {

@@ -15,24 +15,24 @@ internal static class PhysicsCommand
 
     public static int Run(ReadOnlySpan<string> args)
     {
-        var (rounds, balls, collider, folder, names) = (3, 1000, ColliderKind.Exact, (string?)null, new List<string>());
-        var words = new CommandWords($"{Usage}\nNames: {string.Join(' ', FractalCase.Names)}")
-            .Count("--rounds", count => rounds = count).Count("--balls", count => balls = count)
-            .Value("--collider", text => TryParse(text, out collider))
-            .Value("--output", value => folder = value).Names(FractalCase.IsCase, names);
-        if (!words.TryRead(args))
+        var (rounds, bodyCount, collider, folder, names) = (3, 1000, ColliderKind.Exact, (string?)null, new List<string>());
+        var words = new CommandLineParser($"{Usage}\nNames: {string.Join(' ', FractalCase.Names)}")
+            .Count("--rounds", count => rounds = count).Count("--balls", count => bodyCount = count)
+            .Option("--collider", text => TryParse(text, out collider))
+            .Option("--output", value => folder = value).Names(FractalCase.IsKnown, names);
+        if (!words.TryParse(args))
         {
             return 2;
         }
 
         var command =
             FormattableString.Invariant(
-                $"physics{string.Concat(names.Select(name => " " + name))} --balls {balls} --collider {SceneParser.GetColliderName(collider)} --rounds {rounds}");
+                $"physics{string.Concat(names.Select(name => " " + name))} --balls {bodyCount} --collider {SceneParser.GetColliderName(collider)} --rounds {rounds}");
         var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "physics.csv"), command, PhysicsTable.Columns);
         var table = new PhysicsTable(rounds, Console.Out, csv);
         foreach (var name in names.Count > 0 ? names : ["menger:5"])
         {
-            table.Write(FractalCase.Parse(name), balls, collider);
+            table.Write(FractalCase.Parse(name), bodyCount, collider);
         }
 
         csv?.Save();

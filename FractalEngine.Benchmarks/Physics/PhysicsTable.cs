@@ -22,7 +22,7 @@ internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? tabl
         "allocated_bytes_of_all_but_first", "state"];
 
     private const int Steps = 600;
-    private const int StepsOfPhase = 30;
+    private const int StepsPerPhase = 30;
     private const int Seed = 2;
 
     /// <summary>Writes a block of rows for a fractal.</summary>
@@ -31,25 +31,25 @@ internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? tabl
     /// <param name="collider">Of all balls.</param>
     public void Write(FractalCase fractal, int count, ColliderKind collider)
     {
-        var phases = Steps / StepsOfPhase;
+        var phases = Steps / StepsPerPhase;
         var best = new double[Steps];
         Array.Fill(best, double.PositiveInfinity);
         var (awake, bounds, hash, allocated) = (new int[phases], new double[phases], "", 0L);
         for (var round = 0; round <= rounds; round++)
         {
-            var world = WorldOf(fractal, count, collider);
+            var world = CreateWorld(fractal, count, collider);
             var before = 0L;
             for (var step = 0; step < Steps; step++)
             {
                 // What is compiled and built at first is not counted.
-                before = step == StepsOfPhase ? GC.GetAllocatedBytesForCurrentThread() : before;
+                before = step == StepsPerPhase ? GC.GetAllocatedBytesForCurrentThread() : before;
                 var start = Stopwatch.GetTimestamp();
                 world.Step();
                 // The first round is for the compiler.
                 best[step] = round > 0 ? Math.Min(best[step], Stopwatch.GetElapsedTime(start).TotalMilliseconds) : best[step];
-                bounds[step / StepsOfPhase] = (step % StepsOfPhase == 0 ? 0 : bounds[step / StepsOfPhase])
-                    + (world.LastStepCost.BoundTests / (double)StepsOfPhase);
-                awake[step / StepsOfPhase] = Awake(world);
+                bounds[step / StepsPerPhase] = (step % StepsPerPhase == 0 ? 0 : bounds[step / StepsPerPhase])
+                    + (world.LastStepCost.BoundTests / (double)StepsPerPhase);
+                awake[step / StepsPerPhase] = CountAwake(world);
             }
 
             allocated = GC.GetAllocatedBytesForCurrentThread() - before;
@@ -60,18 +60,18 @@ internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? tabl
 
         output.WriteLine(
             string.Create(CultureInfo.InvariantCulture,
-            $"{fractal.Name}, {count} balls, best of {rounds}; state {hash}; {allocated} bytes allocated in the last {Steps - StepsOfPhase} steps"));
+            $"{fractal.Name}, {count} balls, best of {rounds}; state {hash}; {allocated} bytes allocated in the last {Steps - StepsPerPhase} steps"));
         output.WriteLine("until   awake at the end   bound tests   ms a step, median   worst");
         for (var phase = 0; phase < phases; phase++)
         {
-            var times = best.AsSpan(phase * StepsOfPhase, StepsOfPhase).ToArray();
+            var times = best.AsSpan(phase * StepsPerPhase, StepsPerPhase).ToArray();
             Array.Sort(times);
             output.WriteLine(string.Create(
                 CultureInfo.InvariantCulture,
-                $"{(phase + 1) * StepsOfPhase / 60.0,4:F1} s {awake[phase],18} {bounds[phase],13:F0} {times[StepsOfPhase / 2],19:F2} {times[^1],7:F2}"));
+                $"{(phase + 1) * StepsPerPhase / 60.0,4:F1} s {awake[phase],18} {bounds[phase],13:F0} {times[StepsPerPhase / 2],19:F2} {times[^1],7:F2}"));
             table?.Add(
-                fractal.Name, count, (phase + 1) * StepsOfPhase / 60.0, awake[phase], Math.Round(bounds[phase], 1),
-                Math.Round(times[StepsOfPhase / 2], 4), Math.Round(times[^1], 4), allocated,
+                fractal.Name, count, (phase + 1) * StepsPerPhase / 60.0, awake[phase], Math.Round(bounds[phase], 1),
+                Math.Round(times[StepsPerPhase / 2], 4), Math.Round(times[^1], 4), allocated,
                 hash);
         }
 
@@ -79,7 +79,7 @@ internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? tabl
     }
 
     /// <summary>How many do not sleep.</summary>
-    internal static int Awake(PhysicsWorld world)
+    internal static int CountAwake(PhysicsWorld world)
     {
         var awake = 0;
         for (var i = 0; i < world.Bodies.Count; i++)
@@ -91,12 +91,12 @@ internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? tabl
     }
 
     /// <summary>A fractal of size 1 over a floor, and balls above it; the same every time.</summary>
-    internal static PhysicsWorld WorldOf(FractalCase fractal, int count, ColliderKind collider)
+    internal static PhysicsWorld CreateWorld(FractalCase fractal, int count, ColliderKind collider)
     {
         var box = fractal.Fractal.Bounds;
         var scale = 1 / box.Size.MaxAbsComponent();
-        var model = new FractalModel(fractal.Name, 0, fractal.Fractal);
-        var floor = new MeshModel("floor", 0, new([-9, 0, -9, 9, 0, -9, 9, 0, 9, -9, 0, 9], [0, 2, 1, 0, 3, 2]));
+        var model = new FractalModel(fractal.Fractal) { SourcePath = fractal.Name };
+        var floor = new MeshModel(new([-9, 0, -9, 9, 0, -9, 9, 0, 9, -9, 0, 9], [0, 2, 1, 0, 3, 2])) { SourcePath = "floor" };
         var scene = new LoadedScene(new Scene(),
         [
             new(new(fractal.Name, new Transformation(-scale * box.Centre, Vector.Zero, scale * Vector.One)), model),

@@ -23,7 +23,7 @@ internal static class ExactDistance
 
     /// <summary>From a triangle.</summary>
     /// <exception cref="DivideByZeroException">It has no area.</exception>
-    public static Rational SquaredToFace(Vector position, Vector corner1, Vector corner2, Vector corner3)
+    public static Rational SquaredToTriangle(Vector position, Vector corner1, Vector corner2, Vector corner3)
     {
         var (p, a, b, c) = (Triple.Of(position), Triple.Of(corner1), Triple.Of(corner2), Triple.Of(corner3));
         var (ab, ac, ap) = (b - a, c - a, p - a);
@@ -33,7 +33,7 @@ internal static class ExactDistance
         var weightB = Triple.Dot(Triple.Cross(ap, ac), normal);
         if (weightB < Rational.Zero || weightC < Rational.Zero || weightB + weightC > squared)
         {
-            return Smaller(ToEdge(p, a, b), Smaller(ToEdge(p, b, c), ToEdge(p, c, a)));
+            return Min(SquaredToEdge(p, a, b), Min(SquaredToEdge(p, b, c), SquaredToEdge(p, c, a)));
         }
 
         var height = Triple.Dot(ap, normal);
@@ -44,13 +44,14 @@ internal static class ExactDistance
     public static Rational SquaredToBox(Vector position, Vector minimum, Vector maximum)
     {
         var (p, low, high) = (Triple.Of(position), Triple.Of(minimum), Triple.Of(maximum));
-        var (x, y, z) = (Outside(p.X, low.X, high.X), Outside(p.Y, low.Y, high.Y), Outside(p.Z, low.Z, high.Z));
+        var (x, y, z) = (DistanceOutside(p.X, low.X, high.X), DistanceOutside(p.Y, low.Y, high.Y), DistanceOutside(p.Z, low.Z, high.Z));
         return (x * x) + (y * y) + (z * z);
     }
 
-    private static Rational Outside(Rational p, Rational low, Rational high) => p < low ? low - p : p > high ? p - high : Rational.Zero;
+    private static Rational DistanceOutside(Rational p, Rational low, Rational high) =>
+        p < low ? low - p : p > high ? p - high : Rational.Zero;
 
-    private static Rational ToEdge(Triple p, Triple start, Triple end)
+    private static Rational SquaredToEdge(Triple p, Triple start, Triple end)
     {
         var along = end - start;
         var t = Triple.Dot(p - start, along) / Triple.Dot(along, along);
@@ -59,5 +60,5 @@ internal static class ExactDistance
         return Triple.Dot(away, away);
     }
 
-    private static Rational Smaller(Rational r, Rational s) => r < s ? r : s;
+    private static Rational Min(Rational r, Rational s) => r < s ? r : s;
 }

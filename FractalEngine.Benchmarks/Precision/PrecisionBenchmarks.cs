@@ -7,36 +7,37 @@ namespace FractalEngine.Benchmarks.Precision;
 /// Float or double? The distance of a position from a face by the same operations in both, and by the engine's own kernel, which also finds
 /// the point, its weights and the feature. One operation is one face; errors are against fractions.
 /// </summary>
-public class PrecisionBenchmarks : IMeasuresMore
+public class PrecisionBenchmarks : IExtraMetrics
 {
-    private FloatAndDouble.Measured _single = null!;
-    private FloatAndDouble.Measured _double = null!;
-    private FloatAndDouble.Measured _engine = null!;
+    private FloatVersusDouble.Measurement _single = null!;
+    private FloatVersusDouble.Measurement _double = null!;
+    private FloatVersusDouble.Measurement _engine = null!;
 
     [ParamsSource(nameof(Names))]
     public string Coordinates { get; set; } = "";
 
     /// <summary>Where the faces are, or of what form.</summary>
-    public static IEnumerable<string> Names => FloatAndDouble.Sets.Select(set => set.Name);
+    public static IEnumerable<string> Names => FloatVersusDouble.CoordinateSets.Select(set => set.Name);
 
     [GlobalSetup]
     public void SetUp()
     {
-        var set = FloatAndDouble.Sets.First(set => set.Name == Coordinates);
-        (_single, _double, _engine) = (FloatAndDouble.Faces<float>(set), FloatAndDouble.Faces<double>(set), FloatAndDouble.Engine(set));
+        var set = FloatVersusDouble.CoordinateSets.First(set => set.Name == Coordinates);
+        (_single, _double, _engine) = (FloatVersusDouble.MeasureTriangles<float>(set), FloatVersusDouble.MeasureTriangles<double>(set),
+            FloatVersusDouble.MeasureEngineKernel(set));
     }
 
-    [Benchmark(Baseline = true, OperationsPerInvoke = FloatAndDouble.Cases)]
-    public void Doubles() => _double.Time();
+    [Benchmark(Baseline = true, OperationsPerInvoke = FloatVersusDouble.CaseCount)]
+    public void Doubles() => _double.Run();
 
-    [Benchmark(OperationsPerInvoke = FloatAndDouble.Cases)]
-    public void Floats() => _single.Time();
+    [Benchmark(OperationsPerInvoke = FloatVersusDouble.CaseCount)]
+    public void Floats() => _single.Run();
 
-    [Benchmark(OperationsPerInvoke = FloatAndDouble.Cases)]
-    public void Engine() => _engine.Time();
+    [Benchmark(OperationsPerInvoke = FloatVersusDouble.CaseCount)]
+    public void Engine() => _engine.Run();
 
     /// <inheritdoc/>
-    IEnumerable<MoreValue> IMeasuresMore.Measure(string method)
+    IEnumerable<ExtraMetric> IExtraMetrics.MeasureExtra(string method)
     {
         var measured = method switch
         {
@@ -44,6 +45,6 @@ public class PrecisionBenchmarks : IMeasuresMore
             nameof(Doubles) => _double,
             _ => _engine,
         };
-        return [new("largest_error", measured.WorstError), new("too_far_percent", measured.Above)];
+        return [new("largest_error", measured.WorstError), new("too_far_percent", measured.PercentAboveExact)];
     }
 }

@@ -12,12 +12,12 @@ internal static class PrecisionCommand
 
     public static int Run(ReadOnlySpan<string> args)
     {
-        if (TableOptions.TryRead("precision", Usage, args) is not { } options)
+        if (TableOptions.TryParse("precision", Usage, args) is not { } options)
         {
             return 2;
         }
 
-        FloatAndDouble.Write(options);
+        FloatVersusDouble.Write(options);
         return 0;
     }
 }

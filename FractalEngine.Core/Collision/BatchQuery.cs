@@ -2,23 +2,45 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
 
-/// <summary>Asks a collider or a scene for many positions at once, on all cores.</summary>
+/// <summary>Finds the closest points of many positions at once, on all cores.</summary>
 public static class BatchQuery
 {
     // Enough for a thread to be worth waking: from some microseconds to some milliseconds.
     private const int PositionsPerTask = 256;
 
-    /// <summary>Finds the nearest point for each position.</summary>
-    /// <param name="collider">Any; its answers do not depend on the number of threads.</param>
+    /// <summary>Finds the point of a shape closest to each position.</summary>
+    /// <param name="collider">Of any kind; its results do not depend on the number of threads.</param>
     /// <param name="positions">In the shape's frame, scene units, finite.</param>
-    /// <param name="results">As many as positions; receives the answers in the same order.</param>
-    /// <param name="context">Receives the sum of the costs. Its instance path is emptied: there is one for each position.</param>
-    /// <param name="maxDistance">As in <see cref="Collider.TryFindClosest"/>.</param>
-    /// <param name="epsilon">As in <see cref="Collider.TryFindClosest"/>.</param>
-    /// <param name="threads">At most so many; null for one a core.</param>
-    /// <exception cref="ArgumentException">There are fewer or more answers than positions.</exception>
+    /// <param name="maxDistance">Search radius, scene units, not negative; may be infinite.</param>
+    /// <param name="epsilon">Allowed relative error, not negative.</param>
+    /// <param name="threads">The most threads to use; null for one a core.</param>
+    /// <returns>One result for each position, in the same order.</returns>
     /// <exception cref="ArgumentOutOfRangeException">
-    /// A position is not finite, a distance or ε is negative or NaN, or there are no threads.
+    /// A position is not finite, the radius or ε is negative or NaN, or there are no threads.
+    /// </exception>
+    public static BatchResult[] FindClosest(
+        Collider collider,
+        ReadOnlyMemory<Vector> positions,
+        double maxDistance = double.PositiveInfinity,
+        double epsilon = 0,
+        int? threads = null)
+    {
+        var results = new BatchResult[positions.Length];
+        FindClosest(collider, positions, results, new(), maxDistance, epsilon, threads);
+        return results;
+    }
+
+    /// <summary>Finds the point of a shape closest to each position, and adds up what that costs.</summary>
+    /// <param name="collider">Of any kind; its results do not depend on the number of threads.</param>
+    /// <param name="positions">In the shape's frame, scene units, finite.</param>
+    /// <param name="results">As many as positions; receives the results in the same order.</param>
+    /// <param name="context">Receives the sum of the costs. Its instance path is emptied: there is one for each position.</param>
+    /// <param name="maxDistance">Search radius, scene units, not negative; may be infinite.</param>
+    /// <param name="epsilon">Allowed relative error, not negative.</param>
+    /// <param name="threads">The most threads to use; null for one a core.</param>
+    /// <exception cref="ArgumentException">There are fewer or more results than positions.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">
+    /// A position is not finite, the radius or ε is negative or NaN, or there are no threads.
     /// </exception>
     /// <remarks>Allocates for each thread, nothing for a position.</remarks>
     public static void FindClosest(
@@ -28,22 +50,25 @@ public static class BatchQuery
         QueryContext context,
         double maxDistance = double.PositiveInfinity,
         double epsilon = 0,
-        int? threads = null) => FindClosest(
-            (Vector position, QueryContext threadContext, out ClosestPoint closest) => collider.TryFindClosest(position, maxDistance,
-            threadContext, out closest, epsilon),
-            positions, results, context, maxDistance, epsilon, threads);
+        int? threads = null)
+    {
+        FindClosest(Find, positions, results, context, maxDistance, epsilon, threads);
 
-    /// <summary>Finds the nearest point of a scene for each position.</summary>
-    /// <param name="scene">All objects are looked at.</param>
+        bool Find(Vector position, QueryContext threadContext, out ClosestPoint closest) =>
+            collider.TryFindClosest(position, maxDistance, threadContext, out closest, epsilon);
+    }
+
+    /// <summary>Finds the point of a scene closest to each position, and adds up what that costs.</summary>
+    /// <param name="scene">All its objects are tested.</param>
     /// <param name="positions">World space, finite.</param>
-    /// <param name="results">As many as positions; receives the answers in the same order.</param>
+    /// <param name="results">As many as positions; receives the results in the same order.</param>
     /// <param name="context">Receives the sum of the costs. Its instance path is emptied.</param>
-    /// <param name="maxDistance">As in <see cref="Collider.TryFindClosest"/>.</param>
-    /// <param name="epsilon">As in <see cref="Collider.TryFindClosest"/>.</param>
-    /// <param name="threads">At most so many; null for one a core.</param>
-    /// <exception cref="ArgumentException">There are fewer or more answers than positions.</exception>
+    /// <param name="maxDistance">Search radius, scene units, not negative; may be infinite.</param>
+    /// <param name="epsilon">Allowed relative error, not negative.</param>
+    /// <param name="threads">The most threads to use; null for one a core.</param>
+    /// <exception cref="ArgumentException">There are fewer or more results than positions.</exception>
     /// <exception cref="ArgumentOutOfRangeException">
-    /// A position is not finite, a distance or ε is negative or NaN, or there are no threads.
+    /// A position is not finite, the radius or ε is negative or NaN, or there are no threads.
     /// </exception>
     public static void FindClosest(
         SceneCollider scene,
@@ -52,10 +77,13 @@ public static class BatchQuery
         QueryContext context,
         double maxDistance = double.PositiveInfinity,
         double epsilon = 0,
-        int? threads = null) => FindClosest(
-            (Vector position, QueryContext threadContext, out ClosestPoint closest) => scene.TryFindClosest(position, maxDistance,
-            threadContext, out closest, out _, epsilon: epsilon),
-            positions, results, context, maxDistance, epsilon, threads);
+        int? threads = null)
+    {
+        FindClosest(Find, positions, results, context, maxDistance, epsilon, threads);
+
+        bool Find(Vector position, QueryContext threadContext, out ClosestPoint closest) =>
+            scene.TryFindClosest(position, maxDistance, threadContext, out closest, out _, epsilon: epsilon);
+    }
 
     private delegate bool Query(Vector position, QueryContext context, out ClosestPoint closest);
 
@@ -93,7 +121,7 @@ public static class BatchQuery
     {
         if (results != positions.Length)
         {
-            throw new ArgumentException($"expected {positions.Length} answers, one for each position", nameof(results));
+            throw new ArgumentException($"expected {positions.Length} results, one for each position", nameof(results));
         }
 
         // Before any thread begins, so that the error is the caller's own and names the first.
@@ -105,16 +133,7 @@ public static class BatchQuery
             }
         }
 
-        if (!(maxDistance >= 0))
-        {
-            throw new ArgumentOutOfRangeException(nameof(maxDistance), maxDistance, "expected no negative number");
-        }
-
-        if (!(epsilon >= 0))
-        {
-            throw new ArgumentOutOfRangeException(nameof(epsilon), epsilon, "expected no negative number");
-        }
-
+        Collider.ThrowIfInvalid(maxDistance, epsilon);
         if (threads is { } number)
         {
             ArgumentOutOfRangeException.ThrowIfNegativeOrZero(number, nameof(threads));

@@ -2,15 +2,15 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
 
-/// <summary>The answer of a query: the point of a shape nearest to a position.</summary>
+/// <summary>The result of a query: the point of a shape closest to a position.</summary>
 /// <param name="Distance">From the position, scene units; 0 on the surface.</param>
 /// <param name="Point">In the frame of the query.</param>
 /// <param name="Normal">
-/// Of length 1: the face's, by its winding. Where several faces are equally near, one of them. The direction from the point to the
-/// position is another thing, and not defined on the surface; who needs it derives it.
+/// The unit normal of the face, by its winding. Where several faces are equally close, that of one of them. It is not the direction from
+/// the point to the position, which is not defined on the surface.
 /// </param>
-/// <param name="Barycentrics">Weights of the face's corners.</param>
+/// <param name="Barycentrics">Weights of the vertices of the face.</param>
 /// <param name="Feature">Where on the face the point is.</param>
-/// <param name="FaceIndex">Number of the face in the mesh, from 0.</param>
+/// <param name="FaceIndex">Index of the face in the mesh, from 0.</param>
 public readonly record struct ClosestPoint(
     double Distance, Vector Point, Vector Normal, Vector Barycentrics, TriangleFeature Feature, int FaceIndex);

@@ -1,53 +1,103 @@
+using System.Diagnostics.CodeAnalysis;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Collision;
 
 /// <summary>
-/// Finds the point of a shape nearest to a position (paper §4.4.2–4.4.3). Immutable: any number of threads may ask at once, each with a
-/// record of its own. Queries allocate nothing.
+/// Finds the point of a shape closest to a position (paper §4.4.2–4.4.3). Immutable: any number of threads may query at once, each with a
+/// context of its own. Queries with a context allocate nothing.
 /// </summary>
 public abstract class Collider
 {
-    /// <summary>False for colliders that may miss the nearest point.</summary>
+    private readonly SpareContext _spareContext = new();
+
+    /// <summary>False for colliders that may miss the closest point.</summary>
     public abstract bool IsExact { get; }
 
     /// <summary>Bytes that the collider keeps beside the mesh or the fractal it was made from.</summary>
     public abstract long StorageBytes { get; }
 
-    /// <summary>Finds the nearest point.</summary>
+    /// <summary>True when <see cref="FindClosestTransformed"/> works.</summary>
+    internal virtual bool SupportsTransformedQueries => false;
+
+    /// <summary>Builds the collider of a fractal.</summary>
+    /// <param name="fractal">Of any size for the kinds that search its levels; others expand it.</param>
+    /// <param name="kind">How to search; exact unless stated.</param>
+    /// <exception cref="ColliderMismatchException">The kind does not fit; the message says which kinds do.</exception>
+    /// <exception cref="FractalLimitException">The fractal is too large for this kind, or grows beyond a double.</exception>
+    public static Collider For(Fractal fractal, ColliderKind kind = ColliderKind.Exact) => ColliderFactory.Create(fractal, kind);
+
+    /// <summary>Builds the collider of a mesh.</summary>
+    /// <param name="mesh">Its faces; unused vertices are ignored.</param>
+    /// <param name="kind">How to search; exact unless stated.</param>
+    /// <exception cref="ColliderMismatchException">The kind does not fit; the message says which kinds do.</exception>
+    public static Collider For(Mesh mesh, ColliderKind kind = ColliderKind.Exact) => ColliderFactory.Create(mesh, kind);
+
+    /// <summary>Builds the collider of a model in its own frame.</summary>
+    /// <param name="model">A mesh or a fractal.</param>
+    /// <param name="kind">How to search; exact unless stated.</param>
+    /// <exception cref="ColliderMismatchException">The kind does not fit; the message says which kinds do.</exception>
+    /// <exception cref="FractalLimitException">The fractal is too large for this kind, or grows beyond a double.</exception>
+    public static Collider For(Model model, ColliderKind kind = ColliderKind.Exact) => ColliderFactory.Create(model, kind);
+
+    /// <summary>Finds the point of the shape closest to a position.</summary>
     /// <param name="position">In the shape's frame, scene units, finite.</param>
-    /// <param name="maxDistance">Nothing farther away is looked at; may be infinite.</param>
-    /// <param name="context">Receives the costs and the instance.</param>
-    /// <param name="closest">The answer, if there is one.</param>
+    /// <returns>The closest point with its normal, face and instance.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The position is not finite.</exception>
+    /// <exception cref="InvalidOperationException">The shape has no faces.</exception>
+    /// <remarks>Allocates its result only. Many positions at once: <see cref="BatchQuery"/>.</remarks>
+    public ClosestHit FindClosest(Vector position) => TryFindClosest(position, double.PositiveInfinity, out var hit)
+        ? hit
+        : throw new InvalidOperationException("the shape has no faces, so no point of it is closest");
+
+    /// <summary>Finds the point of the shape closest to a position, if one is near enough.</summary>
+    /// <param name="position">In the shape's frame, scene units, finite.</param>
+    /// <param name="maxDistance">Search radius, scene units, not negative; may be infinite.</param>
+    /// <param name="hit">The closest point with its normal, face and instance; null where there is none.</param>
+    /// <returns>False when no face lies within the radius.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the radius is negative or NaN.</exception>
+    public bool TryFindClosest(Vector position, double maxDistance, [NotNullWhen(true)] out ClosestHit? hit)
+    {
+        var context = _spareContext.Take();
+        hit = TryFindClosest(position, maxDistance, context, out var closest) ? ClosestHit.Of(closest, context) : null;
+        _spareContext.Return(context);
+        return hit is not null;
+    }
+
+    /// <summary>Finds the point of the shape closest to a position, and adds up what that costs.</summary>
+    /// <param name="position">In the shape's frame, scene units, finite.</param>
+    /// <param name="maxDistance">Search radius, scene units, not negative; may be infinite.</param>
+    /// <param name="context">Receives the costs and the instance; one for each thread.</param>
+    /// <param name="closest">The closest point, if there is one.</param>
     /// <param name="epsilon">
-    /// How much farther than the nearest the answer may be: at most by the factor 1 + ε. Colliders that are not faster for it answer
+    /// How much farther than the closest point the result may be: at most by the factor 1 + ε. Colliders that gain no speed by it answer
     /// exactly.
     /// </param>
-    /// <returns>False when nothing lies within the distance.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the distance or ε is negative or NaN.</exception>
+    /// <returns>False when no face lies within the radius.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the radius or ε is negative or NaN.</exception>
     public bool TryFindClosest(Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, double epsilon = 0)
     {
         ThrowIfInvalid(position, maxDistance, epsilon);
         return FindClosestCore(position, maxDistance, epsilon, context, out closest);
     }
 
-    /// <summary>True when <see cref="FindClosestTransformed"/> works.</summary>
-    internal virtual bool SupportsTransformedQueries => false;
-
-    /// <summary>Finds the nearest point of the shape's image under any map, which costs more than in the shape's own frame.</summary>
-    /// <param name="position">In the frame of the image, finite.</param>
-    /// <param name="map">From the shape's frame to that of the image; not singular.</param>
-    /// <param name="maxDistance">As in <see cref="TryFindClosest"/>.</param>
-    /// <param name="epsilon">As in <see cref="TryFindClosest"/>.</param>
+    /// <summary>Finds the closest point of the shape under any map, which costs more than in the shape's own frame.</summary>
+    /// <param name="position">In the frame that the map leads to, finite.</param>
+    /// <param name="map">Maps the shape's frame to that of the query; not singular.</param>
+    /// <param name="maxDistance">Search radius in the frame of the query.</param>
+    /// <param name="epsilon">Allowed relative error, as in a query without a map.</param>
     /// <param name="context">Receives the costs and the instance.</param>
-    /// <param name="closest">The answer in the frame of the image, if there is one.</param>
-    internal virtual bool FindClosestTransformed(Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context,
-        out ClosestPoint closest) =>
+    /// <param name="closest">The closest point in the frame of the query, if there is one.</param>
+    internal virtual bool FindClosestTransformed(
+        Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest) =>
         throw new NotSupportedException($"{GetType().Name} finds points in the shape's own frame only");
 
     /// <summary>
-    /// True when a search that found nothing must be repeated without ε: measured against the limit itself, ε leaves out what is a little
-    /// nearer.
+    /// True when a search that found nothing must be repeated without ε. Measured against the radius itself, ε hides what is a little
+    /// closer.
     /// </summary>
     private protected static bool NeedsExactRetry(double maxDistance, double epsilon) => epsilon > 0 && double.IsFinite(maxDistance);
 
@@ -59,6 +109,12 @@ public abstract class Collider
             throw new ArgumentOutOfRangeException(nameof(position), position, "expected finite coordinates");
         }
 
+        ThrowIfInvalid(maxDistance, epsilon);
+    }
+
+    /// <summary>Throws when the radius or ε of a query is not allowed.</summary>
+    internal static void ThrowIfInvalid(double maxDistance, double epsilon)
+    {
         if (!(maxDistance >= 0))
         {
             throw new ArgumentOutOfRangeException(nameof(maxDistance), maxDistance, "expected no negative number");
@@ -70,7 +126,13 @@ public abstract class Collider
         }
     }
 
-    /// <summary>The query itself, its arguments checked.</summary>
-    private protected abstract bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
-        out ClosestPoint closest);
+    /// <summary>Carries out a query whose arguments are checked.</summary>
+    /// <param name="position">Finite, in the shape's frame.</param>
+    /// <param name="maxDistance">Search radius, not negative.</param>
+    /// <param name="epsilon">Allowed relative error, not negative.</param>
+    /// <param name="context">Receives the costs and the instance.</param>
+    /// <param name="closest">The closest point, if there is one.</param>
+    /// <returns>False when no face lies within the radius.</returns>
+    protected abstract bool FindClosestCore(
+        Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest);
 }

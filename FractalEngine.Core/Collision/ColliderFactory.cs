@@ -2,6 +2,7 @@ using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 
@@ -10,14 +11,14 @@ namespace FractalEngine.Core.Collision;
 /// <summary>Makes the collider of a kind for a model, where the kind fits it.</summary>
 public static class ColliderFactory
 {
-    /// <summary>The most faces of an expanded fractal that the colliders of meshes are made for.</summary>
+    /// <summary>The most faces of an expanded fractal that the colliders of meshes are made for; three times as many vertices.</summary>
     public const long MaxExpandedFaces = 20_000_000;
 
     /// <summary>True for kinds whose colliders serve objects with any matrix, see <see cref="Collider.FindClosestTransformed"/>.</summary>
     internal static bool SupportsTransformedQueries(ColliderKind kind) =>
         kind is ColliderKind.Exact or ColliderKind.Hierarchy or ColliderKind.Simple;
 
-    /// <summary>The collider for a model in its own frame.</summary>
+    /// <summary>Builds the collider of a model in its own frame.</summary>
     /// <exception cref="ColliderMismatchException">The kind does not fit the model; the message says which kinds do.</exception>
     /// <exception cref="FractalLimitException">The fractal is too large for this kind.</exception>
     public static Collider Create(Model model, ColliderKind kind) => model switch
@@ -26,18 +27,18 @@ public static class ColliderFactory
         _ => Create(model.Mesh, kind),
     };
 
-    /// <summary>The collider for an object in world space, whatever its matrix.</summary>
+    /// <summary>Builds the collider of an object in world space, whatever its matrix.</summary>
     /// <exception cref="ColliderMismatchException">The kind does not fit the model.</exception>
     /// <exception cref="FractalLimitException">The fractal is too large for this kind.</exception>
     public static Collider Create(PlacedModel placed, ColliderKind kind) => placed.Model switch
     {
         FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } =>
-            Create(new Fractal(fractal.Description.WithPlacement(placed.Declaration.Placement), fractal.BaseMesh), kind),
+            Create(fractal.WithPlacement(placed.Declaration.Placement), kind),
         FractalModel { Fractal: var fractal } => CreateExpanded(fractal, placed.ObjectToWorld, kind),
         _ => Create(FractalGenerator.Flatten(placed.Model.Mesh, [placed.ObjectToWorld]), kind),
     };
 
-    private static Collider Create(Fractal fractal, ColliderKind kind) => (kind, fractal.Description.Composition) switch
+    internal static Collider Create(Fractal fractal, ColliderKind kind) => (kind, fractal.Description.Composition) switch
     {
         (ColliderKind.Exact, Composition.Affine) => new ExactFractalCollider(fractal),
         (ColliderKind.Fractal, Composition.Affine) => new FractalCollider(fractal),
@@ -52,11 +53,13 @@ public static class ColliderFactory
                 "the collider 'fractal' descends by affine maps, which componentwise composition has not: expected exact, hierarchy, bounding-box or simple");
         }
 
-        var instances = FractalGenerator.Expand(fractal, MaxExpandedFaces / Math.Max(1, fractal.BaseMesh.FaceCount));
+        // A face uses at most three vertices, but the base mesh may have any number of unused ones, which are expanded too.
+        var facesPerInstance = Math.Max(1, Math.Max(fractal.BaseMesh.FaceCount, fractal.BaseMesh.VertexCount / 3));
+        var instances = FractalGenerator.Expand(fractal, MaxExpandedFaces / facesPerInstance);
         return Create(FractalGenerator.Flatten(fractal.BaseMesh, [.. instances.Select(instance => toWorld * instance)]), kind);
     }
 
-    private static Collider Create(Geometry.Mesh mesh, ColliderKind kind) => kind switch
+    internal static Collider Create(Mesh mesh, ColliderKind kind) => kind switch
     {
         ColliderKind.Exact or ColliderKind.Hierarchy => new HierarchyCollider(mesh),
         ColliderKind.BoundingBox => new BoundingBoxCollider(mesh),

@@ -1,23 +1,23 @@
-
 namespace FractalEngine.Core.Collision;
 
-/// <summary>A collider was asked for that does not fit the model. The message says which do.</summary>
-public sealed class ColliderMismatchException : Exception
+/// <summary>A collider was asked for that does not fit the model; the message says which do.</summary>
+public sealed class ColliderMismatchException : FractalEngineException
 {
-    /// <summary>With a message that says which colliders fit.</summary>
+    /// <summary>Makes an error with a message of one line.</summary>
     public ColliderMismatchException(string message)
-        : base(message)
+        : base(ErrorKind.Input, message)
     {
     }
 
-    /// <summary>With a message and a cause.</summary>
+    /// <summary>Makes an error with a message of one line and a cause.</summary>
     public ColliderMismatchException(string message, Exception innerException)
-        : base(message, innerException)
+        : base(ErrorKind.Input, message, innerException)
     {
     }
 
-    /// <summary>Without details.</summary>
+    /// <summary>Makes an error without details.</summary>
     public ColliderMismatchException()
+        : this("the collider does not fit the model")
     {
     }
 }

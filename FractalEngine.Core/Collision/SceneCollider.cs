@@ -1,4 +1,6 @@
 using System.Collections.Immutable;
+using System.Diagnostics.CodeAnalysis;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -6,37 +8,53 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Core.Collision;
 
 /// <summary>
-/// Queries on all objects of a scene, in world space. The collider of a file is built when it is first asked for, once for all objects that
-/// show the file; an object's own matrix is taken into account by each query, so that objects move for nothing.
+/// Finds closest points on all objects of a scene, in world space. The collider of a model is built when it is first needed, once for all
+/// objects that show the model. Each query takes the object's own matrix into account, so that moving an object costs nothing.
 /// </summary>
 /// <remarks>
-/// A matrix with a non-uniform scale does not keep distances in proportion: then the search itself takes it into account, which costs some
-/// times more. The colliders that only approximate can't: there such an object has one of its own, for the place where the scene has it.
+/// A matrix with a non-uniform scale does not keep distances in proportion: then the search itself takes it into account, which costs
+/// several times more. The approximate colliders can't, so such an object gets one of its own, in world space.
 /// </remarks>
 public sealed class SceneCollider
 {
     private readonly ImmutableArray<ColliderInstance> _instances;
     private readonly Dictionary<Model, Lazy<Collider>> _sharedColliders;
     private readonly ColliderKind _kind;
+    private readonly SpareContext _spareContext = new();
 
-    /// <summary>For a scene. Builds nothing yet.</summary>
-    /// <param name="scene">With its files loaded.</param>
-    /// <param name="kind">The collider of every object that it fits, see <see cref="ColliderFactory"/>.</param>
+    /// <summary>Prepares the colliders of a scene made in code, or loaded from a file. Builds none of them yet.</summary>
+    /// <param name="scene">With its models.</param>
+    /// <param name="kind">The collider of all objects, see <see cref="ColliderFactory"/>.</param>
+    /// <exception cref="FractalEngineException">An object names a file that is not loaded.</exception>
+    public SceneCollider(Scene scene, ColliderKind kind = ColliderKind.Exact)
+        : this(LoadedScene.Of(scene), kind)
+    {
+    }
+
+    /// <summary>Prepares the colliders of a scene. Builds none of them yet.</summary>
+    /// <param name="scene">With its models.</param>
+    /// <param name="kind">The collider of all objects, see <see cref="ColliderFactory"/>.</param>
     public SceneCollider(LoadedScene scene, ColliderKind kind = ColliderKind.Exact)
     {
         _kind = kind;
         _sharedColliders =
-            scene.Models.ToDictionary(model => model, model => new Lazy<Collider>(() => ColliderFactory.Create(model, kind)));
+            scene.Models.ToDictionary(model => model, model => new Lazy<Collider>(() => CreateCollider(model)));
         _instances = [.. scene.Objects.Select(CreateInstance)];
     }
 
-    private SceneCollider(ImmutableArray<ColliderInstance> instances, Dictionary<Model, Lazy<Collider>> sharedColliders,
-        ColliderKind kind) => (_instances, _sharedColliders, _kind) = (instances, sharedColliders, kind);
+    private SceneCollider(
+        ImmutableArray<ColliderInstance> instances, Dictionary<Model, Lazy<Collider>> sharedColliders, ColliderKind kind)
+    {
+        _instances = instances;
+        _sharedColliders = sharedColliders;
+        _kind = kind;
+    }
 
     /// <summary>
-    /// The same scene with one of its objects elsewhere. Colliders are shared; only the approximate ones of skewed objects are built anew.
+    /// Makes the collider of the same scene with one of its objects elsewhere. Colliders are shared; only the approximate ones of skewed
+    /// objects are built anew.
     /// </summary>
-    /// <param name="index">The object's place in the scene.</param>
+    /// <param name="index">Index of the object in the scene, from 0.</param>
     /// <param name="placed">The same model under another matrix.</param>
     public SceneCollider WithObject(int index, PlacedModel placed) =>
         new(_instances.SetItem(index, CreateInstance(placed)), _sharedColliders, _kind);
@@ -45,14 +63,31 @@ public sealed class SceneCollider
         ? new(_sharedColliders[placed.Model], similarity, null, placed.Bounds)
         : ColliderFactory.SupportsTransformedQueries(_kind)
             ? new(_sharedColliders[placed.Model], Similarity.Identity, placed.ObjectToWorld, placed.Bounds)
-            : new(new(() => ColliderFactory.Create(placed, _kind)), Similarity.Identity, null, placed.Bounds);
+            : new(new(() => CreateCollider(placed)), Similarity.Identity, null, placed.Bounds);
+
+    private Collider CreateCollider(Model model) => NameMismatch(model, () => ColliderFactory.Create(model, _kind));
+
+    private Collider CreateCollider(PlacedModel placed) => NameMismatch(placed.Model, () => ColliderFactory.Create(placed, _kind));
+
+    /// <summary>Says which model a collider does not fit.</summary>
+    private static Collider NameMismatch(Model model, Func<Collider> create)
+    {
+        try
+        {
+            return create();
+        }
+        catch (ColliderMismatchException exception)
+        {
+            throw new ColliderMismatchException($"{model.Name}: {exception.Message}", exception);
+        }
+    }
 
     /// <summary>Bytes of the colliders built so far, each once.</summary>
     public long StorageBytes =>
         _instances.Select(instance => instance.Collider).Distinct().Where(collider => collider.IsValueCreated)
         .Sum(collider => collider.Value.StorageBytes);
 
-    /// <summary>How many colliders there are, and how many of them have been built.</summary>
+    /// <summary>Number of colliders that have been built, and of all.</summary>
     public (int Built, int All) ColliderCounts
     {
         get
@@ -63,6 +98,8 @@ public sealed class SceneCollider
     }
 
     /// <summary>Builds all colliders now instead of at their first query.</summary>
+    /// <exception cref="ColliderMismatchException">The kind does not fit a model, which the message names.</exception>
+    /// <exception cref="FractalLimitException">A fractal is too large for the kind.</exception>
     public void Build()
     {
         foreach (var instance in _instances)
@@ -71,22 +108,48 @@ public sealed class SceneCollider
         }
     }
 
-    /// <summary>Finds the nearest point of all objects.</summary>
+    /// <summary>Finds the point of the scene closest to a position.</summary>
     /// <param name="position">World space, finite.</param>
-    /// <param name="maxDistance">Nothing farther away is looked at; may be infinite.</param>
-    /// <param name="context">Receives the costs and the instance.</param>
-    /// <param name="closest">The answer in world space, if there is one.</param>
-    /// <param name="objectIndex">The number of the object in the scene, −1 for none.</param>
-    /// <param name="excludedObject">An object that is not looked at, such as the one that asks; −1 for none.</param>
-    /// <param name="epsilon">See <see cref="Collider.TryFindClosest"/>.</param>
-    /// <returns>False when nothing lies within the distance.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the distance or ε is negative or NaN.</exception>
+    /// <returns>The closest point with its normal, face, instance and object.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The position is not finite.</exception>
+    /// <exception cref="InvalidOperationException">The scene has no faces.</exception>
+    public ClosestHit FindClosest(Vector position) => TryFindClosest(position, double.PositiveInfinity, out var hit)
+        ? hit
+        : throw new InvalidOperationException("the scene has no faces, so no point of it is closest");
+
+    /// <summary>Finds the point of the scene closest to a position, if one is near enough.</summary>
+    /// <param name="position">World space, finite.</param>
+    /// <param name="maxDistance">Search radius, scene units, not negative; may be infinite.</param>
+    /// <param name="hit">The closest point with its normal, face, instance and object; null where there is none.</param>
+    /// <returns>False when no face lies within the radius.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the radius is negative or NaN.</exception>
+    public bool TryFindClosest(Vector position, double maxDistance, [NotNullWhen(true)] out ClosestHit? hit)
+    {
+        var context = _spareContext.Take();
+        hit = TryFindClosest(position, maxDistance, context, out var closest, out var objectIndex)
+            ? ClosestHit.Of(closest, context, objectIndex)
+            : null;
+        _spareContext.Return(context);
+        return hit is not null;
+    }
+
+    /// <summary>Finds the point of the scene closest to a position, and adds up what that costs.</summary>
+    /// <param name="position">World space, finite.</param>
+    /// <param name="maxDistance">Search radius, scene units, not negative; may be infinite.</param>
+    /// <param name="context">Receives the costs and the instance; one for each thread.</param>
+    /// <param name="closest">The closest point in world space, if there is one.</param>
+    /// <param name="objectIndex">Index of the object in the scene, −1 for none.</param>
+    /// <param name="excludedObject">An object that is not tested, such as the one that asks; −1 for none.</param>
+    /// <param name="epsilon">Allowed relative error, see <see cref="Collider"/>.</param>
+    /// <returns>False when no face lies within the radius.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the radius or ε is negative or NaN.</exception>
     public bool TryFindClosest(
         Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, out int objectIndex, int excludedObject = -1,
         double epsilon = 0)
     {
         Collider.ThrowIfInvalid(position, maxDistance, epsilon);
-        (closest, objectIndex) = (default, -1);
+        closest = default;
+        objectIndex = -1;
         var boundDistances = context.ObjectBoundsBuffer(_instances.Length);
         for (var i = 0; i < _instances.Length; i++)
         {
@@ -112,7 +175,9 @@ public sealed class SceneCollider
             if (_instances[nextObject].TryFindClosest(position, maxDistance, context, out var candidate, epsilon)
                 && (objectIndex < 0 || candidate.Distance < closest.Distance))
             {
-                (closest, objectIndex, maxDistance) = (candidate, nextObject, Math.Min(maxDistance, candidate.Distance));
+                closest = candidate;
+                objectIndex = nextObject;
+                maxDistance = Math.Min(maxDistance, candidate.Distance);
                 context.SavePath();
             }
         }
@@ -121,10 +186,10 @@ public sealed class SceneCollider
         return objectIndex >= 0;
     }
 
-    /// <summary>An object.</summary>
-    /// <param name="Collider">In the frame of its model.</param>
-    /// <param name="Similarity">From that frame to world space.</param>
-    /// <param name="GeneralMap">Instead of the similarity, where the object's matrix is none.</param>
+    /// <summary>The collider of one object, with its place in the world.</summary>
+    /// <param name="Collider">In the frame of its model, shared by all objects that show it.</param>
+    /// <param name="Similarity">Maps that frame to world space.</param>
+    /// <param name="GeneralMap">Used instead of the similarity where the object's matrix is none; else null.</param>
     /// <param name="Bounds">In world space.</param>
     private sealed record ColliderInstance(Lazy<Collider> Collider, Similarity Similarity, AffineMap? GeneralMap, BoundingBox Bounds)
     {

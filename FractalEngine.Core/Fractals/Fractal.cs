@@ -1,50 +1,101 @@
 using System.Collections.Immutable;
 using System.Numerics;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>A fractal: a description together with its base mesh. Counts are exact; nothing is expanded.</summary>
-public sealed class Fractal
+/// <remarks>
+/// Immutable, and equal to any other with the same steps and the same base mesh. Made from a mesh by <see cref="Of"/>,
+/// <see cref="Repeat(IEnumerable{Transformation}, int?)"/> and <see cref="Apply"/>, or read from a file by the parsing library.
+/// </remarks>
+public sealed class Fractal : IEquatable<Fractal>
 {
     private readonly Lazy<BigInteger?> _instanceCount;
     private readonly Lazy<BoundingBox> _bounds;
 
-    /// <summary>The fractal that a description makes of a base mesh.</summary>
+    /// <summary>Makes the fractal that a description makes of a base mesh.</summary>
     public Fractal(FractalDescription description, Mesh baseMesh)
     {
-        (Description, BaseMesh) = (description, baseMesh);
+        Description = description;
+        BaseMesh = baseMesh;
         _instanceCount = new(() => FractalSteps.InstanceCount(description.Steps));
         _bounds = new(() => FractalBounds.ComputeBox(this));
     }
 
-    /// <summary>What the file says.</summary>
+    /// <summary>The steps that are applied to the base mesh, and how they are composed.</summary>
     public FractalDescription Description { get; }
 
-    /// <summary>The mesh that every instance is a copy of.</summary>
+    /// <summary>The mesh that every instance shows.</summary>
     public Mesh BaseMesh { get; }
 
-    /// <summary>How many chains of transformations there are, equal ones counted; null for infinitely many.</summary>
+    /// <summary>The full path of the file that the base mesh was loaded from; null for a mesh made in code.</summary>
+    public string? BaseMeshPath { get; init; }
+
+    /// <summary>Number of chains of transformations, equal ones counted; null for infinitely many.</summary>
     public BigInteger? InstanceCount => _instanceCount.Value;
 
-    /// <summary>Instances times faces of the base mesh (the paper's b·t^d); null for infinitely many.</summary>
+    /// <summary>Number of instances times faces of the base mesh (the paper's b·t^d); null for infinitely many.</summary>
     public BigInteger? FaceCount => InstanceCount * BaseMesh.FaceCount;
 
-    /// <summary>How many sets a chain passes through; null for infinitely many.</summary>
+    /// <summary>Number of sets that a chain passes through; null for infinitely many.</summary>
     public long? LevelCount => FractalSteps.LevelCount(Description.Steps);
 
     /// <summary>A box that holds the fractal, see <see cref="FractalBounds"/> for how tight it is.</summary>
     public BoundingBox Bounds => _bounds.Value;
 
-    /// <summary>The set at one level, 0 the outermost.</summary>
+    /// <summary>Finds the set at one level, 0 being the outermost.</summary>
     public TransformationSet LevelAt(long level) => FractalSteps.LevelAt(Description.Steps, level);
 
-    /// <summary>The same fractal at another depth, see <see cref="FractalDescription.WithDepth"/>.</summary>
-    public Fractal WithDepth(int depth) => new(Description.WithDepth(depth), BaseMesh);
+    /// <summary>Makes the fractal of depth 0, whose only instance is the mesh itself.</summary>
+    /// <param name="baseMesh">The mesh that every instance will show.</param>
+    public static Fractal Of(Mesh baseMesh) => new(new([]), baseMesh);
+
+    /// <summary>Repeats a set of transformations: one instance of the fractal so far for each chain of that many maps.</summary>
+    /// <param name="maps">The set; an empty one leaves nothing.</param>
+    /// <param name="depth">How often, not negative and at most <see cref="FractalLimits.MaxDepth"/>; null for the infinite fractal.</param>
+    /// <returns>A fractal of <c>maps^depth</c> times as many instances; costs no more memory than the set.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The depth is negative or beyond the limit.</exception>
+    /// <exception cref="InvalidOperationException">The fractal is infinite already.</exception>
+    public Fractal Repeat(IEnumerable<Transformation> maps, int? depth = null) => Repeat([TransformationSet.Of(maps)], depth);
+
+    /// <summary>Repeats a round of steps, such as several sets after one another.</summary>
+    /// <param name="round">Outermost first: the last one is applied first. At least one, and only finite ones.</param>
+    /// <param name="depth">How often, not negative and at most <see cref="FractalLimits.MaxDepth"/>; null for the infinite fractal.</param>
+    /// <exception cref="ArgumentException">The round is empty or infinite, or the depth is out of range.</exception>
+    /// <exception cref="InvalidOperationException">The fractal is infinite already.</exception>
+    public Fractal Repeat(IEnumerable<FractalStep> round, int? depth = null)
+    {
+        if (depth is { } count)
+        {
+            ArgumentOutOfRangeException.ThrowIfNegative(count, nameof(depth));
+            ArgumentOutOfRangeException.ThrowIfGreaterThan(count, FractalLimits.MaxDepth, nameof(depth));
+        }
+
+        return Prepend(new Repetition([.. round], depth));
+    }
+
+    /// <summary>Applies a set of transformations once: one instance of the fractal so far for each of them.</summary>
+    /// <param name="maps">The set; an empty one leaves nothing.</param>
+    /// <exception cref="InvalidOperationException">The fractal is infinite already.</exception>
+    public Fractal Apply(IEnumerable<Transformation> maps) => Prepend(TransformationSet.Of(maps));
+
+    /// <summary>Makes the same fractal with chains composed in another way.</summary>
+    /// <exception cref="ArgumentException">An infinite fractal can't be composed componentwise: its positions don't shrink.</exception>
+    public Fractal WithComposition(Composition composition) => composition == Composition.Componentwise && Description.IsInfinite
+        ? throw new ArgumentException("an infinite fractal can't be composed componentwise: its positions don't shrink", nameof(composition))
+        : With(Description with { Composition = composition });
+
+    /// <summary>Makes the same fractal at another depth, see <see cref="FractalDescription.WithDepth"/>.</summary>
+    public Fractal WithDepth(int depth) => With(Description.WithDepth(depth));
+
+    /// <summary>Makes the same fractal moved as a whole, see <see cref="FractalDescription.WithPlacement"/>.</summary>
+    public Fractal WithPlacement(Transformation placement) => With(Description.WithPlacement(placement));
 
     /// <summary>
-    /// The fractal itself where it has at most <paramref name="maxInstances"/> instances, else the deepest version of it that
-    /// has: repetitions are cut short, the outermost first; where that is not enough, the innermost sets are left out.
+    /// Cuts a fractal of more than <paramref name="maxInstances"/> instances to the deepest version that has no more. Repetitions are cut
+    /// short, the outermost first; where that does not suffice, the innermost sets are dropped.
     /// </summary>
     /// <param name="maxInstances">At least 1.</param>
     public Fractal WithMaxInstances(long maxInstances)
@@ -69,17 +120,32 @@ public sealed class Fractal
             steps = steps.RemoveAt(steps.Length - 1);
         }
 
-        return new(Description with { Steps = steps }, BaseMesh);
+        return With(Description with { Steps = steps });
     }
+
+    /// <inheritdoc/>
+    public bool Equals(Fractal? other) => other is not null && Description == other.Description && BaseMesh.Equals(other.BaseMesh);
+
+    /// <inheritdoc/>
+    public override bool Equals(object? obj) => Equals(obj as Fractal);
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => HashCode.Combine(Description, BaseMesh);
+
+    private Fractal With(FractalDescription description) => new(description, BaseMesh) { BaseMeshPath = BaseMeshPath };
+
+    private Fractal Prepend(FractalStep step) => Description.IsInfinite
+        ? throw new InvalidOperationException("the fractal is infinite: no step comes after it")
+        : With(Description with { Steps = Description.Steps.Insert(0, step) });
 
     private static bool Fits(ImmutableArray<FractalStep> steps, long maxInstances) =>
         FractalSteps.LevelCount(steps) is not null && FractalSteps.HasAtMostInstances(steps, maxInstances);
 
-    /// <summary>The largest number of rounds with which the whole still fits; 0 where none does.</summary>
+    /// <summary>Finds the largest number of rounds with which the whole still fits; 0 where none does.</summary>
     private static int MaxRepetitionCount(ImmutableArray<FractalStep> steps, int index, Repetition repetition, long maxInstances)
     {
-        var (others, perRound) =
-            (FractalSteps.CountUpTo(steps.RemoveAt(index), maxInstances), FractalSteps.CountUpTo(repetition.Body, maxInstances));
+        var others = FractalSteps.CountUpTo(steps.RemoveAt(index), maxInstances);
+        var perRound = FractalSteps.CountUpTo(repetition.Body, maxInstances);
         if (perRound <= 1)
         {
             return repetition.Count ?? FractalLimits.MaxDepth;

@@ -4,14 +4,12 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>
-/// What a fractal file says: a base mesh and the steps applied to it (paper §4.2.2). It is never longer than
-/// the file, whatever number of instances it describes.
+/// The steps that make a fractal of a base mesh (paper §4.2.2). A description is never longer than the file that says it, whatever number
+/// of instances it describes.
 /// </summary>
-/// <param name="BaseFile">The base mesh's file, as the fractal file names it.</param>
 /// <param name="Steps">Outermost first: the last step is applied to the base mesh first.</param>
 /// <param name="Composition">How transformations along a chain are composed.</param>
-public sealed record FractalDescription(
-    string BaseFile, ImmutableArray<FractalStep> Steps, Composition Composition = Composition.Affine)
+public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Composition Composition = Composition.Affine)
 {
     /// <summary>True when some step is repeated without end.</summary>
     public bool IsInfinite => FractalSteps.LevelCount(Steps) is null;
@@ -19,11 +17,11 @@ public sealed record FractalDescription(
     /// <summary>True when there is a repetition whose depth can be changed.</summary>
     public bool HasDepth => Steps.Any(step => step is Repetition);
 
-    /// <summary>True when no transformation mirrors: then faces of all instances are wound as those of the base mesh.</summary>
+    /// <summary>True when no transformation mirrors, so that all instances are wound as the base mesh is.</summary>
     public bool PreservesOrientation => Steps.All(StepPreservesOrientation);
 
     /// <summary>
-    /// The same fractal with the outermost repetition carried out <paramref name="depth"/> times, whatever the file says.
+    /// Makes the same description with the outermost repetition carried out <paramref name="depth"/> times.
     /// </summary>
     /// <param name="depth">Not negative.</param>
     /// <exception cref="InvalidOperationException">Nothing in the fractal is repeated.</exception>
@@ -33,11 +31,18 @@ public sealed record FractalDescription(
         _ => throw new InvalidOperationException("the fractal has no recursive step, so it has no depth to change"),
     };
 
-    /// <summary>The same fractal moved as a whole: one more level above all others.</summary>
+    /// <summary>Makes the same description moved as a whole, by one more level above all others.</summary>
     /// <exception cref="InvalidOperationException">The composition is componentwise: an object's own matrix is affine in both.</exception>
     public FractalDescription WithPlacement(Transformation placement) => Composition == Composition.Affine
         ? this with { Steps = Steps.Insert(0, TransformationSet.Of(placement)) }
         : throw new InvalidOperationException("a placement is no level of a fractal that is composed componentwise");
+
+    /// <inheritdoc/>
+    public bool Equals(FractalDescription? other) =>
+        other is not null && Composition == other.Composition && Steps.AsSpan().SequenceEqual(other.Steps.AsSpan());
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => HashCode.Combine(Composition, FractalStep.HashOf(Steps));
 
     private static bool StepPreservesOrientation(FractalStep step) => step switch
     {

@@ -5,15 +5,11 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>
-/// The factory of fractals (paper §4.2.4): makes a fractal from a description and a base mesh, and, for those who ask,
-/// concatenates its levels into one list of instances.
+/// The paper's generator (§4.2.4): expands the levels of a fractal into one list of instances, or into one mesh, for callers that need
+/// them all.
 /// </summary>
 public static class FractalGenerator
 {
-    /// <summary>Makes the fractal. <paramref name="loadMesh"/> is called once, with the base file as the description names it.</summary>
-    public static Fractal Create(FractalDescription description, Func<string, Mesh> loadMesh) =>
-        new(description, loadMesh(description.BaseFile));
-
     /// <summary>
     /// The distinct instances of a fractal as maps from the base mesh's frame to the fractal's.
     /// </summary>
@@ -63,11 +59,18 @@ public static class FractalGenerator
     public static Mesh Flatten(Fractal fractal, long maxFaces) =>
         Flatten(fractal.BaseMesh, Expand(fractal, maxFaces / Math.Max(1, fractal.BaseMesh.FaceCount)));
 
-    /// <summary>Copies of a mesh as one mesh.</summary>
+    /// <summary>Expands instances of a mesh into one mesh.</summary>
+    /// <exception cref="FractalLimitException">There are more vertices or faces than an array holds.</exception>
     public static Mesh Flatten(Mesh mesh, ImmutableArray<AffineMap> instances)
     {
-        var (positions, faces) =
-            (new double[instances.Length * mesh.Positions.Length], new int[instances.Length * mesh.VertexIndices.Length]);
+        if ((long)instances.Length * Math.Max(mesh.Positions.Length, mesh.VertexIndices.Length) > Array.MaxLength)
+        {
+            throw new FractalLimitException(
+                $"{instances.Length} instances of {mesh.VertexCount} vertices and {mesh.FaceCount} faces are more than one mesh can hold");
+        }
+
+        var positions = new double[instances.Length * mesh.Positions.Length];
+        var faces = new int[instances.Length * mesh.VertexIndices.Length];
         var (nextPosition, nextFace) = (0, 0);
         for (var instance = 0; instance < instances.Length; instance++)
         {

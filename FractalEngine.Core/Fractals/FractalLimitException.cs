@@ -1,22 +1,23 @@
 namespace FractalEngine.Core.Fractals;
 
-/// <summary>A fractal was to be expanded or composed beyond a stated limit. The message names the limit.</summary>
-public sealed class FractalLimitException : Exception
+/// <summary>A fractal was to be expanded or composed beyond a stated limit, which the message names.</summary>
+public sealed class FractalLimitException : FractalEngineException
 {
-    /// <summary>With a message that names the limit.</summary>
+    /// <summary>Makes an error with a message of one line.</summary>
     public FractalLimitException(string message)
-        : base(message)
+        : base(ErrorKind.Limit, message)
     {
     }
 
-    /// <summary>With a message and a cause.</summary>
+    /// <summary>Makes an error with a message of one line and a cause.</summary>
     public FractalLimitException(string message, Exception innerException)
-        : base(message, innerException)
+        : base(ErrorKind.Limit, message, innerException)
     {
     }
 
-    /// <summary>Without details.</summary>
+    /// <summary>Makes an error without details.</summary>
     public FractalLimitException()
+        : this("the fractal is beyond a limit")
     {
     }
 }

@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using System.Numerics;
 
 namespace FractalEngine.Core.Fractals;
@@ -6,25 +7,38 @@ namespace FractalEngine.Core.Fractals;
 /// A step in the construction of a fractal, read outermost first: either one set of transformations
 /// (<see cref="TransformationSet"/>) or a sequence of steps that is repeated (<see cref="Repetition"/>).
 /// </summary>
-public abstract class FractalStep
+public abstract class FractalStep : IEquatable<FractalStep>
 {
     private protected FractalStep()
     {
     }
 
-    /// <summary>How many sets a chain passes through in this step; null when they are infinitely many.</summary>
+    /// <summary>Number of sets that a chain passes through in this step; null for infinitely many.</summary>
     public abstract long? LevelCount { get; }
 
-    /// <summary>How many chains of transformations there are in this step; null when they are infinitely many.</summary>
+    /// <summary>Number of chains of transformations in this step; null for infinitely many.</summary>
     public abstract BigInteger? InstanceCount { get; }
 
-    /// <summary>How many repetitions stand inside each other, this one included.</summary>
+    /// <summary>Number of repetitions inside each other, this one included.</summary>
     public abstract int NestingDepth { get; }
 
-    /// <summary>The set at one level of this step.</summary>
+    /// <summary>Finds the set at one level of this step.</summary>
     /// <param name="level">From 0, the outermost; less than <see cref="LevelCount"/>.</param>
     public abstract TransformationSet LevelAt(long level);
 
-    /// <summary>The number of chains, or, if they are more, some number above the limit.</summary>
+    /// <summary>Counts chains exactly up to a limit; a larger result only says that there are more.</summary>
     internal abstract BigInteger CountUpTo(long limit);
+
+    /// <summary>Tells whether the other step has equal transformations in the same order and is repeated as often.</summary>
+    public abstract bool Equals(FractalStep? other);
+
+    /// <inheritdoc/>
+    public sealed override bool Equals(object? obj) => Equals(obj as FractalStep);
+
+    /// <inheritdoc/>
+    public abstract override int GetHashCode();
+
+    /// <summary>Combines the hashes of a few steps, since a hash need not tell all apart.</summary>
+    internal static int HashOf(ImmutableArray<FractalStep> steps) =>
+        steps.Take(4).Aggregate(steps.Length, static (hash, step) => HashCode.Combine(hash, step));
 }

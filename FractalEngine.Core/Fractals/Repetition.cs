@@ -6,8 +6,8 @@ namespace FractalEngine.Core.Fractals;
 /// <summary>A sequence of steps applied over and over: what <c>z 6</c> means for the steps that z adds to its base.</summary>
 public sealed class Repetition : FractalStep
 {
-    /// <summary>The steps of one round, outermost first, and how often they are applied.</summary>
-    /// <param name="body">At least one step, each with finitely many levels.</param>
+    /// <summary>Repeats the steps of one round.</summary>
+    /// <param name="body">Outermost first: at least one step, each with finitely many levels.</param>
     /// <param name="count">Not negative; null for the infinite fractal.</param>
     /// <exception cref="ArgumentException">The body is empty or infinite itself.</exception>
     public Repetition(ImmutableArray<FractalStep> body, int? count)
@@ -22,7 +22,8 @@ public sealed class Repetition : FractalStep
             throw new ArgumentOutOfRangeException(nameof(count), "expected no negative number");
         }
 
-        (Body, Count) = (body, count);
+        Body = body;
+        Count = count;
         LevelsPerRound = FractalSteps.LevelCount(body)!.Value;
         NestingDepth = 1 + body.Max(step => step.NestingDepth);
     }
@@ -30,10 +31,10 @@ public sealed class Repetition : FractalStep
     /// <summary>The steps of one round, outermost first.</summary>
     public ImmutableArray<FractalStep> Body { get; }
 
-    /// <summary>How often the body is applied; null without end.</summary>
+    /// <summary>Number of rounds; null for infinitely many.</summary>
     public int? Count { get; }
 
-    /// <summary>How many sets one round passes through.</summary>
+    /// <summary>Number of sets that one round passes through.</summary>
     public long LevelsPerRound { get; }
 
     /// <inheritdoc/>
@@ -55,7 +56,7 @@ public sealed class Repetition : FractalStep
     /// <inheritdoc/>
     public override TransformationSet LevelAt(long level) => FractalSteps.LevelAt(Body, level % LevelsPerRound);
 
-    /// <summary>The same steps, repeated another number of times.</summary>
+    /// <summary>Makes the same round repeated another number of times.</summary>
     public Repetition WithCount(int? count) => new(Body, count);
 
     /// <inheritdoc/>
@@ -75,4 +76,11 @@ public sealed class Repetition : FractalStep
 
         return product;
     }
+
+    /// <inheritdoc/>
+    public override bool Equals(FractalStep? other) =>
+        other is Repetition repetition && Count == repetition.Count && Body.AsSpan().SequenceEqual(repetition.Body.AsSpan());
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => HashCode.Combine(Count, HashOf(Body));
 }

@@ -4,24 +4,27 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals;
 
-/// <summary>One level of a fractal: copies of what stands below it, one for each transformation.</summary>
+/// <summary>One level of a fractal: a child instance of the next level for each transformation.</summary>
 public sealed class TransformationSet : FractalStep
 {
-    /// <summary>A set in the order of its declaration; a transformation may occur more than once.</summary>
+    /// <summary>Makes a set in the order of its declaration; a transformation may occur more than once.</summary>
     public TransformationSet(ImmutableArray<Transformation> transformations)
     {
         Transformations = transformations;
         Maps = [.. transformations.Select(transformation => transformation.ToAffineMap())];
     }
 
-    /// <summary>The transformations as the file writes them.</summary>
+    /// <summary>The transformations as they were declared.</summary>
     public ImmutableArray<Transformation> Transformations { get; }
 
-    /// <summary>The same as affine maps, in the same order.</summary>
+    /// <summary>The transformations as affine maps, in the same order.</summary>
     public ImmutableArray<AffineMap> Maps { get; }
 
-    /// <summary>The set of one transformation, that of an object as a whole (the paper's m).</summary>
+    /// <summary>Makes the set of one transformation, such as that of an object as a whole (the paper's m).</summary>
     public static TransformationSet Of(Transformation placement) => new([placement]);
+
+    /// <summary>Makes a set of transformations in their order.</summary>
+    public static TransformationSet Of(IEnumerable<Transformation> transformations) => new([.. transformations]);
 
     /// <inheritdoc/>
     public override long? LevelCount => 1;
@@ -37,4 +40,11 @@ public sealed class TransformationSet : FractalStep
 
     /// <inheritdoc/>
     internal override BigInteger CountUpTo(long limit) => Transformations.Length;
+
+    /// <inheritdoc/>
+    public override bool Equals(FractalStep? other) =>
+        other is TransformationSet set && Transformations.AsSpan().SequenceEqual(set.Transformations.AsSpan());
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => Transformations.Take(4).Aggregate(Transformations.Length, HashCode.Combine);
 }

@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Geometry;
@@ -8,11 +9,11 @@ namespace FractalEngine.Core.Geometry;
 /// A triangle mesh as plain data: flat arrays, immutable, not tied to any file, collider or graphics API.
 /// Front faces are wound so that <c>Cross(b − a, c − a)</c> points outwards.
 /// </summary>
-public sealed class Mesh
+public sealed class Mesh : IEquatable<Mesh>
 {
-    /// <summary>A mesh of positions and faces.</summary>
+    /// <summary>Makes a mesh of positions and faces.</summary>
     /// <param name="positions">Coordinates, [vertices × 3].</param>
-    /// <param name="vertexIndices">Vertex numbers from 0, [faces × 3].</param>
+    /// <param name="vertexIndices">Indices of vertices from 0, [faces × 3].</param>
     /// <exception cref="ArgumentException">A length is not a multiple of three, or a vertex number is out of range.</exception>
     public Mesh(ImmutableArray<double> positions, ImmutableArray<int> vertexIndices)
     {
@@ -29,19 +30,19 @@ public sealed class Mesh
     /// <summary>Vertex coordinates in scene units, [<see cref="VertexCount"/> × 3].</summary>
     public ImmutableArray<double> Positions { get; }
 
-    /// <summary>Vertex numbers from 0, [<see cref="FaceCount"/> × 3].</summary>
+    /// <summary>Indices of vertices from 0, [<see cref="FaceCount"/> × 3].</summary>
     public ImmutableArray<int> VertexIndices { get; }
 
     /// <summary>Texture coordinates (u, v), v upwards, [n × 2]; empty when the mesh has none.</summary>
     public ImmutableArray<double> TextureCoordinates { get; private init; } = [];
 
-    /// <summary>Numbers into <see cref="TextureCoordinates"/>, −1 for none, [<see cref="FaceCount"/> × 3], or empty.</summary>
+    /// <summary>Indices into <see cref="TextureCoordinates"/>, −1 for none, [<see cref="FaceCount"/> × 3], or empty.</summary>
     public ImmutableArray<int> TextureIndices { get; private init; } = [];
 
     /// <summary>Normals as the file gives them, of any length, [n × 3]; empty when the mesh has none.</summary>
     public ImmutableArray<double> Normals { get; private init; } = [];
 
-    /// <summary>Numbers into <see cref="Normals"/>, −1 for none, [<see cref="FaceCount"/> × 3], or empty.</summary>
+    /// <summary>Indices into <see cref="Normals"/>, −1 for none, [<see cref="FaceCount"/> × 3], or empty.</summary>
     public ImmutableArray<int> NormalIndices { get; private init; } = [];
 
     /// <summary>The faces in runs of one name and material, in order; together they cover all faces, or there are none.</summary>
@@ -50,18 +51,18 @@ public sealed class Mesh
     /// <summary>Material files as the mesh's file names them (<c>mtllib</c>).</summary>
     public ImmutableArray<string> MaterialLibraries { get; private init; } = [];
 
-    /// <summary>How many vertices the mesh has, unused ones included.</summary>
+    /// <summary>Number of vertices in the mesh, unused ones included.</summary>
     public int VertexCount => Positions.Length / 3;
 
-    /// <summary>How many triangles the mesh has.</summary>
+    /// <summary>Number of triangles in the mesh.</summary>
     public int FaceCount => VertexIndices.Length / 3;
 
     /// <summary>The box of all vertices, unused ones included.</summary>
     public BoundingBox Bounds { get; }
 
-    /// <summary>The same mesh with texture coordinates.</summary>
+    /// <summary>Makes the same mesh with texture coordinates.</summary>
     /// <param name="coordinates">(u, v), [n × 2].</param>
-    /// <param name="indices">Numbers into them, −1 for none, [faces × 3].</param>
+    /// <param name="indices">Indices into them, −1 for none, [faces × 3].</param>
     public Mesh WithTextureCoordinates(ImmutableArray<double> coordinates, ImmutableArray<int> indices)
     {
         Require(coordinates.Length % 2 == 0, nameof(coordinates), "two coordinates each");
@@ -69,9 +70,9 @@ public sealed class Mesh
         return new(this) { TextureCoordinates = coordinates, TextureIndices = indices };
     }
 
-    /// <summary>The same mesh with normals.</summary>
+    /// <summary>Makes the same mesh with normals.</summary>
     /// <param name="normals">[n × 3].</param>
-    /// <param name="indices">Numbers into them, −1 for none, [faces × 3].</param>
+    /// <param name="indices">Indices into them, −1 for none, [faces × 3].</param>
     public Mesh WithNormals(ImmutableArray<double> normals, ImmutableArray<int> indices)
     {
         Require(normals.Length % 3 == 0, nameof(normals), "three components each");
@@ -79,7 +80,7 @@ public sealed class Mesh
         return new(this) { Normals = normals, NormalIndices = indices };
     }
 
-    /// <summary>The same mesh with named runs of faces.</summary>
+    /// <summary>Makes the same mesh with named runs of faces.</summary>
     public Mesh WithGroups(ImmutableArray<MeshGroup> groups, ImmutableArray<string> materialLibraries) =>
         new(this) { Groups = groups, MaterialLibraries = materialLibraries };
 
@@ -96,7 +97,7 @@ public sealed class Mesh
         (Vertex(VertexIndices[3 * face]), Vertex(VertexIndices[(3 * face) + 1]), Vertex(VertexIndices[(3 * face) + 2]));
 
     /// <summary>
-    /// A function applied to every vertex: the paper's T(t) (§4.2.3). Normals are dropped, since a general function
+    /// Applies a function to every vertex: the paper's T(t) (§4.2.3). Normals are dropped, since a general function
     /// does not say what becomes of them.
     /// </summary>
     public Mesh Transform(Func<Vector, Vector> function)
@@ -120,7 +121,7 @@ public sealed class Mesh
     }
 
     /// <summary>
-    /// The distance of the farthest vertex from the image of the origin under a map (paper §4.3.3):
+    /// Finds the distance of the farthest vertex from the image of the origin under a map (paper §4.3.3):
     /// max |m·v − m.position|; 0 for an empty mesh. Cost O(vertices).
     /// </summary>
     public double Radius(AffineMap map)
@@ -134,13 +135,35 @@ public sealed class Mesh
         return maxDistance;
     }
 
+    /// <summary>Tells whether all arrays of both meshes are equal, each number bit for bit.</summary>
+    public bool Equals(Mesh? other) => ReferenceEquals(this, other) || (other is not null
+        && HaveSameBits(Positions, other.Positions) && VertexIndices.AsSpan().SequenceEqual(other.VertexIndices.AsSpan())
+        && HaveSameBits(TextureCoordinates, other.TextureCoordinates)
+        && TextureIndices.AsSpan().SequenceEqual(other.TextureIndices.AsSpan())
+        && HaveSameBits(Normals, other.Normals) && NormalIndices.AsSpan().SequenceEqual(other.NormalIndices.AsSpan())
+        && Groups.AsSpan().SequenceEqual(other.Groups.AsSpan()) && MaterialLibraries.SequenceEqual(other.MaterialLibraries));
+
+    /// <inheritdoc/>
+    public override bool Equals(object? obj) => Equals(obj as Mesh);
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => HashCode.Combine(VertexCount, FaceCount, Bounds);
+
     private Mesh(Mesh other)
     {
-        (Positions, VertexIndices, Bounds) = (other.Positions, other.VertexIndices, other.Bounds);
-        (TextureCoordinates, TextureIndices) = (other.TextureCoordinates, other.TextureIndices);
-        (Normals, NormalIndices) = (other.Normals, other.NormalIndices);
-        (Groups, MaterialLibraries) = (other.Groups, other.MaterialLibraries);
+        Positions = other.Positions;
+        VertexIndices = other.VertexIndices;
+        Bounds = other.Bounds;
+        TextureCoordinates = other.TextureCoordinates;
+        TextureIndices = other.TextureIndices;
+        Normals = other.Normals;
+        NormalIndices = other.NormalIndices;
+        Groups = other.Groups;
+        MaterialLibraries = other.MaterialLibraries;
     }
+
+    private static bool HaveSameBits(ImmutableArray<double> numbers1, ImmutableArray<double> numbers2) =>
+        MemoryMarshal.AsBytes(numbers1.AsSpan()).SequenceEqual(MemoryMarshal.AsBytes(numbers2.AsSpan()));
 
     private static BoundingBox BoundsOf(ReadOnlySpan<double> positions)
     {
@@ -155,10 +178,10 @@ public sealed class Mesh
 
     private static void RequireIndices(ImmutableArray<int> indices, int length, int count, int minIndex, string name)
     {
-        Require(indices.Length % 3 == 0 && indices.Length == length, name, "three numbers a face");
+        Require(indices.Length % 3 == 0 && indices.Length == length, name, "three indices a face");
         foreach (var index in indices)
         {
-            Require(index >= minIndex && index < count, name, "numbers of elements that exist");
+            Require(index >= minIndex && index < count, name, "indices of elements that exist");
         }
     }
 

@@ -1,25 +1,25 @@
 namespace FractalEngine.Core.Maths;
 
-/// <summary>A matrix without an inverse was to be inverted: its determinant is zero or out of the range of a double.</summary>
-public sealed class SingularMatrixException : ArithmeticException
+/// <summary>A matrix without an inverse was to be inverted; its determinant is zero or out of the range of a double.</summary>
+public sealed class SingularMatrixException : FractalEngineException
 {
-    /// <summary>For the given matrix.</summary>
+    /// <summary>Makes the error of a given matrix.</summary>
     public SingularMatrixException(Matrix matrix)
         : base($"the matrix {matrix} has no inverse: its determinant is {FormatDeterminant(matrix)}") => Matrix = matrix;
 
-    /// <summary>With a message of one's own.</summary>
+    /// <summary>Makes an error with a message.</summary>
     public SingularMatrixException(string message)
         : base(message)
     {
     }
 
-    /// <summary>With a message and a cause.</summary>
+    /// <summary>Makes an error with a message and a cause.</summary>
     public SingularMatrixException(string message, Exception innerException)
         : base(message, innerException)
     {
     }
 
-    /// <summary>Without details.</summary>
+    /// <summary>Makes an error without details.</summary>
     public SingularMatrixException()
     {
     }

@@ -16,6 +16,11 @@ public readonly record struct Transformation(Vector Position, Vector Rotation, V
     /// <summary>True for the transformation that changes nothing.</summary>
     public bool IsIdentity => this == Identity;
 
+    /// <summary>Makes a uniform scale about the origin, followed by a move.</summary>
+    /// <param name="position">Where the origin goes, scene units.</param>
+    /// <param name="scale">The factor of all lengths.</param>
+    public static Transformation At(Vector position, double scale = 1) => new(position, Vector.Zero, scale * Vector.One);
+
     /// <summary>
     /// Componentwise composition (paper §4.2.4): positions and rotations are added, scales multiplied. Commutative, and not
     /// what applying one map after the other does.

@@ -15,7 +15,7 @@ internal sealed class StaticObjects
     {
         _objects = [.. objects];
         _isSolid = new bool?[_objects.Length];
-        Collider = new(new(scene, [.. _objects]), kind);
+        Collider = new(new LoadedScene(scene, [.. _objects]), kind);
     }
 
     /// <summary>Finds nearest points.</summary>

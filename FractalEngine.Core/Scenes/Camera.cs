@@ -3,27 +3,33 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Scenes;
 
 /// <summary>
-/// Where the scene is seen from (paper §4.1.3). The inverse of its axes is computed once, when the camera is turned
-/// (each turn makes a new camera), never per frame or vertex.
+/// The position, rotation and angle of view from which a scene is seen (paper §4.1.3). The inverse of its axes is computed once, when the
+/// camera is made, never per frame or vertex.
 /// </summary>
 public sealed record Camera
 {
     private readonly Vector _rotation;
 
-    /// <summary>A camera.</summary>
+    /// <summary>Makes a camera from its position, rotation and angle of view.</summary>
     /// <param name="position">World space, scene units.</param>
     /// <param name="rotation">Euler angles in radians, see <see cref="Vector.LocalAxes"/>.</param>
     /// <param name="fieldOfView">The full vertical angle of view in degrees, between 0 and 180.</param>
     public Camera(Vector position, Vector rotation, double fieldOfView) =>
         (Position, Rotation, FieldOfView) = (position, rotation, fieldOfView);
 
-    /// <summary>Five units before the origin, looking along the z axis.</summary>
+    /// <summary>A camera five units before the origin, looking along the z axis.</summary>
     public static Camera Default { get; } = new(new(0, 0, -5), Vector.Zero, 60);
 
-    /// <summary>World space, scene units.</summary>
+    /// <summary>Makes the camera that shows all of a scene, from the right, above and before it.</summary>
+    /// <param name="scene">With its models loaded; a camera of its own is ignored.</param>
+    /// <param name="aspect">Width divided by height of the image.</param>
+    /// <exception cref="FractalEngineException">An object names a file that is not loaded.</exception>
+    public static Camera Framing(Scene scene, double aspect = 16 / 9.0) => CameraFraming.Default(LoadedScene.Of(scene).Bounds, aspect);
+
+    /// <summary>Position in world space, scene units.</summary>
     public Vector Position { get; init; }
 
-    /// <summary>Euler angles in radians.</summary>
+    /// <summary>Euler angles in radians, see <see cref="Vector.LocalAxes"/>.</summary>
     public Vector Rotation
     {
         get => _rotation;
@@ -41,14 +47,15 @@ public sealed record Camera
     /// <summary>Columns: the camera's right, up and forward axes in world space.</summary>
     public Matrix LocalAxes { get; private init; }
 
-    /// <summary>Sends world directions to (right, up, depth).</summary>
+    /// <summary>The inverse of <see cref="LocalAxes"/>: maps world directions to (right, up, depth).</summary>
     public Matrix LocalAxesInverse { get; private init; }
 
     /// <summary>The tangent of half the angle of view: half the visible height at depth 1.</summary>
     public double HalfHeightAtUnitDepth => Math.Tan(FieldOfView * Math.PI / 360);
 
     /// <summary>
-    /// The paper's map(v) = LocalAxes⁻¹·(v − position): how far right of, above and before the camera a point is.
+    /// Maps a world point to camera space, the paper's map(v) = LocalAxes⁻¹·(v − position): its distances to the right of, above and before
+    /// the camera.
     /// </summary>
     public Vector ToCameraSpace(Vector point) => LocalAxesInverse * (point - Position);
 

@@ -3,15 +3,15 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Scenes;
 
-/// <summary>Cameras that show a whole box.</summary>
+/// <summary>Places cameras so that they show a whole box.</summary>
 public static class CameraFraming
 {
     private const double Margin = 1.1;
 
-    /// <summary>Where a scene without a camera is seen from: from the right, above and before it.</summary>
+    /// <summary>The rotation of the default camera, radians: it looks from the right, above and before the scene.</summary>
     public static Vector DefaultRotation => LookRotation(new(-0.55, -0.42, 1));
 
-    /// <summary>The angles (radians) that turn the forward axis to a direction, without roll.</summary>
+    /// <summary>Computes the angles (radians) that turn the forward axis to a direction, without roll.</summary>
     /// <param name="direction">Of any length but 0; straight up and down are allowed.</param>
     public static Vector LookRotation(Vector direction)
     {
@@ -22,10 +22,10 @@ public static class CameraFraming
         return new Matrix(right, Vector.Cross(forward, right), forward).EulerAngles();
     }
 
-    /// <summary>The same camera moved along its forward axis so that it sees the whole box.</summary>
+    /// <summary>Moves a camera along its forward axis so that it shows the whole box.</summary>
     /// <param name="camera">Its rotation and angle of view are kept.</param>
     /// <param name="box">World space.</param>
-    /// <param name="aspect">Width divided by height of the picture.</param>
+    /// <param name="aspect">Width divided by height of the image.</param>
     public static Camera Frame(Camera camera, BoundingBox box, double aspect)
     {
         if (box.IsEmpty)
@@ -36,9 +36,10 @@ public static class CameraFraming
         var halfHeight = camera.HalfHeightAtUnitDepth;
         // A point at (right, up, forward) from the box's centre is in view from a distance d before it when
         // |right| ≤ aspect·half·(d + forward) and |up| ≤ half·(d + forward).
-        var distance = Corners(box).Max(corner => (camera.LocalAxesInverse * (corner - box.Centre)) switch
+        var distance = Corners(box).Max(corner =>
         {
-            var (right, up, forward) => (Math.Max(Math.Abs(right) / aspect, Math.Abs(up)) / halfHeight) - forward,
+            var (right, up, forward) = camera.LocalAxesInverse * (corner - box.Centre);
+            return (Math.Max(Math.Abs(right) / aspect, Math.Abs(up)) / halfHeight) - forward;
         });
         var minDistance = Math.Max(0.5 * box.Diagonal, 1e-9 * (1 + box.Centre.MaxAbsComponent()));
         return camera with { Position = box.Centre - (Margin * Math.Max(distance, minDistance) * camera.LocalAxes.V3) };
@@ -50,7 +51,7 @@ public static class CameraFraming
         from z in (double[])[box.Minimum.Z, box.Maximum.Z]
         select new Vector(x, y, z);
 
-    /// <summary>The camera of a scene that names none.</summary>
+    /// <summary>Makes the camera of a scene that names none.</summary>
     public static Camera Default(BoundingBox box, double aspect) =>
         Frame(Camera.Default with { Rotation = DefaultRotation }, box, aspect);
 }

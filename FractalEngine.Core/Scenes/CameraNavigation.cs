@@ -3,38 +3,39 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Scenes;
 
 /// <summary>
-/// What the mouse and the keys do to a camera. All of it works on the camera's axes; the angles for the file are derived
-/// from them, so that the camera never rolls by itself, whatever it looks at.
+/// Turns, moves and zooms a camera as mouse and keys ask. All of it works on the camera's axes; the angles for the file are derived from
+/// them, so that the camera never rolls by itself.
 /// </summary>
 public static class CameraNavigation
 {
     // Just short of straight up and down, where "left" would change sides.
     private const double MaxElevation = 89.9 * Math.PI / 180;
 
-    /// <summary>Turns in place: left and right about the world's up, up and down about the camera's own right.</summary>
+    /// <summary>Turns a camera in place: left and right about the world's up, up and down about its own right.</summary>
     /// <param name="camera">The camera.</param>
     /// <param name="right">Radians to the right.</param>
     /// <param name="up">Radians upwards; ends just short of the zenith and the nadir.</param>
     public static Camera Turn(Camera camera, double right, double up) =>
         camera with { Rotation = (ComputeTurn(camera, right, up) * camera.LocalAxes).Orthonormalized().EulerAngles() };
 
-    /// <summary>Moves around a point, which stays where it is in the picture.</summary>
+    /// <summary>Moves a camera around a point, which stays where it is in the image.</summary>
     /// <param name="camera">The camera.</param>
     /// <param name="pivot">World space.</param>
     /// <param name="right">Radians by which the view turns to the right.</param>
     /// <param name="up">Radians by which it turns upwards.</param>
-    public static Camera Orbit(Camera camera, Vector pivot, double right, double up) => ComputeTurn(camera, right, up) switch
+    public static Camera Orbit(Camera camera, Vector pivot, double right, double up)
     {
-        var turn => Turn(camera, right, up) with { Position = pivot + (turn * (camera.Position - pivot)) },
-    };
+        var turn = ComputeTurn(camera, right, up);
+        return Turn(camera, right, up) with { Position = pivot + (turn * (camera.Position - pivot)) };
+    }
 
-    /// <summary>Moves along the camera's own axes.</summary>
+    /// <summary>Moves a camera along its own axes.</summary>
     /// <param name="camera">The camera.</param>
     /// <param name="distances">To the right, up and forward, scene units.</param>
     public static Camera Move(Camera camera, Vector distances) =>
         camera with { Position = camera.Position + (camera.LocalAxes * distances) };
 
-    /// <summary>Moves towards a point or away from it.</summary>
+    /// <summary>Moves a camera towards a point or away from it.</summary>
     /// <param name="camera">The camera.</param>
     /// <param name="pivot">World space.</param>
     /// <param name="factor">The new distance divided by the old one, positive.</param>

@@ -1,6 +1,6 @@
 namespace FractalEngine.Core.Scenes;
 
-/// <summary>The colliders that a scene can name.</summary>
+/// <summary>The kinds of collider that a scene or a command can name.</summary>
 public enum ColliderKind
 {
     /// <summary>The exact fractal collider for fractals, the hierarchy for meshes.</summary>
@@ -12,9 +12,9 @@ public enum ColliderKind
     /// <summary>A bounding volume hierarchy over faces: exact.</summary>
     Hierarchy,
 
-    /// <summary>The paper's octree (§5.4): approximate.</summary>
+    /// <summary>The paper's octree over faces (§5.4): approximate.</summary>
     BoundingBox,
 
-    /// <summary>Every face (§4.4.2): exact, the reference.</summary>
+    /// <summary>A test of every face (§4.4.2): exact, the reference.</summary>
     Simple,
 }

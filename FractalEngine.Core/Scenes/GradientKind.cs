@@ -1,9 +1,9 @@
 namespace FractalEngine.Core.Scenes;
 
-/// <summary>What decides about the colour of an instance.</summary>
+/// <summary>What the colour of an instance depends on.</summary>
 public enum GradientKind
 {
-    /// <summary>Nothing: all have the same.</summary>
+    /// <summary>All instances have the same colour.</summary>
     None,
 
     /// <summary>How many maps other than the identity lead to it; there and back every twelve levels where there are more.</summary>

@@ -3,8 +3,8 @@ using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Core.Scenes;
 
-/// <summary>A scene with everything that its files hold.</summary>
-/// <param name="Scene">What the scene file says.</param>
+/// <summary>A scene whose objects all have their models, with what follows from both.</summary>
+/// <param name="Scene">What the scene file, or the code, says.</param>
 /// <param name="Objects">In the order of <see cref="Scene.Objects"/>.</param>
 public sealed record LoadedScene(Scene Scene, ImmutableArray<PlacedModel> Objects)
 {
@@ -12,6 +12,10 @@ public sealed record LoadedScene(Scene Scene, ImmutableArray<PlacedModel> Object
     public BoundingBox Bounds { get; } =
         Objects.Aggregate(BoundingBox.Empty, (box, placed) => BoundingBox.Union(box, placed.Bounds));
 
-    /// <summary>The models, each file once, in the order of their first use.</summary>
+    /// <summary>The models, each once, in the order of their first use.</summary>
     public IEnumerable<Model> Models => Objects.Select(placed => placed.Model).Distinct();
+
+    /// <summary>Places the models of a scene made in code, or loaded from a file.</summary>
+    /// <exception cref="FractalEngineException">An object names a file that is not loaded.</exception>
+    public static LoadedScene Of(Scene scene) => new(scene, [.. scene.Objects.Select(declared => new PlacedModel(declared))]);
 }

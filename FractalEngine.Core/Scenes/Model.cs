@@ -5,27 +5,32 @@ using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Core.Scenes;
 
-/// <summary>The contents of one file, loaded once however many objects show it: a mesh or a fractal.</summary>
+/// <summary>What an object of a scene shows: a mesh or a fractal. Any number of objects can share one model.</summary>
 public abstract class Model
 {
-    private protected Model(string path, long fileBytes) => (Path, FileBytes) = (path, fileBytes);
+    private protected Model()
+    {
+    }
 
-    /// <summary>The full path of the file.</summary>
-    public string Path { get; }
+    /// <summary>The full path of the file that the model was loaded from; null for a model made in code.</summary>
+    public string? SourcePath { get; init; }
 
-    /// <summary>The size of the files it was read from, the base mesh's included.</summary>
-    public long FileBytes { get; }
+    /// <summary>Size in bytes of the files that the model was loaded from, the base mesh's included; 0 for a model made in code.</summary>
+    public long FileBytes { get; init; }
+
+    /// <summary>The name for messages and labels: that of the file, or the kind of model where there is no file.</summary>
+    public string Name => SourcePath is { } path ? Path.GetFileName(path) : KindName;
 
     /// <summary>The mesh that is drawn: once for a mesh, once for each instance of a fractal.</summary>
     public abstract Mesh Mesh { get; }
 
     /// <summary>
-    /// The materials that the mesh's groups name, by their names; those that no file declares are missing. Pictures are named in full and
-    /// exist.
+    /// The materials that the groups of the mesh name, by their names; those that no file declares are missing. Paths of textures are
+    /// full and exist.
     /// </summary>
     public ImmutableDictionary<string, Material> Materials { get; init; } = ImmutableDictionary<string, Material>.Empty;
 
-    /// <summary>1 for a mesh; null for infinitely many.</summary>
+    /// <summary>Number of instances of the mesh: 1 for a mesh, null for infinitely many.</summary>
     public abstract BigInteger? InstanceCount { get; }
 
     /// <summary>Instances times faces of the mesh; null for infinitely many.</summary>
@@ -36,33 +41,12 @@ public abstract class Model
 
     /// <summary>A box that holds the whole model in its own frame.</summary>
     public abstract BoundingBox Bounds { get; }
-}
 
-/// <summary>A mesh loaded from a file.</summary>
-public sealed class MeshModel(string path, long fileBytes, Mesh mesh) : Model(path, fileBytes)
-{
-    /// <inheritdoc/>
-    public override Mesh Mesh { get; } = mesh;
+    private protected abstract string KindName { get; }
 
-    /// <inheritdoc/>
-    public override BigInteger? InstanceCount => BigInteger.One;
+    /// <summary>Makes the model that shows a mesh.</summary>
+    public static Model Of(Mesh mesh) => new MeshModel(mesh);
 
-    /// <inheritdoc/>
-    public override BoundingBox Bounds => Mesh.Bounds;
-}
-
-/// <summary>A fractal loaded from a file.</summary>
-public sealed class FractalModel(string path, long fileBytes, Fractal fractal) : Model(path, fileBytes)
-{
-    /// <summary>The fractal.</summary>
-    public Fractal Fractal { get; } = fractal;
-
-    /// <inheritdoc/>
-    public override Mesh Mesh => Fractal.BaseMesh;
-
-    /// <inheritdoc/>
-    public override BigInteger? InstanceCount => Fractal.InstanceCount;
-
-    /// <inheritdoc/>
-    public override BoundingBox Bounds => Fractal.Bounds;
+    /// <summary>Makes the model that shows a fractal.</summary>
+    public static Model Of(Fractal fractal) => new FractalModel(fractal);
 }

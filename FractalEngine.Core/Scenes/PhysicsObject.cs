@@ -3,32 +3,45 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Scenes;
 
 /// <summary>An object that falls, bounces and rests (paper §4.4.1).</summary>
-/// <param name="File">As the scene names it.</param>
-/// <param name="Placement">Where it starts.</param>
-/// <param name="Restitution">The paper's e, from 0 (steel) to 1 (rubber).</param>
-public sealed record PhysicsObject(string File, Transformation Placement, double Restitution) : SceneObject(File, Placement)
+public sealed record PhysicsObject : SceneObject
 {
+    /// <summary>Makes a body that shows a model.</summary>
+    /// <param name="model">What the body shows; its bounding sphere collides.</param>
+    /// <param name="restitution">The paper's e, from 0 (steel) to 1 (rubber).</param>
+    public PhysicsObject(Model model, double restitution = 0)
+        : base(model) => Restitution = restitution;
+
+    /// <summary>Makes a body that shows what a file holds, which is not loaded yet.</summary>
+    /// <param name="file">As the scene names it.</param>
+    /// <param name="placement">Where the body starts.</param>
+    /// <param name="restitution">The paper's e, from 0 (steel) to 1 (rubber).</param>
+    public PhysicsObject(string file, Transformation placement, double restitution)
+        : base(file, placement) => Restitution = restitution;
+
+    /// <summary>The paper's coefficient of restitution e, from 0 (steel) to 1 (rubber).</summary>
+    public double Restitution { get; init; }
+
     /// <summary>Initial velocity in units a second.</summary>
     public Vector Velocity { get; init; }
 
     /// <summary>Mass in kilograms, positive.</summary>
     public double Mass { get; init; } = 1;
 
-    /// <summary>Coulomb's coefficient; 0 for the paper's bodies, which keep their speed along a surface.</summary>
+    /// <summary>Coulomb's coefficient of friction; 0 for the paper's bodies, which keep their speed along a surface.</summary>
     public double Friction { get; init; }
 
-    /// <summary>Which part of its speed the body loses a second, as a rate: v falls by exp(−rate·t).</summary>
+    /// <summary>Rate of damping in 1/s: the speed falls by the factor exp(−rate·t).</summary>
     public double Damping { get; init; }
 
-    /// <summary>Which part of its first size the body loses a second (paper §5.5); 0 for none.</summary>
+    /// <summary>Fraction of its first size that the body loses a second (paper §5.5); 0 for none.</summary>
     public double Shrinkage { get; init; }
 
-    /// <summary>The part of its first size at which shrinking ends.</summary>
+    /// <summary>Fraction of its first size at which shrinking ends.</summary>
     public double MinimumScale { get; init; } = DefaultMinimumScale;
 
-    /// <summary>Where shrinking ends unless the scene says so.</summary>
+    /// <summary>Fraction of the first size at which shrinking ends unless stated otherwise.</summary>
     public const double DefaultMinimumScale = 0.05;
 
-    /// <summary>How the body finds what it touches.</summary>
+    /// <summary>The collider that finds what the body touches.</summary>
     public ColliderKind Collider { get; init; }
 }

@@ -4,27 +4,38 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Scenes;
 
-/// <summary>An object of a scene together with the model that its file holds.</summary>
+/// <summary>An object of a scene together with its model and its place in the world.</summary>
 public sealed class PlacedModel
 {
     private readonly Lazy<BoundingBox> _bounds;
 
-    /// <summary>An object and its model.</summary>
-    /// <param name="declaration">What the scene says of it.</param>
+    /// <summary>Places the model of an object.</summary>
+    /// <param name="declaration">With its model.</param>
+    /// <exception cref="FractalEngineException">The object names a file that is not loaded.</exception>
+    public PlacedModel(SceneObject declaration)
+        : this(declaration, declaration.Model ?? throw new FractalEngineException(
+            $"the object '{declaration.DisplayName}' has no model: load its scene with AssetLoader, or give it a model"))
+    {
+    }
+
+    /// <summary>Places a model as an object says.</summary>
+    /// <param name="declaration">What the scene says of the object.</param>
     /// <param name="model">Shared by all objects of the same file.</param>
     public PlacedModel(SceneObject declaration, Model model)
     {
-        (Declaration, Model, ObjectToWorld) = (declaration, model, declaration.Placement.ToAffineMap());
+        Declaration = declaration;
+        Model = model;
+        ObjectToWorld = declaration.Placement.ToAffineMap();
         _bounds = new(() => ComputeWorldBounds(declaration, ObjectToWorld, model));
     }
 
-    /// <summary>What the scene says of the object.</summary>
+    /// <summary>The object as the scene declares it.</summary>
     public SceneObject Declaration { get; }
 
-    /// <summary>What the object's file holds.</summary>
+    /// <summary>What the object shows, in its own frame.</summary>
     public Model Model { get; }
 
-    /// <summary>From the model's frame to world space: the paper's global matrix m.</summary>
+    /// <summary>Maps the model's frame to world space: the paper's global matrix m.</summary>
     public AffineMap ObjectToWorld { get; }
 
     /// <summary>A box that holds the object in world space; as tight as the model's own.</summary>
@@ -33,7 +44,7 @@ public sealed class PlacedModel
     private static BoundingBox ComputeWorldBounds(SceneObject declaration, AffineMap objectToWorld, Model model) => model switch
     {
         FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } =>
-            FractalBounds.ComputeBox(new(fractal.Description.WithPlacement(declaration.Placement), fractal.BaseMesh)),
+            fractal.WithPlacement(declaration.Placement).Bounds,
         MeshModel => ComputeWorldBounds(objectToWorld, model.Mesh),
         _ => model.Bounds.Transform(objectToWorld),
     };

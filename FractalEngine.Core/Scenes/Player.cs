@@ -2,7 +2,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Scenes;
 
-/// <summary>Someone who walks in the scene.</summary>
+/// <summary>A player who walks in the scene, as a capsule.</summary>
 /// <param name="Position">Where the player's centre starts, world space.</param>
 /// <param name="Radius">Of the body, scene units, positive.</param>
 /// <param name="Height">From the lowest to the highest point; at least twice the radius.</param>

@@ -5,7 +5,7 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Scenes;
 
 /// <summary>
-/// All that a scene file says (paper §4.1.5, objective 5), as plain immutable data. Null means that the file leaves it to the
+/// Objects, lights, camera and player of a scene (paper §4.1.5, objective 5), as plain immutable data. Null leaves a choice to the
 /// program: the camera frames the scene, the aspect ratio follows the window, the planes follow the scene's size.
 /// </summary>
 public sealed record Scene
@@ -13,37 +13,36 @@ public sealed record Scene
     /// <summary>The acceleration of free fall near the ground, units a second².</summary>
     public static readonly Vector DefaultGravity = new(0, -9.8, 0);
 
-    /// <summary>Where the scene is seen from.</summary>
+    /// <summary>The camera that shows the scene; null for one that frames it.</summary>
     public Camera? Camera { get; init; }
 
-    /// <summary>Perspective unless the scene says otherwise.</summary>
+    /// <summary>The projection of the camera; perspective unless stated otherwise.</summary>
     public Projection Projection { get; init; }
 
     /// <summary>
-    /// The height that an orthographic picture shows, scene units; null for what perspective shows at the depth of
-    /// the scene's centre.
+    /// The height that an orthographic image shows, scene units; null for what perspective shows at the depth of the scene's centre.
     /// </summary>
     public double? OrthographicHeight { get; init; }
 
-    /// <summary>Width divided by height of the picture.</summary>
+    /// <summary>Width divided by height of the image; null for that of the window.</summary>
     public double? Aspect { get; init; }
 
-    /// <summary>The depths between which things are drawn, scene units.</summary>
+    /// <summary>Depths of the near and the far plane, scene units; null to follow the size of the scene.</summary>
     public (double Near, double Far)? Clip { get; init; }
 
-    /// <summary>What is behind everything.</summary>
+    /// <summary>The colour behind everything; null for the default.</summary>
     public Colour? Background { get; init; }
 
-    /// <summary>In the order of the file; where there are none, a default light is used.</summary>
+    /// <summary>The lights, in the order of the file; a scene without any gets default lights.</summary>
     public ImmutableArray<Light> Lights { get; init; } = [];
 
-    /// <summary>In the order of the file, physics objects among them.</summary>
+    /// <summary>The objects, in the order of the file, physics objects among them.</summary>
     public ImmutableArray<SceneObject> Objects { get; init; } = [];
 
-    /// <summary>Acceleration of all bodies, units a second².</summary>
+    /// <summary>The acceleration of all bodies, units a second².</summary>
     public Vector Gravity { get; init; } = DefaultGravity;
 
-    /// <summary>Who walks in the scene, if anyone.</summary>
+    /// <summary>The player who walks in the scene; null for none.</summary>
     public Player? Player { get; init; }
 
     /// <inheritdoc/>

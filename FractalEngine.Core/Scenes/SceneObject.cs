@@ -1,13 +1,50 @@
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Scenes;
 
-/// <summary>A thing in a scene: a file and where its contents stand (paper §4.1.5).</summary>
-/// <param name="File">As the scene names it: relative to the scene's file.</param>
-/// <param name="Placement">The paper's global matrix m.</param>
-public record SceneObject(string File, Transformation Placement)
+/// <summary>An object of a scene: a model and where it stands (paper §4.1.5).</summary>
+/// <remarks>
+/// An object made in code has a <see cref="Model"/>. One that a scene file declares has the name of a <see cref="File"/>, and its model
+/// once that file is loaded. Two objects are equal when all that a scene file says of them is equal, models included where no file is
+/// named.
+/// </remarks>
+public record SceneObject
 {
+    /// <summary>Makes an object that shows a model.</summary>
+    public SceneObject(Model model) => Model = model;
+
+    /// <summary>Makes an object that shows a fractal.</summary>
+    public SceneObject(Fractal fractal)
+        : this(new FractalModel(fractal))
+    {
+    }
+
+    /// <summary>Makes an object that shows a mesh.</summary>
+    public SceneObject(Mesh mesh)
+        : this(new MeshModel(mesh))
+    {
+    }
+
+    /// <summary>Makes an object that shows what a file holds, which is not loaded yet.</summary>
+    /// <param name="file">As the scene names it: relative to the scene's file.</param>
+    /// <param name="placement">The paper's global matrix m.</param>
+    public SceneObject(string file, Transformation placement)
+    {
+        File = file;
+        Placement = placement;
+    }
+
+    /// <summary>What the object shows; null for an object whose file is not loaded.</summary>
+    public Model? Model { get; init; }
+
+    /// <summary>The model's file as the scene names it, relative to the scene's file; null for an object made in code.</summary>
+    public string? File { get; init; }
+
+    /// <summary>The paper's global matrix m, from the model's frame to world space.</summary>
+    public Transformation Placement { get; init; } = Transformation.Identity;
+
     /// <summary>A name to tell objects of the same file apart; null for none.</summary>
     public string? Name { get; init; }
 
@@ -16,4 +53,16 @@ public record SceneObject(string File, Transformation Placement)
 
     /// <summary>How the instances of a fractal differ in colour; null for not at all.</summary>
     public Gradient? Gradient { get; init; }
+
+    /// <summary>The name for messages: the object's own, or that of its file or model.</summary>
+    public string DisplayName => Name ?? File ?? Model?.Name ?? "object";
+
+    /// <inheritdoc/>
+    public virtual bool Equals(SceneObject? other) =>
+        other is not null && EqualityContract == other.EqualityContract && File == other.File
+        && (File is not null || ReferenceEquals(Model, other.Model)) && Placement == other.Placement && Name == other.Name
+        && Colour == other.Colour && Gradient == other.Gradient;
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => HashCode.Combine(EqualityContract, File, Placement, Name, Colour, Gradient);
 }

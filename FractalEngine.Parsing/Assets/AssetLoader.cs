@@ -74,8 +74,8 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
 
     private LoadedFile CreateSingleObjectFile(string fullPath, FileKind kind, Model model)
     {
-        var declared = new SceneObject(Path.GetFileName(fullPath), Transformation.Identity);
-        return CreateLoadedFile(fullPath, kind, new(new() { Objects = [declared] }, [new(declared, model)]), null);
+        var declared = new SceneObject(Path.GetFileName(fullPath), Transformation.Identity) { Model = model };
+        return CreateLoadedFile(fullPath, kind, LoadedScene.Of(new() { Objects = [declared] }), null);
     }
 
     private LoadedFile CreateLoadedFile(string fullPath, FileKind kind, LoadedScene scene, SceneFile? sceneFile) =>
@@ -84,12 +84,12 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
     private LoadedFile LoadScene(string fullPath, string displayName)
     {
         var file = SceneParser.Parse(ReadText(fullPath, displayName, ParsingLimits.DescriptionBytes));
-        var placed = ImmutableArray.CreateBuilder<PlacedModel>();
+        var objects = ImmutableArray.CreateBuilder<SceneObject>();
         foreach (var (declared, offset) in file.Scene.Objects.Zip(file.FileNameOffsets))
         {
             try
             {
-                placed.Add(new(declared, LoadReferenced(file.Source, offset, fullPath, declared.File)));
+                objects.Add(declared with { Model = LoadReferenced(file.Source, offset, fullPath, declared.File!) });
             }
             catch (SourceException exception)
             {
@@ -101,7 +101,7 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
             }
         }
 
-        return CreateLoadedFile(fullPath, FileKind.Scene, new(file.Scene, placed.ToImmutable()), file);
+        return CreateLoadedFile(fullPath, FileKind.Scene, LoadedScene.Of(file.Scene with { Objects = objects.ToImmutable() }), file);
     }
 
     private Model LoadReferenced(SourceText source, int offset, string referrer, string file)
@@ -120,7 +120,7 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
     private MeshModel LoadMesh(string fullPath, string displayName)
     {
         var (mesh, materials, bytes) = ReadMesh(fullPath, displayName);
-        return new(fullPath, bytes, mesh) { Materials = materials };
+        return new(mesh) { SourcePath = fullPath, FileBytes = bytes, Materials = materials };
     }
 
     private FractalModel LoadFractal(string fullPath, string displayName)
@@ -128,9 +128,10 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
         var bytesBefore = StorageBytes;
         var file = FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.DescriptionBytes));
         var ownBytes = StorageBytes - bytesBefore;
-        var (baseFullPath, baseDisplayName) = _references!.Resolve(file.Source, file.BaseFileNameOffset, fullPath,
-            file.Description.BaseFile);
-        var fractal = FractalGenerator.Create(ApplyOptions(file), _ => ReadMesh(baseFullPath, baseDisplayName).Mesh);
+        var (baseFullPath, baseDisplayName) = _references!.Resolve(file.Source, file.BaseFileNameOffset, fullPath, file.BaseFile);
+        var description = ApplyOptions(file);
+        var (baseMesh, materials, baseBytes) = ReadMesh(baseFullPath, baseDisplayName);
+        var fractal = new Fractal(description, baseMesh) { BaseMeshPath = baseFullPath };
         if (fractal.Bounds != BoundingBox.Empty && !fractal.Bounds.Size.IsFinite())
         {
             throw file.Source.Error(file.ResultOffset, fractal.Description.IsInfinite
@@ -138,7 +139,7 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
                 : "the fractal grows beyond the range of a double");
         }
 
-        return new(fullPath, ownBytes + _meshes[baseFullPath].Bytes, fractal) { Materials = _meshes[baseFullPath].Materials };
+        return new(fractal) { SourcePath = fullPath, FileBytes = ownBytes + baseBytes, Materials = materials };
     }
 
     /// <summary>What the file says, changed as the options ask.</summary>

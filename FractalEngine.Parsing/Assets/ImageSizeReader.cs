@@ -1,4 +1,5 @@
 using System.Buffers.Binary;
+using FractalEngine.Core.Images;
 
 namespace FractalEngine.Parsing.Assets;
 
@@ -7,8 +8,6 @@ internal static class ImageSizeReader
 {
     // Far enough for what a PNG, BMP or TGA says of its size.
     private const int HeaderBytes = 26;
-
-    private static ReadOnlySpan<byte> PngSignature => [0x89, (byte)'P', (byte)'N', (byte)'G', 0x0D, 0x0A, 0x1A, 0x0A];
 
     /// <summary>Width and height in pixels of a PNG, JPEG, BMP or TGA file; null where it is none.</summary>
     /// <param name="stream">At its beginning; can seek.</param>
@@ -19,7 +18,7 @@ internal static class ImageSizeReader
         header = header[..stream.ReadAtLeast(header, HeaderBytes, throwOnEndOfStream: false)];
         return header switch
         {
-            _ when header.StartsWith(PngSignature) => ReadPngSize(header),
+            _ when PngReader.IsPng(header) => ReadPngSize(header),
             [0xFF, 0xD8, ..] => ReadJpegSize(stream),
             [(byte)'B', (byte)'M', ..] => ReadBmpSize(header),
             _ when isTga => ReadTgaSize(header),

@@ -46,14 +46,14 @@ public sealed partial class FractalParser : Parser
                 _hasDeclaration ? "the fractal has no result: expected a declaration '<$>. object'" : "the fractal declares nothing");
         }
 
-        var description = new FractalDescription(result.Object.BaseFile, result.Object.Steps, _composition ?? Composition.Affine);
+        var description = new FractalDescription(result.Object.Steps, _composition ?? Composition.Affine);
         if (description is { IsInfinite: true, Composition: Composition.Componentwise })
         {
             throw Source.Error(result.Offset,
                 "an infinite fractal can't be composed componentwise: its positions don't shrink; give it a depth");
         }
 
-        return new(Source, description, result.Object.BaseFileNameOffset, result.Offset);
+        return new(Source, description, result.Object.BaseFile, result.Object.BaseFileNameOffset, result.Offset);
     }
 
     private bool ParseLine(Cursor cursor, out Cursor rest)

@@ -66,7 +66,7 @@ public sealed class ObjWriter
     }
 
     private static string ObjectName(PlacedModel placed) =>
-        placed.Declaration.Name ?? Path.GetFileNameWithoutExtension(placed.Declaration.File);
+        placed.Declaration.Name ?? Path.GetFileNameWithoutExtension(placed.Declaration.DisplayName);
 
     private static ImmutableArray<AffineMap> ExpandInstances(Model model, long maxFaces)
     {
@@ -83,7 +83,7 @@ public sealed class ObjWriter
         {
             throw new FractalLimitException(
                 string.Create(CultureInfo.InvariantCulture,
-                $"{Path.GetFileName(model.Path)} has more faces than the limit of {maxFaces}: {exception.Message}"),
+                $"{model.Name} has more faces than the limit of {maxFaces}: {exception.Message}"),
                 exception);
         }
     }

@@ -16,10 +16,10 @@ public static class SceneRelocation
         {
             Objects =
             [
-                .. scene.Objects.Select(declared => Path.IsPathRooted(declared.File) ? declared : declared with
+                .. scene.Objects.Select(declared => declared.File is not { } file || Path.IsPathRooted(file) ? declared : declared with
                 {
                     // Scene files have slashes on every system.
-                    File = Path.GetRelativePath(newFolder, Path.Combine(oldFolder, declared.File)).Replace('\\', '/'),
+                    File = Path.GetRelativePath(newFolder, Path.Combine(oldFolder, file)).Replace('\\', '/'),
                 }),
             ],
         };

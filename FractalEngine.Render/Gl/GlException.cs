@@ -1,22 +1,25 @@
+using FractalEngine.Core;
+
 namespace FractalEngine.Render.Gl;
 
-/// <summary>OpenGL refused something: a shader, a framebuffer, an allocation. The message says what and why.</summary>
-public sealed class GlException : Exception
+/// <summary>OpenGL refused something: a shader, a framebuffer or an allocation; the message says what and why.</summary>
+public sealed class GlException : FractalEngineException
 {
-    /// <summary>With a message.</summary>
+    /// <summary>Makes an error with a message of one line.</summary>
     public GlException(string message)
-        : base(message)
+        : base(ErrorKind.Limit, message)
     {
     }
 
-    /// <summary>With a message and a cause.</summary>
+    /// <summary>Makes an error with a message of one line and a cause.</summary>
     public GlException(string message, Exception innerException)
-        : base(message, innerException)
+        : base(ErrorKind.Limit, message, innerException)
     {
     }
 
-    /// <summary>Without details.</summary>
+    /// <summary>Makes an error without details.</summary>
     public GlException()
+        : this("OpenGL refused a request")
     {
     }
 }

@@ -1,4 +1,4 @@
-using FractalEngine.Render.Images;
+using FractalEngine.Core.Images;
 using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Gl;

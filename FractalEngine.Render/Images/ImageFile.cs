@@ -1,28 +1,38 @@
-using System.Runtime.InteropServices;
+using FractalEngine.Core.Images;
 
 namespace FractalEngine.Render.Images;
 
-/// <summary>Reads and writes pictures with SDL2_image.</summary>
+/// <summary>Reads and writes image files: PNG with the engine's own reader and writer, other formats with SDL2_image.</summary>
 public static class ImageFile
 {
     private const string InstallHint =
-        "pictures need SDL2_image (Debian: libsdl2-image-2.0-0; Windows: SDL2.dll and SDL2_image.dll beside the program; macOS: brew install sdl2_image)";
+        "it is no PNG image, and other formats need SDL2_image "
+        + "(Debian: libsdl2-image-2.0-0; Windows: SDL2.dll and SDL2_image.dll beside the program; macOS: brew install sdl2_image)";
 
-    /// <summary>Writes a PNG file. An existing file is replaced only once the new one is complete.</summary>
-    /// <param name="image">The picture.</param>
+    private const int BufferBytes = 1 << 16;
+
+    /// <summary>Writes a PNG file. An existing file is replaced only once the new one is complete. Needs no library.</summary>
+    /// <param name="image">At least one pixel.</param>
     /// <param name="path">Relative to the working directory, or absolute; its directory must exist.</param>
-    /// <exception cref="IOException">The file can't be written, or SDL2_image is missing.</exception>
+    /// <exception cref="ArgumentException">The image has no pixels, or not as many as its sides say.</exception>
+    /// <exception cref="IOException">The file can't be written.</exception>
     public static void SavePng(PixelImage image, string path)
     {
         var temporaryPath = $"{path}.{Guid.NewGuid():N}.tmp";
         try
         {
-            Write(image, path, temporaryPath);
+            using (var stream = new FileStream(temporaryPath, FileMode.CreateNew, FileAccess.Write, FileShare.None, BufferBytes))
+            {
+                PngWriter.Write(image, stream);
+            }
+
             File.Move(temporaryPath, path, overwrite: true);
         }
-        catch (Exception exception) when (exception is DllNotFoundException or EntryPointNotFoundException)
+        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
         {
-            throw new IOException($"{path} can't be written: {InstallHint}", exception);
+            // Messages show full paths, of which only the last part is known.
+            var reason = exception.Message.Replace(Path.GetFileName(temporaryPath), Path.GetFileName(path), StringComparison.Ordinal);
+            throw new IOException($"{path} can't be written: {reason}", exception);
         }
         finally
         {
@@ -34,75 +44,40 @@ public static class ImageFile
         }
     }
 
-    /// <summary>Reads a picture of any format that SDL2_image knows.</summary>
-    /// <exception cref="IOException">The file can't be read, or SDL2_image is missing.</exception>
-    public static PixelImage Load(string path)
+    /// <summary>Reads an image: PNG, known by its first bytes whatever its name is, or any format that SDL2_image knows.</summary>
+    /// <exception cref="IOException">The file can't be read or is damaged; or it is no PNG, and SDL2_image is missing.</exception>
+    /// <remarks>A PNG of more than <see cref="PngReader.DefaultMaxPixels"/> pixels is refused before memory is taken for it.</remarks>
+    public static PixelImage Load(string path) => Load(path, SdlImage.Read);
+
+    /// <summary>As <see cref="Load(string)"/>, with another reader for what is no PNG.</summary>
+    internal static PixelImage Load(string path, Func<string, PixelImage> loadOther)
     {
         try
         {
-            return Read(path);
+            return LoadPng(path) ?? loadOther(path);
         }
         catch (Exception exception) when (exception is DllNotFoundException or EntryPointNotFoundException)
         {
             throw new IOException($"{path} can't be read: {InstallHint}", exception);
         }
-    }
-
-    private static unsafe void Write(PixelImage image, string path, string temporaryPath)
-    {
-        fixed (byte* pixels = image.Pixels)
+        catch (Exception exception) when (exception is PngException or IOException or UnauthorizedAccessException)
         {
-            var surface = SdlImage.CreateSurfaceFrom((IntPtr)pixels, image.Width, image.Height, 32, 4 * image.Width, SdlImage.RgbaFormat);
-            if (surface == IntPtr.Zero)
-            {
-                throw new IOException(
-                    $"{path} can't be written: {SdlImage.ErrorText().Replace(temporaryPath, path, StringComparison.Ordinal)}");
-            }
-
-            try
-            {
-                if (SdlImage.SavePng(surface, temporaryPath) != 0)
-                {
-                    throw new IOException(
-                        $"{path} can't be written: {SdlImage.ErrorText().Replace(temporaryPath, path, StringComparison.Ordinal)}");
-                }
-            }
-            finally
-            {
-                SdlImage.FreeSurface(surface);
-            }
+            throw new IOException($"{path} can't be read: {exception.Message}", exception);
         }
     }
 
-    private static unsafe PixelImage Read(string path)
+    /// <summary>Null where the file is no PNG.</summary>
+    private static PixelImage? LoadPng(string path)
     {
-        var loaded = SdlImage.Load(path);
-        if (loaded == IntPtr.Zero)
+        using var stream = new FileStream(path, FileMode.Open, FileAccess.Read, FileShare.Read, BufferBytes, FileOptions.SequentialScan);
+        Span<byte> head = stackalloc byte[8];
+        var count = stream.ReadAtLeast(head, head.Length, throwOnEndOfStream: false);
+        if (!PngReader.IsPng(head[..count]))
         {
-            throw new IOException($"{path} can't be read: {SdlImage.ErrorText()}");
+            return null;
         }
 
-        var surface = SdlImage.ConvertSurface(loaded, SdlImage.RgbaFormat, 0);
-        SdlImage.FreeSurface(loaded);
-        if (surface == IntPtr.Zero)
-        {
-            throw new IOException($"{path} can't be read: {SdlImage.ErrorText()}");
-        }
-
-        try
-        {
-            ref readonly var header = ref *(SdlSurface*)surface;
-            var pixels = new byte[4 * header.Width * header.Height];
-            for (var y = 0; y < header.Height; y++)
-            {
-                Marshal.Copy(header.Pixels + (y * header.Pitch), pixels, 4 * header.Width * y, 4 * header.Width);
-            }
-
-            return new(header.Width, header.Height, pixels);
-        }
-        finally
-        {
-            SdlImage.FreeSurface(surface);
-        }
+        stream.Position = 0;
+        return PngReader.Read(stream);
     }
 }

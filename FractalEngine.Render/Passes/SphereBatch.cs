@@ -26,7 +26,7 @@ internal sealed class SphereBatch : IDisposable
         var scene =
             new LoadedScene(new Scene(),
             [new(new SceneObject("ball", Transformation.Identity),
-            new MeshModel("ball", 0, MeshGenerators.Create("icosphere", 0, FaceCount)))]);
+            new MeshModel(MeshGenerators.Create("icosphere", 0, FaceCount)) { SourcePath = "ball" })]);
         _modelBuffers = new(resources, DrawableScene.Prepare(scene, new() { Culling = null }).Models[0]);
         _instances = new(resources, "balls", BufferTarget.ArrayBuffer);
         _vertexArray = new(resources, "balls");

@@ -96,7 +96,7 @@ public sealed class DrawableScene
     internal static DrawableModel PrepareModel(
         Model model, RenderSettings settings, TextureCache textures, ImmutableArray<string>.Builder notices)
     {
-        var (name, mesh) = (Path.GetFileName(model.Path), model.Mesh);
+        var (name, mesh) = (model.Name, model.Mesh);
         if (mesh.FaceCount == 0)
         {
             return new(name, Vector.Zero, BoundingBox.Empty, [], [], []);
@@ -141,7 +141,7 @@ public sealed class DrawableScene
     /// <summary>The box that stands for a model until it is prepared.</summary>
     private static DrawableModel CreatePlaceholder(Model model)
     {
-        var (name, box) = (Path.GetFileName(model.Path), model.Bounds);
+        var (name, box) = (model.Name, model.Bounds);
         if (model.Mesh.FaceCount == 0 || box.IsEmpty || !box.Size.IsFinite())
         {
             return new(name, Vector.Zero, BoundingBox.Empty, [], [], []) { IsPlaceholder = true };

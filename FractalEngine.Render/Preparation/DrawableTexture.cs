@@ -1,4 +1,4 @@
-using FractalEngine.Render.Images;
+using FractalEngine.Core.Images;
 
 namespace FractalEngine.Render.Preparation;
 

@@ -85,7 +85,7 @@ public sealed class ScenePreparation
         {
             cancellation.ThrowIfCancellationRequested();
             var index = selectedIndices[completed];
-            var name = Path.GetFileName(_models[index].Path);
+            var name = _models[index].Name;
             progress?.Report(new(name, (double)completed / selectedIndices.Length));
             var placeholder = Scene.Models[index];
             var prepared = DrawableScene.PrepareModel(_models[index], _settings, _textures, _notices);

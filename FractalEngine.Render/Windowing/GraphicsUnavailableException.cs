@@ -1,22 +1,25 @@
+using FractalEngine.Core;
+
 namespace FractalEngine.Render.Windowing;
 
-/// <summary>There is no display, or no OpenGL 3.3 on it. The message is one line that says which.</summary>
-public sealed class GraphicsUnavailableException : Exception
+/// <summary>There is no display, or no OpenGL 3.3 on it; the message says which.</summary>
+public sealed class GraphicsUnavailableException : FractalEngineException
 {
-    /// <summary>With a message of one line.</summary>
+    /// <summary>Makes an error with a message of one line.</summary>
     public GraphicsUnavailableException(string message)
-        : base(message)
+        : base(ErrorKind.Unavailable, message)
     {
     }
 
-    /// <summary>With a message of one line and a cause.</summary>
+    /// <summary>Makes an error with a message of one line and a cause.</summary>
     public GraphicsUnavailableException(string message, Exception innerException)
-        : base(message, innerException)
+        : base(ErrorKind.Unavailable, message, innerException)
     {
     }
 
-    /// <summary>Without details.</summary>
+    /// <summary>Makes an error without details.</summary>
     public GraphicsUnavailableException()
+        : this("there is no display with OpenGL 3.3")
     {
     }
 }

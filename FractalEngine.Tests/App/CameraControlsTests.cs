@@ -17,25 +17,27 @@ public class CameraControlsTests
     private const double Aspect = 4.0 / 3;
 
     private static readonly TimeSpan Frame = TimeSpan.FromSeconds(1.0 / 60);
-    private static readonly LodHierarchy Menger = LodHierarchy.Build(DetailViews.Menger(null));
+    private static readonly LodHierarchy Menger = LodHierarchy.Build(CullingViews.Menger(null));
 
     // Before a corner, looking at it.
     private static readonly Vector Corner = new(-1, 1, -1);
-    private static readonly Vector Place = new(-3, 3, -3.2);
-    private static readonly Camera Start = new(Place, CameraFraming.LookRotation(Corner - Place), 50);
+    private static readonly Vector StartPosition = new(-3, 3, -3.2);
+    private static readonly Camera Start = new(StartPosition, CameraFraming.LookRotation(Corner - StartPosition), 50);
 
-    private static CameraControls Controls(Camera? camera = null, AffineMap? placement = null) => (placement ?? AffineMap.Identity) switch
+    private static CameraControls CreateControls(Camera? camera = null, AffineMap? placement = null) =>
+        (placement ?? AffineMap.Identity) switch
     {
-        var map =>
-            new(Menger.NodeAt(Menger.LevelCount).Box.Transform(map), camera ?? Start, Projection.Perspective, null, new(0, Menger, map)),
+        var objectToWorld =>
+            new(Menger.NodeAt(Menger.LevelCount).Box.Transform(objectToWorld), camera ?? Start, Projection.Perspective, null,
+            new(0, Menger, objectToWorld)),
     };
 
-    private static KeyPressed Press(Key key) => new(key, KeyModifiers.None, false);
+    private static KeyPressed KeyPress(Key key) => new(key, KeyModifiers.None, false);
 
     [Fact]
-    public void Start_Outside_IsAtTheTop()
+    public void Start_Outside_IsAtDepthZero()
     {
-        var controls = Controls();
+        var controls = CreateControls();
         Assert.Equal((0, 0.0), (controls.Depth, controls.Log10Magnification));
         Near.Equal(Start.Position, controls.Camera.Position, 1e-12);
         var view = new View(controls.Camera, Projection.Perspective);
@@ -43,11 +45,11 @@ public class CameraControlsTests
     }
 
     [Fact]
-    public void Start_Within_IsWhereTheCameraIs() => Seeded.Run(100, random =>
+    public void Start_Inside_IsWhereTheCameraIs() => Seeded.Run(100, random =>
     {
         var placement = random.Next(2) == 0 ? AffineMap.Identity : random.Transformation().ToAffineMap();
         var camera = new Camera(placement * random.Vector(1.3), random.Vector(), 40);
-        var controls = Controls(camera, placement);
+        var controls = CreateControls(camera, placement);
         Near.Equal(camera.Position, controls.Camera.Position, 1e-12 * (1 + camera.Position.MaxAbsComponent()));
         Assert.Equal((camera.Rotation, camera.FieldOfView), (controls.Camera.Rotation, controls.Camera.FieldOfView));
     });
@@ -57,21 +59,21 @@ public class CameraControlsTests
     [InlineData(200)] // past the corner, as a direction of double precision misses it
     public void Wheel_InAndOutAgain_IsOutside(int notches)
     {
-        var controls = Controls();
-        var deepest = 0;
+        var controls = CreateControls();
+        var maxDepth = 0;
         for (var i = 0; i < notches; i++)
         {
             Assert.True(controls.Handle(new WheelTurned(1, KeyModifiers.None), Aspect));
-            AssertSound(controls);
-            deepest = Math.Max(deepest, controls.Depth);
+            AssertFiniteAndNear(controls);
+            maxDepth = Math.Max(maxDepth, controls.Depth);
         }
 
-        Assert.True(deepest >= 20, Text($"only {deepest} levels"));
+        Assert.True(maxDepth >= 20, Text($"only {maxDepth} levels"));
         Assert.True(controls.Log10Magnification >= 0.47 * controls.Depth, Text($"{controls.Log10Magnification} at depth {controls.Depth}"));
         for (var i = 0; i < notches; i++)
         {
             controls.Handle(new WheelTurned(-1, KeyModifiers.None), Aspect);
-            AssertSound(controls);
+            AssertFiniteAndNear(controls);
         }
 
         Assert.Equal((0, 0.0), (controls.Depth, controls.Log10Magnification));
@@ -82,13 +84,13 @@ public class CameraControlsTests
     [Fact]
     public void KeyW_Held_GoesDeeperAndSlowsDown()
     {
-        var controls = Controls();
-        controls.Handle(Press(Key.W), Aspect);
+        var controls = CreateControls();
+        controls.Handle(KeyPress(Key.W), Aspect);
         var (last, far) = (controls.Camera.Position, 0.0);
         for (var i = 0; i < 60 * 30; i++)
         {
             controls.Advance(Frame);
-            AssertSound(controls);
+            AssertFiniteAndNear(controls);
             var now = controls.Camera.Position;
             far = i < 60 ? Math.Max(far, (now - last).Length()) : far;
             last = now;
@@ -107,8 +109,8 @@ public class CameraControlsTests
     [Fact]
     public void KeyS_AfterW_ComesOutAgain()
     {
-        var controls = Controls();
-        controls.Handle(Press(Key.W), Aspect);
+        var controls = CreateControls();
+        controls.Handle(KeyPress(Key.W), Aspect);
         for (var i = 0; i < 60 * 20; i++)
         {
             controls.Advance(Frame);
@@ -116,11 +118,11 @@ public class CameraControlsTests
 
         Assert.True(controls.Depth > 2);
         controls.Handle(new KeyReleased(Key.W, KeyModifiers.None), Aspect);
-        controls.Handle(Press(Key.S), Aspect);
+        controls.Handle(KeyPress(Key.S), Aspect);
         for (var i = 0; i < 60 * 30; i++)
         {
             controls.Advance(Frame);
-            AssertSound(controls);
+            AssertFiniteAndNear(controls);
         }
 
         Assert.Equal(0, controls.Depth);
@@ -132,14 +134,14 @@ public class CameraControlsTests
     [InlineData(Key.KeypadEnter)]
     public void Enter_FromDeep_ReturnsToTheStart(Key key)
     {
-        var controls = Deep(150);
+        var controls = CreateDeepControls(150);
         Assert.True(controls.Depth > 5);
-        Assert.True(controls.Handle(Press(key), Aspect));
+        Assert.True(controls.Handle(KeyPress(key), Aspect));
         Assert.Equal((0, 0.0), (controls.Depth, controls.Log10Magnification));
         Near.Equal(Start.Position, controls.Camera.Position, 1e-12);
         Assert.Equal(Start.Rotation, controls.Camera.Rotation);
         // Everything after that is as at the beginning.
-        var fresh = Controls();
+        var fresh = CreateControls();
         for (var i = 0; i < 30; i++)
         {
             controls.Handle(new WheelTurned(1, KeyModifiers.None), Aspect);
@@ -156,8 +158,8 @@ public class CameraControlsTests
     [InlineData(Key.Digit7)]
     public void Framing_FromDeep_ShowsEverything(Key key)
     {
-        var controls = Deep(150);
-        Assert.True(controls.Handle(Press(key), Aspect));
+        var controls = CreateDeepControls(150);
+        Assert.True(controls.Handle(KeyPress(key), Aspect));
         Assert.Equal((0, 0.0), (controls.Depth, controls.Log10Magnification));
         var view = new View(controls.Camera, controls.Projection);
         foreach (var corner in from x in (double[])[-1, 1] from y in (double[])[-1, 1] from z in (double[])[-1, 1] select new Vector(x, y,
@@ -172,23 +174,23 @@ public class CameraControlsTests
     [Fact]
     public void Orthographic_FromDeep_IsOfTheWholeSceneAndBack()
     {
-        var controls = Deep(150);
-        var (depth, place) = (controls.Depth, controls.Camera.Position);
-        Assert.True(controls.Handle(Press(Key.Digit5), Aspect));
+        var controls = CreateDeepControls(150);
+        var (depth, position) = (controls.Depth, controls.Camera.Position);
+        Assert.True(controls.Handle(KeyPress(Key.Digit5), Aspect));
         Assert.Equal(Projection.Orthographic, controls.Projection);
         var view = new View(controls.Camera, controls.Projection);
         Assert.Same(view, controls.WithDeepZoom(view));
-        Near.Equal(place, controls.Camera.Position, 1e-12);
-        AssertSound(controls);
-        controls.Handle(Press(Key.Digit5), Aspect);
+        Near.Equal(position, controls.Camera.Position, 1e-12);
+        AssertFiniteAndNear(controls);
+        controls.Handle(KeyPress(Key.Digit5), Aspect);
         Assert.Equal(depth, controls.Depth);
         Assert.NotNull(controls.WithDeepZoom(new View(controls.Camera, controls.Projection)).DeepZoom);
     }
 
     [Fact]
-    public void Deepened_Deep_HasRootsAndPlanesOfItsUnit()
+    public void WithDeepZoom_Deep_HasRootsAndPlanesOfItsUnit()
     {
-        var controls = Controls();
+        var controls = CreateControls();
         for (var notches = 0; notches < 200; notches++)
         {
             controls.Handle(new WheelTurned(1, KeyModifiers.None), Aspect);
@@ -210,7 +212,7 @@ public class CameraControlsTests
     [Fact]
     public void AnyInput_KeepsTheCameraFiniteAndNear() => Seeded.Run(25, random =>
     {
-        var controls = Controls(new Camera(random.Vector(1.5), random.Vector(), 50), random.Next(2) == 0
+        var controls = CreateControls(new Camera(random.Vector(1.5), random.Vector(), 50), random.Next(2) == 0
             ? AffineMap.Identity
             : random.Transformation().ToAffineMap());
         Key[] keys = [Key.W, Key.A, Key.S, Key.D, Key.Q, Key.E, Key.F, Key.Enter, Key.Digit1, Key.Digit3, Key.Digit5, Key.Digit7];
@@ -244,18 +246,18 @@ public class CameraControlsTests
                     break;
             }
 
-            AssertSound(controls, 1e9);
+            AssertFiniteAndNear(controls, 1e9);
         }
     });
 
     [Fact]
     public void KeyW_TowardsACorner_IsAsFastAsItIsFarAway()
     {
-        var table = LodHierarchy.Build(FractalAddressTests.Infinite("sierpinski"));
+        var hierarchy = LodHierarchy.Build(FractalAddressTests.CreateInfinite("sierpinski"));
         var camera = new Camera(new(-1, -1, -1), CameraFraming.LookRotation(Vector.One), 50);
-        var controls = new CameraControls(table.NodeAt(table.LevelCount).Box, camera, Projection.Perspective, null,
-            new(0, table, AffineMap.Identity));
-        controls.Handle(Press(Key.W), Aspect);
+        var controls = new CameraControls(hierarchy.NodeAt(hierarchy.LevelCount).Box, camera, Projection.Perspective, null,
+            new(0, hierarchy, AffineMap.Identity));
+        controls.Handle(KeyPress(Key.W), Aspect);
         var left = controls.Camera.Position.Length();
         for (var i = 0; i < 600; i++)
         {
@@ -269,9 +271,9 @@ public class CameraControlsTests
         Assert.True(controls.Depth >= 3, Text($"depth {controls.Depth}"));
     }
 
-    private static CameraControls Deep(int notches)
+    private static CameraControls CreateDeepControls(int notches)
     {
-        var controls = Controls();
+        var controls = CreateControls();
         for (var i = 0; i < notches; i++)
         {
             controls.Handle(new WheelTurned(1, KeyModifiers.None), Aspect);
@@ -280,16 +282,16 @@ public class CameraControlsTests
         return controls;
     }
 
-    private static void AssertSound(CameraControls controls, double reach = 1000)
+    private static void AssertFiniteAndNear(CameraControls controls, double maxDistance = 1000)
     {
         var camera = controls.Camera;
         Assert.True(
             camera.Position.IsFinite() && camera.Rotation.IsFinite() && double.IsFinite(controls.Log10Magnification)
-            && camera.Position.Length() < reach,
+            && camera.Position.Length() < maxDistance,
             Text($"at depth {controls.Depth}, {controls.Log10Magnification}: {camera.Position}, {camera.Rotation}"));
         if (controls.Depth > 0)
         {
-            Assert.True(camera.Position.Length() < Math.Max(10, 1e-6 * reach), Text($"{camera.Position} at depth {controls.Depth}"));
+            Assert.True(camera.Position.Length() < Math.Max(10, 1e-6 * maxDistance), Text($"{camera.Position} at depth {controls.Depth}"));
         }
     }
 

@@ -11,8 +11,8 @@ public sealed class CommandTests : IDisposable
 
     public CommandTests()
     {
-        _folder.Write("cube.obj", Files.Cube);
-        _folder.Write("row.fdo", Files.Row("3"));
+        _folder.Write("cube.obj", SampleFiles.Cube);
+        _folder.Write("row.fdo", SampleFiles.Row("3"));
     }
 
     public void Dispose() => _folder.Dispose();
@@ -40,7 +40,7 @@ public sealed class CommandTests : IDisposable
     [Fact]
     public void Info_OfAGoogolInstances_WritesEveryDigit()
     {
-        _folder.Write("googol.fdo", Files.Row("100")
+        _folder.Write("googol.fdo", SampleFiles.Row("100")
             .Replace("[t.1, t.2]", $"[{string.Join(", ", Enumerable.Repeat("t.1", 10))}]", StringComparison.Ordinal));
         var (exitCode, output, _) = Run("info", "googol.fdo", "--json");
         Assert.Equal(0, exitCode);
@@ -51,7 +51,7 @@ public sealed class CommandTests : IDisposable
     [Fact]
     public void Info_OfDepthAMillion_WritesEveryDigit()
     {
-        _folder.Write("deep.fdo", Files.Row("1000000"));
+        _folder.Write("deep.fdo", SampleFiles.Row("1000000"));
         var (exitCode, output, _) = Run("info", "deep.fdo");
         Assert.Equal(0, exitCode);
         // 2^1000000 has 301,030 digits; the first and the last ones are known (OEIS A000079 by its leading terms).
@@ -64,7 +64,7 @@ public sealed class CommandTests : IDisposable
     [Fact]
     public void Info_OfInfiniteFractal_SaysSo()
     {
-        _folder.Write("infinite.fdo", Files.Row(""));
+        _folder.Write("infinite.fdo", SampleFiles.Row(""));
         var (exitCode, output, _) = Run("info", "infinite.fdo", "--json");
         Assert.Equal(0, exitCode);
         Assert.Contains("\"instances\": null, \"infinite\": true", output, StringComparison.Ordinal);
@@ -74,9 +74,9 @@ public sealed class CommandTests : IDisposable
     public void Count_OfMesh_WritesHeaderOnce()
     {
         Assert.Equal(new AppResult(0, $"12{Environment.NewLine}", ""), Run("count", "cube.obj"));
-        Assert.Equal("# Mesh count: 12\n" + Files.Cube, File.ReadAllText(_folder["cube.obj"]));
+        Assert.Equal("# Mesh count: 12\n" + SampleFiles.Cube, File.ReadAllText(_folder["cube.obj"]));
         Assert.Equal(0, Run("count", "cube.obj").ExitCode);
-        Assert.Equal("# Mesh count: 12\n" + Files.Cube, File.ReadAllText(_folder["cube.obj"]));
+        Assert.Equal("# Mesh count: 12\n" + SampleFiles.Cube, File.ReadAllText(_folder["cube.obj"]));
     }
 
     [Fact]
@@ -120,7 +120,7 @@ public sealed class CommandTests : IDisposable
     [Fact]
     public void Export_OfInfiniteFractal_ExitsWith3()
     {
-        _folder.Write("infinite.fdo", Files.Row(""));
+        _folder.Write("infinite.fdo", SampleFiles.Row(""));
         Assert.Equal(3, Run("export", "infinite.fdo", "--output", "flat.obj").ExitCode);
         Assert.Equal(0, Run("export", "infinite.fdo", "--output", "flat.obj", "--depth", "2").ExitCode);
     }
@@ -154,7 +154,7 @@ public sealed class CommandTests : IDisposable
     [Fact]
     public void Check_OfAMeshWithoutItsMaterialFile_WarnsAndSaysOk()
     {
-        _folder.Write("red.obj", "mtllib red.mtl\nusemtl red\n" + Files.Cube);
+        _folder.Write("red.obj", "mtllib red.mtl\nusemtl red\n" + SampleFiles.Cube);
         Assert.Equal(
             new AppResult(0, $"red.obj: ok{Environment.NewLine}",
             "red.obj:1:8: warning: the file \"red.mtl\" is not found\n  mtllib red.mtl\n         ^\n"),

@@ -10,8 +10,8 @@ public sealed class QueryCommandTests : IDisposable
 
     public QueryCommandTests()
     {
-        _folder.Write("cube.obj", Files.Cube);
-        _folder.Write("row.fdo", Files.Row("1000000"));
+        _folder.Write("cube.obj", SampleFiles.Cube);
+        _folder.Write("row.fdo", SampleFiles.Row("1000000"));
         _folder.Write("scene.sdo", "o \"cube.obj\" ((0, 0, 0), #, (2, 2, 2))\no \"cube.obj\" ((10, 0, 0), #, #)\n");
     }
 
@@ -34,7 +34,7 @@ public sealed class QueryCommandTests : IDisposable
     }
 
     [Fact]
-    public void Query_Within_SaysNone()
+    public void Query_WithMaxDistance_SaysNone()
     {
         _folder.Write("points.txt", "3 0 0\n1 0 0\n");
         var lines = Run("query", "cube.obj", "--points", "points.txt", "--within", "1").Output.Split('\n');
@@ -48,9 +48,9 @@ public sealed class QueryCommandTests : IDisposable
         _folder.Write("points.txt", "0.1 2 0\n");
         var (exitCode, output, _) = Run("query", "row.fdo", "--points", "points.txt", "--json");
         Assert.Equal(0, exitCode);
-        using var answers = JsonDocument.Parse(output);
+        using var results = JsonDocument.Parse(output);
         // The row is as thin as 2⁻¹⁰⁰⁰⁰⁰⁰; the answer is right to the last places of its coordinates.
-        Assert.Equal(2, answers.RootElement[0].GetProperty("distance").GetDouble(), 1e-14);
+        Assert.Equal(2, results.RootElement[0].GetProperty("distance").GetDouble(), 1e-14);
     }
 
     [Fact]

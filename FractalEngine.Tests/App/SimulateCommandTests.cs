@@ -13,8 +13,8 @@ public sealed class SimulateCommandTests : IDisposable
 
     public SimulateCommandTests()
     {
-        _folder.Write("cube.obj", Files.Cube);
-        _folder.Write("row.fdo", Files.Row("3"));
+        _folder.Write("cube.obj", SampleFiles.Cube);
+        _folder.Write("row.fdo", SampleFiles.Row("3"));
         _folder.Write("still.sdo", "o \"cube.obj\" #\n");
         // The second body has no name; the first one's needs quotes. Half a cube's diagonal is the radius, 0.866 of the side.
         _folder.Write("scene.sdo", """

@@ -1,5 +1,6 @@
 using System.Diagnostics;
 using System.Globalization;
+using FractalEngine.Core.Images;
 using FractalEngine.Parsing.Scenes;
 using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;
@@ -14,13 +15,13 @@ public sealed class WindowTests : IDisposable
 {
     private const string Scene = "# kept\nc (2, 1.5, -3) (0.3, 0.6, 0) 60\n# kept too\no \"cube.obj\" #\n";
 
-    private static readonly TimeSpan Patience = TimeSpan.FromSeconds(20);
+    private static readonly TimeSpan Timeout = TimeSpan.FromSeconds(20);
 
     private readonly TemporaryFolder _folder = new();
 
     public WindowTests()
     {
-        _folder.Write("cube.obj", Files.Cube);
+        _folder.Write("cube.obj", SampleFiles.Cube);
         _folder.Write("scene.sdo", Scene);
     }
 
@@ -33,29 +34,29 @@ public sealed class WindowTests : IDisposable
         var start = window.Screenshot(1);
         Assert.Equal((640, 480), (start.Width, start.Height));
 
-        window.Do("key 3");
+        window.Send("key 3");
         var fromTheRight = window.Screenshot(2);
-        Assert.True(Difference(start, fromTheRight) > 0.01, "the key 3 changed nothing");
+        Assert.True(DifferingFraction(start, fromTheRight) > 0.01, "the key 3 changed nothing");
 
-        window.Do("mousemove --window {window} 300 240 mousedown 1 mousemove_relative 60 25 mousemove_relative 60 25 mouseup 1");
+        window.Send("mousemove --window {window} 300 240 mousedown 1 mousemove_relative 60 25 mousemove_relative 60 25 mouseup 1");
         var orbited = window.Screenshot(3);
-        Assert.True(Difference(fromTheRight, orbited) > 0.01, "the drag changed nothing");
+        Assert.True(DifferingFraction(fromTheRight, orbited) > 0.01, "the drag changed nothing");
 
-        window.Do("click 5 click 5 click 5");
+        window.Send("click 5 click 5 click 5");
         var zoomed = window.Screenshot(4);
-        Assert.True(Difference(orbited, zoomed) > 0.01, "the wheel changed nothing");
+        Assert.True(DifferingFraction(orbited, zoomed) > 0.01, "the wheel changed nothing");
 
-        window.Do("key w key w");
-        Assert.True(Difference(zoomed, window.Screenshot(5)) > 0.01, "the key W changed nothing");
+        window.Send("key w key w");
+        Assert.True(DifferingFraction(zoomed, window.Screenshot(5)) > 0.01, "the key W changed nothing");
 
-        window.Do("windowsize {window} 400 300 sleep 0.5");
+        window.Send("windowsize {window} 400 300 sleep 0.5");
         var resized = window.Screenshot(6);
         Assert.Equal((400, 300), (resized.Width, resized.Height));
 
-        window.Do("key Return key 5");
-        Assert.True(Difference(resized, window.Screenshot(7)) > 0.01, "Enter and 5 changed nothing");
+        window.Send("key Return key 5");
+        Assert.True(DifferingFraction(resized, window.Screenshot(7)) > 0.01, "Enter and 5 changed nothing");
 
-        window.Do("key ctrl+s");
+        window.Send("key ctrl+s");
         var text = WaitFor(() => File.ReadAllText(_folder["scene.sdo"]) is var now && now != Scene ? now : null);
         var lines = text.Split('\n');
         Assert.Equal(("# kept", "# kept too", "o \"cube.obj\" #", "projection orthographic"), (lines[0], lines[2], lines[3], lines[4]));
@@ -74,8 +75,8 @@ public sealed class WindowTests : IDisposable
         _folder.Write("shiny.sdo", "c (0, 0, -3) (0, 0, 0) 50\nlight point (0, 0, -1) (1, 1, 1) 1 10\no \"shiny.obj\" #\n");
         using var window = Open("shiny.sdo");
         var atVertices = window.Screenshot(1);
-        window.Do("key l");
-        Assert.True(Difference(atVertices, window.Screenshot(2)) > 0.01, "the key L changed nothing");
+        window.Send("key l");
+        Assert.True(DifferingFraction(atVertices, window.Screenshot(2)) > 0.01, "the key L changed nothing");
         Assert.Equal(0, window.CloseWith("key Escape"));
     }
 
@@ -86,27 +87,27 @@ public sealed class WindowTests : IDisposable
             "c (0, 1, -6) (0, 0, 0) 60\no \"cube.obj\" ((0, -1, 0), #, (8, 1, 8))\np \"cube.obj\" ((0, 40, 0), #, #) 0 colour (1, 0, 0)\nplayer (2, 1, -2) 0.3 1.6\n");
         using var window = Open("fall.sdo");
         // Time goes on from the beginning; a scene of one falling body stands still soon after.
-        window.Do("key space");
+        window.Send("key space");
         var stopped = window.Screenshot(1);
         Thread.Sleep(TimeSpan.FromSeconds(0.5));
-        Assert.Equal(0, Difference(stopped, window.Screenshot(2)));
+        Assert.Equal(0, DifferingFraction(stopped, window.Screenshot(2)));
 
         // After 4 s the body lies before the camera.
-        window.Do(string.Join(' ', Enumerable.Repeat("key n", 240)));
+        window.Send(string.Join(' ', Enumerable.Repeat("key n", 240)));
         var fallen = window.Screenshot(3);
-        Assert.True(Difference(stopped, fallen) > 0.01, "240 steps changed nothing");
+        Assert.True(DifferingFraction(stopped, fallen) > 0.01, "240 steps changed nothing");
 
-        window.Do("key r");
-        Assert.Equal(0, Difference(stopped, window.Screenshot(4)));
+        window.Send("key r");
+        Assert.Equal(0, DifferingFraction(stopped, window.Screenshot(4)));
 
-        window.Do("key b");
-        Assert.True(Difference(stopped, window.Screenshot(5)) > 0.001, "the key B changed nothing");
+        window.Send("key b");
+        Assert.True(DifferingFraction(stopped, window.Screenshot(5)) > 0.001, "the key B changed nothing");
 
-        window.Do("key r key p");
+        window.Send("key r key p");
         var walking = window.Screenshot(6);
-        Assert.True(Difference(stopped, walking) > 0.01, "the key P changed nothing");
+        Assert.True(DifferingFraction(stopped, walking) > 0.01, "the key P changed nothing");
 
-        window.Do("key p");
+        window.Send("key p");
         Assert.Equal(0, window.CloseWith("key Escape"));
     }
 
@@ -138,12 +139,12 @@ public sealed class WindowTests : IDisposable
     private DrivenWindow Open(string file)
     {
         Skip.If(string.IsNullOrEmpty(Environment.GetEnvironmentVariable("DISPLAY")), "there is no display");
-        Skip.IfNot(DrivenWindow.CanDrive, "xdotool is not installed");
+        Skip.IfNot(DrivenWindow.IsAvailable, "xdotool is not installed");
         return new(_folder.Path, file);
     }
 
     /// <summary>The share of pixels that differ visibly; 1 for pictures of different sizes.</summary>
-    private static double Difference(PixelImage image1, PixelImage image2)
+    private static double DifferingFraction(PixelImage image1, PixelImage image2)
     {
         if ((image1.Width, image1.Height) != (image2.Width, image2.Height))
         {
@@ -162,7 +163,7 @@ public sealed class WindowTests : IDisposable
     private static T WaitFor<T>(Func<T?> get)
         where T : class
     {
-        for (var clock = Stopwatch.StartNew(); clock.Elapsed < Patience; Thread.Sleep(50))
+        for (var clock = Stopwatch.StartNew(); clock.Elapsed < Timeout; Thread.Sleep(50))
         {
             if (get() is { } value)
             {
@@ -170,7 +171,7 @@ public sealed class WindowTests : IDisposable
             }
         }
 
-        throw new TimeoutException($"nothing came within {Patience}");
+        throw new TimeoutException($"nothing came within {Timeout}");
     }
 
     /// <summary>A running program, and xdotool to press its keys.</summary>
@@ -189,11 +190,11 @@ public sealed class WindowTests : IDisposable
             _error = _process.StandardError.ReadToEndAsync();
             _window = WaitFor(() => _process.HasExited
                 ? throw new InvalidOperationException($"the program ended with {_process.ExitCode}: {Error}")
-                : Tool($"search --name {file}.*FractalEngine").Split('\n', StringSplitOptions.RemoveEmptyEntries).LastOrDefault());
-            Do("windowfocus --sync {window}");
+                : RunXdotool($"search --name {file}.*FractalEngine").Split('\n', StringSplitOptions.RemoveEmptyEntries).LastOrDefault());
+            Send("windowfocus --sync {window}");
         }
 
-        public static bool CanDrive => (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator)
+        public static bool IsAvailable => (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator)
             .Any(folder => File.Exists(Path.Combine(folder, "xdotool")));
 
         public string Error => _error.GetAwaiter().GetResult();
@@ -207,7 +208,7 @@ public sealed class WindowTests : IDisposable
             }
         }
 
-        public void Do(string commands) => Tool(commands.Replace("{window}", _window, StringComparison.Ordinal));
+        public void Send(string commands) => RunXdotool(commands.Replace("{window}", _window, StringComparison.Ordinal));
 
         /// <summary>Takes a screenshot, which the program numbers, and waits for it: everything before has been handled by then.</summary>
         public PixelImage Screenshot(int number)
@@ -218,7 +219,7 @@ public sealed class WindowTests : IDisposable
                 if (!File.Exists(path))
                 {
                     // A key pressed while the file is still loading saves nothing: it is pressed again until it does.
-                    Do("key F12 sleep 0.5");
+                    Send("key F12 sleep 0.5");
                     return null;
                 }
 
@@ -228,8 +229,8 @@ public sealed class WindowTests : IDisposable
 
         public int CloseWith(string commands)
         {
-            Do(commands);
-            Assert.True(_process.WaitForExit(Patience), "the window did not close");
+            Send(commands);
+            Assert.True(_process.WaitForExit(Timeout), "the window did not close");
             return _process.ExitCode;
         }
 
@@ -243,7 +244,7 @@ public sealed class WindowTests : IDisposable
             _process.Dispose();
         }
 
-        private static string Tool(string commands)
+        private static string RunXdotool(string commands)
         {
             using var tool =
                 Process.Start(new ProcessStartInfo("xdotool", commands) { RedirectStandardOutput = true, RedirectStandardError = true })!;

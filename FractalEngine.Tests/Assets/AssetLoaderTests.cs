@@ -14,7 +14,7 @@ public sealed class AssetLoaderTests : IDisposable
     public void Dispose() => _folder.Dispose();
 
     private string Fails(string file, LoadOptions? options = null) =>
-        Errors.Of(() => AssetLoader.Load(_folder[file], options)).Replace(_folder.Path + "/", "", StringComparison.Ordinal);
+        Errors.MessageOf(() => AssetLoader.Load(_folder[file], options)).Replace(_folder.Path + "/", "", StringComparison.Ordinal);
 
     [Fact]
     public void Load_OfAMesh_IsASceneOfThatObject()
@@ -55,7 +55,7 @@ public sealed class AssetLoaderTests : IDisposable
             "o \"a.obj\" #\no \"a.obj\" ((1, 0, 0), #, #)\no \"a.obj\" ((2, 0, 0), #, #)\no \"f.fdo\" #\no \"f.fdo\" #");
         Assert.Equal(2, AssetLoader.Load(scene).Scene.Models.Count());
         var models = AssetLoader.Load(scene, new() { ShareModels = false }).Scene.Models.ToArray();
-        Assert.Equal((5, 5), (models.Length, models.Select(model => model.Mesh).Distinct().Count()));
+        Assert.Equal((5, 5), (models.Length, models.Select(model => model.Mesh).Distinct(ReferenceEqualityComparer.Instance).Count()));
     }
 
     [Fact]
@@ -241,7 +241,7 @@ public sealed class AssetLoaderTests : IDisposable
         _folder.Write("A.OBJ", Triangle);
         _folder.Write("F.FDO", "<$>. \"A.OBJ\"");
         var path = _folder.Write("S.SDO", "o \"F.FDO\" #");
-        Assert.Equal(FileKind.Scene, InCulture.Get(culture, () => AssetLoader.Load(path)).Kind);
+        Assert.Equal(FileKind.Scene, InCulture.Run(culture, () => AssetLoader.Load(path)).Kind);
     }
 
     [Fact]

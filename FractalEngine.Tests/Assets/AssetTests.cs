@@ -13,11 +13,11 @@ namespace FractalEngine.Tests.Assets;
 /// <summary>The files under assets/: each loads, and is what it says that it is.</summary>
 public sealed class AssetTests
 {
-    public static TheoryData<string> Files => Named(".obj", ".fdo", ".sdo");
+    public static TheoryData<string> Files => FilesWithExtensions(".obj", ".fdo", ".sdo");
 
-    public static TheoryData<string> Meshes => Named(".obj");
+    public static TheoryData<string> Meshes => FilesWithExtensions(".obj");
 
-    public static TheoryData<string> Scenes => Named(".sdo");
+    public static TheoryData<string> Scenes => FilesWithExtensions(".sdo");
 
     [Theory]
     [MemberData(nameof(Files))]
@@ -80,11 +80,12 @@ public sealed class AssetTests
     [InlineData("tetrahedron")]
     [InlineData("terrain")]
     [InlineData("shell")]
-    public void Fractal_IsInOnePiece_CornerOnCorner(string name)
+    public void Fractal_IsConnected_CornerOnCorner(string name)
     {
         var fractal = Fractal(name);
         // Rounding separates corners that meet by 1e-15; the smallest details are 1e-3 of the whole.
-        Assert.Equal(1, Pieces.Count(FractalGenerator.Expand(fractal, 200_000), fractal.BaseMesh, 1e-8 * fractal.Bounds.Diagonal));
+        Assert.Equal(1,
+            ConnectedComponents.Count(FractalGenerator.Expand(fractal, 200_000), fractal.BaseMesh, 1e-8 * fractal.Bounds.Diagonal));
     }
 
     [Theory]
@@ -99,7 +100,7 @@ public sealed class AssetTests
     public void Recursion_Contracts(string name)
     {
         var repetition = Assert.IsType<Repetition>(Fractal(name).Description.Steps.First(step => step is Repetition));
-        foreach (var map in FractalGenerator.Expand(new(new("", repetition.Body), Fractal(name).BaseMesh), 100_000))
+        foreach (var map in FractalGenerator.Expand(new(new(repetition.Body), Fractal(name).BaseMesh), 100_000))
         {
             // Every distance shrinks after a few rounds: the map's spectral radius is that of its linear part's powers.
             var power = Enumerable.Repeat(map.Linear, 64).Aggregate((m1, m2) => m1 * m2);
@@ -151,7 +152,7 @@ public sealed class AssetTests
     }
 
     [Fact]
-    public void Gallery_HasNoMoreInstancesThanDrawInASecondOrTwo()
+    public void Gallery_StaysWithinItsInstanceBudget()
     {
         var scene = AssetLoader.Load(Full("assets/scenes/gallery.sdo")).Scene;
         var instances = scene.Objects.Aggregate(BigInteger.Zero, (sum, placed) => sum + placed.Model.InstanceCount!.Value);
@@ -161,7 +162,7 @@ public sealed class AssetTests
     [Theory]
     [InlineData("drop")]
     [InlineData("playground")]
-    public void Bodies_After15Seconds_LieOnThingsAndMostSleep(string name)
+    public void Bodies_After15Seconds_RestOnSurfacesAndNearlyAllSleep(string name)
     {
         var world = Simulate(name, 15 * 60);
         Assert.DoesNotContain(world.Bodies, body => body.IsStuck);
@@ -172,13 +173,13 @@ public sealed class AssetTests
     }
 
     [Fact]
-    public void Playground_ItsShrinkingBall_LiesOnTheSpongeAndThenFallsThrough()
+    public void Playground_ItsShrinkingBody_LiesOnTheSpongeAndThenFallsThrough()
     {
         // The sponge reaches from 1 to 4; the hole is as wide as the ball when that has lost 0.22 of 0.72, after about 6 seconds.
-        Assert.InRange(Ball(5 * 60).Position.Y, 4, 4.5);
-        Assert.InRange(Ball(9 * 60).Position.Y, 0, 1);
+        Assert.InRange(ShrinkingBody(5 * 60).Position.Y, 4, 4.5);
+        Assert.InRange(ShrinkingBody(9 * 60).Position.Y, 0, 1);
 
-        static Body Ball(int steps) => Simulate("playground", steps).Bodies.Single(body => body.Name == "shrinking");
+        static Body ShrinkingBody(int steps) => Simulate("playground", steps).Bodies.Single(body => body.Name == "shrinking");
     }
 
     [Fact]
@@ -209,7 +210,7 @@ public sealed class AssetTests
     private static Fractal Fractal(string name) =>
         Assert.IsType<FractalModel>(AssetLoader.Load(Full($"assets/fractals/{name}.fdo")).Scene.Objects[0].Model).Fractal;
 
-    private static TheoryData<string> Named(params string[] endings) =>
+    private static TheoryData<string> FilesWithExtensions(params string[] endings) =>
         [.. Directory.EnumerateFiles(Full("assets"), "*", SearchOption.AllDirectories)
             .Where(file => endings.Contains(Path.GetExtension(file)))
             .Select(file => Path.GetRelativePath(Repository.Root, file).Replace('\\', '/')).Order(StringComparer.Ordinal)];

@@ -19,7 +19,7 @@ public sealed class MaterialLoaderTests : IDisposable
     [Fact]
     public void Load_OfAMeshWithMaterials_HasThoseThatItUses()
     {
-        WritePng("wood.png", 4, 3);
+        WritePngHeader("wood.png", 4, 3);
         _folder.Write("a.mtl", "newmtl wood\nmap_Kd wood.png\nnewmtl unused\nmap_Kd missing.png\n");
         var loaded = Load("mtllib a.mtl\nusemtl wood\nf 1 2 3\n");
         Assert.Empty(loaded.Warnings);
@@ -49,9 +49,9 @@ public sealed class MaterialLoaderTests : IDisposable
     }
 
     [Fact]
-    public void Load_OfAPictureInAnotherFolder_IsRelativeToTheMaterialFile()
+    public void Load_OfAnImageInAnotherFolder_IsRelativeToTheMaterialFile()
     {
-        WritePng("sub/pictures/wood.png", 2, 2);
+        WritePngHeader("sub/pictures/wood.png", 2, 2);
         _folder.Write("sub/a.mtl", "newmtl wood\nmap_Kd pictures/wood.png\n");
         Assert.Equal(_folder["sub/pictures/wood.png"], MaterialOf(Load("mtllib sub/a.mtl\nusemtl wood\nf 1 2 3\n")).Texture!.Path);
     }
@@ -78,7 +78,7 @@ public sealed class MaterialLoaderTests : IDisposable
         var loaded = Load("mtllib gone.mtl\nmtllib gone too.mtl\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 2 3\n");
         Assert.Empty(loaded.Scene.Objects[0].Model.Materials);
         Assert.Equal("a.obj:1:8: warning: the file \"gone.mtl\" is not found (2 such files in all)\n  mtllib gone.mtl\n         ^",
-            OnlyWarning(loaded));
+            SingleWarning(loaded));
     }
 
     [Fact]
@@ -87,7 +87,7 @@ public sealed class MaterialLoaderTests : IDisposable
         _folder.Write("a.mtl", "newmtl red\n");
         Assert.Equal(
             "a.obj:7:8: warning: no material file declares \"blue\": drawn in the object's own colour\n  usemtl blue\n         ^",
-            OnlyWarning(Load("mtllib a.mtl\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 2 3\n", before: Triangle)));
+            SingleWarning(Load("mtllib a.mtl\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 2 3\n", before: Triangle)));
     }
 
     [Theory]
@@ -96,7 +96,7 @@ public sealed class MaterialLoaderTests : IDisposable
     public void Load_WithAMaterialFileThatIsNoText_Warns(string text, string expected)
     {
         _folder.Write("a.mtl", text);
-        Assert.Equal(expected, OnlyWarning(Load("mtllib a.mtl\nusemtl red\nf 1 2 3\n")));
+        Assert.Equal(expected, SingleWarning(Load("mtllib a.mtl\nusemtl red\nf 1 2 3\n")));
     }
 
     [Fact]
@@ -108,23 +108,23 @@ public sealed class MaterialLoaderTests : IDisposable
         }
 
         Assert.Equal("a.mtl:1:1: warning: the file has 16777217 bytes, more than the limit of 16777216",
-            OnlyWarning(Load("mtllib a.mtl\nusemtl red\nf 1 2 3\n")));
+            SingleWarning(Load("mtllib a.mtl\nusemtl red\nf 1 2 3\n")));
     }
 
     [Fact]
-    public void Load_WithoutAPicture_WarnsOnceAndIsGrey()
+    public void Load_WithAMissingImage_WarnsOnceAndIsGrey()
     {
         _folder.Write("a.mtl", "newmtl red\nKd 1 0.5 0\nmap_Kd gone.png\nnewmtl blue\nmap_Kd gone.png\n");
         var loaded = Load("mtllib a.mtl\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 2 3\n");
         Assert.Equal("a.mtl:3:8: warning: the file \"gone.png\" is not found: drawn grey\n  map_Kd gone.png\n         ^",
-            OnlyWarning(loaded));
+            SingleWarning(loaded));
         var materials = loaded.Scene.Objects[0].Model.Materials;
         Assert.Equal((new Colour(0.6, 0.3, 0), null), (materials["red"].Diffuse, materials["red"].Texture));
         Assert.Equal((new Colour(0.6, 0.6, 0.6), null), (materials["blue"].Diffuse, materials["blue"].Texture));
     }
 
     [Fact]
-    public void Load_WithoutThousandsOfPictures_SaysSoOfTwenty()
+    public void Load_WithThousandsOfMissingImages_WarnsOfTwenty()
     {
         var names = Enumerable.Range(0, 3000).ToArray();
         _folder.Write("a.mtl", string.Concat(names.Select(name => $"newmtl m{name}\nmap_Kd {name}.png\n")));
@@ -138,19 +138,19 @@ public sealed class MaterialLoaderTests : IDisposable
     [Theory]
     [InlineData("no picture", "\"a.png\" is no PNG, JPEG, BMP or TGA picture")]
     [InlineData("", "\"a.png\" is empty, expected a picture")]
-    public void Load_WithAPictureThatIsNone_WarnsAndIsGrey(string contents, string message)
+    public void Load_WithAFileThatIsNoImage_WarnsAndIsGrey(string contents, string message)
     {
         _folder.Write("a.png", contents);
-        AssertPictureIsRefused(message);
+        AssertImageIsRefused(message);
     }
 
     [Fact]
-    public void Load_WithAPipeForAPicture_DoesNotWait()
+    public void Load_WithAPipeForAnImage_DoesNotWait()
     {
         if (!OperatingSystem.IsWindows())
         {
             System.Diagnostics.Process.Start("mkfifo", _folder["a.png"]).WaitForExit();
-            AssertPictureIsRefused("\"a.png\" is empty, expected a picture");
+            AssertImageIsRefused("\"a.png\" is empty, expected a picture");
         }
     }
 
@@ -158,31 +158,31 @@ public sealed class MaterialLoaderTests : IDisposable
     [InlineData(8193, 1, "the picture \"a.png\" has 8193×1 pixels, more than the limit of 8192 a side")]
     [InlineData(4, 4_000_000_000, "the picture \"a.png\" has 4×4000000000 pixels, more than the limit of 8192 a side")]
     [InlineData(0, 5, "\"a.png\" is no PNG, JPEG, BMP or TGA picture")]
-    public void Load_WithAPictureBeyondTheLimit_WarnsAndIsGrey(uint width, uint height, string message)
+    public void Load_WithAnImageBeyondTheLimit_WarnsAndIsGrey(uint width, uint height, string message)
     {
-        WritePng("a.png", width, height);
-        AssertPictureIsRefused(message);
+        WritePngHeader("a.png", width, height);
+        AssertImageIsRefused(message);
     }
 
     [Fact]
-    public void Load_WithAPictureFileBeyondTheLimit_WarnsAndIsGrey()
+    public void Load_WithAnImageFileBeyondTheLimit_WarnsAndIsGrey()
     {
-        WritePng("a.png", 1, 1);
+        WritePngHeader("a.png", 1, 1);
         using (var stream = File.OpenWrite(_folder["a.png"]))
         {
             stream.SetLength(ParsingLimits.ImageBytes + 1);
         }
 
-        AssertPictureIsRefused("the picture \"a.png\" is larger than the limit of 67108864 bytes");
+        AssertImageIsRefused("the picture \"a.png\" is larger than the limit of 67108864 bytes");
     }
 
     [Fact]
-    public void Load_WithPicturesThatAreTooManyTogether_LeavesOutTheLast()
+    public void Load_WithImagesBeyondTheTotalPixelLimit_LeavesOutTheLast()
     {
         var names = new[] { "a", "b", "c" };
         foreach (var name in names)
         {
-            WritePng($"{name}.png", 8192, 8192);
+            WritePngHeader($"{name}.png", 8192, 8192);
         }
 
         _folder.Write("a.mtl", string.Concat(names.Select(name => $"newmtl {name}\nmap_Kd {name}.png\n")));
@@ -198,7 +198,7 @@ public sealed class MaterialLoaderTests : IDisposable
     [InlineData("mtllib inside.mtl")]
     public void Load_OfAFileOutsideTheFolder_IsNotReadUnlessAllowed(string library)
     {
-        WritePng("outside.png", 2, 2);
+        WritePngHeader("outside.png", 2, 2);
         _folder.Write("outside.mtl", "newmtl m\nmap_Kd outside.png\n");
         _folder.Write("scene/inside.mtl", "newmtl m\nmap_Kd ../outside.png\n");
         var path = _folder.Write("scene/a.obj", $"{library}\n{Triangle}usemtl m\nf 1 2 3\n");
@@ -223,13 +223,13 @@ public sealed class MaterialLoaderTests : IDisposable
     [InlineData("a.tga", new byte[] { 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 6, 0, 24, 0 }, true)]
     [InlineData("a.tga", new byte[] { 0, 0, 7, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 6, 0, 24, 0 }, false)]
     [InlineData("a.raw", new byte[] { 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 6, 0, 24, 0 }, false)]
-    public void Load_OfAPicturesHead_TellsPicturesFromOtherFiles(string name, byte[] head, bool isPicture)
+    public void Load_OfAnImageHeader_TellsImagesFromOtherFiles(string name, byte[] header, bool isImage)
     {
-        File.WriteAllBytes(_folder[name], head);
+        File.WriteAllBytes(_folder[name], header);
         _folder.Write("a.mtl", $"newmtl m\nmap_Kd {name}\n");
         var loaded = Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n");
-        Assert.Equal(isPicture, MaterialOf(loaded).Texture is not null);
-        Assert.Equal(isPicture, loaded.Warnings.IsEmpty);
+        Assert.Equal(isImage, MaterialOf(loaded).Texture is not null);
+        Assert.Equal(isImage, loaded.Warnings.IsEmpty);
     }
 
     [Theory]
@@ -237,18 +237,18 @@ public sealed class MaterialLoaderTests : IDisposable
     [InlineData("a.bmp", new byte[] { 0x42, 0x4D, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 40, 0, 0, 0, 9, 0, 0, 0, 0, 0, 0, 0x80 },
         "9×2147483648")]
     [InlineData("a.tga", new byte[] { 0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, 6, 0, 24, 0 }, "65535×6")]
-    public void Load_OfAPicturesHead_ReadsItsSize(string name, byte[] head, string size)
+    public void Load_OfAnImageHeader_ReadsItsSize(string name, byte[] header, string size)
     {
-        File.WriteAllBytes(_folder[name], head);
+        File.WriteAllBytes(_folder[name], header);
         _folder.Write("a.mtl", $"newmtl m\nmap_Kd {name}\n");
-        Assert.Contains($" {size} ", OnlyWarning(Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n")), StringComparison.Ordinal);
+        Assert.Contains($" {size} ", SingleWarning(Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n")), StringComparison.Ordinal);
     }
 
     [SkippableFact]
-    public void Load_OfRealFiles_FindsTheirMaterialsAndPictures()
+    public void Load_OfRealFiles_FindsTheirMaterialsAndTextures()
     {
         Skip.If(SharedModels.Folder is null, "there is no folder of real models beside the checkout");
-        foreach (var (file, materials, pictures) in ((string, int, int)[])[
+        foreach (var (file, materials, textures) in ((string, int, int)[])[
             ("trimesh/capsule.obj", 1, 1),
             ("online3dviewer/cube with white spaces.obj", 3, 1),
             ("online3dviewer/texture_parameters.obj", 4, 4),
@@ -257,7 +257,7 @@ public sealed class MaterialLoaderTests : IDisposable
             var loaded = AssetLoader.Load(Path.Combine(SharedModels.Folder!, file));
             Assert.Empty(loaded.Warnings);
             var found = loaded.Scene.Objects[0].Model.Materials.Values.ToArray();
-            Assert.Equal((file, pictures), (file, found.Count(material => material.Texture is not null)));
+            Assert.Equal((file, textures), (file, found.Count(material => material.Texture is not null)));
             Assert.True(found.Length >= materials, $"{file}: {found.Length} materials");
         }
     }
@@ -270,23 +270,23 @@ public sealed class MaterialLoaderTests : IDisposable
             ? before + text
             : text.Insert(text.IndexOf("usemtl", StringComparison.Ordinal), Triangle)));
 
-    private string OnlyWarning(LoadedFile file)
+    private string SingleWarning(LoadedFile file)
     {
         var warning = Assert.Single(file.Warnings);
         Assert.Equal(DiagnosticSeverity.Warning, warning.Severity);
         return (warning with { File = Path.GetFileName(warning.File) }).ToString();
     }
 
-    private void AssertPictureIsRefused(string message)
+    private void AssertImageIsRefused(string message)
     {
         _folder.Write("a.mtl", "newmtl m\nmap_Kd a.png\n");
         var loaded = Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n");
-        Assert.Equal($"a.mtl:2:8: warning: {message}: drawn grey\n  map_Kd a.png\n         ^", OnlyWarning(loaded));
+        Assert.Equal($"a.mtl:2:8: warning: {message}: drawn grey\n  map_Kd a.png\n         ^", SingleWarning(loaded));
         Assert.Null(MaterialOf(loaded).Texture);
     }
 
     /// <summary>As much of a PNG as says how large it is.</summary>
-    private void WritePng(string name, uint width, uint height)
+    private void WritePngHeader(string name, uint width, uint height)
     {
         byte[] head = [0x89, (byte)'P', (byte)'N', (byte)'G', 0x0D, 0x0A, 0x1A, 0x0A, 0, 0, 0, 13, (byte)'I', (byte)'H', (byte)'D',
             (byte)'R', .. new byte[13]];

@@ -14,7 +14,7 @@ public sealed class BenchmarkCommandTests : IDisposable
     public static TheoryData<string> Commands => [.. Names];
 
     private static IEnumerable<string> Classes =>
-        typeof(CommandWords).Assembly.GetTypes().Select(type => type.Name)
+        typeof(CommandLineParser).Assembly.GetTypes().Select(type => type.Name)
         .Where(name => name.EndsWith("Benchmarks", StringComparison.Ordinal)).Order(StringComparer.Ordinal);
 
     public void Dispose() => _folder.Dispose();
@@ -49,10 +49,10 @@ public sealed class BenchmarkCommandTests : IDisposable
     [InlineData("skips nothing.sdo", "nothing.sdo")]
     [InlineData("window nothing.sdo", "nothing.sdo")]
     [InlineData("paper --quick", "--quick")]
-    public void Run_OfWordsThatMakeNoSense_NamesTheFirst(string words, string wrong)
+    public void Run_OfWordsThatMakeNoSense_NamesTheFirst(string words, string unexpected)
     {
         var line = words.Split(' ');
-        AssertRefused(line[0], wrong, line[1..]);
+        AssertRefused(line[0], unexpected, line[1..]);
     }
 
     [Fact]
@@ -83,13 +83,13 @@ public sealed class BenchmarkCommandTests : IDisposable
             [.. rows.SelectMany(row => row[column].Split('`').Where((_, i) => i % 2 == 1)).Order(StringComparer.Ordinal)];
     }
 
-    private void AssertRefused(string command, string wrong, params string[] words)
+    private void AssertRefused(string command, string unexpected, params string[] args)
     {
-        string[] line = command is "table" ? [command, .. words] : [command, "--output", "out", .. words];
+        string[] line = command is "table" ? [command, .. args] : [command, "--output", "out", .. args];
         var (exitCode, output, error) = AppProcess.RunBenchmarks(_folder.Path, line);
         Assert.Equal((2, ""), (exitCode, output));
         var lines = error.ReplaceLineEndings("\n").Split('\n');
-        Assert.Equal($"error: unexpected '{wrong}'", lines[0]);
+        Assert.Equal($"error: unexpected '{unexpected}'", lines[0]);
         // How it is called comes next, and no second error.
         Assert.StartsWith($"{command} [", lines[1], StringComparison.Ordinal);
         Assert.DoesNotContain("error:", string.Concat(lines[1..]), StringComparison.Ordinal);

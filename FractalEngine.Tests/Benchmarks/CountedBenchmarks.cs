@@ -4,7 +4,7 @@ using FractalEngine.Benchmarks.Measuring;
 namespace FractalEngine.Tests.Benchmarks;
 
 /// <summary>Benchmarks of nothing, that say more of themselves than time.</summary>
-public class CountedBenchmarks : IMeasuresMore
+public class CountedBenchmarks : IExtraMetrics
 {
     private int _double;
 
@@ -21,9 +21,9 @@ public class CountedBenchmarks : IMeasuresMore
     public int Second() => _double + 1;
 
     /// <inheritdoc/>
-    IEnumerable<MoreValue> IMeasuresMore.Measure(string method) =>
+    IEnumerable<ExtraMetric> IExtraMetrics.MeasureExtra(string method) =>
     [
         new("double_size", _double), new("only_second", method == nameof(Second) ? 0.5 : null),
-        new("amount_a_second", _double, IsAmount: true),
+        new("amount_a_second", _double, IsPerSecond: true),
     ];
 }

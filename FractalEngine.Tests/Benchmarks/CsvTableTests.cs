@@ -16,7 +16,7 @@ public sealed class CsvTableTests : IDisposable
     [Fact]
     public void Save_OfRows_WritesCommentsHeaderAndRows()
     {
-        var table = new CsvTable(_folder["a.csv"], "front --quick", "name", "ns") { Driver = "a driver" };
+        var table = new CsvTable(_folder["a.csv"], "front --quick", "name", "ns") { GraphicsDriver = "a driver" };
         table.Add("first", 1.5);
         table.Add("second", null);
         table.Save();
@@ -39,21 +39,21 @@ public sealed class CsvTableTests : IDisposable
     {
         Save(["text", "next"], [text, "end"]);
         Assert.EndsWith($"\n{field},end\n", File.ReadAllText(_folder["a.csv"]), StringComparison.Ordinal);
-        Assert.Equal([text, "end"], CsvText.Read(_folder["a.csv"]).Rows[0]);
+        Assert.Equal([text, "end"], ParsedCsv.Read(_folder["a.csv"]).Rows[0]);
     }
 
     [Fact]
     public void Add_OfWhatFormatsItselfWithACommaOrAQuote_QuotesItToo()
     {
         Save(["vector", "char"], [new Vector3(1, 2, 3), ',']);
-        Assert.Equal(["<1, 2, 3>", ","], CsvText.Read(_folder["a.csv"]).Rows[0]);
+        Assert.Equal(["<1, 2, 3>", ","], ParsedCsv.Read(_folder["a.csv"]).Rows[0]);
     }
 
     [Fact]
     public void Save_OfColumnsWithACommaInTheirName_QuotesThem()
     {
         Save(["a, b", "c"], [1, 2]);
-        Assert.Equal(["a, b", "c"], CsvText.Read(_folder["a.csv"]).Header);
+        Assert.Equal(["a, b", "c"], ParsedCsv.Read(_folder["a.csv"]).Header);
     }
 
     [Theory]
@@ -63,14 +63,14 @@ public sealed class CsvTableTests : IDisposable
         object?[] values = [-1234567.875, 1e-300, 1e300, -3, 1234567L, BigInteger.Pow(-10, 21), 0.1f, double.PositiveInfinity, "I, i", null,
             true];
         string[] columns = [.. values.Select((_, i) => $"i{i}")];
-        InCulture.Get(culture, () =>
+        InCulture.Run(culture, () =>
         {
             Save(columns, values);
             return 0;
         });
         Assert.Equal(
             ["-1234567.875", "1E-300", "1E+300", "-3", "1234567", "-1000000000000000000000", "0.1", "Infinity", "I, i", "", "True"],
-            CsvText.Read(_folder["a.csv"]).Rows[0]);
+            ParsedCsv.Read(_folder["a.csv"]).Rows[0]);
     }
 
     [Fact]
@@ -78,7 +78,7 @@ public sealed class CsvTableTests : IDisposable
     {
         var table = new CsvTable(_folder["a.csv"], "test", "x");
         var numbers = new List<double>();
-        Laws.Hold(Laws.AnyFinite, x =>
+        Laws.CheckForAll(Laws.AnyFinite, x =>
         {
             numbers.Add(x);
             table.Add(x);
@@ -87,7 +87,7 @@ public sealed class CsvTableTests : IDisposable
         Assert.True(numbers.Count >= 300);
         Assert.Equal(
             numbers.Select(BitConverter.DoubleToInt64Bits),
-            CsvText.Read(_folder["a.csv"]).Column("x")
+            ParsedCsv.Read(_folder["a.csv"]).Column("x")
             .Select(field => BitConverter.DoubleToInt64Bits(double.Parse(field, NumberStyles.Float, CultureInfo.InvariantCulture))));
     }
 
@@ -100,7 +100,7 @@ public sealed class CsvTableTests : IDisposable
         var exception = Assert.Throws<ArgumentException>("values", () => table.Add([.. Enumerable.Repeat<object?>(1, count)]));
         Assert.StartsWith($"expected 2 values, not {count}", exception.Message, StringComparison.Ordinal);
         table.Save();
-        Assert.Empty(CsvText.Read(_folder["a.csv"]).Rows);
+        Assert.Empty(ParsedCsv.Read(_folder["a.csv"]).Rows);
     }
 
     [Fact]
@@ -116,7 +116,7 @@ public sealed class CsvTableTests : IDisposable
     public void Save_IntoAFolderThatIsNotThere_MakesIt()
     {
         new CsvTable(_folder["deep/down/a.csv"], "test", "x").Save();
-        Assert.Equal(["x"], CsvText.Read(_folder["deep/down/a.csv"]).Header);
+        Assert.Equal(["x"], ParsedCsv.Read(_folder["deep/down/a.csv"]).Header);
     }
 
     [Fact]

@@ -13,29 +13,30 @@ public class ExactDistanceTests
     [InlineData("thinner than doubles tell", 0, 1e-15)]
     [InlineData("far away", 1e6, 1)]
     [InlineData("far away and thin", 1e6, 1e-6)]
-    public void SquaredToFace_OfRandomFaces_IsWhatTheNearestPointProves(string faces, double offset, double width) =>
+    public void SquaredToTriangle_OfRandomTriangles_IsWhatTheClosestPointProves(string faces, double offset, double width) =>
         Seeded.Run(60, random =>
     {
-        var a = (offset * NastyFace.Cube(random)) + NastyFace.Cube(random);
-        var along = NastyFace.Cube(random);
-        var (b, c) = (a + along, a + (random.NextDouble() * along) + (width * NastyFace.Cube(random)));
-        var position = a + ((random.Next(2) == 0 ? 1 : 3 * width) * NastyFace.Cube(random));
-        Assert.True(CertifiedDistance.SquaredToFace(position, a, b, c) == ExactDistance.SquaredToFace(position, a, b, c),
+        var a = (offset * AdversarialTriangle.RandomInCube(random)) + AdversarialTriangle.RandomInCube(random);
+        var along = AdversarialTriangle.RandomInCube(random);
+        var (b, c) = (a + along, a + (random.NextDouble() * along) + (width * AdversarialTriangle.RandomInCube(random)));
+        var position = a + ((random.Next(2) == 0 ? 1 : 3 * width) * AdversarialTriangle.RandomInCube(random));
+        Assert.True(KktDistanceOracle.SquaredToTriangle(position, a, b, c) == ExactDistance.SquaredToTriangle(position, a, b, c),
             $"{faces}: {position} {a} {b} {c}");
     });
 
     [Fact]
-    public void SquaredToFace_OfSmallWholeCorners_IsWhatTheNearestPointProves()
+    public void SquaredToTriangle_OfSmallIntegerVertices_IsWhatTheClosestPointProves()
     {
         var atZero = 0;
         Seeded.Run(150, random =>
         {
             // Many are right above corners and edges, or on them.
-            var (position, a, b, c) = (Whole(random), Whole(random), Whole(random), Whole(random));
+            var (position, a, b, c) = (RandomIntegerVector(random), RandomIntegerVector(random), RandomIntegerVector(random),
+                RandomIntegerVector(random));
             if (Vector.Cross(b - a, c - a) != Vector.Zero)
             {
-                var squared = ExactDistance.SquaredToFace(position, a, b, c);
-                Assert.Equal(CertifiedDistance.SquaredToFace(position, a, b, c), squared);
+                var squared = ExactDistance.SquaredToTriangle(position, a, b, c);
+                Assert.Equal(KktDistanceOracle.SquaredToTriangle(position, a, b, c), squared);
                 atZero += squared == Rational.Zero ? 1 : 0;
             }
         });
@@ -43,22 +44,22 @@ public class ExactDistanceTests
     }
 
     [Fact]
-    public void SquaredToFace_OfNastyFaces_IsThatOfTheColliderTestsOracle() => Seeded.Run(200, random =>
+    public void SquaredToTriangle_OfAdversarialTriangles_IsThatOfTheColliderTestsOracle() => Seeded.Run(200, random =>
     {
-        var (position, a, b, c) = NastyFace.Random(random);
+        var (position, a, b, c) = AdversarialTriangle.Random(random);
         if (HasArea(a, b, c))
         {
-            var distance = FaceOracle.Distance(position, a, b, c);
+            var distance = ExactTriangleDistance.Distance(position, a, b, c);
             // Both round once, one of them before the square root.
-            Assert.Equal(distance, Math.Sqrt(ExactDistance.SquaredToFace(position, a, b, c).ToDouble()), 4e-16 * distance);
+            Assert.Equal(distance, Math.Sqrt(ExactDistance.SquaredToTriangle(position, a, b, c).ToDouble()), 4e-16 * distance);
         }
     });
 
     [Fact]
-    public void SquaredToFace_WithoutArea_Throws()
+    public void SquaredToTriangle_WithoutArea_Throws()
     {
-        Assert.Throws<DivideByZeroException>(() => ExactDistance.SquaredToFace(Vector.One, Vector.Zero, Vector.I, 2 * Vector.I));
-        Assert.Throws<DivideByZeroException>(() => ExactDistance.SquaredToFace(Vector.One, Vector.I, Vector.I, Vector.I));
+        Assert.Throws<DivideByZeroException>(() => ExactDistance.SquaredToTriangle(Vector.One, Vector.Zero, Vector.I, 2 * Vector.I));
+        Assert.Throws<DivideByZeroException>(() => ExactDistance.SquaredToTriangle(Vector.One, Vector.I, Vector.I, Vector.I));
     }
 
     [Theory]
@@ -66,34 +67,35 @@ public class ExactDistanceTests
     [InlineData(-3, -4, 0, 25)]
     [InlineData(0.5, -2, 0, 4)]
     [InlineData(0.5, 0.5, 0, 0)]
-    public void SquaredToFace_OfHalfASquare_IsKnown(double x, double y, double z, double squared) =>
-        Assert.Equal(Rational.Of(squared), ExactDistance.SquaredToFace(new(x, y, z), Vector.Zero, Vector.I, Vector.J));
+    public void SquaredToTriangle_OfHalfASquare_IsKnown(double x, double y, double z, double squared) =>
+        Assert.Equal(Rational.Of(squared), ExactDistance.SquaredToTriangle(new(x, y, z), Vector.Zero, Vector.I, Vector.J));
 
     [Fact]
-    public void SquaredToBox_OfRandomBoxes_IsWhatTheNearestPointProves()
+    public void SquaredToBox_OfRandomBoxes_IsWhatTheClosestPointProves()
     {
         var inside = 0;
         Seeded.Run(300, random =>
         {
-            var offset = (random.Next(3) == 0 ? 1e6 : 0) * NastyFace.Cube(random);
-            var (corner1, corner2) = (offset + NastyFace.Cube(random), offset + NastyFace.Cube(random));
-            var (low, high, position) = (Vector.Min(corner1, corner2), Vector.Max(corner1, corner2), offset + NastyFace.Cube(random));
+            var offset = (random.Next(3) == 0 ? 1e6 : 0) * AdversarialTriangle.RandomInCube(random);
+            var (corner1, corner2) = (offset + AdversarialTriangle.RandomInCube(random), offset + AdversarialTriangle.RandomInCube(random));
+            var (low, high, position) =
+                (Vector.Min(corner1, corner2), Vector.Max(corner1, corner2), offset + AdversarialTriangle.RandomInCube(random));
             position = random.Next(4) == 0 ? low + (random.NextDouble() * (high - low)) : position;
             var squared = ExactDistance.SquaredToBox(position, low, high);
-            Assert.Equal(CertifiedDistance.SquaredToBox(position, low, high), squared);
+            Assert.Equal(KktDistanceOracle.SquaredToBox(position, low, high), squared);
             inside += squared == Rational.Zero ? 1 : 0;
         });
         Assert.InRange(inside, 50, 150);
     }
 
-    private static Vector Whole(Random random) => new(random.Next(-2, 3), random.Next(-2, 3), random.Next(-2, 3));
+    private static Vector RandomIntegerVector(Random random) => new(random.Next(-2, 3), random.Next(-2, 3), random.Next(-2, 3));
 
     private static bool HasArea(Vector a, Vector b, Vector c)
     {
-        var ((x1, y1, z1), (x2, y2, z2)) = (Exactly(b, a), Exactly(c, a));
+        var ((x1, y1, z1), (x2, y2, z2)) = (SubtractExactly(b, a), SubtractExactly(c, a));
         return (x1 * y2) - (y1 * x2) != Rational.Zero || (y1 * z2) - (z1 * y2) != Rational.Zero || (z1 * x2) - (x1 * z2) != Rational.Zero;
     }
 
-    private static (Rational X, Rational Y, Rational Z) Exactly(Vector v, Vector w) =>
+    private static (Rational X, Rational Y, Rational Z) SubtractExactly(Vector v, Vector w) =>
         (Rational.Of(v.X) - Rational.Of(w.X), Rational.Of(v.Y) - Rational.Of(w.Y), Rational.Of(v.Z) - Rational.Of(w.Z));
 }

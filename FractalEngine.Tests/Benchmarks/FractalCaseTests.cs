@@ -21,10 +21,10 @@ public class FractalCaseTests
     [InlineData("../fractals/menger", false)]
     [InlineData("", false)]
     [InlineData(":3", false)]
-    public void IsCase_OfAText_IsWhetherThereIsSuchAFractal(string text, bool isCase)
+    public void IsKnown_OfAText_IsWhetherThereIsSuchAFractal(string text, bool isCase)
     {
-        Assert.Equal(isCase, FractalCase.IsCase(text));
-        Assert.Equal(isCase, FrontShape.IsName(text));
+        Assert.Equal(isCase, FractalCase.IsKnown(text));
+        Assert.Equal(isCase, BenchmarkShape.IsKnown(text));
     }
 
     [Fact]
@@ -48,7 +48,7 @@ public class FractalCaseTests
     [InlineData("tree-stump:3000", 3000)]
     public void Create_OfAShape_HasItsFaces(string name, int faces)
     {
-        var shape = FrontShape.Create(name);
+        var shape = BenchmarkShape.Create(name);
         Assert.Equal((name.Split(':')[0], faces), (shape.Name, shape.Faces!.FaceCount));
     }
 
@@ -58,8 +58,8 @@ public class FractalCaseTests
     [InlineData("menger:5")]
     public void Create_OfAFractalOfTooManyFaces_HasCollidersOfLevelsOnly(string name)
     {
-        var shape = FrontShape.Create(name);
+        var shape = BenchmarkShape.Create(name);
         Assert.Null(shape.Faces);
-        Assert.Equal(["exact", "fractal"], FrontRow.All(shape).Select(row => row.Name).Distinct());
+        Assert.Equal(["exact", "fractal"], ColliderVariant.CreateAll(shape).Select(row => row.ColliderName).Distinct());
     }
 }

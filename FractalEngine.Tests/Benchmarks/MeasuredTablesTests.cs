@@ -42,8 +42,8 @@ public partial class MeasuredTablesTests
     public void Front_HasTheColumnsOfTodayAndEveryKnobOfEveryShape()
     {
         var table = Read("front.csv");
-        Assert.Equal(FrontTable.Columns, table.Header);
-        var groups = table.Named().GroupBy(row => (row("shape"), row("queries"))).ToArray();
+        Assert.Equal(ParetoFrontTable.Columns, table.Header);
+        var groups = table.NamedRows().GroupBy(row => (row("shape"), row("queries"))).ToArray();
         Assert.InRange(groups.Length, 2 * 10, 2 * 20);
         Assert.All(groups, group =>
         {
@@ -65,14 +65,15 @@ public partial class MeasuredTablesTests
     [Fact]
     public void Front_OfExactColliders_HasErrorsOfRoundingOnly()
     {
-        var exact = Read("front.csv").Named().Where(row => row("collider") == "simple" || (row("knob"), row("value")) == ("epsilon", "0"))
+        var exact = Read("front.csv").NamedRows()
+            .Where(row => row("collider") == "simple" || (row("knob"), row("value")) == ("epsilon", "0"))
             .ToArray();
         // Eight fractals, at least, have three such colliders, two meshes two, each asked for two kinds of positions.
         Assert.InRange(exact.Length, 2 * ((8 * 3) + (2 * 2)), 200);
         Assert.All(exact.Where(row => row("largest_error") != ""), row =>
         {
-            Assert.InRange(CsvText.Number(row("largest_error")), 0, 1e-12);
-            Assert.InRange(CsvText.Number(row("mean_error")), 0, 1e-12);
+            Assert.InRange(ParsedCsv.ParseNumber(row("largest_error")), 0, 1e-12);
+            Assert.InRange(ParsedCsv.ParseNumber(row("mean_error")), 0, 1e-12);
             // Rounding counts as none here.
             Assert.Equal(("0", "0", "0"), (row("largest_relative_error"), row("mean_relative_error"), row("missed_percent")));
         });
@@ -81,16 +82,17 @@ public partial class MeasuredTablesTests
     [Fact]
     public void Front_OfCollidersWithEpsilon_ErrsByNoMoreThanIt()
     {
-        var rows = Read("front.csv").Named().Where(row => row("knob") == "epsilon" && row("largest_error") != "").ToArray();
-        Assert.All(rows, row => Assert.InRange(CsvText.Number(row("largest_relative_error")), 0, CsvText.Number(row("value"))));
-        Assert.Contains(rows, row => CsvText.Number(row("largest_relative_error")) > 0.1);
+        var rows = Read("front.csv").NamedRows().Where(row => row("knob") == "epsilon" && row("largest_error") != "").ToArray();
+        Assert.All(rows,
+            row => Assert.InRange(ParsedCsv.ParseNumber(row("largest_relative_error")), 0, ParsedCsv.ParseNumber(row("value"))));
+        Assert.Contains(rows, row => ParsedCsv.ParseNumber(row("largest_relative_error")) > 0.1);
     }
 
     [Fact]
-    public void Front_OfEveryRow_IsWithinWhatItsColumnsMean() => Assert.All(Read("front.csv").Named(), row =>
+    public void Front_OfEveryRow_IsWithinWhatItsColumnsMean() => Assert.All(Read("front.csv").NamedRows(), row =>
     {
         // Empty where there is no oracle.
-        double Value(string column) => row(column) == "" ? -1 : CsvText.Number(row(column));
+        double Value(string column) => row(column) == "" ? -1 : ParsedCsv.ParseNumber(row(column));
         if (row("faces") == "")
         {
             Assert.Equal((-1, -1), (Value("largest_error"), Value("missed_percent")));
@@ -116,17 +118,17 @@ public partial class MeasuredTablesTests
         });
 
     [Fact]
-    public void Pictures_AreEachShownSomewhere()
+    public void Plots_AreEachShownSomewhere()
     {
         var linked = (
             from page in Directory.GetFiles(Repository.Full("docs"), "*.md", SearchOption.AllDirectories)
             from match in Link().Matches(File.ReadAllText(page))
             select Path.GetFullPath(Path.Combine(Path.GetDirectoryName(page)!, match.Groups[1].Value))).ToHashSet();
         Assert.NotEmpty(linked);
-        Assert.All(Directory.GetFiles(Folder, "*.svg"), picture => Assert.Contains(Path.GetFullPath(picture), linked));
+        Assert.All(Directory.GetFiles(Folder, "*.svg"), plot => Assert.Contains(Path.GetFullPath(plot), linked));
     }
 
-    private static CsvText Read(string file) => CsvText.Read(Path.Combine(Folder, file));
+    private static ParsedCsv Read(string file) => ParsedCsv.Read(Path.Combine(Folder, file));
 
     /// <summary>What stands in brackets behind a text in square ones, up to a heading's name.</summary>
     [GeneratedRegex(@"\]\(([^)#\s]+)(?:#[^)]*)?\)")]

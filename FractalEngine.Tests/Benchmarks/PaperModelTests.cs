@@ -25,16 +25,16 @@ public partial class PaperModelTests
         var file = SharedModels.Folder is { } folder ? Path.Combine(folder, "..", "dissertation.txt") : null;
         Skip.IfNot(File.Exists(file), "there is no dissertation beside the checkout");
         var lines = File.ReadAllLines(file!);
-        Assert.Equal(Row(lines, "Model ID"), PaperModel.All.Select(model => (double?)model.Id));
-        Assert.Equal(Row(lines, "Face count (complexity of mesh)"), PaperModel.All.Select(model => (double?)model.Faces));
-        Assert.Equal(Row(lines, "Rendering cost (average load time for 10 attempts in seconds)"),
+        Assert.Equal(ParseNumbers(lines, "Model ID"), PaperModel.All.Select(model => (double?)model.Id));
+        Assert.Equal(ParseNumbers(lines, "Face count (complexity of mesh)"), PaperModel.All.Select(model => (double?)model.Faces));
+        Assert.Equal(ParseNumbers(lines, "Rendering cost (average load time for 10 attempts in seconds)"),
             PaperModel.All.Select(model => (double?)model.LoadSeconds));
-        Assert.Equal(Row(lines, "Storage (bytes)"), PaperModel.All.Select(model => (double?)model.StorageBytes));
-        Assert.Equal(Row(lines, "Collision cost (number of closest point on face calculations)"),
+        Assert.Equal(ParseNumbers(lines, "Storage (bytes)"), PaperModel.All.Select(model => (double?)model.StorageBytes));
+        Assert.Equal(ParseNumbers(lines, "Collision cost (number of closest point on face calculations)"),
             PaperModel.All.Select(model => (double?)(model.FractalCost ?? model.Faces)));
-        Assert.Equal(Row(lines, "Simple collider collision cost"), PaperModel.All.Select(model => (double?)model.Faces));
-        Assert.Equal(Row(lines, "Fractal collider collision cost"), PaperModel.All.Select(model => (double?)model.FractalCost));
-        Assert.Equal(Row(lines, "Bounding box collider collision cost"), PaperModel.All.Select(model => (double?)model.BoxCost));
+        Assert.Equal(ParseNumbers(lines, "Simple collider collision cost"), PaperModel.All.Select(model => (double?)model.Faces));
+        Assert.Equal(ParseNumbers(lines, "Fractal collider collision cost"), PaperModel.All.Select(model => (double?)model.FractalCost));
+        Assert.Equal(ParseNumbers(lines, "Bounding box collider collision cost"), PaperModel.All.Select(model => (double?)model.BoxCost));
         Assert.Equal(Cells(lines, "Fractal? (Y/N)"), PaperModel.All.Select(model => model.Shape is null ? "N" : "Y"));
         // As in 168,070 (10*7^5).
         Assert.Equal(
@@ -63,24 +63,24 @@ public partial class PaperModelTests
 
     [Theory]
     [MemberData(nameof(Fractals))]
-    public void FormulaOfFractal_IsWhatThePapersColliderCounts(int index)
+    public void FractalCostFormula_IsWhatThePapersColliderCounts(int index)
     {
         var model = PaperModel.All[index];
-        var asked = new AskedCollider(new FractalCollider(FractalOf(model)), [Vector.Zero, new(1, 2, 3), new(-40, 0.1, 7)]);
-        Assert.Equal((double)model.FormulaOfFractal!, asked.FaceTests);
+        var workload = new ColliderWorkload(new FractalCollider(FractalOf(model)), [Vector.Zero, new(1, 2, 3), new(-40, 0.1, 7)]);
+        Assert.Equal((double)model.FractalCostFormula!, workload.FaceTests);
     }
 
     [Fact]
-    public void FormulaOfFractal_OfAMesh_IsNone() => Assert.All(PaperModel.All[..2], model => Assert.Null(model.FormulaOfFractal));
+    public void FractalCostFormula_OfAMesh_IsNone() => Assert.All(PaperModel.All[..2], model => Assert.Null(model.FractalCostFormula));
 
     [Fact]
-    public void FormulaOfBoxes_IsWhatThePaperPrints() =>
-        Assert.All(PaperModel.All, model => Assert.Equal(model.BoxCost, (long)Math.Round(model.FormulaOfBoxes)));
+    public void BoxCostFormula_IsWhatThePaperPrints() =>
+        Assert.All(PaperModel.All, model => Assert.Equal(model.BoxCost, (long)Math.Round(model.BoxCostFormula)));
 
     [Fact]
     public void NoteOnFigure17_SaysWhereThePaperDisagreesWithItself()
     {
-        Assert.Equal(350, Sierpinski.FormulaOfFractal);
+        Assert.Equal(350, Sierpinski.FractalCostFormula);
         Assert.Equal("the paper prints 420; its b·t·d is 10·7·5 = 350, and 420 would be depth 6", Sierpinski.NoteOnFigure17);
         Assert.All(PaperModel.All.Except([Sierpinski]), model => Assert.Equal("", model.NoteOnFigure17));
     }
@@ -90,15 +90,16 @@ public partial class PaperModelTests
     public void NoteOnFigure18_InAnyCulture_NamesTheLevelsThatNoOctreeHas(string culture)
     {
         Assert.Equal("the paper's 1736 is 8·12·18.08 rounded: no octree has 18.08 levels",
-            InCulture.Get(culture, () => PaperModel.All[0].NoteOnFigure18));
-        Assert.EndsWith("17.36 levels; " + Sierpinski.NoteOnFigure17, InCulture.Get(culture, () => Sierpinski.NoteOnFigure18),
+            InCulture.Run(culture, () => PaperModel.All[0].NoteOnFigure18));
+        Assert.EndsWith("17.36 levels; " + Sierpinski.NoteOnFigure17, InCulture.Run(culture, () => Sierpinski.NoteOnFigure18),
             StringComparison.Ordinal);
     }
 
-    private static Fractal FractalOf(PaperModel model) => ((FractalModel)PaperModel.ModelOf(PaperModel.Load(model.FileIn("")))).Fractal;
+    private static Fractal FractalOf(PaperModel model) => ((FractalModel)PaperModel.ModelOf(PaperModel.Load(model.EnsureFile("")))).Fractal;
 
     /// <summary>The first number of each cell; null where there is none.</summary>
-    private static double?[] Row(string[] lines, string label) => [.. Cells(lines, label).Select(cell => Number().Match(cell) switch
+    private static double?[] ParseNumbers(string[] lines, string label) =>
+        [.. Cells(lines, label).Select(cell => Number().Match(cell) switch
     {
         { Success: true } match => double.Parse(match.Value.Replace(",", "", StringComparison.Ordinal), CultureInfo.InvariantCulture),
         _ => (double?)null,

@@ -30,7 +30,7 @@ public class PaperPageTests
     [InlineData("load, ours, as the engine does it (s)", "load_s")]
     public void TimesOfFigure17_OnThePage_AreOfTheOrderOfTheFiles(string label, string column)
     {
-        var measured = CsvText.Read(Path.Combine(Folder, "paper-figure17.csv")).Column(column).Select(CsvText.Number).ToArray();
+        var measured = ParsedCsv.Read(Path.Combine(Folder, "paper-figure17.csv")).Column(column).Select(ParsedCsv.ParseNumber).ToArray();
         Assert.All(Cells(label).Zip(measured, (printed, number) => double.Parse(printed, CultureInfo.InvariantCulture) / number),
             ratio => Assert.InRange(ratio, 0.2, 5));
         Assert.Equal(5, measured.Length);
@@ -52,16 +52,16 @@ public class PaperPageTests
     [Fact]
     public void LevelsOfFigure18_OnThePage_AddUp()
     {
-        var table = CsvText.Read(Path.Combine(Folder, "paper-figure18.csv"));
+        var table = ParsedCsv.Read(Path.Combine(Folder, "paper-figure18.csv"));
         var cells = Cells("= 96·levels + faces of the leaf").ToArray();
         Assert.Equal(table.Column("box_depth").Select(depth => $"96·{depth} + 1"), cells);
-        Assert.Equal(table.Column("boxes").Select(CsvText.Number), table.Column("box_depth")
-            .Select(depth => (96 * CsvText.Number(depth)) + 1));
+        Assert.Equal(table.Column("boxes").Select(ParsedCsv.ParseNumber), table.Column("box_depth")
+            .Select(depth => (96 * ParsedCsv.ParseNumber(depth)) + 1));
     }
 
     private static void AssertSame(string file, string label, params string[] columns)
     {
-        var table = CsvText.Read(Path.Combine(Folder, file));
+        var table = ParsedCsv.Read(Path.Combine(Folder, file));
         var cells = Cells(label).ToArray();
         Assert.Equal(table.Rows.Length, cells.Length);
         for (var model = 0; model < cells.Length; model++)

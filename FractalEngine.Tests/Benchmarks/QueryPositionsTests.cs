@@ -13,32 +13,33 @@ public class QueryPositionsTests
     private const int Positions = 1000;
 
     private static readonly BoundingBox Box = new(new(-3, 5, 100), new(4, 5.5, 102));
-    private static readonly Mesh Soup = CollisionMeshes.Soup(1, 50, 0.5);
+    private static readonly Mesh Soup = CollisionMeshes.TriangleSoup(1, 50, 0.5);
     private static readonly Fractal Sponge = FractalCase.Load("sierpinski", 2).Fractal;
 
     [Fact]
     public void Uniform_IsInTheBoxAndEverywhereInIt()
     {
-        var positions = Draw(random => QueryPositions.Uniform(random, Box));
+        var positions = Generate(random => QueryPositions.Uniform(random, Box));
         Assert.All(positions, position => Assert.Equal(0, Box.DistanceSquared(position)));
         AssertInAllOctants(positions, Box.Centre);
     }
 
     [Fact]
-    public void Near_OfAMesh_IsUpToOnePercentAwayAlongEachAxis() => AssertNear(Draw(random => QueryPositions.Near(random, Soup)), Soup);
+    public void NearSurface_OfAMesh_IsUpToOnePercentAwayAlongEachAxis() =>
+        AssertNear(Generate(random => QueryPositions.NearSurface(random, Soup)), Soup);
 
     [Fact]
-    public void Near_OfAFractal_IsUpToOnePercentAwayAlongEachAxis() =>
-        AssertNear(Draw(random => QueryPositions.Near(random, Sponge)), FractalGenerator.Flatten(Sponge, 10_000));
+    public void NearSurface_OfAFractal_IsUpToOnePercentAwayAlongEachAxis() =>
+        AssertNear(Generate(random => QueryPositions.NearSurface(random, Sponge)), FractalGenerator.Flatten(Sponge, 10_000));
 
     [Fact]
     public void OnSurface_OfAFractal_IsOnAFaceOfEveryInstance()
     {
         var mesh = FractalGenerator.Flatten(Sponge, 10_000);
-        var (simple, record, instances) = (new SimpleCollider(mesh), new QueryContext(), new HashSet<int>());
-        foreach (var position in Draw(random => QueryPositions.OnSurface(random, Sponge)))
+        var (simple, context, instances) = (new SimpleCollider(mesh), new QueryContext(), new HashSet<int>());
+        foreach (var position in Generate(random => QueryPositions.OnSurface(random, Sponge)))
         {
-            simple.TryFindClosest(position, double.PositiveInfinity, record, out var closest);
+            simple.TryFindClosest(position, double.PositiveInfinity, context, out var closest);
             // Rounding of a few coordinates.
             Assert.InRange(closest.Distance, 0, 1e-14 * mesh.Bounds.Diagonal);
             instances.Add(closest.FaceIndex / Sponge.BaseMesh.FaceCount);
@@ -51,14 +52,14 @@ public class QueryPositionsTests
     public void OnSurface_OfADeepFractal_EndsWhereCoordinatesDo()
     {
         var deep = FractalCase.Load("sierpinski", 1_000_000).Fractal;
-        Assert.All(Draw(random => QueryPositions.OnSurface(random, deep)),
+        Assert.All(Generate(random => QueryPositions.OnSurface(random, deep)),
             position => Assert.InRange(deep.Bounds.DistanceSquared(position), 0, 1e-20 * deep.Bounds.Diagonal));
     }
 
     [Fact]
     public void Far_IsAtLeastHalfADiagonalAwayToAllSides()
     {
-        var positions = Draw(random => QueryPositions.Far(random, Box));
+        var positions = Generate(random => QueryPositions.Far(random, Box));
         Assert.All(positions, position =>
         {
             Assert.InRange((position - Box.Centre).Length() / Box.Diagonal, 1 - 1e-12, 1.5 + 1e-12);
@@ -73,29 +74,29 @@ public class QueryPositionsTests
         foreach (var make in (Func<Random, Vector>[])
         [
             random => QueryPositions.Uniform(random, Box), random => QueryPositions.Far(random, Box),
-            random => QueryPositions.Near(random, Soup), random => QueryPositions.Near(random, Sponge),
+            random => QueryPositions.NearSurface(random, Soup), random => QueryPositions.NearSurface(random, Sponge),
         ])
         {
-            Assert.Equal(Draw(make), Draw(make));
-            Assert.Empty(Draw(make).Intersect(Draw(make, seed: 2)));
+            Assert.Equal(Generate(make), Generate(make));
+            Assert.Empty(Generate(make).Intersect(Generate(make, seed: 2)));
         }
     }
 
-    private static Vector[] Draw(Func<Random, Vector> make, int seed = 1) => new Random(seed) switch
+    private static Vector[] Generate(Func<Random, Vector> drawPosition, int seed = 1) => new Random(seed) switch
     {
-        var random => [.. Enumerable.Range(0, Positions).Select(_ => make(random))],
+        var random => [.. Enumerable.Range(0, Positions).Select(_ => drawPosition(random))],
     };
 
     private static void AssertNear(Vector[] positions, Mesh mesh)
     {
-        var (simple, record) = (new SimpleCollider(mesh), new QueryContext());
-        var most = 0.01 * mesh.Bounds.Diagonal;
-        var distances = positions.Select(position => simple.TryFindClosest(position, double.PositiveInfinity, record, out var closest)
+        var (simple, context) = (new SimpleCollider(mesh), new QueryContext());
+        var maxOffset = 0.01 * mesh.Bounds.Diagonal;
+        var distances = positions.Select(position => simple.TryFindClosest(position, double.PositiveInfinity, context, out var closest)
             ? closest.Distance
             : double.NaN).ToArray();
         // A cube's corner is the farthest from its centre. Who is always on the surface, or always far, is not near.
-        Assert.All(distances, distance => Assert.InRange(distance, 0, 1.7320508075688774 * most));
-        Assert.InRange(distances.Average(), 0.1 * most, most);
+        Assert.All(distances, distance => Assert.InRange(distance, 0, 1.7320508075688774 * maxOffset));
+        Assert.InRange(distances.Average(), 0.1 * maxOffset, maxOffset);
     }
 
     private static void AssertInAllOctants(Vector[] positions, Vector centre)

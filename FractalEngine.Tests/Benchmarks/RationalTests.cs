@@ -21,12 +21,12 @@ public class RationalTests
     private static Gen<Rational> Fractions { get; } = Laws.AnyFinite.Zip(NotZero, (x, y) => Rational.Of(x) / Rational.Of(y));
 
     [Fact]
-    public void Of_AnyDouble_IsWhatItsDecimalsSay() => Laws.Hold(Laws.AnyFinite, x =>
+    public void Of_AnyDouble_IsWhatItsDecimalsSay() => Laws.CheckForAll(Laws.AnyFinite, x =>
     {
         // So many decimals write every double exactly; they are no work of the code under test.
         var decimals = BigInteger.Parse(x.ToString($"F{Exponent}", CultureInfo.InvariantCulture).Replace(".", "", StringComparison.Ordinal),
             CultureInfo.InvariantCulture);
-        return Is(Rational.Of(x), decimals, Tens);
+        return AreEqual(Rational.Of(x), decimals, Tens);
     });
 
     [Theory]
@@ -46,15 +46,16 @@ public class RationalTests
         Assert.Throws<ArgumentOutOfRangeException>(nameof(number), () => Rational.Of(number));
 
     [Fact]
-    public void Operators_OfAnyDoubles_AreThoseOfWholeNumbers() => Laws.Hold(Laws.AnyFinite.Zip(NotZero), pair =>
+    public void Operators_OfAnyDoubles_AreThoseOfWholeNumbers() => Laws.CheckForAll(Laws.AnyFinite.Zip(NotZero), pair =>
     {
-        var ((x, y), (r, s)) = ((Whole(pair.Item1), Whole(pair.Item2)), (Rational.Of(pair.Item1), Rational.Of(pair.Item2)));
-        return Is(r + s, x + y, Unit) && Is(r - s, x - y, Unit) && Is(r * s, x * y, Unit * Unit)
-            && Is(r / s, x * y.Sign, BigInteger.Abs(y));
+        var ((x, y), (r, s)) =
+            ((ToScaledInteger(pair.Item1), ToScaledInteger(pair.Item2)), (Rational.Of(pair.Item1), Rational.Of(pair.Item2)));
+        return AreEqual(r + s, x + y, Unit) && AreEqual(r - s, x - y, Unit) && AreEqual(r * s, x * y, Unit * Unit)
+            && AreEqual(r / s, x * y.Sign, BigInteger.Abs(y));
     });
 
     [Fact]
-    public void Operators_OfAnyFractions_AreThoseOfAField() => Laws.Hold(Fractions.Three(), triple =>
+    public void Operators_OfAnyFractions_AreThoseOfAField() => Laws.CheckForAll(Fractions.Three(), triple =>
     {
         var (r, s, t) = triple;
         Assert.Equal(r + s, s + r);
@@ -82,7 +83,7 @@ public class RationalTests
     }
 
     [Fact]
-    public void Order_OfAnyDoubles_IsTheirs() => Laws.Hold(Laws.AnyFinite.Two(), pair =>
+    public void Order_OfAnyDoubles_IsTheirs() => Laws.CheckForAll(Laws.AnyFinite.Two(), pair =>
     {
         var (x, y) = pair;
         var (r, s) = (Rational.Of(x), Rational.Of(y));
@@ -100,16 +101,17 @@ public class RationalTests
     }
 
     [Fact]
-    public void ToDouble_OfAnyDouble_IsItself() => Laws.Hold(Laws.AnyFinite, x => Rational.Of(x).ToDouble() == x);
+    public void ToDouble_OfAnyDouble_IsItself() => Laws.CheckForAll(Laws.AnyFinite, x => Rational.Of(x).ToDouble() == x);
 
     [Fact]
-    public void ToDouble_OfAnyFraction_IsLessThanAPlaceAway() => Laws.Hold(Laws.AnyFinite.Zip(NotZero), pair =>
+    public void ToDouble_OfAnyFraction_IsLessThanAPlaceAway() => Laws.CheckForAll(Laws.AnyFinite.Zip(NotZero), pair =>
     {
-        var (x, y) = (Whole(pair.Item1) * Whole(pair.Item2).Sign, BigInteger.Abs(Whole(pair.Item2)));
+        var (x, y) = (ToScaledInteger(pair.Item1) * ToScaledInteger(pair.Item2).Sign, BigInteger.Abs(ToScaledInteger(pair.Item2)));
         var result = (Rational.Of(pair.Item1) / Rational.Of(pair.Item2)).ToDouble();
         // Beyond the largest double there is none.
-        return (result == double.NegativeInfinity || Whole(Math.BitDecrement(result)) * y < x * Unit)
-            && (result == double.PositiveInfinity || x * Unit < Whole(Math.BitIncrement(result)) * y || result == double.MaxValue);
+        return (result == double.NegativeInfinity || ToScaledInteger(Math.BitDecrement(result)) * y < x * Unit)
+            && (result == double.PositiveInfinity || x * Unit < ToScaledInteger(Math.BitIncrement(result)) * y
+            || result == double.MaxValue);
     });
 
     [Fact]
@@ -123,11 +125,11 @@ public class RationalTests
         Assert.Equal(0, new Rational(0, large).ToDouble());
     }
 
-    private static bool Is(Rational rational, BigInteger numerator, BigInteger denominator) =>
+    private static bool AreEqual(Rational rational, BigInteger numerator, BigInteger denominator) =>
         rational.Denominator.Sign > 0 && rational.Numerator * denominator == numerator * rational.Denominator;
 
     /// <summary>Times 2¹⁰⁷⁴.</summary>
-    private static BigInteger Whole(double x)
+    private static BigInteger ToScaledInteger(double x)
     {
         if (double.IsInfinity(x))
         {

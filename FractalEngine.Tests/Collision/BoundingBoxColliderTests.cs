@@ -18,7 +18,7 @@ public class BoundingBoxColliderTests
     [InlineData(168_070, 1666)]
     [InlineData(1_176_490, 1936)]
     [InlineData(38_400_000, 2419)]
-    public void CostOfLevel_TimesThePapersDepth_IsThePapersCost(int faces, int cost)
+    public void CostPerLevel_TimesThePapersDepth_IsThePapersCost(int faces, int cost)
     {
         Assert.Equal(cost, Math.Round(BoundingBoxCollider.CostPerLevel * 3 * Math.Log(faces, 8)));
         // Whole levels: within half a level.
@@ -27,17 +27,17 @@ public class BoundingBoxColliderTests
 
     [Theory]
     [MemberData(nameof(Meshes))]
-    public void TryFindClosest_OnAnyMesh_FindsAFaceNoNearerThanTheNearest(string name)
+    public void TryFindClosest_OnAnyMesh_FindsAFaceNoCloserThanTheClosest(string name)
     {
         var mesh = CollisionMeshes.All[name]();
-        var (simple, boxes, record) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh), new QueryContext());
+        var (simple, boxes, context) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh), new QueryContext());
         Seeded.Run(100, random =>
         {
-            var position = CollisionMeshes.Position(random, mesh);
-            Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, record, out var nearest));
-            Assert.True(boxes.TryFindClosest(position, double.PositiveInfinity, record, out var closest));
-            Assert.True(closest.Distance >= nearest.Distance);
-            Assert.Equal(nearest.Distance <= closest.Distance, boxes.TryFindClosest(position, closest.Distance, record, out _));
+            var position = CollisionMeshes.RandomPosition(random, mesh);
+            Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, context, out var expected));
+            Assert.True(boxes.TryFindClosest(position, double.PositiveInfinity, context, out var closest));
+            Assert.True(closest.Distance >= expected.Distance);
+            Assert.Equal(expected.Distance <= closest.Distance, boxes.TryFindClosest(position, closest.Distance, context, out _));
         });
         Assert.False(boxes.IsExact);
     }
@@ -45,51 +45,51 @@ public class BoundingBoxColliderTests
     [Fact]
     public void TryFindClosest_OfDepthZero_IsExact()
     {
-        var mesh = CollisionMeshes.Soup(1, 50, 0.5);
-        var (simple, boxes, record) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh, depth: 0), new QueryContext());
+        var mesh = CollisionMeshes.TriangleSoup(1, 50, 0.5);
+        var (simple, boxes, context) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh, depth: 0), new QueryContext());
         Seeded.Run(100, random =>
         {
-            var position = CollisionMeshes.Position(random, mesh);
-            simple.TryFindClosest(position, double.PositiveInfinity, record, out var nearest);
-            boxes.TryFindClosest(position, double.PositiveInfinity, record, out var closest);
-            Assert.Equal(nearest, closest);
+            var position = CollisionMeshes.RandomPosition(random, mesh);
+            simple.TryFindClosest(position, double.PositiveInfinity, context, out var expected);
+            boxes.TryFindClosest(position, double.PositiveInfinity, context, out var closest);
+            Assert.Equal(expected, closest);
         });
-        record.Reset();
-        boxes.TryFindClosest(Vector.Zero, 1, record, out _);
-        Assert.Equal((50, 0), (record.FaceTests, record.BoundTests));
+        context.Reset();
+        boxes.TryFindClosest(Vector.Zero, 1, context, out _);
+        Assert.Equal((50, 0), (context.FaceTests, context.BoundTests));
     }
 
     [Fact]
     public void TryFindClosest_CountsTwelveFacesForEachOfEightBoxesALevelAndTheLeaf()
     {
-        var record = new QueryContext();
+        var context = new QueryContext();
         var boxes = new BoundingBoxCollider(MeshGenerators.Create("icosphere", 1, 1280));
         Assert.Equal(10, boxes.Depth);
-        boxes.TryFindClosest(2 * Vector.One, double.PositiveInfinity, record, out _);
+        boxes.TryFindClosest(2 * Vector.One, double.PositiveInfinity, context, out _);
         // One face in the leaf, as no two of the sphere's have one centre.
-        Assert.Equal((8 * 12 * 10) + 1, record.FaceTests);
-        Assert.InRange(record.BoundTests, 4, 8 * 10);
+        Assert.Equal((8 * 12 * 10) + 1, context.FaceTests);
+        Assert.InRange(context.BoundTests, 4, 8 * 10);
     }
 
     [Fact]
-    public void TryFindClosest_MayMissTheNearestFace()
+    public void TryFindClosest_MayMissTheClosestFace()
     {
         var mesh = MeshGenerators.Create("terrain", 1, 5000);
-        var (simple, boxes, record) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh), new QueryContext());
-        var wrong = 0;
+        var (simple, boxes, context) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh), new QueryContext());
+        var missed = 0;
         Seeded.Run(200, random =>
         {
-            var position = CollisionMeshes.Position(random, mesh);
-            simple.TryFindClosest(position, double.PositiveInfinity, record, out var nearest);
-            boxes.TryFindClosest(position, double.PositiveInfinity, record, out var closest);
-            wrong += closest.Distance > nearest.Distance + 1e-9 ? 1 : 0;
+            var position = CollisionMeshes.RandomPosition(random, mesh);
+            simple.TryFindClosest(position, double.PositiveInfinity, context, out var expected);
+            boxes.TryFindClosest(position, double.PositiveInfinity, context, out var closest);
+            missed += closest.Distance > expected.Distance + 1e-9 ? 1 : 0;
         });
         // This is what the paper's way gives, and why it is labelled so.
-        Assert.InRange(wrong, 20, 200);
+        Assert.InRange(missed, 20, 200);
     }
 
     [Fact]
-    public void TryFindClosest_WhereTheBoxOfThePositionIsEmpty_GoesOnToTheNearestThatIsNot()
+    public void TryFindClosest_WhereTheBoxOfThePositionIsEmpty_TakesTheClosestOccupiedBox()
     {
         // Two faces in opposite corners; six of eight boxes are empty.
         var mesh = new Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0, 9, 9, 9, 10, 9, 9, 9, 10, 9], [0, 1, 2, 3, 4, 5]);
@@ -111,12 +111,12 @@ public class BoundingBoxColliderTests
     [Fact]
     public void TryFindClosest_AllocatesNothing()
     {
-        var (boxes, record) = (new BoundingBoxCollider(CollisionMeshes.Soup(1, 500, 0.1)), new QueryContext());
-        boxes.TryFindClosest(Vector.One, double.PositiveInfinity, record, out _);
+        var (boxes, context) = (new BoundingBoxCollider(CollisionMeshes.TriangleSoup(1, 500, 0.1)), new QueryContext());
+        boxes.TryFindClosest(Vector.One, double.PositiveInfinity, context, out _);
         var before = GC.GetAllocatedBytesForCurrentThread();
         for (var i = 0; i < 100; i++)
         {
-            boxes.TryFindClosest(new(i / 50.0, 0.3, 0.2), double.PositiveInfinity, record, out _);
+            boxes.TryFindClosest(new(i / 50.0, 0.3, 0.2), double.PositiveInfinity, context, out _);
         }
 
         Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);

@@ -13,22 +13,22 @@ internal static class CollisionMeshes
 {
     public static IReadOnlyDictionary<string, Func<Mesh>> All { get; } = new Dictionary<string, Func<Mesh>>
     {
-        ["one face"] = () => Soup(1, 1, 1),
-        ["five faces"] = () => Soup(2, 5, 1),
-        ["nine faces"] = () => Soup(3, 9, 1),
-        ["fifty faces"] = () => Soup(4, 50, 0.5),
-        ["sixty-five faces"] = () => Soup(5, 65, 0.5),
-        ["soup"] = () => Soup(6, 3000, 0.1),
-        ["soup of large faces"] = () => Soup(7, 500, 5),
-        ["tiny soup"] = () => Soup(8, 400, 0.1).Transform(v => 1e-30 * v),
-        ["huge soup"] = () => Soup(9, 400, 0.1).Transform(v => 1e30 * v),
-        ["soup far away"] = () => Soup(10, 1000, 0.1).Transform(v => v + new Vector(1e6, -3e6, 2e6)),
-        ["needles"] = () => Nasty(11, 400),
+        ["one face"] = () => TriangleSoup(1, 1, 1),
+        ["five faces"] = () => TriangleSoup(2, 5, 1),
+        ["nine faces"] = () => TriangleSoup(3, 9, 1),
+        ["fifty faces"] = () => TriangleSoup(4, 50, 0.5),
+        ["sixty-five faces"] = () => TriangleSoup(5, 65, 0.5),
+        ["soup"] = () => TriangleSoup(6, 3000, 0.1),
+        ["soup of large faces"] = () => TriangleSoup(7, 500, 5),
+        ["tiny soup"] = () => TriangleSoup(8, 400, 0.1).Transform(v => 1e-30 * v),
+        ["huge soup"] = () => TriangleSoup(9, 400, 0.1).Transform(v => 1e30 * v),
+        ["soup far away"] = () => TriangleSoup(10, 1000, 0.1).Transform(v => v + new Vector(1e6, -3e6, 2e6)),
+        ["needles"] = () => AdversarialSoup(11, 400),
         ["flat grid"] = () => Grid(40, (_, _) => 0),
         ["rough grid"] = () => Grid(40, (x, y) => Math.Sin(x) * Math.Cos(y)),
-        ["coincident faces"] = () => Repeat(Soup(12, 1, 1), 300),
-        ["points"] = () => Repeat(FromFaces([(Vector.One, Vector.One, Vector.One)]), 100),
-        ["sizes from 1e-15 to 1"] = () => FromFaces(Enumerable.Range(0, 200).Select(i => Math.Pow(0.84, i))
+        ["coincident faces"] = () => Repeat(TriangleSoup(12, 1, 1), 300),
+        ["points"] = () => Repeat(FromTriangles([(Vector.One, Vector.One, Vector.One)]), 100),
+        ["sizes from 1e-15 to 1"] = () => FromTriangles(Enumerable.Range(0, 200).Select(i => Math.Pow(0.84, i))
         .Select(s => (s * Vector.I, s * Vector.J, s * Vector.K))),
         ["sphere"] = () => MeshGenerators.Create("icosphere", 1, 1280),
         ["terrain"] = () => MeshGenerators.Create("terrain", 1, 5000),
@@ -38,18 +38,19 @@ internal static class CollisionMeshes
     public static TheoryData<string> Names => [.. All.Keys];
 
     /// <summary>Null where there are no files beside the checkout.</summary>
-    public static Mesh? Scan(string file) => SharedModels.Folder is { } folder
+    public static Mesh? LoadScan(string file) => SharedModels.Folder is { } folder
         ? ObjParser.Parse(SourceText.Read(Path.Combine(folder, file), file, ParsingLimits.ObjBytes, acceptLatin1: true)).Mesh
         : null;
 
-    public static Mesh Soup(int seed, int faces, double size) => new Random(seed) switch
+    public static Mesh TriangleSoup(int seed, int faces, double size) => new Random(seed) switch
     {
-        var random => FromFaces(Enumerable.Range(0, faces).Select(_ => NastyFace.Cube(random)).Select(corner =>
-            (corner, corner + (size * NastyFace.Cube(random)), corner + (size * NastyFace.Cube(random))))),
+        var random => FromTriangles(Enumerable.Range(0, faces).Select(_ => AdversarialTriangle.RandomInCube(random)).Select(corner =>
+            (corner, corner + (size * AdversarialTriangle.RandomInCube(random)),
+            corner + (size * AdversarialTriangle.RandomInCube(random))))),
     };
 
     /// <summary>A position: far, near, on a corner, an edge or a face, or in the box.</summary>
-    public static Vector Position(Random random, Mesh mesh)
+    public static Vector RandomPosition(Random random, Mesh mesh)
     {
         var (bounds, diagonal) = (mesh.Bounds, mesh.Bounds.Diagonal);
         var (a, b, c) = mesh.Face(random.Next(mesh.FaceCount));
@@ -58,22 +59,22 @@ internal static class CollisionMeshes
         var inside = a + (u * (b - a)) + (v * (c - a));
         return random.Next(8) switch
         {
-            0 => bounds.Centre + (Math.Pow(10, random.Next(0, 8)) * diagonal * NastyFace.Cube(random)),
+            0 => bounds.Centre + (Math.Pow(10, random.Next(0, 8)) * diagonal * AdversarialTriangle.RandomInCube(random)),
             1 => a,
             2 => 0.5 * (a + b),
             3 => a + (u * (b - a)),
             4 => inside,
-            5 => inside + (Math.Pow(10, random.Next(-12, 0)) * diagonal * NastyFace.Cube(random)),
+            5 => inside + (Math.Pow(10, random.Next(-12, 0)) * diagonal * AdversarialTriangle.RandomInCube(random)),
             6 => bounds.Centre,
             _ => bounds.Minimum + bounds.Size.Stretch(new(random.NextDouble(), random.NextDouble(), random.NextDouble())),
         };
     }
 
-    private static Mesh Nasty(int seed, int faces) => new Random(seed) switch
+    private static Mesh AdversarialSoup(int seed, int faces) => new Random(seed) switch
     {
         // Those that stand at the scale of 1, so that one mesh holds them all.
         var random =>
-            FromFaces(Enumerable.Range(0, int.MaxValue).Select(_ => NastyFace.Random(random))
+            FromTriangles(Enumerable.Range(0, int.MaxValue).Select(_ => AdversarialTriangle.Random(random))
             .Where(face => face.Magnitude is > 0.1 and < 10)
             .Take(faces).Select(face => (face.A, face.B, face.C))),
     };
@@ -81,7 +82,7 @@ internal static class CollisionMeshes
     private static Mesh Repeat(Mesh mesh, int times) =>
         new(mesh.Positions, [.. Enumerable.Repeat(mesh.VertexIndices, times).SelectMany(faces => faces)]);
 
-    private static Mesh FromFaces(IEnumerable<(Vector A, Vector B, Vector C)> faces)
+    private static Mesh FromTriangles(IEnumerable<(Vector A, Vector B, Vector C)> faces)
     {
         var positions = faces.SelectMany(face => new[] { face.A, face.B, face.C }).SelectMany(v => new[] { v.X, v.Y, v.Z }).ToArray();
         return new([.. positions], [.. Enumerable.Range(0, positions.Length / 3)]);

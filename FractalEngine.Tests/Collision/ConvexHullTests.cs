@@ -14,11 +14,11 @@ public class ConvexHullTests
 
     [Theory]
     [MemberData(nameof(Names))]
-    public void Of_AnyPoints_HoldsThemButForWhatItMissed(string name) => Seeded.Run(60, random =>
+    public void Of_AnyPoints_ContainsThemButForItsStatedMiss(string name) => Seeded.Run(60, random =>
     {
-        var points = PointClouds.Draw(name, random);
+        var points = PointClouds.Generate(name, random);
         var hull = ConvexHull.Build(points, random.Next(4, 60));
-        var rounding = Rounding * PointClouds.SizeOf(points);
+        var rounding = Rounding * PointClouds.MaxAbsCoordinate(points);
         Assert.True(hull.MaxOutsideDistance >= 0);
         Assert.All(hull.Vertices, vertex => Assert.Contains(vertex, points));
         foreach (var point in points)
@@ -40,7 +40,7 @@ public class ConvexHullTests
     [MemberData(nameof(Names))]
     public void Of_AnyPoints_HasNoCornerAboveAPlane(string name) => Seeded.Run(60, random =>
     {
-        var hull = ConvexHull.Build(PointClouds.Draw(name, random), random.Next(4, 60));
+        var hull = ConvexHull.Build(PointClouds.Generate(name, random), random.Next(4, 60));
         foreach (var plane in hull.Planes)
         {
             Assert.Equal(1, plane.Normal.Length(), 1e-12);
@@ -67,7 +67,7 @@ public class ConvexHullTests
     }
 
     [Fact]
-    public void Of_ATurnedCube_HasItsVolume() => Seeded.Run(40, random =>
+    public void Of_ARotatedCube_HasItsVolume() => Seeded.Run(40, random =>
     {
         var hull = ConvexHull.Build(PointClouds.All["turned grid"](random), 48);
         // Points in the sides may be corners by rounding, and flat facets may lean.
@@ -83,7 +83,7 @@ public class ConvexHullTests
     });
 
     [Fact]
-    public void Volume_OfABall_IsNearThatOfTheSphere()
+    public void Volume_OfPointsOnASphere_IsNearThatOfTheSphere()
     {
         var random = new Random(1);
         var hull = ConvexHull.Build(Enumerable.Range(0, 3000).Select(_ => random.Direction()).ToArray(), 400);

@@ -10,10 +10,10 @@ namespace FractalEngine.Tests.Collision;
 public class DeepExactnessTests
 {
     private const int BeamWidth = 64;
-    private const int MostNodes = 400_000;
+    private const int MaxNodes = 400_000;
 
     /// <summary>Assets whose copies hardly overlap, so that balls are enough, and depths; null for the infinite fractal.</summary>
-    public static TheoryData<string, int?> Deep
+    public static TheoryData<string, int?> DeepFractals
     {
         get
         {
@@ -34,13 +34,14 @@ public class DeepExactnessTests
     }
 
     [Theory]
-    [MemberData(nameof(Deep))]
-    public void Find_AtAnyDepth_EqualsBranchAndBoundWithBalls(string name, int? depth) => Compare(name, depth, queries: 24);
+    [MemberData(nameof(DeepFractals))]
+    public void TryFindClosest_AtAnyDepth_EqualsBranchAndBoundWithSpheres(string name, int? depth) => Compare(name, depth, queries: 24);
 
     [Theory]
-    [MemberData(nameof(Deep))]
+    [MemberData(nameof(DeepFractals))]
     [Trait("Category", "Soak")]
-    public void Find_AtAnyDepthForLong_EqualsBranchAndBoundWithBalls(string name, int? depth) => Compare(name, depth, queries: 300);
+    public void TryFindClosest_AtAnyDepthForLong_EqualsBranchAndBoundWithSpheres(string name, int? depth) =>
+        Compare(name, depth, queries: 300);
 
     [Theory]
     [InlineData("sierpinski")]
@@ -50,50 +51,51 @@ public class DeepExactnessTests
     public void Oracle_WhereFacesCanBeListed_EqualsThem(string name)
     {
         var fractal = AssetFractals.Load(name, 2);
-        var (oracle, simple, record) = (new DeepOracle(fractal), FractalProbe.BruteForce(fractal), new QueryContext());
+        var (oracle, simple, context) = (new BranchAndBoundOracle(fractal), ExactColliderChecker.BruteForce(fractal), new QueryContext());
         Seeded.Run(60, random =>
         {
-            var position = FractalPositions.Draw(random, fractal);
-            Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, record, out var closest));
-            var tolerance = FractalProbe.Tolerance * FractalPositions.SizeOf(fractal, position);
-            Assert.Equal(closest.Distance, Assert.NotNull(oracle.Nearest(position, int.MaxValue)), tolerance);
-            Assert.InRange(oracle.NearestOfBeam(position, BeamWidth), closest.Distance - tolerance, double.PositiveInfinity);
+            var position = FractalPositions.RandomPosition(random, fractal);
+            Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, context, out var closest));
+            var tolerance = ExactColliderChecker.Tolerance * FractalPositions.Magnitude(fractal, position);
+            Assert.Equal(closest.Distance, Assert.NotNull(oracle.FindClosestDistance(position, int.MaxValue)), tolerance);
+            Assert.InRange(oracle.FindClosestDistanceByBeam(position, BeamWidth), closest.Distance - tolerance, double.PositiveInfinity);
         });
     }
 
     private static void Compare(string name, int? depth, int queries)
     {
         var fractal = AssetFractals.Load(name, depth);
-        var probe = new FractalProbe(FormattableString.Invariant($"{name} of depth {depth}"), fractal);
-        var oracle = new DeepOracle(fractal);
+        var probe = new ExactColliderChecker(FormattableString.Invariant($"{name} of depth {depth}"), fractal);
+        var oracle = new BranchAndBoundOracle(fractal);
         // The descent takes the identity as often as it can, so that it does not end; a shallower fractal is part of a deeper one there.
-        var greedy = new FractalCollider(oracle.HasIdentity && depth is not <= 60 ? AssetFractals.Load(name, 60) : fractal);
+        var greedy = new FractalCollider(oracle.RoundHasIdentity && depth is not <= 60 ? AssetFractals.Load(name, 60) : fractal);
         var compared = 0;
-        Parallel.For(1, queries + 1, () => new QueryContext(), (seed, _, record) =>
+        Parallel.For(1, queries + 1, () => new QueryContext(), (seed, _, context) =>
         {
             Seeded.RunOne(seed, random =>
             {
-                var position = FractalPositions.Draw(random, fractal);
-                var tolerance = FractalProbe.Tolerance * FractalPositions.SizeOf(fractal, position);
-                var found = probe.Exact.TryFindClosest(position, double.PositiveInfinity, record, out var closest);
-                probe.Require(found, position, $"nothing found");
-                probe.CheckAnswer(position, record, closest);
+                var position = FractalPositions.RandomPosition(random, fractal);
+                var tolerance = ExactColliderChecker.Tolerance * FractalPositions.Magnitude(fractal, position);
+                var found = probe.Collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest);
+                probe.ThrowUnless(found, position, $"nothing found");
+                probe.CheckResult(position, context, closest);
                 // The answer is a point of the fractal; so it is right if nothing is nearer.
-                if (oracle.Nearest(position, MostNodes, closest.Distance - tolerance) is { } nearest)
+                if (oracle.FindClosestDistance(position, MaxNodes, closest.Distance - tolerance) is { } expected)
                 {
-                    probe.Require(nearest >= closest.Distance - tolerance, position, $"distance {closest.Distance:R}, not {nearest:R}");
+                    probe.ThrowUnless(expected >= closest.Distance - tolerance, position,
+                        $"distance {closest.Distance:R}, not {expected:R}");
                     Interlocked.Increment(ref compared);
                 }
 
-                probe.CheckWithin(position, record, closest.Distance);
-                greedy.TryFindClosest(position, double.PositiveInfinity, record, out var other);
-                probe.Require(closest.Distance <= other.Distance + tolerance, position,
+                probe.CheckMaxDistance(position, context, closest.Distance);
+                greedy.TryFindClosest(position, double.PositiveInfinity, context, out var other);
+                probe.ThrowUnless(closest.Distance <= other.Distance + tolerance, position,
                     $"distance {closest.Distance:R}, though greedily {other.Distance:R}");
-                var beam = seed % 4 == 0 ? oracle.NearestOfBeam(position, BeamWidth) : double.PositiveInfinity;
-                probe.Require(closest.Distance <= beam + tolerance, position,
-                    $"distance {closest.Distance:R}, though {beam:R} by beam search");
+                var beamDistance = seed % 4 == 0 ? oracle.FindClosestDistanceByBeam(position, BeamWidth) : double.PositiveInfinity;
+                probe.ThrowUnless(closest.Distance <= beamDistance + tolerance, position,
+                    $"distance {closest.Distance:R}, though {beamDistance:R} by beam search");
             });
-            return record;
+            return context;
         }, _ => { });
         // Balls overlap more than what they hold does, so that some positions take too long.
         Assert.InRange(compared, queries * 2 / 3, queries);

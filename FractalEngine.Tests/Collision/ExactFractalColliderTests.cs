@@ -15,14 +15,14 @@ public class ExactFractalColliderTests
     private const double Tolerance = 1e-12;
 
     [Fact]
-    public void Find_OnRandomFractals_EqualsBruteForce() => Seeded.Run(400, random =>
+    public void TryFindClosest_OnRandomFractals_EqualsBruteForce() => Seeded.Run(400, random =>
     {
-        var fractal = RandomFractals.Draw(random);
+        var fractal = RandomFractals.Create(random);
         var collider = new ExactFractalCollider(fractal);
         var oracle = new SimpleCollider(FractalGenerator.Flatten(fractal, 10_000_000));
         for (var query = 0; query < 12; query++)
         {
-            Check(collider, oracle, fractal, Position(random, fractal));
+            Check(collider, oracle, fractal, RandomPosition(random, fractal));
         }
     });
 
@@ -30,75 +30,75 @@ public class ExactFractalColliderTests
     [InlineData(1)]
     [InlineData(2)]
     [InlineData(3)]
-    public void Find_OnAppendixB_EqualsBruteForce(int depth)
+    public void TryFindClosest_OnAppendixB_EqualsBruteForce(int depth)
     {
         var fractal = Samples.AppendixBAt(depth);
         var (collider, oracle) = (new ExactFractalCollider(fractal), new SimpleCollider(FractalGenerator.Flatten(fractal, 10_000_000)));
-        Seeded.Run(60, random => Check(collider, oracle, fractal, Position(random, fractal)));
+        Seeded.Run(60, random => Check(collider, oracle, fractal, RandomPosition(random, fractal)));
     }
 
     [Fact]
-    public void Find_OfEveryVertex_IsAtDistanceZero() => Seeded.Run(40, random =>
+    public void TryFindClosest_OfEveryVertex_IsAtDistanceZero() => Seeded.Run(40, random =>
     {
-        var fractal = RandomFractals.Draw(random);
+        var fractal = RandomFractals.Create(random);
         var collider = new ExactFractalCollider(fractal);
-        var (record, size) = (new QueryContext(), fractal.Bounds.Diagonal);
+        var (context, size) = (new QueryContext(), fractal.Bounds.Diagonal);
         foreach (var map in FractalGenerator.Expand(fractal, 10_000).Take(20))
         {
-            Assert.True(collider.TryFindClosest(map * fractal.BaseMesh.Vertex(0), double.PositiveInfinity, record, out var closest));
+            Assert.True(collider.TryFindClosest(map * fractal.BaseMesh.Vertex(0), double.PositiveInfinity, context, out var closest));
             Assert.True(closest.Distance <= Tolerance * size, $"distance {closest.Distance} of a vertex");
             Assert.True(closest.Normal.IsFinite());
         }
     });
 
     [Fact]
-    public void Find_Within_FindsWhatIsThereAndNothingElse() => Seeded.Run(200, random =>
+    public void TryFindClosest_WithMaxDistance_FindsWhatIsThereAndNothingElse() => Seeded.Run(200, random =>
     {
-        var fractal = RandomFractals.Draw(random);
+        var fractal = RandomFractals.Create(random);
         var collider = new ExactFractalCollider(fractal);
-        var record = new QueryContext();
-        var position = Position(random, fractal);
-        if (!collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest) || closest.Distance == 0)
+        var context = new QueryContext();
+        var position = RandomPosition(random, fractal);
+        if (!collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest) || closest.Distance == 0)
         {
             return;
         }
 
-        Assert.True(collider.TryFindClosest(position, closest.Distance * 1.0001, record, out var again));
+        Assert.True(collider.TryFindClosest(position, closest.Distance * 1.0001, context, out var again));
         Assert.Equal(closest.Distance, again.Distance, Tolerance * fractal.Bounds.Diagonal);
-        Assert.False(collider.TryFindClosest(position, closest.Distance * 0.9999, record, out _));
+        Assert.False(collider.TryFindClosest(position, closest.Distance * 0.9999, context, out _));
     });
 
     [Fact]
-    public void Find_WithEpsilon_IsWithinTheFactor() => Seeded.Run(200, random =>
+    public void TryFindClosest_WithEpsilon_IsWithinTheFactor() => Seeded.Run(200, random =>
     {
-        var fractal = RandomFractals.Draw(random);
+        var fractal = RandomFractals.Create(random);
         var collider = new ExactFractalCollider(fractal);
-        var record = new QueryContext();
-        var position = Position(random, fractal);
-        if (collider.TryFindClosest(position, double.PositiveInfinity, record, out var exact))
+        var context = new QueryContext();
+        var position = RandomPosition(random, fractal);
+        if (collider.TryFindClosest(position, double.PositiveInfinity, context, out var exact))
         {
-            Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, record, out var near, 0.25));
+            Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, context, out var near, 0.25));
             Assert.InRange(near.Distance, exact.Distance - (Tolerance * fractal.Bounds.Diagonal), (1.25 * exact.Distance)
                 + (Tolerance * fractal.Bounds.Diagonal));
         }
     });
 
     [Fact]
-    public void Find_NamesTheInstanceThatItFound() => Seeded.Run(200, random =>
+    public void TryFindClosest_NamesTheInstanceThatItFound() => Seeded.Run(200, random =>
     {
-        var fractal = RandomFractals.Draw(random);
-        var record = new QueryContext();
-        var position = Position(random, fractal);
-        if (!new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var closest))
+        var fractal = RandomFractals.Create(random);
+        var context = new QueryContext();
+        var position = RandomPosition(random, fractal);
+        if (!new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, context, out var closest))
         {
             return;
         }
 
-        Assert.Equal(fractal.LevelCount, record.InstancePath.Length);
+        Assert.Equal(fractal.LevelCount, context.InstancePath.Length);
         var map = AffineMap.Identity;
-        for (var level = 0; level < record.InstancePath.Length; level++)
+        for (var level = 0; level < context.InstancePath.Length; level++)
         {
-            map *= fractal.LevelAt(level).Maps[record.InstancePath[level]];
+            map *= fractal.LevelAt(level).Maps[context.InstancePath[level]];
         }
 
         var (a, b, c) = fractal.BaseMesh.Face(closest.FaceIndex);
@@ -112,16 +112,16 @@ public class ExactFractalColliderTests
     [InlineData(1_000)]
     [InlineData(1_000_000)]
     [InlineData(null)]
-    public void Find_AtAnyDepth_AgreesWithAShallowerSponge(int? depth)
+    public void TryFindClosest_AtAnyDepth_AgreesWithAShallowerSponge(int? depth)
     {
         // Depth 8 is within 3⁻⁸ of every deeper one; the difference of the distances can't be more.
-        var (deep, shallow) = (new ExactFractalCollider(Sponge(depth)), new ExactFractalCollider(Sponge(8)));
-        var record = new QueryContext();
+        var (deep, shallow) = (new ExactFractalCollider(CreateMenger(depth)), new ExactFractalCollider(CreateMenger(8)));
+        var context = new QueryContext();
         Seeded.Run(200, random =>
         {
             var position = new Vector(Draw(random), Draw(random), Draw(random));
-            Assert.True(deep.TryFindClosest(position, double.PositiveInfinity, record, out var fine));
-            Assert.True(shallow.TryFindClosest(position, double.PositiveInfinity, record, out var coarse));
+            Assert.True(deep.TryFindClosest(position, double.PositiveInfinity, context, out var fine));
+            Assert.True(shallow.TryFindClosest(position, double.PositiveInfinity, context, out var coarse));
             Assert.Equal(coarse.Distance, fine.Distance, 2 * Math.Pow(3, -8));
             Assert.True(fine.Point.IsFinite() && fine.Normal.IsFinite());
         });
@@ -131,24 +131,24 @@ public class ExactFractalColliderTests
     }
 
     [Fact]
-    public void Find_AllocatesNothing()
+    public void TryFindClosest_AllocatesNothing()
     {
-        var collider = new ExactFractalCollider(Sponge(6));
-        var record = new QueryContext();
-        collider.TryFindClosest(new(0.1, 0.2, 0.3), double.PositiveInfinity, record, out _);
+        var collider = new ExactFractalCollider(CreateMenger(6));
+        var context = new QueryContext();
+        collider.TryFindClosest(new(0.1, 0.2, 0.3), double.PositiveInfinity, context, out _);
         var before = GC.GetAllocatedBytesForCurrentThread();
         for (var i = 0; i < 100; i++)
         {
-            collider.TryFindClosest(new(0.01 * i, 0.2, 0.3), double.PositiveInfinity, record, out _);
+            collider.TryFindClosest(new(0.01 * i, 0.2, 0.3), double.PositiveInfinity, context, out _);
         }
 
         Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
     }
 
     [Fact]
-    public void Find_OnTheEmptyFractal_FindsNothing()
+    public void TryFindClosest_OnTheEmptyFractal_FindsNothing()
     {
-        Fractal[] empty = [new(new("base.obj", [new TransformationSet([])]), Samples.Tetrahedron), new(new("base.obj", []), Mesh.Empty)];
+        Fractal[] empty = [new(new([new TransformationSet([])]), Samples.Tetrahedron), new(new([]), Mesh.Empty)];
         Assert.All(empty,
             fractal => Assert.False(new ExactFractalCollider(fractal).TryFindClosest(Vector.Zero, double.PositiveInfinity, new(), out _)));
     }
@@ -161,18 +161,18 @@ public class ExactFractalColliderTests
             StringComparison.Ordinal);
     }
 
-    private static Fractal Sponge(int? depth)
+    private static Fractal CreateMenger(int? depth)
     {
-        var places = from x in Enumerable.Range(-1, 3)
+        var offsets = from x in Enumerable.Range(-1, 3)
                      from y in Enumerable.Range(-1, 3)
                      from z in Enumerable.Range(-1, 3)
                      where Math.Abs(x) + Math.Abs(y) + Math.Abs(z) > 1
                      select Samples.MoveAndScale(x / 3.0, y / 3.0, z / 3.0, 1 / 3.0);
-        return new(new("cube.obj", [new Repetition([new TransformationSet([.. places])], depth)]), Samples.ParseObj(Files.Cube).Mesh);
+        return new(new([new Repetition([new TransformationSet([.. offsets])], depth)]), Samples.ParseObj(SampleFiles.Cube).Mesh);
     }
 
     /// <summary>Anywhere around the fractal, near its surface, or exactly on it.</summary>
-    private static Vector Position(Random random, Fractal fractal)
+    private static Vector RandomPosition(Random random, Fractal fractal)
     {
         var box = fractal.Bounds;
         var anywhere = box.IsEmpty
@@ -193,8 +193,8 @@ public class ExactFractalColliderTests
 
     private static void Check(Collider collider, Collider oracle, Fractal fractal, Vector position)
     {
-        var record = new QueryContext();
-        var found = collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest);
+        var context = new QueryContext();
+        var found = collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest);
         Assert.Equal(oracle.TryFindClosest(position, double.PositiveInfinity, new(), out var expected), found);
         if (found)
         {

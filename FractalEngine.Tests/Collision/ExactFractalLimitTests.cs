@@ -14,23 +14,25 @@ public class ExactFractalLimitTests
     [InlineData("skewed")]
     [InlineData("mirrors")]
     [InlineData("identity alone")]
-    public void Find_WithEpsilonAndADistance_FindsWhatIsThere(string name)
+    public void TryFindClosest_WithEpsilonAndMaxDistance_FindsWhatIsThere(string name)
     {
-        var fractal = AttackFractals.All[name]();
-        var (probe, record) = (new FractalProbe(name, fractal), new QueryContext());
+        var fractal = AdversarialFractals.All[name]();
+        var (probe, context) = (new ExactColliderChecker(name, fractal), new QueryContext());
         Seeded.Run(60, random =>
         {
-            var position = FractalPositions.Draw(random, fractal);
-            var tolerance = FractalProbe.Tolerance * FractalPositions.SizeOf(fractal, position);
-            Assert.True(probe.Exact.TryFindClosest(position, double.PositiveInfinity, record, out var exact));
+            var position = FractalPositions.RandomPosition(random, fractal);
+            var tolerance = ExactColliderChecker.Tolerance * FractalPositions.Magnitude(fractal, position);
+            Assert.True(probe.Collider.TryFindClosest(position, double.PositiveInfinity, context, out var exact));
             foreach (var epsilon in new[] { 0.01, 0.5, 3 })
             {
-                foreach (var within in new[] { (2 * exact.Distance) + tolerance, exact.Distance + tolerance })
+                foreach (var maxDistance in new[] { (2 * exact.Distance) + tolerance, exact.Distance + tolerance })
                 {
-                    var found = probe.Exact.TryFindClosest(position, within, record, out var near, epsilon);
-                    probe.Require(found, position, $"ε = {epsilon} finds nothing within {within:R}, though it is at {exact.Distance:R}");
-                    probe.Require(near.Distance <= within && near.Distance <= ((1 + epsilon) * exact.Distance) + tolerance, position,
-                        $"ε = {epsilon} gives {near.Distance:R} within {within:R}");
+                    var found = probe.Collider.TryFindClosest(position, maxDistance, context, out var near, epsilon);
+                    probe.ThrowUnless(found, position,
+                        $"ε = {epsilon} finds nothing within {maxDistance:R}, though it is at {exact.Distance:R}");
+                    probe.ThrowUnless(near.Distance <= maxDistance && near.Distance <= ((1 + epsilon) * exact.Distance) + tolerance,
+                        position,
+                        $"ε = {epsilon} gives {near.Distance:R} within {maxDistance:R}");
                 }
             }
         });
@@ -45,7 +47,7 @@ public class ExactFractalLimitTests
     [InlineData(0.3)]
     [InlineData(0.1)]
     [InlineData(0.02)]
-    public void Find_JustAboveTheLevelsThatAreWrittenOut_EqualsBranchAndBoundWithBalls(double ratio)
+    public void TryFindClosest_JustAboveTheExpandedLevels_EqualsBranchAndBoundWithSpheres(double ratio)
     {
         // A base much larger than what its copies shrink to, so that bounds shrink with each level.
         var mesh = Samples.Tetrahedron.Transform(v => 3 * v);
@@ -55,15 +57,16 @@ public class ExactFractalLimitTests
                 new Fractal(
                     Samples.Repeated(depth, Samples.MoveAndScale(0, 0, 0, ratio), Samples.MoveAndScale(1 - ratio, 0, 0, ratio)).Description,
                     mesh);
-            var (probe, oracle, record) = (new FractalProbe($"two of {ratio} at depth {depth}", fractal), new DeepOracle(fractal),
+            var (probe, oracle, context) = (new ExactColliderChecker($"two of {ratio} at depth {depth}", fractal),
+                new BranchAndBoundOracle(fractal),
                 new QueryContext());
             Seeded.Run(40, random =>
             {
-                var position = random.Next(2) == 0 ? random.Vector(2) : FractalPositions.Draw(random, fractal);
-                if (oracle.Nearest(position, 100_000) is { } nearest)
+                var position = random.Next(2) == 0 ? random.Vector(2) : FractalPositions.RandomPosition(random, fractal);
+                if (oracle.FindClosestDistance(position, 100_000) is { } expected)
                 {
-                    probe.Check(position, record, nearest);
-                    probe.CheckWithin(position, record, nearest);
+                    probe.CheckQuery(position, context, expected);
+                    probe.CheckMaxDistance(position, context, expected);
                 }
             });
         }
@@ -74,19 +77,20 @@ public class ExactFractalLimitTests
     [InlineData(1e3)]
     [InlineData(1e6)]
     [InlineData(1e9)]
-    public void Find_OnABaseMuchLargerThanTheFractal_IsExactForTheFractal(double larger)
+    public void TryFindClosest_OnABaseMuchLargerThanTheFractal_IsExactForTheFractal(double larger)
     {
         var mesh = Samples.Tetrahedron.Transform(v => larger * v);
         var fractal =
             new Fractal(Samples.Repeated(9, Samples.MoveAndScale(0, 0, 0, 0.002), Samples.MoveAndScale(1, 0, 0, 0.002),
             Samples.MoveAndScale(0, 1, 0, 0.002)).Description, mesh);
-        var (probe, oracle, record) = (new FractalProbe($"a base {larger} times larger", fractal), FractalProbe.BruteForce(fractal),
+        var (probe, oracle, context) = (new ExactColliderChecker($"a base {larger} times larger", fractal),
+            ExactColliderChecker.BruteForce(fractal),
             new QueryContext());
         Seeded.Run(200, random =>
         {
-            var position = FractalPositions.Draw(random, fractal);
-            Assert.True(oracle.TryFindClosest(position, double.PositiveInfinity, record, out var expected));
-            probe.Check(position, record, expected.Distance);
+            var position = FractalPositions.RandomPosition(random, fractal);
+            Assert.True(oracle.TryFindClosest(position, double.PositiveInfinity, context, out var expected));
+            probe.CheckQuery(position, context, expected.Distance);
         });
     }
 
@@ -97,20 +101,20 @@ public class ExactFractalLimitTests
     [InlineData(0.985, 1500)]
     [InlineData(0.99, 2500)]
     [InlineData(0.995, 3500)]
-    public void Find_AtTheEndOfALongChain_GoesAllTheWay(double ratio, int depth)
+    public void TryFindClosest_AtTheEndOfALongChain_ReachesTheEnd(double ratio, int depth)
     {
         var maps = Enumerable.Range(0, 5).Select(i => Samples.MoveAndScale(10, i, 0, 0.01)).Prepend(Samples.MoveAndScale(0, 0, 0, ratio))
             .ToArray();
         // Away from the fixed point, so that each level comes nearer to it.
         var fractal = new Fractal(Samples.Repeated(depth, maps).Description, Samples.Triangle.Transform(v => v + Vector.One));
-        var (probe, record) = (new FractalProbe($"ratio {ratio} at depth {depth}", fractal), new QueryContext());
+        var (probe, context) = (new ExactColliderChecker($"ratio {ratio} at depth {depth}", fractal), new QueryContext());
         var (a, b, c) = fractal.BaseMesh.Face(0);
         var expected = Math.Pow(ratio, depth) * Math.Sqrt(TriangleKernel.ClosestPoint(Vector.Zero, a, b, c).DistanceSquared);
-        probe.Check(Vector.Zero, record, expected);
+        probe.CheckQuery(Vector.Zero, context, expected);
     }
 
     [Fact]
-    public void Find_OnTheInfiniteFractalOfOneMap_IsItsFixedPoint()
+    public void TryFindClosest_OnTheInfiniteFractalOfOneMap_IsItsFixedPoint()
     {
         foreach (var ratio in new[] { 0.3, 0.5, 0.9 })
         {
@@ -130,13 +134,14 @@ public class ExactFractalLimitTests
     }
 
     [Fact]
-    public void Find_OnABaseOfOnePoint_EqualsEveryFace() => Seeded.Run(40, random =>
+    public void TryFindClosest_OnABaseOfOnePoint_EqualsEveryFace() => Seeded.Run(40, random =>
     {
-        var fractal = new Fractal(RandomFractals.Draw(random).Description, new([1, 1, 1, 1, 1, 1, 1, 1, 1], [0, 1, 2]));
-        var (probe, oracle, record) = (new FractalProbe("point", fractal), FractalProbe.BruteForce(fractal), new QueryContext());
-        var position = FractalPositions.Draw(random, fractal);
-        Assert.True(oracle.TryFindClosest(position, double.PositiveInfinity, record, out var expected));
-        probe.Check(position, record, expected.Distance);
+        var fractal = new Fractal(RandomFractals.Create(random).Description, new([1, 1, 1, 1, 1, 1, 1, 1, 1], [0, 1, 2]));
+        var (probe, oracle, context) = (new ExactColliderChecker("point", fractal), ExactColliderChecker.BruteForce(fractal),
+            new QueryContext());
+        var position = FractalPositions.RandomPosition(random, fractal);
+        Assert.True(oracle.TryFindClosest(position, double.PositiveInfinity, context, out var expected));
+        probe.CheckQuery(position, context, expected.Distance);
     });
 
     [Fact]
@@ -153,11 +158,11 @@ public class ExactFractalLimitTests
     [Theory]
     [InlineData("diamond")]
     [InlineData("terrain")]
-    public void Create_OfAnInfiniteAsset_Settles(string name) =>
+    public void Create_OfAnInfiniteAsset_HasBoundedStorage(string name) =>
         Assert.InRange(new ExactFractalCollider(AssetFractals.Load(name, null)).StorageBytes, 1, 1_000_000);
 
     [Fact]
-    public void Create_OfAnInfiniteFractalOfSixMaps_Settles()
+    public void Create_OfAnInfiniteFractalOfSixMaps_HasBoundedStorage()
     {
         var maps = Enumerable.Range(1, 6).Select(i => Samples.MoveAndScale(5, i, 0, 0.05))
             .Prepend(new(Vector.Zero, new(0, 10, 0), 0.985 * Vector.One));
@@ -168,10 +173,10 @@ public class ExactFractalLimitTests
     [Theory]
     [InlineData(0)]
     [InlineData(0.05)]
-    public void Find_OnASmallStackInAFractalOfManyLevels_Ends(double narrower)
+    public void TryFindClosest_OnASmallStackInAFractalOfManyLevels_Ends(double narrower)
     {
         Transformation first = new(Vector.Zero, new(0, 10, 0), 0.985 * new Vector(1, 1, 1 - narrower));
         var maps = Enumerable.Range(1, 6).Select(i => Samples.MoveAndScale(5, i, 0, 0.05)).Prepend(first);
-        Assert.Null(ExactFractalAttackTests.OnASmallStack(Samples.Repeated(3000, [.. maps])));
+        Assert.Null(ExactFractalAdversarialTests.RunOnSmallStack(Samples.Repeated(3000, [.. maps])));
     }
 }

@@ -36,78 +36,78 @@ public class ExactnessTests
 
     [Theory]
     [MemberData(nameof(Expanded))]
-    public void Find_OnAnAsset_EqualsEveryFace(string name, int depth)
+    public void TryFindClosest_OnAnAsset_EqualsEveryFace(string name, int depth)
     {
         var (probe, oracle, simple) = Load(name, depth);
-        var record = new QueryContext();
+        var context = new QueryContext();
         Seeded.Run(300, random =>
         {
-            var position = FractalPositions.Draw(random, probe.Fractal);
-            var expected = Nearest(oracle, position, record);
+            var position = FractalPositions.RandomPosition(random, probe.Fractal);
+            var expected = ClosestDistance(oracle, position, context);
             if (random.Next(30) == 0)
             {
-                probe.Require(expected == Nearest(simple, position, record), position,
+                probe.ThrowUnless(expected == ClosestDistance(simple, position, context), position,
                     $"the oracle says {expected:R}, not as every face does");
             }
 
-            var closest = probe.Check(position, record, expected);
-            probe.CheckWithin(position, record, closest.Distance);
+            var closest = probe.CheckQuery(position, context, expected);
+            probe.CheckMaxDistance(position, context, closest.Distance);
         });
     }
 
     [Theory]
     [MemberData(nameof(ExpandedForSoak))]
     [Trait("Category", "Soak")]
-    public void Find_OnAnAssetForLong_EqualsEveryFace(string name, int depth)
+    public void TryFindClosest_OnAnAssetForLong_EqualsEveryFace(string name, int depth)
     {
         var (probe, oracle, simple) = Load(name, depth);
-        Parallel.For(1, 1 + (SoakQueries / ExpandedForSoak.Count / 100), () => new QueryContext(), (seed, _, record) =>
+        Parallel.For(1, 1 + (SoakQueries / ExpandedForSoak.Count / 100), () => new QueryContext(), (seed, _, context) =>
         {
             Seeded.RunOne(seed, random =>
             {
                 for (var query = 0; query < 100; query++)
                 {
-                    var position = FractalPositions.Draw(random, probe.Fractal);
-                    var expected = Nearest(oracle, position, record);
-                    var closest = probe.Check(position, record, expected);
+                    var position = FractalPositions.RandomPosition(random, probe.Fractal);
+                    var expected = ClosestDistance(oracle, position, context);
+                    var closest = probe.CheckQuery(position, context, expected);
                     if (query % 8 == 0)
                     {
-                        probe.CheckWithin(position, record, closest.Distance);
+                        probe.CheckMaxDistance(position, context, closest.Distance);
                     }
                 }
 
                 if (seed % 50 == 0)
                 {
-                    var position = FractalPositions.Draw(random, probe.Fractal);
-                    var expected = Nearest(oracle, position, record);
-                    probe.Require(expected == Nearest(simple, position, record), position,
+                    var position = FractalPositions.RandomPosition(random, probe.Fractal);
+                    var expected = ClosestDistance(oracle, position, context);
+                    probe.ThrowUnless(expected == ClosestDistance(simple, position, context), position,
                         $"the oracle says {expected:R}, not as every face does");
                 }
             });
-            return record;
+            return context;
         }, _ => { });
     }
 
     [Theory]
     [MemberData(nameof(MeshNames))]
-    public void Find_OnAMesh_EqualsEveryFace(string name)
+    public void TryFindClosest_OnAMesh_EqualsEveryFace(string name)
     {
         var mesh = name == "stump" ? MeshGenerators.Create("tree-stump", 1, 3000) : CollisionMeshes.All[name]();
-        var (hierarchy, simple, record) = (new HierarchyCollider(mesh), new SimpleCollider(mesh), new QueryContext());
+        var (hierarchy, simple, context) = (new HierarchyCollider(mesh), new SimpleCollider(mesh), new QueryContext());
         Seeded.Run(300, random =>
         {
-            var position = CollisionMeshes.Position(random, mesh);
-            Assert.True(hierarchy.TryFindClosest(position, double.PositiveInfinity, record, out var closest));
-            var expected = Nearest(simple, position, record);
+            var position = CollisionMeshes.RandomPosition(random, mesh);
+            Assert.True(hierarchy.TryFindClosest(position, double.PositiveInfinity, context, out var closest));
+            var expected = ClosestDistance(simple, position, context);
             // The same kernel on the same face.
             Assert.Equal(expected, closest.Distance);
-            Assert.True(hierarchy.TryFindClosest(position, expected, record, out _), $"nothing within {expected:R} of {position}");
-            Assert.False(hierarchy.TryFindClosest(position, expected * (1 - 1e-12), record, out _)
+            Assert.True(hierarchy.TryFindClosest(position, expected, context, out _), $"nothing within {expected:R} of {position}");
+            Assert.False(hierarchy.TryFindClosest(position, expected * (1 - 1e-12), context, out _)
                 && expected > 0, $"within less than {expected:R} of {position}");
         });
     }
 
-    private static (FractalProbe Probe, Collider Oracle, Collider Simple) Load(string name, int depth)
+    private static (ExactColliderChecker Probe, Collider Oracle, Collider Simple) Load(string name, int depth)
     {
         var asset = AssetFractals.Load(name);
         var fractal = asset.Description.HasDepth ? asset.WithDepth(depth) : asset;
@@ -118,6 +118,6 @@ public class ExactnessTests
         return (new($"{name} of depth {depth}", fractal), new HierarchyCollider(mesh), new SimpleCollider(mesh));
     }
 
-    private static double Nearest(Collider collider, Vector position, QueryContext record) =>
-        collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest) ? closest.Distance : double.PositiveInfinity;
+    private static double ClosestDistance(Collider collider, Vector position, QueryContext context) =>
+        collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest) ? closest.Distance : double.PositiveInfinity;
 }

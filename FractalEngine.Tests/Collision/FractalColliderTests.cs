@@ -17,74 +17,75 @@ public class FractalColliderTests
     [InlineData(10, 7, 5, 350)]
     [InlineData(10, 49, 3, 1_470)]
     [InlineData(12, 20, 5, 1_200)]
-    public void Find_CostsExactlyBaseTimesTransformationsTimesDepth(int faces, int transformations, int depth, long cost)
+    public void TryFindClosest_CostsExactlyBaseTimesTransformationsTimesDepth(int faces, int transformations, int depth, long cost)
     {
         var set = Enumerable.Range(0, transformations).Select(i => Samples.MoveAndScale(i, 0.5 * i, 0, 0.3));
-        var fractal = new Fractal(new("base.obj", [new Repetition([new TransformationSet([.. set])], depth)]), Fan(faces));
-        var record = new QueryContext();
-        Assert.True(new FractalCollider(fractal).TryFindClosest(new(1, 2, 3), double.PositiveInfinity, record, out _));
-        Assert.Equal((cost, depth), (record.FaceTests, record.InstancePath.Length));
+        var fractal = new Fractal(new([new Repetition([new TransformationSet([.. set])], depth)]), Fan(faces));
+        var context = new QueryContext();
+        Assert.True(new FractalCollider(fractal).TryFindClosest(new(1, 2, 3), double.PositiveInfinity, context, out _));
+        Assert.Equal((cost, depth), (context.FaceTests, context.InstancePath.Length));
         Assert.Equal(cost, (long)faces * transformations * depth);
     }
 
     [Fact]
-    public void Find_WithTwoSetsInABody_ConcatenatesThem()
+    public void TryFindClosest_WithTwoSetsInABody_ConcatenatesThem()
     {
         // Appendix B: 5·5 transformations a level.
-        var record = new QueryContext();
-        Assert.True(new FractalCollider(Samples.AppendixBAt(6)).TryFindClosest(new(1, 2, 3), double.PositiveInfinity, record, out _));
-        Assert.Equal(1 * 25 * 6, record.FaceTests);
+        var context = new QueryContext();
+        Assert.True(new FractalCollider(Samples.AppendixBAt(6)).TryFindClosest(new(1, 2, 3), double.PositiveInfinity, context, out _));
+        Assert.Equal(1 * 25 * 6, context.FaceTests);
     }
 
     [Fact]
-    public void Find_IsNeverNearerThanExactSearch() => Seeded.Run(200, random =>
+    public void TryFindClosest_IsNeverCloserThanExactSearch() => Seeded.Run(200, random =>
     {
-        var fractal = RandomFractals.Draw(random);
+        var fractal = RandomFractals.Create(random);
         var position = random.Vector(4);
-        var record = new QueryContext();
-        if (new FractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var greedy))
+        var context = new QueryContext();
+        if (new FractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, context, out var greedy))
         {
-            Assert.True(new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var exact));
+            Assert.True(new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, context, out var exact));
             Assert.True(exact.Distance <= greedy.Distance + (1e-12 * fractal.Bounds.Diagonal), $"{exact.Distance} and {greedy.Distance}");
         }
     });
 
     [Fact]
-    public void Find_WhereTheNearerCopyHasTheFartherParts_Errs()
+    public void TryFindClosest_WhereTheCloserChildHasTheFartherChildren_Errs()
     {
         // From (2.6, 0, 0) the copy at 0 ends at 1 and that at 4 begins at 4, so the latter is nearer; but the parts of the first reach on
         // to the right at the next level.
-        var fractal = new Fractal(new("base.obj",
+        var fractal = new Fractal(new(
         [
             new TransformationSet([Transformation.Identity, Samples.Move(4, 0, 0)]),
             new TransformationSet([Samples.Move(1.5, 0, 0), Samples.Move(9, 9, 9)]),
         ]), Samples.Triangle);
-        var record = new QueryContext();
+        var context = new QueryContext();
         var position = new Vector(2.6, 0, 0);
-        new FractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var greedy);
-        new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var exact);
+        new FractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, context, out var greedy);
+        new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, context, out var exact);
         Assert.Equal(0.1, exact.Distance, 1e-12);
         Assert.True(greedy.Distance > 1, $"{greedy.Distance}");
     }
 
     [Fact]
-    public void Width_OfMoreCopies_ErrsLess()
+    public void Width_OfMoreInstances_ErrsLess()
     {
         var fractal = AssetFractals.Load("appendix-b", 3);
         var exact = new ExactFractalCollider(fractal);
         var colliders = new[] { 1, 2, 4, 16, 64 }.Select(width => new FractalCollider(fractal, width)).ToArray();
-        var (record, random) = (new QueryContext(), new Random(1));
+        var (context, random) = (new QueryContext(), new Random(1));
         var errors = new double[colliders.Length];
         for (var query = 0; query < 200; query++)
         {
             var position = random.Vector(8);
-            exact.TryFindClosest(position, double.PositiveInfinity, record, out var right);
+            exact.TryFindClosest(position, double.PositiveInfinity, context, out var expected);
             for (var i = 0; i < errors.Length; i++)
             {
-                Assert.True(colliders[i].TryFindClosest(position, double.PositiveInfinity, record, out var found));
+                Assert.True(colliders[i].TryFindClosest(position, double.PositiveInfinity, context, out var found));
                 // Rounding of both, as parts of the size.
-                Assert.True(found.Distance >= right.Distance - (1e-12 * fractal.Bounds.Diagonal), $"{found.Distance} and {right.Distance}");
-                errors[i] += found.Distance - right.Distance;
+                Assert.True(found.Distance >= expected.Distance - (1e-12 * fractal.Bounds.Diagonal),
+                    $"{found.Distance} and {expected.Distance}");
+                errors[i] += found.Distance - expected.Distance;
             }
         }
 
@@ -92,32 +93,32 @@ public class FractalColliderTests
     }
 
     [Fact]
-    public void Width_OfAllCopies_IsExactAndNamesTheInstance() => Seeded.Run(200, random =>
+    public void Width_OfAllInstances_IsExactAndNamesTheInstance() => Seeded.Run(200, random =>
     {
-        var fractal = RandomFractals.Draw(random);
+        var fractal = RandomFractals.Create(random);
         if (fractal.InstanceCount is not { } count || count > 2000)
         {
             return;
         }
 
-        var (record, position, size) = (new QueryContext(), random.Vector(4), fractal.Bounds.Diagonal);
-        var found = new FractalCollider(fractal, 2000).TryFindClosest(position, double.PositiveInfinity, record, out var wide);
-        var path = record.InstancePath.ToArray();
-        Assert.Equal(new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, record, out var exact), found);
+        var (context, position, size) = (new QueryContext(), random.Vector(4), fractal.Bounds.Diagonal);
+        var found = new FractalCollider(fractal, 2000).TryFindClosest(position, double.PositiveInfinity, context, out var wide);
+        var path = context.InstancePath.ToArray();
+        Assert.Equal(new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, context, out var exact), found);
         // Rounding of both, as parts of the size and of the distance.
         Assert.Equal(exact.Distance, wide.Distance, 1e-12 * (size + exact.Distance));
-        Assert.All(path, copy => Assert.True(copy >= 0));
+        Assert.All(path, mapIndex => Assert.True(mapIndex >= 0));
     });
 
     [Fact]
-    public void Width_OfMoreCopies_AllocatesNothingAndKeepsWithin()
+    public void Width_OfMoreInstances_AllocatesNothingAndRespectsMaxDistance()
     {
         var collider = new FractalCollider(AssetFractals.Load("tree", null), 8);
-        var record = new QueryContext();
-        Assert.True(collider.TryFindClosest(new(1, 2, 3), double.PositiveInfinity, record, out var closest));
+        var context = new QueryContext();
+        Assert.True(collider.TryFindClosest(new(1, 2, 3), double.PositiveInfinity, context, out var closest));
         var before = GC.GetAllocatedBytesForCurrentThread();
-        Assert.True(collider.TryFindClosest(new(1, 2, 3), closest.Distance, record, out _));
-        Assert.False(collider.TryFindClosest(new(1, 2, 3), 0.99 * closest.Distance, record, out _));
+        Assert.True(collider.TryFindClosest(new(1, 2, 3), closest.Distance, context, out _));
+        Assert.False(collider.TryFindClosest(new(1, 2, 3), 0.99 * closest.Distance, context, out _));
         Assert.Equal(before, GC.GetAllocatedBytesForCurrentThread());
     }
 

@@ -11,12 +11,12 @@ namespace FractalEngine.Tests.Collision;
 internal static class FractalPositions
 {
     // Deeper chains end in points: below any precision.
-    private const int MostLevels = 60;
+    private const int MaxLevels = 60;
 
-    public static Vector Draw(Random random, Fractal fractal)
+    public static Vector RandomPosition(Random random, Fractal fractal)
     {
         var (box, mesh) = (fractal.Bounds, fractal.BaseMesh);
-        var levels = (int)Math.Min(fractal.LevelCount ?? MostLevels, MostLevels);
+        var levels = (int)Math.Min(fractal.LevelCount ?? MaxLevels, MaxLevels);
         var (a, b, c) = mesh.Face(random.Next(mesh.FaceCount));
         var (u, v) = (random.NextDouble(), random.NextDouble());
         (u, v) = u + v > 1 ? (1 - u, 1 - v) : (u, v);
@@ -25,20 +25,20 @@ internal static class FractalPositions
         {
             0 => box.Centre + (Math.Pow(10, random.Between(0, 6)) * box.Diagonal * random.Direction()),
             1 => box.Centre,
-            2 => Chain(random, fractal, 0, levels) * a,
-            3 => Chain(random, fractal, 0, levels) * (random.Next(2) == 0 ? 0.5 * (a + b) : a + (u * (b - a))),
-            4 => Chain(random, fractal, 0, levels) * inside,
-            5 => (Chain(random, fractal, 0, levels) * inside) + (Math.Pow(10, random.Next(-14, 0)) * box.Diagonal * random.Direction()),
-            6 => Chain(random, fractal, 0, random.Next(levels + 1)) * (random.Next(2) == 0 ? box.Centre : mesh.Bounds.Centre),
+            2 => RandomMap(random, fractal, 0, levels) * a,
+            3 => RandomMap(random, fractal, 0, levels) * (random.Next(2) == 0 ? 0.5 * (a + b) : a + (u * (b - a))),
+            4 => RandomMap(random, fractal, 0, levels) * inside,
+            5 => (RandomMap(random, fractal, 0, levels) * inside) + (Math.Pow(10, random.Next(-14, 0)) * box.Diagonal * random.Direction()),
+            6 => RandomMap(random, fractal, 0, random.Next(levels + 1)) * (random.Next(2) == 0 ? box.Centre : mesh.Bounds.Centre),
             7 => FixedPoint(random, fractal, levels),
             8 or 9 => BetweenSiblings(random, fractal, levels, inside),
             10 => box.Centre + (random.Between(0.5, 3) * box.Diagonal * random.Direction()),
-            _ => Inside(random, box, 1.2),
+            _ => RandomInBox(random, box, 1.2),
         };
     }
 
     /// <summary>The map of some instance of the levels from one to another.</summary>
-    public static AffineMap Chain(Random random, Fractal fractal, int first, int end)
+    public static AffineMap RandomMap(Random random, Fractal fractal, int first, int end)
     {
         var map = AffineMap.Identity;
         for (var level = first; level < end; level++)
@@ -51,11 +51,11 @@ internal static class FractalPositions
     }
 
     /// <summary>As exact as coordinates are: points further away round more.</summary>
-    public static double SizeOf(Fractal fractal, Vector position) => Math.Max(
+    public static double Magnitude(Fractal fractal, Vector position) => Math.Max(
         position.MaxAbsComponent(),
         Math.Max(fractal.Bounds.Diagonal, Math.Max(fractal.Bounds.Minimum.MaxAbsComponent(), fractal.Bounds.Maximum.MaxAbsComponent())));
 
-    private static Vector Inside(Random random, BoundingBox box, double factor) =>
+    private static Vector RandomInBox(Random random, BoundingBox box, double factor) =>
         box.Centre + box.Size.Stretch(factor * new Vector(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5));
 
     /// <summary>Of a map, under the maps above it; about there, where the map does not shrink.</summary>
@@ -67,14 +67,14 @@ internal static class FractalPositions
         }
 
         var level = random.Next(levels);
-        var map = Chain(random, fractal, level, level + 1);
+        var map = RandomMap(random, fractal, level, level + 1);
         var point = fractal.Bounds.Centre;
-        for (var i = 0; i < 100 && (map * point).MaxAbsComponent() < 10 * SizeOf(fractal, Vector.Zero); i++)
+        for (var i = 0; i < 100 && (map * point).MaxAbsComponent() < 10 * Magnitude(fractal, Vector.Zero); i++)
         {
             point = map * point;
         }
 
-        return Chain(random, fractal, 0, random.Next(level + 1)) * point;
+        return RandomMap(random, fractal, 0, random.Next(level + 1)) * point;
     }
 
     /// <summary>
@@ -88,8 +88,9 @@ internal static class FractalPositions
         }
 
         var level = random.Next(levels);
-        var point = Chain(random, fractal, level + 1, levels) * inside;
-        var middle = 0.5 * ((Chain(random, fractal, level, level + 1) * point) + (Chain(random, fractal, level, level + 1) * point));
-        return Chain(random, fractal, 0, level) * middle;
+        var point = RandomMap(random, fractal, level + 1, levels) * inside;
+        var middle = 0.5
+            * ((RandomMap(random, fractal, level, level + 1) * point) + (RandomMap(random, fractal, level, level + 1) * point));
+        return RandomMap(random, fractal, 0, level) * middle;
     }
 }

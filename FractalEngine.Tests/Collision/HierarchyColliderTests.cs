@@ -28,29 +28,30 @@ public class HierarchyColliderTests
     [InlineData("meshes/nefertiti-lowres.obj")]
     public void TryFindClosest_OnScans_EqualsTheSimpleCollider(string file)
     {
-        var mesh = CollisionMeshes.Scan(file);
+        var mesh = CollisionMeshes.LoadScan(file);
         Skip.If(mesh is null, "there is no folder of real models beside the checkout");
         Compare(mesh, 60);
     }
 
     [Theory]
     [MemberData(nameof(Meshes))]
-    public void TryFindClosest_WithinARadius_FindsWhatIsNotFarther(string name)
+    public void TryFindClosest_WithMaxDistance_FindsWhatIsNotFarther(string name)
     {
         var mesh = CollisionMeshes.All[name]();
-        var (simple, hierarchy, record) = (new SimpleCollider(mesh), new HierarchyCollider(mesh), new QueryContext());
+        var (simple, hierarchy, context) = (new SimpleCollider(mesh), new HierarchyCollider(mesh), new QueryContext());
         Seeded.Run(40, random =>
         {
-            var position = CollisionMeshes.Position(random, mesh);
-            Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, record, out var nearest));
-            foreach (var within in new[] { 0, Math.BitDecrement(nearest.Distance), nearest.Distance, Math.BitIncrement(nearest.Distance),
-                2 * nearest.Distance })
+            var position = CollisionMeshes.RandomPosition(random, mesh);
+            Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, context, out var expected));
+            foreach (var maxDistance in new[] { 0, Math.BitDecrement(expected.Distance), expected.Distance,
+                Math.BitIncrement(expected.Distance),
+                2 * expected.Distance })
             {
-                if (within >= 0)
+                if (maxDistance >= 0)
                 {
-                    var isFound = hierarchy.TryFindClosest(position, within, record, out var closest);
-                    Assert.Equal((within, nearest.Distance <= within), (within, isFound));
-                    Assert.True(!isFound || closest.Distance == nearest.Distance);
+                    var isFound = hierarchy.TryFindClosest(position, maxDistance, context, out var closest);
+                    Assert.Equal((maxDistance, expected.Distance <= maxDistance), (maxDistance, isFound));
+                    Assert.True(!isFound || closest.Distance == expected.Distance);
                 }
             }
         });
@@ -61,16 +62,16 @@ public class HierarchyColliderTests
     public void TryFindClosest_WithEpsilon_IsNoFartherThanItSays(string name)
     {
         var mesh = CollisionMeshes.All[name]();
-        var (simple, hierarchy, record) = (new SimpleCollider(mesh), new HierarchyCollider(mesh), new QueryContext());
+        var (simple, hierarchy, context) = (new SimpleCollider(mesh), new HierarchyCollider(mesh), new QueryContext());
         Seeded.Run(60, random =>
         {
-            var position = CollisionMeshes.Position(random, mesh);
+            var position = CollisionMeshes.RandomPosition(random, mesh);
             var epsilon = random.Next(4) switch { 0 => 1e-6, 1 => 0.01, 2 => 1, _ => double.PositiveInfinity };
-            Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, record, out var nearest));
-            Assert.True(hierarchy.TryFindClosest(position, double.PositiveInfinity, record, out var closest, epsilon));
-            Assert.True(closest.Distance >= nearest.Distance);
-            Assert.True(closest.Distance <= ((1 + epsilon) * nearest.Distance) || nearest.Distance == 0 || double.IsInfinity(epsilon),
-                $"{closest.Distance}, exactly {nearest.Distance}, ε {epsilon}");
+            Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, context, out var expected));
+            Assert.True(hierarchy.TryFindClosest(position, double.PositiveInfinity, context, out var closest, epsilon));
+            Assert.True(closest.Distance >= expected.Distance);
+            Assert.True(closest.Distance <= ((1 + epsilon) * expected.Distance) || expected.Distance == 0 || double.IsInfinity(epsilon),
+                $"{closest.Distance}, exactly {expected.Distance}, ε {epsilon}");
         });
     }
 
@@ -82,7 +83,7 @@ public class HierarchyColliderTests
         var hierarchy = new HierarchyCollider(mesh);
         Seeded.Run(200, random =>
         {
-            var position = mesh.Bounds.Centre + (mesh.Bounds.Diagonal * NastyFace.Cube(random));
+            var position = mesh.Bounds.Centre + (mesh.Bounds.Diagonal * AdversarialTriangle.RandomInCube(random));
             hierarchy.TryFindClosest(position, double.PositiveInfinity, exact, out _);
             hierarchy.TryFindClosest(position, double.PositiveInfinity, rough, out _, 0.1);
         });
@@ -90,14 +91,15 @@ public class HierarchyColliderTests
     }
 
     [Fact]
-    public void TryFindClosest_OnALargeMesh_LooksAtFewFaces()
+    public void TryFindClosest_OnALargeMesh_TestsFewFaces()
     {
         var mesh = MeshGenerators.Create("icosphere", 1, 20_480);
-        var record = new QueryContext();
+        var context = new QueryContext();
         var hierarchy = new HierarchyCollider(mesh);
         Seeded.Run(200,
-            random => hierarchy.TryFindClosest(1.05 * NastyFace.Cube(random).UnitVector(), double.PositiveInfinity, record, out _));
-        Assert.InRange(record.FaceTests, 200, 200 * 60);
+            random => hierarchy.TryFindClosest(1.05 * AdversarialTriangle.RandomInCube(random).UnitVector(), double.PositiveInfinity,
+            context, out _));
+        Assert.InRange(context.FaceTests, 200, 200 * 60);
     }
 
     [Fact]
@@ -111,7 +113,7 @@ public class HierarchyColliderTests
     [Fact]
     public void TryFindClosest_OfBadArguments_Throws()
     {
-        var hierarchy = new HierarchyCollider(CollisionMeshes.Soup(1, 10, 1));
+        var hierarchy = new HierarchyCollider(CollisionMeshes.TriangleSoup(1, 10, 1));
         foreach (var bad in new[] { double.NaN, double.PositiveInfinity, double.NegativeInfinity })
         {
             Assert.Throws<ArgumentOutOfRangeException>(() => hierarchy.TryFindClosest(new(0, bad, 0), 1, new(), out _));
@@ -130,21 +132,21 @@ public class HierarchyColliderTests
     [InlineData(2000)]
     public void TryFindClosest_AllocatesNothing(int faces)
     {
-        var mesh = CollisionMeshes.Soup(1, faces, 0.1);
-        var (hierarchy, record, random) = (new HierarchyCollider(mesh), new QueryContext(), new Random(1));
-        var positions = Enumerable.Range(0, 200).Select(_ => CollisionMeshes.Position(random, mesh)).ToArray();
-        var sum = AskAll();
+        var mesh = CollisionMeshes.TriangleSoup(1, faces, 0.1);
+        var (hierarchy, context, random) = (new HierarchyCollider(mesh), new QueryContext(), new Random(1));
+        var positions = Enumerable.Range(0, 200).Select(_ => CollisionMeshes.RandomPosition(random, mesh)).ToArray();
+        var sum = RunAllQueries();
         var before = GC.GetAllocatedBytesForCurrentThread();
-        sum -= AskAll();
+        sum -= RunAllQueries();
         Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
         Assert.Equal(0, sum);
 
-        double AskAll()
+        double RunAllQueries()
         {
             var distances = 0.0;
             foreach (var position in positions)
             {
-                hierarchy.TryFindClosest(position, double.PositiveInfinity, record, out var closest);
+                hierarchy.TryFindClosest(position, double.PositiveInfinity, context, out var closest);
                 distances += closest.Distance;
             }
 
@@ -162,7 +164,7 @@ public class HierarchyColliderTests
     }
 
     [Fact]
-    public void Build_OnAnyNumberOfThreads_GivesTheSameTree()
+    public void Build_OnAnyNumberOfThreads_GivesTheSameBvh()
     {
         var mesh = MeshGenerators.Create("tree-stump", 1, 120_000);
         var expected = TriangleBvhBuilder.Build(mesh, Vector.Zero, 1, threads: 1);
@@ -182,33 +184,34 @@ public class HierarchyColliderTests
         var mesh = CollisionMeshes.All[name]();
         var layout = TriangleBvhBuilder.Build(mesh, mesh.Bounds.Centre, 1 / Math.Max(1e-100, mesh.Bounds.Diagonal), threads: 2);
         var faces = new List<int>();
-        Assert.InRange(Visit(0), 1, 40);
+        Assert.InRange(HeightOf(BvhChild.Root), 1, 40);
         Assert.Equal(Enumerable.Range(0, mesh.FaceCount), faces.Order());
 
-        int Visit(int node) => layout.Children.Slice(8 * node, 8).Where(child => child != BvhLayout.NoChild).Max(child =>
+        int HeightOf(BvhChild child)
         {
-            if (child >= 0)
+            if (child.IsNode)
             {
-                return 1 + Visit(child);
+                var children = layout.Children.Slice(BvhLayout.BranchingFactor * child.NodeIndex, BvhLayout.BranchingFactor);
+                return 1 + children.Where(grandchild => grandchild != BvhChild.None).Max(HeightOf);
             }
 
-            for (var i = 0; i <= (~child % 4); i++)
+            for (var i = 0; i < child.TriangleCount; i++)
             {
-                faces.Add(layout.Leaves[~child / 4].FaceIndices[i]);
+                faces.Add(layout.Leaves[child.LeafIndex].FaceIndices[i]);
             }
 
-            return 1;
-        });
+            return 0;
+        }
     }
 
     private static void Compare(Mesh mesh, int queries)
     {
-        var (simple, hierarchy, record) = (new SimpleCollider(mesh), new HierarchyCollider(mesh), new QueryContext());
+        var (simple, hierarchy, context) = (new SimpleCollider(mesh), new HierarchyCollider(mesh), new QueryContext());
         Seeded.Run(queries, random =>
         {
-            var position = CollisionMeshes.Position(random, mesh);
-            Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, record, out var expected));
-            Assert.True(hierarchy.TryFindClosest(position, double.PositiveInfinity, record, out var actual));
+            var position = CollisionMeshes.RandomPosition(random, mesh);
+            Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, context, out var expected));
+            Assert.True(hierarchy.TryFindClosest(position, double.PositiveInfinity, context, out var actual));
             // The same kernel on the same face, so the same bits; of faces equally near any will do.
             Assert.True(expected.Distance == actual.Distance, string.Create(
                 CultureInfo.InvariantCulture,

@@ -8,38 +8,41 @@ namespace FractalEngine.Tests.Collision;
 /// <summary>Hulls as bounds of distances: never more than the distance of any point that they hold.</summary>
 public class HullBoundTests
 {
-    private const double Relative = 1e-12;
+    private const double RelativeTolerance = 1e-12;
 
     // Of the largest coordinate that occurs: some last places.
-    private const double Rounding = 1e-14;
+    private const double RoundingTolerance = 1e-14;
 
     public static TheoryData<string> Names => [.. PointClouds.All.Keys];
 
     [Theory]
     [MemberData(nameof(Names))]
-    public void DistanceSquared_OfAnyPosition_IsNoMoreThanThatOfThePoints(string name) => Seeded.Run(60, random =>
+    public void LowerBoundSquared_OfAnyPosition_IsNoMoreThanThatOfThePoints(string name) => Seeded.Run(60, random =>
     {
-        var points = PointClouds.Draw(name, random);
-        var bound = BoundOf(points, random);
+        var points = PointClouds.Generate(name, random);
+        var bound = CreateBound(points, random);
         for (var query = 0; query < 30; query++)
         {
-            var position = Position(random, points);
-            var enough = random.Next(3) == 0 ? Math.Pow(PointClouds.SizeOf(points), 2) * random.NextDouble() : double.PositiveInfinity;
-            Check(bound.LowerBoundSquared(SimdAffineMap.ToVector256(position), enough), position, points, position.MaxAbsComponent());
+            var position = RandomPosition(random, points);
+            var cutoffSquared = random.Next(3) == 0
+                ? Math.Pow(PointClouds.MaxAbsCoordinate(points), 2) * random.NextDouble()
+                : double.PositiveInfinity;
+            Check(bound.LowerBoundSquared(SimdAffineMap.ToVector256(position), cutoffSquared), position, points,
+                position.MaxAbsComponent());
         }
     });
 
     [Theory]
     [MemberData(nameof(Names))]
-    public void ImageDistanceSquared_UnderAnyMap_IsNoMoreThanThatOfTheImages(string name) => Seeded.Run(60, random =>
+    public void TransformedLowerBoundSquared_UnderAnyMap_IsNoMoreThanThatOfTheTransformedPoints(string name) => Seeded.Run(60, random =>
     {
-        var points = PointClouds.Draw(name, random);
-        var (bound, size) = (BoundOf(points, random), PointClouds.SizeOf(points));
+        var points = PointClouds.Generate(name, random);
+        var (bound, size) = (CreateBound(points, random), PointClouds.MaxAbsCoordinate(points));
         for (var query = 0; query < 30; query++)
         {
-            var map = Map(random, size);
+            var map = RandomMap(random, size);
             var images = points.Select(point => map * point).ToArray();
-            var position = Position(random, images);
+            var position = RandomPosition(random, images);
             var actual = bound.TransformedLowerBoundSquared(SimdAffineMap.ToVector256(position), new(map), new(map.Inverse()),
                 double.PositiveInfinity);
             Check(actual, position, images, Math.Max(position.MaxAbsComponent(), size * map.Linear.MaxAbsEntry()));
@@ -47,11 +50,11 @@ public class HullBoundTests
     });
 
     [Fact]
-    public void DistanceSquared_InFrontOfAFacet_IsExact() => Seeded.Run(60, random =>
+    public void LowerBoundSquared_InFrontOfAFacet_IsExact() => Seeded.Run(60, random =>
     {
         var points = Enumerable.Range(0, random.Next(4, 12)).Select(_ => random.Vector()).ToArray();
         var hull = ConvexHull.Build(points, 48);
-        var bound = new HullBound(hull, Box(points), 0, includeAxisPlanes: true);
+        var bound = new HullBound(hull, BoundsOf(points), 0, includeAxisPlanes: true);
         foreach (var plane in hull.Planes)
         {
             var corners = hull.Vertices.OrderByDescending(vertex => Vector.Dot(plane.Normal, vertex)).Take(3).ToArray();
@@ -62,22 +65,22 @@ public class HullBoundTests
     });
 
     [Fact]
-    public void DistanceSquared_FarAway_IsAlmostExact() => Seeded.Run(60, random =>
+    public void LowerBoundSquared_FarAway_IsAlmostExact() => Seeded.Run(60, random =>
     {
         var points = Enumerable.Range(0, random.Next(4, 40)).Select(_ => random.Vector()).ToArray();
-        var bound = BoundOf(points, random, margin: 0);
+        var bound = CreateBound(points, random, margin: 0);
         var position = 1000 * random.Direction();
-        var nearest = points.Min(point => (position - point).Length());
+        var expected = points.Min(point => (position - point).Length());
         // Seen from so far, the corner that reaches farthest is off the line from the centre by at most 2, so nearer by 2²/2000.
-        Assert.InRange(Math.Sqrt(bound.LowerBoundSquared(SimdAffineMap.ToVector256(position), double.PositiveInfinity)), nearest - 0.01,
-            nearest + 1e-9);
+        Assert.InRange(Math.Sqrt(bound.LowerBoundSquared(SimdAffineMap.ToVector256(position), double.PositiveInfinity)), expected - 0.01,
+            expected + 1e-9);
     });
 
     [Fact]
-    public void DistanceSquared_FarFromASolidOfFewCorners_IsExactAtTheCorner() => Seeded.Run(60, random =>
+    public void LowerBoundSquared_FarFromASolidOfFewVertices_IsExactAtTheVertex() => Seeded.Run(60, random =>
     {
         Vector[] points = [Vector.Zero, Vector.I, Vector.J, Vector.K];
-        var bound = BoundOf(points, random, margin: 0);
+        var bound = CreateBound(points, random, margin: 0);
         // Where no other direction could be nearer: the corner's own cone.
         var position = -random.Between(1, 50) * random.Direction().Absolute();
         Assert.Equal(position.Length(), Math.Sqrt(bound.LowerBoundSquared(SimdAffineMap.ToVector256(position), double.PositiveInfinity)),
@@ -85,11 +88,11 @@ public class HullBoundTests
     });
 
     [Fact]
-    public void DistanceSquared_WithAMargin_IsLessByNoMoreThanThat() => Seeded.Run(60, random =>
+    public void LowerBoundSquared_WithAMargin_IsLessByNoMoreThanThat() => Seeded.Run(60, random =>
     {
         var points = Enumerable.Range(0, 20).Select(_ => random.Vector()).ToArray();
         var hull = ConvexHull.Build(points, 48);
-        var (exact, wide) = (new HullBound(hull, Box(points), 0, true), new HullBound(hull, Box(points), 0.1, true));
+        var (exact, wide) = (new HullBound(hull, BoundsOf(points), 0, true), new HullBound(hull, BoundsOf(points), 0.1, true));
         var position = SimdAffineMap.ToVector256(random.Vector(4));
         var difference = Math.Sqrt(exact.LowerBoundSquared(position, double.PositiveInfinity))
             - Math.Sqrt(wide.LowerBoundSquared(position, double.PositiveInfinity));
@@ -98,26 +101,28 @@ public class HullBoundTests
 
     private static void Check(double bound, Vector position, Vector[] points, double magnitude)
     {
-        var nearest = points.Min(point => (position - point).Length());
+        var expected = points.Min(point => (position - point).Length());
         Assert.True(bound >= 0, $"{bound}");
         Assert.True(
-            Math.Sqrt(bound) <= (nearest * (1 + Relative)) + (Rounding * magnitude),
-            FormattableString.Invariant($"from {position}: a bound of {Math.Sqrt(bound):R}, though a point is at {nearest:R}"));
+            Math.Sqrt(bound) <= (expected * (1 + RelativeTolerance)) + (RoundingTolerance * magnitude),
+            FormattableString.Invariant($"from {position}: a bound of {Math.Sqrt(bound):R}, though a point is at {expected:R}"));
     }
 
-    private static HullBound BoundOf(Vector[] points, Random random, double? margin = null)
+    private static HullBound CreateBound(Vector[] points, Random random, double? margin = null)
     {
         var hull = ConvexHull.Build(points, margin == 0 ? 60 : random.Next(4, 60));
         // As outlines have it: what the hull misses, and rounding.
-        return new(hull, Box(points), margin ?? (hull.MaxOutsideDistance + (2e-15 * PointClouds.SizeOf(points))), random.Next(2) == 0
+        return new(hull, BoundsOf(points), margin ?? (hull.MaxOutsideDistance + (2e-15 * PointClouds.MaxAbsCoordinate(points))),
+            random.Next(2) == 0
             || margin == 0);
     }
 
-    private static BoundingBox Box(Vector[] points) => points.Aggregate(BoundingBox.Empty, (box, point) => box.Including(point));
+    private static BoundingBox BoundsOf(Vector[] points) => points.Aggregate(BoundingBox.Empty, (box, point) => box.Including(point));
 
-    private static Vector Position(Random random, Vector[] points)
+    private static Vector RandomPosition(Random random, Vector[] points)
     {
-        var (size, point, other) = (PointClouds.SizeOf(points), points[random.Next(points.Length)], points[random.Next(points.Length)]);
+        var (size, point, other) = (PointClouds.MaxAbsCoordinate(points), points[random.Next(points.Length)],
+            points[random.Next(points.Length)]);
         return random.Next(6) switch
         {
             0 => point,
@@ -130,7 +135,7 @@ public class HullBoundTests
     }
 
     /// <summary>Similar, skewed, mirrored or nearly singular.</summary>
-    private static AffineMap Map(Random random, double size)
+    private static AffineMap RandomMap(Random random, double size)
     {
         var scale = random.Next(4) switch
         {

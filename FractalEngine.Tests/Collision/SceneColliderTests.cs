@@ -11,77 +11,80 @@ namespace FractalEngine.Tests.Collision;
 public class SceneColliderTests
 {
     [Fact]
-    public void Find_OnRandomScenes_EqualsEveryFace() => Seeded.Run(60, random =>
+    public void TryFindClosest_OnRandomScenes_EqualsEveryFace() => Seeded.Run(60, random =>
     {
-        var scene = Scene(random);
+        var scene = RandomScene(random);
         var collider = new SceneCollider(scene);
         var oracles = scene.Objects.Select(placed => new SimpleCollider(FlattenInWorld(placed))).ToArray();
         for (var query = 0; query < 10; query++)
         {
             var position = random.Vector(6);
             var except = random.Next(-1, scene.Objects.Length);
-            var nearest = oracles.Select((oracle, index) => index != except
+            var expected = oracles.Select((oracle, index) => index != except
                 && oracle.TryFindClosest(position, double.PositiveInfinity, new(), out var closest)
                 ? closest.Distance : double.PositiveInfinity).Min();
-            var found = collider.TryFindClosest(position, double.PositiveInfinity, new(), out var answer, out var index, except);
-            Assert.Equal(!double.IsPositiveInfinity(nearest), found);
+            var found = collider.TryFindClosest(position, double.PositiveInfinity, new(), out var actual, out var index, except);
+            Assert.Equal(!double.IsPositiveInfinity(expected), found);
             if (found)
             {
                 // Rounded to the last places of the coordinates of a scene of some units, through a chain of a few maps.
-                Assert.Equal(nearest, answer.Distance, 1e-12 * 20);
-                Assert.Equal(answer.Distance, (answer.Point - position).Length(), 1e-12 * 20);
+                Assert.Equal(expected, actual.Distance, 1e-12 * 20);
+                Assert.Equal(actual.Distance, (actual.Point - position).Length(), 1e-12 * 20);
                 Assert.NotEqual(except, index);
-                Assert.Equal(1, answer.Normal.Length(), 1e-12);
+                Assert.Equal(1, actual.Normal.Length(), 1e-12);
             }
         }
     });
 
     [Fact]
-    public void Find_NamesTheNearestObjectAndItsInstance()
+    public void TryFindClosest_NamesTheClosestObjectAndItsInstance()
     {
         var model =
-            new FractalModel("/f.fdo", 0, Samples.Repeated(2, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(5, 0, 0, 0.5)));
+            new FractalModel(Samples.Repeated(2, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(5, 0, 0, 0.5))) { SourcePath =
+            "/f.fdo" };
         var scene = new LoadedScene(new(),
         [
             new(new("f.fdo", Samples.Move(0, 0, 0)), model),
             new(new("f.fdo", Samples.Move(0, 40, 0)), model),
         ]);
-        var record = new QueryContext();
+        var context = new QueryContext();
         // Instance 1 at both levels starts at 5 + ½·5.
-        Assert.True(new SceneCollider(scene).TryFindClosest(new(7.5, 40, 0), double.PositiveInfinity, record, out var closest,
+        Assert.True(new SceneCollider(scene).TryFindClosest(new(7.5, 40, 0), double.PositiveInfinity, context, out var closest,
             out var index));
         Assert.Equal((0.0, 1), (closest.Distance, index));
-        Assert.Equal([1, 1], record.InstancePath.ToArray());
+        Assert.Equal([1, 1], context.InstancePath.ToArray());
     }
 
     [Fact]
-    public void Find_InAnEmptyScene_FindsNothing() =>
-        Assert.False(new SceneCollider(new(new(), [])).TryFindClosest(Vector.Zero, double.PositiveInfinity, new(), out _, out _));
+    public void TryFindClosest_InAnEmptyScene_FindsNothing() =>
+        Assert.False(new SceneCollider(new Scene()).TryFindClosest(Vector.Zero, double.PositiveInfinity, new(), out _, out _));
 
     [Fact]
-    public void Find_WithTheGreedyColliderOnAMesh_SaysWhichFit()
+    public void Build_WithTheFractalColliderOnAMesh_SaysWhichFit()
     {
-        var scene = new LoadedScene(new(), [new(new("m.obj", Transformation.Identity), new MeshModel("/m.obj", 0, Samples.Tetrahedron))]);
+        var scene =
+            new LoadedScene(new(),
+            [new(new("m.obj", Transformation.Identity), new MeshModel(Samples.Tetrahedron) { SourcePath = "/m.obj" })]);
         Assert.Contains("expected exact, hierarchy",
             Assert.Throws<ColliderMismatchException>(() => new SceneCollider(scene, ColliderKind.Fractal).Build()).Message,
             StringComparison.Ordinal);
     }
 
-    private static LoadedScene Scene(Random random)
+    private static LoadedScene RandomScene(Random random)
     {
         Model[] models =
         [
-            new MeshModel("/mesh.obj", 0, Samples.Tetrahedron),
-            new FractalModel("/fractal.fdo", 0, RandomFractals.Draw(random)),
-            new FractalModel("/sums.fdo", 0, RandomFractals.Draw(random, Composition.Componentwise)),
+            new MeshModel(Samples.Tetrahedron) { SourcePath = "/mesh.obj" },
+            new FractalModel(RandomFractals.Create(random)) { SourcePath = "/fractal.fdo" },
+            new FractalModel(RandomFractals.Create(random, Composition.Componentwise)) { SourcePath = "/sums.fdo" },
         ];
         return new(new(),
             [.. Enumerable.Range(0, 5)
-            .Select(i => new PlacedModel(new($"{i}.fdo", Placement(random)), models[random.Next(models.Length)]))]);
+            .Select(i => new PlacedModel(new($"{i}.fdo", RandomPlacement(random)), models[random.Next(models.Length)]))]);
     }
 
     /// <summary>Similar, mirrored or skewing.</summary>
-    private static Transformation Placement(Random random) => random.Next(2) == 0 ? random.Transformation()
+    private static Transformation RandomPlacement(Random random) => random.Next(2) == 0 ? random.Transformation()
         : new(random.Vector(4), random.Degrees(), random.Between(0.3, 2) * (random.Next(2) == 0 ? Vector.One : new(-1, 1, 1)));
 
     private static Core.Geometry.Mesh FlattenInWorld(PlacedModel placed) => FractalGenerator.Flatten(

@@ -27,7 +27,7 @@ public class DistinctInstancesTests
             DistinctInstances.Count(Samples.Repeated(null, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(5, 0, 0, 0.5))));
 
     [Fact]
-    public void Count_OfCopiesSideBySide_IsProvedAtAnyDepth()
+    public void Count_OfInstancesSideBySide_IsProvedAtAnyDepth()
     {
         var cube = new Mesh([0, 0, 0, 1, 1, 1, 0, 1, 0], [0, 1, 2]);
         var fractal =
@@ -46,8 +46,8 @@ public class DistinctInstancesTests
     [Fact]
     public void Count_OfAnyFractal_IsNullOrTheNaiveNumber() => Seeded.Run(200, random =>
     {
-        var fractal = RandomFractals.Draw(random);
-        var expected = Naive.Distinct(Naive.Chains(fractal.Description), 1e-12).Count;
+        var fractal = RandomFractals.Create(random);
+        var expected = NaiveFractal.Distinct(NaiveFractal.Chains(fractal.Description), 1e-12).Count;
         Assert.Equal(expected, DistinctInstances.Count(fractal) ?? expected);
         Assert.True(!DistinctInstances.AreProvedDistinct(fractal) || fractal.InstanceCount == expected, "a false proof");
     });
@@ -59,7 +59,7 @@ public class DistinctInstancesTests
             new(random.Next(-2, 3), random.Next(-2, 3), random.Next(-2, 3)), new(90 * random.Next(4), 90 * random.Next(4), 0),
             (random.Next(2) == 0 ? 0.5 : -0.5) * Vector.One));
         var fractal = Samples.Repeated(random.Next(1, 4), [.. set]);
-        var expected = Naive.Distinct(Naive.Chains(fractal.Description), 1e-9).Count;
+        var expected = NaiveFractal.Distinct(NaiveFractal.Chains(fractal.Description), 1e-9).Count;
         Assert.True(!DistinctInstances.AreProvedDistinct(fractal) || fractal.InstanceCount == expected,
             $"{fractal.InstanceCount} chains, {expected} distinct");
     });

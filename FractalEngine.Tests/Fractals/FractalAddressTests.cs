@@ -13,9 +13,9 @@ namespace FractalEngine.Tests.Fractals;
 public class FractalAddressTests
 {
     // As FractalAddress states it: a sub-fractal is left beyond so many diagonals of its box.
-    private const double Left = 1.5;
+    private const double MaxDistanceInDiagonals = 1.5;
 
-    private static readonly AffineMap Aside = new Transformation(new(3, -2, 1), new(20, 30, 40), new(2, 1.5, -1)).ToAffineMap();
+    private static readonly AffineMap SamplePlacement = new Transformation(new(3, -2, 1), new(20, 30, 40), new(2, 1.5, -1)).ToAffineMap();
 
     /// <summary>Infinite fractals of one set, a copy of each, and from where its fixed point is approached.</summary>
     public static TheoryData<string, int> Dives =>
@@ -24,14 +24,14 @@ public class FractalAddressTests
 
     [Theory]
     [MemberData(nameof(Dives))]
-    public void Move_InAndOutAgain_EndsWhereItBegan(string name, int copy)
+    public void Move_InAndOutAgain_EndsWhereItBegan(string name, int mapIndex)
     {
-        foreach (var placement in (AffineMap[])[AffineMap.Identity, Aside])
+        foreach (var placement in (AffineMap[])[AffineMap.Identity, SamplePlacement])
         {
             // Skewed maps stop where double precision does.
             foreach (var depth in name == "skewed" ? (int[])[5] : [5, 100, 10_000])
             {
-                CheckDive(name, copy, placement, depth, 1e-9);
+                CheckDive(name, mapIndex, placement, depth, 1e-9);
             }
         }
     }
@@ -40,16 +40,16 @@ public class FractalAddressTests
     [InlineData("menger", 0)]
     [InlineData("turned", 0)]
     [Trait("Category", "Soak")]
-    public void Move_ThroughAMillionLevels_EndsWhereItBegan(string name, int copy) =>
-        CheckDive(name, copy, Aside, FractalLimits.MaxDepth, 1e-9);
+    public void Move_ThroughAMillionLevels_EndsWhereItBegan(string name, int mapIndex) =>
+        CheckDive(name, mapIndex, SamplePlacement, FractalLimits.MaxDepth, 1e-9);
 
     [Theory]
     [InlineData(100)]
     [InlineData(10_000)]
     public void LogUnit_AtAnyDepth_IsTheSumOfTheScales(int depth)
     {
-        var dive = Dive("menger", 0, AffineMap.Identity);
-        dive.GoTo(depth);
+        var dive = CreateDive("menger", 0, AffineMap.Identity);
+        dive.GoToDepth(depth);
         // A sum of so many numbers of the same kind, each rounded.
         Near.Equal(-dive.Address.Depth * Math.Log(3), dive.Address.LogUnit, 1e-12 * depth * Math.Log(3));
         Near.Equal(1, Math.Abs(dive.Address.FrameToCamera.Linear.Determinant()), 1e-9);
@@ -63,19 +63,19 @@ public class FractalAddressTests
             new(new(0, 1, 0), Vector.Zero, new(0.6, 0.5, -0.55)));
         Seeded.Run(30, random =>
         {
-            var address = new FractalAddress(LodHierarchy.Build(fractal), Aside, Aside * random.Vector(3));
-            Wander(random, address, 200);
-            var maps = address.Path.Select(copy => fractal.LevelAt(0).Maps[copy].Linear).Prepend(Aside.Linear).ToArray();
+            var address = new FractalAddress(LodHierarchy.Build(fractal), SamplePlacement, SamplePlacement * random.Vector(3));
+            MoveRandomly(random, address, 200);
+            var maps = address.Path.Select(mapIndex => fractal.LevelAt(0).Maps[mapIndex].Linear).Prepend(SamplePlacement.Linear).ToArray();
             var expected = address.Depth == 0 ? 0 : maps.Sum(linear => Math.Log(Math.Abs(linear.Determinant())) / 3);
             Near.Equal(expected, address.LogUnit, 1e-9);
         });
     }
 
     [Fact]
-    public void Path_IntoACorner_IsItsCopyAtEveryLevel()
+    public void Path_IntoACorner_IsItsMapAtEveryLevel()
     {
-        var dive = Dive("menger", 7, AffineMap.Identity);
-        dive.GoTo(50);
+        var dive = CreateDive("menger", 7, AffineMap.Identity);
+        dive.GoToDepth(50);
         Assert.Equal(50, dive.Address.Depth);
         Assert.Equal(Enumerable.Repeat(7, 50), dive.Address.Path);
     }
@@ -89,23 +89,25 @@ public class FractalAddressTests
     [InlineData("menger-4")]
     public void WorldPosition_NotDeep_IsThatOfTheCamera(string name)
     {
-        var table = LodHierarchy.Build(name == "menger-4" ? DetailViews.Menger(4) : Infinite(name));
-        var size = (Aside * table.NodeAt(table.LevelCount).Box.Centre).Length()
-            + table.NodeAt(table.LevelCount).Box.Transform(Aside).Diagonal;
+        var hierarchy = LodHierarchy.Build(name == "menger-4" ? CullingViews.Menger(4) : CreateInfinite(name));
+        var size = (SamplePlacement * hierarchy.NodeAt(hierarchy.LevelCount).Box.Centre).Length()
+            + hierarchy.NodeAt(hierarchy.LevelCount).Box.Transform(SamplePlacement).Diagonal;
         Seeded.Run(100, random =>
         {
-            var position = Aside * (table.NodeAt(table.LevelCount).Box.Centre + random.Vector(table.NodeAt(table.LevelCount).Box.Diagonal));
-            var address = new FractalAddress(table, Aside, position);
+            var position = SamplePlacement
+                * (hierarchy.NodeAt(hierarchy.LevelCount).Box.Centre + random.Vector(hierarchy.NodeAt(hierarchy.LevelCount).Box.Diagonal));
+            var address = new FractalAddress(hierarchy, SamplePlacement, position);
             address.Move(Vector.Zero);
-            Near.Equal(position, address.WorldPosition(Aside), 1e-12 * size);
+            Near.Equal(position, address.WorldPosition(SamplePlacement), 1e-12 * size);
             for (var i = 0; i < 10; i++)
             {
                 var step = 0.5
                     * (address.FrameToCamera
-                        * (table.NodeAt(table.LevelCount).Box.Centre + random.Vector(table.NodeAt(table.LevelCount).Box.Diagonal)));
+                        * (hierarchy.NodeAt(hierarchy.LevelCount).Box.Centre
+                            + random.Vector(hierarchy.NodeAt(hierarchy.LevelCount).Box.Diagonal)));
                 position += Math.Exp(address.LogUnit) * step;
                 address.Move(step);
-                Near.Equal(position, address.WorldPosition(Aside), 1e-12 * size);
+                Near.Equal(position, address.WorldPosition(SamplePlacement), 1e-12 * size);
             }
         });
     }
@@ -115,8 +117,8 @@ public class FractalAddressTests
     {
         // After 300 levels a 10,000th of the size: as a double tells it, that is a long way.
         var map = Samples.MoveAndScale(0.03, 0, 0, 0.97);
-        var table = LodHierarchy.Build(Samples.Repeated(null, map, Samples.MoveAndScale(3, 0, 0, 0.1)));
-        var address = new FractalAddress(table, AffineMap.Identity, new(5, 5, 5));
+        var hierarchy = LodHierarchy.Build(Samples.Repeated(null, map, Samples.MoveAndScale(3, 0, 0, 0.1)));
+        var address = new FractalAddress(hierarchy, AffineMap.Identity, new(5, 5, 5));
         var position = new Vector(5, 5, 5);
         var fixedPoint = new Vector(1, 0, 0);
         for (var i = 0; i < 60 && address.Depth < 400; i++)
@@ -136,24 +138,24 @@ public class FractalAddressTests
 
     [Theory]
     [MemberData(nameof(Finite))]
-    public void Roots_OfAllAncestors_AreTheWholeFractal(string name, int depth)
+    public void CollectRoots_OfAllAncestors_AreTheWholeFractal(string name, int depth)
     {
         var fractal = depth < 0 ? AssetFractals.Load(name) : AssetFractals.Load(name, depth);
-        Seeded.Run(name == "snowflake" ? 2 : 5, random => CheckRoots(random, fractal, Aside));
+        Seeded.Run(name == "snowflake" ? 2 : 5, random => CheckRoots(random, fractal, SamplePlacement));
     }
 
     [Fact]
-    public void Roots_OfRandomFractals_AreTheWholeFractal() => Seeded.Run(150, random =>
+    public void CollectRoots_OfRandomFractals_AreTheWholeFractal() => Seeded.Run(150, random =>
     {
-        var fractal = RandomFractals.Draw(random, random.Next(3) == 0 ? Composition.Componentwise : Composition.Affine);
-        CheckRoots(random, fractal, random.Next(2) == 0 ? AffineMap.Identity : Aside);
+        var fractal = RandomFractals.Create(random, random.Next(3) == 0 ? Composition.Componentwise : Composition.Affine);
+        CheckRoots(random, fractal, random.Next(2) == 0 ? AffineMap.Identity : SamplePlacement);
     });
 
     [Fact]
-    public void Roots_OfFewAncestors_AreThoseOfTheInnermost()
+    public void CollectRoots_OfFewAncestors_AreThoseOfTheInnermost()
     {
-        var dive = Dive("menger", 0, AffineMap.Identity);
-        dive.GoTo(12);
+        var dive = CreateDive("menger", 0, AffineMap.Identity);
+        dive.GoToDepth(12);
         for (var ancestors = 0; ancestors <= 15; ancestors++)
         {
             var roots = dive.Address.CollectRoots(ancestors);
@@ -170,8 +172,8 @@ public class FractalAddressTests
     [InlineData("turned", 4)]
     [InlineData("skewed", 5)]
     [InlineData("fern", 6)]
-    public void Move_ALongRandomWalk_KeepsNearAndDoesNotDrift(string name, int seed) =>
-        Seeded.RunOne(seed, random => CheckWalk(random, LodHierarchy.Build(Infinite(name)), 15_000));
+    public void Move_ALongRandomWalk_StaysNearAndDoesNotDrift(string name, int seed) =>
+        Seeded.RunOne(seed, random => CheckRandomWalk(random, LodHierarchy.Build(CreateInfinite(name)), 15_000));
 
     [Theory]
     [InlineData("menger", 1)]
@@ -179,36 +181,37 @@ public class FractalAddressTests
     [InlineData("tree", 3)]
     [InlineData("turned", 4)]
     [Trait("Category", "Soak")]
-    public void Move_AHundredThousandSteps_KeepsNearAndDoesNotDrift(string name, int seed) =>
-        Seeded.RunOne(seed, random => CheckWalk(random, LodHierarchy.Build(Infinite(name)), 100_000));
+    public void Move_AHundredThousandSteps_StaysNearAndDoesNotDrift(string name, int seed) =>
+        Seeded.RunOne(seed, random => CheckRandomWalk(random, LodHierarchy.Build(CreateInfinite(name)), 100_000));
 
     [Theory]
     [InlineData("menger")]
     [InlineData("sierpinski")]
     [InlineData("turned")]
     [InlineData("apart")]
-    public void NearestDistance_NotDeep_IsThatOfExactSearch(string name)
+    public void ClosestSurfaceDistance_NotDeep_IsThatOfExactSearch(string name)
     {
-        var fractal = Infinite(name);
-        var (table, collider) = (LodHierarchy.Build(fractal), new ExactFractalCollider(fractal));
-        var (box, record) = (table.NodeAt(table.LevelCount).Box, new QueryContext());
+        var fractal = CreateInfinite(name);
+        var (hierarchy, collider) = (LodHierarchy.Build(fractal), new ExactFractalCollider(fractal));
+        var (box, context) = (hierarchy.NodeAt(hierarchy.LevelCount).Box, new QueryContext());
         var worst = new List<string>();
         Seeded.Run(300, random =>
         {
             var position = box.Centre + (random.Next(2) == 0 ? 1 : 0.6) * box.Size.Stretch(random.Vector());
             for (var i = 0; i < 4; i++)
             {
-                Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest));
+                Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest));
                 var exact = (closest.Point - position).Length();
-                var address = new FractalAddress(table, AffineMap.Identity, position);
+                var address = new FractalAddress(hierarchy, AffineMap.Identity, position);
                 address.Move(Vector.Zero);
-                var (unit, size) = (Math.Exp(address.LogUnit), State(table, address).Box.Transform(address.FrameToCamera).Diagonal);
+                var (unit, size) = (Math.Exp(address.LogUnit), NodeOf(hierarchy, address).Box.Transform(address.FrameToCamera).Diagonal);
                 var found = unit * address.ClosestSurfaceDistance();
                 // To a tenth, and never less than a thousandth of what is around.
                 if (!(found >= 0.85 * exact && found <= Math.Max(1.15 * exact, 1.01e-3 * unit * size)))
                 {
                     worst.Add(
-                        Text($"at {position}, depth {address.Depth}: {found} for {exact}, a thousandth of what is around {1e-3 * unit * size}"));
+                        FormatInvariant(
+                            $"at {position}, depth {address.Depth}: {found} for {exact}, a thousandth of what is around {1e-3 * unit * size}"));
                 }
 
                 // Nearer to the surface.
@@ -223,7 +226,7 @@ public class FractalAddressTests
     {
         foreach (var depth in (int[])[0, 1, 2, 3, 6])
         {
-            var address = new FractalAddress(LodHierarchy.Build(DetailViews.Menger(depth)), AffineMap.Identity, new(-3, -3, -3));
+            var address = new FractalAddress(LodHierarchy.Build(CullingViews.Menger(depth)), AffineMap.Identity, new(-3, -3, -3));
             var position = new Vector(-3, -3, -3);
             for (var i = 0; i < 100; i++)
             {
@@ -241,11 +244,11 @@ public class FractalAddressTests
     [Trait("Category", "Soak")]
     public void Move_AtTheDeepestLevel_GoesNoDeeper()
     {
-        var dive = Dive("menger", 0, AffineMap.Identity);
-        dive.GoTo(FractalLimits.MaxDepth);
+        var dive = CreateDive("menger", 0, AffineMap.Identity);
+        dive.GoToDepth(FractalLimits.MaxDepth);
         for (var i = 0; i < 1000; i++)
         {
-            dive.Move(0.5 * dive.Target(Vector.Zero));
+            dive.Move(0.5 * dive.LocateTarget(Vector.Zero));
             Assert.Equal(FractalLimits.MaxDepth, dive.Address.Depth);
             Assert.True(dive.Address.FrameToCamera.IsFinite());
         }
@@ -260,23 +263,23 @@ public class FractalAddressTests
     [InlineData("thin")]
     public void Move_WhereMapsSkewWithoutBound_StopsEntering(string name)
     {
-        var fractal = Infinite(name);
-        var table = LodHierarchy.Build(fractal);
+        var fractal = CreateInfinite(name);
+        var hierarchy = LodHierarchy.Build(fractal);
         var depths = new List<int>();
-        for (var copy = 0; copy < table.NodeAt(table.LevelCount).ChildMaps.Length; copy++)
+        for (var mapIndex = 0; mapIndex < hierarchy.NodeAt(hierarchy.LevelCount).ChildMaps.Length; mapIndex++)
         {
-            if (table.NodeAt(Below(table, table.LevelCount, copy)).ChildMaps.Length == 0
-                || table.NodeAt(table.LevelCount).ChildLevelSteps[copy] != LevelStep.Down(1))
+            if (hierarchy.NodeAt(ChildLevels(hierarchy, hierarchy.LevelCount, mapIndex)).ChildMaps.Length == 0
+                || hierarchy.NodeAt(hierarchy.LevelCount).ChildLevelSteps[mapIndex] != LevelStep.Down(1))
             {
                 continue;
             }
 
-            var address = new FractalAddress(table, Aside, Aside * new Vector(3, 4, 5));
-            var map = table.NodeAt(table.LevelCount).ChildMaps[copy].ToAffineMap();
-            var target = Aside * ((Matrix.Identity + (-1 * map.Linear)).Inverse() * map.Translation);
+            var address = new FractalAddress(hierarchy, SamplePlacement, SamplePlacement * new Vector(3, 4, 5));
+            var map = hierarchy.NodeAt(hierarchy.LevelCount).ChildMaps[mapIndex].ToAffineMap();
+            var target = SamplePlacement * ((Matrix.Identity + (-1 * map.Linear)).Inverse() * map.Translation);
             for (var i = 0; i < 300; i++)
             {
-                address.Move(0.3 * Math.Exp(-address.LogUnit) * (target - address.WorldPosition(Aside)));
+                address.Move(0.3 * Math.Exp(-address.LogUnit) * (target - address.WorldPosition(SamplePlacement)));
                 AssertFinite(address);
             }
 
@@ -290,10 +293,10 @@ public class FractalAddressTests
     public void Memory_AtDepth_IsSomeBytesALevel()
     {
         const int depth = 50_000;
-        var dive = Dive("menger", 0, AffineMap.Identity);
+        var dive = CreateDive("menger", 0, AffineMap.Identity);
         while (dive.Address.Depth < depth)
         {
-            dive.Address.Move(0.5 * dive.Target(Vector.Zero));
+            dive.Address.Move(0.5 * dive.LocateTarget(Vector.Zero));
         }
 
         // 16 bytes, and at most twice the room.
@@ -303,8 +306,8 @@ public class FractalAddressTests
     [Fact]
     public void Move_FromDeepToFarAway_LeavesAtOnce()
     {
-        var dive = Dive("menger", 0, AffineMap.Identity);
-        dive.GoTo(500);
+        var dive = CreateDive("menger", 0, AffineMap.Identity);
+        dive.GoToDepth(500);
         dive.Address.Move(1e300 * new Vector(-1, -2, -3));
         AssertFinite(dive.Address);
         Assert.True(dive.Address.Depth < 500);
@@ -317,19 +320,19 @@ public class FractalAddressTests
     public void Address_OfATinyOrHugeObject_IsAsOfAnyOther(double scale)
     {
         var placement = Samples.MoveAndScale(0, 0, 0, scale).ToAffineMap();
-        var dive = Dive("menger", 0, placement);
-        dive.GoTo(20);
+        var dive = CreateDive("menger", 0, placement);
+        dive.GoToDepth(20);
         AssertFinite(dive.Address);
         Near.Equal(Math.Log(scale) - (dive.Address.Depth * Math.Log(3)), dive.Address.LogUnit, 1e-9);
-        dive.GoBack();
+        dive.ReturnToStart();
         Assert.Equal((0, 0.0), (dive.Address.Depth, dive.Address.LogUnit));
         Near.Equal(0, (dive.Address.WorldPosition(placement) - dive.Start).Length() / dive.Start.Length(), 1e-9);
     }
 
     /// <summary>Infinite fractals of one set.</summary>
-    internal static Fractal Infinite(string name) => name switch
+    internal static Fractal CreateInfinite(string name) => name switch
     {
-        "menger" => DetailViews.Menger(null),
+        "menger" => CullingViews.Menger(null),
         "sierpinski" =>
             Samples.Repeated(null,
             [.. from corner in (Vector[])[Vector.Zero, Vector.I, Vector.J, Vector.K] select Samples.MoveAndScale(corner.X, 0.5 * corner.Y,
@@ -339,11 +342,11 @@ public class FractalAddressTests
             new(new(1, 0, 0), new(50, 0, 70), new(0.5, 0.5, -0.5)), new(new(0, 1.5, 0), Vector.Zero, 0.4 * Vector.One)),
         // Cubes that do not touch.
         "apart" =>
-            new(new("cube.obj",
+            new(new(
             [new Repetition(
                 [new TransformationSet(
                     [.. from x in (int[])[-1, 1] from y in (int[])[-1, 1] from z in (int[])[-1, 1] select Samples.MoveAndScale(0.8 * x,
-                    0.8 * y, 0.8 * z, 0.2)])], null)]), DetailViews.Cube),
+                    0.8 * y, 0.8 * z, 0.2)])], null)]), CullingViews.Cube),
         "skewed" =>
             Samples.Repeated(null, new(new(-1, 0, 0), new(0, 0, 30), new(0.5, 0.35, 0.45)),
             new(new(1, 0, 0), new(50, 0, 70), new(0.5, 0.4, 0.5)), new(new(0, 1, 0), Vector.Zero, new(0.4, 0.4, 0.35))),
@@ -353,45 +356,45 @@ public class FractalAddressTests
         _ => AssetFractals.Load(name, null),
     };
 
-    internal static FractalDive Dive(string name, int copy, AffineMap placement) =>
-        new(LodHierarchy.Build(Infinite(name)), copy, placement, name switch
+    internal static FractalDive CreateDive(string name, int mapIndex, AffineMap placement) =>
+        new(LodHierarchy.Build(CreateInfinite(name)), mapIndex, placement, name switch
     {
-        "menger" => copy == 0 ? -Vector.One : new(-1, 1, 0.8),
+        "menger" => mapIndex == 0 ? -Vector.One : new(-1, 1, 0.8),
         _ => new(-1, -0.7, -0.9),
     });
 
-    private static void CheckDive(string name, int copy, AffineMap placement, int depth, double tolerance)
+    private static void CheckDive(string name, int mapIndex, AffineMap placement, int depth, double tolerance)
     {
-        var dive = Dive(name, copy, placement);
-        var (about, size) = (dive.Address.FrameToCamera, dive.Start.Length() + placement.Linear.MaxAbsEntry());
+        var dive = CreateDive(name, mapIndex, placement);
+        var (frameToCamera, size) = (dive.Address.FrameToCamera, dive.Start.Length() + placement.Linear.MaxAbsEntry());
         Assert.Equal((0, 0.0), (dive.Address.Depth, dive.Address.LogUnit));
-        dive.GoTo(depth);
+        dive.GoToDepth(depth);
         AssertFinite(dive.Address);
-        dive.GoBack();
+        dive.ReturnToStart();
         Assert.Equal(0, dive.Address.Depth);
         Assert.Empty(dive.Address.Path);
         Assert.Equal(0.0, dive.Address.LogUnit);
-        Near.Equal(0, Near.Difference(about, dive.Address.FrameToCamera) / size, tolerance);
+        Near.Equal(0, Near.Difference(frameToCamera, dive.Address.FrameToCamera) / size, tolerance);
     }
 
     private static void CheckRoots(Random random, Fractal fractal, AffineMap placement)
     {
-        var table = LodHierarchy.Build(fractal);
-        var top = table.NodeAt(table.LevelCount);
+        var hierarchy = LodHierarchy.Build(fractal);
+        var top = hierarchy.NodeAt(hierarchy.LevelCount);
         if (top.IsEmpty)
         {
             return;
         }
 
         var position = placement * (top.Box.Centre + top.Box.Size.Stretch(random.Vector()));
-        var address = new FractalAddress(table, placement, position);
+        var address = new FractalAddress(hierarchy, placement, position);
         address.Move(Vector.Zero);
         // Deeper: to a corner of some sub-fractal, several times.
         for (var i = 0; i < 5; i++)
         {
             var step = 0.9
                 * (address.FrameToCamera
-                    * (State(table, address).Box.Centre + (0.5 * State(table, address).Box.Size.Stretch(random.Vector()))));
+                    * (NodeOf(hierarchy, address).Box.Centre + (0.5 * NodeOf(hierarchy, address).Box.Size.Stretch(random.Vector()))));
             position += Math.Exp(address.LogUnit) * step;
             address.Move(step);
         }
@@ -400,23 +403,24 @@ public class FractalAddressTests
         var found = new List<AffineMap>();
         foreach (var root in address.CollectRoots(int.MaxValue))
         {
-            AddInstances(found, table, root.RemainingLevels, new(unit * root.FrameToCamera.Linear, unit * root.FrameToCamera.Translation));
+            AddInstances(found, hierarchy, root.RemainingLevels,
+                new(unit * root.FrameToCamera.Linear, unit * root.FrameToCamera.Translation));
         }
 
         // Of the table: of what overlaps beyond the end of a repetition, it has some twice (docs/colliders.md).
-        var (expected, shift) = (new List<AffineMap>(), AffineMap.Translate(-position) * placement);
-        AddInstances(expected, table, table.LevelCount, shift);
-        DetailViews.AssertEachOnce([.. expected], found);
-        var distinct = FractalGenerator.Expand(fractal, 2_000_000).Select(instance => shift * instance).ToArray();
-        Assert.All(DetailViews.Count(distinct, found), count => Assert.True(count >= 1));
+        var (expected, objectToCamera) = (new List<AffineMap>(), AffineMap.Translate(-position) * placement);
+        AddInstances(expected, hierarchy, hierarchy.LevelCount, objectToCamera);
+        CullingViews.AssertEachVisibleOnce([.. expected], found);
+        var distinct = FractalGenerator.Expand(fractal, 2_000_000).Select(instance => objectToCamera * instance).ToArray();
+        Assert.All(CullingViews.CountMatches(distinct, found), count => Assert.True(count >= 1));
     }
 
-    private static void AddInstances(List<AffineMap> found, LodHierarchy table, long levels, AffineMap map)
+    private static void AddInstances(List<AffineMap> found, LodHierarchy hierarchy, long levels, AffineMap map)
     {
-        var state = table.NodeAt(levels);
-        if (state.ChildMaps.Length == 0)
+        var node = hierarchy.NodeAt(levels);
+        if (node.ChildMaps.Length == 0)
         {
-            if (!state.IsEmpty)
+            if (!node.IsEmpty)
             {
                 found.Add(map);
             }
@@ -424,42 +428,43 @@ public class FractalAddressTests
             return;
         }
 
-        for (var child = 0; child < state.ChildMaps.Length; child++)
+        for (var child = 0; child < node.ChildMaps.Length; child++)
         {
-            AddInstances(found, table, state.ChildLevelSteps[child].RemainingLevels(levels), map * state.ChildMaps[child].ToAffineMap());
+            AddInstances(found, hierarchy, node.ChildLevelSteps[child].RemainingLevels(levels), map * node.ChildMaps[child].ToAffineMap());
         }
     }
 
     /// <summary>Goes into sub-fractals and out of them; wherever it is not deep, its place is compared with the sum of the steps.</summary>
-    private static void CheckWalk(Random random, LodHierarchy table, int steps)
+    private static void CheckRandomWalk(Random random, LodHierarchy hierarchy, int steps)
     {
-        var (position, size) = (Aside * new Vector(2, 1, -2), table.NodeAt(table.LevelCount).Box.Transform(Aside).Diagonal);
-        var address = new FractalAddress(table, Aside, position);
+        var (position, size) =
+            (SamplePlacement * new Vector(2, 1, -2), hierarchy.NodeAt(hierarchy.LevelCount).Box.Transform(SamplePlacement).Diagonal);
+        var address = new FractalAddress(hierarchy, SamplePlacement, position);
         address.Move(Vector.Zero);
-        var (deepest, compared, isGoingIn) = (0, 0, true);
+        var (maxDepth, compared, isGoingIn) = (0, 0, true);
         for (var i = 0; i < steps; i++)
         {
-            var state = State(table, address);
+            var node = NodeOf(hierarchy, address);
             // In for some levels, then out again.
             isGoingIn = isGoingIn ? address.Depth < 30 && random.Next(200) > 0 : address.Depth == 0 || random.Next(500) == 0;
             var step = isGoingIn
-                ? random.Between(0.1, 0.6) * (address.FrameToCamera * (state.Box.Centre + (0.5 * state.Box.Size.Stretch(random.Vector()))))
+                ? random.Between(0.1, 0.6) * (address.FrameToCamera * (node.Box.Centre + (0.5 * node.Box.Size.Stretch(random.Vector()))))
                 // Away from what is near, to some side.
-                : random.Between(0.2, 2) * state.Box.Transform(address.FrameToCamera).Diagonal
-                * ((0.7 * random.Direction()) - (address.FrameToCamera * state.Box.Centre).UnitVector());
+                : random.Between(0.2, 2) * node.Box.Transform(address.FrameToCamera).Diagonal
+                * ((0.7 * random.Direction()) - (address.FrameToCamera * node.Box.Centre).UnitVector());
             position += Math.Exp(address.LogUnit) * step;
             address.Move(step);
             AssertFinite(address);
-            state = State(table, address);
+            node = NodeOf(hierarchy, address);
             var camera = address.FrameToCamera.Inverse() * Vector.Zero;
             Assert.True(
-                address.Depth == 0 || Math.Sqrt(state.Box.DistanceSquared(camera)) <= 1.001 * Left * state.Box.Diagonal,
-                Text($"step {i}: too far away at depth {address.Depth}"));
-            deepest = Math.Max(deepest, address.Depth);
+                address.Depth == 0 || Math.Sqrt(node.Box.DistanceSquared(camera)) <= 1.001 * MaxDistanceInDiagonals * node.Box.Diagonal,
+                FormatInvariant($"step {i}: too far away at depth {address.Depth}"));
+            maxDepth = Math.Max(maxDepth, address.Depth);
             if (address.Depth <= 6)
             {
                 compared++;
-                Near.Equal(position, address.WorldPosition(Aside), 1e-9 * size);
+                Near.Equal(position, address.WorldPosition(SamplePlacement), 1e-9 * size);
             }
 
             if (position.Length() > 20 * size)
@@ -470,10 +475,10 @@ public class FractalAddressTests
             }
         }
 
-        Assert.True(deepest >= 6 && compared >= steps / 100, Text($"deepest {deepest}, compared {compared} times"));
+        Assert.True(maxDepth >= 6 && compared >= steps / 100, FormatInvariant($"deepest {maxDepth}, compared {compared} times"));
     }
 
-    private static void Wander(Random random, FractalAddress address, int steps)
+    private static void MoveRandomly(Random random, FractalAddress address, int steps)
     {
         for (var i = 0; i < steps; i++)
         {
@@ -481,23 +486,23 @@ public class FractalAddressTests
         }
     }
 
-    private static LodNode State(LodHierarchy table, FractalAddress address)
+    private static LodNode NodeOf(LodHierarchy hierarchy, FractalAddress address)
     {
-        var levels = table.LevelCount;
-        foreach (var copy in address.Path)
+        var levels = hierarchy.LevelCount;
+        foreach (var mapIndex in address.Path)
         {
-            levels = Below(table, levels, copy);
+            levels = ChildLevels(hierarchy, levels, mapIndex);
         }
 
-        return table.NodeAt(levels);
+        return hierarchy.NodeAt(levels);
     }
 
-    private static long Below(LodHierarchy table, long levels, int copy) =>
-        table.NodeAt(levels).ChildLevelSteps[copy].RemainingLevels(levels);
+    private static long ChildLevels(LodHierarchy hierarchy, long levels, int mapIndex) =>
+        hierarchy.NodeAt(levels).ChildLevelSteps[mapIndex].RemainingLevels(levels);
 
     private static void AssertFinite(FractalAddress address) => Assert.True(
         address.FrameToCamera.IsFinite() && double.IsFinite(address.LogUnit) && address.FrameToCamera.Linear.Determinant() != 0,
-        Text($"at depth {address.Depth}: {address.FrameToCamera}, {address.LogUnit}"));
+        FormatInvariant($"at depth {address.Depth}: {address.FrameToCamera}, {address.LogUnit}"));
 
-    private static string Text(FormattableString text) => text.ToString(CultureInfo.InvariantCulture);
+    private static string FormatInvariant(FormattableString text) => text.ToString(CultureInfo.InvariantCulture);
 }

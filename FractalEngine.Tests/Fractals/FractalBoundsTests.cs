@@ -33,7 +33,7 @@ public class FractalBoundsTests
     {
         // Nine million products of 96 bytes.
         var set = new TransformationSet([.. Enumerable.Range(0, 3000).Select(_ => random.Transformation())]);
-        var fractal = new Fractal(new("base.obj", [new Repetition([set, set], 3)]), Samples.Triangle);
+        var fractal = new Fractal(new([new Repetition([set, set], 3)]), Samples.Triangle);
         var before = GC.GetAllocatedBytesForCurrentThread();
         Assert.True(LevelBounds.Compute(fractal).At(0).IsFinite());
         Assert.InRange(GC.GetAllocatedBytesForCurrentThread() - before, 0, 10_000_000);
@@ -42,14 +42,14 @@ public class FractalBoundsTests
     [Fact]
     public void Bounds_OfAnyFractal_AreThoseOfItsExpandedVertices() => Seeded.Run(300, random =>
     {
-        var fractal = RandomFractals.Draw(random);
+        var fractal = RandomFractals.Create(random);
         AssertNear(BruteForce(fractal), fractal.Bounds, 1e-9);
     });
 
     [Fact]
     public void Bounds_OfAnyComponentwiseFractal_AreThoseOfItsExpandedVertices() => Seeded.Run(300, random =>
     {
-        var fractal = RandomFractals.Draw(random, Composition.Componentwise);
+        var fractal = RandomFractals.Create(random, Composition.Componentwise);
         AssertNear(BruteForce(fractal), fractal.Bounds, 1e-9);
     });
 
@@ -72,7 +72,7 @@ public class FractalBoundsTests
         var infinite = new Fractal(file.Description, Samples.Triangle);
         Assert.True(infinite.Description.IsInfinite);
         Assert.True(infinite.Bounds.Minimum.IsFinite() && infinite.Bounds.Maximum.IsFinite(), infinite.Bounds.ToString());
-        AssertHolds(infinite.Bounds, BruteForce(infinite.WithDepth(2)));
+        AssertContains(infinite.Bounds, BruteForce(infinite.WithDepth(2)));
     }
 
     [Fact]
@@ -109,7 +109,7 @@ public class FractalBoundsTests
     public void Bounds_OfAppendixBAtFullDepth_HoldThoseOfDepthTwo()
     {
         // The identity is among its maps, so deeper ones hold all instances of the shallower.
-        AssertHolds(Samples.AppendixBAt(6).Bounds, Samples.AppendixBAt(2).Bounds);
+        AssertContains(Samples.AppendixBAt(6).Bounds, Samples.AppendixBAt(2).Bounds);
     }
 
     [Fact]
@@ -117,14 +117,15 @@ public class FractalBoundsTests
         Assert.True(new Fractal(Samples.Repeated(3, Samples.Move(1, 0, 0)).Description, Mesh.Empty).Bounds.IsEmpty);
 
     private static BoundingBox BruteForce(Fractal fractal) =>
-        Naive.Box(Naive.Chains(fractal.Description).SelectMany(map => Naive.Vertices(fractal.BaseMesh).Select(v => Naive.Apply(map, v))));
+        NaiveFractal.Box(NaiveFractal.Chains(fractal.Description)
+        .SelectMany(map => NaiveFractal.Vertices(fractal.BaseMesh).Select(v => NaiveFractal.Apply(map, v))));
 
-    private static void AssertHolds(BoundingBox outer, BoundingBox inner) => AssertNear(outer, BoundingBox.Union(outer, inner), 1e-9);
+    private static void AssertContains(BoundingBox outer, BoundingBox inner) => AssertNear(outer, BoundingBox.Union(outer, inner), 1e-9);
 
-    private static void AssertNear(BoundingBox expected, BoundingBox actual, double ofSize)
+    private static void AssertNear(BoundingBox expected, BoundingBox actual, double relativeTolerance)
     {
-        Near.Equal(expected.Minimum, actual.Minimum, ofSize * expected.Diagonal);
-        Near.Equal(expected.Maximum, actual.Maximum, ofSize * expected.Diagonal);
+        Near.Equal(expected.Minimum, actual.Minimum, relativeTolerance * expected.Diagonal);
+        Near.Equal(expected.Maximum, actual.Maximum, relativeTolerance * expected.Diagonal);
     }
 
     [Fact]

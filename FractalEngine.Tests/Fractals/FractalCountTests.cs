@@ -9,7 +9,7 @@ namespace FractalEngine.Tests.Fractals;
 
 public class FractalCountTests
 {
-    private static Transformation[] Row(int count) => [.. Enumerable.Range(0, count).Select(i => Samples.Move(i, 0, 0))];
+    private static Transformation[] TranslationsInARow(int count) => [.. Enumerable.Range(0, count).Select(i => Samples.Move(i, 0, 0))];
 
     [Theory]
     [InlineData(10, 7, 5, 168_070)]
@@ -19,7 +19,7 @@ public class FractalCountTests
     public void FaceCount_IsThePapersBaseTimesTransformationsToTheDepth(int faces, int transformations, int depth, long expected)
     {
         var mesh = new Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0], [.. Enumerable.Repeat(new[] { 0, 1, 2 }, faces).SelectMany(f => f)]);
-        Assert.Equal(expected, new Fractal(Samples.Repeated(depth, Row(transformations)).Description, mesh).FaceCount);
+        Assert.Equal(expected, new Fractal(Samples.Repeated(depth, TranslationsInARow(transformations)).Description, mesh).FaceCount);
     }
 
     [Fact]
@@ -29,7 +29,7 @@ public class FractalCountTests
     public void InstanceCount_OfAGoogol_IsExactAndImmediate()
     {
         var start = Stopwatch.StartNew();
-        var fractal = Samples.Repeated(100, Row(10));
+        var fractal = Samples.Repeated(100, TranslationsInARow(10));
         Assert.Equal(BigInteger.Pow(10, 100), fractal.InstanceCount);
         Assert.Equal(4 * BigInteger.Pow(10, 100), fractal.FaceCount);
         Assert.Equal(100, fractal.LevelCount);
@@ -37,12 +37,12 @@ public class FractalCountTests
     }
 
     [Fact]
-    public void InstanceCount_AtDepthZero_IsOne() => Assert.Equal(1, Samples.Repeated(0, Row(10)).InstanceCount);
+    public void InstanceCount_AtDepthZero_IsOne() => Assert.Equal(1, Samples.Repeated(0, TranslationsInARow(10)).InstanceCount);
 
     [Fact]
     public void InstanceCount_OfTheInfinite_IsNull()
     {
-        var fractal = Samples.Repeated(null, Row(2));
+        var fractal = Samples.Repeated(null, TranslationsInARow(2));
         Assert.True(fractal.Description.IsInfinite);
         Assert.Null(fractal.InstanceCount);
         Assert.Null(fractal.FaceCount);
@@ -52,15 +52,15 @@ public class FractalCountTests
     [Fact]
     public void InstanceCount_OfAnyFractal_IsTheNumberOfChains() => Seeded.Run(100, random =>
     {
-        var fractal = RandomFractals.Draw(random);
-        Assert.Equal(Naive.Chains(fractal.Description).Count, fractal.InstanceCount);
+        var fractal = RandomFractals.Create(random);
+        Assert.Equal(NaiveFractal.Chains(fractal.Description).Count, fractal.InstanceCount);
     });
 
     [Fact]
     public void LevelAt_OfAnyFractal_IsTheSetThere() => Seeded.Run(100, random =>
     {
-        var fractal = RandomFractals.Draw(random);
-        var levels = Naive.Levels(fractal.Description.Steps).ToList();
+        var fractal = RandomFractals.Create(random);
+        var levels = NaiveFractal.Levels(fractal.Description.Steps).ToList();
         Assert.Equal(levels.Count, fractal.LevelCount);
         Assert.Equal(levels, Enumerable.Range(0, levels.Count)
             .Select(level => (IReadOnlyList<Transformation>)fractal.LevelAt(level).Transformations));
@@ -70,8 +70,8 @@ public class FractalCountTests
     [Fact]
     public void LevelAt_InTheMiddleOfAMillionLevels_IsImmediate()
     {
-        TransformationSet one = new([.. Row(2)]), other = new([.. Row(3)]);
-        var fractal = new Fractal(new("base.obj", [new Repetition([one, other], 500_000)]), Samples.Triangle);
+        TransformationSet one = new([.. TranslationsInARow(2)]), other = new([.. TranslationsInARow(3)]);
+        var fractal = new Fractal(new([new Repetition([one, other], 500_000)]), Samples.Triangle);
         Assert.Same(one, fractal.LevelAt(777_776));
         Assert.Same(other, fractal.LevelAt(777_777));
     }
@@ -81,13 +81,13 @@ public class FractalCountTests
     {
         Assert.Equal(25, Samples.AppendixBAt(1).InstanceCount);
         Assert.Equal(1, Samples.AppendixBAt(0).InstanceCount);
-        Assert.Equal(9, Samples.Repeated(null, Row(3)).WithDepth(2).InstanceCount);
+        Assert.Equal(9, Samples.Repeated(null, TranslationsInARow(3)).WithDepth(2).InstanceCount);
     }
 
     [Fact]
     public void WithDepth_WithoutARecursive_IsRefused()
     {
-        var description = new FractalDescription("base.obj", [new TransformationSet([.. Row(3)])]);
+        var description = new FractalDescription([new TransformationSet([.. TranslationsInARow(3)])]);
         Assert.False(description.HasDepth);
         Assert.Throws<InvalidOperationException>(() => description.WithDepth(3));
     }
@@ -99,22 +99,23 @@ public class FractalCountTests
     [InlineData(99_999, 10_000)]
     [InlineData(100_000, 100_000)]
     [InlineData(long.MaxValue, 1_000_000_000_000_000_000)]
-    public void Within_ABudget_IsTheDeepestThatFits(long budget, long expected) =>
-        Assert.Equal(expected, Samples.Repeated(100, Row(10)).WithMaxInstances(budget).InstanceCount);
+    public void WithMaxInstances_OfABudget_IsTheDeepestThatFits(long budget, long expected) =>
+        Assert.Equal(expected, Samples.Repeated(100, TranslationsInARow(10)).WithMaxInstances(budget).InstanceCount);
 
     [Fact]
-    public void Within_ABudgetThatIsEnough_IsTheFractalItself() =>
-        Assert.Equal(1000, Samples.Repeated(3, Row(10)).WithMaxInstances(1000).InstanceCount);
+    public void WithMaxInstances_OfASufficientBudget_IsTheFractalItself() =>
+        Assert.Equal(1000, Samples.Repeated(3, TranslationsInARow(10)).WithMaxInstances(1000).InstanceCount);
 
     [Fact]
-    public void Within_AnyBudget_IsKept() => Seeded.Run(300, random =>
+    public void WithMaxInstances_OfAnyBudget_RespectsIt() => Seeded.Run(300, random =>
     {
         var budget = random.Next(1, 200);
-        var fractal = RandomFractals.Draw(random, infinite: random.Next(3) == 0);
+        var fractal = RandomFractals.Create(random, infinite: random.Next(3) == 0);
         var cut = fractal.WithMaxInstances(budget);
         Assert.True(cut.InstanceCount is { } count && count >= 1 && count <= budget, $"{cut.InstanceCount} of {budget}");
     });
 
     [Fact]
-    public void Within_OfTheInfinite_IsFinite() => Assert.Equal(1024, Samples.Repeated(null, Row(2)).WithMaxInstances(2000).InstanceCount);
+    public void WithMaxInstances_OfTheInfinite_IsFinite() =>
+        Assert.Equal(1024, Samples.Repeated(null, TranslationsInARow(2)).WithMaxInstances(2000).InstanceCount);
 }

@@ -17,8 +17,9 @@ public class FractalExpansionTests
     [MemberData(nameof(Compositions))]
     public void Expand_OfAnyFractal_IsEveryChainOnce(Composition composition) => Seeded.Run(200, random =>
     {
-        var fractal = RandomFractals.Draw(random, composition);
-        Naive.AssertSameMaps(Naive.Distinct(Naive.Chains(fractal.Description), Tolerance), FractalGenerator.Expand(fractal, Budget),
+        var fractal = RandomFractals.Create(random, composition);
+        NaiveFractal.AssertSameMaps(NaiveFractal.Distinct(NaiveFractal.Chains(fractal.Description), Tolerance),
+            FractalGenerator.Expand(fractal, Budget),
             Tolerance);
     });
 
@@ -64,7 +65,7 @@ public class FractalExpansionTests
 
     [Fact]
     public void Expand_OfAppendixBAtDepthThree_IsTheSetOfAllItsChains() => Assert.Equal(
-        Naive.Chains(Samples.AppendixBAt(3).Description).Select(Key).ToHashSet(),
+        NaiveFractal.Chains(Samples.AppendixBAt(3).Description).Select(Key).ToHashSet(),
         Keys(FractalGenerator.Expand(Samples.AppendixBAt(3), Budget)));
 
     [Fact]
@@ -75,9 +76,10 @@ public class FractalExpansionTests
     [MemberData(nameof(Compositions))]
     public void Expand_WithSetsInAnotherOrder_IsTheSameSetOfMaps(Composition composition) => Seeded.Run(50, random =>
     {
-        var fractal = RandomFractals.Draw(random, composition);
-        var shuffled = new Fractal(fractal.Description with { Steps = Shuffled(random, fractal.Description.Steps) }, fractal.BaseMesh);
-        Naive.AssertSameMaps([.. FractalGenerator.Expand(fractal, Budget).Select(Naive.Rows)], FractalGenerator.Expand(shuffled, Budget),
+        var fractal = RandomFractals.Create(random, composition);
+        var shuffled = new Fractal(fractal.Description with { Steps = Shuffle(random, fractal.Description.Steps) }, fractal.BaseMesh);
+        NaiveFractal.AssertSameMaps([.. FractalGenerator.Expand(fractal, Budget).Select(NaiveFractal.Rows)],
+            FractalGenerator.Expand(shuffled, Budget),
             Tolerance);
     });
 
@@ -98,7 +100,7 @@ public class FractalExpansionTests
         Budget).Length);
 
     [Fact]
-    public void Expand_OfTinyCopiesFarFromEachOther_KeepsAll() =>
+    public void Expand_OfTinyInstancesFarFromEachOther_KeepsAll() =>
         // At depth 20 instances are a millionth of the size.
         Assert.Equal(1 << 20,
         FractalGenerator.Expand(Samples.Repeated(20, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(0.5, 0, 0, 0.5)),
@@ -131,14 +133,14 @@ public class FractalExpansionTests
     }
 
     [Fact]
-    public void Expand_ComponentwiseWithFewSums_LooksOnlyAtThose() =>
+    public void Expand_ComponentwiseWithFewSums_EnumeratesOnlyThose() =>
         // Of 3¹⁰⁰ chains only (102 choose 2) differ: how often each of three maps occurs.
         Assert.Equal(5151, FractalGenerator.Expand(
             new(Samples.Repeated(100, Samples.Move(1, 0, 0), Samples.Move(0, 1, 0), Samples.Move(0, 0, 1)).Description with { Composition =
             Composition.Componentwise }, Samples.Triangle), 6000).Length);
 
     [Fact]
-    public void ComponentwiseSums_AreEachOnceAndWithinTheBudget()
+    public void ExpandComponentwise_IsEachSumOnceAndWithinTheBudget()
     {
         var fractal = Samples.AppendixBAt(6, Composition.Componentwise);
         Assert.Equal(19_600, FractalGenerator.ExpandComponentwise(fractal, 19_600).Distinct().Count());
@@ -147,11 +149,12 @@ public class FractalExpansionTests
     }
 
     [Fact]
-    public void Under_APlacement_MovesEveryInstance() => Seeded.Run(50, random =>
+    public void WithPlacement_MovesEveryInstance() => Seeded.Run(50, random =>
     {
-        var (fractal, placement) = (RandomFractals.Draw(random), random.Transformation());
-        Naive.AssertSameMaps(
-            [.. FractalGenerator.Expand(fractal, Budget).Select(map => Naive.Compose(Naive.Map(placement), Naive.Rows(map)))],
+        var (fractal, placement) = (RandomFractals.Create(random), random.Transformation());
+        NaiveFractal.AssertSameMaps(
+            [.. FractalGenerator.Expand(fractal, Budget)
+            .Select(map => NaiveFractal.Compose(NaiveFractal.MapOf(placement), NaiveFractal.Rows(map)))],
             FractalGenerator.Expand(new(fractal.Description.WithPlacement(placement), fractal.BaseMesh), Budget), Tolerance);
     });
 
@@ -159,31 +162,18 @@ public class FractalExpansionTests
     public void ConcatenatePair_IsEveryPairInOrder() =>
         Assert.Equal(["ac", "ad", "bc", "bd"], FractalGenerator.ConcatenatePair<string>(["a", "b"], ["c", "d"], (x, y) => x + y));
 
-    [Fact]
-    public void Create_LoadsTheBaseMeshOnce()
-    {
-        List<string> loaded = [];
-        var fractal = FractalGenerator.Create(Samples.AppendixBAt(2).Description, file =>
-        {
-            loaded.Add(file);
-            return Samples.Tetrahedron;
-        });
-        Assert.Equal(["FractalBase.obj"], loaded);
-        Assert.Same(Samples.Tetrahedron, fractal.BaseMesh);
-    }
-
     // Different maps of Appendix B at depth 3 (factors 0.001 × 0.125) differ by far more than 1e-7, equal ones by far less. The factor
     // is crooked, so that no entry lies between two whole numbers, where rounding would part equal ones.
     private static string Key(double[][] map) =>
         string.Join(' ', map.SelectMany(row => row).Select(entry => (long)Math.Round(entry * 12_345_678.9)));
 
-    private static HashSet<string> Keys(ImmutableArray<AffineMap> maps) => [.. maps.Select(map => Key(Naive.Rows(map)))];
+    private static HashSet<string> Keys(ImmutableArray<AffineMap> maps) => [.. maps.Select(map => Key(NaiveFractal.Rows(map)))];
 
-    private static ImmutableArray<FractalStep> Shuffled(Random random, ImmutableArray<FractalStep> steps) =>
+    private static ImmutableArray<FractalStep> Shuffle(Random random, ImmutableArray<FractalStep> steps) =>
         [.. steps.Select(step => step switch
     {
         TransformationSet set => (FractalStep)new TransformationSet([.. set.Transformations.OrderBy(_ => random.Next())]),
-        Repetition repetition => new Repetition(Shuffled(random, repetition.Body), repetition.Count),
+        Repetition repetition => new Repetition(Shuffle(random, repetition.Body), repetition.Count),
         _ => step,
     })];
 }

@@ -12,7 +12,7 @@ public class FractalParserErrorTests
 {
     private const string Head = "v 1 2 3\nv 2 2 2\nt.a. (a, #, #)\nx. \"b.obj\"\nz<x>. [t.1] x\n";
 
-    private static void Fails(string text, string expected) => Errors.Are(expected, () => Samples.ParseFractal(text));
+    private static void Fails(string text, string expected) => Errors.AssertMessage(expected, () => Samples.ParseFractal(text));
 
     [Fact]
     public void File_WithoutAnything_SaysSo() => Fails("", "test.fdo:1:1: error: the fractal declares nothing");
@@ -27,7 +27,7 @@ public class FractalParserErrorTests
     [Fact]
     public void File_WithoutAResult_SaysWhatIsExpected()
     {
-        var error = Errors.Of(() => Samples.ParseFractal("v 1 2 3\nx. \"b.obj\"\n"));
+        var error = Errors.MessageOf(() => Samples.ParseFractal("v 1 2 3\nx. \"b.obj\"\n"));
         Assert.Contains("error: the fractal has no result: expected a declaration '<$>. object'", error, StringComparison.Ordinal);
     }
 
@@ -79,7 +79,8 @@ public class FractalParserErrorTests
 
     [Fact]
     public void Call_WithAHugeVectorNumber_IsOutOfRange() =>
-        Assert.Contains("test.fdo:6:9: error: vector ", Errors.Of(() => Samples.ParseFractal(Head + "<$>. [t.99999999999999999999] x")),
+        Assert.Contains("test.fdo:6:9: error: vector ",
+        Errors.MessageOf(() => Samples.ParseFractal(Head + "<$>. [t.99999999999999999999] x")),
         StringComparison.Ordinal);
 
     [Fact]
@@ -97,7 +98,7 @@ public class FractalParserErrorTests
     [InlineData("t.1.2.1.2.1", "'t' takes 1 argument, not 5")]
     public void Call_WithTheWrongNumberOfArguments_SaysBoth(string call, string message)
     {
-        var error = Errors.Thrown(() => Samples.ParseFractal(Head + $"<$>. [#, {call}] x")).Diagnostic;
+        var error = Errors.ThrownBy(() => Samples.ParseFractal(Head + $"<$>. [#, {call}] x")).Diagnostic;
         // A bare name may as well be a missing dot.
         Assert.True(error.Message == message || (call == "t" && error.Message == "unexpected ']', expected '.'"), error.Message);
         Assert.Equal(6, error.Line);
@@ -135,12 +136,12 @@ public class FractalParserErrorTests
               <$>. z {depth}
                      ^
             """);
-        Assert.True(Errors.Thrown(() => Samples.ParseFractal(Head + $"<$>. z {depth}")).Diagnostic.IsLimitExceeded);
+        Assert.True(Errors.ThrownBy(() => Samples.ParseFractal(Head + $"<$>. z {depth}")).Diagnostic.IsLimitExceeded);
     }
 
     [Fact]
     public void Depth_WithAFraction_IsNoNumberOfTimes() =>
-        Assert.StartsWith("test.fdo:6:9: error: unexpected '.", Errors.Of(() => Samples.ParseFractal(Head + "<$>. z 2.5")),
+        Assert.StartsWith("test.fdo:6:9: error: unexpected '.", Errors.MessageOf(() => Samples.ParseFractal(Head + "<$>. z 2.5")),
         StringComparison.Ordinal);
 
     [Fact]
@@ -192,7 +193,7 @@ public class FractalParserErrorTests
     [InlineData("t.a. (a, #, #) #", 16)]
     public void Function_OfTheWrongShape_PointsAtTheFault(string line, int column)
     {
-        var error = Errors.Thrown(() => Samples.ParseFractal(line + "\n<$>. \"b.obj\"")).Diagnostic;
+        var error = Errors.ThrownBy(() => Samples.ParseFractal(line + "\n<$>. \"b.obj\"")).Diagnostic;
         Assert.Equal((1, column), (error.Line, error.Column));
         Assert.StartsWith("unexpected ", error.Message, StringComparison.Ordinal);
     }
@@ -208,7 +209,7 @@ public class FractalParserErrorTests
     [InlineData("v 1 0x10 2", 6, "'x10'")]
     public void Vector_OfTheWrongShape_PointsAtTheFault(string line, int column, string unexpected)
     {
-        var error = Errors.Thrown(() => Samples.ParseFractal(line + "\n<$>. \"b.obj\"")).Diagnostic;
+        var error = Errors.ThrownBy(() => Samples.ParseFractal(line + "\n<$>. \"b.obj\"")).Diagnostic;
         Assert.Equal((1, column), (error.Line, error.Column));
         Assert.StartsWith($"unexpected {unexpected}", error.Message, StringComparison.Ordinal);
     }
@@ -223,7 +224,8 @@ public class FractalParserErrorTests
     [Fact]
     public void Vector_WithCommaDecimals_HasTooManyNumbers() =>
         Assert.StartsWith("test.fdo:1:",
-        InCulture.Get("de-DE", () => Errors.Of(() => Samples.ParseFractal("v 0,5 0,5 0,5\n<$>. \"b.obj\""))), StringComparison.Ordinal);
+        InCulture.Run("de-DE", () => Errors.MessageOf(() => Samples.ParseFractal("v 0,5 0,5 0,5\n<$>. \"b.obj\""))),
+        StringComparison.Ordinal);
 
     [Theory]
     [InlineData("x. \"Base.fdo\"")]
@@ -238,17 +240,17 @@ public class FractalParserErrorTests
     [Fact]
     public void BaseFile_WithoutItsClosingQuote_PointsAtTheEndOfTheLine() =>
         Assert.StartsWith("test.fdo:1:10: error: unexpected end of line, expected '\"'",
-        Errors.Of(() => Samples.ParseFractal("x. \"b.obj\n<$>. x")), StringComparison.Ordinal);
+        Errors.MessageOf(() => Samples.ParseFractal("x. \"b.obj\n<$>. x")), StringComparison.Ordinal);
 
     [Fact]
     public void Scale_OfZero_IsSingular() => Assert.StartsWith(
         "test.fdo:3:7: error: the scale (1, 0, 1) is singular",
-        Errors.Of(() => Samples.ParseFractal("v 1 0 1\nt.a. (#, #, a)\n<$>. [t.1] \"b.obj\"")), StringComparison.Ordinal);
+        Errors.MessageOf(() => Samples.ParseFractal("v 1 0 1\nt.a. (#, #, a)\n<$>. [t.1] \"b.obj\"")), StringComparison.Ordinal);
 
     [Fact]
     public void Infinite_Componentwise_IsRefused() => Assert.Contains(
         "infinite fractal can't be composed componentwise",
-        Errors.Of(() => Samples.ParseFractal("composition componentwise\n" + Head + "<$>. z")), StringComparison.Ordinal);
+        Errors.MessageOf(() => Samples.ParseFractal("composition componentwise\n" + Head + "<$>. z")), StringComparison.Ordinal);
 
     [Theory]
     [InlineData("composition sideways", 13)]
@@ -256,14 +258,14 @@ public class FractalParserErrorTests
     [InlineData("composition affine affine", 20)]
     public void Composition_OfTheWrongShape_PointsAtTheFault(string line, int column)
     {
-        var error = Errors.Thrown(() => Samples.ParseFractal(line + "\n<$>. \"b.obj\"")).Diagnostic;
+        var error = Errors.ThrownBy(() => Samples.ParseFractal(line + "\n<$>. \"b.obj\"")).Diagnostic;
         Assert.Equal((1, column), (error.Line, error.Column));
     }
 
     [Fact]
     public void Garbage_AtTheStartOfALine_PointsAtIt()
     {
-        var error = Errors.Of(() => Samples.ParseFractal("v 1 2 3\n  § what\n"));
+        var error = Errors.MessageOf(() => Samples.ParseFractal("v 1 2 3\n  § what\n"));
         Assert.StartsWith("test.fdo:2:3: error: unexpected '§', expected ", error, StringComparison.Ordinal);
         Assert.EndsWith("\n    § what\n    ^", error, StringComparison.Ordinal);
     }
@@ -273,7 +275,8 @@ public class FractalParserErrorTests
     [InlineData("\r\n")]
     public void Error_AfterAnyLineBreaks_HasTheRightLine(string lineBreak)
     {
-        var error = Errors.Thrown(() => Samples.ParseFractal($"# one{lineBreak}{lineBreak}v 1 2 3{lineBreak}<$>. y{lineBreak}")).Diagnostic;
+        var error =
+            Errors.ThrownBy(() => Samples.ParseFractal($"# one{lineBreak}{lineBreak}v 1 2 3{lineBreak}<$>. y{lineBreak}")).Diagnostic;
         Assert.Equal((4, 6, "<$>. y"), (error.Line, error.Column, error.SourceLine));
     }
 
@@ -316,7 +319,7 @@ public class FractalParserErrorTests
     public void Parse_OfManySteps_NamesTheLimit()
     {
         var error =
-            Errors.Thrown(() => Samples.ParseFractal("<$>. " + Repeat("[#] ", FractalLimits.MaxSteps + 1) + "\"b.obj\"")).Diagnostic;
+            Errors.ThrownBy(() => Samples.ParseFractal("<$>. " + Repeat("[#] ", FractalLimits.MaxSteps + 1) + "\"b.obj\"")).Diagnostic;
         Assert.True(error.IsLimitExceeded);
         Assert.Contains($"{FractalLimits.MaxSteps}", error.Message, StringComparison.Ordinal);
     }
@@ -325,7 +328,7 @@ public class FractalParserErrorTests
     public void Parse_OfRecursivesInRecursives_NamesTheLimit()
     {
         var error =
-            Errors.Thrown(
+            Errors.ThrownBy(
                 () => Samples.ParseFractal("x. \"b.obj\"\ny0. [#] x\n" + Lines(40, i => $"z{i}<x>. [#] y{i}\ny{i + 1}. z{i} 1\n")
                     + "<$>. y40")).Diagnostic;
         Assert.True(error.IsLimitExceeded);
@@ -336,7 +339,8 @@ public class FractalParserErrorTests
     public void Parse_OfMillionsToThePowerOfMillions_NamesTheLimit()
     {
         var error =
-            Errors.Thrown(() => Samples.ParseFractal("x. \"b.obj\"\nz<x>. [#, #] x\ny. z 1000000\nw<x>. [#] y\n<$>. w 1000000")).Diagnostic;
+            Errors.ThrownBy(
+                () => Samples.ParseFractal("x. \"b.obj\"\nz<x>. [#, #] x\ny. z 1000000\nw<x>. [#] y\n<$>. w 1000000")).Diagnostic;
         Assert.True(error.IsLimitExceeded);
         Assert.Contains($"{FractalLimits.MaxLevels}", error.Message, StringComparison.Ordinal);
     }
@@ -348,18 +352,18 @@ public class FractalParserErrorTests
         for (var change = random.Next(1, 6); change > 0; change--)
         {
             const string characters = "\0\t\n\r \"#$(),-.0159<>[]aetuvxyz§\uD83D";
-            var place = random.Next(text.Length);
+            var offset = random.Next(text.Length);
             _ = random.Next(3) switch
             {
-                0 => text.Remove(place, Math.Min(random.Next(1, 20), text.Length - place)),
-                1 => text.Insert(place, characters[random.Next(characters.Length)]),
-                _ => text.Replace(text[place], characters[random.Next(characters.Length)], place, 1),
+                0 => text.Remove(offset, Math.Min(random.Next(1, 20), text.Length - offset)),
+                1 => text.Insert(offset, characters[random.Next(characters.Length)]),
+                _ => text.Replace(text[offset], characters[random.Next(characters.Length)], offset, 1),
             };
         }
 
         try
         {
-            Assert.NotEmpty(Samples.ParseFractal(text.ToString()).Description.BaseFile);
+            Assert.NotEmpty(Samples.ParseFractal(text.ToString()).BaseFile);
         }
         catch (SourceException error)
         {
@@ -372,7 +376,7 @@ public class FractalParserErrorTests
     private static string Lines(int count, Func<int, string> line) => string.Concat(Enumerable.Range(0, count).Select(line));
 
     [Fact]
-    public void Function_WithAnUnknownOutput_IsTheStyleGuidesExample() => Errors.Are(
+    public void Function_WithAnUnknownOutput_IsTheStyleGuidesExample() => Errors.AssertMessage(
         """
         assets/fractals/tree.fdo:4:12: error: unexpected 'x', expected a vector number, a parameter or '#'
           t.a.b. (a, x, b)
@@ -387,12 +391,12 @@ public class FractalParserErrorTests
     [InlineData("t.a. (a, #, #", 14)]
     public void Function_WithParametersAndOfTheWrongShape_PointsAtTheFault(string line, int column)
     {
-        var error = Errors.Thrown(() => Samples.ParseFractal(line + "\n<$>. \"b.obj\"")).Diagnostic;
+        var error = Errors.ThrownBy(() => Samples.ParseFractal(line + "\n<$>. \"b.obj\"")).Diagnostic;
         Assert.Equal((1, column), (error.Line, error.Column));
         Assert.StartsWith("unexpected ", error.Message, StringComparison.Ordinal);
     }
 
     [Fact]
     public void Comment_BeforeACarriageReturnAlone_EndsThere() =>
-        Assert.Equal("b.obj", Samples.ParseFractal("# comment\r<$>. \"b.obj\"\r").Description.BaseFile);
+        Assert.Equal("b.obj", Samples.ParseFractal("# comment\r<$>. \"b.obj\"\r").BaseFile);
 }

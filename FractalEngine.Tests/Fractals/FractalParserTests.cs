@@ -13,17 +13,17 @@ public class FractalParserTests
     private static FractalDescription Parse(string text) => Samples.ParseFractal(text).Description;
 
     /// <summary>The sets of the result of depth 1, outermost first.</summary>
-    private static IReadOnlyList<Transformation>[] Sets(string text) => [.. Naive.Levels(Parse(Head + text).Steps)];
+    private static IReadOnlyList<Transformation>[] ParseLevels(string text) => [.. NaiveFractal.Levels(Parse(Head + text).Steps)];
 
-    private static Transformation Only(string call) => Assert.Single(Assert.Single(Sets($"<$>. [{call}] x")));
+    private static Transformation SingleTransformation(string call) => Assert.Single(Assert.Single(ParseLevels($"<$>. [{call}] x")));
 
     [Fact]
     public void Parse_AppendixB_AsItStands()
     {
         var description = Parse(Samples.AppendixB);
-        Assert.Equal("FractalBase.obj", description.BaseFile);
+        Assert.Equal("FractalBase.obj", Samples.ParseFractal(Samples.AppendixB).BaseFile);
         Assert.Equal(Composition.Affine, description.Composition);
-        var levels = Naive.Levels(description.Steps).ToList();
+        var levels = NaiveFractal.Levels(description.Steps).ToList();
         Assert.Equal(12, levels.Count);
         Assert.Equal(
             [Transformation.Identity, U(10, 10, 135, 45), U(10, -10, 135, -45), U(-10, 10, -135, 45), U(-10, -10, -135, -45)], levels[0]);
@@ -44,74 +44,84 @@ public class FractalParserTests
     [InlineData("v +1.0 .2e1 30.E-1")]
     public void Vector_WithAnySeparators_IsRead(string line) =>
         Assert.Equal(new(1, 2, 3),
-        Assert.Single(Naive.Levels(Parse($"{line}\nm.a. (a, #, #)\n<$>. [m.1] \"b.obj\"").Steps).Single()).Position);
+        Assert.Single(NaiveFractal.Levels(Parse($"{line}\nm.a. (a, #, #)\n<$>. [m.1] \"b.obj\"").Steps).Single()).Position);
 
     [Fact]
     public void Call_WithNumbers_BindsVectorsInOrder()
     {
-        Assert.Equal(new(new(10, 20, 30), Vector.Zero, Vector.One), Only("s.2"));
-        Assert.Equal(new(new(10, 20, 30), new(0, 90, 0), new(2, 2, 2)), Only("t.2.4"));
-        Assert.Equal(new(new(1, 2, 3), new(0, 90, 0), new(2, 2, 2)), Only("u.1.3.4"));
+        Assert.Equal(new(new(10, 20, 30), Vector.Zero, Vector.One), SingleTransformation("s.2"));
+        Assert.Equal(new(new(10, 20, 30), new(0, 90, 0), new(2, 2, 2)), SingleTransformation("t.2.4"));
+        Assert.Equal(new(new(1, 2, 3), new(0, 90, 0), new(2, 2, 2)), SingleTransformation("u.1.3.4"));
     }
 
     [Fact]
-    public void Call_OfAFunctionWithoutParameters_IsItsNameAndADot() => Assert.Equal(Samples.Move(1, 2, 3), Only("r."));
+    public void Call_OfAFunctionWithoutParameters_IsItsNameAndADot() => Assert.Equal(Samples.Move(1, 2, 3), SingleTransformation("r."));
 
     [Theory]
     [InlineData("[#,s.1,t.2.4]x")]
     [InlineData("[ # , s.1 , t.2.4 ]  x")]
     [InlineData("[\t#,\ts.1,\tt.2.4\t]\tx")]
     public void Set_WithAnyBlanks_KeepsItsOrder(string set) =>
-        Assert.Equal([Transformation.Identity, Only("s.1"), Only("t.2.4")], Assert.Single(Sets($"<$>. {set}")));
+        Assert.Equal([Transformation.Identity, SingleTransformation("s.1"), SingleTransformation("t.2.4")],
+        Assert.Single(ParseLevels($"<$>. {set}")));
 
     [Fact]
-    public void Set_BeforeASet_IsAppliedAfterIt() => Assert.Equal([[Only("s.1")], [Only("s.2")]], Sets("<$>. [s.1] [s.2] x"));
+    public void Set_BeforeASet_IsAppliedAfterIt() =>
+        Assert.Equal([[SingleTransformation("s.1")], [SingleTransformation("s.2")]], ParseLevels("<$>. [s.1] [s.2] x"));
 
     [Fact]
     public void Set_OnANamedObject_IsAppliedAfterItsSets() =>
-        Assert.Equal([[Only("s.1")], [Only("s.2")]], Sets("y. [s.2] x\n<$>. [s.1] y"));
+        Assert.Equal([[SingleTransformation("s.1")], [SingleTransformation("s.2")]], ParseLevels("y. [s.2] x\n<$>. [s.1] y"));
 
     [Fact]
-    public void Set_DirectlyOnAFile_NeedsNoName() => Assert.Equal("other.obj", Parse(Head + "<$>. [s.1] \"other.obj\"").BaseFile);
+    public void Set_DirectlyOnAFile_NeedsNoName() =>
+        Assert.Equal("other.obj", Samples.ParseFractal(Head + "<$>. [s.1] \"other.obj\"").BaseFile);
 
     [Fact]
     public void Result_OfAFile_IsTheMeshItself()
     {
         var description = Parse("<$>. \"Base.obj\"");
-        Assert.Equal("Base.obj", description.BaseFile);
+        Assert.Equal("Base.obj", Samples.ParseFractal("<$>. \"Base.obj\"").BaseFile);
         Assert.Equal(1, new Fractal(description, Samples.Triangle).InstanceCount);
     }
 
     [Fact]
-    public void Assignment_IsTheSameObject() => Assert.Equal([[Only("s.1")]], Sets("y. [s.1] x\nz. y\n<$>. z"));
+    public void Assignment_IsTheSameObject() => Assert.Equal([[SingleTransformation("s.1")]], ParseLevels("y. [s.1] x\nz. y\n<$>. z"));
 
     [Fact]
     public void Recursive_Flattened_RepeatsWhatItAddsToItsBase() =>
-        Assert.Equal([[Only("s.1")], [Only("s.1")], [Only("s.1")], [Only("s.2")]], Sets("a. [s.2] x\nz<a>. [s.1] a\nw. z 3\n<$>. w"));
+        Assert.Equal([[SingleTransformation("s.1")], [SingleTransformation("s.1")], [SingleTransformation("s.1")],
+        [SingleTransformation("s.2")]], ParseLevels("a. [s.2] x\nz<a>. [s.1] a\nw. z 3\n<$>. w"));
 
     [Fact]
     public void Recursive_WithTwoSetsInItsBody_RepeatsBothInOrder() =>
-        Assert.Equal([[Only("s.1")], [Only("s.2")], [Only("s.1")], [Only("s.2")]], Sets("y. [s.2] x\nz<x>. [s.1] y\n<$>. z 2"));
+        Assert.Equal([[SingleTransformation("s.1")], [SingleTransformation("s.2")], [SingleTransformation("s.1")],
+        [SingleTransformation("s.2")]], ParseLevels("y. [s.2] x\nz<x>. [s.1] y\n<$>. z 2"));
 
     [Fact]
-    public void Recursive_AtDepthZero_IsItsBase() => Assert.Equal([[Only("s.2")]], Sets("a. [s.2] x\nz<a>. [s.1] a\n<$>. z 0"));
+    public void Recursive_AtDepthZero_IsItsBase() =>
+        Assert.Equal([[SingleTransformation("s.2")]], ParseLevels("a. [s.2] x\nz<a>. [s.1] a\n<$>. z 0"));
 
     [Fact]
     public void Recursive_UnderASet_HasTheSetOnce() =>
-        Assert.Equal([[Only("s.2")], [Only("s.1")], [Only("s.1")]], Sets("z<x>. [s.1] x\n<$>. [s.2] z 2"));
+        Assert.Equal([[SingleTransformation("s.2")], [SingleTransformation("s.1")], [SingleTransformation("s.1")]],
+        ParseLevels("z<x>. [s.1] x\n<$>. [s.2] z 2"));
 
     [Fact]
     public void Recursive_InsideAnotherFlattened_IsRepeatedWhole() => Assert.Equal(
-        [[Only("s.2")], [Only("s.1")], [Only("s.1")], [Only("s.2")], [Only("s.1")], [Only("s.1")]],
-        Sets("z<x>. [s.1] x\nw<x>. [s.2] z 2\n<$>. w 2"));
+        [[SingleTransformation("s.2")], [SingleTransformation("s.1")], [SingleTransformation("s.1")], [SingleTransformation("s.2")],
+        [SingleTransformation("s.1")], [SingleTransformation("s.1")]],
+        ParseLevels("z<x>. [s.1] x\nw<x>. [s.2] z 2\n<$>. w 2"));
 
     [Fact]
     public void Recursive_OnAFlattenedOne_StartsFromIt() =>
-        Assert.Equal([[Only("s.2")], [Only("s.2")], [Only("s.1")]], Sets("z<x>. [s.1] x\ny. z 1\nw<y>. [s.2] y\n<$>. w 2"));
+        Assert.Equal([[SingleTransformation("s.2")], [SingleTransformation("s.2")], [SingleTransformation("s.1")]],
+        ParseLevels("z<x>. [s.1] x\ny. z 1\nw<y>. [s.2] y\n<$>. w 2"));
 
     [Fact]
     public void Recursive_BuiltOnItsBaseThroughAssignments_IsAccepted() =>
-        Assert.Equal([[Only("s.2")], [Only("s.1")]], Sets("y. x\ny2. [s.1] y\ny3. y2\nz<x>. [s.2] y3\n<$>. z 1"));
+        Assert.Equal([[SingleTransformation("s.2")], [SingleTransformation("s.1")]],
+        ParseLevels("y. x\ny2. [s.1] y\ny3. y2\nz<x>. [s.2] y3\n<$>. z 1"));
 
     [Fact]
     public void Result_OfARecursiveWithoutADepth_IsInfinite()
@@ -131,21 +141,21 @@ public class FractalParserTests
     [InlineData("# comment\n\n   \n\t# comment behind blanks\n#\n")]
     [InlineData("\r\n# comment\r\n\r\n")]
     [InlineData("\uFEFF")]
-    public void Parse_WithCommentsAndEmptyLines_PassesOverThem(string before) =>
-        Assert.Equal("b.obj", Samples.ParseFractalBytes(before + "<$>. \"b.obj\"\n# the end").Description.BaseFile);
+    public void Parse_WithCommentsAndEmptyLines_IgnoresThem(string before) =>
+        Assert.Equal("b.obj", Samples.ParseFractalBytes(before + "<$>. \"b.obj\"\n# the end").BaseFile);
 
     [Fact]
     public void Parse_WithAnyLineBreaks_IsTheSame()
     {
-        var expected = Naive.Levels(Parse(Samples.AppendixB).Steps).SelectMany(level => level);
-        Assert.Equal(expected, Naive.Levels(Parse(Samples.AppendixB.ReplaceLineEndings("\r\n")).Steps).SelectMany(level => level));
-        Assert.Equal(expected, Naive.Levels(Parse(Samples.AppendixB + "\n").Steps).SelectMany(level => level));
+        var expected = NaiveFractal.Levels(Parse(Samples.AppendixB).Steps).SelectMany(level => level);
+        Assert.Equal(expected, NaiveFractal.Levels(Parse(Samples.AppendixB.ReplaceLineEndings("\r\n")).Steps).SelectMany(level => level));
+        Assert.Equal(expected, NaiveFractal.Levels(Parse(Samples.AppendixB + "\n").Steps).SelectMany(level => level));
     }
 
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
     public void Parse_InAnyCulture_ReadsPoints(string culture) => Assert.Equal(
-        0.5 * Vector.One, InCulture.Get(culture, () => Naive.Levels(Parse(Samples.AppendixB).Steps).Last()[1].Scale));
+        0.5 * Vector.One, InCulture.Run(culture, () => NaiveFractal.Levels(Parse(Samples.AppendixB).Steps).Last()[1].Scale));
 
     [Fact]
     public void Depth_OfAGoogolInstances_IsReadAtOnceAndCountedExactly()

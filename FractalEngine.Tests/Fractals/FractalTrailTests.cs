@@ -11,7 +11,7 @@ public class FractalTrailTests
 
     /// <summary>Figure 9: the rows of a queue of three, from no transformation to four.</summary>
     [Fact]
-    public void Follow_DeeperAndDeeper_FillsTheQueueAsInFigure9()
+    public void Update_DeeperAndDeeper_FillsTheQueueAsInFigure9()
     {
         var (m, t) = (AffineMap.Translate(new(1, 2, 3)), First.ToAffineMap());
         AffineMap[] chain = [m, m * t, m * t * t, m * t * t * t, m * t * t * t * t];
@@ -35,7 +35,7 @@ public class FractalTrailTests
     }
 
     [Fact]
-    public void Follow_FarFromEverything_IsTheObjectsOwnMatrix()
+    public void Update_FarFromEverything_IsTheObjectsOwnMatrix()
     {
         var m = AffineMap.Translate(new(1, 2, 3));
         var trail = new FractalTrail(Infinite, 1);
@@ -47,7 +47,7 @@ public class FractalTrailTests
     [InlineData(1, 4)]
     [InlineData(2, 3)]
     [InlineData(5, 0)]
-    public void Follow_WithAQueue_DrawsWhatIsFurtherOut(int length, int drawn)
+    public void Update_WithAQueue_DrawsWhatIsFurtherOut(int length, int drawn)
     {
         var t = First.ToAffineMap();
         var chain = Enumerable.Repeat(t, drawn).Aggregate(AffineMap.Identity, (map, next) => map * next);
@@ -56,7 +56,7 @@ public class FractalTrailTests
     }
 
     [Fact]
-    public void Follow_IdentitiesAndInfiniteDepth_Ends()
+    public void Update_WithIdentitiesAndInfiniteDepth_Ends()
     {
         var fractal = Samples.Repeated(null, Transformation.Identity, First);
         var trail = new FractalTrail(fractal, 3);

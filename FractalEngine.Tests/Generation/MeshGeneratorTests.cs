@@ -13,7 +13,7 @@ public sealed class MeshGeneratorTests
     [Theory]
     [InlineData("spaceship-interior", 277_654)]
     [InlineData("tree-stump", 237_664)]
-    public void StandIn_ByDefault_HasExactlyThePapersFaces(string name, int faces)
+    public void PaperModel_ByDefault_HasExactlyThePapersFaces(string name, int faces)
     {
         foreach (var seed in (ulong[])[0, 1, 77])
         {
@@ -48,8 +48,8 @@ public sealed class MeshGeneratorTests
     [InlineData("icosphere", 900, 1280)]
     [InlineData("tree-stump", 1, 300)]
     [InlineData("icosphere", 1, 20)]
-    public void Create_OfANumberThatTheShapeDoesNotAllow_TakesTheNearest(string name, int asked, int given) =>
-        Assert.Equal(given, MeshGenerators.Create(name, 3, asked).FaceCount);
+    public void Create_OfANumberThatTheShapeDoesNotAllow_TakesTheClosest(string name, int requested, int expected) =>
+        Assert.Equal(expected, MeshGenerators.Create(name, 3, requested).FaceCount);
 
     [Theory]
     [InlineData(0)]
@@ -110,7 +110,7 @@ public sealed class MeshGeneratorTests
     [Theory]
     [InlineData("icosphere")]
     [InlineData("torus-knot")]
-    public void ClosedShape_HasEveryEdgeTwice_OnceEachWay(string name)
+    public void ClosedShape_HasEveryEdgeTwice_OnceInEachDirection(string name)
     {
         var mesh = MeshGenerators.Create(name);
         var edges = Edges(mesh).ToHashSet();

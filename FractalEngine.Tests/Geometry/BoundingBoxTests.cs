@@ -9,7 +9,7 @@ public class BoundingBoxTests
     private static readonly BoundingBox Unit = new(Vector.Zero, Vector.One);
 
     [Fact]
-    public void Empty_HoldsNothingAndIsNeutral()
+    public void Empty_ContainsNothingAndIsNeutral()
     {
         Assert.True(BoundingBox.Empty.IsEmpty);
         Assert.Equal((Vector.Zero, Vector.Zero), (BoundingBox.Empty.Centre, BoundingBox.Empty.Size));
@@ -22,7 +22,7 @@ public class BoundingBoxTests
     public void Including_FromEmpty_IsThePoint() => Assert.Equal(new(Vector.J, Vector.J), BoundingBox.Empty.Including(Vector.J));
 
     [Fact]
-    public void Union_HoldsBoth() =>
+    public void Union_ContainsBoth() =>
         Assert.Equal(new(new(-1, 0, 0), new(1, 1, 5)), BoundingBox.Union(Unit, new(new(-1, 0, 2), new(0, 1, 5))));
 
     [Fact]
@@ -41,7 +41,7 @@ public class BoundingBoxTests
     {
         var map = random.Transformation().ToAffineMap();
         var corners = Enumerable.Range(0, 8).Select(i => map * new Vector(i & 1, (i >> 1) & 1, i >> 2));
-        var (expected, actual) = (Naive.Box(corners), Unit.Transform(map));
+        var (expected, actual) = (NaiveFractal.Box(corners), Unit.Transform(map));
         // Coordinates up to 4.
         Near.Equal(expected.Minimum, actual.Minimum, 1e-14);
         Near.Equal(expected.Maximum, actual.Maximum, 1e-14);

@@ -6,19 +6,19 @@ namespace FractalEngine.Tests.Geometry;
 public class BoundingSphereTests
 {
     [Fact]
-    public void Transform_ByAnyMap_HoldsTheImageOfTheBall() => Seeded.Run(200, random =>
+    public void Transform_ByAnyMap_ContainsTheTransformedSphere() => Seeded.Run(200, random =>
     {
         var map = random.Transformation().ToAffineMap() * random.Transformation().ToAffineMap();
-        var ball = new BoundingSphere(random.Vector(3), random.Between(0.1, 2));
-        var image = ball.Transform(map);
+        var sphere = new BoundingSphere(random.Vector(3), random.Between(0.1, 2));
+        var transformed = sphere.Transform(map);
         for (var i = 0; i < 50; i++)
         {
-            var point = map * (ball.Centre + (ball.Radius * random.Direction()));
-            Assert.True((point - image.Centre).Length() <= image.Radius * (1 + 1e-14), $"{point} is outside {image}");
+            var point = map * (sphere.Centre + (sphere.Radius * random.Direction()));
+            Assert.True((point - transformed.Centre).Length() <= transformed.Radius * (1 + 1e-14), $"{point} is outside {transformed}");
         }
     });
 
     [Fact]
-    public void LengtheningBound_OfASimilarity_IsItsFactor() => Seeded.Run(100, random =>
+    public void OperatorNormBound_OfASimilarity_IsItsFactor() => Seeded.Run(100, random =>
         Near.Equal(0.5, BoundingSphere.OperatorNormBound(0.5 * random.Orthogonal()), 1e-15));
 }

@@ -17,5 +17,5 @@ public class ColourTests
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
     public void ToString_InAnyCulture_WritesPoints(string culture) =>
-        Assert.Equal("(0.5, 0.25, 1)", InCulture.Get(culture, () => new Colour(0.5, 0.25, 1).ToString()));
+        Assert.Equal("(0.5, 0.25, 1)", InCulture.Run(culture, () => new Colour(0.5, 0.25, 1).ToString()));
 }

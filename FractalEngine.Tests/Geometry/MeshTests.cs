@@ -45,7 +45,7 @@ public class MeshTests
         Assert.Throws<ArgumentException>(() => Samples.Triangle.WithNormals([0, 0, 1], [0, 0, 0, 0, 0, 0]));
 
     [Fact]
-    public void Bounds_HoldUnusedVerticesToo() => Assert.Equal(
+    public void Bounds_ContainUnusedVerticesToo() => Assert.Equal(
         new BoundingBox(new(-5, 0, 0), new(1, 1, 9)), new Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0, -5, 0, 9], [0, 1, 2]).Bounds);
 
     [Fact]
@@ -64,7 +64,7 @@ public class MeshTests
     public void Radius_UnderAnyMap_IsThePapersMaximum() => Seeded.Run(100, random =>
     {
         var map = random.Transformation().ToAffineMap();
-        var expected = Naive.Vertices(Samples.Tetrahedron).Max(v => ((map * v) - map.Translation).Length());
+        var expected = NaiveFractal.Vertices(Samples.Tetrahedron).Max(v => ((map * v) - map.Translation).Length());
         // Positions up to 3 are added and taken away again.
         Near.Equal(expected, Samples.Tetrahedron.Radius(map), 1e-14);
     });
@@ -77,7 +77,7 @@ public class MeshTests
     public void Transform_AppliesTheFunctionToEveryVertexAndKeepsTheFaces()
     {
         var moved = Samples.Tetrahedron.Transform(v => v + new Vector(1, 2, 3));
-        Assert.Equal(Naive.Vertices(Samples.Tetrahedron).Select(v => v + new Vector(1, 2, 3)), Naive.Vertices(moved));
+        Assert.Equal(NaiveFractal.Vertices(Samples.Tetrahedron).Select(v => v + new Vector(1, 2, 3)), NaiveFractal.Vertices(moved));
         Assert.Equal(Samples.Tetrahedron.VertexIndices, moved.VertexIndices);
     }
 }

@@ -30,9 +30,9 @@ public sealed class NormalGeneratorTests
     }
 
     [Fact]
-    public void WithNormals_FineBall_PointsOutwards()
+    public void WithNormals_FineSphere_PointsOutwards()
     {
-        var mesh = NormalGenerator.Generate(RenderScenes.Ball(24));
+        var mesh = NormalGenerator.Generate(RenderScenes.Sphere(24));
         for (var corner = 0; corner < mesh.VertexIndices.Length; corner++)
         {
             var number = mesh.NormalIndices[corner];

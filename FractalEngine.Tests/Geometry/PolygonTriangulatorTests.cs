@@ -41,7 +41,7 @@ public class PolygonTriangulatorTests
         Assert.NotNull(name);
         for (var seed = 1; seed <= 20; seed++)
         {
-            Seeded.RunOne(seed, random => AssertCovered(random, Pairs(coordinates), seed % 2 == 0));
+            Seeded.RunOne(seed, random => AssertCovered(random, ToPoints(coordinates), seed % 2 == 0));
         }
     }
 
@@ -68,7 +68,7 @@ public class PolygonTriangulatorTests
     public void Triangulate_AnImproperPolygon_GivesTwoTrianglesLessThanCornersOverThem(string name, double[] coordinates)
     {
         Assert.NotNull(name);
-        var triangles = Triangulate([.. Pairs(coordinates).Select(p => new Vector(p.X, p.Y, 0))]);
+        var triangles = Triangulate([.. ToPoints(coordinates).Select(p => new Vector(p.X, p.Y, 0))]);
         Assert.Equal((coordinates.Length / 2) - 2, triangles.Count);
         Assert.All(triangles.SelectMany(t => t), corner => Assert.InRange(corner, 0, (coordinates.Length / 2) - 1));
     }
@@ -107,14 +107,14 @@ public class PolygonTriangulatorTests
         var triangles = Triangulate([.. polygon.Select(p => origin + (axes * new Vector(p.X, p.Y, 0)))]);
         Assert.Equal(polygon.Length - 2, triangles.Count);
         var area = Enumerable.Range(0, polygon.Length).Sum(i => Cross(polygon[i], polygon[(i + 1) % polygon.Length])) / 2;
-        var parts = triangles.Select(t => (Area: Area(polygon, t), Centre: Centre(polygon, t))).ToList();
+        var pieces = triangles.Select(t => (Area: Area(polygon, t), Centre: Centre(polygon, t))).ToList();
         // Areas up to a hundred, some dozens of roundings.
-        Near.Equal(area, parts.Sum(part => part.Area), 1e-12);
-        Assert.All(parts, part =>
+        Near.Equal(area, pieces.Sum(triangle => triangle.Area), 1e-12);
+        Assert.All(pieces, triangle =>
         {
-            Assert.True(part.Area * Math.Sign(area) >= -1e-12, "a triangle is wound against the polygon");
+            Assert.True(triangle.Area * Math.Sign(area) >= -1e-12, "a triangle is wound against the polygon");
             // A triangle without area, which collinear corners need, may have its centre on the border.
-            Assert.True(Math.Abs(part.Area) < 1e-9 || IsInside(polygon, part.Centre), "a triangle lies outside");
+            Assert.True(Math.Abs(triangle.Area) < 1e-9 || IsInside(polygon, triangle.Centre), "a triangle lies outside");
         });
     }
 
@@ -125,7 +125,7 @@ public class PolygonTriangulatorTests
         return [.. triangles.Chunk(3)];
     }
 
-    private static (double X, double Y)[] Pairs(double[] coordinates) => [.. coordinates.Chunk(2).Select(pair => (pair[0], pair[1]))];
+    private static (double X, double Y)[] ToPoints(double[] coordinates) => [.. coordinates.Chunk(2).Select(pair => (pair[0], pair[1]))];
 
     private static double Cross((double X, double Y) a, (double X, double Y) b) => (a.X * b.Y) - (a.Y * b.X);
 

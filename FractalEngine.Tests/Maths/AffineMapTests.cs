@@ -10,20 +10,20 @@ public class AffineMapTests
     private const double Tolerance = 1e-13;
 
     [Fact]
-    public void Product_WithAPoint_IsLinearPartPlusTranslation() => Laws.Hold(
+    public void Product_WithAPoint_IsLinearPartPlusTranslation() => Laws.CheckForAll(
         Laws.Maps.Zip(Laws.Vectors), pair => pair.Item1 * pair.Item2 == (pair.Item1.Linear * pair.Item2) + pair.Item1.Translation);
 
     [Fact]
-    public void Composition_AppliedToAPoint_IsOneMapAfterTheOther() => Laws.Hold(
+    public void Composition_AppliedToAPoint_IsOneMapAfterTheOther() => Laws.CheckForAll(
         Laws.Maps.Two().Zip(Laws.Vectors), t => t.Item1.Item1 * t.Item1.Item2 * t.Item2 == t.Item1.Item1 * (t.Item1.Item2 * t.Item2));
 
     [Fact]
     public void Composition_OfThree_IsAssociative() =>
-        Laws.Hold(Laws.Maps.Three(), t => t.Item1 * t.Item2 * t.Item3 == t.Item1 * (t.Item2 * t.Item3));
+        Laws.CheckForAll(Laws.Maps.Three(), t => t.Item1 * t.Item2 * t.Item3 == t.Item1 * (t.Item2 * t.Item3));
 
     [Fact]
     public void Identity_OnEitherSide_ChangesNothing() =>
-        Laws.Hold(Laws.Maps, map => map * AffineMap.Identity == map && AffineMap.Identity * map == map);
+        Laws.CheckForAll(Laws.Maps, map => map * AffineMap.Identity == map && AffineMap.Identity * map == map);
 
     [Fact]
     public void Inverse_OfATransformation_UndoesIt() => Seeded.Run(200, random =>
@@ -72,7 +72,7 @@ public class AffineMapTests
     }
 
     [Fact]
-    public void IsFinite_LooksAtAllTwelveEntries()
+    public void IsFinite_ChecksAllTwelveEntries()
     {
         Assert.True(AffineMap.Identity.IsFinite());
         Assert.False(AffineMap.Translate(new(0, double.NaN, 0)).IsFinite());
@@ -82,5 +82,5 @@ public class AffineMapTests
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
     public void ToString_InAnyCulture_WritesPoints(string culture) => Assert.Equal(
-        "[(1, 0, 0) (0, 1, 0) (0, 0, 1)] + (0.5, 0, 0)", InCulture.Get(culture, () => AffineMap.Translate(new(0.5, 0, 0)).ToString()));
+        "[(1, 0, 0) (0, 1, 0) (0, 0, 1)] + (0.5, 0, 0)", InCulture.Run(culture, () => AffineMap.Translate(new(0.5, 0, 0)).ToString()));
 }

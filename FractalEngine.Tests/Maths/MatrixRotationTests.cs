@@ -67,7 +67,7 @@ public class MatrixRotationTests
         Near.Equal(0.5, new Vector(30, 0, 0).LocalAxesFromDegrees().V3.Y, 1.2e-16);
 
     [Fact]
-    public void Rotation_AboutAnAxis_KeepsTheAxisAndTurnsIToJAboutK()
+    public void Rotation_AboutAnAxis_KeepsTheAxisAndRotatesIToJAboutK()
     {
         Near.Equal(Vector.J, Matrix.Rotation(Vector.K, Math.PI / 2) * Vector.I, 1e-16);
         Seeded.Run(100, random =>
@@ -81,7 +81,7 @@ public class MatrixRotationTests
     }
 
     [Fact]
-    public void Rotation_AboutI_IsThePitchTheOtherWay() => Near.Equal(Matrix.Pitch(-Angle), Matrix.Rotation(Vector.I, Angle), 1e-15);
+    public void Rotation_AboutI_IsTheOppositePitch() => Near.Equal(Matrix.Pitch(-Angle), Matrix.Rotation(Vector.I, Angle), 1e-15);
 
     private static double[] Entries(Matrix m) => [m.V1.X, m.V1.Y, m.V1.Z, m.V2.X, m.V2.Y, m.V2.Z, m.V3.X, m.V3.Y, m.V3.Z];
 }

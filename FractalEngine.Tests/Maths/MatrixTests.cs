@@ -9,7 +9,7 @@ public class MatrixTests
     private static readonly Matrix Sample = Matrix.FromRows(new(1, 2, 3), new(4, 5, 6), new(7, 8, 10));
 
     [Fact]
-    public void Product_WithAVector_CombinesTheColumns() => Laws.Hold(Laws.Matrices.Zip(Laws.Vectors), pair =>
+    public void Product_WithAVector_CombinesTheColumns() => Laws.CheckForAll(Laws.Matrices.Zip(Laws.Vectors), pair =>
         pair.Item1 * pair.Item2 == (pair.Item2.X * pair.Item1.V1) + (pair.Item2.Y * pair.Item1.V2) + (pair.Item2.Z * pair.Item1.V3));
 
     [Fact]
@@ -17,26 +17,26 @@ public class MatrixTests
         [new(1, 4, 7), new(2, 5, 8), new(3, 6, 10)], new[] { Sample * Vector.I, Sample * Vector.J, Sample * Vector.K });
 
     [Fact]
-    public void Product_OfMatrices_AppliesTheSecondFirst() => Laws.Hold(
+    public void Product_OfMatrices_AppliesTheSecondFirst() => Laws.CheckForAll(
         Laws.Matrices.Two().Zip(Laws.Vectors), t => t.Item1.Item1 * t.Item1.Item2 * t.Item2 == t.Item1.Item1 * (t.Item1.Item2 * t.Item2));
 
     [Fact]
     public void Product_OfMatrices_IsAssociativeButNotCommutative()
     {
-        Laws.Hold(Laws.Matrices.Three(), t => t.Item1 * t.Item2 * t.Item3 == t.Item1 * (t.Item2 * t.Item3));
+        Laws.CheckForAll(Laws.Matrices.Three(), t => t.Item1 * t.Item2 * t.Item3 == t.Item1 * (t.Item2 * t.Item3));
         Assert.NotEqual(Matrix.Pitch(1) * Matrix.Yaw(1), Matrix.Yaw(1) * Matrix.Pitch(1));
     }
 
     [Fact]
     public void Identity_OnEitherSide_ChangesNothing() =>
-        Laws.Hold(Laws.Matrices, m => m * Matrix.Identity == m && Matrix.Identity * m == m);
+        Laws.CheckForAll(Laws.Matrices, m => m * Matrix.Identity == m && Matrix.Identity * m == m);
 
     [Fact]
-    public void Transpose_OfAProduct_ReversesTheOrder() => Laws.Hold(
+    public void Transpose_OfAProduct_ReversesTheOrder() => Laws.CheckForAll(
         Laws.Matrices.Two(), pair => (pair.Item1 * pair.Item2).Transpose() == pair.Item2.Transpose() * pair.Item1.Transpose());
 
     [Fact]
-    public void Transpose_Twice_ChangesNothing() => Laws.Hold(Laws.Matrices, m => m.Transpose().Transpose() == m);
+    public void Transpose_Twice_ChangesNothing() => Laws.CheckForAll(Laws.Matrices, m => m.Transpose().Transpose() == m);
 
     [Fact]
     public void Determinant_IsTheTripleProductOfTheColumns() => Assert.Equal(-3, Sample.Determinant());
@@ -51,16 +51,16 @@ public class MatrixTests
     });
 
     [Fact]
-    public void Cofactors_OfAnyMatrix_SendNormalsToNormals() => Laws.Hold(Laws.Matrices.Zip(Laws.Vectors.Two()), t =>
+    public void Cofactors_OfAnyMatrix_MapNormalsToNormals() => Laws.CheckForAll(Laws.Matrices.Zip(Laws.Vectors.Two()), t =>
         t.Item1.Cofactors() * Vector.Cross(t.Item2.Item1, t.Item2.Item2) == Vector.Cross(t.Item1 * t.Item2.Item1, t.Item1 * t.Item2.Item2));
 
     [Fact]
-    public void Outer_SendsVToDotTimesTheFirst() =>
+    public void Outer_MapsVToDotTimesTheFirst() =>
         Assert.Equal(new(32, 64, 96), Matrix.Outer(new(1, 2, 3), new(4, 5, 6)) * new Vector(1, 2, 3));
 
     [Fact]
-    public void CrossProduct_SendsVToTheCrossProduct() =>
-        Laws.Hold(Laws.Vectors.Two(), pair => Matrix.SkewSymmetric(pair.Item1) * pair.Item2 == Vector.Cross(pair.Item1, pair.Item2));
+    public void SkewSymmetric_MapsVToTheCrossProduct() =>
+        Laws.CheckForAll(Laws.Vectors.Two(), pair => Matrix.SkewSymmetric(pair.Item1) * pair.Item2 == Vector.Cross(pair.Item1, pair.Item2));
 
     [Fact]
     public void Orthonormalized_OfADriftedRotation_IsARotationNearby() => Seeded.Run(100, random =>
@@ -77,5 +77,5 @@ public class MatrixTests
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
     public void ToString_InAnyCulture_WritesPoints(string culture) =>
-        Assert.Equal("[(0.5, 0, 0) (0, 1, 0) (0, 0, -1.5)]", InCulture.Get(culture, () => Matrix.Diagonal(new(0.5, 1, -1.5)).ToString()));
+        Assert.Equal("[(0.5, 0, 0) (0, 1, 0) (0, 0, -1.5)]", InCulture.Run(culture, () => Matrix.Diagonal(new(0.5, 1, -1.5)).ToString()));
 }

@@ -23,7 +23,7 @@ public class TransformationTests
     {
         var (transformation, point) = (random.Transformation(), random.Vector(5));
         // Positions up to 10 through three matrix products.
-        Near.Equal(Naive.Apply(Naive.Map(transformation), point), transformation.ToAffineMap() * point, 1e-14);
+        Near.Equal(NaiveFractal.Apply(NaiveFractal.MapOf(transformation), point), transformation.ToAffineMap() * point, 1e-14);
     });
 
     [Fact]
@@ -47,5 +47,5 @@ public class TransformationTests
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
     public void ToString_InAnyCulture_WritesAsTheFilesDo(string culture) => Assert.Equal(
         "((0.5, 0, 0), (0, 90, 0), (1, 1, 1))",
-        InCulture.Get(culture, () => new Transformation(new(0.5, 0, 0), new(0, 90, 0), Vector.One).ToString()));
+        InCulture.Run(culture, () => new Transformation(new(0.5, 0, 0), new(0, 90, 0), Vector.One).ToString()));
 }

@@ -13,18 +13,18 @@ public class VectorTests
 
     [Fact]
     public void Addition_AnyVectors_IsCommutativeAndUndoneBySubtraction() =>
-        Laws.Hold(Laws.Vectors.Two(), pair => pair.Item1 + pair.Item2 == pair.Item2 + pair.Item1
+        Laws.CheckForAll(Laws.Vectors.Two(), pair => pair.Item1 + pair.Item2 == pair.Item2 + pair.Item1
         && pair.Item1 + pair.Item2 - pair.Item2 == pair.Item1);
 
     [Fact]
-    public void Negation_AnyVector_IsTheDifferenceFromZero() => Laws.Hold(Laws.Vectors, v => -v == Vector.Zero - v);
+    public void Negation_AnyVector_IsTheDifferenceFromZero() => Laws.CheckForAll(Laws.Vectors, v => -v == Vector.Zero - v);
 
     [Fact]
-    public void Scaling_FromBothSides_IsTheSameAndDistributes() => Laws.Hold(
+    public void Scaling_FromBothSides_IsTheSameAndDistributes() => Laws.CheckForAll(
         Laws.Vectors.Two(), pair => 3 * (pair.Item1 + pair.Item2) == (pair.Item1 * 3) + (pair.Item2 * 3));
 
     [Fact]
-    public void Division_ByANumber_UndoesScaling() => Laws.Hold(Laws.Vectors, v => 7 * v / 7 == v);
+    public void Division_ByANumber_UndoesScaling() => Laws.CheckForAll(Laws.Vectors, v => 7 * v / 7 == v);
 
     [Fact]
     public void Dot_IsTheSumOfProducts() => Assert.Equal(32, Vector.Dot(new(1, 2, 3), new(4, 5, 6)));
@@ -35,12 +35,12 @@ public class VectorTests
         new[] { Vector.Cross(Vector.I, Vector.J), Vector.Cross(Vector.J, Vector.K), Vector.Cross(Vector.K, Vector.I) });
 
     [Fact]
-    public void Cross_AnyVectors_IsPerpendicularToBothAndAntisymmetric() => Laws.Hold(Laws.Vectors.Two(), pair =>
+    public void Cross_AnyVectors_IsPerpendicularToBothAndAntisymmetric() => Laws.CheckForAll(Laws.Vectors.Two(), pair =>
         Vector.Cross(pair.Item1, pair.Item2) == -Vector.Cross(pair.Item2, pair.Item1)
         && Vector.Dot(pair.Item1, Vector.Cross(pair.Item1, pair.Item2)) == 0);
 
     [Fact]
-    public void Cross_AnyVectors_SatisfiesLagrangesIdentity() => Laws.Hold(Laws.Vectors.Two(), pair =>
+    public void Cross_AnyVectors_SatisfiesLagrangesIdentity() => Laws.CheckForAll(Laws.Vectors.Two(), pair =>
         Vector.Cross(pair.Item1, pair.Item2).LengthSquared()
             == (pair.Item1.LengthSquared() * pair.Item2.LengthSquared()) - Math.Pow(Vector.Dot(pair.Item1, pair.Item2), 2));
 
@@ -82,11 +82,11 @@ public class VectorTests
     [InlineData(1, 2, 3, true)]
     [InlineData(double.NaN, 0, 0, false)]
     [InlineData(0, double.NegativeInfinity, 0, false)]
-    public void IsFinite_LooksAtEveryComponent(double x, double y, double z, bool expected) =>
+    public void IsFinite_ChecksEveryComponent(double x, double y, double z, bool expected) =>
         Assert.Equal(expected, new Vector(x, y, z).IsFinite());
 
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
     public void ToString_InAnyCulture_WritesPoints(string culture) =>
-        Assert.Equal("(0.5, -1.25, 1E-07)", InCulture.Get(culture, () => new Vector(0.5, -1.25, 1e-7).ToString()));
+        Assert.Equal("(0.5, -1.25, 1E-07)", InCulture.Run(culture, () => new Vector(0.5, -1.25, 1e-7).ToString()));
 }

@@ -9,7 +9,7 @@ public class MtlParserTests
 {
     private static MtlFile Parse(string text) => MtlParser.Parse(new("test.mtl", text));
 
-    private static Material Only(string text) => Assert.Single(Parse(text).Materials).Value;
+    private static Material SingleMaterial(string text) => Assert.Single(Parse(text).Materials).Value;
 
     [Fact]
     public void Material_WithEveryStatement_HasItsValues()
@@ -44,7 +44,7 @@ public class MtlParserTests
     public void Material_WithoutStatements_IsWhiteMattAndOpaque() => Assert.Equal(
         new Material("m") { Diffuse = Colour.White, Ambient = Colour.White, Specular = Colour.Black, SpecularExponent = 1, Opacity = 1,
         Texture = null },
-        Only("newmtl m"));
+        SingleMaterial("newmtl m"));
 
     [Fact]
     public void Materials_Several_AreToldApartAndTheFirstOfANameStays()
@@ -56,7 +56,7 @@ public class MtlParserTests
     }
 
     [Fact]
-    public void Colour_OfOneNumber_IsGrey() => Assert.Equal(new Colour(0.5, 0.5, 0.5), Only("newmtl m\nKd .5 # grey").Diffuse);
+    public void Colour_OfOneNumber_IsGrey() => Assert.Equal(new Colour(0.5, 0.5, 0.5), SingleMaterial("newmtl m\nKd .5 # grey").Diffuse);
 
     [Theory]
     [InlineData("d 0.75", 0.75)]
@@ -69,7 +69,7 @@ public class MtlParserTests
     [InlineData("Tr 1", 1)] // as some programs write what is opaque
     [InlineData("Tr 0", 1)]
     public void Opacity_ByEitherStatement_IsKept(string statements, double expected) =>
-        Assert.Equal(expected, Only($"newmtl m\n{statements}\n").Opacity);
+        Assert.Equal(expected, SingleMaterial($"newmtl m\n{statements}\n").Opacity);
 
     [Theory]
     [InlineData("wood.png", "wood.png")]
@@ -97,14 +97,15 @@ public class MtlParserTests
     [InlineData("-clamp off a.png", false)]
     [InlineData("a.png", false)]
     public void Texture_Clamped_SaysSo(string statement, bool isClamped) =>
-        Assert.Equal(isClamped, Only($"newmtl m\nmap_Kd {statement}").Texture!.IsClamped);
+        Assert.Equal(isClamped, SingleMaterial($"newmtl m\nmap_Kd {statement}").Texture!.IsClamped);
 
     [Fact]
     public void Texture_MovedAndScaled_KeepsWhatIsLeftOutAsUsual()
     {
         Assert.Equal(
-            new MaterialTexture("a.png") { Offset = (0.1, 0), Scale = (2, 3) }, Only("newmtl m\nmap_Kd -o 0.1 -s 2 3 a.png").Texture);
-        Assert.Equal(new MaterialTexture("a.png") { Scale = (2, 1) }, Only("newmtl m\nmap_Kd -s 2 a.png").Texture);
+            new MaterialTexture("a.png") { Offset = (0.1, 0), Scale = (2, 3) },
+            SingleMaterial("newmtl m\nmap_Kd -o 0.1 -s 2 3 a.png").Texture);
+        Assert.Equal(new MaterialTexture("a.png") { Scale = (2, 1) }, SingleMaterial("newmtl m\nmap_Kd -s 2 a.png").Texture);
     }
 
     [Theory]
@@ -119,7 +120,7 @@ public class MtlParserTests
     [InlineData("map_Kd", 7, "unexpected end of line, expected a file name")]
     [InlineData("map_Kd -clamp maybe a.png", 15, "unexpected 'maybe', expected 'on' or 'off'")]
     [InlineData("map_Kd -glow 1 a.png", 8, "unexpected '-', expected an option of a texture or a file name")]
-    public void Statement_ThatIsWrong_IsPassedOverWithAWarning(string statement, int column, string message)
+    public void Statement_ThatIsWrong_IsIgnoredWithAWarning(string statement, int column, string message)
     {
         var file = Parse($"newmtl m\n{statement}\nd 0.5\n");
         Assert.Equal(
@@ -129,7 +130,7 @@ public class MtlParserTests
     }
 
     [Fact]
-    public void Statement_BeforeAnyMaterial_IsPassedOverWithAWarning() => Assert.Equal(
+    public void Statement_BeforeAnyMaterial_IsIgnoredWithAWarning() => Assert.Equal(
         "test.mtl:1:1: warning: no material is declared above: the statement is passed over\n  Kd 1 1 1\n  ^",
         Assert.Single(Parse("Kd 1 1 1\nnewmtl m\n").Warnings).ToString());
 
@@ -142,7 +143,7 @@ public class MtlParserTests
     }
 
     [Fact]
-    public void Statements_WrongWithoutEnd_AreNotAllLookedAt()
+    public void Statements_WrongWithoutEnd_AreNotAllParsed()
     {
         var start = System.Diagnostics.Stopwatch.StartNew();
         var file = Parse("newmtl m\n" + string.Concat(Enumerable.Repeat("Ns 1e999\n", 1_000_000)) + "d 0.5\n");
@@ -168,7 +169,7 @@ public class MtlParserTests
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
     public void Numbers_InAnyCulture_AreTheSame(string culture) =>
-        Assert.Equal(new Colour(0.5, 0.25, 1), InCulture.Get(culture, () => Only("newmtl m\nKd 0.5 .25 1e0")).Diffuse);
+        Assert.Equal(new Colour(0.5, 0.25, 1), InCulture.Run(culture, () => SingleMaterial("newmtl m\nKd 0.5 .25 1e0")).Diffuse);
 
     [Fact]
     public void Parse_OfAnyText_NeverFails() => Seeded.Run(2000, random =>
@@ -179,11 +180,11 @@ public class MtlParserTests
         for (var change = random.Next(1, 6); change > 0; change--)
         {
             const string characters = "\0\t\n\r #,-.019\\KTadesmnpw_§\uD83D";
-            var place = random.Next(text.Length);
+            var offset = random.Next(text.Length);
             _ = random.Next(2) switch
             {
-                0 => text.Remove(place, Math.Min(random.Next(1, 10), text.Length - place)),
-                _ => text.Insert(place, characters[random.Next(characters.Length)]),
+                0 => text.Remove(offset, Math.Min(random.Next(1, 10), text.Length - offset)),
+                _ => text.Insert(offset, characters[random.Next(characters.Length)]),
             };
         }
 

@@ -12,12 +12,13 @@ public class ObjParserErrorTests
     [Theory]
     [InlineData("")]
     [InlineData("\n\n")]
-    public void File_WithoutAnything_SaysSo(string text) => Errors.Are(
+    public void File_WithoutAnything_SaysSo(string text) => Errors.AssertMessage(
         "test.obj:1:1: error: the file declares nothing: it has no vertex, face, group or material", () => Samples.ParseObj(text));
 
     [Fact]
     public void File_OfComments_SaysSo() => Assert.StartsWith(
-        "test.obj:1:1: error: the file declares nothing", Errors.Of(() => Samples.ParseObj("# Blender\n")), StringComparison.Ordinal);
+        "test.obj:1:1: error: the file declares nothing", Errors.MessageOf(() => Samples.ParseObj("# Blender\n")),
+        StringComparison.Ordinal);
 
     [Theory]
     [InlineData("f 1 2 0", 7, "vertex number 0: numbers start at 1")]
@@ -32,7 +33,7 @@ public class ObjParserErrorTests
     [InlineData("v 1 2 1e400", 7, "the number 1e400 is beyond the range of a double")]
     [InlineData("v 1 2 -1e400", 7, "the number -1e400 is beyond the range of a double")]
     [InlineData("v 1 2", 6, "unexpected end of line, expected a number")]
-    public void Line_ThatIsWrong_PointsAtTheFault(string line, int column, string message) => Errors.Are(
+    public void Line_ThatIsWrong_PointsAtTheFault(string line, int column, string message) => Errors.AssertMessage(
         $"test.obj:4:{column}: error: {message}\n  {line}\n  {new string(' ', column - 1)}^",
         () => Samples.ParseObj($"{Triangle}{line}\nv 9 9 9\n"));
 
@@ -50,21 +51,21 @@ public class ObjParserErrorTests
     [InlineData("$ x", 1)]
     public void Line_WithSomethingUnexpected_PointsAtIt(string line, int column)
     {
-        var error = Errors.Thrown(() => Samples.ParseObj(Triangle + line + "\n")).Diagnostic;
+        var error = Errors.ThrownBy(() => Samples.ParseObj(Triangle + line + "\n")).Diagnostic;
         Assert.Equal((4, column), (error.Line, error.Column));
     }
 
     [Fact]
     public void Polygon_BeyondTheLimit_NamesIt()
     {
-        var error = Errors.Thrown(() => Samples.ParseObj(Triangle + "f " + new StringBuilder().Insert(0, "1 2 3 ", 7000))).Diagnostic;
+        var error = Errors.ThrownBy(() => Samples.ParseObj(Triangle + "f " + new StringBuilder().Insert(0, "1 2 3 ", 7000))).Diagnostic;
         Assert.True(error.IsLimitExceeded);
         Assert.Contains($"{Parsing.ParsingLimits.PolygonCorners}", error.Message, StringComparison.Ordinal);
     }
 
     [Fact]
     public void Line_OfAMegabyte_GivesAShortMessage() =>
-        Assert.True(Errors.Of(() => Samples.ParseObj(new string('?', 1_000_000))).Length < 500);
+        Assert.True(Errors.MessageOf(() => Samples.ParseObj(new string('?', 1_000_000))).Length < 500);
 
     [Fact]
     public void Parse_OfAnyText_EndsInAMeshOrOneProperError() => Seeded.Run(3000, random =>
@@ -75,11 +76,11 @@ public class ObjParserErrorTests
         for (var change = random.Next(1, 6); change > 0; change--)
         {
             const string characters = "\0\t\n\r \"#,-.0123456789/\\flnopstv§\uD83D";
-            var place = random.Next(text.Length);
+            var offset = random.Next(text.Length);
             _ = random.Next(2) switch
             {
-                0 => text.Remove(place, Math.Min(random.Next(1, 10), text.Length - place)),
-                _ => text.Insert(place, characters[random.Next(characters.Length)]),
+                0 => text.Remove(offset, Math.Min(random.Next(1, 10), text.Length - offset)),
+                _ => text.Insert(offset, characters[random.Next(characters.Length)]),
             };
         }
 

@@ -138,7 +138,7 @@ public class ObjParserTests
     }
 
     [Fact]
-    public void ByteOrderMark_IsPassedOver() => Assert.Equal(
+    public void ByteOrderMark_IsIgnored() => Assert.Equal(
         1, ObjParser.Parse(SourceText.Decode([0xEF, 0xBB, 0xBF, .. "v 1 2 3"u8], "test.obj")).Mesh.VertexCount);
 
     [Theory]
@@ -150,7 +150,7 @@ public class ObjParserTests
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
     public void Parse_InAnyCulture_ReadsPointsAndSigns(string culture) =>
-        Assert.Equal(new(0.5, -1.25, 1e-7), InCulture.Get(culture, () => Parse("v 0.5 -1.25 1e-7\nv 0 0 0\nv 1 0 0\nf -3 -2 -1\n"))
+        Assert.Equal(new(0.5, -1.25, 1e-7), InCulture.Run(culture, () => Parse("v 0.5 -1.25 1e-7\nv 0 0 0\nv 1 0 0\nf -3 -2 -1\n"))
         .Vertex(0));
 
     [Fact]

@@ -12,7 +12,7 @@ public class ObjWriterTests
 {
     private static LoadedScene Scene(params (Model Model, Transformation Placement)[] placed)
     {
-        var objects = placed.Select(p => (Declared: new SceneObject(p.Model.Path, p.Placement), p.Model)).ToArray();
+        var objects = placed.Select(p => (Declared: new SceneObject(p.Model.SourcePath!, p.Placement), p.Model)).ToArray();
         return new(new() { Objects = [.. objects.Select(o => o.Declared)] },
             [.. objects.Select(o => new PlacedModel(o.Declared, o.Model))]);
     }
@@ -31,13 +31,13 @@ public class ObjWriterTests
         return file.Mesh;
     }
 
-    private static FractalModel Model(Fractal fractal) => new("/a/fractal.fdo", 0, fractal);
+    private static FractalModel Model(Fractal fractal) => new(fractal) { SourcePath = "/a/fractal.fdo" };
 
     [Fact]
     public void Write_OfAMesh_KeepsEveryBitAndFace()
     {
         var mesh = new Mesh([0.1, 1.0 / 3, -0.0, 1e-300, 1e300, 5, 6, 7, 8], [0, 1, 2]);
-        var written = WriteAndParse(Scene((new MeshModel("/a/m.obj", 0, mesh), Transformation.Identity)));
+        var written = WriteAndParse(Scene((new MeshModel(mesh) { SourcePath = "/a/m.obj" }, Transformation.Identity)));
         Assert.Equal(mesh.Positions.ToArray(), written.Positions.ToArray());
         Assert.Equal(mesh.VertexIndices.ToArray(), written.VertexIndices.ToArray());
     }
@@ -47,20 +47,20 @@ public class ObjWriterTests
     [InlineData(Composition.Componentwise)]
     public void Write_OfAnyFractal_IsItsExpansion(Composition composition) => Seeded.Run(40, random =>
     {
-        var (fractal, placement) = (RandomFractals.Draw(random, composition), random.Transformation());
+        var (fractal, placement) = (RandomFractals.Create(random, composition), random.Transformation());
         var written = WriteAndParse(Scene((Model(fractal), placement)));
         // Without repeated instances; the corners of a face keep their order but for mirrored ones, so faces are compared as sets of
         // corners.
-        var expected = Naive.Distinct(Naive.Chains(fractal.Description), 1e-12)
-            .Select(chain => Naive.Compose(Naive.Map(placement), chain))
+        var expected = NaiveFractal.Distinct(NaiveFractal.Chains(fractal.Description), 1e-12)
+            .Select(chain => NaiveFractal.Compose(NaiveFractal.MapOf(placement), chain))
             .SelectMany(map => fractal.BaseMesh.VertexIndices.Chunk(3)
-            .Select(face => Key(face.Select(v => Naive.Apply(map, fractal.BaseMesh.Vertex(v))))));
+            .Select(face => Key(face.Select(v => NaiveFractal.Apply(map, fractal.BaseMesh.Vertex(v))))));
         var actual = written.VertexIndices.Chunk(3).Select(face => Key(face.Select(written.Vertex)));
         AssertNear(expected, actual);
     });
 
     [Fact]
-    public void Write_OfMirroredMaps_KeepsFacesOutward() => Seeded.Run(100, random =>
+    public void Write_OfMirroredMaps_KeepsTrianglesOutward() => Seeded.Run(100, random =>
     {
         var fractal = Samples.Repeated(2, random.Transformation(), random.Transformation());
         var written = WriteAndParse(Scene((Model(fractal), random.Transformation())));
@@ -76,18 +76,19 @@ public class ObjWriterTests
     [Fact]
     public void Write_OfSeveralObjects_PutsThemBehindEachOtherInWorldSpace()
     {
-        var model = new MeshModel("/a/m.obj", 0, Samples.Triangle);
+        var model = new MeshModel(Samples.Triangle) { SourcePath = "/a/m.obj" };
         var written = WriteAndParse(Scene((model, Samples.Move(10, 0, 0)), (model, Samples.Move(0, 20, 0))));
-        Assert.Equal([new(10, 0, 0), new(11, 0, 0), new(10, 1, 0), new(0, 20, 0), new(1, 20, 0), new(0, 21, 0)], Naive.Vertices(written));
+        Assert.Equal([new(10, 0, 0), new(11, 0, 0), new(10, 1, 0), new(0, 20, 0), new(1, 20, 0), new(0, 21, 0)],
+            NaiveFractal.Vertices(written));
         Assert.Equal([0, 1, 2, 3, 4, 5], written.VertexIndices.ToArray());
     }
 
     [Fact]
-    public void Write_OfNormals_TurnsThemAsSurfacesTurn() => Seeded.Run(100, random =>
+    public void Write_OfNormals_RotatesThemWithTheSurface() => Seeded.Run(100, random =>
     {
         // A normal that is that of its face stays so, under skew and mirrors too.
         var mesh = Samples.Triangle.WithNormals([0, 0, 1], [0, 0, 0]);
-        var written = WriteAndParse(Scene((new MeshModel("/a/m.obj", 0, mesh), random.Transformation())));
+        var written = WriteAndParse(Scene((new MeshModel(mesh) { SourcePath = "/a/m.obj" }, random.Transformation())));
         var (a, b, c) = written.Face(0);
         var normal = new Vector(written.Normals[0], written.Normals[1], written.Normals[2]);
         Near.Equal(Vector.Cross(b - a, c - a).UnitVector(), normal.UnitVector(), 1e-13);
@@ -120,7 +121,7 @@ public class ObjWriterTests
     public void Write_InAnyCulture_IsTheSameText(string culture)
     {
         var scene = Scene((Model(Samples.AppendixBAt(1)), Samples.Move(0.5, -0.25, 0)));
-        Assert.Equal(Write(scene), InCulture.Get(culture, () => Write(scene)));
+        Assert.Equal(Write(scene), InCulture.Run(culture, () => Write(scene)));
     }
 
     [Fact]

@@ -13,20 +13,20 @@ public class SharedModelTests
         ["tinyobjloader/smoothing-group-two-squares.obj", "tinyobjloader/catmark_torus_creases0.obj"];
 
     // Wrong on purpose: references to nothing, no numbers. One proper message is as good as a mesh.
-    private static readonly string[] NastyWords = ["invalid", "nan", "zero", "failure", "leading-spaces"];
+    private static readonly string[] InvalidFileWords = ["invalid", "nan", "zero", "failure", "leading-spaces"];
 
     [SkippableFact]
     public void Parse_OfEveryRealFile_GivesItsVerticesAndTriangles()
     {
         Skip.If(SharedModels.Folder is null, "there is no folder of real models beside the checkout");
-        Assert.All(SharedModels.Table().Where(row => !WithoutNormals.Contains(row.File)), row =>
+        Assert.All(SharedModels.ReadTable().Where(row => !WithoutNormals.Contains(row.File)), row =>
         {
             try
             {
                 var mesh = Parse(row.File).Mesh;
                 Assert.Equal((row.File, row.Vertices, row.Triangles), (row.File, mesh.VertexCount, mesh.FaceCount));
             }
-            catch (SourceException error) when (NastyWords.Any(word => row.File.Contains(word, StringComparison.Ordinal)))
+            catch (SourceException error) when (InvalidFileWords.Any(word => row.File.Contains(word, StringComparison.Ordinal)))
             {
                 Assert.Matches(@"^[^\n]*:[1-9]\d*:[1-9]\d*: error: \S", error.Message);
             }
@@ -51,7 +51,7 @@ public class SharedModelTests
     {
         Skip.If(SharedModels.Folder is null, "there is no folder of real models beside the checkout");
         // They are no nasty ones: every other program shows them.
-        Assert.All(SharedModels.Table().Where(row => WithoutNormals.Contains(row.File)),
+        Assert.All(SharedModels.ReadTable().Where(row => WithoutNormals.Contains(row.File)),
             row => Assert.Equal(row.Triangles, Parse(row.File).Mesh.FaceCount));
     }
 }

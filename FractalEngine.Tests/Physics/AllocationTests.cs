@@ -11,18 +11,20 @@ public class AllocationTests
     [Fact]
     public void Step_WithBodiesOnAFractal_AllocatesNothing()
     {
-        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = 0 }, Worlds.Place(AssetFractals.Load("menger", 3)),
-            Worlds.Place(PhysicsMeshes.Floor(), Samples.Move(0, -0.6, 0)));
-        Fill(world, 0.04);
+        var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings { SleepSpeed = 0 },
+            TestWorlds.Place(AssetFractals.Load("menger", 3)),
+            TestWorlds.Place(PhysicsMeshes.FloorMesh(), Samples.Move(0, -0.6, 0)));
+        AddBodies(world, 0.04);
         CheckSteps(world);
     }
 
     [Fact]
     public void Step_WithBodiesOnAnInfiniteFractal_AllocatesNothing()
     {
-        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = 0 }, Worlds.Place(AssetFractals.Load("infinite-menger")),
-            Worlds.Place(PhysicsMeshes.Floor(), Samples.Move(0, -0.6, 0)));
-        Fill(world, 0.06);
+        var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings { SleepSpeed = 0 },
+            TestWorlds.Place(AssetFractals.Load("infinite-menger")),
+            TestWorlds.Place(PhysicsMeshes.FloorMesh(), Samples.Move(0, -0.6, 0)));
+        AddBodies(world, 0.06);
         CheckSteps(world);
     }
 
@@ -30,13 +32,13 @@ public class AllocationTests
     public void Step_WithSkewObjectsAndSleepers_AllocatesNothing()
     {
         var skew = Samples.Move(0, -0.2, 0) with { Rotation = new(20, 30, 40), Scale = new(1, 0.4, -0.7) };
-        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Cube, skew),
-            Worlds.Place(PhysicsMeshes.Scaled(PhysicsMeshes.Room, 4)));
-        Fill(world, 0.06);
+        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(PhysicsMeshes.Cube, skew),
+            TestWorlds.Place(PhysicsMeshes.Scale(PhysicsMeshes.InwardCube, 4)));
+        AddBodies(world, 0.06);
         CheckSteps(world);
     }
 
-    private static void Fill(PhysicsWorld world, double radius)
+    private static void AddBodies(PhysicsWorld world, double radius)
     {
         var random = new Random(1);
         world.AddRange(Enumerable.Range(0, 25)
@@ -49,14 +51,14 @@ public class AllocationTests
     private static void CheckSteps(PhysicsWorld world)
     {
         // Long enough for the runtime to have compiled everything as well as it ever does, and for lists to be as long as they get.
-        _ = Go(world, 300);
+        _ = RunAndCountAwake(world, 300);
         var before = GC.GetAllocatedBytesForCurrentThread();
-        var awake = Go(world, 1000);
+        var awake = RunAndCountAwake(world, 1000);
         Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
         Assert.True(awake > 50, "all sleep");
     }
 
-    private static int Go(PhysicsWorld world, int steps)
+    private static int RunAndCountAwake(PhysicsWorld world, int steps)
     {
         var awake = 0;
         for (var step = 0; step < steps; step++)

@@ -6,21 +6,22 @@ namespace FractalEngine.Tests.Physics;
 /// <summary>Numbers that no body and no world can have are refused, by name.</summary>
 public class BodyInputTests
 {
-    private static readonly BodyDescription Ball = new(Vector.Zero, 1) { Name = "ball 7" };
+    private static readonly BodyDescription ValidBody = new(Vector.Zero, 1) { Name = "ball 7" };
 
-    public static TheoryData<double> Unreal => [double.NaN, double.PositiveInfinity, double.NegativeInfinity];
+    public static TheoryData<double> NonFiniteNumbers => [double.NaN, double.PositiveInfinity, double.NegativeInfinity];
 
     [Theory]
-    [MemberData(nameof(Unreal))]
+    [MemberData(nameof(NonFiniteNumbers))]
     public void Add_WithAnUnrealNumber_NamesTheBody(double number)
     {
         BodyDescription[] wrong =
         [
-            Ball with { Position = new(0, number, 0) }, Ball with { Velocity = new(0, 0, number) }, Ball with { Radius = number },
-            Ball with { Mass = number },
-            Ball with { Restitution = number }, Ball with { Friction = number }, Ball with { Damping = number },
-            Ball with { Shrinkage = number },
-            Ball with { MinimumScale = number }, Ball with { LinearPart = new(Vector.I, new(number, 0, 0), Vector.K) },
+            ValidBody with { Position = new(0, number, 0) }, ValidBody with { Velocity = new(0, 0, number) },
+            ValidBody with { Radius = number },
+            ValidBody with { Mass = number },
+            ValidBody with { Restitution = number }, ValidBody with { Friction = number }, ValidBody with { Damping = number },
+            ValidBody with { Shrinkage = number },
+            ValidBody with { MinimumScale = number }, ValidBody with { LinearPart = new(Vector.I, new(number, 0, 0), Vector.K) },
         ];
         CheckRefused(wrong);
     }
@@ -28,31 +29,33 @@ public class BodyInputTests
     [Fact]
     public void Add_OutOfRange_NamesTheBody() => CheckRefused(
     [
-        Ball with { Radius = 0 }, Ball with { Radius = -1 }, Ball with { Mass = 0 }, Ball with { Mass = -1 },
-        Ball with { Restitution = -0.1 }, Ball with { Restitution = 1.1 },
-        Ball with { Friction = -0.1 }, Ball with { Damping = -0.1 }, Ball with { Shrinkage = -0.1 }, Ball with { MinimumScale = 0 },
-        Ball with { MinimumScale = -0.5 },
-        Ball with { MinimumScale = 1.5 },
+        ValidBody with { Radius = 0 }, ValidBody with { Radius = -1 }, ValidBody with { Mass = 0 }, ValidBody with { Mass = -1 },
+        ValidBody with { Restitution = -0.1 }, ValidBody with { Restitution = 1.1 },
+        ValidBody with { Friction = -0.1 }, ValidBody with { Damping = -0.1 }, ValidBody with { Shrinkage = -0.1 },
+        ValidBody with { MinimumScale = 0 },
+        ValidBody with { MinimumScale = -0.5 },
+        ValidBody with { MinimumScale = 1.5 },
     ]);
 
     [Fact]
     public void AddRange_WithOneThatIsWrong_AddsNone()
     {
-        var world = Worlds.Of(Worlds.Gravity, 0.01);
-        Assert.Throws<ArgumentException>(() => world.AddRange([Ball, Ball with { Position = new(5, 0, 0) }, Ball with { Mass = -1 }]));
+        var world = TestWorlds.Create(TestWorlds.Gravity, 0.01);
+        Assert.Throws<ArgumentException>(
+            () => world.AddRange([ValidBody, ValidBody with { Position = new(5, 0, 0) }, ValidBody with { Mass = -1 }]));
         Assert.Empty(world.Bodies);
         world.Run(3);
-        world.Add(Ball);
+        world.Add(ValidBody);
         world.Run(3);
         Assert.Single(world.Bodies);
     }
 
     [Theory]
-    [MemberData(nameof(Unreal))]
+    [MemberData(nameof(NonFiniteNumbers))]
     public void SetVelocity_ToAnUnrealNumber_NamesTheBodyAndChangesNothing(double number)
     {
-        var world = Worlds.Of(Worlds.Gravity, 0.01);
-        var body = world.Add(Ball);
+        var world = TestWorlds.Create(TestWorlds.Gravity, 0.01);
+        var body = world.Add(ValidBody);
         foreach (var set in new Action<Vector>[] { vector => world.SetVelocity(body, vector), vector => world.SetForce(body, vector) })
         {
             var exception = Assert.Throws<ArgumentException>(() => set(new(1, number, 2)));
@@ -73,15 +76,15 @@ public class BodyInputTests
                 new() { TimeBeforeSleep = number } }),
             new() { MaxStepsPerAdvance = 0 }, new() { MaxStepsPerAdvance = -1 },
         ];
-        Assert.All(wrong, settings => Assert.Throws<ArgumentException>(() => Worlds.Of(Worlds.Gravity, settings)));
+        Assert.All(wrong, settings => Assert.Throws<ArgumentException>(() => TestWorlds.Create(TestWorlds.Gravity, settings)));
     }
 
     [Theory]
-    [MemberData(nameof(Unreal))]
+    [MemberData(nameof(NonFiniteNumbers))]
     public void Advance_ByAnUnrealTime_DoesNotHarm(double seconds)
     {
-        var world = Worlds.Of(Worlds.Gravity, 0.01);
-        var body = world.Add(Ball);
+        var world = TestWorlds.Create(TestWorlds.Gravity, 0.01);
+        var body = world.Add(ValidBody);
         try
         {
             world.Advance(seconds);
@@ -99,14 +102,14 @@ public class BodyInputTests
     [Fact]
     public void Step_BeyondTheRangeOfADouble_NamesTheBody()
     {
-        var world = Worlds.Of(Worlds.Gravity, 1);
-        world.Add(Ball with { Velocity = new(1.7e308, 0, 0) });
+        var world = TestWorlds.Create(TestWorlds.Gravity, 1);
+        world.Add(ValidBody with { Velocity = new(1.7e308, 0, 0) });
         Assert.Contains("ball 7", Assert.Throws<InvalidOperationException>(() => world.Run(3)).Message, StringComparison.Ordinal);
     }
 
     private static void CheckRefused(BodyDescription[] wrong)
     {
-        var world = Worlds.Of(Worlds.Gravity, 0.01);
+        var world = TestWorlds.Create(TestWorlds.Gravity, 0.01);
         Assert.All(wrong,
             description => Assert.Contains("ball 7", Assert.Throws<ArgumentException>(() => world.Add(description)).Message,
             StringComparison.Ordinal));

@@ -8,27 +8,27 @@ namespace FractalEngine.Tests.Physics;
 /// <summary>Where several surfaces are touched at once.</summary>
 public class CornerTests
 {
-    private const double Overlap = 1e-6;
+    private const double MaxOverlap = 1e-6;
 
     // Some grooves lead away downwards: in the 30 s of the longest run no body comes so far.
     private const double FarEdge = 20_000;
 
     [Fact]
-    public void Corner_OfThreePlanes_IsNeitherEnteredNorASpring() => Check(150, 150);
+    public void Corner_OfThreePlanes_NeitherPenetratesNorAddsEnergy() => CheckCorner(150, 150);
 
     [Fact]
     [Trait("Category", "Soak")]
-    public void Corner_OfThreePlanesForLong_IsNeitherEnteredNorASpring() => Check(5_000, 300);
+    public void Corner_OfThreePlanesForLong_NeitherPenetratesNorAddsEnergy() => CheckCorner(5_000, 300);
 
     [Fact]
-    public void Corners_OfFractals_AreNoSprings()
+    public void Corners_OfFractals_AddNoEnergy()
     {
         foreach (var name in new[] { "menger", "sierpinski", "tetrahedron", "snowflake" })
         {
-            var placed = Worlds.Place(AssetFractals.Load(name, 2));
+            var placed = TestWorlds.Place(AssetFractals.Load(name, 2));
             Seeded.Run(10, random =>
             {
-                var world = Worlds.Of(Worlds.Gravity, random.Between(0.002, 0.03), placed);
+                var world = TestWorlds.Create(TestWorlds.Gravity, random.Between(0.002, 0.03), placed);
                 var size = placed.Bounds.Diagonal;
                 world.Add(
                     new(placed.Bounds.Centre + new Vector(random.Between(-0.2, 0.2) * size, 0.7 * size, random.Between(-0.2, 0.2) * size),
@@ -44,12 +44,12 @@ public class CornerTests
 
     /// <summary>A ball that just fits between two walls falls through; one that doesn't is held at the top.</summary>
     [Fact]
-    public void Slit_AsWideAsTheBall_LetsItFall()
+    public void Slit_AsWideAsTheSphere_LetsItFall()
     {
-        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Of(
-            PhysicsMeshes.Plane(new(-0.5, 0, 0), Vector.I), PhysicsMeshes.Plane(new(0.5, 0, 0), -Vector.I))));
+        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(PhysicsMeshes.FromTriangles(
+            PhysicsMeshes.PlaneTriangle(new(-0.5, 0, 0), Vector.I), PhysicsMeshes.PlaneTriangle(new(0.5, 0, 0), -Vector.I))));
         var body = world.Add(new(Vector.Zero, 0.5));
-        world.Run(60, () => Assert.InRange(Math.Abs(body.Position.X), 0, Overlap));
+        world.Run(60, () => Assert.InRange(Math.Abs(body.Position.X), 0, MaxOverlap));
         // ½·9.8.
         Near.Equal(-4.9, body.Position.Y, 1e-6);
     }
@@ -68,8 +68,9 @@ public class CornerTests
             new(-0.02770280104002601, 0.5215446756759484, -0.8527741237212856),
         ];
         var world =
-            Worlds.Of(Worlds.Gravity, 0.045447124385289764,
-            Worlds.Place(PhysicsMeshes.Of([.. normals.Select(normal => PhysicsMeshes.Plane(Vector.Zero, normal, 1000))])));
+            TestWorlds.Create(TestWorlds.Gravity, 0.045447124385289764,
+            TestWorlds.Place(
+                PhysicsMeshes.FromTriangles([.. normals.Select(normal => PhysicsMeshes.PlaneTriangle(Vector.Zero, normal, 1000))])));
         world.Add(
             new(new(0, 0.7219706945285043, 0),
             0.08265429241889093) { Velocity = new(0.9551074220589868, 9.029697821955057, 5.162879012135267) });
@@ -79,16 +80,17 @@ public class CornerTests
         Assert.True(run.Join(TimeSpan.FromSeconds(20)), $"step {world.StepCount} does not end");
     }
 
-    private static void Check(int cases, int steps) => Seeded.Run(cases, random =>
+    private static void CheckCorner(int cases, int steps) => Seeded.Run(cases, random =>
     {
         // Normals that all look up at least a little, in three directions around.
-        var turn = random.Between(0, 2 * Math.PI);
-        Vector[] normals = [.. Enumerable.Range(0, 3).Select(i => turn + ((i + random.Between(-0.35, 0.35)) * 2 * Math.PI / 3))
+        var rotationAngle = random.Between(0, 2 * Math.PI);
+        Vector[] normals = [.. Enumerable.Range(0, 3).Select(i => rotationAngle + ((i + random.Between(-0.35, 0.35)) * 2 * Math.PI / 3))
             .Select(angle => new Vector(Math.Cos(angle), random.Between(0.05, 2), Math.Sin(angle)).UnitVector())];
         var radius = Math.Pow(10, random.Between(-1.5, 0));
         var world =
-            Worlds.Of(Worlds.Gravity, Math.Pow(10, random.Between(-3, -1)),
-            Worlds.Place(PhysicsMeshes.Of([.. normals.Select(normal => PhysicsMeshes.Plane(Vector.Zero, normal, FarEdge))])));
+            TestWorlds.Create(TestWorlds.Gravity, Math.Pow(10, random.Between(-3, -1)),
+            TestWorlds.Place(
+                PhysicsMeshes.FromTriangles([.. normals.Select(normal => PhysicsMeshes.PlaneTriangle(Vector.Zero, normal, FarEdge))])));
         var start = random.Between(3, 30) * radius * Vector.J;
         var lowest = normals.Min(normal => Vector.Dot(start, normal));
         // Clear of all of them at first.
@@ -104,7 +106,7 @@ public class CornerTests
             foreach (var normal in normals)
             {
                 var height = Vector.Dot(body.Position, normal);
-                Assert.True(height >= radius * (1 - Overlap),
+                Assert.True(height >= radius * (1 - MaxOverlap),
                     $"{body.Description}, step {world.Settings.TimeStep:R}, after {world.StepCount}: {height:R} from a plane");
             }
         });
@@ -120,7 +122,7 @@ public class CornerTests
             var after = world.Energy();
             // Lifted by the rounding of a contact, at most: 1e-6 of the radius is what may overlap.
             Assert.True(
-                after <= before + (1e-9 * (Math.Abs(before) + (9.8 * size))) + (9.8 * Overlap * body.Radius),
+                after <= before + (1e-9 * (Math.Abs(before) + (9.8 * size))) + (9.8 * MaxOverlap * body.Radius),
                 $"{body.Description}, step {world.Settings.TimeStep:R}, after {world.StepCount}: energy {after:R}, {before:R} before");
             before = Math.Min(before, after);
             afterEach?.Invoke();

@@ -83,7 +83,7 @@ public class DeterminismTests
 
     private static PhysicsWorld World()
     {
-        var world = Worlds.Of(Worlds.Gravity, 1 / 64.0, Worlds.Place(AssetFractals.Load("menger", 2)));
+        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 64.0, TestWorlds.Place(AssetFractals.Load("menger", 2)));
         var random = new Random(7);
         world.AddRange(Enumerable.Range(0, 12)
             .Select(i => new BodyDescription(new((i % 4 * 0.25) - 0.4, 0.7 + (0.1 * random.NextDouble()), (i / 4 * 0.3) - 0.3), 0.08)
@@ -95,11 +95,11 @@ public class DeterminismTests
     }
 
     /// <summary>The same bodies as objects of the scene.</summary>
-    private static PhysicsWorld SceneWorld() => Worlds.Of(Worlds.Gravity, 1 / 64.0, [
-        Worlds.Place(AssetFractals.Load("menger", 2)),
+    private static PhysicsWorld SceneWorld() => TestWorlds.Create(TestWorlds.Gravity, 1 / 64.0, [
+        TestWorlds.Place(AssetFractals.Load("menger", 2)),
         .. Enumerable.Range(0, 6).Select(i => new Core.Scenes.PlacedModel(
             new Core.Scenes.PhysicsObject("cube.obj", Support.Samples.MoveAndScale((i * 0.15) - 0.4, 0.8, 0.01 * i, 0.1),
             0.7) { Velocity = new(0.3, 0, 0.2 * i) },
-            new Core.Scenes.MeshModel("/cube.obj", 0, PhysicsMeshes.Cube))),
+            new Core.Scenes.MeshModel(PhysicsMeshes.Cube))),
     ]);
 }

@@ -16,14 +16,14 @@ public class FlightTests
     public void FreeFlight_AtAnyStep_IsTheParabola(double step) => Seeded.Run(5, random =>
     {
         var (gravity, start, velocity) = (random.Vector(10), random.Vector(3), random.Vector(20));
-        var world = Worlds.Of(gravity, step);
+        var world = TestWorlds.Create(gravity, step);
         var body = world.Add(new(start, 0.1) { Velocity = velocity });
         var steps = Math.Min(2000, (int)(20 / step));
         world.Run(steps, () =>
         {
             var time = world.StepCount * step;
-            var place = start + (time * velocity) + (0.5 * time * time * gravity);
-            Near.Equal(place, body.Position, Rounding * world.StepCount * (3 + (20 * time) + (10 * time * time)));
+            var expected = start + (time * velocity) + (0.5 * time * time * gravity);
+            Near.Equal(expected, body.Position, Rounding * world.StepCount * (3 + (20 * time) + (10 * time * time)));
             Near.Equal(velocity + (time * gravity), body.Velocity, Rounding * world.StepCount * (20 + (10 * time)));
         });
         Assert.Equal(steps * step, world.Time, 1e-9);
@@ -32,12 +32,14 @@ public class FlightTests
     [Fact]
     public void FreeFlight_PastSurfaces_IsTheParabola() => Seeded.Run(20, random =>
     {
-        var world = Worlds.Of(Worlds.Gravity, random.Between(1e-3, 0.05), Worlds.Place(PhysicsMeshes.Cube, Samples.Move(0, -1e5, 0)),
-            Worlds.Place(PhysicsMeshes.Cube, Samples.Move(-5, 0, 0)));
+        var world =
+            TestWorlds.Create(TestWorlds.Gravity, random.Between(1e-3, 0.05),
+            TestWorlds.Place(PhysicsMeshes.Cube, Samples.Move(0, -1e5, 0)),
+            TestWorlds.Place(PhysicsMeshes.Cube, Samples.Move(-5, 0, 0)));
         var velocity = new Vector(random.Between(1, 20), random.Between(-5, 20), random.Between(-5, 5));
         var body = world.Add(new(Vector.Zero, 0.1) { Velocity = velocity });
         world.Run(200,
-            () => Near.Equal((world.Time * velocity) + (0.5 * world.Time * world.Time * Worlds.Gravity), body.Position,
+            () => Near.Equal((world.Time * velocity) + (0.5 * world.Time * world.Time * TestWorlds.Gravity), body.Position,
             Rounding * world.StepCount * 1000));
     });
 
@@ -46,7 +48,7 @@ public class FlightTests
     public void Bounce_OnAFloor_RisesByTheSquareOfRestitution(double step) => Seeded.Run(step < 1e-4 ? 4 : 40, random =>
     {
         var (restitution, height, radius) = (random.Between(0.2, 1), random.Between(0.1, 2), Math.Pow(10, random.Between(-2, 0)));
-        var world = Worlds.Of(Worlds.Gravity, step, Worlds.Place(PhysicsMeshes.Floor()));
+        var world = TestWorlds.Create(TestWorlds.Gravity, step, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         var body = world.Add(new(new(0.3, radius + height, -0.2), radius) { Restitution = restitution });
         var (rises, gravity) = (height, 9.8);
         for (var (steps, fallen) = (0, 0.0); steps * step < 2 && Math.Sqrt(8 * rises * restitution * restitution / gravity) > 2 * step;
@@ -74,7 +76,8 @@ public class FlightTests
         var normal = random.Direction();
         var (restitution, radius) = (random.NextDouble(), random.Between(0.01, 0.5));
         var world =
-            Worlds.Of(Vector.Zero, random.Between(0.001, 0.1), Worlds.Place(PhysicsMeshes.Of(PhysicsMeshes.Plane(Vector.Zero, normal))));
+            TestWorlds.Create(Vector.Zero, random.Between(0.001, 0.1),
+            TestWorlds.Place(PhysicsMeshes.FromTriangles(PhysicsMeshes.PlaneTriangle(Vector.Zero, normal))));
         var velocity = random.Vector(10);
         velocity -= (Vector.Dot(velocity, normal) + random.Between(1, 10)) * normal;
         var body = world.Add(new((radius + 0.5) * normal, radius) { Velocity = velocity, Restitution = restitution });

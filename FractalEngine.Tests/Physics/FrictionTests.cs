@@ -11,12 +11,12 @@ public class FrictionTests
     public void Slope_BelowTheAngleOfFriction_HoldsTheBody() => Seeded.Run(40, random =>
     {
         var angle = random.Between(1, 60) * Math.PI / 180;
-        var body = OnSlope(random, angle, Math.Tan(angle) * random.Between(1.01, 3), out var world, out _);
+        var body = CreateOnSlope(random, angle, Math.Tan(angle) * random.Between(1.01, 3), out var world, out _);
         world.Step();
-        var place = body.Position;
+        var position = body.Position;
         // It begins within rounding of the surface and may drop by that much once.
-        Near.Equal(body.Description.Position, place, 1e-6 * body.Radius);
-        world.Run(500, () => Near.Equal(place, body.Position, 1e-9));
+        Near.Equal(body.Description.Position, position, 1e-6 * body.Radius);
+        world.Run(500, () => Near.Equal(position, body.Position, 1e-9));
     });
 
     [Fact]
@@ -24,7 +24,7 @@ public class FrictionTests
     {
         var angle = random.Between(10, 80) * Math.PI / 180;
         var friction = Math.Tan(angle) * random.Between(0, 0.95);
-        var body = OnSlope(random, angle, friction, out var world, out var down);
+        var body = CreateOnSlope(random, angle, friction, out var world, out var down);
         var acceleration = 9.8 * (Math.Sin(angle) - (friction * Math.Cos(angle)));
         world.Run(100);
         // It begins with nothing known of the slope and falls a touch, 1e-9 of the radius at most, before friction acts: that takes
@@ -39,7 +39,7 @@ public class FrictionTests
     public void Sliding_WithFriction_StopsAfterTheBrakingDistance() => Seeded.Run(40, random =>
     {
         var (speed, friction) = (random.Between(0.5, 5), random.Between(0.1, 1));
-        var world = Worlds.Of(Worlds.Gravity, random.Between(0.002, 0.05), Worlds.Place(PhysicsMeshes.Floor()));
+        var world = TestWorlds.Create(TestWorlds.Gravity, random.Between(0.002, 0.05), TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         var body = world.Add(new(new(0, 0.5, 0), 0.5) { Velocity = new(speed, 0, 0), Friction = friction });
         var time = speed / (friction * 9.8);
         world.Run((int)(time / world.Settings.TimeStep) + 60);
@@ -52,7 +52,7 @@ public class FrictionTests
     {
         var (friction, restitution, along, into) = (random.Between(0, 0.5), random.NextDouble(), random.Between(0, 10),
             random.Between(1, 5));
-        var world = Worlds.Of(Vector.Zero, 0.01, Worlds.Place(PhysicsMeshes.Floor()));
+        var world = TestWorlds.Create(Vector.Zero, 0.01, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         var body = world.Add(new(new(0, 1, 0), 0.5) { Velocity = new(along, -into, 0), Friction = friction, Restitution = restitution });
         world.Run(60);
         // Coulomb: at most what stops it. 1e-10 of the radius in the direction of the normal.
@@ -65,20 +65,20 @@ public class FrictionTests
     public void Damping_WithoutForces_IsExponential(double step) => Seeded.Run(20, random =>
     {
         var (rate, velocity) = (random.Between(0.01, 5), random.Vector(10));
-        var world = Worlds.Of(Vector.Zero, step);
+        var world = TestWorlds.Create(Vector.Zero, step);
         var body = world.Add(new(Vector.Zero, 0.5) { Velocity = velocity, Damping = rate });
         // A rounding a step.
         world.Run(300, () => Near.Equal(Math.Exp(-rate * world.Time) * velocity, body.Velocity, 1e-12));
         // From v to v·exp(−ct): between the way at the faster and at the slower speed of each step.
-        var way = (1 - Math.Exp(-rate * world.Time)) / rate * velocity.Length();
-        Assert.InRange(body.Position.Length(), way * Math.Exp(-rate * step), way * Math.Exp(rate * step));
+        var distance = (1 - Math.Exp(-rate * world.Time)) / rate * velocity.Length();
+        Assert.InRange(body.Position.Length(), distance * Math.Exp(-rate * step), distance * Math.Exp(rate * step));
     });
 
     [Fact]
     public void Damping_InFreeFall_ReachesTheTerminalSpeed()
     {
         const double Rate = 2, Step = 1e-3;
-        var world = Worlds.Of(Worlds.Gravity, Step);
+        var world = TestWorlds.Create(TestWorlds.Gravity, Step);
         var body = world.Add(new(Vector.Zero, 0.5) { Damping = Rate });
         world.Run(10_000);
         // g/c; the order of damping and falling within a step leaves c·step of it.
@@ -90,7 +90,7 @@ public class FrictionTests
     {
         var (gravity, force, mass, velocity) = (random.Vector(10), random.Vector(20), Math.Pow(10, random.Between(-1, 2)),
             random.Vector(5));
-        var world = Worlds.Of(gravity, random.Between(0.001, 0.1));
+        var world = TestWorlds.Create(gravity, random.Between(0.001, 0.1));
         var body = world.Add(new(Vector.Zero, 0.5) { Mass = mass, Velocity = velocity });
         world.SetForce(body, force);
         world.Run(50);
@@ -110,8 +110,8 @@ public class FrictionTests
         foreach (var (force, isMoving) in new[] { (0.99 * 0.4 * 3 * 9.8, false), (1.01 * 0.4 * 3 * 9.8, true) })
         {
             // A body so slow would fall asleep.
-            var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { TimeStep = 0.01, SleepSpeed = 0 },
-                Worlds.Place(PhysicsMeshes.Floor()));
+            var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings { TimeStep = 0.01, SleepSpeed = 0 },
+                TestWorlds.Place(PhysicsMeshes.FloorMesh()));
             var body = world.Add(new(new(0, 0.5, 0), 0.5) { Mass = 3, Friction = 0.4 });
             world.Run(10);
             world.SetForce(body, new(force, 0, 0));
@@ -121,13 +121,13 @@ public class FrictionTests
         }
     }
 
-    private static Body OnSlope(Random random, double angle, double friction, out PhysicsWorld world, out Vector down)
+    private static Body CreateOnSlope(Random random, double angle, double friction, out PhysicsWorld world, out Vector down)
     {
-        var (turn, radius) = (random.Between(0, 2 * Math.PI), random.Between(0.1, 1));
-        var normal = new Vector(Math.Sin(angle) * Math.Cos(turn), Math.Cos(angle), Math.Sin(angle) * Math.Sin(turn));
-        down = new(Math.Cos(angle) * Math.Cos(turn), -Math.Sin(angle), Math.Cos(angle) * Math.Sin(turn));
-        world = Worlds.Of(Worlds.Gravity, random.Between(0.002, 0.02),
-            Worlds.Place(PhysicsMeshes.Of(PhysicsMeshes.Plane(Vector.Zero, normal))));
+        var (heading, radius) = (random.Between(0, 2 * Math.PI), random.Between(0.1, 1));
+        var normal = new Vector(Math.Sin(angle) * Math.Cos(heading), Math.Cos(angle), Math.Sin(angle) * Math.Sin(heading));
+        down = new(Math.Cos(angle) * Math.Cos(heading), -Math.Sin(angle), Math.Cos(angle) * Math.Sin(heading));
+        world = TestWorlds.Create(TestWorlds.Gravity, random.Between(0.002, 0.02),
+            TestWorlds.Place(PhysicsMeshes.FromTriangles(PhysicsMeshes.PlaneTriangle(Vector.Zero, normal))));
         return world.Add(new(radius * normal, radius) { Friction = friction, Mass = random.Between(0.1, 10) });
     }
 }

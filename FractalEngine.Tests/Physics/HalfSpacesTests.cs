@@ -7,56 +7,56 @@ namespace FractalEngine.Tests.Physics;
 public sealed class HalfSpacesTests
 {
     [Fact]
-    public void TryNearest_OfRandomPlanes_IsWhatProjectionConvergesTo() => Seeded.Run(2000, random =>
+    public void TryProject_OfRandomPlanes_IsWhatAlternatingProjectionConvergesTo() => Seeded.Run(2000, random =>
     {
         // All planes leave a ball about some point free, so that there is an answer.
-        var (planes, free) = (new HalfSpaces(), RandomVector(random));
+        var (planes, interior) = (new HalfSpaces(), RandomVector(random));
         var count = random.Next(1, HalfSpaces.Capacity + 1);
         var (normals, offsets) = (new Vector[count], new double[count]);
         for (var i = 0; i < count; i++)
         {
             normals[i] = RandomVector(random).UnitVector();
-            offsets[i] = Vector.Dot(normals[i], free) - random.NextDouble();
+            offsets[i] = Vector.Dot(normals[i], interior) - random.NextDouble();
             planes.Add(normals[i], offsets[i]);
         }
 
         var target = 3 * RandomVector(random);
-        Assert.True(planes.TryProject(target, out var nearest));
+        Assert.True(planes.TryProject(target, out var closest));
         for (var i = 0; i < count; i++)
         {
-            Assert.True(Vector.Dot(normals[i], nearest) >= offsets[i] - 1e-12);
+            Assert.True(Vector.Dot(normals[i], closest) >= offsets[i] - 1e-12);
         }
 
         // Dykstra's projections converge to it, slowly where planes meet at sharp angles: by as much as they still violate one, they may be
         // nearer.
-        var other = Dykstra(target, normals, offsets);
+        var other = ProjectByDykstra(target, normals, offsets);
         var violation = Enumerable.Range(0, count).Max(i => Math.Max(0, offsets[i] - Vector.Dot(normals[i], other)));
-        Assert.True((nearest - target).Length() <= (other - target).Length() + 1e-6 + (100 * violation),
-            $"{nearest} is farther than {other}");
+        Assert.True((closest - target).Length() <= (other - target).Length() + 1e-6 + (100 * violation),
+            $"{closest} is farther than {other}");
     });
 
     [Fact]
-    public void TryNearest_OfPlanesThatExcludeEachOther_IsFalse()
+    public void TryProject_OfPlanesThatExcludeEachOther_IsFalse()
     {
         var planes = new HalfSpaces();
         planes.Add(Vector.I, 1);
         planes.Add(-Vector.I, 1);
-        Assert.False(planes.TryProject(Vector.Zero, out var nearest));
-        Assert.Equal(Vector.Zero, nearest);
+        Assert.False(planes.TryProject(Vector.Zero, out var closest));
+        Assert.Equal(Vector.Zero, closest);
     }
 
     [Fact]
-    public void TryNearest_InACornerOfThree_IsTheCorner()
+    public void TryProject_InACornerOfThree_IsTheCorner()
     {
         var planes = new HalfSpaces();
         planes.Add(Vector.I, 1);
         planes.Add(Vector.J, 2);
         planes.Add(Vector.K, 3);
-        Assert.True(planes.TryProject(Vector.Zero, out var nearest));
-        Assert.Equal(new(1, 2, 3), nearest);
+        Assert.True(planes.TryProject(Vector.Zero, out var closest));
+        Assert.Equal(new(1, 2, 3), closest);
     }
 
-    private static Vector Dykstra(Vector target, Vector[] normals, double[] offsets)
+    private static Vector ProjectByDykstra(Vector target, Vector[] normals, double[] offsets)
     {
         var (point, corrections) = (target, new Vector[normals.Length]);
         for (var round = 0; round < 4000; round++)

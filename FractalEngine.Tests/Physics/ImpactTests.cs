@@ -16,7 +16,7 @@ public class ImpactTests
         var (e1, e2) = (random.NextDouble(), random.Next(3) == 0 ? 1 : random.NextDouble());
         var (v1, v2) = (random.Between(1, 10), random.Between(-10, 0.5));
         var direction = random.Direction();
-        var world = Worlds.Of(Vector.Zero, Math.Pow(10, random.Between(-3, -1)));
+        var world = TestWorlds.Create(Vector.Zero, Math.Pow(10, random.Between(-3, -1)));
         var body1 = world.Add(new(Vector.Zero, random.Between(0.1, 1)) { Mass = m1, Velocity = v1 * direction, Restitution = e1 });
         var body2 = world.Add(new(3 * direction, random.Between(0.1, 1)) { Mass = m2, Velocity = v2 * direction, Restitution = e2 });
         // Of both balls the one that bounces less decides.
@@ -31,7 +31,7 @@ public class ImpactTests
     public void Oblique_WithAnyMasses_KeepsMomentumAndReversesTheApproach() => Seeded.Run(300, random =>
     {
         var (m1, m2, e) = (random.Between(0.1, 10), random.Between(0.1, 10), random.Next(3) == 0 ? 1 : random.NextDouble());
-        var world = Worlds.Of(Vector.Zero, Math.Pow(10, random.Between(-3, -1)));
+        var world = TestWorlds.Create(Vector.Zero, Math.Pow(10, random.Between(-3, -1)));
         var target = random.Vector(3);
         var (u1, u2) = (random.Vector(10), random.Vector(10));
         // Both aim at one place, at most 0.8 apart there: balls of radius 0.5 meet.
@@ -57,15 +57,15 @@ public class ImpactTests
     });
 
     [Fact]
-    public void Oblique_AtSmallSteps_MeetsWhereTheBallsMeet() => Seeded.Run(30, random =>
+    public void Oblique_AtSmallSteps_MeetsWhereTheSpheresMeet() => Seeded.Run(30, random =>
     {
         const double Step = 1e-4;
-        var world = Worlds.Of(Vector.Zero, Step);
-        var (velocity, beside) = (new Vector(random.Between(1, 4), 0, 0), random.Between(-0.8, 0.8));
+        var world = TestWorlds.Create(Vector.Zero, Step);
+        var (velocity, lateralOffset) = (new Vector(random.Between(1, 4), 0, 0), random.Between(-0.8, 0.8));
         var body1 = world.Add(new(Vector.Zero, 0.5) { Velocity = velocity, Restitution = 1 });
-        var body2 = world.Add(new(new(2, beside, 0), 0.5) { Velocity = -velocity, Restitution = 1 });
+        var body2 = world.Add(new(new(2, lateralOffset, 0), 0.5) { Velocity = -velocity, Restitution = 1 });
         world.Run((int)(1.5 / velocity.X / Step));
-        var normal = new Vector(Math.Sqrt(1 - (beside * beside)), beside, 0);
+        var normal = new Vector(Math.Sqrt(1 - (lateralOffset * lateralOffset)), lateralOffset, 0);
         var expected = velocity - (2 * velocity.X * normal.X * normal);
         // Within a step one ball moves after the other, which turns the line of centres by the way of a step at most: 8·step over cos ≥
         // 0.6, times twice the speed.
@@ -81,7 +81,7 @@ public class ImpactTests
     {
         foreach (var step in new[] { 1e-3, 1 / 60.0, 0.1 })
         {
-            var world = Worlds.Of(Vector.Zero, step);
+            var world = TestWorlds.Create(Vector.Zero, step);
             var bodies = new[] { 0, 2, 3 + gap, 4 + (2 * gap) }.Select(x => world.Add(new(new(x, 0, 0), 0.5) { Restitution = 1 }))
                 .ToArray();
             world.SetVelocity(bodies[0], new(3, 0, 0));
@@ -94,7 +94,7 @@ public class ImpactTests
     [Fact]
     public void ThreeInARow_OfAnyMasses_KeepMomentumAndEnergy() => Seeded.Run(100, random =>
     {
-        var world = Worlds.Of(Vector.Zero, Math.Pow(10, random.Between(-3, -1)));
+        var world = TestWorlds.Create(Vector.Zero, Math.Pow(10, random.Between(-3, -1)));
         var restitution = random.Next(2) == 0 ? 1 : random.NextDouble();
         for (var i = 0; i < 4; i++)
         {
@@ -132,7 +132,7 @@ public class ImpactTests
     {
         var (radius, velocity, start, step) = (random.Between(0.02, 0.2), random.Vector(10) + new Vector(3, -1, 2), random.Vector(0.25),
             random.Between(0.01, 0.1));
-        var world = Worlds.Of(Vector.Zero, step, Worlds.Place(PhysicsMeshes.Room));
+        var world = TestWorlds.Create(Vector.Zero, step, TestWorlds.Place(PhysicsMeshes.InwardCube));
         var body = world.Add(new(start, radius) { Velocity = velocity, Restitution = 1 });
         var width = 1 - (2 * radius);
         var steps = (int)(bounces * width / step / (Math.Abs(velocity.X) + Math.Abs(velocity.Y) + Math.Abs(velocity.Z)));
@@ -140,21 +140,21 @@ public class ImpactTests
         {
             Near.Equal(velocity.Absolute(), body.Velocity.Absolute(), 1e-8);
             // Each bounce is found to 1e-10 of the radius.
-            Near.Equal(new(ToAndFro(start.X, velocity.X), ToAndFro(start.Y, velocity.Y), ToAndFro(start.Z, velocity.Z)), body.Position,
+            Near.Equal(new(Reflect(start.X, velocity.X), Reflect(start.Y, velocity.Y), Reflect(start.Z, velocity.Z)), body.Position,
                 1e-9 + (1e-9 * radius * bounces));
         });
 
-        double ToAndFro(double from, double speed)
+        double Reflect(double from, double speed)
         {
-            var way = (from + (world.Time * speed) + (width / 2)) / (2 * width);
-            return (2 * width * Math.Abs(way - Math.Floor(way + 0.5))) - (width / 2);
+            var phase = (from + (world.Time * speed) + (width / 2)) / (2 * width);
+            return (2 * width * Math.Abs(phase - Math.Floor(phase + 0.5))) - (width / 2);
         }
     });
 
     private static void CheckBoxWithGravity(int bounces) => Seeded.Run(3, random =>
     {
         var (radius, step) = (random.Between(0.02, 0.2), random.Between(0.002, 0.02));
-        var world = Worlds.Of(Worlds.Gravity, step, Worlds.Place(PhysicsMeshes.Room));
+        var world = TestWorlds.Create(TestWorlds.Gravity, step, TestWorlds.Place(PhysicsMeshes.InwardCube));
         // Fast enough to reach the ceiling with some speed left: what arrives more slowly than gravity works in half a step does not
         // bounce.
         var velocity = new Vector(random.Between(2, 4), random.Between(6, 8), random.Between(-4, -2));

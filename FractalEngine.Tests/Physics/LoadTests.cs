@@ -11,9 +11,10 @@ public sealed class LoadTests
     [Theory]
     [InlineData(1)]
     [InlineData(100)]
-    public void Stack_OfElasticBalls_DoesNotBounceFromItsLoad(double mass)
+    public void Stack_OfElasticSpheres_DoesNotBounceFromItsLoad(double mass)
     {
-        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = 0 }, Worlds.Place(PhysicsMeshes.Floor()));
+        var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings { SleepSpeed = 0 },
+            TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         var lower = world.Add(new(new(0, 0.5, 0), 0.5) { Restitution = 0.9 });
         var upper = world.Add(new(new(0, 1.5, 0), 0.5) { Restitution = 0.9, Mass = mass });
         world.Run(600);
@@ -23,9 +24,9 @@ public sealed class LoadTests
     }
 
     [Fact]
-    public void Pair_ThatTouchesInTheAir_FallsAsEachAlone()
+    public void Pair_InContactInTheAir_FallsAsEachAlone()
     {
-        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings());
+        var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings());
         var upper = world.Add(new(new(0, 1, 0), 0.5) { Mass = 100, Friction = 0.5 });
         var lower = world.Add(new(new(0, 0, 0), 0.5));
         world.Run(60);
@@ -36,9 +37,9 @@ public sealed class LoadTests
     }
 
     [Fact]
-    public void Sleeper_OnABodyThatShrinks_ComesDownWithIt()
+    public void SleepingBody_OnABodyThatShrinks_SinksWithIt()
     {
-        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings(), Worlds.Place(PhysicsMeshes.Floor()));
+        var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings(), TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         world.Add(new(new(0, 1, 0), 1) { Shrinkage = 0.01, MinimumScale = 0.5, Friction = 1 });
         var upper = world.Add(new(new(0, 3, 0), 1) { Friction = 1 });
         world.Run(1200);
@@ -46,31 +47,31 @@ public sealed class LoadTests
     }
 
     [Fact]
-    public void Player_AgainstABallThatTouchesAlready_PushesIt()
+    public void Player_AgainstASphereInContact_PushesIt()
     {
-        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings(), Worlds.Place(PhysicsMeshes.Floor()));
+        var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings(), TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         var walker = world.AddCharacter(new(new(0, 0.9, 0), 0.3, 1.8));
-        var ball = world.Add(new(new(0.61, 0.3, 0), 0.3));
+        var body = world.Add(new(new(0.61, 0.3, 0), 0.3));
         walker.IsActive = true;
         world.Run(60);
         walker.MoveInput = Vector.I;
         world.Run(60);
-        Assert.True(ball.Position.X > 3, $"{ball.Position}");
+        Assert.True(body.Position.X > 3, $"{body.Position}");
     }
 
     [Fact]
-    public void Ball_OnAPlayerWhoGoes_Falls()
+    public void Sphere_OnAPlayerWhoLeaves_Falls()
     {
-        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings(), Worlds.Place(PhysicsMeshes.Floor()));
+        var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings(), TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         var walker = world.AddCharacter(new(new(0, 0.9, 0), 0.3, 1.8));
         walker.IsActive = true;
-        var ball = world.Add(new(new(0, 2.2, 0), 0.3));
+        var body = world.Add(new(new(0, 2.2, 0), 0.3));
         world.Run(300);
-        Assert.True(ball.IsAsleep);
-        Near.Equal(2.1, ball.Position.Y, 1e-6);
+        Assert.True(body.IsAsleep);
+        Near.Equal(2.1, body.Position.Y, 1e-6);
         walker.IsActive = false;
         world.Run(120);
-        Near.Equal(0.3, ball.Position.Y, 1e-6);
+        Near.Equal(0.3, body.Position.Y, 1e-6);
 
         // And a player who comes back where it lies stands beside or above it, and can walk.
         walker.IsActive = true;
@@ -86,11 +87,11 @@ public sealed class LoadTests
     [InlineData(-1, 0.45)]
     [InlineData(-1, 0.5)]
     [InlineData(-1, 0.55)]
-    public void Start_AtASolidsSkin_EndsOutside(double mirror, double height)
+    public void Start_AtASolidsSurface_EndsOutside(double mirror, double height)
     {
         var world =
-            Worlds.Of(Vector.Zero, new PhysicsSettings(),
-            Worlds.Place(PhysicsMeshes.Cube, new(Vector.Zero, Vector.Zero, new(mirror, 1, 1))));
+            TestWorlds.Create(Vector.Zero, new PhysicsSettings(),
+            TestWorlds.Place(PhysicsMeshes.Cube, new(Vector.Zero, Vector.Zero, new(mirror, 1, 1))));
         var body = world.Add(new(new(0.05, height, 0.1), 0.1));
         world.Step();
         Near.Equal(new(0.05, 0.6, 0.1), body.Position, 1e-6);
@@ -101,18 +102,18 @@ public sealed class LoadTests
     {
         var scene = new LoadedScene(new Scene(),
         [
-            Worlds.Place(PhysicsMeshes.Floor()),
-            new(new PhysicsObject("cube.obj", At(2), 0.5), new MeshModel("cube.obj", 0, PhysicsMeshes.Cube)),
+            TestWorlds.Place(PhysicsMeshes.FloorMesh()),
+            new(new PhysicsObject("cube.obj", PlacementAt(2), 0.5), new MeshModel(PhysicsMeshes.Cube) { SourcePath = "cube.obj" }),
         ]);
         var world = new PhysicsWorld(scene);
         world.Run(120);
         var hash = world.StateHash;
-        world.MoveObject(0, At(-5));
+        world.MoveObject(0, PlacementAt(-5));
         world.Run(60);
         world.Reset();
         world.Run(120);
         Assert.Equal(hash, world.StateHash);
     }
 
-    private static Transformation At(double height) => Transformation.Identity with { Position = new(0, height, 0) };
+    private static Transformation PlacementAt(double height) => Transformation.Identity with { Position = new(0, height, 0) };
 }

@@ -7,7 +7,7 @@ namespace FractalEngine.Tests.Physics;
 /// <summary>Balls among balls.</summary>
 public class ManyBodiesTests
 {
-    private const double Overlap = 1e-6;
+    private const double MaxOverlap = 1e-6;
 
     [Fact]
     public void Poured_IntoABox_NeitherOverlapNorLeaveAndSleep() => CheckPoured(60, 900, 1);
@@ -22,12 +22,13 @@ public class ManyBodiesTests
     [Fact]
     public void Cloud_WithoutGravity_KeepsItsMomentum() => Seeded.Run(3, random =>
     {
-        var world = Worlds.Of(Vector.Zero, 1 / 60.0);
+        var world = TestWorlds.Create(Vector.Zero, 1 / 60.0);
         for (var i = 0; i < 64; i++)
         {
-            var place = new Vector(i % 4, i / 4 % 4, i / 16) - (1.5 * Vector.One);
+            var position = new Vector(i % 4, i / 4 % 4, i / 16) - (1.5 * Vector.One);
             // Towards the middle, so that they meet.
-            world.Add(new(place, random.Between(0.1, 0.45)) { Mass = random.Between(0.1, 10), Velocity = (-1 * place) + random.Vector(0.5),
+            world.Add(
+                new(position, random.Between(0.1, 0.45)) { Mass = random.Between(0.1, 10), Velocity = (-1 * position) + random.Vector(0.5),
                 Restitution = random.NextDouble(), Friction = random.Next(2) * 0.3 });
         }
 
@@ -38,16 +39,16 @@ public class ManyBodiesTests
             Near.Equal(momentum, world.Momentum(), 1e-9);
             Assert.InRange(world.Energy(), 0, energy * (1 + 1e-9));
             energy = world.Energy();
-            CheckApart(world);
+            CheckNoOverlap(world);
         });
         Assert.True(energy < 0.99 * (0.5 * world.Bodies.Sum(body => body.Description.Mass * body.Description.Velocity.LengthSquared())),
             "nothing met");
     });
 
     [Fact]
-    public void Cloud_OfElasticBalls_KeepsItsEnergy() => Seeded.Run(3, random =>
+    public void Cloud_OfElasticSpheres_KeepsItsEnergy() => Seeded.Run(3, random =>
     {
-        var world = Worlds.Of(Vector.Zero, 1 / 120.0, Worlds.Place(PhysicsMeshes.Scaled(PhysicsMeshes.Room, 6)));
+        var world = TestWorlds.Create(Vector.Zero, 1 / 120.0, TestWorlds.Place(PhysicsMeshes.Scale(PhysicsMeshes.InwardCube, 6)));
         for (var i = 0; i < 27; i++)
         {
             world.Add(
@@ -59,7 +60,7 @@ public class ManyBodiesTests
         world.Run(600, () =>
         {
             Near.Equal(energy, world.Energy(), 1e-9 * energy);
-            CheckApart(world);
+            CheckNoOverlap(world);
         });
     });
 
@@ -68,8 +69,8 @@ public class ManyBodiesTests
         const double Half = 3;
         var random = new Random(seed);
         var world =
-            Worlds.Of(Worlds.Gravity, 1 / 60.0,
-            Worlds.Place(PhysicsMeshes.Inwards(PhysicsMeshes.Cube.Transform(v => (2 * Half * v).Stretch(new(1, 4, 1))))));
+            TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0,
+            TestWorlds.Place(PhysicsMeshes.FlipWinding(PhysicsMeshes.Cube.Transform(v => (2 * Half * v).Stretch(new(1, 4, 1))))));
         // One 50 times as large as the smallest.
         world.Add(new(new(0.2, -8, 0.1), 2) { Mass = 50, Friction = 0.5 });
         world.AddRange(Enumerable.Range(0, count - 1).Select(i => new BodyDescription(
@@ -83,21 +84,21 @@ public class ManyBodiesTests
         {
             foreach (var body in world.Bodies)
             {
-                var room = new Vector(Half, 4 * Half, Half) - body.Position.Absolute();
-                var gap = Math.Min(room.X, Math.Min(room.Y, room.Z));
-                Assert.True(gap >= body.Radius * (1 - Overlap),
+                var clearance = new Vector(Half, 4 * Half, Half) - body.Position.Absolute();
+                var gap = Math.Min(clearance.X, Math.Min(clearance.Y, clearance.Z));
+                Assert.True(gap >= body.Radius * (1 - MaxOverlap),
                     $"{body.Name} of radius {body.Radius:R} is {gap:R} from a wall after {world.StepCount} steps");
                 Assert.False(body.IsStuck, $"{body.Name} is stuck after {world.StepCount} steps");
             }
 
-            CheckApart(world);
+            CheckNoOverlap(world);
         });
         var awake = world.Bodies.Where(body => !body.IsAsleep).ToArray();
         Assert.True(awake.Length == 0,
             $"{awake.Length} of {count} are awake, such as {awake.FirstOrDefault()?.Name} of radius {awake.FirstOrDefault()?.Radius:R} at {awake.FirstOrDefault()?.Position}, {awake.FirstOrDefault()?.Velocity}");
     }
 
-    private static void CheckApart(PhysicsWorld world)
+    private static void CheckNoOverlap(PhysicsWorld world)
     {
         for (var i = 0; i < world.Bodies.Count; i++)
         {
@@ -105,7 +106,7 @@ public class ManyBodiesTests
             {
                 var (body, other) = (world.Bodies[i], world.Bodies[j]);
                 var gap = (body.Position - other.Position).Length() - body.Radius - other.Radius;
-                if (gap < -Overlap * Math.Min(body.Radius, other.Radius))
+                if (gap < -MaxOverlap * Math.Min(body.Radius, other.Radius))
                 {
                     Assert.Fail(
                         $"{body.Name} and {other.Name} overlap by {-gap:R} after {world.StepCount} steps: radii {body.Radius:R} and {other.Radius:R}");

@@ -8,23 +8,23 @@ namespace FractalEngine.Tests.Physics;
 internal static class PhysicsMeshes
 {
     /// <summary>Side 1 about the origin, faces outwards.</summary>
-    public static Mesh Cube { get; } = Samples.ParseObj(Files.Cube).Mesh;
+    public static Mesh Cube { get; } = Samples.ParseObj(SampleFiles.Cube).Mesh;
 
     /// <summary>The same as a room: faces inwards.</summary>
-    public static Mesh Room { get; } = Inwards(Cube);
+    public static Mesh InwardCube { get; } = FlipWinding(Cube);
 
-    public static Mesh Inwards(Mesh mesh) => new(mesh.Positions, [.. mesh.VertexIndices.Chunk(3).SelectMany(face => face.Reverse())]);
+    public static Mesh FlipWinding(Mesh mesh) => new(mesh.Positions, [.. mesh.VertexIndices.Chunk(3).SelectMany(face => face.Reverse())]);
 
-    public static Mesh Scaled(Mesh mesh, double factor) => mesh.Transform(v => factor * v);
+    public static Mesh Scale(Mesh mesh, double factor) => mesh.Transform(v => factor * v);
 
-    public static Mesh Of(params (Vector A, Vector B, Vector C)[] faces) => new(
+    public static Mesh FromTriangles(params (Vector A, Vector B, Vector C)[] faces) => new(
         [.. faces.SelectMany(face => new[] { face.A, face.B, face.C }).SelectMany(v => new[] { v.X, v.Y, v.Z })],
         [.. Enumerable.Range(0, 3 * faces.Length)]);
 
-    public static (Vector A, Vector B, Vector C)[] Faces(Mesh mesh) => [.. Enumerable.Range(0, mesh.FaceCount).Select(mesh.Face)];
+    public static (Vector A, Vector B, Vector C)[] TrianglesOf(Mesh mesh) => [.. Enumerable.Range(0, mesh.FaceCount).Select(mesh.Face)];
 
     /// <summary>One large face through a point, the point well within it; its winding gives the normal.</summary>
-    public static (Vector A, Vector B, Vector C) Plane(Vector point, Vector normal, double size = 100)
+    public static (Vector A, Vector B, Vector C) PlaneTriangle(Vector point, Vector normal, double size = 100)
     {
         var side = Vector.Cross(normal, Math.Abs(normal.X) < 0.9 * normal.Length() ? Vector.I : Vector.J).UnitVector();
         var other = Vector.Cross(normal, side).UnitVector();
@@ -32,5 +32,5 @@ internal static class PhysicsMeshes
     }
 
     /// <summary>At y = 0, upwards.</summary>
-    public static Mesh Floor(double size = 100) => Of(Plane(Vector.Zero, Vector.J, size));
+    public static Mesh FloorMesh(double size = 100) => FromTriangles(PlaneTriangle(Vector.Zero, Vector.J, size));
 }

@@ -10,43 +10,44 @@ namespace FractalEngine.Tests.Physics;
 public class RestTests
 {
     // Places of rest are kept to this, scene units; the scenes measure about 1.
-    private const double Creep = 1e-9;
+    private const double MaxDrift = 1e-9;
 
     private const int Steps = 20_000;
     private const int SoakSteps = 1_000_000;
 
-    public static TheoryData<string, double> Places => new()
+    public static TheoryData<string, double> RestCases => new()
     {
         { "menger 2", 0 }, { "menger 3", 0 }, { "infinite menger", 0 }, { "menger 2", 0.5 }, { "groove", 0 }, { "groove", 0.3 },
         { "corner", 0 }, { "floor", 0 },
     };
 
     [Theory]
-    [MemberData(nameof(Places))]
-    public void Rest_WithoutSleep_StaysInItsPlace(string name, double friction) => CheckRest(name, friction, 0, Steps);
+    [MemberData(nameof(RestCases))]
+    public void Rest_WithoutSleep_StaysInPlace(string name, double friction) => CheckRest(name, friction, 0, Steps);
 
     [Theory]
-    [MemberData(nameof(Places))]
-    public void Rest_WithSleep_StaysInItsPlace(string name, double friction) => CheckRest(name, friction, null, Steps);
+    [MemberData(nameof(RestCases))]
+    public void Rest_WithSleep_StaysInPlace(string name, double friction) => CheckRest(name, friction, null, Steps);
 
     [Theory]
-    [MemberData(nameof(Places))]
+    [MemberData(nameof(RestCases))]
     [Trait("Category", "Soak")]
-    public void Rest_WithoutSleepForLong_StaysInItsPlace(string name, double friction) => CheckRest(name, friction, 0, SoakSteps);
+    public void Rest_WithoutSleepForLong_StaysInPlace(string name, double friction) => CheckRest(name, friction, 0, SoakSteps);
 
     [Theory]
-    [MemberData(nameof(Places))]
+    [MemberData(nameof(RestCases))]
     [Trait("Category", "Soak")]
-    public void Rest_WithSleepForLong_StaysInItsPlace(string name, double friction) => CheckRest(name, friction, null, SoakSteps);
+    public void Rest_WithSleepForLong_StaysInPlace(string name, double friction) => CheckRest(name, friction, null, SoakSteps);
 
     [Fact]
     public void Rest_InAGroove_IsWhereBothSidesAreARadiusAway() => Seeded.Run(50, random =>
     {
-        var (n1, n2) = (Tilted(-random.Between(20, 80)), Tilted(random.Between(20, 80)));
+        var (n1, n2) = (TiltedNormal(-random.Between(20, 80)), TiltedNormal(random.Between(20, 80)));
         var radius = random.Between(0.05, 0.5);
         var world =
-            Worlds.Of(Worlds.Gravity, random.Between(0.001, 0.03),
-            Worlds.Place(PhysicsMeshes.Of(PhysicsMeshes.Plane(Vector.Zero, n1), PhysicsMeshes.Plane(Vector.Zero, n2))));
+            TestWorlds.Create(TestWorlds.Gravity, random.Between(0.001, 0.03),
+            TestWorlds.Place(
+                PhysicsMeshes.FromTriangles(PhysicsMeshes.PlaneTriangle(Vector.Zero, n1), PhysicsMeshes.PlaneTriangle(Vector.Zero, n2))));
         var body = world.Add(new(new(0, 1 + (3 * radius), 0), radius));
         world.Run((int)(4 / world.Settings.TimeStep));
         // c·n1 = c·n2 = r, in the plane z = 0.
@@ -58,7 +59,7 @@ public class RestTests
     [Fact]
     public void Sleep_OnAFractal_CostsNothing()
     {
-        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(AssetFractals.Load("menger", 3)));
+        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(AssetFractals.Load("menger", 3)));
         world.AddRange(Enumerable.Range(0, 9)
             .Select(i => new BodyDescription(new((i % 3 * 0.33) - 0.33, 0.8, (i / 3 * 0.33) - 0.33), 0.1) { Friction = 0.5 }));
         world.Add(new(new(0, 1.2, 0), 0.2));
@@ -73,7 +74,7 @@ public class RestTests
     [Fact]
     public void Sleep_OfAllBodies_MakesStepsFree()
     {
-        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Floor()));
+        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         world.AddRange(Enumerable.Range(0, 20).Select(i => new BodyDescription(new(i, 0.5, 0), 0.4)));
         world.Run(300);
         Assert.False(world.IsMoving);
@@ -84,7 +85,7 @@ public class RestTests
     [Fact]
     public void Sleeping_WhenHit_Wakes()
     {
-        var world = Asleep(out var body);
+        var world = CreateSleepingBody(out var body);
         world.Add(new(body.Position + new Vector(-3, 0, 0), 0.5) { Velocity = new(4, 0, 0), Restitution = 1 });
         world.Run(60);
         Assert.False(body.IsAsleep);
@@ -95,7 +96,7 @@ public class RestTests
     [Fact]
     public void Sleeping_WhenGivenAVelocity_Wakes()
     {
-        var world = Asleep(out var body);
+        var world = CreateSleepingBody(out var body);
         world.SetVelocity(body, new(1, 0, 0));
         var start = body.Position;
         world.Run(60);
@@ -105,7 +106,7 @@ public class RestTests
     [Fact]
     public void Sleeping_WhenPulled_Wakes()
     {
-        var world = Asleep(out var body);
+        var world = CreateSleepingBody(out var body);
         world.SetForce(body, new(2 * body.Description.Mass, 0, 0));
         world.Run(60);
         Near.Equal(new(2, 0, 0), body.Velocity, 1e-9);
@@ -118,7 +119,7 @@ public class RestTests
     [InlineData(6)]
     public void Sleeping_OnABodyThatIsKnockedAway_Falls(int height)
     {
-        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Floor()));
+        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         for (var i = 0; i < height; i++)
         {
             world.Add(new(new(0, 0.5 + i, 0), 0.5));
@@ -138,7 +139,7 @@ public class RestTests
     [Fact]
     public void Sleeping_OnASleepingBodyThatIsShotAway_Falls()
     {
-        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Floor()));
+        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         var lower = world.Add(new(new(0, 0.5, 0), 0.5) { Mass = 0.1 });
         var upper = world.Add(new(new(0, 1.5, 0), 0.5));
         world.Run(240);
@@ -149,9 +150,9 @@ public class RestTests
         Assert.InRange(upper.Position.Y, 0.5 - 1e-6, 1.2);
     }
 
-    private static PhysicsWorld Asleep(out Body body)
+    private static PhysicsWorld CreateSleepingBody(out Body body)
     {
-        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Floor()));
+        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         body = world.Add(new(new(0, 0.5, 0), 0.5) { Mass = 2 });
         // Another, of the same mass as what it is hit with.
         body = world.Add(new(new(0, 0.6, 10), 0.5));
@@ -160,36 +161,37 @@ public class RestTests
         return world;
     }
 
-    private static Vector Tilted(double degrees) => new(Math.Sin(degrees * Math.PI / 180), Math.Cos(degrees * Math.PI / 180), 0);
+    private static Vector TiltedNormal(double degrees) => new(Math.Sin(degrees * Math.PI / 180), Math.Cos(degrees * Math.PI / 180), 0);
 
     private static void CheckRest(string name, double friction, double? sleepSpeed, int steps)
     {
         PlacedModel[] objects = name switch
         {
-            "menger 2" => [Worlds.Place(AssetFractals.Load("menger", 2))],
-            "menger 3" => [Worlds.Place(AssetFractals.Load("menger", 3))],
-            "infinite menger" => [Worlds.Place(AssetFractals.Load("infinite-menger"))],
+            "menger 2" => [TestWorlds.Place(AssetFractals.Load("menger", 2))],
+            "menger 3" => [TestWorlds.Place(AssetFractals.Load("menger", 3))],
+            "infinite menger" => [TestWorlds.Place(AssetFractals.Load("infinite-menger"))],
             "groove" =>
-                [Worlds.Place(
-                    PhysicsMeshes.Of(PhysicsMeshes.Plane(Vector.Zero, Tilted(-35)), PhysicsMeshes.Plane(Vector.Zero, Tilted(50))))],
-            "corner" => [Worlds.Place(PhysicsMeshes.Of(
-                PhysicsMeshes.Plane(Vector.Zero, new(1, 1, 0.2)), PhysicsMeshes.Plane(Vector.Zero, new(-0.5, 1, 1)),
-                PhysicsMeshes.Plane(Vector.Zero, new(-0.3, 1, -1.2))))],
-            _ => [Worlds.Place(PhysicsMeshes.Floor())],
+                [TestWorlds.Place(
+                    PhysicsMeshes.FromTriangles(PhysicsMeshes.PlaneTriangle(Vector.Zero, TiltedNormal(-35)),
+                    PhysicsMeshes.PlaneTriangle(Vector.Zero, TiltedNormal(50))))],
+            "corner" => [TestWorlds.Place(PhysicsMeshes.FromTriangles(
+                PhysicsMeshes.PlaneTriangle(Vector.Zero, new(1, 1, 0.2)), PhysicsMeshes.PlaneTriangle(Vector.Zero, new(-0.5, 1, 1)),
+                PhysicsMeshes.PlaneTriangle(Vector.Zero, new(-0.3, 1, -1.2))))],
+            _ => [TestWorlds.Place(PhysicsMeshes.FloorMesh())],
         };
-        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = sleepSpeed }, objects);
+        var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings { SleepSpeed = sleepSpeed }, objects);
         // Wider than the sponge's hole of 1/3, so that it rests on the rim.
         var body = world.Add(new(name == "corner" ? new(0.1, 1, 0.1) : new(0.02, 0.9, 0.01), 0.2) { Friction = friction });
-        var settled = 0;
+        var stepsToRest = 0;
         // Frictionless, it slides to and fro until impacts have taken its energy.
-        for (; settled < 20_000 && (body.Velocity != Vector.Zero || settled < 300); settled++)
+        for (; stepsToRest < 20_000 && (body.Velocity != Vector.Zero || stepsToRest < 300); stepsToRest++)
         {
             world.Step();
         }
 
-        var place = body.Position;
-        world.Run(steps, () => Near.Equal(place, body.Position, Creep));
-        Near.Equal(Vector.Zero, body.Velocity, Creep);
+        var restPosition = body.Position;
+        world.Run(steps, () => Near.Equal(restPosition, body.Position, MaxDrift));
+        Near.Equal(Vector.Zero, body.Velocity, MaxDrift);
         Assert.Equal(sleepSpeed is null, body.IsAsleep);
     }
 }

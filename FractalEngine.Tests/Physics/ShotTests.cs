@@ -17,7 +17,7 @@ namespace FractalEngine.Tests.Physics;
 public class ShotTests
 {
     /// <summary>No ball overlaps anything by more, of its radius.</summary>
-    private const double Overlap = 1e-6;
+    private const double MaxOverlap = 1e-6;
 
     /// <summary>Meshes and small fractals.</summary>
     public static TheoryData<string> Targets =>
@@ -61,12 +61,13 @@ public class ShotTests
         var (radius, speed) = (Math.Pow(10, random.Between(-3, 0)), Math.Pow(10, random.Between(0, 2.7)));
         var aim = (1 / 3.0 * (a + b + c))
             + (random.Between(0, 0.3) * (random.Next(3) switch { 0 => a, 1 => b, _ => c } - (1 / 3.0 * (a + b + c))));
-        var world = Worlds.Of(Vector.Zero, Math.Pow(10, random.Between(-4, -1)), Worlds.Place(PhysicsMeshes.Of((a, b, c))));
+        var world = TestWorlds.Create(Vector.Zero, Math.Pow(10, random.Between(-4, -1)),
+            TestWorlds.Place(PhysicsMeshes.FromTriangles((a, b, c))));
         var body = world.Add(new(aim + ((radius + random.Between(0.001, 2)) * normal), radius) { Velocity = -speed * normal });
         world.Run((int)Math.Min(30, 2 + (3 / speed / world.Settings.TimeStep)), () =>
         {
             var height = Vector.Dot(body.Position - aim, normal);
-            Assert.True(height >= radius * (1 - Overlap),
+            Assert.True(height >= radius * (1 - MaxOverlap),
                 $"radius {radius:R}, speed {speed:R}, step {world.Settings.TimeStep:R}: {height:R} from its plane");
         });
     });
@@ -79,7 +80,7 @@ public class ShotTests
     [MemberData(nameof(Targets))]
     [Trait("Category", "Soak")]
     public void Shot_AtATargetForLong_NeverOverlapsIt(string name) =>
-        Parallel.For(0, 40, part => new Target(name).Shoot(1000 * (part + 1), 1000));
+        Parallel.For(0, 40, batch => new Target(name).Shoot(1000 * (batch + 1), 1000));
 
     [Fact]
     public void Shot_AtRandomFractals_NeverOverlapsThem() => Seeded.Run(40, random => ShootAtFractal(random, 10));
@@ -90,11 +91,11 @@ public class ShotTests
         Parallel.For(1, 1001, seed => Seeded.RunOne(seed, random => ShootAtFractal(random, 50)));
 
     [Fact]
-    public void Shot_InAClosedRoom_StaysInside() => ShootInside(2000);
+    public void Shot_InAClosedBox_StaysInside() => ShootInside(2000);
 
     [Fact]
     [Trait("Category", "Soak")]
-    public void Shot_InAClosedRoomForLong_StaysInside() => ShootInside(100_000);
+    public void Shot_InAClosedBoxForLong_StaysInside() => ShootInside(100_000);
 
     [Fact]
     public void Shot_AtTheInfiniteMenger_NeverOverlapsIt() => ShootAtInfiniteMenger(300);
@@ -115,8 +116,9 @@ public class ShotTests
         }
 
         var bounced = 0;
-        var plain = new PlainFaces(faces);
-        var world = Worlds.Of(Vector.Zero, Math.Pow(10, random.Between(-4, -1)), Worlds.Place(PhysicsMeshes.Of(faces)));
+        var oracle = new SphereTriangleOracle(faces);
+        var world = TestWorlds.Create(Vector.Zero, Math.Pow(10, random.Between(-4, -1)),
+            TestWorlds.Place(PhysicsMeshes.FromTriangles(faces)));
         for (var shot = 0; shot < shots; shot++)
         {
             var (radius, speed) = (Math.Pow(10, random.Between(-3, -0.5)), Math.Pow(10, random.Between(0, 2.7)));
@@ -128,12 +130,12 @@ public class ShotTests
                 ? ((random.Between(-1, 1) * (b - a)) + (random.Between(-1, 1) * (c - a))).UnitVector()
                 : random.Direction();
             var start = aim + (Math.Max(1.5 * radius, Math.Min(random.Between(0.1, 3), 20 * speed * world.Settings.TimeStep)) * direction);
-            if (plain.Distance(start) < radius * (1 + 1e-6))
+            if (oracle.Distance(start) < radius * (1 + 1e-6))
             {
                 continue;
             }
 
-            bounced += Follow(world, plain,
+            bounced += FollowShot(world, oracle,
                 new(start, radius) { Velocity = speed * (aim - start).UnitVector(), Restitution = random.Between(0.1, 1) }) ? 1 : 0;
         }
 
@@ -141,17 +143,17 @@ public class ShotTests
     }
 
     /// <summary>True when it was followed beyond a bounce.</summary>
-    private static bool Follow(PhysicsWorld world, PlainFaces plain, BodyDescription shot)
+    private static bool FollowShot(PhysicsWorld world, SphereTriangleOracle oracle, BodyDescription shot)
     {
         world.Reset();
         var body = world.Add(shot);
         var (start, velocity, from, hits, isFollowed) = (shot.Position, shot.Velocity, 0.0, 0, false);
-        var hit = plain.FirstHit(start, velocity, shot.Radius);
+        var hit = oracle.FindFirstHit(start, velocity, shot.Radius);
         // Until it has flown out of reach, 40 steps at most.
         for (var step = 0; step < 40 && body.Position.Length() < 5; step++)
         {
             world.Step();
-            Require(plain.Distance(body.Position) >= shot.Radius * (1 - Overlap), "overlaps");
+            Require(oracle.Distance(body.Position) >= shot.Radius * (1 - MaxOverlap), "overlaps");
             var time = world.Time;
             while (hits == 0 && hit is { } first && first.Time <= time)
             {
@@ -166,7 +168,7 @@ public class ShotTests
                 (from, start) = (first.Time, start + (first.Time * velocity));
                 velocity -= (1 + shot.Restitution) * approach * normal;
                 // A little off the surface that it has just hit, so that it does not hit that again.
-                (hits, hit) = (1, plain.FirstHit(start + (1e-9 * shot.Radius * normal), velocity, shot.Radius));
+                (hits, hit) = (1, oracle.FindFirstHit(start + (1e-9 * shot.Radius * normal), velocity, shot.Radius));
             }
 
             // At the second hit an error has grown by the way over the radius: that would have to be looked at more closely.
@@ -186,19 +188,19 @@ public class ShotTests
 
         return isFollowed;
 
-        void Require(bool condition, string what)
+        void Require(bool condition, string description)
         {
             if (!condition)
             {
                 throw new XunitException(
-                    $"{shot}, step {world.Settings.TimeStep:R}, after {world.StepCount}: at {body.Position} it {what}; distance {plain.Distance(body.Position):R}");
+                    $"{shot}, step {world.Settings.TimeStep:R}, after {world.StepCount}: at {body.Position} it {description}; distance {oracle.Distance(body.Position):R}");
             }
         }
     }
 
     private static void ShootAtFractal(Random random, int shots)
     {
-        var fractal = RandomFractals.Draw(random);
+        var fractal = RandomFractals.Create(random);
         if (fractal.InstanceCount > 2000)
         {
             return;
@@ -206,22 +208,22 @@ public class ShotTests
 
         var mesh = FractalGenerator.Flatten(fractal, 1_000_000);
         // Every face of every instance, by maps that share nothing with the engine's.
-        var corners = Naive.Corners(fractal.Description, fractal.BaseMesh, Naive.Map(Transformation.Identity)).Chunk(3)
+        var corners = NaiveFractal.Corners(fractal.Description, fractal.BaseMesh, NaiveFractal.MapOf(Transformation.Identity)).Chunk(3)
             .Select(face => (face[0], face[1], face[2])).ToArray();
-        var plain = new PlainFaces(corners);
-        var world = Worlds.Of(random.Vector(10), Math.Pow(10, random.Between(-4, -1)), Worlds.Place(fractal));
+        var oracle = new SphereTriangleOracle(corners);
+        var world = TestWorlds.Create(random.Vector(10), Math.Pow(10, random.Between(-4, -1)), TestWorlds.Place(fractal));
         for (var shot = 0; shot < shots; shot++)
         {
-            _ = Target.ShootOnce(random, world, mesh, plain.Distance);
+            _ = Target.ShootOnce(random, world, mesh, oracle.Distance);
         }
     }
 
     private static void ShootInside(int shots) => Seeded.Run(shots, random =>
     {
         var sphere = random.Next(3) == 0;
-        var mesh = sphere ? PhysicsMeshes.Inwards(MeshGenerators.Create("icosphere", 1, 80)) : PhysicsMeshes.Room;
+        var mesh = sphere ? PhysicsMeshes.FlipWinding(MeshGenerators.Create("icosphere", 1, 80)) : PhysicsMeshes.InwardCube;
         var size = mesh.Bounds.Size.MaxAbsComponent();
-        var world = Worlds.Of(random.Vector(20), Math.Pow(10, random.Between(-4, -1)), Worlds.Place(mesh));
+        var world = TestWorlds.Create(random.Vector(20), Math.Pow(10, random.Between(-4, -1)), TestWorlds.Place(mesh));
         var (radius, speed) = (size * Math.Pow(10, random.Between(-3, -0.7)), Math.Pow(10, random.Between(0, 2.7)));
         var body = world.Add(new(0.15 * random.Vector(size), radius)
         {
@@ -229,14 +231,14 @@ public class ShotTests
             Restitution = random.Next(3) switch { 0 => 0, 1 => 1, _ => random.NextDouble() },
             Friction = random.Next(2) * random.NextDouble(),
         });
-        var faces = PhysicsMeshes.Faces(mesh);
+        var faces = PhysicsMeshes.TrianglesOf(mesh);
         world.Run((int)Math.Clamp(3 * size / speed / world.Settings.TimeStep, 10, 100), () =>
         {
             foreach (var (a, b, c) in faces)
             {
                 // Both rooms are convex: inside is in front of all faces.
                 var height = Vector.Dot(body.Position - a, Vector.Cross(b - a, c - a).UnitVector());
-                if (!(height >= radius * (1 - Overlap)))
+                if (!(height >= radius * (1 - MaxOverlap)))
                 {
                     throw new XunitException(
                         $"{body.Description}, step {world.Settings.TimeStep:R}, after {world.StepCount}: {height:R} from a wall");
@@ -247,9 +249,10 @@ public class ShotTests
 
     private static void ShootAtInfiniteMenger(int shots)
     {
-        var (world, mesh) = (Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(AssetFractals.Load("infinite-menger"))), PhysicsMeshes.Cube);
+        var (world, mesh) = (TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(AssetFractals.Load("infinite-menger"))),
+            PhysicsMeshes.Cube);
         // 1e-8 beside the overlap: the asset's thirds have 15 digits, the plain distance 9.
-        Seeded.Run(shots, random => _ = Target.ShootOnce(random, world, mesh, position => PlainMenger.Distance(position) + 1e-8));
+        Seeded.Run(shots, random => _ = Target.ShootOnce(random, world, mesh, position => MengerDistanceOracle.Distance(position) + 1e-8));
     }
 
     /// <summary>Something to shoot at, and another way to find how far it is.</summary>
@@ -264,22 +267,22 @@ public class ShotTests
         {
             (_placed, _mesh) = name switch
             {
-                "sphere" => Of(MeshGenerators.Create("icosphere", 1, 320)),
-                "cube" => Of(PhysicsMeshes.Cube),
-                "plate" => Of(PhysicsMeshes.Cube.Transform(v => v.Stretch(new(1, 1e-6, 1)))),
-                "soup" => Of(CollisionMeshes.Soup(1, 200, 0.3)),
-                "small soup" => Of(CollisionMeshes.Soup(2, 200, 0.02)),
-                "needles" or "rough grid" => Of(CollisionMeshes.All[name]()),
-                _ => Of(Small(AssetFractals.Load(name), name)),
+                "sphere" => CreateTarget(MeshGenerators.Create("icosphere", 1, 320)),
+                "cube" => CreateTarget(PhysicsMeshes.Cube),
+                "plate" => CreateTarget(PhysicsMeshes.Cube.Transform(v => v.Stretch(new(1, 1e-6, 1)))),
+                "soup" => CreateTarget(CollisionMeshes.TriangleSoup(1, 200, 0.3)),
+                "small soup" => CreateTarget(CollisionMeshes.TriangleSoup(2, 200, 0.02)),
+                "needles" or "rough grid" => CreateTarget(CollisionMeshes.All[name]()),
+                _ => CreateTarget(WithSmallDepth(AssetFractals.Load(name), name)),
             };
-            var record = new QueryContext();
+            var context = new QueryContext();
             Collider other = _mesh.FaceCount <= 400 ? new SimpleCollider(_mesh) : new HierarchyCollider(_mesh);
-            _distance = position => other.TryFindClosest(position, double.PositiveInfinity, record, out var closest)
+            _distance = position => other.TryFindClosest(position, double.PositiveInfinity, context, out var closest)
                 ? closest.Distance
                 : double.PositiveInfinity;
             if (name is "menger")
             {
-                _cells = [.. Naive.Chains(((FractalModel)_placed.Model).Fractal.Description)];
+                _cells = [.. NaiveFractal.Chains(((FractalModel)_placed.Model).Fractal.Description)];
             }
         }
 
@@ -288,7 +291,7 @@ public class ShotTests
             var (steps, hits) = (new Random(firstSeed), 0);
             PhysicsWorld[] worlds =
                 [.. Enumerable.Range(0, 4)
-                .Select(i => Worlds.Of(i == 0 ? Vector.Zero : Worlds.Gravity, Math.Pow(10, steps.Between(-4, -1)), _placed))];
+                .Select(i => TestWorlds.Create(i == 0 ? Vector.Zero : TestWorlds.Gravity, Math.Pow(10, steps.Between(-4, -1)), _placed))];
             for (var seed = firstSeed; seed < firstSeed + shots; seed++)
             {
                 Seeded.RunOne(seed, random => hits += ShootOnce(random, worlds[random.Next(worlds.Length)], _mesh, _distance, IsInside)
@@ -328,7 +331,7 @@ public class ShotTests
             {
                 world.Step();
                 var gap = distance(body.Position);
-                if (!(gap >= radius * (1 - Overlap)) || isInside?.Invoke(body.Position) == true || body.IsStuck)
+                if (!(gap >= radius * (1 - MaxOverlap)) || isInside?.Invoke(body.Position) == true || body.IsStuck)
                 {
                     throw new XunitException(
                         $"{body.Description}, step {world.Settings.TimeStep:R}, gravity {world.Gravity}, after {world.StepCount}: at {body.Position}, {gap:R} from the surface, inside: {isInside?.Invoke(body.Position)}, stuck: {body.IsStuck}");
@@ -345,8 +348,8 @@ public class ShotTests
             foreach (var cell in _cells)
             {
                 // Maps of the sponge only move and shrink.
-                var beyond = position - new Vector(cell[0][3], cell[1][3], cell[2][3]);
-                if (beyond.MaxAbsComponent() < 0.5 * cell[0][0])
+                var offset = position - new Vector(cell[0][3], cell[1][3], cell[2][3]);
+                if (offset.MaxAbsComponent() < 0.5 * cell[0][0])
                 {
                     return true;
                 }
@@ -355,11 +358,12 @@ public class ShotTests
             return false;
         }
 
-        private static (PlacedModel, Mesh) Of(Mesh mesh) => (Worlds.Place(mesh), mesh);
+        private static (PlacedModel, Mesh) CreateTarget(Mesh mesh) => (TestWorlds.Place(mesh), mesh);
 
-        private static (PlacedModel, Mesh) Of(Fractal fractal) => (Worlds.Place(fractal), FractalGenerator.Flatten(fractal, 1_000_000));
+        private static (PlacedModel, Mesh) CreateTarget(Fractal fractal) =>
+            (TestWorlds.Place(fractal), FractalGenerator.Flatten(fractal, 1_000_000));
 
-        private static Fractal Small(Fractal asset, string name) =>
+        private static Fractal WithSmallDepth(Fractal asset, string name) =>
             asset.WithDepth(name switch { "menger" => 2, "sierpinski" or "tetrahedron" or "terrain" => 4, "snowflake" => 2, _ => 1 });
     }
 }

@@ -7,15 +7,15 @@ namespace FractalEngine.Tests.Physics;
 public class ShrinkageTests
 {
     [Fact]
-    public void Radius_OfAShrinkingBody_FallsLinearlyToItsLeast() => Seeded.Run(20, random =>
+    public void Radius_OfAShrinkingBody_FallsLinearlyToItsMinimum() => Seeded.Run(20, random =>
     {
-        var (radius, rate, least) = (random.Between(0.1, 2), random.Between(0.05, 2), random.Between(0.05, 0.9));
-        var world = Worlds.Of(Worlds.Gravity, random.Between(0.005, 0.1), Worlds.Place(PhysicsMeshes.Floor()));
-        var body = world.Add(new(new(0, 5, 0), radius) { Shrinkage = rate, MinimumScale = least, Restitution = 0.5 });
+        var (radius, rate, minimumScale) = (random.Between(0.1, 2), random.Between(0.05, 2), random.Between(0.05, 0.9));
+        var world = TestWorlds.Create(TestWorlds.Gravity, random.Between(0.005, 0.1), TestWorlds.Place(PhysicsMeshes.FloorMesh()));
+        var body = world.Add(new(new(0, 5, 0), radius) { Shrinkage = rate, MinimumScale = minimumScale, Restitution = 0.5 });
         world.Run((int)(2 / world.Settings.TimeStep), () =>
         {
             // Hundreds of subtractions.
-            Near.Equal(radius * Math.Max(least, 1 - (rate * world.Time)), body.Radius, 1e-12);
+            Near.Equal(radius * Math.Max(minimumScale, 1 - (rate * world.Time)), body.Radius, 1e-12);
             Assert.True(body.Position.Y >= body.Radius * (1 - 1e-6));
         });
     });
@@ -23,7 +23,7 @@ public class ShrinkageTests
     [Fact]
     public void ShrinkingBody_OnAFloor_StaysOnIt()
     {
-        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Floor()));
+        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         var body = world.Add(new(new(0, 1, 0), 1) { Shrinkage = 0.1, MinimumScale = 0.2 });
         world.Run(700, () =>
         {
@@ -41,17 +41,17 @@ public class ShrinkageTests
         const int Sides = 24;
         var faces = Enumerable.Range(0, Sides).SelectMany(i =>
         {
-            var (a, b) = (Ring(0.5, 0, i), Ring(0.5, 0, i + 1));
-            var (c, d) = (Ring(3, 2.5, i), Ring(3, 2.5, i + 1));
+            var (a, b) = (RingVertex(0.5, 0, i), RingVertex(0.5, 0, i + 1));
+            var (c, d) = (RingVertex(3, 2.5, i), RingVertex(3, 2.5, i + 1));
             return new[] { (a, b, c), (b, d, c) };
         }).ToArray();
-        var world = Worlds.Of(Worlds.Gravity, 1 / 120.0, Worlds.Place(PhysicsMeshes.Of(faces)));
+        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 120.0, TestWorlds.Place(PhysicsMeshes.FromTriangles(faces)));
         var body = world.Add(new(new(0.3, 3, 0.2), 1) { Shrinkage = 0.05, MinimumScale = 0.1 });
-        var plain = new PlainFaces(faces);
+        var oracle = new SphereTriangleOracle(faces);
         while (body.Position.Y > -1 && world.Time < 20)
         {
             world.Step();
-            Assert.True(plain.Distance(body.Position) >= body.Radius * (1 - 1e-6), $"overlaps at {body.Position}, radius {body.Radius:R}");
+            Assert.True(oracle.Distance(body.Position) >= body.Radius * (1 - 1e-6), $"overlaps at {body.Position}, radius {body.Radius:R}");
         }
 
         // The sides of the hole are as near as 0.5·cos(π/24) = 0.496; from there it takes less than a second to fall.
@@ -62,7 +62,7 @@ public class ShrinkageTests
     [Fact]
     public void ShrinkingBody_ThatIsStuck_ComesFree()
     {
-        var world = Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(PhysicsMeshes.Room));
+        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(PhysicsMeshes.InwardCube));
         var body = world.Add(new(Vector.Zero, 0.7) { Shrinkage = 0.5, MinimumScale = 0.3 });
         world.Step();
         Assert.True(body.IsStuck);
@@ -72,23 +72,23 @@ public class ShrinkageTests
     }
 
     [Fact]
-    public void MapAt_OfAPart_LiesBetweenTheSteps() => Seeded.Run(20, random =>
+    public void InterpolatedMap_OfAFraction_LiesBetweenTheSteps() => Seeded.Run(20, random =>
     {
-        var world = Worlds.Of(Worlds.Gravity, 0.02);
+        var world = TestWorlds.Create(TestWorlds.Gravity, 0.02);
         var axes = random.Orthogonal();
         var body = world.Add(new(random.Vector(), 0.5) { Velocity = random.Vector(5), Shrinkage = 0.3, LinearPart = axes });
         world.Run(random.Next(1, 30));
-        var (place, scale) = (body.Position, body.Scale);
-        Near.Equal(place, body.InterpolatedMap(1).Translation, 1e-14 * 10);
+        var (position, scale) = (body.Position, body.Scale);
+        Near.Equal(position, body.InterpolatedMap(1).Translation, 1e-14 * 10);
         world.Step();
-        foreach (var part in new[] { 0, 0.25, 0.7, 1 })
+        foreach (var alpha in new[] { 0, 0.25, 0.7, 1 })
         {
             // A few operations on numbers of some units.
-            Near.Equal(((1 - part) * place) + (part * body.Position), body.InterpolatedMap(part).Translation, 1e-13);
-            Near.Equal((((1 - part) * scale) + (part * body.Scale)) * axes, body.InterpolatedMap(part).Linear, 1e-13);
+            Near.Equal(((1 - alpha) * position) + (alpha * body.Position), body.InterpolatedMap(alpha).Translation, 1e-13);
+            Near.Equal((((1 - alpha) * scale) + (alpha * body.Scale)) * axes, body.InterpolatedMap(alpha).Linear, 1e-13);
         }
     });
 
-    private static Vector Ring(double radius, double height, int i) =>
+    private static Vector RingVertex(double radius, double height, int i) =>
         new(radius * Math.Cos(i * Math.PI / 12), height, radius * Math.Sin(i * Math.PI / 12));
 }

@@ -10,27 +10,27 @@ namespace FractalEngine.Tests.Physics;
 public class SlidingTests
 {
     // Of the radius, and of the speed. A normal that is off by 1e-9 at one seam would show.
-    private const double Height = 1e-7;
-    private const double Speed = 1e-9;
+    private const double HeightTolerance = 1e-7;
+    private const double SpeedTolerance = 1e-9;
 
     [Fact]
     public void Sliding_OverManyTriangles_KeepsHeightAndVelocity() => Seeded.Run(40, random =>
     {
         // A grid with its inner vertices shaken sideways.
         var mesh = Grid(random, 20);
-        CheckSliding(random, Worlds.Place(mesh), new(2, 0, 2), 16, random.Between(0.05, 3));
+        CheckSliding(random, TestWorlds.Place(mesh), new(2, 0, 2), 16, random.Between(0.05, 3));
     });
 
     [Fact]
-    public void Sliding_OverATurnedPlane_KeepsHeightAndVelocity() => Seeded.Run(40, random =>
+    public void Sliding_OverARotatedPlane_KeepsHeightAndVelocity() => Seeded.Run(40, random =>
     {
         var mesh = Grid(random, 20);
-        var turn = Transformation.Identity with { Rotation = random.Degrees(), Position = random.Vector(5),
+        var placement = Transformation.Identity with { Rotation = random.Degrees(), Position = random.Vector(5),
             Scale = new(random.Between(0.5, 2), 1, random.Between(0.5, 2)) };
-        var placed = Worlds.Place(mesh, turn);
+        var placed = TestWorlds.Place(mesh, placement);
         var normal = placed.ObjectToWorld.Linear.Cofactors().V2.UnitVector();
         var (radius, step) = (random.Between(0.1, 1), random.Between(0.002, 0.05));
-        var world = Worlds.Of(-9.8 * normal, step, placed);
+        var world = TestWorlds.Create(-9.8 * normal, step, placed);
         var start = placed.ObjectToWorld * new Vector(10, 0, 10);
         var velocity = 3 * Vector.Cross(normal, random.Direction());
         var body = world.Add(new(start + (radius * normal), radius));
@@ -39,8 +39,8 @@ public class SlidingTests
         world.Run((int)(1 / step), () =>
         {
             // Coordinates of some tens.
-            Near.Equal(radius, Vector.Dot(body.Position - start, normal), (Height * radius) + 1e-13);
-            Near.Equal(velocity, body.Velocity, 3 * Speed);
+            Near.Equal(radius, Vector.Dot(body.Position - start, normal), (HeightTolerance * radius) + 1e-13);
+            Near.Equal(velocity, body.Velocity, 3 * SpeedTolerance);
         });
     });
 
@@ -53,7 +53,7 @@ public class SlidingTests
         var half = Math.Pow(2, -depth) / 2;
         // Cubes side by side: 4^depth make a slab, whose sides of 15 digits meet.
         var placed =
-            Worlds.Place(
+            TestWorlds.Place(
                 new Core.Fractals.Fractal(
                     Samples.Repeated(depth,
                     [.. from x in new[] { -0.25, 0.25 } from z in new[] { -0.25, 0.25 } select Samples.MoveAndScale(x, 0, z,
@@ -65,7 +65,7 @@ public class SlidingTests
     [Fact]
     public void Sliding_OverTheMengersRim_KeepsHeightAndVelocity() => Seeded.Run(10, random =>
     {
-        var world = Worlds.Of(Worlds.Gravity, random.Between(0.002, 0.02), Worlds.Place(AssetFractals.Load("menger", 2)));
+        var world = TestWorlds.Create(TestWorlds.Gravity, random.Between(0.002, 0.02), TestWorlds.Place(AssetFractals.Load("menger", 2)));
         // At this depth holes are 1/9 wide and begin 1/9 from the edge; the ball touches in one point, 0.05 from the edge.
         var body = world.Add(new(new(-0.45, 0.5 + 0.1, -0.4), 0.1));
         world.Run(5);
@@ -73,21 +73,21 @@ public class SlidingTests
         world.Run((int)(1.5 / world.Settings.TimeStep), () =>
         {
             // The asset's thirds have 15 digits.
-            Near.Equal(0.6, body.Position.Y, Height * 0.1);
-            Near.Equal(new(0, 0, 0.5), body.Velocity, Speed);
+            Near.Equal(0.6, body.Position.Y, HeightTolerance * 0.1);
+            Near.Equal(new(0, 0, 0.5), body.Velocity, SpeedTolerance);
         });
     });
 
     [Fact]
-    public void Sliding_FromTheFirstTouch_KeepsHeightAndVelocity() => Seeded.Run(100, random =>
+    public void Sliding_FromTheFirstContact_KeepsHeightAndVelocity() => Seeded.Run(100, random =>
     {
-        var world = Worlds.Of(Worlds.Gravity, random.Between(0.002, 0.05), Worlds.Place(PhysicsMeshes.Floor()));
+        var world = TestWorlds.Create(TestWorlds.Gravity, random.Between(0.002, 0.05), TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         var (radius, velocity) = (random.Between(0.02, 1), new Vector(random.Between(0, 3), 0, random.NextDouble()));
         var body = world.Add(new(new(0, radius, 0), radius) { Velocity = velocity });
         world.Run(20, () =>
         {
-            Near.Equal(radius, body.Position.Y, Height * radius);
-            Near.Equal(velocity, body.Velocity, Speed);
+            Near.Equal(radius, body.Position.Y, HeightTolerance * radius);
+            Near.Equal(velocity, body.Velocity, SpeedTolerance);
         });
     });
 
@@ -99,47 +99,47 @@ public class SlidingTests
     [InlineData(1.0 / 60)]
     [InlineData(1.0 / 240)]
     [InlineData(1.0 / 1000)]
-    public void Sliding_DownASleepingBall_LeavesItWhereEnergySays(double step)
+    public void Sliding_DownASleepingSphere_LeavesItWhereEnergySays(double step)
     {
-        var world = Worlds.Of(Worlds.Gravity, step, Worlds.Place(PhysicsMeshes.Floor()));
-        var below = world.Add(new(new(0, 1, 0), 1) { Mass = 1000 });
+        var world = TestWorlds.Create(TestWorlds.Gravity, step, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
+        var lowerBody = world.Add(new(new(0, 1, 0), 1) { Mass = 1000 });
         world.Run((int)(1.5 / step));
-        Assert.True(below.IsAsleep);
-        const double Reach = 1.25;
+        Assert.True(lowerBody.IsAsleep);
+        const double CentreDistance = 1.25;
         const double Speed = 0.5;
-        const double Leaving = (2 + (Speed * Speed / (9.8 * Reach))) / 3;
-        var ball = world.Add(new(below.Position + new Vector(0, Reach, 0), 0.25) { Velocity = new(Speed, 0, 0) });
+        const double Leaving = (2 + (Speed * Speed / (9.8 * CentreDistance))) / 3;
+        var body = world.Add(new(lowerBody.Position + new Vector(0, CentreDistance, 0), 0.25) { Velocity = new(Speed, 0, 0) });
         var (steps, cosine) = (0, 1.0);
         for (; cosine > Leaving + 0.02 && steps < 2 / step; steps++)
         {
             world.Step();
-            var offset = ball.Position - below.Position;
+            var offset = body.Position - lowerBody.Position;
             cosine = offset.Y / offset.Length();
-            Near.Equal(Reach, offset.Length(), 2e-3);
-            Near.Equal((Speed * Speed) + (2 * 9.8 * Reach * (1 - cosine)), ball.Velocity.LengthSquared(), 0.01 + (4 * step));
+            Near.Equal(CentreDistance, offset.Length(), 2e-3);
+            Near.Equal((Speed * Speed) + (2 * 9.8 * CentreDistance * (1 - cosine)), body.Velocity.LengthSquared(), 0.01 + (4 * step));
         }
 
         Assert.InRange(cosine, 0.5, Leaving + 0.02);
         // A little later it is in the air.
         world.Run((int)(0.25 / step));
-        Assert.True((ball.Position - below.Position).Length() > 1.01 * Reach);
+        Assert.True((body.Position - lowerBody.Position).Length() > 1.01 * CentreDistance);
     }
 
-    private static void CheckSliding(Random random, PlacedModel placed, Vector start, double room, double speed)
+    private static void CheckSliding(Random random, PlacedModel placed, Vector start, double extent, double speed)
     {
-        var (radius, step) = (room * Math.Pow(10, random.Between(-2, -0.5)), random.Between(0.002, 0.05));
-        var world = Worlds.Of(Worlds.Gravity, step, placed);
+        var (radius, step) = (extent * Math.Pow(10, random.Between(-2, -0.5)), random.Between(0.002, 0.05));
+        var world = TestWorlds.Create(TestWorlds.Gravity, step, placed);
         var velocity = speed * new Vector(random.NextDouble(), 0, random.NextDouble());
         var body = world.Add(new(start + new Vector(0, radius, 0), radius) { Restitution = random.NextDouble() });
         // It comes to rest first; what the first touch does has a test of its own.
         world.Run(5);
-        var settled = world.Time;
+        var startTime = world.Time;
         world.SetVelocity(body, velocity);
-        world.Run((int)Math.Min(400, room / speed / step), () =>
+        world.Run((int)Math.Min(400, extent / speed / step), () =>
         {
-            Near.Equal(start.Y + radius, body.Position.Y, Height * radius);
-            Near.Equal(velocity, body.Velocity, Speed * Math.Max(1, speed));
-            Near.Equal(start + new Vector(0, radius, 0) + ((world.Time - settled) * velocity), body.Position, 1e-7 * room);
+            Near.Equal(start.Y + radius, body.Position.Y, HeightTolerance * radius);
+            Near.Equal(velocity, body.Velocity, SpeedTolerance * Math.Max(1, speed));
+            Near.Equal(start + new Vector(0, radius, 0) + ((world.Time - startTime) * velocity), body.Position, 1e-7 * extent);
         });
     }
 
@@ -147,8 +147,8 @@ public class SlidingTests
     {
         var positions = from i in Enumerable.Range(0, side + 1)
                         from j in Enumerable.Range(0, side + 1)
-                        let place = new Vector(i + random.Between(-0.3, 0.3), 0, j + random.Between(-0.3, 0.3))
-                        from x in new[] { place.X, place.Y, place.Z }
+                        let position = new Vector(i + random.Between(-0.3, 0.3), 0, j + random.Between(-0.3, 0.3))
+                        from x in new[] { position.X, position.Y, position.Z }
                         select x;
         var faces = from i in Enumerable.Range(0, side)
                     from j in Enumerable.Range(0, side)

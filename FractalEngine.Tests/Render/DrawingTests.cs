@@ -13,15 +13,15 @@ namespace FractalEngine.Tests.Render;
 [Collection(GlTests.Name)]
 public sealed class DrawingTests
 {
-    private static readonly Camera Aside = new(new(-3.2, 2.6, -4), CameraFraming.LookRotation(new(3.2, -2.6, 4)), 45);
+    private static readonly Camera ObliqueCamera = new(new(-3.2, 2.6, -4), CameraFraming.LookRotation(new(3.2, -2.6, 4)), 45);
 
     [SkippableFact]
     public void Fractal_Instanced_LooksLikeItsExport()
     {
         var fractal = RenderScenes.Menger(2);
-        var flat = Export(fractal);
+        var flat = ExportAndParse(fractal);
         var placement = new Transformation(new(0.2, -0.1, 0.3), new(20, 30, 10), new(1, 1.2, 0.9));
-        var view = new View(Aside, Projection.Perspective);
+        var view = new View(ObliqueCamera, Projection.Perspective);
         var instanced = RenderScenes.Draw(RenderScenes.Scene(new Scene(), (fractal, placement, null)), view, 400, 300);
         var meshed = RenderScenes.Draw(RenderScenes.Scene(new Scene(), (RenderScenes.Model(flat), placement, null)), view, 400, 300);
 
@@ -33,16 +33,16 @@ public sealed class DrawingTests
     [SkippableTheory]
     [InlineData(1)]
     [InlineData(-1)]
-    public void Solid_HiddenSidesLeftOut_LooksTheSame(double mirror)
+    public void Solid_WithBackFaceCulling_LooksTheSame(double mirror)
     {
         var solid = RenderScenes.Menger(2);
         // The same with a face inside the cubes that nobody sees: no longer a closed surface, so both sides are drawn.
         var cube = RenderScenes.Cube(1);
-        var open = new FractalModel("open.fdo", 1, new Fractal(
+        var open = new FractalModel(new Fractal(
             solid.Fractal.Description,
-            new Mesh([.. cube.Positions, 0, 0, 0, 0.1, 0, 0, 0, 0.1, 0], [.. cube.VertexIndices, 8, 9, 10])));
+            new Mesh([.. cube.Positions, 0, 0, 0, 0.1, 0, 0, 0, 0.1, 0], [.. cube.VertexIndices, 8, 9, 10]))) { SourcePath = "open.fdo" };
         var placement = Transformation.Identity with { Scale = new(mirror, 1, 1) };
-        var view = new View(Aside, Projection.Perspective);
+        var view = new View(ObliqueCamera, Projection.Perspective);
         var (solidScene, openScene) = (
             RenderScenes.Scene(new Scene(), (solid, placement, null)), RenderScenes.Scene(new Scene(), (open, placement, null)));
         Assert.Equal(1, DrawableScene.Prepare(solidScene, new()).Models[0].WindingSign);
@@ -63,8 +63,9 @@ public sealed class DrawingTests
     [InlineData(true)]
     public void Depth_NearerObject_HidesTheFartherInEitherOrder(bool nearFirst)
     {
-        var near = (RenderScenes.Model(RenderScenes.Square(0.5), "near.obj"), RenderScenes.At(0, 0, -1), (Colour?)new Colour(1, 0, 0));
-        var far = (RenderScenes.Model(RenderScenes.Square(2), "far.obj"), RenderScenes.At(0, 0, 1), (Colour?)new Colour(0, 0, 1));
+        var near = (RenderScenes.Model(RenderScenes.Square(0.5), "near.obj"), RenderScenes.TranslatedTo(0, 0, -1),
+            (Colour?)new Colour(1, 0, 0));
+        var far = (RenderScenes.Model(RenderScenes.Square(2), "far.obj"), RenderScenes.TranslatedTo(0, 0, 1), (Colour?)new Colour(0, 0, 1));
         var settings = new Scene { Lights = [RenderScenes.FullLight], Background = Colour.Black };
         var scene = nearFirst ? RenderScenes.Scene(settings, near, far) : RenderScenes.Scene(settings, far, near);
         var image = RenderScenes.Draw(scene, RenderScenes.FrontView);
@@ -84,7 +85,7 @@ public sealed class DrawingTests
     {
         var view = new View(Camera.Default, projection) { Clip = (near, far) };
         var image = RenderScenes.Draw(RenderScenes.WhiteOnBlack(RenderScenes.Square(1), Transformation.Identity), view);
-        Assert.Equal(drawn, Math.Sign(RenderScenes.CountOther(image, (0, 0, 0, 255))));
+        Assert.Equal(drawn, Math.Sign(RenderScenes.CountDifferent(image, (0, 0, 0, 255))));
     }
 
     [SkippableTheory]
@@ -92,22 +93,23 @@ public sealed class DrawingTests
     [InlineData(1, -1, 1)]
     [InlineData(1, 1, -1)]
     [InlineData(-1, -1, -1)]
-    public void Mirror_SymmetricBall_IsLitLikeTheUnmirroredOne(double x, double y, double z)
+    public void Mirror_SymmetricSphere_IsLitLikeTheUnmirroredOne(double x, double y, double z)
     {
-        var view = new View(Aside, Projection.Perspective);
-        var plain = RenderScenes.Draw(
-            RenderScenes.Scene(new Scene(), (RenderScenes.Model(RenderScenes.Ball(16)), Transformation.Identity, null)), view);
+        var view = new View(ObliqueCamera, Projection.Perspective);
+        var unmirrored = RenderScenes.Draw(
+            RenderScenes.Scene(new Scene(), (RenderScenes.Model(RenderScenes.Sphere(16)), Transformation.Identity, null)), view);
         var mirrored = RenderScenes.Draw(
             RenderScenes.Scene(
-                new Scene(), (RenderScenes.Model(RenderScenes.Ball(16)), Transformation.Identity with { Scale = new(x, y, z) }, null)),
+                new Scene(), (RenderScenes.Model(RenderScenes.Sphere(16)), Transformation.Identity with { Scale = new(x, y, z) }, null)),
             view);
-        var fractal = new FractalModel("mirror.fdo", 1, new Fractal(
-            new("ball.obj", [new TransformationSet([Transformation.Identity with { Scale = new(x, y, z) }])]), RenderScenes.Ball(16)));
+        var fractal = new FractalModel(new Fractal(
+            new([new TransformationSet([Transformation.Identity with { Scale = new(x, y, z) }])]), RenderScenes.Sphere(16))) { SourcePath =
+            "mirror.fdo" };
         var instance = RenderScenes.Draw(RenderScenes.Scene(new Scene(), (fractal, Transformation.Identity, null)), view);
 
         // The diagonals of the faces lie the other way round, which moves silhouettes and interpolated colours a little.
-        Assert.True(RenderScenes.Difference(plain, mirrored) is { Mean: < 0.3, Share: < 0.01 });
-        Assert.True(RenderScenes.Difference(plain, instance) is { Mean: < 0.3, Share: < 0.01 });
+        Assert.True(RenderScenes.Difference(unmirrored, mirrored) is { Mean: < 0.3, Share: < 0.01 });
+        Assert.True(RenderScenes.Difference(unmirrored, instance) is { Mean: < 0.3, Share: < 0.01 });
     }
 
     [SkippableFact]
@@ -115,7 +117,7 @@ public sealed class DrawingTests
     {
         var scene = RenderScenes.Scene(
             new Scene { Background = Colour.Black },
-            (RenderScenes.Model(RenderScenes.Ball(12)), Transformation.Identity with { Scale = new(1, 1, 0) }, Colour.White));
+            (RenderScenes.Model(RenderScenes.Sphere(12)), Transformation.Identity with { Scale = new(1, 1, 0) }, Colour.White));
         var image = RenderScenes.Draw(scene, RenderScenes.FrontView);
         // The disc looks at the camera and at the key light: bright throughout, no dark speck.
         Assert.True(image[100, 75].Red > 100 && image[85, 75].Red > 100 && image[100, 60].Red > 100);
@@ -124,7 +126,7 @@ public sealed class DrawingTests
             scene with { Objects =
             [new(new SceneObject("x.obj", Transformation.Identity with { Scale = Vector.Zero }), scene.Objects[0].Model)] },
             RenderScenes.FrontView);
-        Assert.Equal(0, RenderScenes.CountOther(gone, (0, 0, 0, 255)));
+        Assert.Equal(0, RenderScenes.CountDifferent(gone, (0, 0, 0, 255)));
     }
 
     [SkippableTheory]
@@ -132,22 +134,22 @@ public sealed class DrawingTests
     [InlineData(4)]
     public void Background_EveryGrey_IsExactAndUniform(int samples)
     {
-        using var context = GlTests.Open();
+        using var context = GlTests.OpenContext();
         using var frame = new FrameRenderer(context);
         for (var grey = 0; grey < 256; grey += 5)
         {
             var colour = new Colour(grey / 255.0, (255 - grey) / 255.0, grey / 255.0);
             frame.Draw(null, RenderScenes.FrontView, 16, 8, new() { Background = colour, Samples = samples });
-            Assert.Equal(0, RenderScenes.CountOther(frame.Capture(), ((byte)grey, (byte)(255 - grey), (byte)grey, 255)));
+            Assert.Equal(0, RenderScenes.CountDifferent(frame.Capture(), ((byte)grey, (byte)(255 - grey), (byte)grey, 255)));
         }
     }
 
     [SkippableFact]
-    public void Wireframe_Ball_DrawsFewerPixelsThanTheFilledOneAndSome()
+    public void Wireframe_Sphere_DrawsFewerPixelsThanTheFilledOneAndSome()
     {
-        var scene = RenderScenes.WhiteOnBlack(RenderScenes.Ball(6), Transformation.Identity);
-        var filled = RenderScenes.CountOther(RenderScenes.Draw(scene, RenderScenes.FrontView, 400, 300), (0, 0, 0, 255));
-        var lines = RenderScenes.CountOther(
+        var scene = RenderScenes.WhiteOnBlack(RenderScenes.Sphere(6), Transformation.Identity);
+        var filled = RenderScenes.CountDifferent(RenderScenes.Draw(scene, RenderScenes.FrontView, 400, 300), (0, 0, 0, 255));
+        var lines = RenderScenes.CountDifferent(
             RenderScenes.Draw(scene, RenderScenes.FrontView, 400, 300, new() { Wireframe = true }), (0, 0, 0, 255));
         Assert.InRange(lines, filled / 20, filled * 3 / 4);
     }
@@ -156,21 +158,21 @@ public sealed class DrawingTests
     public void Samples_None_GivesNoIntermediateColours()
     {
         var image = RenderScenes.Draw(
-            RenderScenes.WhiteOnBlack(RenderScenes.Ball(12), Transformation.Identity), RenderScenes.FrontView,
+            RenderScenes.WhiteOnBlack(RenderScenes.Sphere(12), Transformation.Identity), RenderScenes.FrontView,
             settings: new() { Samples = 0 });
         Assert.DoesNotContain(image.Pixels, component => component is not 0 and not 255);
-        var smooth = RenderScenes.Draw(RenderScenes.WhiteOnBlack(RenderScenes.Ball(12), Transformation.Identity), RenderScenes.FrontView);
+        var smooth = RenderScenes.Draw(RenderScenes.WhiteOnBlack(RenderScenes.Sphere(12), Transformation.Identity), RenderScenes.FrontView);
         Assert.Contains(smooth.Pixels, component => component is not 0 and not 255);
     }
 
     [SkippableFact]
-    public void GridAndAxes_AskedFor_AreDrawnWithoutAnyObject()
+    public void GridAndAxes_Requested_AreDrawnWithoutAnyObject()
     {
         var empty = RenderScenes.Scene(new Scene { Background = Colour.Black });
-        var view = new View(Aside, Projection.Perspective);
-        Assert.Equal(0, RenderScenes.CountOther(RenderScenes.Draw(empty, view), (0, 0, 0, 255)));
+        var view = new View(ObliqueCamera, Projection.Perspective);
+        Assert.Equal(0, RenderScenes.CountDifferent(RenderScenes.Draw(empty, view), (0, 0, 0, 255)));
         Assert.InRange(
-            RenderScenes.CountOther(RenderScenes.Draw(empty, view, settings: new() { Grid = true, Axes = true }), (0, 0, 0, 255)), 200,
+            RenderScenes.CountDifferent(RenderScenes.Draw(empty, view, settings: new() { Grid = true, Axes = true }), (0, 0, 0, 255)), 200,
             30_000);
     }
 
@@ -178,13 +180,13 @@ public sealed class DrawingTests
     public void EmptyMesh_IsPreparedAndDrawnAsNothing()
     {
         var scene = RenderScenes.WhiteOnBlack(Mesh.Empty, Transformation.Identity);
-        Assert.Equal(0, RenderScenes.CountOther(RenderScenes.Draw(scene, View.Of(scene, 1)), (0, 0, 0, 255)));
+        Assert.Equal(0, RenderScenes.CountDifferent(RenderScenes.Draw(scene, View.Of(scene, 1)), (0, 0, 0, 255)));
     }
 
     [SkippableFact]
-    public void Move_Object_IsDrawnAtItsNewPlace()
+    public void Move_Object_IsDrawnAtItsNewPosition()
     {
-        using var context = GlTests.Open();
+        using var context = GlTests.OpenContext();
         var scene = DrawableScene.Prepare(RenderScenes.WhiteOnBlack(RenderScenes.Cube(0.2), Transformation.Identity), new());
         using var renderer = new SceneRenderer(context, scene);
         using var frame = new FrameRenderer(context);
@@ -199,7 +201,7 @@ public sealed class DrawingTests
     [SkippableFact]
     public void Draw_NothingChanged_AllocatesNothing()
     {
-        using var context = GlTests.Open();
+        using var context = GlTests.OpenContext();
         var scene = RenderScenes.Scene(
             new Scene { Lights = [new PointLight(new(0, 3, -3), Colour.White, 1, 30)] },
             (RenderScenes.Menger(1), Transformation.Identity, null));
@@ -219,7 +221,7 @@ public sealed class DrawingTests
     [SkippableFact]
     public void Size_BeyondTheDriver_IsRefusedWithTheLimit()
     {
-        using var context = GlTests.Open();
+        using var context = GlTests.OpenContext();
         using var frame = new FrameRenderer(context);
         var error = Assert.Throws<GlException>(() => frame.Draw(null, RenderScenes.FrontView, 1_000_000, 10, new()));
         Assert.Equal(
@@ -227,7 +229,7 @@ public sealed class DrawingTests
     }
 
     /// <summary>The fractal as <c>export</c> writes it, read again.</summary>
-    private static Mesh Export(FractalModel fractal)
+    private static Mesh ExportAndParse(FractalModel fractal)
     {
         using var stream = new MemoryStream();
         ObjWriter.Write(RenderScenes.Scene(new Scene(), (fractal, Transformation.Identity, null)), stream, 1_000_000);

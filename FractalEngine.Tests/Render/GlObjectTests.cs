@@ -18,7 +18,7 @@ public sealed class GlObjectTests
     [SkippableFact]
     public void Renderers_Disposed_LeaveNothingBehind()
     {
-        using var context = GlTests.Open();
+        using var context = GlTests.OpenContext();
         var scene = RenderScenes.Scene(new Scene(), (RenderScenes.Menger(1), Transformation.Identity, null));
         using (var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, new())))
         using (var frame = new FrameRenderer(context))
@@ -37,7 +37,7 @@ public sealed class GlObjectTests
     [SkippableFact]
     public void Context_DisposedBeforeItsObjects_NamesThem()
     {
-        GlTests.Open().Dispose();
+        GlTests.OpenContext().Dispose();
         var leaks = new List<string>();
         var context = new OffscreenContext(leaks.Add);
         var buffer = new VertexArray(context.Resources, "forgotten");
@@ -50,7 +50,7 @@ public sealed class GlObjectTests
     [SkippableFact]
     public void Object_DisposedOnAnotherThread_IsDeletedOnTheContextsThread()
     {
-        using var context = GlTests.Open();
+        using var context = GlTests.OpenContext();
         var buffer = new VertexArray(context.Resources, "shared");
         var other = new Thread(buffer.Dispose);
         other.Start();
@@ -63,7 +63,7 @@ public sealed class GlObjectTests
     [SkippableFact]
     public void Object_MadeOnAnotherThread_IsRefused()
     {
-        using var context = GlTests.Open();
+        using var context = GlTests.OpenContext();
         Exception? caught = null;
         var other = new Thread(() => caught = Record.Exception(() => new VertexArray(context.Resources, "foreign")));
         other.Start();
@@ -76,7 +76,7 @@ public sealed class GlObjectTests
     [SkippableFact]
     public void Shader_ThatDoesNotCompile_NamesStageAndFileAndKeepsTheLog()
     {
-        using var context = GlTests.Open();
+        using var context = GlTests.OpenContext();
         var error = Assert.Throws<GlException>(() => new ShaderProgram(
             context.Resources, ("good.vert", Trivial), ("bad.frag", "#version 330 core\nvoid main() { colour = nonsense; }")));
         Assert.StartsWith("bad.frag (fragment shader) does not compile:\n", error.Message, StringComparison.Ordinal);
@@ -87,7 +87,7 @@ public sealed class GlObjectTests
     [SkippableFact]
     public void Program_ThatDoesNotLink_NamesBothFiles()
     {
-        using var context = GlTests.Open();
+        using var context = GlTests.OpenContext();
         var error = Assert.Throws<GlException>(() => new ShaderProgram(
             context.Resources,
             ("a.vert", "#version 330 core\nout vec2 shared_;\nvoid main() { shared_ = vec2(1.0); gl_Position = vec4(0.0); }"),
@@ -102,7 +102,7 @@ public sealed class GlObjectTests
         var scene = DrawableScene.Prepare(RenderScenes.WhiteOnBlack(RenderScenes.Cube(1), Transformation.Identity), new());
         for (var i = 0; i < 20; i++)
         {
-            using var context = GlTests.Open();
+            using var context = GlTests.OpenContext();
             using var renderer = new SceneRenderer(context, scene);
             using var frame = new FrameRenderer(context);
             frame.Draw(renderer, RenderScenes.FrontView, 40, 30, new());
@@ -113,8 +113,8 @@ public sealed class GlObjectTests
     [SkippableFact]
     public void Contexts_TwoAtOnce_DrawInTurn()
     {
-        using var context1 = GlTests.Open();
-        using var context2 = GlTests.Open();
+        using var context1 = GlTests.OpenContext();
+        using var context2 = GlTests.OpenContext();
         using var frame1 = new FrameRenderer(context1);
         using var frame2 = new FrameRenderer(context2);
         frame1.Draw(null, RenderScenes.FrontView, 4, 4, new() { Background = new(1, 0, 0) });
@@ -138,7 +138,7 @@ public sealed class GlObjectTests
     [SkippableFact]
     public void Programs_OfAllFeatures_Compile()
     {
-        using var context = GlTests.Open();
+        using var context = GlTests.OpenContext();
         for (var features = 0; features < 8; features++)
         {
             new MeshProgram(context, (MeshFeatures)features).Dispose();

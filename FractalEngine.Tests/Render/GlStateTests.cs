@@ -12,32 +12,32 @@ namespace FractalEngine.Tests.Render;
 public sealed class GlStateTests
 {
     [Fact]
-    public void Counter_OfTheSameValue_SkipsItAndCounts()
+    public void RedundancyFilter_OfTheSameValue_SkipsItAndCounts()
     {
-        var counter = new RedundancyFilter();
+        var filter = new RedundancyFilter();
         var last = 0;
-        Assert.Equal([false, true, false, true], ((int[])[0, 1, 1, 0]).Select(now => counter.Update(ref last, now)));
-        Assert.Equal(new(2, 2), counter.Counts);
-        Assert.False(counter.ShouldPerform(true, 3));
-        Assert.True(counter.ShouldPerform(false, 3));
-        Assert.Equal(new(5, 5), counter.Counts);
+        Assert.Equal([false, true, false, true], ((int[])[0, 1, 1, 0]).Select(now => filter.Update(ref last, now)));
+        Assert.Equal(new(2, 2), filter.Counts);
+        Assert.False(filter.ShouldPerform(true, 3));
+        Assert.True(filter.ShouldPerform(false, 3));
+        Assert.Equal(new(5, 5), filter.Counts);
     }
 
     [Fact]
-    public void Counter_SwitchedOff_DoesEverythingAndKnowsWhatHolds()
+    public void RedundancyFilter_Disabled_PerformsEverythingAndTracksTheState()
     {
-        var counter = new RedundancyFilter { IsEnabled = false };
+        var filter = new RedundancyFilter { IsEnabled = false };
         var last = 0;
-        Assert.Equal([true, true, true], ((int[])[0, 1, 1]).Select(now => counter.Update(ref last, now)));
-        counter.IsEnabled = true;
-        Assert.False(counter.Update(ref last, 1));
-        Assert.Equal(new(3, 1), counter.Counts);
+        Assert.Equal([true, true, true], ((int[])[0, 1, 1]).Select(now => filter.Update(ref last, now)));
+        filter.IsEnabled = true;
+        Assert.False(filter.Update(ref last, 1));
+        Assert.Equal(new(3, 1), filter.Counts);
     }
 
     [SkippableFact]
     public void Binding_OfADeletedObject_IsForgotten()
     {
-        using var context = GlTests.Open();
+        using var context = GlTests.OpenContext();
         var state = context.Resources.State;
         // Names of deleted objects come again.
         for (var i = 0; i < 5; i++)
@@ -60,23 +60,23 @@ public sealed class GlStateTests
     [SkippableTheory]
     [InlineData(true)]
     [InlineData(false)]
-    public void Scenes_OneAfterTheOtherInOneContext_LookAsInTheirOwn(bool skips)
+    public void Scenes_OneAfterTheOtherInOneContext_LookAsInTheirOwn(bool isFiltering)
     {
         using var textures = new TexturedScenes();
-        var settings = new RenderSettings { FilterRedundantState = skips, ReuseBuffers = skips };
-        var glass = TexturedScenes.Of(RenderScenes.Cube(1), new("glass") { Diffuse = new(1, 0, 0), Opacity = 0.4 });
-        var checks = textures.Texture("a.png", 2, 2, (x, y) => ((byte)(255 * x), (byte)(255 * y), 90, 255));
+        var settings = new RenderSettings { FilterRedundantState = isFiltering, ReuseBuffers = isFiltering };
+        var glass = TexturedScenes.WithMaterial(RenderScenes.Cube(1), new("glass") { Diffuse = new(1, 0, 0), Opacity = 0.4 });
+        var checks = textures.CreateTexture("a.png", 2, 2, (x, y) => ((byte)(255 * x), (byte)(255 * y), 90, 255));
         LoadedScene[] scenes =
         [
             RenderScenes.Scene(new Scene(), (RenderScenes.Menger(2), Transformation.Identity, null),
-            (glass, RenderScenes.At(1, 1, -1), null)),
-            RenderScenes.Scene(new Scene(), (TexturedScenes.Square(1, new("m") { Texture = checks }), Transformation.Identity, null),
-            (RenderScenes.Model(RenderScenes.Ball(9)), RenderScenes.At(-1, 0, 1), null)),
+            (glass, RenderScenes.TranslatedTo(1, 1, -1), null)),
+            RenderScenes.Scene(new Scene(), (TexturedScenes.CreateSquare(1, new("m") { Texture = checks }), Transformation.Identity, null),
+            (RenderScenes.Model(RenderScenes.Sphere(9)), RenderScenes.TranslatedTo(-1, 0, 1), null)),
             RenderScenes.Scene(new Scene { Lights = [RenderScenes.FullLight] },
             (RenderScenes.Model(RenderScenes.Cube(0.7)), Transformation.Identity, Colour.White)),
         ];
         var expected = scenes.Select(scene => RenderScenes.Draw(scene, RenderScenes.FrontView, settings: new())).ToArray();
-        using var context = GlTests.Open();
+        using var context = GlTests.OpenContext();
         using var frame = new FrameRenderer(context);
         for (var i = 0; i < 9; i++)
         {

@@ -9,7 +9,7 @@ public sealed class GlTests
     public const string Name = "GL";
 
     /// <summary>A context, or a skipped test where there is no display. Anything that leaks fails the test.</summary>
-    public static OffscreenContext Open()
+    public static OffscreenContext OpenContext()
     {
         try
         {

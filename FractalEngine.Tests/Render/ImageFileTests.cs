@@ -1,7 +1,10 @@
+using FractalEngine.Core.Images;
 using FractalEngine.Render.Images;
+using FractalEngine.Tests.Images;
 
 namespace FractalEngine.Tests.Render;
 
+[Collection(SdlComparisonTests.Name)]
 public sealed class ImageFileTests : IDisposable
 {
     private readonly DirectoryInfo _directory = Directory.CreateTempSubdirectory("fractalengine-images-");
@@ -36,14 +39,65 @@ public sealed class ImageFileTests : IDisposable
         var path = Path.Combine(_directory.FullName, "missing", "x.png");
         var error = Assert.Throws<IOException>(() => ImageFile.SavePng(new(1, 1, new byte[4]), path));
         Assert.StartsWith($"{path} can't be written: ", error.Message, StringComparison.Ordinal);
+        // Nor does it name the neighbour that is written first.
+        Assert.DoesNotContain(".tmp", error.Message, StringComparison.Ordinal);
     }
 
     [Fact]
-    public void Load_NoPicture_IsAnErrorThatNamesTheFile()
+    public void Load_NoImage_IsAnErrorThatNamesTheFile()
     {
         var path = Path.Combine(_directory.FullName, "text.png");
         File.WriteAllText(path, "no picture");
-        Assert.StartsWith($"{path} can't be read: ", Assert.Throws<IOException>(() => ImageFile.Load(path)).Message,
-            StringComparison.Ordinal);
+        Assert.StartsWith($"{path} can't be read: ", ErrorOf(path), StringComparison.Ordinal);
     }
+    [Fact]
+    public void Load_OfAPngByAnotherName_KnowsItByItsFirstBytes()
+    {
+        var path = Path.Combine(_directory.FullName, "image.jpg");
+        ImageFile.SavePng(new(1, 1, [1, 2, 3, 4]), path);
+        Assert.Equal((1, 2, 3, 4), ImageFile.Load(path, _ => throw new DllNotFoundException())[0, 0]);
+    }
+
+    [Fact]
+    public void Load_OfADamagedPng_SaysWhere()
+    {
+        var path = Path.Combine(_directory.FullName, "cut.png");
+        ImageFile.SavePng(new(1, 1, [1, 2, 3, 4]), path);
+        File.WriteAllBytes(path, File.ReadAllBytes(path)[..30]);
+        Assert.Equal($"{path} can't be read: byte 30: the file ends within the chunk IHDR", ErrorOf(path));
+    }
+
+    [Fact]
+    public void Load_OfAnotherFormatWithoutTheLibrary_SaysWhatIsMissing()
+    {
+        var path = Path.Combine(_directory.FullName, "image.bmp");
+        File.WriteAllBytes(path, Bmp);
+        var error = Assert.Throws<IOException>(() => ImageFile.Load(path, _ => throw new DllNotFoundException()));
+        var expected = $"{path} can't be read: it is no PNG image, and other formats need SDL2_image (Debian: ";
+        Assert.StartsWith(expected, error.Message, StringComparison.Ordinal);
+    }
+
+    [SkippableFact]
+    public void Load_OfABmp_ReadsItWithSdl()
+    {
+        var path = Path.Combine(_directory.FullName, "image.bmp");
+        File.WriteAllBytes(path, Bmp);
+        SdlComparisonTests.RequireSdl();
+        Assert.Equal((30, 20, 10, 255), ImageFile.Load(path)[0, 0]);
+    }
+
+    [Fact]
+    public void Load_OfAMissingFile_IsAnErrorThatNamesIt()
+    {
+        var path = Path.Combine(_directory.FullName, "missing.png");
+        Assert.StartsWith($"{path} can't be read: ", ErrorOf(path), StringComparison.Ordinal);
+    }
+
+    private static string ErrorOf(string path) => Assert.Throws<IOException>(() => ImageFile.Load(path)).Message;
+
+    /// <summary>One pixel of 24 bits: blue, green, red.</summary>
+    private static byte[] Bmp =>
+    [
+        .. "BM"u8, 58, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 24, 0, .. new byte[24], 10, 20, 30, 0,
+    ];
 }

@@ -16,20 +16,20 @@ public sealed class LightTests
     public void Directional_AtAnAngle_GivesItsCosine(double degrees)
     {
         var (sine, cosine) = Math.SinCos(degrees * Math.PI / 180);
-        AssertLinear(cosine, Lit(new DirectionalLight(new(sine, 0, cosine), Colour.White, 1)));
+        AssertLinear(cosine, RedOfLitSquare(new DirectionalLight(new(sine, 0, cosine), Colour.White, 1)));
     }
 
     [SkippableFact]
     public void Directional_FromBehind_LightsOnlyTheOtherSide()
     {
         var light = new DirectionalLight(new(0, 0, -1), Colour.White, 0.5);
-        AssertLinear(0, Lit(light));
+        AssertLinear(0, RedOfLitSquare(light));
         var behind = new Camera(new(0, 0, 5), new(0, Math.PI, 0), 60);
-        AssertLinear(0.5, Lit(light, behind));
+        AssertLinear(0.5, RedOfLitSquare(light, behind));
     }
 
     [SkippableFact]
-    public void Ambient_AnyStrength_GivesColourTimesIntensity() => AssertLinear(0.25, Lit(new AmbientLight(Colour.White, 0.25)));
+    public void Ambient_AnyStrength_GivesColourTimesIntensity() => AssertLinear(0.25, RedOfLitSquare(new AmbientLight(Colour.White, 0.25)));
 
     [SkippableTheory]
     [InlineData(1.0, 1.0)]
@@ -38,20 +38,21 @@ public sealed class LightTests
     {
         // At a tenth of the range the light has its full intensity; its smooth end takes 0.3 % at two tenths.
         var light = new PointLight(new(0, 0, -distance), Colour.White, 0.8, 10);
-        AssertLinear(0.8 * factor, Lit(light), 0.006);
+        AssertLinear(0.8 * factor, RedOfLitSquare(light), 0.006);
     }
 
     [SkippableFact]
-    public void Point_BeyondItsRange_GivesNothing() => AssertLinear(0, Lit(new PointLight(new(0, 0, -3), Colour.White, 100, 2.9)));
+    public void Point_BeyondItsRange_GivesNothing() =>
+        AssertLinear(0, RedOfLitSquare(new PointLight(new(0, 0, -3), Colour.White, 100, 2.9)));
 
     [SkippableTheory]
     [InlineData(0, 1)]
     [InlineData(17, 1)] // inside nine tenths of the half angle
     [InlineData(21, 0)] // outside the cone
-    public void Spot_TurnedAway_EndsAtItsAngle(double degrees, double factor)
+    public void Spot_RotatedAway_EndsAtItsAngle(double degrees, double factor)
     {
         var (sine, cosine) = Math.SinCos(degrees * Math.PI / 180);
-        AssertLinear(0.7 * factor, Lit(new SpotLight(new(0, 0, -1), new(sine, 0, cosine), 40, Colour.White, 0.7, 10)));
+        AssertLinear(0.7 * factor, RedOfLitSquare(new SpotLight(new(0, 0, -1), new(sine, 0, cosine), 40, Colour.White, 0.7, 10)));
     }
 
     [SkippableFact]
@@ -62,15 +63,16 @@ public sealed class LightTests
             Lights = [new AmbientLight(new(1, 0, 0), 0.2), new DirectionalLight(Vector.K, new(0, 1, 0), 0.3),
             new DirectionalLight(Vector.K, new(0, 1, 0), 0.2)],
         };
-        var (red, green, blue, _) = Middle(scene, Camera.Default);
+        var (red, green, blue, _) = CentrePixel(scene, Camera.Default);
         AssertLinear(0.2, red);
         AssertLinear(0.5, green);
         Assert.Equal(0, blue);
     }
 
-    private static byte Lit(Light light, Camera? camera = null) => Middle(new Scene { Lights = [light] }, camera ?? Camera.Default).Red;
+    private static byte RedOfLitSquare(Light light, Camera? camera = null) =>
+        CentrePixel(new Scene { Lights = [light] }, camera ?? Camera.Default).Red;
 
-    private static (byte Red, byte Green, byte Blue, byte Alpha) Middle(Scene scene, Camera camera) => RenderScenes.Draw(
+    private static (byte Red, byte Green, byte Blue, byte Alpha) CentrePixel(Scene scene, Camera camera) => RenderScenes.Draw(
         // Small, so that the light's angle and distance hardly change over it.
         RenderScenes.Scene(scene with { Background = Colour.Black },
         (RenderScenes.Model(RenderScenes.Square(0.01)), Transformation.Identity, Colour.White)),

@@ -1,9 +1,9 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Tests.Render;
@@ -25,9 +25,9 @@ public sealed class MaterialTests : IDisposable
     [SkippableTheory]
     [InlineData(Shading.PerVertex)]
     [InlineData(Shading.PerPixel)]
-    public void Texture_InFullLight_HasThePicturesColoursInTheirPlaces(Shading shading)
+    public void Texture_InFullLight_HasTheImagesColoursInTheirPlaces(Shading shading)
     {
-        var image = Draw(Lit(Quartered()), shading);
+        var image = Draw(TexturedSquareScene(CreateQuarteredTexture()), shading);
         // Among texels of one colour nothing is mixed in; one step is the rounding from sRGB to light and back.
         AssertNear(Quarters[0], image[50, 50]);
         AssertNear(Quarters[1], image[150, 50]);
@@ -38,11 +38,11 @@ public sealed class MaterialTests : IDisposable
     [SkippableTheory]
     [InlineData(false, 0)]
     [InlineData(true, 1)]
-    public void Texture_BeyondItsEdges_RepeatsOrGoesOn(bool isClamped, int quarterBeyond)
+    public void Texture_BeyondItsEdges_RepeatsOrClamps(bool isClamped, int quarterBeyond)
     {
         // u runs from 0 to 2, v stays in the upper row: the picture, and then what follows it.
-        var texture = Quartered() with { Scale = (2, 0), Offset = (0, 0.75), IsClamped = isClamped };
-        var image = Draw(Lit(texture), Shading.PerVertex);
+        var texture = CreateQuarteredTexture() with { Scale = (2, 0), Offset = (0, 0.75), IsClamped = isClamped };
+        var image = Draw(TexturedSquareScene(texture), Shading.PerVertex);
         AssertNear(Quarters[0], image[25, 100]);
         AssertNear(Quarters[1], image[75, 100]);
         AssertNear(Quarters[quarterBeyond], image[125, 100]);
@@ -52,7 +52,7 @@ public sealed class MaterialTests : IDisposable
     [SkippableFact]
     public void Texture_Moved_StartsElsewhere()
     {
-        var image = Draw(Lit(Quartered() with { Offset = (0.5, 0) }), Shading.PerVertex);
+        var image = Draw(TexturedSquareScene(CreateQuarteredTexture() with { Offset = (0.5, 0) }), Shading.PerVertex);
         AssertNear(Quarters[1], image[50, 50]);
         AssertNear(Quarters[0], image[150, 50]);
     }
@@ -60,12 +60,13 @@ public sealed class MaterialTests : IDisposable
     [SkippableFact]
     public void Texture_FarAway_IsTheMeanOfItsLight()
     {
-        var texture = _scenes.Texture("chess.png", 256, 256, (x, y) => (x + y) % 2 == 0
+        var texture = _scenes.CreateTexture("chess.png", 256, 256, (x, y) => (x + y) % 2 == 0
             ? (byte.MaxValue, byte.MaxValue, byte.MaxValue, byte.MaxValue)
             : ((byte)0, (byte)0, (byte)0, byte.MaxValue));
         var view = Square with { OrthographicHeight = 16 };
         var image = RenderScenes.Draw(
-            RenderScenes.Scene(Full, (TexturedScenes.Square(1, new("m") { Texture = texture }), Transformation.Identity, null)), view, 200,
+            RenderScenes.Scene(FullLightOnBlack,
+            (TexturedScenes.CreateSquare(1, new("m") { Texture = texture }), Transformation.Identity, null)), view, 200,
             200,
             new() { Samples = 0 });
         for (var x = 90; x < 110; x++)
@@ -78,9 +79,10 @@ public sealed class MaterialTests : IDisposable
     [SkippableFact]
     public void Texture_TimesDiffuseAndTint_MultipliesInLinearLight()
     {
-        var texture = _scenes.Texture("even.png", 4, 4, (_, _) => (200, 200, 200, 255));
-        var model = TexturedScenes.Square(1, new("m") { Texture = texture, Diffuse = new(0.5, 1, 1) });
-        var image = RenderScenes.Draw(RenderScenes.Scene(Full, (model, Transformation.Identity, new Colour(1, 0.5, 1))), Square, 200, 200);
+        var texture = _scenes.CreateTexture("even.png", 4, 4, (_, _) => (200, 200, 200, 255));
+        var model = TexturedScenes.CreateSquare(1, new("m") { Texture = texture, Diffuse = new(0.5, 1, 1) });
+        var image = RenderScenes.Draw(RenderScenes.Scene(FullLightOnBlack, (model, Transformation.Identity, new Colour(1, 0.5, 1))), Square,
+            200, 200);
         AssertLinear(Linear(200 / 255.0) * Linear(0.5), image[100, 100].Red);
         AssertLinear(Linear(200 / 255.0) * Linear(0.5), image[100, 100].Green);
         AssertLinear(Linear(200 / 255.0), image[100, 100].Blue);
@@ -89,8 +91,10 @@ public sealed class MaterialTests : IDisposable
     [SkippableFact]
     public void Texture_Undecodable_IsGreyWithANotice()
     {
-        var texture = _scenes.Broken("broken.png");
-        var scene = RenderScenes.Scene(Full, (TexturedScenes.Square(1, new("m") { Texture = texture }), Transformation.Identity, null));
+        var texture = _scenes.CreateBrokenTexture("broken.png");
+        var scene =
+            RenderScenes.Scene(FullLightOnBlack,
+            (TexturedScenes.CreateSquare(1, new("m") { Texture = texture }), Transformation.Identity, null));
         var notice = Assert.Single(DrawableScene.Prepare(scene, new()).Notices);
         Assert.StartsWith($"{texture.Path}:1:1: warning: the picture can't be decoded, drawn grey: ", notice, StringComparison.Ordinal);
         AssertNear((153, 153, 153, 255), RenderScenes.Draw(scene, Square, 200, 200)[100, 100]);
@@ -99,12 +103,12 @@ public sealed class MaterialTests : IDisposable
     [Fact]
     public void Texture_OfManyMaterialsAndObjects_IsDecodedOnce()
     {
-        var texture = _scenes.Texture("a.png", 2, 2, (_, _) => (1, 2, 3, 255));
+        var texture = _scenes.CreateTexture("a.png", 2, 2, (_, _) => (1, 2, 3, 255));
         var scene = DrawableScene.Prepare(
             RenderScenes.Scene(
-                Full,
-                (TexturedScenes.Square(1, new("a") { Texture = texture }), Transformation.Identity, null),
-                (TexturedScenes.Square(1, new("b") { Texture = texture with { IsClamped = true } }), Transformation.Identity, null)),
+                FullLightOnBlack,
+                (TexturedScenes.CreateSquare(1, new("a") { Texture = texture }), Transformation.Identity, null),
+                (TexturedScenes.CreateSquare(1, new("b") { Texture = texture with { IsClamped = true } }), Transformation.Identity, null)),
             new());
         Assert.Same(Assert.Single(scene.Textures), scene.Models[1].Batches[0].Material!.Texture);
         Assert.Same(scene.Textures[0], scene.Models[0].Batches[0].Material!.Texture);
@@ -113,7 +117,7 @@ public sealed class MaterialTests : IDisposable
     [SkippableFact]
     public void Materials_OnOneMesh_AreEachOnTheirOwnFaces()
     {
-        var texture = _scenes.Texture("blue.png", 1, 1, (_, _) => (20, 40, 200, 255));
+        var texture = _scenes.CreateTexture("blue.png", 1, 1, (_, _) => (20, 40, 200, 255));
         // Two triangles of the square, then two above it without texture coordinates; materials take turns, one has none.
         var mesh = new Mesh(
             [-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0, -1, 3, 0, 1, 3, 0],
@@ -122,13 +126,13 @@ public sealed class MaterialTests : IDisposable
             .WithGroups(
                 [new(0, 1, "", "", "blue", 0), new(1, 1, "", "", "red", 0), new(2, 1, "", "", "blue", 0), new(3, 1, "", "", "unknown", 0)],
                 []);
-        var model = new MeshModel("m.obj", 1, mesh)
-        {
+        var model = new MeshModel(mesh)
+        { SourcePath = "m.obj",
             Materials = ImmutableDictionary<string, Material>.Empty
                 .Add("blue", new("blue") { Texture = texture, Diffuse = new(1, 1, 0) })
                 .Add("red", new("red") { Diffuse = new(1, 0, 0) }),
         };
-        var scene = RenderScenes.Scene(Full, (model, Transformation.Identity, null));
+        var scene = RenderScenes.Scene(FullLightOnBlack, (model, Transformation.Identity, null));
         var drawable = DrawableScene.Prepare(scene, new()).Models[0];
         Assert.Equal(12, drawable.Indices.Length);
         Assert.Equal(
@@ -149,11 +153,12 @@ public sealed class MaterialTests : IDisposable
     {
         var mesh = RenderScenes.Cube(1).WithGroups(
             [.. Enumerable.Range(0, 12).Select(face => new MeshGroup(face, 1, "", "", face % 2 == 0 ? "even" : "odd", 0))], []);
-        var model = new MeshModel("m.obj", 1, mesh)
-        {
+        var model = new MeshModel(mesh)
+        { SourcePath = "m.obj",
             Materials = ImmutableDictionary<string, Material>.Empty.Add("even", new("even")).Add("odd", new("odd")),
         };
-        var batches = DrawableScene.Prepare(RenderScenes.Scene(Full, (model, Transformation.Identity, null)), new()).Models[0].Batches;
+        var batches = DrawableScene.Prepare(RenderScenes.Scene(FullLightOnBlack, (model, Transformation.Identity, null)),
+            new()).Models[0].Batches;
         Assert.Equal([(0, 18, "even"), (18, 18, "odd")],
             batches.Select(batch => (batch.FirstIndex, batch.IndexCount, batch.Material!.Material.Name)));
     }
@@ -163,7 +168,7 @@ public sealed class MaterialTests : IDisposable
     [InlineData(Shading.PerPixel)]
     public void Ambient_Factor_ActsOnAmbientLightOnly(Shading shading)
     {
-        var model = TexturedScenes.Square(1, new("m") { Ambient = new(0.5, 0, 1) });
+        var model = TexturedScenes.CreateSquare(1, new("m") { Ambient = new(0.5, 0, 1) });
         var lights = new Scene { Lights = [new AmbientLight(Colour.White, 0.4), new DirectionalLight(Vector.K, Colour.White, 0.3)] };
         var middle = RenderScenes.Draw(RenderScenes.Scene(lights, (model, Transformation.Identity, null)), Square, 200, 200,
             new() { Shading = shading })[100, 100];
@@ -181,7 +186,8 @@ public sealed class MaterialTests : IDisposable
     {
         // The light comes at 40° to the normal, the eye looks along it: the half vector lies at 20°.
         var (sine, cosine) = Math.SinCos(40 * Math.PI / 180);
-        var model = TexturedScenes.Square(0.01, new("m") { Diffuse = Colour.Black, Specular = new(0.8, 0.4, 0), SpecularExponent = 10 });
+        var model =
+            TexturedScenes.CreateSquare(0.01, new("m") { Diffuse = Colour.Black, Specular = new(0.8, 0.4, 0), SpecularExponent = 10 });
         var scene = new Scene { Lights = [new DirectionalLight(new(sine, 0, cosine), Colour.White, 1)] };
         var view = new View(Camera.Default with { FieldOfView = 0.2 }, projection) { OrthographicHeight = 0.02 };
         var middle = RenderScenes.Draw(
@@ -195,7 +201,7 @@ public sealed class MaterialTests : IDisposable
     [SkippableFact]
     public void Highlight_InTheMiddleOfALargeFace_IsSeenPerPixelOnly()
     {
-        var model = TexturedScenes.Square(1, new("m") { Diffuse = Colour.Black, Specular = Colour.White, SpecularExponent = 60 });
+        var model = TexturedScenes.CreateSquare(1, new("m") { Diffuse = Colour.Black, Specular = Colour.White, SpecularExponent = 60 });
         var scene = RenderScenes.Scene(
             new() { Lights = [new PointLight(new(0, 0, -0.5), Colour.White, 1, 5)] }, (model, Transformation.Identity, null));
         var perPixel = RenderScenes.Draw(scene, Square, 200, 200, new() { Shading = Shading.PerPixel });
@@ -209,25 +215,25 @@ public sealed class MaterialTests : IDisposable
         var scene = RenderScenes.Scene(
             new() { Lights =
             [new AmbientLight(new(0.4, 0.5, 0.9), 0.3), new DirectionalLight(new(0.3, -0.5, 0.7), new(1, 0.8, 0.6), 0.8)] },
-            (TexturedScenes.Square(1, new("m") { Texture = Quartered(), Diffuse = new(0.9, 0.8, 0.7) }),
+            (TexturedScenes.CreateSquare(1, new("m") { Texture = CreateQuarteredTexture(), Diffuse = new(0.9, 0.8, 0.7) }),
             new(Vector.Zero, new(20, 30, 10), new(1, 0.7, 1)), null));
         var perVertex = RenderScenes.Draw(scene, RenderScenes.FrontView);
         var perPixel = RenderScenes.Draw(scene, RenderScenes.FrontView, settings: new() { Shading = Shading.PerPixel });
         // Interpolation and normalisation round otherwise.
         Assert.All(perVertex.Pixels.Zip(perPixel.Pixels), pair => Assert.InRange(pair.First - pair.Second, -1, 1));
-        Assert.True(RenderScenes.CountOther(perPixel, perPixel[0, 0]) > 1000);
+        Assert.True(RenderScenes.CountDifferent(perPixel, perPixel[0, 0]) > 1000);
     }
 
     [SkippableTheory]
     [InlineData(1, 1, 1)]
     [InlineData(-1, 1, 1)]
     [InlineData(1, -1, -1)]
-    public void Shading_OfAFinelyCutBall_IsTheSameAtVerticesAndPixels_AlsoSkewedAndMirrored(double x, double y, double z)
+    public void Shading_OfAFineSphere_IsTheSameAtVerticesAndPixels_AlsoSkewedAndMirrored(double x, double y, double z)
     {
         // Inner scale, turned, outer scale: a map that skews. The eye's side is the outer one whatever the map does.
-        var model = new FractalModel("ball.fdo", 1, new Core.Fractals.Fractal(
-            new("ball.obj", [new Core.Fractals.TransformationSet([new(Vector.Zero, new(30, 40, 20), new(x, 0.6 * y, z))])]),
-            RenderScenes.Ball(48)));
+        var model = new FractalModel(new Core.Fractals.Fractal(
+            new([new Core.Fractals.TransformationSet([new(Vector.Zero, new(30, 40, 20), new(x, 0.6 * y, z))])]),
+            RenderScenes.Sphere(48))) { SourcePath = "ball.fdo" };
         var placement = new Transformation(Vector.Zero, new(10, 20, 70), new(1.2, 0.8, 1));
         var scene = RenderScenes.Scene(new(), (model, placement, null));
         var perVertex = RenderScenes.Draw(scene, RenderScenes.FrontView, 400, 300);
@@ -235,7 +241,7 @@ public sealed class MaterialTests : IDisposable
         Assert.True(RenderScenes.Difference(perVertex, perPixel) is { Mean: < 0.3, Share: < 0.002 });
 
         // The same surface with its vertices moved and its normals made anew has no map that could spoil them.
-        var moved = RenderScenes.Ball(48).Transform(vertex => placement.ToAffineMap() * (model.Fractal.LevelAt(0).Maps[0] * vertex));
+        var moved = RenderScenes.Sphere(48).Transform(vertex => placement.ToAffineMap() * (model.Fractal.LevelAt(0).Maps[0] * vertex));
         var expected = RenderScenes.Draw(
             RenderScenes.Scene(new(), (RenderScenes.Model(moved), Transformation.Identity, null)), RenderScenes.FrontView, 400, 300,
             new() { Shading = Shading.PerPixel });
@@ -251,11 +257,13 @@ public sealed class MaterialTests : IDisposable
     {
         (Model, Transformation, Colour?)[] objects =
         [
-            (TexturedScenes.Square(1, new("red") { Diffuse = new(1, 0, 0), Opacity = 0.25 }, "near.obj"), RenderScenes.At(0, 0, -1), null),
-            (TexturedScenes.Square(1, new("green") { Diffuse = new(0, 1, 0), Opacity = 0.5 }, "middle.obj"), Transformation.Identity, null),
-            (TexturedScenes.Square(1, new("white"), "far.obj"), RenderScenes.At(0, 0, 1), null),
+            (TexturedScenes.CreateSquare(1, new("red") { Diffuse = new(1, 0, 0), Opacity = 0.25 }, "near.obj"),
+            RenderScenes.TranslatedTo(0, 0, -1), null),
+            (TexturedScenes.CreateSquare(1, new("green") { Diffuse = new(0, 1, 0), Opacity = 0.5 }, "middle.obj"), Transformation.Identity,
+            null),
+            (TexturedScenes.CreateSquare(1, new("white"), "far.obj"), RenderScenes.TranslatedTo(0, 0, 1), null),
         ];
-        var image = RenderScenes.Draw(RenderScenes.Scene(Full, [.. order.Select(i => objects[i])]), Square, 200, 200);
+        var image = RenderScenes.Draw(RenderScenes.Scene(FullLightOnBlack, [.. order.Select(i => objects[i])]), Square, 200, 200);
         // White, half covered by green, of that a quarter by red.
         AssertLinear((0.75 * 0.5) + 0.25, image[100, 100].Red);
         AssertLinear(0.75, image[100, 100].Green);
@@ -264,12 +272,12 @@ public sealed class MaterialTests : IDisposable
     }
 
     [SkippableFact]
-    public void Transparent_Solid_ShowsItsFarSideThroughTheNearOne()
+    public void Transparent_Solid_ShowsItsBackThroughItsFront()
     {
         // Whichever way the faces are numbered and the object is mirrored: twice half covered.
         foreach (var mirror in (double[])[1, -1])
         {
-            var model = TexturedScenes.Of(RenderScenes.Cube(0.5), new("m") { Diffuse = Colour.Black, Opacity = 0.5 });
+            var model = TexturedScenes.WithMaterial(RenderScenes.Cube(0.5), new("m") { Diffuse = Colour.Black, Opacity = 0.5 });
             var scene = RenderScenes.Scene(
                 new() { Lights = [RenderScenes.FullLight], Background = Colour.White },
                 (model, Transformation.Identity with { Scale = new(1, 1, mirror) }, null));
@@ -282,22 +290,23 @@ public sealed class MaterialTests : IDisposable
     {
         var image = RenderScenes.Draw(
             RenderScenes.Scene(
-                Full,
-                (TexturedScenes.Square(1, new("glass") { Diffuse = new(1, 0, 0), Opacity = 0.5 }), RenderScenes.At(0, 0, 1), null),
-                (TexturedScenes.Square(0.5, new("wall") { Diffuse = new(0, 0, 1) }), Transformation.Identity, null)),
+                FullLightOnBlack,
+                (TexturedScenes.CreateSquare(1, new("glass") { Diffuse = new(1, 0, 0), Opacity = 0.5 }), RenderScenes.TranslatedTo(0, 0, 1),
+                null),
+                (TexturedScenes.CreateSquare(0.5, new("wall") { Diffuse = new(0, 0, 1) }), Transformation.Identity, null)),
             Square, 200, 200);
         AssertNear((0, 0, 255, 255), image[100, 100]);
         AssertLinear(0.5, image[20, 20].Red);
     }
 
     [SkippableFact]
-    public void Transparent_PartsOfAPicture_LetThroughWhatIsBehind()
+    public void Transparent_TexelsOfATexture_LetThroughWhatIsBehind()
     {
-        var texture = _scenes.Texture("holes.png", 16, 1, (x, _) => (255, 255, 255, x < 8 ? (byte)0 : (byte)255));
+        var texture = _scenes.CreateTexture("holes.png", 16, 1, (x, _) => (255, 255, 255, x < 8 ? (byte)0 : (byte)255));
         var image = RenderScenes.Draw(
             RenderScenes.Scene(
                 new() { Lights = [RenderScenes.FullLight], Background = new(0, 0, 1) },
-                (TexturedScenes.Square(1, new("m") { Texture = texture, Specular = Colour.White }), Transformation.Identity, null)),
+                (TexturedScenes.CreateSquare(1, new("m") { Texture = texture, Specular = Colour.White }), Transformation.Identity, null)),
             Square, 200, 200);
         AssertNear((0, 0, 255, 255), image[50, 100]);
         AssertNear((255, 255, 255, 255), image[150, 100]);
@@ -306,28 +315,29 @@ public sealed class MaterialTests : IDisposable
     [SkippableFact]
     public void Wireframe_OfMaterials_IsThatOfTheMeshAlone()
     {
-        var ball = RenderScenes.Ball(6);
+        var sphere = RenderScenes.Sphere(6);
         var settings = new RenderSettings { Wireframe = true, Shading = Shading.PerPixel };
-        var plain = RenderScenes.Draw(RenderScenes.Scene(Full, (RenderScenes.Model(ball), Transformation.Identity, null)),
+        var plain = RenderScenes.Draw(RenderScenes.Scene(FullLightOnBlack, (RenderScenes.Model(sphere), Transformation.Identity, null)),
             RenderScenes.FrontView, settings: settings);
-        var glass = TexturedScenes.Of(ball, new("m") { Opacity = 0.1, Specular = Colour.White });
+        var glass = TexturedScenes.WithMaterial(sphere, new("m") { Opacity = 0.1, Specular = Colour.White });
         Assert.Equal(plain.Pixels,
-            RenderScenes.Draw(RenderScenes.Scene(Full, (glass, Transformation.Identity, null)), RenderScenes.FrontView,
+            RenderScenes.Draw(RenderScenes.Scene(FullLightOnBlack, (glass, Transformation.Identity, null)), RenderScenes.FrontView,
             settings: settings).Pixels);
     }
 
     [SkippableFact]
-    public void Fractal_OfAMeshWithMaterials_LooksLikeItsCopies()
+    public void Fractal_OfAMeshWithMaterials_LooksLikeItsInstances()
     {
-        var texture = Quartered();
-        var square = TexturedScenes.Square(1, new("m") { Texture = texture });
-        var pair = new FractalModel("pair.fdo", 1, new Core.Fractals.Fractal(
-            new("square.obj", [new Core.Fractals.TransformationSet([Half(-0.5), Half(0.5)])]), square.Mesh))
-        {
+        var texture = CreateQuarteredTexture();
+        var square = TexturedScenes.CreateSquare(1, new("m") { Texture = texture });
+        var pair = new FractalModel(new Core.Fractals.Fractal(
+            new([new Core.Fractals.TransformationSet([Half(-0.5), Half(0.5)])]), square.Mesh))
+        { SourcePath = "pair.fdo",
             Materials = square.Materials,
         };
-        var instanced = RenderScenes.Draw(RenderScenes.Scene(Full, (pair, Transformation.Identity, null)), Square, 200, 200);
-        var placed = RenderScenes.Draw(RenderScenes.Scene(Full, (square, Half(-0.5), null), (square, Half(0.5), null)), Square, 200, 200);
+        var instanced = RenderScenes.Draw(RenderScenes.Scene(FullLightOnBlack, (pair, Transformation.Identity, null)), Square, 200, 200);
+        var placed = RenderScenes.Draw(RenderScenes.Scene(FullLightOnBlack, (square, Half(-0.5), null), (square, Half(0.5), null)), Square,
+            200, 200);
         Assert.Equal(placed.Pixels, instanced.Pixels);
         AssertNear(Quarters[0], instanced[25, 75]);
 
@@ -339,13 +349,13 @@ public sealed class MaterialTests : IDisposable
     [InlineData(Shading.PerPixel)]
     public void Draw_NothingChanged_AllocatesNothing(Shading shading)
     {
-        using var context = GlTests.Open();
-        var glass = TexturedScenes.Of(RenderScenes.Ball(4), new("m") { Opacity = 0.5, Specular = Colour.White });
-        var textured = TexturedScenes.Square(1, new("t") { Texture = Quartered() });
+        using var context = GlTests.OpenContext();
+        var glass = TexturedScenes.WithMaterial(RenderScenes.Sphere(4), new("m") { Opacity = 0.5, Specular = Colour.White });
+        var textured = TexturedScenes.CreateSquare(1, new("t") { Texture = CreateQuarteredTexture() });
         var scene = RenderScenes.Scene(
             new() { Lights = [new PointLight(new(0, 3, -3), Colour.White, 1, 30)] },
             (glass, Transformation.Identity, null), (textured, Transformation.Identity, null),
-            (glass, RenderScenes.At(1, 0, 0), Colour.Black));
+            (glass, RenderScenes.TranslatedTo(1, 0, 0), Colour.Black));
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, new()));
         using var frame = new FrameRenderer(context);
         var (view, settings) = (RenderScenes.FrontView, new RenderSettings { Shading = shading });
@@ -359,12 +369,14 @@ public sealed class MaterialTests : IDisposable
         Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
     }
 
-    private static Scene Full => new() { Lights = [RenderScenes.FullLight], Background = Colour.Black };
+    private static Scene FullLightOnBlack => new() { Lights = [RenderScenes.FullLight], Background = Colour.Black };
 
-    private MaterialTexture Quartered() => _scenes.Texture("quarters.png", 16, 16, (x, y) => Quarters[(2 * (y / 8)) + (x / 8)]);
+    private MaterialTexture CreateQuarteredTexture() =>
+        _scenes.CreateTexture("quarters.png", 16, 16, (x, y) => Quarters[(2 * (y / 8)) + (x / 8)]);
 
-    private static LoadedScene Lit(MaterialTexture texture) =>
-        RenderScenes.Scene(Full, (TexturedScenes.Square(1, new("m") { Texture = texture }), Transformation.Identity, null));
+    private static LoadedScene TexturedSquareScene(MaterialTexture texture) =>
+        RenderScenes.Scene(FullLightOnBlack,
+        (TexturedScenes.CreateSquare(1, new("m") { Texture = texture }), Transformation.Identity, null));
 
     private static PixelImage Draw(LoadedScene scene, Shading shading) =>
         RenderScenes.Draw(scene, Square, 200, 200, new() { Shading = shading });

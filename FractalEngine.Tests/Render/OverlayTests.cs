@@ -1,6 +1,6 @@
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Ui;
 
 namespace FractalEngine.Tests.Render;
@@ -67,7 +67,7 @@ public sealed class OverlayTests
         var image = Draw(1280, 720, OverlayPanel.OfText(anchor, "one line", "and another"));
         for (var quarter = 0; quarter < 4; quarter++)
         {
-            var lit = Lit(image, 640 * (quarter & 1), 360 * (quarter >> 1), 640, 360);
+            var lit = CountLitPixels(image, 640 * (quarter & 1), 360 * (quarter >> 1), 640, 360);
             Assert.Equal(quarter == right + (2 * below), lit > 100);
         }
     }
@@ -80,27 +80,27 @@ public sealed class OverlayTests
     public void Progress_Fraction_FillsThatPartOfTheBar(double fraction)
     {
         var image = Draw(1280, 720, new OverlayPanel(OverlayAnchor.Centre, []) { Progress = fraction });
-        var row = Enumerable.Range(300, 120).MaxBy(y => Lit(image, 0, y, 1280, 1));
+        var row = Enumerable.Range(300, 120).MaxBy(y => CountLitPixels(image, 0, y, 1280, 1));
         var filled = Enumerable.Range(0, 1280).Count(x => image[x, row].Blue > 150);
         // 32 cells of 10 pixels; the round ends take a few.
         Assert.InRange(filled, (320 * fraction) - 6, (320 * fraction) + 6);
     }
 
     [SkippableFact]
-    public void Text_LargerPicture_IsLarger()
+    public void Text_LargerFrame_IsLarger()
     {
         var small = Draw(1280, 720, OverlayPanel.OfText(OverlayAnchor.TopLeft, "size"));
         var large = Draw(2560, 1440, OverlayPanel.OfText(OverlayAnchor.TopLeft, "size"));
-        Assert.InRange((double)Lit(large, 0, 0, 2560, 1440) / Lit(small, 0, 0, 1280, 720), 2.5, 5.5);
+        Assert.InRange((double)CountLitPixels(large, 0, 0, 2560, 1440) / CountLitPixels(small, 0, 0, 1280, 720), 2.5, 5.5);
     }
 
     [SkippableFact]
-    public void Text_LongLine_IsWrappedIntoThePicture()
+    public void Text_LongLine_IsWrappedIntoTheFrame()
     {
         var image = Draw(400, 300, OverlayPanel.OfText(OverlayAnchor.TopLeft, string.Concat(Enumerable.Repeat("word ", 60)) + "end"));
         // Nothing reaches the last columns, and several lines are lit.
-        Assert.Equal(0, Lit(image, 395, 0, 5, 300));
-        Assert.True(Lit(image, 0, 60, 400, 20) > 20);
+        Assert.Equal(0, CountLitPixels(image, 395, 0, 5, 300));
+        Assert.True(CountLitPixels(image, 0, 60, 400, 20) > 20);
     }
 
     [SkippableFact]
@@ -121,13 +121,13 @@ public sealed class OverlayTests
 
     private static PixelImage Draw(int width, int height, params ReadOnlySpan<OverlayPanel> panels)
     {
-        using var context = GlTests.Open();
+        using var context = GlTests.OpenContext();
         using var frame = new FrameRenderer(context);
         frame.Draw(null, RenderScenes.FrontView, width, height, new() { Background = Colour.Black });
         return frame.Capture(panels.ToArray());
     }
 
     /// <summary>How many pixels of a part are brighter than a panel.</summary>
-    private static int Lit(PixelImage image, int x, int y, int width, int height) =>
+    private static int CountLitPixels(PixelImage image, int x, int y, int width, int height) =>
         Enumerable.Range(y, height).Sum(row => Enumerable.Range(x, width).Count(column => image[column, row].Green > 100));
 }

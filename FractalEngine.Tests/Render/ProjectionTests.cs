@@ -25,7 +25,7 @@ public sealed class ProjectionTests
 
     [SkippableTheory]
     [MemberData(nameof(Views))]
-    public void Perspective_SmallCube_AppearsWhereMapSays(
+    public void Perspective_SmallCube_AppearsWhereProjectSays(
         double x, double y, double z, double pitch, double yaw, double roll, double fieldOfView)
     {
         var camera = new Camera(new(x, y, z), new(pitch, yaw, roll), fieldOfView);
@@ -44,7 +44,7 @@ public sealed class ProjectionTests
 
     [SkippableTheory]
     [MemberData(nameof(Views))]
-    public void Orthographic_SmallCube_AppearsWhereMapSaysAtEveryDepth(
+    public void Orthographic_SmallCube_AppearsWhereProjectSaysAtEveryDepth(
         double x, double y, double z, double pitch, double yaw, double roll, double fieldOfView)
     {
         var camera = new Camera(new(x, y, z), new(pitch, yaw, roll), fieldOfView);
@@ -62,13 +62,13 @@ public sealed class ProjectionTests
     }
 
     [SkippableFact]
-    public void Perspective_PictureFarFromTheOrigin_IsThatNearTheOrigin()
+    public void Perspective_FrameFarFromTheOrigin_IsThatNearTheOrigin()
     {
-        var near = RenderScenes.Draw(RenderScenes.WhiteOnBlack(RenderScenes.Ball(12), Transformation.Identity), RenderScenes.FrontView);
-        var shift = new Vector(3e7, -2e7, 5e7);
+        var near = RenderScenes.Draw(RenderScenes.WhiteOnBlack(RenderScenes.Sphere(12), Transformation.Identity), RenderScenes.FrontView);
+        var translation = new Vector(3e7, -2e7, 5e7);
         var far = RenderScenes.Draw(
-            RenderScenes.WhiteOnBlack(RenderScenes.Ball(12), new(shift, Vector.Zero, Vector.One)),
-            new(Camera.Default with { Position = Camera.Default.Position + shift }, Projection.Perspective));
+            RenderScenes.WhiteOnBlack(RenderScenes.Sphere(12), new(translation, Vector.Zero, Vector.One)),
+            new(Camera.Default with { Position = Camera.Default.Position + translation }, Projection.Perspective));
 
         // A float has steps of 4 units out there; doubles have steps of 1e-8, which are no pixels.
         Assert.True(RenderScenes.Difference(near, far).Share < 0.001);

@@ -1,10 +1,10 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Tests.Render;
@@ -27,7 +27,7 @@ internal static class RenderScenes
         [-half, -half, 0, half, -half, 0, -half, half, 0, half, half, 0], [0, 2, 1, 1, 2, 3]);
 
     /// <summary>A ball of radius 1 about the origin; its poles lie on the y axis.</summary>
-    public static Mesh Ball(int rings)
+    public static Mesh Sphere(int rings)
     {
         var (positions, faces) = (ImmutableArray.CreateBuilder<double>(), ImmutableArray.CreateBuilder<int>());
         for (var i = 0; i <= rings; i++)
@@ -49,17 +49,18 @@ internal static class RenderScenes
         return new(positions.ToImmutable(), faces.ToImmutable());
     }
 
-    public static Model Model(Mesh mesh, string file = "mesh.obj") => new MeshModel(file, 1, mesh);
+    public static Model Model(Mesh mesh, string file = "mesh.obj") => new MeshModel(mesh) { SourcePath = file };
 
     public static FractalModel Menger(int? depth, Composition composition = Composition.Affine) =>
-        new("menger.fdo", 1, new Fractal(
-            new FractalDescription("cube.obj", [new Repetition([new TransformationSet(MengerSet())], depth)], composition), Cube(1)));
+        new(new Fractal(
+            new FractalDescription([new Repetition([new TransformationSet(MengerSet())], depth)], composition), Cube(1)))
+        { SourcePath = "menger.fdo" };
 
-    public static Transformation At(double x, double y, double z) => Transformation.Identity with { Position = new(x, y, z) };
+    public static Transformation TranslatedTo(double x, double y, double z) => Transformation.Identity with { Position = new(x, y, z) };
 
     public static LoadedScene Scene(Scene scene, params ReadOnlySpan<(Model Model, Transformation Placement, Colour? Colour)> objects) =>
         new(scene, [.. objects.ToArray().Select(item =>
-            new PlacedModel(new SceneObject(item.Model.Path, item.Placement) { Colour = item.Colour }, item.Model))]);
+            new PlacedModel(new SceneObject(item.Model.Name, item.Placement) { Colour = item.Colour }, item.Model))]);
 
     /// <summary>A white thing in full light on black.</summary>
     public static LoadedScene WhiteOnBlack(Mesh mesh, Transformation placement) => Scene(
@@ -67,7 +68,7 @@ internal static class RenderScenes
 
     public static PixelImage Draw(LoadedScene scene, View view, int width = 200, int height = 150, RenderSettings? settings = null)
     {
-        using var context = GlTests.Open();
+        using var context = GlTests.OpenContext();
         using var renderer = new SceneRenderer(context, DrawableScene.Prepare(scene, settings ?? new()));
         using var frame = new FrameRenderer(context);
         frame.Draw(renderer, view, width, height, settings ?? new());
@@ -79,7 +80,7 @@ internal static class RenderScenes
     public static View FrontView => new(Camera.Default, Projection.Perspective);
 
     /// <summary>How many pixels differ from a colour.</summary>
-    public static int CountOther(PixelImage image, (byte, byte, byte, byte) colour)
+    public static int CountDifferent(PixelImage image, (byte, byte, byte, byte) colour)
     {
         var count = 0;
         for (var y = 0; y < image.Height; y++)
@@ -118,14 +119,14 @@ internal static class RenderScenes
         var (sum, different) = (0L, 0);
         for (var i = 0; i < image1.Pixels.Length; i += 4)
         {
-            var largest = 0;
+            var maxDifference = 0;
             for (var j = i; j < i + 4; j++)
             {
                 var difference = Math.Abs(image1.Pixels[j] - image2.Pixels[j]);
-                (sum, largest) = (sum + difference, Math.Max(largest, difference));
+                (sum, maxDifference) = (sum + difference, Math.Max(maxDifference, difference));
             }
 
-            different += largest > 8 ? 1 : 0;
+            different += maxDifference > 8 ? 1 : 0;
         }
 
         return ((double)sum / image1.Pixels.Length, 4.0 * different / image1.Pixels.Length);

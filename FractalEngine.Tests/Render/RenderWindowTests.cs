@@ -38,7 +38,7 @@ public sealed class RenderWindowTests
     }
 
     [SkippableFact]
-    public void Present_Picture_IsShownAndKept()
+    public void Present_Frame_IsShownAndKept()
     {
         using var window = Open();
         using var frame = new FrameRenderer(window);

@@ -10,16 +10,16 @@ namespace FractalEngine.Tests.Render;
 public sealed class ScenePreparationTests
 {
     // The camera is at (0, 0, −5) and looks along z: the first is before it, the second behind, and shown twice.
-    private static readonly Model Before = RenderScenes.Model(RenderScenes.Ball(8), "before.obj");
-    private static readonly Model Behind = RenderScenes.Model(RenderScenes.Ball(6), "behind.obj");
+    private static readonly Model VisibleModel = RenderScenes.Model(RenderScenes.Sphere(8), "before.obj");
+    private static readonly Model HiddenModel = RenderScenes.Model(RenderScenes.Sphere(6), "behind.obj");
     private static readonly LoadedScene Scene = RenderScenes.Scene(
-        new Scene(), (Before, Transformation.Identity, null), (Behind, RenderScenes.At(0, 0, -12), null),
-        (Behind, RenderScenes.At(3, 0, -12), null));
+        new Scene(), (VisibleModel, Transformation.Identity, null), (HiddenModel, RenderScenes.TranslatedTo(0, 0, -12), null),
+        (HiddenModel, RenderScenes.TranslatedTo(3, 0, -12), null));
 
-    private static readonly View Back = new(Camera.Default with { Rotation = new(0, Math.PI, 0) }, Projection.Perspective);
+    private static readonly View ViewBackwards = new(Camera.Default with { Rotation = new(0, Math.PI, 0) }, Projection.Perspective);
 
     [Fact]
-    public void PrepareInSight_OfWhatIsBehindTheCamera_LeavesABox()
+    public void PrepareVisible_OfWhatIsBehindTheCamera_LeavesAPlaceholder()
     {
         var preparation = new ScenePreparation(Scene, new());
         Assert.True(preparation.HasUnpreparedVisibleModels(RenderScenes.FrontView, 1.5));
@@ -32,13 +32,13 @@ public sealed class ScenePreparationTests
     }
 
     [Fact]
-    public void PrepareInSight_AfterTurningRound_PreparesEachFileOnce()
+    public void PrepareVisible_AfterTurningRound_PreparesEachFileOnce()
     {
         var preparation = new ScenePreparation(Scene, new());
         preparation.PrepareVisible(RenderScenes.FrontView, 1.5);
         var first = preparation.Scene.Models[0];
-        Assert.True(preparation.HasUnpreparedVisibleModels(Back, 1.5));
-        Assert.True(preparation.PrepareVisible(Back, 1.5));
+        Assert.True(preparation.HasUnpreparedVisibleModels(ViewBackwards, 1.5));
+        Assert.True(preparation.PrepareVisible(ViewBackwards, 1.5));
         Assert.True(preparation.IsComplete);
         Assert.Same(first, preparation.Scene.Models[0]);
         Assert.Same(preparation.Scene.Objects[1].Model, preparation.Scene.Objects[2].Model);
@@ -46,36 +46,36 @@ public sealed class ScenePreparationTests
     }
 
     [SkippableFact]
-    public void Update_WithWhatCameInSight_DrawsAsIfPreparedAtOnce()
+    public void Update_WithWhatBecameVisible_DrawsAsIfPreparedAtOnce()
     {
-        using var context = GlTests.Open();
+        using var context = GlTests.OpenContext();
         using var frame = new FrameRenderer(context);
         var preparation = new ScenePreparation(Scene, new());
         preparation.PrepareVisible(RenderScenes.FrontView, 1.5);
         using var renderer = new SceneRenderer(context, preparation.Scene);
         renderer.Move(1, AffineMap.Translate(new(-1, 1, -11)));
-        frame.Draw(renderer, Back, 150, 100, new());
+        frame.Draw(renderer, ViewBackwards, 150, 100, new());
         var box = frame.Capture();
 
-        preparation.PrepareVisible(Back, 1.5);
+        preparation.PrepareVisible(ViewBackwards, 1.5);
         renderer.Update(preparation.Scene);
-        frame.Draw(renderer, Back, 150, 100, new());
+        frame.Draw(renderer, ViewBackwards, 150, 100, new());
         var late = frame.Capture();
         using var atOnce = new SceneRenderer(context, DrawableScene.Prepare(Scene, new()));
         atOnce.Move(1, AffineMap.Translate(new(-1, 1, -11)));
-        frame.Draw(atOnce, Back, 150, 100, new());
+        frame.Draw(atOnce, ViewBackwards, 150, 100, new());
         Assert.Equal(frame.Capture().Pixels, late.Pixels);
         Assert.NotEqual(late.Pixels, box.Pixels);
         // The box is about the ball, so it covers more.
         var background = late[0, 0];
-        Assert.True(RenderScenes.CountOther(box, background) > RenderScenes.CountOther(late, background));
+        Assert.True(RenderScenes.CountDifferent(box, background) > RenderScenes.CountDifferent(late, background));
         context.Resources.ThrowOnError("drawing");
     }
 
     [Theory]
     [InlineData(Projection.Perspective)]
     [InlineData(Projection.Orthographic)]
-    public void MaySee_OfBoxesThatReachIntoThePicture_IsTrue(Projection projection) => Seeded.Run(300, random =>
+    public void MayIntersectFrustum_OfBoxesThatReachIntoTheFrame_IsTrue(Projection projection) => Seeded.Run(300, random =>
     {
         var view = new View(new(random.Vector(3), random.Vector(3), 20 + (100 * random.NextDouble())), projection) { OrthographicHeight = 1
             + (5 * random.NextDouble()) };

@@ -14,7 +14,7 @@ internal sealed class TexturedScenes : IDisposable
     public void Dispose() => _folder.Dispose();
 
     /// <summary>Writes a picture and returns the texture that shows it.</summary>
-    public MaterialTexture Texture(string name, int width, int height, Func<int, int,
+    public MaterialTexture CreateTexture(string name, int width, int height, Func<int, int,
         (byte Red, byte Green, byte Blue, byte Alpha)> colourAt)
     {
         var pixels = new List<byte>();
@@ -32,12 +32,12 @@ internal sealed class TexturedScenes : IDisposable
     }
 
     /// <summary>A file that is no picture.</summary>
-    public MaterialTexture Broken(string name) => new(_folder.Write(name, "no picture"));
+    public MaterialTexture CreateBrokenTexture(string name) => new(_folder.Write(name, "no picture"));
 
     /// <summary>A square in the plane z = 0 that looks towards −z; the picture of its material fits it.</summary>
-    public static Model Square(double half, Material material, string file = "square.obj") =>
-        new MeshModel(file, 1, TexturedSquare(half).WithGroups([new(0, 2, "", "", material.Name, 0)], ["a.mtl"]))
-        {
+    public static Model CreateSquare(double half, Material material, string file = "square.obj") =>
+        new MeshModel(TexturedSquare(half).WithGroups([new(0, 2, "", "", material.Name, 0)], ["a.mtl"]))
+        { SourcePath = file,
             Materials = ImmutableDictionary<string, Material>.Empty.Add(material.Name, material),
         };
 
@@ -45,9 +45,9 @@ internal sealed class TexturedScenes : IDisposable
         RenderScenes.Square(half).WithTextureCoordinates([0, 0, 1, 0, 0, 1, 1, 1], [0, 2, 1, 1, 2, 3]);
 
     /// <summary>A mesh all of one material.</summary>
-    public static Model Of(Mesh mesh, Material material) =>
-        new MeshModel("mesh.obj", 1, mesh.WithGroups([new(0, mesh.FaceCount, "", "", material.Name, 0)], ["a.mtl"]))
-        {
+    public static Model WithMaterial(Mesh mesh, Material material) =>
+        new MeshModel(mesh.WithGroups([new(0, mesh.FaceCount, "", "", material.Name, 0)], ["a.mtl"]))
+        { SourcePath = "mesh.obj",
             Materials = ImmutableDictionary<string, Material>.Empty.Add(material.Name, material),
         };
 }

@@ -10,7 +10,7 @@ public sealed class ViewTests
     private static readonly BoundingBox UnitBox = new(-Vector.One, Vector.One);
 
     [Fact]
-    public void Project_PointOnTheAxis_IsTheMiddleOfThePicture() =>
+    public void Project_PointOnTheAxis_IsTheMiddleOfTheFrame() =>
         Assert.Equal((160.0, 120.0, 5.0), RenderScenes.FrontView.Project(Vector.Zero, 320, 240));
 
     [Fact]
@@ -18,14 +18,14 @@ public sealed class ViewTests
         Assert.Null(RenderScenes.FrontView.Project(new(0, 0, -6), 320, 240));
 
     [Fact]
-    public void Project_UpperEdgeOfTheAngleOfView_IsTheUpperEdgeOfThePicture()
+    public void Project_UpperEdgeOfTheAngleOfView_IsTheUpperEdgeOfTheFrame()
     {
         var found = RenderScenes.FrontView.Project(new(0, 5 * Math.Tan(Math.PI / 6), 0), 320, 240)!.Value;
         Assert.Equal(0, found.Y, 1e-9);
     }
 
     [Fact]
-    public void ClipPlanes_SceneBeforeTheCamera_HoldItWithAMargin()
+    public void ClipPlanes_SceneBeforeTheCamera_EncloseItWithAMargin()
     {
         var (near, far) = RenderScenes.FrontView.ClipPlanes(UnitBox);
         Assert.InRange(near, 3.9, 4);
@@ -68,7 +68,7 @@ public sealed class ViewTests
     {
         var scene = RenderScenes.Scene(
             new Scene { Projection = Projection.Orthographic, Camera = Camera.Default },
-            (RenderScenes.Model(RenderScenes.Cube(1)), RenderScenes.At(0, 0, 3), null));
+            (RenderScenes.Model(RenderScenes.Cube(1)), RenderScenes.TranslatedTo(0, 0, 3), null));
         Assert.Equal(2 * Math.Tan(Math.PI / 6) * 8, View.Of(scene, 1.5).OrthographicHeight, 1e-12);
     }
 
@@ -77,7 +77,7 @@ public sealed class ViewTests
     {
         var scene = RenderScenes.Scene(
             new Scene { Projection = Projection.Orthographic, Camera = Camera.Default },
-            (RenderScenes.Model(RenderScenes.Cube(1)), RenderScenes.At(0, 0, -30), null));
+            (RenderScenes.Model(RenderScenes.Cube(1)), RenderScenes.TranslatedTo(0, 0, -30), null));
         Assert.True(View.Of(scene, 1.5).OrthographicHeight > 0);
     }
 

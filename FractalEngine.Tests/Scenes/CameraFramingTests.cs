@@ -30,20 +30,20 @@ public class CameraFramingTests
     [InlineData(2.5)]
     public void Frame_OfAnyBox_ShowsAllItsCorners(double aspect) => Seeded.Run(200, random =>
     {
-        var box = Box(random);
+        var box = RandomBox(random);
         var camera = CameraFraming.Frame(new(random.Vector(100), random.Vector(3), random.Between(5, 150)), box, aspect);
         Assert.All(Corners(box), corner => AssertVisible(camera, corner, aspect));
     });
 
     [Fact]
-    public void Frame_OfAnyBox_FillsThePicture() => Seeded.Run(100, random =>
+    public void Frame_OfAnyBox_FillsTheView() => Seeded.Run(100, random =>
     {
-        var box = Box(random);
+        var box = RandomBox(random);
         var camera = CameraFraming.Frame(new(Vector.Zero, random.Vector(3), 60), box, 1);
-        var largest = Corners(box).Select(camera.ToCameraSpace)
+        var maxExtent = Corners(box).Select(camera.ToCameraSpace)
             .Max(v => Math.Max(Math.Abs(v.X), Math.Abs(v.Y)) / v.Z / camera.HalfHeightAtUnitDepth);
         // A third of the picture at least, whatever margin is left.
-        Assert.InRange(largest, 1.0 / 3, 1);
+        Assert.InRange(maxExtent, 1.0 / 3, 1);
     });
 
     [Fact]
@@ -73,14 +73,14 @@ public class CameraFramingTests
     [Fact]
     public void Default_OfAnyBox_ShowsItFromAboveAndTheRightWithoutRoll() => Seeded.Run(100, random =>
     {
-        var box = Box(random);
+        var box = RandomBox(random);
         var camera = CameraFraming.Default(box, 1.5);
         Assert.All(Corners(box), corner => AssertVisible(camera, corner, 1.5));
         Assert.True(camera.Position.Y > box.Centre.Y && camera.Position.X > box.Centre.X && camera.Position.Z < box.Centre.Z);
         Near.Equal(0, camera.LocalAxes.V1.Y, 1e-15);
     });
 
-    private static BoundingBox Box(Random random) => (random.Vector(10), random.Vector(5).Absolute()) switch
+    private static BoundingBox RandomBox(Random random) => (random.Vector(10), random.Vector(5).Absolute()) switch
     {
         var (centre, half) => new(centre - half, centre + half),
     };

@@ -9,7 +9,7 @@ public class CameraNavigationTests
     // Angles are written to the camera after each turn and read back: some units in the last place of π.
     private const double Tolerance = 1e-13;
 
-    private static Camera Level(Random random) =>
+    private static Camera RandomLevelCamera(Random random) =>
         new(random.Vector(10), CameraFraming.LookRotation(random.Vector() + new Vector(0, 0, 1.5)), 60);
 
     [Fact]
@@ -22,19 +22,19 @@ public class CameraNavigationTests
     [Fact]
     public void Turn_ToTheRight_RotatesEveryAxisAboutTheWorldsUp() => Seeded.Run(100, random =>
     {
-        var camera = Level(random);
+        var camera = RandomLevelCamera(random);
         var angle = random.Between(-3, 3);
         var turned = CameraNavigation.Turn(camera, angle, 0);
         Assert.All(
             new[] { (camera.LocalAxes.V1, turned.LocalAxes.V1), (camera.LocalAxes.V2, turned.LocalAxes.V2),
             (camera.LocalAxes.V3, turned.LocalAxes.V3) },
-            axis => Near.Equal(AroundUp(axis.Item1, angle), axis.Item2, Tolerance));
+            axis => Near.Equal(RotateAboutUp(axis.Item1, angle), axis.Item2, Tolerance));
     });
 
     [Fact]
     public void Turn_Upwards_KeepsTheCamerasOwnRight() => Seeded.Run(100, random =>
     {
-        var camera = Level(random);
+        var camera = RandomLevelCamera(random);
         var turned = CameraNavigation.Turn(camera, 0, random.Between(-0.3, 0.3));
         Near.Equal(camera.LocalAxes.V1, turned.LocalAxes.V1, Tolerance);
     });
@@ -77,7 +77,7 @@ public class CameraNavigationTests
     [Fact]
     public void Turn_ByNothing_ChangesNothing() => Seeded.Run(100, random =>
     {
-        var camera = Level(random);
+        var camera = RandomLevelCamera(random);
         Near.Equal(camera.LocalAxes, CameraNavigation.Turn(camera, 0, 0).LocalAxes, Tolerance);
     });
 
@@ -85,9 +85,9 @@ public class CameraNavigationTests
     public void Turn_KeepsThePosition() => Assert.Equal(Camera.Default.Position, CameraNavigation.Turn(Camera.Default, 1, 0.5).Position);
 
     [Fact]
-    public void Orbit_KeepsTheDistanceAndThePivotsPlaceInThePicture() => Seeded.Run(200, random =>
+    public void Orbit_KeepsTheDistanceAndThePivotsPositionInTheFrame() => Seeded.Run(200, random =>
     {
-        var (camera, pivot) = (Level(random), random.Vector(10));
+        var (camera, pivot) = (RandomLevelCamera(random), random.Vector(10));
         var orbited = CameraNavigation.Orbit(camera, pivot, random.Between(-3, 3), random.Between(-0.5, 0.5));
         // Distances up to 35.
         Near.Equal((pivot - camera.Position).Length(), (pivot - orbited.Position).Length(), 1e-12);
@@ -111,7 +111,7 @@ public class CameraNavigationTests
     [Fact]
     public void Move_IsAlongTheCamerasAxes() => Seeded.Run(100, random =>
     {
-        var (camera, distances) = (Level(random), random.Vector(5));
+        var (camera, distances) = (RandomLevelCamera(random), random.Vector(5));
         var moved = CameraNavigation.Move(camera, distances);
         Assert.Equal(camera.Rotation, moved.Rotation);
         Near.Equal(distances, camera.ToCameraSpace(moved.Position), Tolerance);
@@ -120,12 +120,12 @@ public class CameraNavigationTests
     [Fact]
     public void Zoom_ChangesTheDistanceByTheFactor() => Seeded.Run(100, random =>
     {
-        var (camera, pivot, factor) = (Level(random), random.Vector(10), random.Between(0.1, 4));
+        var (camera, pivot, factor) = (RandomLevelCamera(random), random.Vector(10), random.Between(0.1, 4));
         var zoomed = CameraNavigation.Zoom(camera, pivot, factor);
         Near.Equal(factor * (camera.Position - pivot), zoomed.Position - pivot, Tolerance);
         Assert.Equal(camera.Rotation, zoomed.Rotation);
     });
 
-    private static Vector AroundUp(Vector v, double angle) => new(
+    private static Vector RotateAboutUp(Vector v, double angle) => new(
         (Math.Cos(angle) * v.X) + (Math.Sin(angle) * v.Z), v.Y, (Math.Cos(angle) * v.Z) - (Math.Sin(angle) * v.X));
 }

@@ -9,7 +9,7 @@ public class CameraTests
     private static readonly Camera AppendixA = new(new(-48.761894, 25.567242, 64.429054), new(-0.071402885, -2.4999454, 0), 60);
 
     [Fact]
-    public void Map_OfTheOrigin_IsInAppendixAsView()
+    public void ToCameraSpace_OfTheOrigin_IsInAppendixAsView()
     {
         var (right, up, depth) = AppendixA.ToCameraSpace(Vector.Zero) switch { var v => (v.X, v.Y, v.Z) };
         Assert.True(depth > 0, "the origin is behind the camera");
@@ -18,11 +18,11 @@ public class CameraTests
     }
 
     [Fact]
-    public void Map_InALeftHandedWorld_HasRightOnTheRightAndUpAbove() =>
+    public void ToCameraSpace_InALeftHandedWorld_HasRightOnTheRightAndUpAbove() =>
         Assert.Equal(new(2, 3, 6), new Camera(new(0, 0, -5), Vector.Zero, 60).ToCameraSpace(new(2, 3, 1)));
 
     [Fact]
-    public void Map_OfAnyPoint_IsTheInverseAxesTimesTheDifference() => Seeded.Run(100, random =>
+    public void ToCameraSpace_OfAnyPoint_IsTheInverseAxesTimesTheDifference() => Seeded.Run(100, random =>
     {
         var camera = new Camera(random.Vector(10), random.Vector(4), 60);
         var point = random.Vector(10);
@@ -31,7 +31,7 @@ public class CameraTests
     });
 
     [Fact]
-    public void Map_OfPositionPlusStretchedAxes_IsTheStretch() => Seeded.Run(100, random =>
+    public void ToCameraSpace_OfPositionPlusStretchedAxes_IsTheStretch() => Seeded.Run(100, random =>
     {
         var camera = new Camera(random.Vector(10), random.Vector(4), 60);
         var stretch = random.Vector(10);

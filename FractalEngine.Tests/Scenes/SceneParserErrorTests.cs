@@ -10,7 +10,7 @@ public class SceneParserErrorTests
 {
     private static SceneFile Parse(string text) => SceneParser.Parse(new("test.sdo", text));
 
-    private static void Fails(string text, string expected) => Errors.Are(expected, () => Parse(text));
+    private static void Fails(string text, string expected) => Errors.AssertMessage(expected, () => Parse(text));
 
     private static void FailsAt(string line, int column, string message) => Fails(
         line, $"test.sdo:1:{column}: error: {message}\n  {line}\n  {new string(' ', column - 1)}^");
@@ -122,7 +122,7 @@ public class SceneParserErrorTests
     [InlineData("o \"a.obj\" ((0,5, 0,5, 0,5), #, #)", 19)]
     public void Line_WithSomethingUnexpected_PointsAtIt(string line, int column)
     {
-        var error = Errors.Thrown(() => Parse(line)).Diagnostic;
+        var error = Errors.ThrownBy(() => Parse(line)).Diagnostic;
         Assert.Equal((1, column), (error.Line, error.Column));
         Assert.StartsWith("unexpected ", error.Message, StringComparison.Ordinal);
     }
@@ -141,7 +141,8 @@ public class SceneParserErrorTests
 
     [Fact]
     public void Error_WithCommaDecimalsUnderAGermanCulture_IsTheSameEverywhere() => Assert.Equal(
-        Errors.Of(() => Parse("c (1,5, 2,5, 3,5) # 60")), InCulture.Get("de-DE", () => Errors.Of(() => Parse("c (1,5, 2,5, 3,5) # 60"))));
+        Errors.MessageOf(() => Parse("c (1,5, 2,5, 3,5) # 60")),
+        InCulture.Run("de-DE", () => Errors.MessageOf(() => Parse("c (1,5, 2,5, 3,5) # 60"))));
 
     [Fact]
     public void Parse_OfAnyText_EndsInAResultOrOneProperError() => Seeded.Run(3000, random =>
@@ -152,11 +153,11 @@ public class SceneParserErrorTests
         for (var change = random.Next(1, 6); change > 0; change--)
         {
             const string characters = "\0\t\n\r \"#(),-.0159:acelmops§\uD83D";
-            var place = random.Next(text.Length);
+            var offset = random.Next(text.Length);
             _ = random.Next(2) switch
             {
-                0 => text.Remove(place, Math.Min(random.Next(1, 20), text.Length - place)),
-                _ => text.Insert(place, characters[random.Next(characters.Length)]),
+                0 => text.Remove(offset, Math.Min(random.Next(1, 20), text.Length - offset)),
+                _ => text.Insert(offset, characters[random.Next(characters.Length)]),
             };
         }
 

@@ -10,7 +10,7 @@ public class SceneParserTests
 {
     private static Scene Parse(string text) => SceneParser.Parse(new("test.sdo", text)).Scene;
 
-    private static SceneObject Object(string line) => Assert.Single(Parse(line).Objects);
+    private static SceneObject ParseObject(string line) => Assert.Single(Parse(line).Objects);
 
     [Fact]
     public void Parse_AppendixA_AsItStands()
@@ -47,7 +47,7 @@ public class SceneParserTests
         Assert.Equal(new Camera(new(1, 2, 3), new(4, 5, 6), 60), Parse(line).Camera);
 
     [Fact]
-    public void Camera_WithHashes_IsAtTheOriginUnturned() =>
+    public void Camera_WithHashes_IsAtTheOriginUnrotated() =>
         Assert.Equal(new Camera(Vector.Zero, Vector.Zero, 45), Parse("c # # 45").Camera);
 
     [Theory]
@@ -59,38 +59,38 @@ public class SceneParserTests
     [InlineData("((7 7 7) (7,7,7),(7, 7 , 7))", 7, 7, 7)]
     [InlineData("( # # # )", 0, 0, 1)]
     public void Matrix_WithHashes_HasNoTransformationThere(string matrix, double position, double rotation, double scale) => Assert.Equal(
-        new(position * Vector.One, rotation * Vector.One, scale * Vector.One), Object($"o \"a.obj\" {matrix}").Placement);
+        new(position * Vector.One, rotation * Vector.One, scale * Vector.One), ParseObject($"o \"a.obj\" {matrix}").Placement);
 
     [Theory]
     [InlineData("o \"a b/ü.obj\" #", "a b/ü.obj")]
     [InlineData("o \"../x.FDO\" #", "../x.FDO")]
     [InlineData("o \"#.obj\" #", "#.obj")]
     [InlineData("o\"a.obj\"#", "a.obj")]
-    public void File_IsAsTheSceneNamesIt(string line, string file) => Assert.Equal(file, Object(line).File);
+    public void File_IsAsTheSceneNamesIt(string line, string file) => Assert.Equal(file, ParseObject(line).File);
 
     [Fact]
     public void Object_WithOptions_HasThem()
     {
-        var declared = Object("o \"a.obj\" # name \"the first\" colour (1, 0.5, 0)");
+        var declared = ParseObject("o \"a.obj\" # name \"the first\" colour (1, 0.5, 0)");
         Assert.Equal(("the first", new Colour(1, 0.5, 0)), (declared.Name, declared.Colour));
-        Assert.Equal(declared, Object("o \"a.obj\" # color (1 .5 0) name \"the first\""));
+        Assert.Equal(declared, ParseObject("o \"a.obj\" # color (1 .5 0) name \"the first\""));
     }
 
     [Fact]
     public void Object_WithAGradient_HasIt()
     {
-        Assert.Equal(new Gradient(GradientKind.Level, new(1, 0.5, 0)), Object("o \"a.fdo\" # gradient level (1, 0.5, 0)").Gradient);
-        var declared = Object("o \"a.fdo\" # colour (0, 0, 1) gradient path (1 .5 0) name \"x\"");
+        Assert.Equal(new Gradient(GradientKind.Level, new(1, 0.5, 0)), ParseObject("o \"a.fdo\" # gradient level (1, 0.5, 0)").Gradient);
+        var declared = ParseObject("o \"a.fdo\" # colour (0, 0, 1) gradient path (1 .5 0) name \"x\"");
         Assert.Equal(("x", new Colour(0, 0, 1), new Gradient(GradientKind.Path, new(1, 0.5, 0))),
             (declared.Name, declared.Colour, declared.Gradient));
-        Assert.Null(Object("o \"a.fdo\" # colour (0, 0, 1)").Gradient);
-        Assert.NotNull(Object("p \"a.fdo\" # 0.5 mass 2 gradient path (1, 1, 1)").Gradient);
+        Assert.Null(ParseObject("o \"a.fdo\" # colour (0, 0, 1)").Gradient);
+        Assert.NotNull(ParseObject("p \"a.fdo\" # 0.5 mass 2 gradient path (1, 1, 1)").Gradient);
     }
 
     [Fact]
     public void PhysicsObject_WithoutOptions_HasTheDefaults()
     {
-        var body = Assert.IsType<PhysicsObject>(Object("p \"a.fdo\" # 0.5"));
+        var body = Assert.IsType<PhysicsObject>(ParseObject("p \"a.fdo\" # 0.5"));
         Assert.Equal((0.5, Vector.Zero, 1.0, ColliderKind.Exact), (body.Restitution, body.Velocity, body.Mass, body.Collider));
         Assert.Equal((0.0, 0.0, 0.0, 0.05), (body.Friction, body.Damping, body.Shrinkage, body.MinimumScale));
     }
@@ -104,7 +104,7 @@ public class SceneParserTests
     public void PhysicsObject_WithOptions_HasThem(string name, ColliderKind collider) => Assert.Equal(
         new PhysicsObject("a.fdo", Samples.Move(1, 2, 3), 1) { Velocity = new(4, 5, 6), Mass = 2.5, Collider = collider, Name = "n",
         Colour = Colour.White },
-        Object($"p \"a.fdo\" ((1,2,3),#,#) 1 velocity (4, 5, 6) mass 2.5 collider {name} name \"n\" colour (1,1,1)"));
+        ParseObject($"p \"a.fdo\" ((1,2,3),#,#) 1 velocity (4, 5, 6) mass 2.5 collider {name} name \"n\" colour (1,1,1)"));
 
     [Theory]
     [InlineData("friction 0.5", 0.5, 0, 0, 0.05)]
@@ -122,7 +122,7 @@ public class SceneParserTests
     public void PhysicsObject_WithFrictionDampingAndShrinking_HasThemTheLastCounts(string options, double friction, double damping,
     double rate, double minimum)
     {
-        var body = Assert.IsType<PhysicsObject>(Object($"p \"a.obj\" # 0.5 {options}"));
+        var body = Assert.IsType<PhysicsObject>(ParseObject($"p \"a.obj\" # 0.5 {options}"));
         Assert.Equal((friction, damping, rate, minimum), (body.Friction, body.Damping, body.Shrinkage, body.MinimumScale));
     }
 
@@ -220,7 +220,7 @@ public class SceneParserTests
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
     public void Parse_InAnyCulture_ReadsPoints(string culture) =>
-        Assert.Equal(Parse(Samples.AppendixA), InCulture.Get(culture, () => Parse(Samples.AppendixA)));
+        Assert.Equal(Parse(Samples.AppendixA), InCulture.Run(culture, () => Parse(Samples.AppendixA)));
 
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
@@ -228,11 +228,11 @@ public class SceneParserTests
     {
         const string text =
             "p \"a.obj\" # 0.5 friction 0.5 damping 1.5 shrink 0.1 0.2\nplayer (0, 0, 0) 0.3 1.8 speed 1.5 jump 2.5 slope 30.5 step 0.1";
-        Assert.Equal(Parse(text), InCulture.Get(culture, () => Parse(text)));
+        Assert.Equal(Parse(text), InCulture.Run(culture, () => Parse(text)));
     }
 
     [Fact]
-    public void FileOffset_PointsAtTheName()
+    public void FileNameOffset_PointsAtTheName()
     {
         var file = SceneParser.Parse(new("test.sdo", Samples.AppendixA));
         Assert.StartsWith("\"SampleAsset2.obj\"", file.Source.Text[file.FileNameOffsets.ElementAt(1)..], StringComparison.Ordinal);

@@ -47,7 +47,7 @@ public class SceneWriterTests
         (declared, g) => declared with { Gradient = g.Item2 == GradientKind.None ? null : new(g.Item2, g.Item1) });
 
     private static readonly Gen<SceneObject> Bodies = Plain.Zip(Unit)
-        .Zip(AnyVector.Zip(Positive), (o, b) => (SceneObject)new PhysicsObject(o.Item1.File, o.Item1.Placement, o.Item2)
+        .Zip(AnyVector.Zip(Positive), (o, b) => (SceneObject)new PhysicsObject(o.Item1.File!, o.Item1.Placement, o.Item2)
     {
         Name = o.Item1.Name, Colour = o.Item1.Colour, Gradient = o.Item1.Gradient, Velocity = b.Item1, Mass = b.Item2,
         Collider = (ColliderKind)(b.Item2.GetHashCode() & 3),
@@ -100,10 +100,10 @@ public class SceneWriterTests
 
     [Fact]
     public void Write_OfAnyScene_ReadsBackToTheSameBits() =>
-        Laws.Hold(Scenes, scene => Assert.Equal(Bits.Of(scene), Bits.Of(Parse(SceneWriter.Write(scene)).Scene)));
+        Laws.CheckForAll(Scenes, scene => Assert.Equal(Bits.Of(scene), Bits.Of(Parse(SceneWriter.Write(scene)).Scene)));
 
     [Fact]
-    public void Write_Twice_IsTheSameText() => Laws.Hold(Scenes, scene =>
+    public void Write_Twice_IsTheSameText() => Laws.CheckForAll(Scenes, scene =>
         Assert.Equal(SceneWriter.Write(scene), SceneWriter.Write(Parse(SceneWriter.Write(scene)).Scene)));
 
     [Theory]
@@ -111,7 +111,7 @@ public class SceneWriterTests
     public void Write_InAnyCulture_IsTheSameText(string culture)
     {
         var scene = Parse(Samples.AppendixA).Scene;
-        Assert.Equal(SceneWriter.Write(scene), InCulture.Get(culture, () => SceneWriter.Write(scene)));
+        Assert.Equal(SceneWriter.Write(scene), InCulture.Run(culture, () => SceneWriter.Write(scene)));
     }
 
     [Theory]
@@ -124,7 +124,7 @@ public class SceneWriterTests
     public void Write_OfBodiesAndThePlayer_StatesWhatIsNoDefault(string line)
     {
         Assert.Equal(line + "\n", SceneWriter.Write(Parse(line).Scene));
-        Assert.Equal(line + "\n", InCulture.Get("de-DE", () => SceneWriter.Write(Parse(line).Scene)));
+        Assert.Equal(line + "\n", InCulture.Run("de-DE", () => SceneWriter.Write(Parse(line).Scene)));
     }
 
     [Theory]
@@ -186,7 +186,7 @@ public class SceneWriterTests
     });
 
     [Fact]
-    public void Write_OfAnyOtherSceneOverAnOriginal_ReadsBackToTheSameBits() => Laws.Hold(
+    public void Write_OfAnyOtherSceneOverAnOriginal_ReadsBackToTheSameBits() => Laws.CheckForAll(
         Scenes, scene => Assert.Equal(Bits.Of(scene), Bits.Of(Parse(SceneWriter.Write(scene, Parse(Commented))).Scene)));
 
     [Fact]

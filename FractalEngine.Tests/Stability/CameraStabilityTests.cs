@@ -1,10 +1,10 @@
 using System.Runtime.CompilerServices;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Tests.Fractals;
 using FractalEngine.Tests.Render;
@@ -24,7 +24,7 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
     private const int Height = 120;
 
     // All that is drawn of what the camera is in; from there on pictures of self-similar fractals are the same.
-    private const int Ancestors = 30;
+    private const int MaxAncestors = 30;
 
     private static readonly RenderSettings Settings = new() { Samples = 0 };
     private static readonly Vector Direction = new Vector(-1, -0.8, -0.9).UnitVector();
@@ -46,47 +46,48 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
     [SkippableTheory]
     [InlineData("menger")]
     [InlineData("sierpinski")]
-    public void Picture_OfASelfSimilarFractal_IsTheSameAtAnyDepth(string name) => CheckPictures(name, [41, 42, 47, 100, 1040]);
+    public void Picture_OfASelfSimilarFractal_IsTheSameAtAnyDepth(string name) => CheckFrames(name, [41, 42, 47, 100, 1040]);
 
     [SkippableTheory]
     [InlineData("menger")]
     [InlineData("sierpinski")]
     [Trait("Category", "Soak")]
-    public void Picture_OfASelfSimilarFractal_IsTheSameAMillionLevelsDown(string name) => CheckPictures(name, [100_000, 999_990]);
+    public void Picture_OfASelfSimilarFractal_IsTheSameAMillionLevelsDown(string name) => CheckFrames(name, [100_000, 999_990]);
 
-    private void CheckThereAndBack(string name, int deepest, [CallerMemberName] string test = "")
+    private void CheckThereAndBack(string name, int maxDepth, [CallerMemberName] string test = "")
     {
         using var report = new StabilityReport(output, name, test);
-        foreach (var depth in RoundNumbers.To(deepest))
+        foreach (var depth in RoundNumbers.To(maxDepth))
         {
-            var dive = FractalAddressTests.Dive(name, 0, AffineMap.Identity);
-            var (about, size) = (dive.Address.FrameToCamera, dive.Start.Length() + 1);
-            dive.GoTo(depth);
+            var dive = FractalAddressTests.CreateDive(name, 0, AffineMap.Identity);
+            var (frameToCamera, size) = (dive.Address.FrameToCamera, dive.Start.Length() + 1);
+            dive.GoToDepth(depth);
             Assert.Equal(depth, dive.Address.Depth);
-            report.Note("enlargement (powers of ten)", -dive.Address.LogUnit / Math.Log(10));
-            dive.GoBack();
+            report.Record("enlargement (powers of ten)", -dive.Address.LogUnit / Math.Log(10));
+            dive.ReturnToStart();
             Assert.Equal((0, 0.0), (dive.Address.Depth, dive.Address.LogUnit));
             // As FractalAddressTests ask. What is lost deep down is a part of the unit there; coming back, the last steps outside decide.
-            report.Require("place after the return by depth (of the distance)", Near.Difference(about, dive.Address.FrameToCamera) / size,
+            report.Require("place after the return by depth (of the distance)",
+                Near.Difference(frameToCamera, dive.Address.FrameToCamera) / size,
                 1e-9, () => $"depth {depth}", depth);
         }
     }
 
-    private void CheckPictures(string name, int[] depths, [CallerMemberName] string test = "")
+    private void CheckFrames(string name, int[] depths, [CallerMemberName] string test = "")
     {
         using var report = new StabilityReport(output, name, test);
         var scene = new LoadedScene(
             new() { Background = Colour.Black,
             Lights = [new AmbientLight(Colour.White, 0.1), new DirectionalLight(new(0.3, -0.5, 0.9), Colour.White, 0.9)] },
             [new(new SceneObject("a.fdo", Transformation.Identity) { Colour = Colour.White },
-            new FractalModel("a.fdo", 1, FractalAddressTests.Infinite(name)))]);
+            new FractalModel(FractalAddressTests.CreateInfinite(name)) { SourcePath = "a.fdo" })]);
         var drawable = DrawableScene.Prepare(scene, Settings);
-        using var context = GlTests.Open();
+        using var context = GlTests.OpenContext();
         using var renderer = new SceneRenderer(context, drawable);
         using var frame = new FrameRenderer(context);
         var dive = new FractalDive(drawable.Objects[0].Model.LodHierarchy!, 0, AffineMap.Identity, Direction);
         var first = At(40);
-        Assert.True(RenderScenes.CountOther(first, (0, 0, 0, 255)) > 500, "there is nothing to see");
+        Assert.True(RenderScenes.CountDifferent(first, (0, 0, 0, 255)) > 500, "there is nothing to see");
         foreach (var depth in depths)
         {
             var (mean, share) = RenderScenes.Difference(first, At(depth));
@@ -98,12 +99,13 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
 
         PixelImage At(int depth)
         {
-            dive.GoTo(depth, 0.2);
+            dive.GoToDepth(depth, 0.2);
             // A place that is in no copy's reach and within the sub-fractal's own: the same at each level.
-            dive.Settle(1.5 * Direction);
-            var camera = new Camera(dive.Address.WorldPosition(AffineMap.Identity), CameraFraming.LookRotation(dive.Target(Vector.Zero)),
+            dive.ConvergeTo(1.5 * Direction);
+            var camera =
+                new Camera(dive.Address.WorldPosition(AffineMap.Identity), CameraFraming.LookRotation(dive.LocateTarget(Vector.Zero)),
                 50);
-            var zoom = new DeepZoom(0, dive.Address.CollectRoots(Ancestors), dive.Address.LogUnit);
+            var zoom = new DeepZoom(0, dive.Address.CollectRoots(MaxAncestors), dive.Address.LogUnit);
             frame.Draw(renderer, new(camera, Projection.Perspective) { Clip = (0.02, 1e12), DeepZoom = zoom }, Width, Height, Settings);
             context.Resources.ThrowOnError("drawing");
             return frame.Capture();

@@ -27,13 +27,16 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     /// <summary>What there are exact colliders for.</summary>
     private static readonly (string Name, Func<Random, Model> Draw)[] Shapes =
     [
-        ("mesh", random => new MeshModel("/mesh.obj", 0, CollisionMeshes.Soup(random.Next(), 40, 0.3))),
+        ("mesh", random => new MeshModel(CollisionMeshes.TriangleSoup(random.Next(), 40, 0.3)) { SourcePath = "/mesh.obj" }),
         ("similar fractal",
-        random => new FractalModel("/similar.fdo", 0, Samples.Repeated(3, Similar(random), Similar(random), Similar(random)))),
+        random => new FractalModel(
+            Samples.Repeated(3, RandomSimilarity(random), RandomSimilarity(random), RandomSimilarity(random))) { SourcePath =
+            "/similar.fdo" }),
         ("skewed fractal",
-        random => new FractalModel("/skewed.fdo", 0,
-        Samples.Repeated(3, random.Transformation(), random.Transformation(), random.Transformation()))),
-        ("fractal of sums", random => new FractalModel("/sums.fdo", 0, RandomFractals.Draw(random, Composition.Componentwise))),
+        random => new FractalModel(
+            Samples.Repeated(3, random.Transformation(), random.Transformation(), random.Transformation())) { SourcePath = "/skewed.fdo" }),
+        ("fractal of sums",
+        random => new FractalModel(RandomFractals.Create(random, Composition.Componentwise)) { SourcePath = "/sums.fdo" }),
     ];
 
     /// <summary>How objects are placed, sizes aside.</summary>
@@ -74,14 +77,14 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     public void Find_AtSymmetricPlaces_IsTheSameDistance(int? depth)
     {
         using var report = new StabilityReport(output, (object?)depth ?? "infinite");
-        var (collider, record) = (new ExactFractalCollider(DetailViews.Menger(depth)), new QueryContext());
+        var (collider, context) = (new ExactFractalCollider(CullingViews.Menger(depth)), new QueryContext());
         Seeded.Run(60, random =>
         {
             var position = random.Next(3) switch { 0 => random.Vector(1.5), 1 => new(random.NextDouble(), 0, 0), _ =>
                 0.5 * random.Next(4) * Vector.One };
-            var distances = Symmetric(position).Select(image =>
+            var distances = SymmetricPositions(position).Select(image =>
             {
-                Assert.True(collider.TryFindClosest(image, double.PositiveInfinity, record, out var closest));
+                Assert.True(collider.TryFindClosest(image, double.PositiveInfinity, context, out var closest));
                 Assert.True(closest.Normal.IsFinite());
                 return closest.Distance;
             }).ToArray();
@@ -89,9 +92,9 @@ public class ColliderStabilityTests(ITestOutputHelper output)
                 Tolerance, () => $"{position}");
         });
         // The hole in the middle has edges at a third: 1/3·√2 from the middle of a cube of half 1.
-        Assert.True(collider.TryFindClosest(Vector.Zero, double.PositiveInfinity, record, out var middle));
-        report.Require("distance of the middle of the sponge", Math.Abs(middle.Distance - (Math.Sqrt(2) / 3)), Tolerance,
-            () => $"{middle}");
+        Assert.True(collider.TryFindClosest(Vector.Zero, double.PositiveInfinity, context, out var centre));
+        report.Require("distance of the middle of the sponge", Math.Abs(centre.Distance - (Math.Sqrt(2) / 3)), Tolerance,
+            () => $"{centre}");
     }
 
     /// <summary>
@@ -102,10 +105,10 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     public void Find_AtEveryDepthTo200_IsOnTheInstanceThatThePathNames()
     {
         using var report = new StabilityReport(output);
-        var record = new QueryContext();
+        var context = new QueryContext();
         for (var depth = 1; depth <= 200; depth++)
         {
-            var fractal = Corners(depth, 1);
+            var fractal = CornerTetrahedra(depth, 1);
             var collider = new ExactFractalCollider(fractal);
             Seeded.RunOne(depth, random =>
             {
@@ -114,8 +117,8 @@ public class ColliderStabilityTests(ITestOutputHelper output)
                     var path = Enumerable.Range(0, depth).Select(_ => random.Next(4)).ToArray();
                     var (a, b, c) = fractal.BaseMesh.Face(random.Next(4));
                     var local = i % 3 == 0 ? a : i % 3 == 1 ? 0.5 * (a + b) : (0.25 * a) + (0.5 * b) + (0.25 * c);
-                    var position = Exactly(path, local, 1);
-                    Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest));
+                    var position = ExactPosition(path, local, 1);
+                    Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest));
                     report.Require("distance of what lies on an instance (of the size)", closest.Distance / fractal.Bounds.Diagonal,
                         Tolerance, () => $"depth {depth}, path {string.Join(' ', path)}, at {local}");
                 }
@@ -127,19 +130,19 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     public void Find_AtEveryDepthTo200_HasNothingNearer()
     {
         using var report = new StabilityReport(output);
-        var (record, compared) = (new QueryContext(), 0);
+        var (context, compared) = (new QueryContext(), 0);
         for (var depth = 1; depth <= 200; depth++)
         {
             // Quarters, which lie apart: balls are enough to tell which copies may be near.
-            var fractal = Corners(depth, 2);
-            var (probe, oracle) = (new FractalProbe($"depth {depth}", fractal), new DeepOracle(fractal));
+            var fractal = CornerTetrahedra(depth, 2);
+            var (probe, oracle) = (new ExactColliderChecker($"depth {depth}", fractal), new BranchAndBoundOracle(fractal));
             Seeded.RunOne(depth, random =>
             {
                 for (var i = 0; i < 3; i++)
                 {
                     // Beside an instance that some copies lead to: by as much as that part of the fractal measures.
                     var path = Enumerable.Range(0, random.Next(1, Math.Min(depth, 40) + 1)).Select(_ => random.Next(4)).ToArray();
-                    compared += IsNearest(report, probe, oracle, Exactly(path, random.Vector(3), 2), record) ? 1 : 0;
+                    compared += IsClosest(report, probe, oracle, ExactPosition(path, random.Vector(3), 2), context) ? 1 : 0;
                 }
             });
         }
@@ -156,31 +159,32 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     public void WorldPosition_OfAPathAndAPlaceInItsFrame_IsThatOfExactArithmetic()
     {
         using var report = new StabilityReport(output);
-        var fractal = Corners(null, 1);
-        var (table, probe, oracle, record) = (LodHierarchy.Build(fractal), new FractalProbe("halves", fractal), new DeepOracle(fractal),
+        var fractal = CornerTetrahedra(null, 1);
+        var (hierarchy, probe, oracle, context) = (LodHierarchy.Build(fractal), new ExactColliderChecker("halves", fractal),
+            new BranchAndBoundOracle(fractal),
             new QueryContext());
-        var deepest = 0;
+        var maxDepth = 0;
         Seeded.Run(10, random =>
         {
-            var address = new FractalAddress(table, AffineMap.Identity, new(3, 4, 5));
+            var address = new FractalAddress(hierarchy, AffineMap.Identity, new(3, 4, 5));
             while (address.Depth < 200)
             {
                 // Into some copy of where it is, to one of its corners, and not all of the way.
                 var child = fractal.LevelAt(0).Maps[random.Next(4)];
                 address.Move(0.7 * (address.FrameToCamera * (child * fractal.BaseMesh.Vertex(random.Next(4)))));
                 var local = address.FrameToCamera.Inverse() * Vector.Zero;
-                var (position, expected) = (address.WorldPosition(AffineMap.Identity), Exactly([.. address.Path], local, 1));
-                var size = FractalPositions.SizeOf(fractal, position);
+                var (position, expected) = (address.WorldPosition(AffineMap.Identity), ExactPosition([.. address.Path], local, 1));
+                var size = FractalPositions.Magnitude(fractal, position);
                 report.Require("world position of a path and a place in its frame (of the size)",
                     Near.Difference(expected, position) / size, Tolerance, () => $"depth {address.Depth}, {local}");
-                deepest = Math.Max(deepest, address.Depth);
+                maxDepth = Math.Max(maxDepth, address.Depth);
                 if (random.Next(10) == 0)
                 {
-                    IsNearest(report, probe, oracle, position, record);
+                    IsClosest(report, probe, oracle, position, context);
                 }
             }
         });
-        report.Note("depth", deepest);
+        report.Record("depth", maxDepth);
     }
 
     private void CheckPlaced(string placement, int seeds, [CallerMemberName] string test = "")
@@ -191,64 +195,69 @@ public class ColliderStabilityTests(ITestOutputHelper output)
             foreach (var (name, draw) in Shapes)
             {
                 CheckQueries(report, random, $"distance from placed objects (of the magnitude): {name}", draw(random),
-                    Place(random, placement), null);
+                    RandomPlacement(random, placement), null);
             }
         }));
     }
 
-    private void CheckDecades(string by, int first, int last, int seeds, [CallerMemberName] string test = "")
+    private void CheckDecades(string property, int first, int last, int seeds, [CallerMemberName] string test = "")
     {
-        using var report = new StabilityReport(output, by, test);
+        using var report = new StabilityReport(output, property, test);
         Parallel.For(0, (last - first + 1) * seeds, i => Seeded.RunOne(i, random =>
         {
             var decade = RoundNumbers.PowerOfTen(first + (i / seeds));
             foreach (var (name, draw) in Shapes)
             {
-                CheckQueries(report, random, $"distance by the {by} (of the magnitude): {name}", draw(random), PlaceBy(random, by, decade),
+                CheckQueries(report, random, $"distance by the {property} (of the magnitude): {name}", draw(random),
+                    RandomPlacementBy(random, property, decade),
                     decade);
             }
         }));
     }
 
     /// <summary>The distance that is told, and that of the point that is named: the worse is noted.</summary>
-    private static void CheckQueries(StabilityReport report, Random random, string what, Model model, Transformation place, double? at)
+    private static void CheckQueries(StabilityReport report, Random random, string quantity, Model model, Transformation placement,
+        double? at)
     {
         if (model.Mesh.FaceCount == 0 || (model is FractalModel { Fractal.InstanceCount: var count } && count == 0))
         {
             return;
         }
 
-        var faces = model is FractalModel { Fractal: var fractal } ? WorldFaces.Of(fractal, place) : WorldFaces.Of(model.Mesh, place);
-        var (collider, record) = (new SceneCollider(new(new(), [new(new("object", place), model)])), new QueryContext());
+        var faces = model is FractalModel { Fractal: var fractal }
+            ? ExactWorldTriangles.Of(fractal, placement)
+            : ExactWorldTriangles.Of(model.Mesh, placement);
+        var (collider, context) = (new SceneCollider(new Scene { Objects = [new(model) { Placement = placement }] }), new QueryContext());
         for (var query = 0; query < 10; query++)
         {
-            var position = faces.Position(random);
+            var position = faces.RandomPosition(random);
             var (expected, size) = (faces.Distance(position), faces.Magnitude(position));
-            Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, record, out var closest, out _));
-            Assert.True(closest.Normal.IsFinite() && closest.Point.IsFinite(), $"{what}: {place} at {position}: {closest}");
+            Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest, out _));
+            Assert.True(closest.Normal.IsFinite() && closest.Point.IsFinite(), $"{quantity}: {placement} at {position}: {closest}");
             var error = Math.Max(Math.Abs(closest.Distance - expected), Math.Abs((closest.Point - position).Length() - expected)) / size;
-            report.Require(what, error, Tolerance, () => $"{place} at {position}: {closest}, not {expected:R}", at);
+            report.Require(quantity, error, Tolerance, () => $"{placement} at {position}: {closest}, not {expected:R}", at);
         }
     }
 
     /// <summary>
     /// Checks that the answer is a point of the fractal, and that nothing is nearer; false where the oracle takes too long.
     /// </summary>
-    private static bool IsNearest(StabilityReport report, FractalProbe probe, DeepOracle oracle, Vector position, QueryContext record)
+    private static bool IsClosest(StabilityReport report, ExactColliderChecker probe, BranchAndBoundOracle oracle, Vector position,
+        QueryContext context)
     {
-        Assert.True(probe.Exact.TryFindClosest(position, double.PositiveInfinity, record, out var closest));
-        probe.CheckAnswer(position, record, closest);
-        if (oracle.Nearest(position, 20_000, closest.Distance) is not { } nearest)
+        Assert.True(probe.Collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest));
+        probe.CheckResult(position, context, closest);
+        if (oracle.FindClosestDistance(position, 20_000, closest.Distance) is not { } expected)
         {
             return false;
         }
 
         report.Require("farther than by branch and bound with balls (of the size)",
-            (closest.Distance - nearest) / FractalPositions.SizeOf(probe.Fractal, position), Tolerance, () => $"{position}");
+            (closest.Distance - expected) / FractalPositions.Magnitude(probe.Fractal, position), Tolerance, () => $"{position}");
         return true;
     }
 
-    private static Transformation Place(Random random, string placement)
+    private static Transformation RandomPlacement(Random random, string placement)
     {
         var (scale, far) = (Math.Pow(10, random.Between(-12, 12)), Math.Pow(10, random.Between(0, 9)));
         return placement switch
@@ -262,23 +271,23 @@ public class ColliderStabilityTests(ITestOutputHelper output)
         };
     }
 
-    private static Transformation PlaceBy(Random random, string by, double decade) => by switch
+    private static Transformation RandomPlacementBy(Random random, string property, double decade) => property switch
     {
         // Shapes measure some units.
         "translation in sizes" => new(decade * random.Direction(), random.Degrees(), Vector.One),
         "scale" => new(decade * random.Vector(), random.Degrees(), decade * Vector.One),
         "condition" => new(random.Vector(), random.Degrees(), new Vector(1, Math.Pow(decade, -random.NextDouble()), 1 / decade)),
-        _ => throw new ArgumentOutOfRangeException(nameof(by), by, null),
+        _ => throw new ArgumentOutOfRangeException(nameof(property), property, null),
     };
 
-    private static Transformation Similar(Random random) =>
+    private static Transformation RandomSimilarity(Random random) =>
         new(random.Vector(2), random.Degrees(), random.Between(0.3, 0.7) * (random.Next(2) == 0 ? Vector.One : new(-1, 1, 1)));
 
     /// <summary>
     /// Four copies of a tetrahedron in its corners, halves or quarters or smaller: whole numbers and powers of two, so that a map rounds
     /// nothing.
     /// </summary>
-    private static Fractal Corners(int? depth, int halvings) => Math.ScaleB(1, -halvings) switch
+    private static Fractal CornerTetrahedra(int? depth, int halvings) => Math.ScaleB(1, -halvings) switch
     {
         var ratio =>
             Samples.Repeated(depth,
@@ -289,7 +298,7 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     /// <summary>
     /// The place in the world, rounded once: (1 − r)·corner + r·((1 − r)·corner + …), with a common denominator of a power of two.
     /// </summary>
-    private static Vector Exactly(int[] path, Vector local, int halvings)
+    private static Vector ExactPosition(int[] path, Vector local, int halvings)
     {
         // 2⁻¹⁰⁷⁴ is the smallest power that a double has: every coordinate is a whole number of it.
         var exponent = -1074 - (halvings * path.Length);
@@ -297,10 +306,11 @@ public class ColliderStabilityTests(ITestOutputHelper output)
 
         double Along(Func<Vector, double> coordinate)
         {
-            var sum = Whole(coordinate(local), exponent + (halvings * path.Length));
+            var sum = ToInteger(coordinate(local), exponent + (halvings * path.Length));
             for (var i = 0; i < path.Length; i++)
             {
-                sum += Whole((1 - Math.ScaleB(1, -halvings)) * coordinate(Samples.Tetrahedron.Vertex(path[i])), exponent) >> (halvings * i);
+                sum += ToInteger((1 - Math.ScaleB(1, -halvings)) * coordinate(Samples.Tetrahedron.Vertex(path[i])), exponent) >> (halvings
+                    * i);
             }
 
             // Corners are small numbers: nothing but zeros is shifted out. 120 bits are left for the last rounding.
@@ -309,10 +319,10 @@ public class ColliderStabilityTests(ITestOutputHelper output)
         }
     }
 
-    private static BigInteger Whole(double x, int exponent) =>
+    private static BigInteger ToInteger(double x, int exponent) =>
         x == 0 ? 0 : new BigInteger(Math.ScaleB(x, 52 - Math.ILogB(x))) << (Math.ILogB(x) - 52 - exponent);
 
-    private static IEnumerable<Vector> Symmetric(Vector v) =>
+    private static IEnumerable<Vector> SymmetricPositions(Vector v) =>
         from order in (Vector[])[v, new(v.Y, v.Z, v.X), new(v.Z, v.X, v.Y), new(v.Y, v.X, v.Z), new(v.X, v.Z, v.Y), new(v.Z, v.Y, v.X)]
         from signs in Enumerable.Range(0, 8)
         select order.Stretch(new((signs & 1) == 0 ? 1 : -1, (signs & 2) == 0 ? 1 : -1, (signs & 4) == 0 ? 1 : -1));

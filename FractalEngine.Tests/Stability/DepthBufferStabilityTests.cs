@@ -56,25 +56,25 @@ public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
     {
         using var report = new StabilityReport(output, range);
         using var stage = new Stage();
-        var largestMixedUp = 0.0;
+        var maxFailingGap = 0.0;
         foreach (var distance in Distances(range))
         {
             // One distance alone may have luck with its roundings.
             var around = Enumerable.Range(0, 5).Select(i => distance * (1 - (0.0013 * i))).ToArray();
-            var (least, gap) = (double.PositiveInfinity, Millionth);
+            var (minGap, gap) = (double.PositiveInfinity, Millionth);
             while (gap > 1e-12 && around.All(near => stage.CountWrong(near, range, 0, gap) == 0))
             {
-                (least, gap) = (gap, gap / 2);
+                (minGap, gap) = (gap, gap / 2);
             }
 
-            largestMixedUp = Math.Max(largestMixedUp, gap);
+            maxFailingGap = Math.Max(maxFailingGap, gap);
             // A float has 24 bits: two depths that are one part in 10⁷ apart are next to each other. Ten of these, for the roundings of the
             // matrices.
-            report.Require("smallest gap that keeps its order by distance (of the distance)", least, Millionth,
+            report.Require("smallest gap that keeps its order by distance (of the distance)", minGap, Millionth,
                 () => $"at {distance} of {range}", distance);
         }
 
-        Assert.InRange(largestMixedUp, 1e-9, Millionth);
+        Assert.InRange(maxFailingGap, 1e-9, Millionth);
     }
 
     private static IEnumerable<double> Distances(double range) =>
@@ -84,7 +84,7 @@ public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
     /// <summary>Draws two squares that fill the picture, in full light.</summary>
     private sealed class Stage : IDisposable
     {
-        private readonly OffscreenContext _context = GlTests.Open();
+        private readonly OffscreenContext _context = GlTests.OpenContext();
         private readonly FrameRenderer _frame;
 
         public Stage() => _frame = new(_context);
@@ -109,7 +109,7 @@ public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
             _frame.Draw(renderer, new(new(Vector.Zero, Vector.Zero, 60), Projection.Perspective) { Clip = (Near, range * Near) }, Size,
                 Size, Settings);
             _context.Resources.ThrowOnError("drawing");
-            return RenderScenes.CountOther(_frame.Capture(), (255, 0, 0, 255));
+            return RenderScenes.CountDifferent(_frame.Capture(), (255, 0, 0, 255));
         }
 
         private static (Model Model, Transformation Placement, Colour? Colour) Square(double distance, double degrees, Colour colour) =>

@@ -20,7 +20,7 @@ internal sealed class ExactMatrix
         var (v1, v2, v3) = matrix;
         double[][] rows = [[v1.X, v2.X, v3.X], [v1.Y, v2.Y, v3.Y], [v1.Z, v2.Z, v3.Z]];
         _exponent = rows.SelectMany(row => row).Where(entry => entry != 0).Select(entry => Math.ILogB(entry) - 52).DefaultIfEmpty(0).Min();
-        _rows = [.. rows.Select(row => row.Select(entry => Integer(entry, _exponent)).ToArray())];
+        _rows = [.. rows.Select(row => row.Select(entry => ToInteger(entry, _exponent)).ToArray())];
         _determinant = Enumerable.Range(0, 3).Aggregate(BigInteger.Zero, (sum, column) => sum + (_rows[0][column] * Cofactor(0, column)));
     }
 
@@ -42,15 +42,15 @@ internal sealed class ExactMatrix
         return (_rows[r1][c1] * _rows[r2][c2]) - (_rows[r1][c2] * _rows[r2][c1]);
     }
 
-    private static BigInteger Integer(double x, int exponent)
+    private static BigInteger ToInteger(double x, int exponent)
     {
         if (x == 0)
         {
             return 0;
         }
 
-        var own = Math.ILogB(x) - 52;
-        return new BigInteger(Math.ScaleB(x, -own)) << (own - exponent);
+        var ulpExponent = Math.ILogB(x) - 52;
+        return new BigInteger(Math.ScaleB(x, -ulpExponent)) << (ulpExponent - exponent);
     }
 
     /// <summary>Times a power of two; 120 bits are kept before the quotient is rounded to a double.</summary>

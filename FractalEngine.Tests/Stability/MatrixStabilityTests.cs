@@ -9,8 +9,8 @@ namespace FractalEngine.Tests.Stability;
 public class MatrixStabilityTests(ITestOutputHelper output)
 {
     private const double Epsilon = 2.220446049250313e-16;
-    private const int Turns = 1_000_000;
-    private const int Around = 100_000;
+    private const int RotationCount = 1_000_000;
+    private const int FullTurnSteps = 100_000;
 
     public static TheoryData<int> Conditions => [.. Enumerable.Range(0, 17)];
 
@@ -22,7 +22,7 @@ public class MatrixStabilityTests(ITestOutputHelper output)
         using var report = new StabilityReport(output, exponent);
         Seeded.Run(1000, random =>
         {
-            var matrix = Draw(random, Math.Pow(10, exponent));
+            var matrix = RandomMatrix(random, Math.Pow(10, exponent));
             var exact = new ExactMatrix(matrix);
             if (exact.IsSingular)
             {
@@ -31,17 +31,17 @@ public class MatrixStabilityTests(ITestOutputHelper output)
 
             var inverse = exact.Inverse;
             var condition = 3 * matrix.MaxAbsEntry() * inverse.MaxAbsEntry();
-            report.Note("condition", condition);
+            report.Record("condition", condition);
             // Cofactors are right to two last places each, and so is each product of the determinant's sum; that the sum cancels down to a
             // part of 1/condition is what the condition means.
-            var error = Error(matrix, inverse);
+            var error = RelativeError(matrix, inverse);
             report.Require("inverse by the condition (relative error)", error, 8 * Epsilon * condition, () => $"{matrix}",
                 RoundNumbers.PowerOfTen(exponent));
             report.Require("inverse (relative error of condition × 2⁻⁵²)", error / (Epsilon * condition), 8, () => $"{matrix}");
             var largest = matrix.V1.Length() * matrix.V2.Length() * matrix.V3.Length();
             report.Require("determinant (error of the product of the columns' lengths)",
                 Math.Abs(matrix.Determinant() - exact.Determinant) / largest, 8 * Epsilon, () => $"{matrix}");
-            report.Note("determinant (relative error)", Math.Abs((matrix.Determinant() - exact.Determinant) / exact.Determinant));
+            report.Record("determinant (relative error)", Math.Abs((matrix.Determinant() - exact.Determinant) / exact.Determinant));
         });
     }
 
@@ -52,24 +52,27 @@ public class MatrixStabilityTests(ITestOutputHelper output)
         using var report = new StabilityReport(output);
         var random = new Random(1);
         var axis = random.Direction();
-        var (turn, sum, mixed, kept) = (Matrix.Rotation(axis, 0.001), Matrix.Identity, Matrix.Identity, Matrix.Identity);
+        var (rotation, sum, mixed, orthonormalised) = (Matrix.Rotation(axis, 0.001), Matrix.Identity, Matrix.Identity, Matrix.Identity);
         var turns = Enumerable.Range(0, 1000).Select(_ => Matrix.Rotation(random.Direction(), random.Between(-3, 3))).ToArray();
-        for (var i = 0; i < Turns; i++)
+        for (var i = 0; i < RotationCount; i++)
         {
-            (sum, mixed, kept) = (turn * sum, turns[i % turns.Length] * mixed, (turns[i % turns.Length] * kept).Orthonormalized());
+            (sum, mixed, orthonormalised) =
+                (rotation * sum, turns[i % turns.Length] * mixed, (turns[i % turns.Length] * orthonormalised).Orthonormalized());
         }
 
         // Three products and two sums an entry, and the factor itself is off by as much: at most 6 units of 2⁻⁵³ a turn, were they all on
         // one side.
-        const double Worst = Turns * 6 * Epsilon;
-        report.Require("one rotation a million times: columns' scalar products", Skew(sum), Worst, () => $"{sum}");
+        const double Worst = RotationCount * 6 * Epsilon;
+        report.Require("one rotation a million times: columns' scalar products", OrthogonalityError(sum), Worst, () => $"{sum}");
         report.Require("one rotation a million times: from the sum of the angles",
-            Near.Difference(Matrix.Rotation(axis, 0.001 * Turns), sum), Worst, () => $"{sum}");
-        report.Require("random rotations a million times: columns' scalar products", Skew(mixed), Worst, () => $"{mixed}");
+            Near.Difference(Matrix.Rotation(axis, 0.001 * RotationCount), sum), Worst, () => $"{sum}");
+        report.Require("random rotations a million times: columns' scalar products", OrthogonalityError(mixed), Worst, () => $"{mixed}");
         // Made orthonormal each time, only the last time's roundings are left.
-        report.Require("random rotations made orthonormal each time: columns' scalar products", Skew(kept), 8 * Epsilon, () => $"{kept}");
-        report.Require("random rotations made orthonormal each time: determinant − 1", Math.Abs(new ExactMatrix(kept).Determinant - 1),
-            8 * Epsilon, () => $"{kept}");
+        report.Require("random rotations made orthonormal each time: columns' scalar products", OrthogonalityError(orthonormalised),
+            8 * Epsilon, () => $"{orthonormalised}");
+        report.Require("random rotations made orthonormal each time: determinant − 1",
+            Math.Abs(new ExactMatrix(orthonormalised).Determinant - 1),
+            8 * Epsilon, () => $"{orthonormalised}");
     }
 
     /// <summary>EulerAngleTests go there and back once, at distances from 1e-13 on.</summary>
@@ -86,7 +89,7 @@ public class MatrixStabilityTests(ITestOutputHelper output)
             for (var i = 0; i < 100; i++)
             {
                 axes = axes.EulerAngles().LocalAxes();
-                report.Note(i == 0 ? "angles of a rotation and back: once" : "angles of a rotation and back: a hundred times",
+                report.Record(i == 0 ? "angles of a rotation and back: once" : "angles of a rotation and back: a hundred times",
                     Near.Difference(first, axes));
             }
 
@@ -102,34 +105,35 @@ public class MatrixStabilityTests(ITestOutputHelper output)
     {
         using var report = new StabilityReport(output);
         var (random, around, wandering) = (new Random(1), Camera.Default, Camera.Default);
-        for (var i = 0; i < Turns; i++)
+        for (var i = 0; i < RotationCount; i++)
         {
-            around = i < Around ? CameraNavigation.Turn(around, 2 * Math.PI / 1000, 0) : around;
+            around = i < FullTurnSteps ? CameraNavigation.Turn(around, 2 * Math.PI / 1000, 0) : around;
             wandering = CameraNavigation.Turn(wandering, random.Between(-1, 1), random.Between(-1, 1));
         }
 
         // A camera's axes are made from its angles anew each time.
-        report.Require("camera turned a million times: axes' scalar products", Math.Max(Skew(around.LocalAxes), Skew(wandering.LocalAxes)),
+        report.Require("camera turned a million times: axes' scalar products",
+            Math.Max(OrthogonalityError(around.LocalAxes), OrthogonalityError(wandering.LocalAxes)),
             8 * Epsilon, () => $"{wandering.LocalAxes}");
         report.Require("camera turned a million times: inverse of its axes",
             Near.Difference(Matrix.Identity, wandering.LocalAxes * wandering.LocalAxesInverse), 8 * Epsilon,
             () => $"{wandering.LocalAxes}");
         // Each step's angle, matrix and angles back are off by some last places of π.
         report.Require("camera's heading after a hundred full turns", Near.Difference(Matrix.Identity, around.LocalAxes),
-            Around * 6 * Epsilon, () => $"{around.Rotation}");
+            FullTurnSteps * 6 * Epsilon, () => $"{around.Rotation}");
         // Right stays level: what of it points up is roll. Steps near the zenith, 0.1° away at most, magnify roundings by their distance's
         // reciprocal, 573.
-        report.Require("camera's roll after a million random turns", Math.Abs(wandering.LocalAxes.V1.Y), Turns * 6 * Epsilon,
+        report.Require("camera's roll after a million random turns", Math.Abs(wandering.LocalAxes.V1.Y), RotationCount * 6 * Epsilon,
             () => $"{wandering.LocalAxes}");
     }
 
-    private static Matrix Draw(Random random, double condition) =>
+    private static Matrix RandomMatrix(Random random, double condition) =>
         random.Orthogonal() * Matrix.Diagonal(new(1, Math.Pow(condition, -random.NextDouble()), 1 / condition)) * random.Orthogonal();
 
     /// <summary>
     /// Of the largest entry. At a condition of 1e16 the determinant may round to 0: that is said, and an error as large as the inverse.
     /// </summary>
-    private static double Error(Matrix matrix, Matrix expected)
+    private static double RelativeError(Matrix matrix, Matrix expected)
     {
         try
         {
@@ -141,5 +145,5 @@ public class MatrixStabilityTests(ITestOutputHelper output)
         }
     }
 
-    private static double Skew(Matrix rotation) => Near.Difference(Matrix.Identity, rotation.Transpose() * rotation);
+    private static double OrthogonalityError(Matrix rotation) => Near.Difference(Matrix.Identity, rotation.Transpose() * rotation);
 }

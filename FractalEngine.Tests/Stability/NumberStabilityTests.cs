@@ -45,10 +45,10 @@ public class NumberStabilityTests(ITestOutputHelper output)
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
     public void Formats_InAnyCulture_AreWrittenAndReadToTheSameBits(string culture) => Seeded.Run(30, random =>
     {
-        var numbers = Enumerable.Range(0, 9).Select(_ => Finite(random) % 1e30).ToArray();
-        Assert.Equal(Written(numbers), InCulture.Get(culture, () => Written(numbers)));
-        Assert.Equal(ReadBack(numbers), InCulture.Get(culture, () => ReadBack(numbers)));
-        Assert.Equal(string.Join(' ', numbers.Select(Bits)), InCulture.Get(culture, () => ReadBack(numbers)));
+        var numbers = Enumerable.Range(0, 9).Select(_ => RandomFinite(random) % 1e30).ToArray();
+        Assert.Equal(Written(numbers), InCulture.Run(culture, () => Written(numbers)));
+        Assert.Equal(ReadBack(numbers), InCulture.Run(culture, () => ReadBack(numbers)));
+        Assert.Equal(string.Join(' ', numbers.Select(Bits)), InCulture.Run(culture, () => ReadBack(numbers)));
     });
 
     private void CheckText(int batches, [CallerMemberName] string test = "")
@@ -58,7 +58,7 @@ public class NumberStabilityTests(ITestOutputHelper output)
         {
             for (var i = 0; i < Batch; i++)
             {
-                var text = Text(random);
+                var text = RandomDecimalText(random);
                 var expected = double.Parse(text, NumberStyles.Float, CultureInfo.InvariantCulture);
                 Assert.True(NumberReader.TryRead(text, out var value, out var length) && length == text.Length, text);
                 report.Require("decimal texts whose bits are not those of double.Parse",
@@ -82,7 +82,7 @@ public class NumberStabilityTests(ITestOutputHelper output)
         {
             for (var i = 0; i < Batch; i++)
             {
-                var number = Finite(random);
+                var number = RandomFinite(random);
                 Assert.True(NumberReader.TryRead(number.ToString("R", CultureInfo.InvariantCulture), out var value, out _));
                 report.Require("numbers written and read whose bits changed: doubles",
                     BitConverter.DoubleToInt64Bits(number) == BitConverter.DoubleToInt64Bits(value) ? 0 : 1, 0, () => $"{number}: {value}");
@@ -99,22 +99,22 @@ public class NumberStabilityTests(ITestOutputHelper output)
     }
 
     /// <summary>Plain, with exponents, subnormal, at the ends of the range, and exactly or nearly between two doubles.</summary>
-    private static string Text(Random random) => random.Next(8) switch
+    private static string RandomDecimalText(Random random) => random.Next(8) switch
     {
-        0 => $"{Digits(random, 1, 20)}.{Digits(random, 0, 20)}",
-        1 => $"-{Digits(random, 1, 19)}e{random.Next(-345, 312)}",
-        2 => $"{Digits(random, 1, 18)}.{Digits(random, 0, 18)}E{random.Next(-40, 40):+00;-00}",
-        3 => $"{Digits(random, 1, 17)}e-{random.Next(305, 345)}",
-        4 => $".{Digits(random, 1, 800)}e{random.Next(-400, 300)}",
-        5 => Between(BitConverter.Int64BitsToDouble(random.NextInt64(1L << 52)), random.Next(3)),
-        _ => Between(BitConverter.Int64BitsToDouble(random.NextInt64(0x7FEFFFFFFFFFFFFF)) switch { var d when d > 1e250 =>
+        0 => $"{RandomDigits(random, 1, 20)}.{RandomDigits(random, 0, 20)}",
+        1 => $"-{RandomDigits(random, 1, 19)}e{random.Next(-345, 312)}",
+        2 => $"{RandomDigits(random, 1, 18)}.{RandomDigits(random, 0, 18)}E{random.Next(-40, 40):+00;-00}",
+        3 => $"{RandomDigits(random, 1, 17)}e-{random.Next(305, 345)}",
+        4 => $".{RandomDigits(random, 1, 800)}e{random.Next(-400, 300)}",
+        5 => MidpointText(BitConverter.Int64BitsToDouble(random.NextInt64(1L << 52)), random.Next(3)),
+        _ => MidpointText(BitConverter.Int64BitsToDouble(random.NextInt64(0x7FEFFFFFFFFFFFFF)) switch { var d when d > 1e250 =>
             Math.Sqrt(d), var d => d }, random.Next(3)),
     };
 
     /// <summary>All digits of the middle between a number and its neighbour; or the same a little less or more.</summary>
-    private static string Between(double number, int more)
+    private static string MidpointText(double number, int more)
     {
-        var (mantissa, exponent) = Parts(number);
+        var (mantissa, exponent) = Decompose(number);
         var (middle, power) = ((2 * mantissa) + 1, exponent - 1);
         // m·2⁻ᵏ = m·5ᵏ·10⁻ᵏ
         var (digits, ten) = power >= 0 ? (middle << power, 0) : (middle * BigInteger.Pow(5, -power), power);
@@ -131,7 +131,7 @@ public class NumberStabilityTests(ITestOutputHelper output)
     /// </summary>
     private static double UnitsOff(string text, double value)
     {
-        var (mantissa, exponent) = Parts(value);
+        var (mantissa, exponent) = Decompose(value);
         var lower = text.ToUpperInvariant().Split('E');
         var (whole, fraction) = lower[0].TrimStart('-').Split('.') switch { [var w, var f] => (w, f), [var w] => (w, ""), _ => ("", "") };
         var decimals = BigInteger.Parse("0" + whole + fraction, CultureInfo.InvariantCulture);
@@ -145,17 +145,18 @@ public class NumberStabilityTests(ITestOutputHelper output)
     }
 
     /// <summary>|number| = mantissa·2^exponent.</summary>
-    private static (BigInteger Mantissa, int Exponent) Parts(double number)
+    private static (BigInteger Mantissa, int Exponent) Decompose(double number)
     {
         var bits = BitConverter.DoubleToInt64Bits(number);
         var (field, fraction) = ((int)((bits >> 52) & 0x7FF), bits & 0xFFFFFFFFFFFFF);
         return field == 0 ? (fraction, -1074) : (fraction | (1L << 52), field - 1075);
     }
 
-    private static string Digits(Random random, int least, int most) =>
-        string.Concat(Enumerable.Range(0, random.Next(least, most + 1)).Select(_ => (char)('0' + random.Next(10))));
+    private static string RandomDigits(Random random, int minCount, int maxCount) =>
+        string.Concat(Enumerable.Range(0, random.Next(minCount, maxCount + 1)).Select(_ => (char)('0' + random.Next(10))));
 
-    private static double Finite(Random random) => BitConverter.Int64BitsToDouble(random.NextInt64(long.MinValue, long.MaxValue)) switch
+    private static double RandomFinite(Random random) =>
+        BitConverter.Int64BitsToDouble(random.NextInt64(long.MinValue, long.MaxValue)) switch
     {
         var number when double.IsFinite(number) => number,
         _ => random.Next(2) == 0 ? double.Epsilon : double.MaxValue,
@@ -192,7 +193,7 @@ public class NumberStabilityTests(ITestOutputHelper output)
                 $"v {Invariant(numbers[0])} {Invariant(numbers[1])} {Invariant(numbers[2])}\nt.a. (a, #, #)\nx. \"b.obj\"\n<$>. [t.1] x\n");
         var material = MtlParser.Parse(new("a.mtl", $"newmtl m\nNs {Invariant(Math.Abs(numbers[0]) % 1000)}\n"));
         Assert.Equal(Math.Abs(numbers[0]) % 1000, material.Materials["m"].SpecularExponent);
-        Assert.Equal(new Vector(numbers[0], numbers[1], numbers[2]), Naive.Levels(fractal.Description.Steps).Single()[0].Position);
+        Assert.Equal(new Vector(numbers[0], numbers[1], numbers[2]), NaiveFractal.Levels(fractal.Description.Steps).Single()[0].Position);
         Assert.Equal(string.Join(' ', numbers.Select(Bits)), string.Join(' ', points.SelectMany(Components).Select(Bits)));
         Assert.Equal(string.Join(' ', numbers[..6].Select(Bits)),
             string.Join(' ', scene.Objects.Select(o => o.Placement.Position).SelectMany(Components).Select(Bits)));

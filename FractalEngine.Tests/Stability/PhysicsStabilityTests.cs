@@ -31,7 +31,7 @@ public class PhysicsStabilityTests(ITestOutputHelper output)
         Seeded.Run(step < 1e-3 ? 4 : 50, random =>
         {
             var (e, height) = (random.Between(0.5, 1), random.Between(0.5, 2));
-            var world = Worlds.Of(Worlds.Gravity, step, Worlds.Place(PhysicsMeshes.Floor()));
+            var world = TestWorlds.Create(TestWorlds.Gravity, step, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
             var body = world.Add(new(new(0, 0.1 + height, 0), 0.1) { Restitution = e });
             while (body.Velocity.Y <= 0)
             {
@@ -52,13 +52,13 @@ public class PhysicsStabilityTests(ITestOutputHelper output)
     public void Rest_OnASponge_DoesNotMove(bool sleeps)
     {
         using var report = new StabilityReport(output, sleeps ? "asleep" : "awake");
-        var world = Worlds.Of(Worlds.Gravity, new PhysicsSettings { SleepSpeed = sleeps ? null : 0 },
-            Worlds.Place(AssetFractals.Load("menger", 2)));
+        var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings { SleepSpeed = sleeps ? null : 0 },
+            TestWorlds.Place(AssetFractals.Load("menger", 2)));
         var body = world.Add(new(new(0.02, 0.9, 0.01), 0.2) { Friction = 0.5 });
         world.Run(600);
-        var place = body.Position;
+        var restPosition = body.Position;
         world.Run(20_000,
-            () => report.Require("way from the place of rest on a sponge (units)", (body.Position - place).Length(), 1e-9,
+            () => report.Require("way from the place of rest on a sponge (units)", (body.Position - restPosition).Length(), 1e-9,
             () => $"after {world.StepCount} steps"));
     }
 
@@ -82,7 +82,7 @@ public class PhysicsStabilityTests(ITestOutputHelper output)
     private void CheckEnergy(double step, int steps, [CallerMemberName] string test = "")
     {
         using var report = new StabilityReport(output, step, test);
-        var world = Worlds.Of(Worlds.Gravity, step, Worlds.Place(PhysicsMeshes.Floor()));
+        var world = TestWorlds.Create(TestWorlds.Gravity, step, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         // The fastest that a step's gravity adds is small beside the speed of the impacts, so that none counts as rest.
         world.Add(new(new(0.3, 3.1, -0.2), 0.1) { Restitution = 1 });
         var energy = world.Energy();
@@ -97,7 +97,8 @@ public class PhysicsStabilityTests(ITestOutputHelper output)
 
     private static string Hash(int seed)
     {
-        var (random, world) = (new Random(seed), Worlds.Of(Worlds.Gravity, 1 / 60.0, Worlds.Place(AssetFractals.Load("menger", 2))));
+        var (random, world) =
+            (new Random(seed), TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(AssetFractals.Load("menger", 2))));
         world.AddRange(Enumerable.Range(0, 6)
             .Select(i => new BodyDescription(new((i % 3 * 0.3) - 0.3, 0.8, (i / 3 * 0.3) - 0.2), 0.1) { Velocity = random.Vector(),
             Restitution = random.NextDouble() }));

@@ -18,7 +18,7 @@ namespace FractalEngine.Tests.Stability;
 internal sealed class StabilityReport(ITestOutputHelper output, object? argument = null, [CallerMemberName] string method = "",
     [CallerFilePath] string file = "") : IDisposable
 {
-    private readonly Dictionary<(string What, double? At), Noted> _noted = [];
+    private readonly Dictionary<(string What, double? At), Measurement> _measurements = [];
     private readonly Lock _lock = new();
 
     /// <summary>Class, method, argument.</summary>
@@ -29,22 +29,22 @@ internal sealed class StabilityReport(ITestOutputHelper output, object? argument
     /// <param name="what">What the value is of.</param>
     /// <param name="value">The value.</param>
     /// <param name="at">Where on a curve: one of few places, each of which has its own largest too.</param>
-    public void Note(string what, double value, double? at = null) => Add(what, value, null, at);
+    public void Record(string what, double value, double? at = null) => Add(what, value, null, at);
 
     /// <summary>Notes an error, and fails where it is larger than promised, or NaN.</summary>
     /// <param name="what">What the error is of.</param>
     /// <param name="error">Not negative.</param>
     /// <param name="bound">The largest allowed.</param>
-    /// <param name="about">What repeats the case.</param>
+    /// <param name="describeCase">What repeats the case.</param>
     /// <param name="at">Where on a curve.</param>
-    public void Require(string what, double error, double bound, Func<FormattableString> about, double? at = null)
+    public void Require(string what, double error, double bound, Func<FormattableString> describeCase, double? at = null)
     {
         Add(what, error, bound, at);
         if (!(error <= bound))
         {
             throw new XunitException(
                 string.Create(CultureInfo.InvariantCulture,
-                $"{what}: {error:R}, allowed {bound:R}: {about().ToString(CultureInfo.InvariantCulture)}"));
+                $"{what}: {error:R}, allowed {bound:R}: {describeCase().ToString(CultureInfo.InvariantCulture)}"));
         }
     }
 
@@ -63,9 +63,10 @@ internal sealed class StabilityReport(ITestOutputHelper output, object? argument
         }
 
         var table = new CsvTable(path, "stability", "test", "what", "at", "cases", "worst", "promised");
-        foreach (var ((what, at), noted) in _noted.OrderBy(item => item.Key.What, StringComparer.Ordinal).ThenBy(item => item.Key.At))
+        foreach (var ((what, at), measurement) in _measurements.OrderBy(item => item.Key.What, StringComparer.Ordinal)
+            .ThenBy(item => item.Key.At))
         {
-            table.Add(Test, what, at, noted.Cases, noted.Worst, noted.Promised);
+            table.Add(Test, what, at, measurement.Cases, measurement.WorstValue, measurement.Promised);
         }
 
         table.Save();
@@ -73,11 +74,13 @@ internal sealed class StabilityReport(ITestOutputHelper output, object? argument
 
     public void Dispose()
     {
-        foreach (var ((what, at), noted) in _noted)
+        foreach (var ((what, at), measurement) in _measurements)
         {
             if (at is null)
             {
-                output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{what}: at most {noted.Worst:G3} in {noted.Cases} cases"));
+                output.WriteLine(
+                    string.Create(CultureInfo.InvariantCulture,
+                    $"{what}: at most {measurement.WorstValue:G3} in {measurement.Cases} cases"));
             }
         }
 
@@ -91,24 +94,25 @@ internal sealed class StabilityReport(ITestOutputHelper output, object? argument
     {
         lock (_lock)
         {
-            _noted[(what, null)] = _noted.GetValueOrDefault((what, null), Noted.Nothing).With(value, promised);
+            _measurements[(what, null)] = _measurements.GetValueOrDefault((what, null), Measurement.Nothing).With(value, promised);
             if (at is not null)
             {
-                _noted[(what, at)] = _noted.GetValueOrDefault((what, at), Noted.Nothing).With(value, promised);
+                _measurements[(what, at)] = _measurements.GetValueOrDefault((what, at), Measurement.Nothing).With(value, promised);
             }
         }
     }
 
     /// <param name="Cases">How many.</param>
-    /// <param name="Worst">Of their values.</param>
+    /// <param name="WorstValue">Of their values.</param>
     /// <param name="Promised">The bound of the worst, which may differ from case to case; the smallest where several are as bad.</param>
-    private readonly record struct Noted(long Cases, double Worst, double? Promised)
+    private readonly record struct Measurement(long Cases, double WorstValue, double? Promised)
     {
-        public static readonly Noted Nothing = new(0, double.NegativeInfinity, null);
+        public static readonly Measurement Nothing = new(0, double.NegativeInfinity, null);
 
-        public Noted With(double value, double? promised)
+        public Measurement With(double value, double? promised)
         {
-            var isWorse = value > Worst || (double.IsNaN(value) && !double.IsNaN(Worst)) || (value.Equals(Worst) && promised < Promised);
+            var isWorse = value > WorstValue || (double.IsNaN(value) && !double.IsNaN(WorstValue))
+                || (value.Equals(WorstValue) && promised < Promised);
             return isWorse ? new(Cases + 1, value, promised) : this with { Cases = Cases + 1 };
         }
     }

@@ -12,14 +12,14 @@ public class StabilityReportTests(ITestOutputHelper output)
     public void Save_InAnyOrder_IsOneTableUnderEveryCulture(string culture)
     {
         using var folder = new TemporaryFolder();
-        var report = InCulture.Get(culture, () => new StabilityReport(output, 1.5));
+        var report = InCulture.Run(culture, () => new StabilityReport(output, 1.5));
         report.Require("length, of the size", 0.25, 0.5, () => $"");
-        report.Note("angle", 3e-17, at: 10);
+        report.Record("angle", 3e-17, at: 10);
         report.Require("angle", 0.125, 4, () => $"", at: 2);
         report.Require("angle", 0.125, 3, () => $"", at: 2);
-        report.Note("none", double.NaN);
-        report.Note("none", 1);
-        InCulture.Get(culture, () =>
+        report.Record("none", double.NaN);
+        report.Record("none", 1);
+        InCulture.Run(culture, () =>
         {
             report.Save(folder["new"]);
             return "";

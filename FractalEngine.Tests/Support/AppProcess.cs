@@ -9,7 +9,7 @@ namespace FractalEngine.Tests.Support;
 internal static class AppProcess
 {
     // Long enough for a loaded machine; a hang is a failure.
-    private static readonly TimeSpan Patience = TimeSpan.FromSeconds(60);
+    private static readonly TimeSpan Timeout = TimeSpan.FromSeconds(60);
 
     /// <summary>Runs the program to its end.</summary>
     /// <param name="folder">The working directory.</param>
@@ -18,25 +18,25 @@ internal static class AppProcess
 
     /// <summary>Runs the program to its end with some variables of the environment changed; null removes one.</summary>
     public static AppResult Run(string folder, Dictionary<string, string?> environment, params string[] arguments) =>
-        End(Start(folder, environment, arguments), arguments);
+        WaitForResult(Start(folder, environment, arguments), arguments);
 
     /// <summary>Runs the program of the benchmarks to its end.</summary>
     public static AppResult RunBenchmarks(string folder, params string[] arguments) =>
-        End(Start("FractalEngine.Benchmarks", folder, [], arguments), arguments);
+        WaitForResult(Start("FractalEngine.Benchmarks", folder, [], arguments), arguments);
 
     /// <summary>Starts the program; whoever calls waits for its end.</summary>
     public static Process Start(string folder, Dictionary<string, string?> environment, params string[] arguments) =>
         Start("FractalEngine.App", folder, environment, arguments);
 
-    private static AppResult End(Process process, string[] arguments)
+    private static AppResult WaitForResult(Process process, string[] arguments)
     {
         using var ended = process;
         var output = process.StandardOutput.ReadToEndAsync();
         var error = process.StandardError.ReadToEndAsync();
-        if (!process.WaitForExit(Patience))
+        if (!process.WaitForExit(Timeout))
         {
             process.Kill(entireProcessTree: true);
-            throw new TimeoutException($"{string.Join(' ', arguments)} did not end within {Patience}");
+            throw new TimeoutException($"{string.Join(' ', arguments)} did not end within {Timeout}");
         }
 
         return new(process.ExitCode, output.GetAwaiter().GetResult(), error.GetAwaiter().GetResult());

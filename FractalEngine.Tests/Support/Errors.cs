@@ -5,10 +5,10 @@ namespace FractalEngine.Tests.Support;
 /// <summary>Whole messages: file, line, column, text, the source line and the caret.</summary>
 internal static class Errors
 {
-    public static string Of(Func<object> parse) => Assert.Throws<SourceException>(() => { parse(); }).Message;
+    public static string MessageOf(Func<object> parse) => Assert.Throws<SourceException>(() => { parse(); }).Message;
 
-    public static SourceException Thrown(Func<object> parse) => Assert.Throws<SourceException>(() => { parse(); });
+    public static SourceException ThrownBy(Func<object> parse) => Assert.Throws<SourceException>(() => { parse(); });
 
-    public static void Are(string expected, Func<object> parse) =>
-        Assert.Equal(expected.ReplaceLineEndings("\n"), Of(parse));
+    public static void AssertMessage(string expected, Func<object> parse) =>
+        Assert.Equal(expected.ReplaceLineEndings("\n"), MessageOf(parse));
 }

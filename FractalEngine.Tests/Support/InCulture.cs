@@ -8,7 +8,7 @@ internal static class InCulture
     /// <summary>Comma decimals; dotless i; other digits, signs and calendar.</summary>
     public static TheoryData<string> Names { get; } = ["de-DE", "tr-TR", "ar-SA"];
 
-    public static T Get<T>(string name, Func<T> get)
+    public static T Run<T>(string name, Func<T> get)
     {
         var before = CultureInfo.CurrentCulture;
         CultureInfo.CurrentCulture = new(name);

@@ -26,7 +26,7 @@ internal static class Laws
         Gen.Choose(int.MinValue, int.MaxValue).Two().Select(t => BitConverter.Int64BitsToDouble(((long)t.Item1 << 32) | (uint)t.Item2))
             .Where(double.IsFinite));
 
-    public static void Hold<T>(Gen<T> inputs, Func<T, bool> law) => Prop.ForAll(inputs.ToArbitrary(), law).Check(Replayed);
+    public static void CheckForAll<T>(Gen<T> inputs, Func<T, bool> law) => Prop.ForAll(inputs.ToArbitrary(), law).Check(Replayed);
 
-    public static void Hold<T>(Gen<T> inputs, Action<T> law) => Prop.ForAll(inputs.ToArbitrary(), law).Check(Replayed);
+    public static void CheckForAll<T>(Gen<T> inputs, Action<T> law) => Prop.ForAll(inputs.ToArbitrary(), law).Check(Replayed);
 }

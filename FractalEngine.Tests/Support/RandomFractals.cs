@@ -6,29 +6,29 @@ namespace FractalEngine.Tests.Support;
 /// <summary>Small fractals of every shape: rotations, skew, mirrors, the identity, sets above, below and between recursives.</summary>
 internal static class RandomFractals
 {
-    public static Fractal Draw(Random random, Composition composition = Composition.Affine, bool infinite = false)
+    public static Fractal Create(Random random, Composition composition = Composition.Affine, bool infinite = false)
     {
-        TransformationSet[] body = random.Next(3) == 0 ? [Set(random), Set(random, 2)] : [Set(random)];
+        TransformationSet[] body = random.Next(3) == 0 ? [RandomSet(random), RandomSet(random, 2)] : [RandomSet(random)];
         List<FractalStep> steps = [new Repetition([.. body], infinite ? null : random.Next(0, body.Length == 1 ? 4 : 3))];
         if (random.Next(2) == 0)
         {
-            steps.Add(Set(random, 2));
+            steps.Add(RandomSet(random, 2));
         }
 
         if (random.Next(2) == 0)
         {
-            steps.Insert(0, Set(random, 2));
+            steps.Insert(0, RandomSet(random, 2));
         }
 
         if (random.Next(4) == 0)
         {
-            steps.Add(new Repetition([new Repetition([Set(random, 2)], 1)], 2));
+            steps.Add(new Repetition([new Repetition([RandomSet(random, 2)], 1)], 2));
         }
 
-        return new(new("base.obj", [.. steps], composition), Samples.Tetrahedron);
+        return new(new([.. steps], composition), Samples.Tetrahedron);
     }
 
-    private static TransformationSet Set(Random random, int most = 4) =>
-        new([.. Enumerable.Range(0, random.Next(1, most + 1))
+    private static TransformationSet RandomSet(Random random, int maxCount = 4) =>
+        new([.. Enumerable.Range(0, random.Next(1, maxCount + 1))
         .Select(_ => random.Next(6) == 0 ? Transformation.Identity : random.Transformation())]);
 }

@@ -72,7 +72,7 @@ internal static class Samples
 
     /// <summary>One set repeated: S^depth.</summary>
     public static Fractal Repeated(int? depth, params Transformation[] set) =>
-        new(new("base.obj", [new Repetition([new TransformationSet([.. set])], depth)]), Tetrahedron);
+        new(new([new Repetition([new TransformationSet([.. set])], depth)]), Tetrahedron);
 
     public static Transformation Move(double x, double y, double z) => Transformation.Identity with { Position = new(x, y, z) };
 

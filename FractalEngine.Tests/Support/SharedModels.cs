@@ -4,17 +4,17 @@ namespace FractalEngine.Tests.Support;
 internal static class SharedModels
 {
     /// <summary>The nearest <c>shared/models</c> beside a folder above the tests; null when there is none.</summary>
-    public static string? Folder { get; } = Above(AppContext.BaseDirectory).Select(folder => Path.Combine(folder, "shared", "models"))
+    public static string? Folder { get; } = Ancestors(AppContext.BaseDirectory).Select(folder => Path.Combine(folder, "shared", "models"))
         .FirstOrDefault(folder => File.Exists(Path.Combine(folder, "TABLE.tsv")));
 
     /// <summary>The file's name, its number of vertices and of triangles, as an independent script counted them.</summary>
-    public static IEnumerable<(string File, int Vertices, int Triangles)> Table() =>
+    public static IEnumerable<(string File, int Vertices, int Triangles)> ReadTable() =>
         from line in File.ReadLines(Path.Combine(Folder!, "TABLE.tsv")).Skip(1)
         let cells = line.Split('\t')
         select (cells[0], int.Parse(cells[2], System.Globalization.CultureInfo.InvariantCulture),
         int.Parse(cells[4], System.Globalization.CultureInfo.InvariantCulture));
 
-    private static IEnumerable<string> Above(string folder)
+    private static IEnumerable<string> Ancestors(string folder)
     {
         for (DirectoryInfo? above = new(folder); above is not null; above = above.Parent)
         {

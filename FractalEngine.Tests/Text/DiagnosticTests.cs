@@ -45,7 +45,7 @@ public class DiagnosticTests
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
     public void ToString_InAnyCulture_IsTheSame(string culture) => Assert.Equal(
-        "f:12345:6: error: m", InCulture.Get(culture, () => new Diagnostic("f", 12345, 6, DiagnosticSeverity.Error, "m").ToString()));
+        "f:12345:6: error: m", InCulture.Run(culture, () => new Diagnostic("f", 12345, 6, DiagnosticSeverity.Error, "m").ToString()));
 
     [Theory]
     [InlineData(0, 1, 1, "one")]

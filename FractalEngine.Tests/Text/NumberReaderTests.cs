@@ -14,12 +14,12 @@ public class NumberReaderTests
         {
             AssertEqual((i % 5) switch
             {
-                0 => $"{Sign(random)}{Digits(random, 1, 20)}.{Digits(random, 0, 20)}",
-                1 => $"{Sign(random)}{Digits(random, 1, 17)}e{random.Next(-345, 312)}",
-                2 => $"{Sign(random)}0.{new string('0', random.Next(0, 40))}{Digits(random, 1, 60)}E{(random.Next(2) == 0 ? "+" : "-")}{random.Next(0, 330):00}",
+                0 => $"{RandomSign(random)}{RandomDigits(random, 1, 20)}.{RandomDigits(random, 0, 20)}",
+                1 => $"{RandomSign(random)}{RandomDigits(random, 1, 17)}e{random.Next(-345, 312)}",
+                2 => $"{RandomSign(random)}0.{new string('0', random.Next(0, 40))}{RandomDigits(random, 1, 60)}E{(random.Next(2) == 0 ? "+" : "-")}{random.Next(0, 330):00}",
                 3 => BitConverter.Int64BitsToDouble(random.NextInt64()) switch { var d when double.IsFinite(d) =>
                     d.ToString("R", CultureInfo.InvariantCulture), _ => "1" },
-                _ => $"{Sign(random)}.{Digits(random, 1, 9)}",
+                _ => $"{RandomSign(random)}.{RandomDigits(random, 1, 9)}",
             });
         }
     });
@@ -124,7 +124,7 @@ public class NumberReaderTests
 
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
-    public void TryRead_InAnyCulture_IsTheSame(string culture) => InCulture.Get(culture, () =>
+    public void TryRead_InAnyCulture_IsTheSame(string culture) => InCulture.Run(culture, () =>
     {
         AssertEqual("-1.5");
         AssertEqual("-1234567890.12345678901234567890e-5");
@@ -151,8 +151,8 @@ public class NumberReaderTests
         }
     }
 
-    private static string Sign(Random random) => random.Next(3) switch { 0 => "-", 1 => "+", _ => "" };
+    private static string RandomSign(Random random) => random.Next(3) switch { 0 => "-", 1 => "+", _ => "" };
 
-    private static string Digits(Random random, int least, int most) =>
-        string.Concat(Enumerable.Range(0, random.Next(least, most + 1)).Select(_ => (char)('0' + random.Next(10))));
+    private static string RandomDigits(Random random, int minCount, int maxCount) =>
+        string.Concat(Enumerable.Range(0, random.Next(minCount, maxCount + 1)).Select(_ => (char)('0' + random.Next(10))));
 }

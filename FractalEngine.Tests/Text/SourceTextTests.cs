@@ -22,14 +22,14 @@ public sealed class SourceTextTests : IDisposable
     [Theory]
     [InlineData(false)]
     [InlineData(true)]
-    public void Read_OfUtf16_NamesTheEncoding(bool bigEndian) => Errors.Are(
+    public void Read_OfUtf16_NamesTheEncoding(bool bigEndian) => Errors.AssertMessage(
         "named:1:1: error: the file is UTF-16 text, expected UTF-8: save it in that encoding",
         () => Read([.. new UnicodeEncoding(bigEndian, true).GetPreamble(), .. new UnicodeEncoding(bigEndian, true).GetBytes("v 1 2 3\n")]));
 
     [Fact]
     public void Read_OfUtf16WithoutAMark_IsRefusedAtItsFirstNul()
     {
-        var error = Errors.Thrown(() => Read(Encoding.Unicode.GetBytes("v 1 2 3\n"))).Diagnostic;
+        var error = Errors.ThrownBy(() => Read(Encoding.Unicode.GetBytes("v 1 2 3\n"))).Diagnostic;
         Assert.Equal((1, 2), (error.Line, error.Column));
         Assert.Contains("binary", error.Message, StringComparison.Ordinal);
     }
@@ -39,13 +39,13 @@ public sealed class SourceTextTests : IDisposable
     [InlineData(true)]
     public void Read_OfABinaryFile_IsRefusedInEveryEncoding(bool acceptLatin1) =>
         Assert.Contains(": error: the file is binary",
-        Errors.Of(() => Read([0x89, (byte)'P', (byte)'N', (byte)'G', 13, 10, 26, 10, 0, 0, 0, 13], acceptLatin1)),
+        Errors.MessageOf(() => Read([0x89, (byte)'P', (byte)'N', (byte)'G', 13, 10, 26, 10, 0, 0, 0, 13], acceptLatin1)),
         StringComparison.Ordinal);
 
     [Fact]
     public void Read_OfLatin1_IsRefusedWithItsPlace()
     {
-        var error = Errors.Thrown(() => Read(Encoding.Latin1.GetBytes("# one\n# Größe\n"))).Diagnostic;
+        var error = Errors.ThrownBy(() => Read(Encoding.Latin1.GetBytes("# one\n# Größe\n"))).Diagnostic;
         Assert.Equal((2, 5), (error.Line, error.Column));
         Assert.Contains("UTF-8", error.Message, StringComparison.Ordinal);
     }
@@ -60,18 +60,18 @@ public sealed class SourceTextTests : IDisposable
 
     [Fact]
     public void Read_OfADirectory_SaysSo() =>
-        Errors.Are("named:1:1: error: this is a directory, expected a file", () => SourceText.Read(_folder.Path, "named", 100));
+        Errors.AssertMessage("named:1:1: error: this is a directory, expected a file", () => SourceText.Read(_folder.Path, "named", 100));
 
     [Theory]
     [InlineData("missing.obj")]
     [InlineData("no/such/folder.obj")]
     public void Read_OfAMissingFile_SaysSo(string name) =>
-        Errors.Are("named:1:1: error: file not found", () => SourceText.Read(_folder[name], "named", 100));
+        Errors.AssertMessage("named:1:1: error: file not found", () => SourceText.Read(_folder[name], "named", 100));
 
     [Fact]
     public void Read_BeyondTheLimit_NamesIt()
     {
-        var error = Errors.Thrown(() => SourceText.Read(_folder.Write("f", new string('#', 101)), "named", 100)).Diagnostic;
+        var error = Errors.ThrownBy(() => SourceText.Read(_folder.Write("f", new string('#', 101)), "named", 100)).Diagnostic;
         Assert.True(error.IsLimitExceeded);
         Assert.Equal("the file has 101 bytes, more than the limit of 100", error.Message);
     }
@@ -85,7 +85,7 @@ public sealed class SourceTextTests : IDisposable
     {
         Skip.IfNot(File.Exists("/dev/zero"), "there is no /dev/zero");
         Assert.Equal("named:1:1: error: this is a pipe or a device, expected a file",
-            Errors.Thrown(() => SourceText.Read("/dev/zero", "named", 100)).Diagnostic.ToString());
+            Errors.ThrownBy(() => SourceText.Read("/dev/zero", "named", 100)).Diagnostic.ToString());
     }
 
     private SourceText Read(byte[] bytes, bool acceptLatin1 = false)

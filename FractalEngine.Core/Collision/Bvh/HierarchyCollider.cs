@@ -47,7 +47,7 @@ public sealed class HierarchyCollider(Mesh mesh) : Collider
     }
 
     /// <inheritdoc/>
-    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
+    protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
         var closestTriangle = new ClosestTriangle(DistanceCutoff.FromRadius(maxDistance));

@@ -21,7 +21,7 @@ internal sealed class SubFractalBuilder
     private const long EndlessRounds = 1L << 40;
 
     private readonly Fractal _fractal;
-    private readonly Dictionary<TransformationSet, MapSet> _sets = [];
+    private readonly Dictionary<TransformationSet, MapSet> _sets = new(ReferenceEqualityComparer.Instance);
     private readonly List<SubFractal> _subFractals = [];
     private readonly List<BoundingVolume> _volumes = [];
     private readonly List<ChildEdge[]> _edges = [];

@@ -78,7 +78,7 @@ public sealed partial class FractalCollider : Collider
         + (sizeof(int) * (long)_baseMesh.VertexIndices.Length) + _baseBvh.StorageBytes;
 
     /// <inheritdoc/>
-    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
+    protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
         context.ClearPath();

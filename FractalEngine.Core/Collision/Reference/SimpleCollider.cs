@@ -40,7 +40,7 @@ public sealed class SimpleCollider(Mesh mesh) : Collider
     }
 
     /// <inheritdoc/>
-    private protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
+    protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
         context.ClearPath();

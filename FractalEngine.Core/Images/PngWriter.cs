@@ -1,0 +1,58 @@
+using System.Buffers.Binary;
+using System.IO.Compression;
+
+namespace FractalEngine.Core.Images;
+
+/// <summary>Writes PNG images (W3C, "Portable Network Graphics (PNG) Specification", third edition).</summary>
+public static class PngWriter
+{
+    /// <summary>Writes an image as RGBA of 8 bits, not interlaced, without any chunk that is not needed.</summary>
+    /// <param name="image">At least one pixel.</param>
+    /// <param name="stream">Where to; left open. Need not seek.</param>
+    /// <exception cref="ArgumentException">The image has no pixels, or not as many as its sides say.</exception>
+    /// <exception cref="IOException">The stream can't be written.</exception>
+    /// <remarks>
+    /// Equal images give equal bytes on one version of .NET: another one may bring another version of its compressor. Holds 6 rows and
+    /// 64 KiB beside the image. Costs 20 to 150 ns a pixel, nearly all of it compression.
+    /// </remarks>
+    public static void Write(PixelImage image, Stream stream)
+    {
+        ArgumentNullException.ThrowIfNull(image);
+        ArgumentNullException.ThrowIfNull(stream);
+        if (image.Width < 1 || image.Height < 1 || image.Pixels.Length != 4L * image.Width * image.Height)
+        {
+            throw new ArgumentException(
+                $"{image.Width}×{image.Height} pixels of {image.Pixels.Length} bytes, expected at least one pixel and 4 bytes for each",
+                nameof(image));
+        }
+
+        var chunks = new PngChunkWriter(stream);
+        chunks.WriteSignature();
+        WriteHeader(image, chunks);
+        using var data = new PngDataWriter(chunks);
+        using (var compressed = new ZLibStream(data, CompressionLevel.Optimal, leaveOpen: true))
+        {
+            var stride = 4 * image.Width;
+            var filter = new PngFilter(stride);
+            for (var y = 0; y < image.Height; y++)
+            {
+                compressed.Write(filter.Apply(image.Pixels.AsSpan(y * stride, stride)));
+            }
+        }
+
+        data.WriteRest();
+        chunks.Write(PngChunk.End, []);
+    }
+
+    private static void WriteHeader(PixelImage image, PngChunkWriter chunks)
+    {
+        Span<byte> header = stackalloc byte[PngHeader.Bytes];
+        BinaryPrimitives.WriteInt32BigEndian(header, image.Width);
+        BinaryPrimitives.WriteInt32BigEndian(header[4..], image.Height);
+        header[8] = 8;
+        header[9] = (byte)PngColourType.Rgba;
+        // The methods of compression and filtering, of which there is one each, and no interlacing.
+        header[10..].Clear();
+        chunks.Write(PngChunk.Header, header);
+    }
+}

@@ -1,0 +1,24 @@
+using System.Numerics;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+
+namespace FractalEngine.Core.Scenes;
+
+/// <summary>A model that shows all instances of a fractal.</summary>
+/// <param name="fractal">In its own frame, scene units.</param>
+public sealed class FractalModel(Fractal fractal) : Model
+{
+    /// <summary>The fractal that the model shows.</summary>
+    public Fractal Fractal { get; } = fractal;
+
+    /// <inheritdoc/>
+    public override Mesh Mesh => Fractal.BaseMesh;
+
+    /// <inheritdoc/>
+    public override BigInteger? InstanceCount => Fractal.InstanceCount;
+
+    /// <inheritdoc/>
+    public override BoundingBox Bounds => Fractal.Bounds;
+
+    private protected override string KindName => "fractal";
+}

@@ -1,0 +1,20 @@
+using System.Numerics;
+using FractalEngine.Core.Geometry;
+
+namespace FractalEngine.Core.Scenes;
+
+/// <summary>A model that shows one mesh.</summary>
+/// <param name="mesh">In its own frame, scene units.</param>
+public sealed class MeshModel(Mesh mesh) : Model
+{
+    /// <inheritdoc/>
+    public override Mesh Mesh { get; } = mesh;
+
+    /// <inheritdoc/>
+    public override BigInteger? InstanceCount => BigInteger.One;
+
+    /// <inheritdoc/>
+    public override BoundingBox Bounds => Mesh.Bounds;
+
+    private protected override string KindName => "mesh";
+}

@@ -1,0 +1,17 @@
+using FractalEngine.App;
+
+namespace FractalEngine.Tests.App;
+
+public class BodyCsvWriterTests
+{
+    [Theory]
+    [InlineData("ball", "ball")]
+    [InlineData("", "")]
+    [InlineData("#3", "#3")]
+    [InlineData(" a b ", " a b ")]
+    [InlineData("red, large", "\"red, large\"")]
+    [InlineData("the \"big\" one", "\"the \"\"big\"\" one\"")]
+    [InlineData("two\nlines", "\"two\nlines\"")]
+    [InlineData("two\rlines", "\"two\rlines\"")]
+    public void Quote_IsOnlyUsedWhereAFieldNeedsIt(string text, string expected) => Assert.Equal(expected, BodyCsvWriter.Quote(text));
+}

@@ -1,0 +1,36 @@
+using FractalEngine.Core.Collision;
+using FractalEngine.Benchmarks.Precision;
+using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Benchmarks;
+
+public class FloatVersusDoubleTests
+{
+    // The kernel that is measured in both precisions must be the engine's, or its errors say nothing of the engine.
+    [Fact]
+    public void DistanceSquared_InDoubles_IsTheEnginesToTheBit() => Seeded.Run(3000, random =>
+    {
+        var (position, a, b, c) = AdversarialTriangle.Random(random);
+        Assert.Equal(
+            BitConverter.DoubleToInt64Bits(TriangleKernel.ClosestPoint(position, a, b, c).DistanceSquared),
+            BitConverter.DoubleToInt64Bits(
+                GenericTriangleKernel<double>.DistanceSquared(Triple(position), Triple(a), Triple(b), Triple(c))));
+    });
+
+    [Fact]
+    public void WorstError_FarAway_IsThatOfTheCoordinatesRounding()
+    {
+        var set = FloatVersusDouble.CoordinateSets[1];
+        var (single, precise, engine) = (FloatVersusDouble.MeasureTriangles<float>(set), FloatVersusDouble.MeasureTriangles<double>(set),
+            FloatVersusDouble.MeasureEngineKernel(set));
+        // Coordinates are up to 1001, of which each rounding takes 2⁻²⁴ or 2⁻⁵³.
+        Assert.InRange(single.WorstError, 1e-6, 1e-3);
+        Assert.InRange(precise.WorstError, 1e-15, 1e-12);
+        Assert.Equal((precise.WorstError, precise.PercentAboveExact), (engine.WorstError, engine.PercentAboveExact));
+        Assert.InRange(single.PercentAboveExact, 1, 99);
+    }
+
+    private static GenericTriangleKernel<double>.Triple Triple(Vector v) => new(v.X, v.Y, v.Z);
+}

@@ -1,0 +1,80 @@
+using FractalEngine.Core.Images;
+using FractalEngine.Benchmarks.Drawing;
+
+namespace FractalEngine.Tests.Benchmarks;
+
+public class ImageErrorTests
+{
+    [Fact]
+    public void PeakSignalToNoiseRatio_OfEqualImages_IsInfinite() =>
+        Assert.Equal(double.PositiveInfinity, ImageError.PeakSignalToNoiseRatio(Grey(4, 3, 100), Grey(4, 3, 100)));
+
+    [Theory]
+    // 20·log₁₀(255 / difference).
+    [InlineData(0, 255, 0)]
+    [InlineData(255, 0, 0)]
+    [InlineData(100, 101, 48.130803608679)]
+    [InlineData(60, 9, 13.979400086720)]
+    public void PeakSignalToNoiseRatio_OfImagesThatDifferEverywhere_IsTheLogarithmOfTheDifference(byte grey1, byte grey2,
+    double decibels) =>
+        Assert.Equal(decibels, ImageError.PeakSignalToNoiseRatio(Grey(3, 2, grey1), Grey(3, 2, grey2)), 1e-11);
+
+    [Fact]
+    public void PeakSignalToNoiseRatio_OfImagesThatDifferInOneComponent_IsOfTheMeanSquare()
+    {
+        var image = Grey(10, 10, 50);
+        // One of 300 components is off by 30: the mean square is 3.
+        image.Pixels[(4 * 37) + 1] += 30;
+        Assert.Equal(20 * Math.Log10(255 / Math.Sqrt(3)), ImageError.PeakSignalToNoiseRatio(Grey(10, 10, 50), image), 1e-12);
+        Assert.Equal(ImageError.PeakSignalToNoiseRatio(image, Grey(10, 10, 50)),
+            ImageError.PeakSignalToNoiseRatio(Grey(10, 10, 50), image));
+    }
+
+    [Fact]
+    public void PeakSignalToNoiseRatio_OfImagesThatDifferInAlpha_IsInfinite()
+    {
+        var image = Grey(2, 2, 50);
+        image.Pixels[3] = 0;
+        Assert.Equal(double.PositiveInfinity, ImageError.PeakSignalToNoiseRatio(Grey(2, 2, 50), image));
+    }
+
+    [Theory]
+    [InlineData(3, 2)]
+    [InlineData(2, 3)]
+    // As many pixels.
+    [InlineData(1, 4)]
+    public void PeakSignalToNoiseRatio_OfImagesOfTwoSizes_Throws(int width, int height) =>
+        Assert.Throws<ArgumentException>("image2", () => ImageError.PeakSignalToNoiseRatio(Grey(2, 2, 0), Grey(width, height, 0)));
+
+    [Fact]
+    public void Downsample_OfBlackAndWhite_IsHalfTheLightNotHalfTheValue()
+    {
+        var image = new PixelImage(2, 1, [.. Grey(1, 1, 0).Pixels, .. Grey(1, 1, 255).Pixels]);
+        image = new(2, 2, [.. image.Pixels, .. image.Pixels]);
+        // The sRGB value of half the light of white; the mean of the values would be 128.
+        Assert.Equal((188, 188, 188, 255), ImageError.Downsample(image, 2)[0, 0]);
+    }
+
+    [Fact]
+    public void Downsample_OfOneColour_IsTheSameColour()
+    {
+        for (var grey = 0; grey < 256; grey++)
+        {
+            Assert.Equal(Grey(2, 1, (byte)grey).Pixels, ImageError.Downsample(Grey(6, 3, (byte)grey), 3).Pixels);
+        }
+    }
+
+    [Fact]
+    public void Downsample_OfFourColours_KeepsTheirPlaces()
+    {
+        // Each 2 × 2 pixels of one colour.
+        byte[][] colours = [[10, 20, 30, 255], [40, 50, 60, 255], [70, 80, 90, 255], [100, 110, 120, 255]];
+        byte[] Row(int left, int right) => [.. colours[left], .. colours[left], .. colours[right], .. colours[right]];
+        var shrunk = ImageError.Downsample(new(4, 4, [.. Row(0, 1), .. Row(0, 1), .. Row(2, 3), .. Row(2, 3)]), 2);
+        Assert.Equal((2, 2), (shrunk.Width, shrunk.Height));
+        Assert.Equal(colours.SelectMany(colour => colour), shrunk.Pixels);
+    }
+
+    private static PixelImage Grey(int width, int height, byte value) =>
+        new(width, height, [.. Enumerable.Range(0, 4 * width * height).Select(i => i % 4 == 3 ? byte.MaxValue : value)]);
+}

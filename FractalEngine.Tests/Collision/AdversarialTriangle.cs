@@ -1,0 +1,67 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Tests.Collision;
+
+/// <summary>A triangle and a position, of all the sorts that break closest-point code.</summary>
+internal readonly record struct AdversarialTriangle(Vector Position, Vector A, Vector B, Vector C)
+{
+    /// <summary>What errors are measured against: the largest coordinate.</summary>
+    public double Magnitude =>
+        Math.Max(Math.Max(Position.MaxAbsComponent(), A.MaxAbsComponent()), Math.Max(B.MaxAbsComponent(), C.MaxAbsComponent()));
+
+    public static AdversarialTriangle Random(Random random)
+    {
+        var (a, b, c) = RandomVertices(random);
+        var position = RandomPosition(random, a, b, c);
+        // A power of ten from 1e-30 to 1e30, and now and then a place far from the origin.
+        var scale = random.Next(2) == 0 ? 1 : Math.Pow(10, random.Next(-30, 31));
+        var offset = random.Next(4) == 0 ? Math.Pow(10, random.Next(0, 9)) * RandomInCube(random) : Vector.Zero;
+        return new(scale * (position + offset), scale * (a + offset), scale * (b + offset), scale * (c + offset));
+    }
+
+    public static Vector RandomInCube(Random random) =>
+        new((2 * random.NextDouble()) - 1, (2 * random.NextDouble()) - 1, (2 * random.NextDouble()) - 1);
+
+    /// <summary>A position on a corner, an edge, the face or its plane, or near, or far from it.</summary>
+    public static Vector RandomPosition(Random random, Vector a, Vector b, Vector c)
+    {
+        var (u, v) = (random.NextDouble(), random.NextDouble());
+        (u, v) = u + v > 1 ? (1 - u, 1 - v) : (u, v);
+        var inside = a + (u * (b - a)) + (v * (c - a));
+        var normal = Vector.Cross(b - a, c - a);
+        return random.Next(10) switch
+        {
+            0 => a,
+            1 => b,
+            2 => c,
+            3 => a + (u * (b - a)),
+            4 => inside,
+            5 => inside + (Math.Pow(10, random.Next(-16, 2)) * normal),
+            6 => a + (((4 * u) - 2) * (b - a)) + (((4 * v) - 2) * (c - a)),
+            7 => Math.Pow(10, random.Next(0, 9)) * RandomInCube(random),
+            8 => inside + (Math.Pow(10, random.Next(-16, 2)) * RandomInCube(random)),
+            _ => 2 * RandomInCube(random),
+        };
+    }
+
+    private static (Vector A, Vector B, Vector C) RandomVertices(Random random)
+    {
+        var (a, b, c) = (RandomInCube(random), RandomInCube(random), RandomInCube(random));
+        var small = Math.Pow(10, -random.Next(0, 18));
+        (a, b, c) = random.Next(10) switch
+        {
+            0 => (a, b, b + (small * c)),
+            1 => (a, b, a + (random.NextDouble() * (b - a)) + (small * c)),
+            2 => (a, b, a + (random.Next(-4, 5) / 4.0 * (b - a))),
+            3 => (a, a, c),
+            4 => (a, a, a),
+            5 => (RoundToEighths(a), RoundToEighths(b), RoundToEighths(c)),
+            6 => (RoundToEighths(a), RoundToEighths(a) + RoundToEighths(b), RoundToEighths(a) + (random.Next(-3, 4) * RoundToEighths(b))),
+            7 => (a.Stretch(new(1, 0, 1)), b.Stretch(new(1, 0, 1)), c.Stretch(new(1, 0, 1))),
+            _ => (a, b, c),
+        };
+        return random.Next(3) switch { 0 => (a, b, c), 1 => (b, c, a), _ => (c, a, b) };
+    }
+
+    private static Vector RoundToEighths(Vector v) => new(Math.Round(8 * v.X), Math.Round(8 * v.Y), Math.Round(8 * v.Z));
+}

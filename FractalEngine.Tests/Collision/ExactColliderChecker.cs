@@ -1,0 +1,122 @@
+using System.Globalization;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Collision.Reference;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Support;
+using Xunit.Sdk;
+
+namespace FractalEngine.Tests.Collision;
+
+/// <summary>
+/// Checks what the exact collider answers about a fractal against what another way of finding it says. Any number of threads may.
+/// </summary>
+/// <param name="name">For failures: the fractal and its depth.</param>
+/// <param name="fractal">In affine composition.</param>
+internal sealed class ExactColliderChecker(string name, Fractal fractal)
+{
+    // Distances are those of points rounded to the last places of coordinates, over a chain of some maps.
+    public const double Tolerance = 1e-12;
+
+    // Where a point lies is known less well than its distance; the base's nearest point may move along a thin face.
+    private const double PointTolerance = 1e-9;
+
+    public Fractal Fractal { get; } = fractal;
+
+    public ExactFractalCollider Collider { get; } = new(fractal);
+
+    /// <summary>Every face.</summary>
+    public static Collider BruteForce(Fractal fractal, long limit = 10_000_000) =>
+        new SimpleCollider(FractalGenerator.Flatten(fractal, limit));
+
+    /// <summary>Queries a position and fails unless all of the answer is right.</summary>
+    /// <param name="position">Finite.</param>
+    /// <param name="context">Of the thread.</param>
+    /// <param name="expected">The nearest distance.</param>
+    public ClosestPoint CheckQuery(Vector position, QueryContext context, double expected)
+    {
+        var size = FractalPositions.Magnitude(Fractal, position);
+        var found = Collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest);
+        ThrowUnless(found, position, "nothing found");
+        ThrowUnless(Math.Abs(closest.Distance - expected) <= Tolerance * size, position,
+            $"distance {closest.Distance:R}, not {expected:R}, of size {size}");
+        CheckResult(position, context, closest);
+        return closest;
+    }
+
+    /// <summary>Fails unless the point, the normal, the weights and the instance of an answer belong together.</summary>
+    public void CheckResult(Vector position, QueryContext context, ClosestPoint closest)
+    {
+        var size = FractalPositions.Magnitude(Fractal, position);
+        ThrowUnless(Math.Abs((closest.Point - position).Length() - closest.Distance) <= PointTolerance * size, position,
+            $"point {closest.Point} is not at distance {closest.Distance:R}");
+        ThrowUnless(Math.Abs(closest.Normal.Length() - 1) <= 1e-12, position, $"normal {closest.Normal}");
+        var map = FindInstanceMap(position, context);
+        var (a, b, c) = Fractal.BaseMesh.Face(closest.FaceIndex);
+        var (weightA, weightB, weightC) = closest.Barycentrics;
+        var isWeight = Math.Min(weightA, Math.Min(weightB, weightC)) >= 0 && Math.Abs(weightA + weightB + weightC - 1) <= 1e-12;
+        ThrowUnless(isWeight, position, $"weights {closest.Barycentrics}");
+        (a, b, c) = (map * a, map * b, map * c);
+        var point = (weightA * a) + (weightB * b) + (weightC * c);
+        ThrowUnless(Near.Difference(point, closest.Point) <= Tolerance * size, position,
+            $"weights give {point} on instance {FormatPath(context)}, not {closest.Point}");
+        // A thin face's normal is less certain, but by much less than this.
+        var (ab, ac) = (b - a, c - a);
+        var isFlat = Math.Abs(Vector.Dot(closest.Normal, ab)) <= 1e-6 * ab.Length() && Math.Abs(Vector.Dot(closest.Normal, ac)) <= 1e-6
+            * ac.Length();
+        ThrowUnless(isFlat || ab.Length() + ac.Length() < Tolerance * size, position, $"normal {closest.Normal} is not that of the face");
+    }
+
+    /// <summary>
+    /// Asks again with little more than the distance that is known to be right. A bound that is too large by far less than copies are apart
+    /// leaves the nearest copy out here, while else it mostly changes no more than the order of copies.
+    /// </summary>
+    public void CheckMaxDistance(Vector position, QueryContext context, double distance)
+    {
+        var size = FractalPositions.Magnitude(Fractal, position);
+        var maxDistance = distance + (Tolerance * size);
+        ThrowUnless(Collider.TryFindClosest(position, maxDistance, context, out var closest), position,
+            $"nothing within {maxDistance:R}, though it is at {distance:R}");
+        ThrowUnless(Math.Abs(closest.Distance - distance) <= Tolerance * size, position,
+            $"distance {closest.Distance:R} within {maxDistance:R}, not {distance:R}");
+        var justBelow = distance - (Tolerance * size);
+        ThrowUnless(justBelow < 0 || !Collider.TryFindClosest(position, justBelow, context, out closest), position,
+            $"found at {closest.Distance:R} within {justBelow:R}");
+    }
+
+    public void ThrowUnless(bool condition, Vector position, FormattableString message)
+    {
+        if (!condition)
+        {
+            throw new XunitException(
+                string.Create(CultureInfo.InvariantCulture,
+                $"{name}, position new({position.X:R}, {position.Y:R}, {position.Z:R}): {message.ToString(CultureInfo.InvariantCulture)}"));
+        }
+    }
+
+    private void ThrowUnless(bool condition, Vector position, string message) =>
+        ThrowUnless(condition, position, (FormattableString)$"{message}");
+
+    private AffineMap FindInstanceMap(Vector position, QueryContext context)
+    {
+        var map = AffineMap.Identity;
+        for (var level = 0; level < context.InstancePath.Length; level++)
+        {
+            map *= Fractal.LevelAt(level).Maps[context.InstancePath[level]];
+        }
+
+        // It may end early where what is left is below the precision, and else go on with identities only.
+        var isSmall = BoundingSphere.OperatorNormBound(map.Linear) * Fractal.BaseMesh.Bounds.Diagonal <= Tolerance
+            * Fractal.Bounds.Diagonal;
+        var pathLength = context.InstancePath.Length;
+        var hasIdentities = Fractal.LevelCount is not { } count || Enumerable.Range(pathLength, (int)Math.Min(100, count - pathLength))
+            .All(level => Fractal.LevelAt(level).Maps.Contains(AffineMap.Identity));
+        ThrowUnless(isSmall || pathLength == Fractal.LevelCount || (Fractal.LevelCount is null or > 2000 && hasIdentities), position,
+            $"the path ends at {FormatPath(context)}");
+        return map;
+    }
+
+    private static string FormatPath(QueryContext context) => $"[{string.Join(", ", context.InstancePath.ToArray())}]";
+}

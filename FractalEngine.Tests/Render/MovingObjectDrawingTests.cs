@@ -1,0 +1,103 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
+using FractalEngine.Render.Preparation;
+
+namespace FractalEngine.Tests.Render;
+
+/// <summary>What physics moves: it is drawn as if it stood there, and what stands is not chosen again.</summary>
+[Collection(GlTests.Name)]
+public sealed class MovingObjectDrawingTests
+{
+    private const int Width = 320;
+    private const int Height = 240;
+
+    private static readonly Camera Camera = new(new(0, 2, -8), new(0.2, 0, 0), 50);
+    private static readonly RenderSettings Settings = new();
+
+    [SkippableFact]
+    public void Frame_OfMovedBodies_IsThatOfStaticObjectsThere()
+    {
+        using var context = GlTests.OpenContext();
+        using var frame = new FrameRenderer(context);
+        var (first, second) = (RenderScenes.TranslatedTo(-2, 0.5, -1), RenderScenes.TranslatedTo(1.5, 0.5, -2));
+        using var movedRenderer = new SceneRenderer(context, DrawableScene.Prepare(CreateScene(first, isBody: true), Settings));
+        Draw(frame, movedRenderer);
+        movedRenderer.Move(1, second.ToAffineMap());
+        var image = Draw(frame, movedRenderer);
+        using var staticRenderer = new SceneRenderer(context, DrawableScene.Prepare(CreateScene(second, isBody: false), Settings));
+        Assert.True(ImageComparison.PeakSignalToNoiseRatio(image, Draw(frame, staticRenderer)) >= ImageComparison.MinSameDecibels);
+    }
+
+    [SkippableFact]
+    public void Frame_WhileOnlyBodiesMove_DoesNotCullAgain()
+    {
+        using var context = GlTests.OpenContext();
+        using var frame = new FrameRenderer(context);
+        using var renderer =
+            new SceneRenderer(context, DrawableScene.Prepare(CreateScene(RenderScenes.TranslatedTo(-2, 0.5, -1), isBody: true), Settings));
+        var before = Draw(frame, renderer);
+        var cullCount = renderer.Statistics.CullCount;
+        for (var i = 0; i < 5; i++)
+        {
+            // Also out of the scene, and out of sight.
+            renderer.Move(1, AffineMap.Translate(new(-2 + i, 0.5 - (30 * i), -1)));
+            Draw(frame, renderer);
+        }
+
+        Assert.Equal(cullCount, renderer.Statistics.CullCount);
+        renderer.Move(1, AffineMap.Translate(new(-2, 0.5, -1)));
+        Assert.Equal(before.Pixels, Draw(frame, renderer).Pixels);
+    }
+
+    [SkippableFact]
+    public void Spheres_AreRoundAndAtTheirPositions()
+    {
+        using var context = GlTests.OpenContext();
+        using var frame = new FrameRenderer(context);
+        using var renderer =
+            new SceneRenderer(context, DrawableScene.Prepare(CreateScene(RenderScenes.TranslatedTo(-2, 0.5, -1), isBody: true), Settings));
+        var without = Draw(frame, renderer);
+        var (centre, radius) = (new Vector(2, 2.5, -3), 0.5);
+        renderer.Spheres = [new(centre, radius)];
+        var with = Draw(frame, renderer);
+        var changed = 0;
+        var view = View.Of(renderer.Scene.Source, (double)Width / Height, Camera);
+        for (var y = 0; y < Height; y++)
+        {
+            for (var x = 0; x < Width; x++)
+            {
+                changed += without.Pixels.AsSpan(4 * ((y * Width) + x), 4).SequenceEqual(with.Pixels.AsSpan(4 * ((y * Width) + x), 4))
+                    ? 0
+                    : 1;
+            }
+        }
+
+        // The disc of a ball at this depth; what it covers beside its edge changes.
+        var depth = view.Camera.ToCameraSpace(centre).Z;
+        var pixels = radius / depth / view.Camera.HalfHeightAtUnitDepth * 0.5 * Height;
+        Assert.InRange(changed, 0.9 * Math.PI * pixels * pixels, 1.25 * Math.PI * (pixels + 1) * (pixels + 1));
+        renderer.Spheres = [];
+        Assert.Equal(without.Pixels, Draw(frame, renderer).Pixels);
+    }
+
+    private static PixelImage Draw(FrameRenderer frame, SceneRenderer renderer)
+    {
+        frame.Draw(renderer, View.Of(renderer.Scene.Source, (double)Width / Height, Camera), Width, Height, Settings);
+        return frame.Capture();
+    }
+
+    /// <summary>A sponge, and a cube before it.</summary>
+    private static LoadedScene CreateScene(Transformation placement, bool isBody)
+    {
+        var scene = new Scene { Camera = Camera, Lights = [RenderScenes.FullLight], Clip = (0.1, 100) };
+        var cube = isBody ? new PhysicsObject("cube.obj", placement, 0.5) : new SceneObject("cube.obj", placement);
+        return new(scene,
+        [
+            new(new("menger.fdo", RenderScenes.TranslatedTo(0, 0, 1)), RenderScenes.Menger(3)),
+            new(cube with { Colour = new Colour(0.9, 0.2, 0.2) }, RenderScenes.Model(RenderScenes.Cube(0.5), "cube.obj")),
+        ]);
+    }
+}
