@@ -39,7 +39,7 @@ internal sealed class WindowRenderer(FrameRenderer frame)
         LatestView = null;
     }
 
-    /// <summary>Draws a frame.</summary>
+    /// <summary>Draws one frame of the document.</summary>
     /// <param name="document">The document to draw; null for the background alone.</param>
     /// <param name="settings">The render settings for a camera at rest.</param>
     /// <param name="width">Width of the frame in pixels.</param>

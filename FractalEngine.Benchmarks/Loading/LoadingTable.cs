@@ -22,7 +22,7 @@ internal static class LoadingTable
     public static IEnumerable<string> AssetFiles => Directory.GetFiles(Path.Combine(FractalCase.Assets, "fractals"), "*.fdo")
         .Concat(Directory.GetFiles(Path.Combine(FractalCase.Assets, "scenes"), "*.sdo")).Order(StringComparer.Ordinal);
 
-    /// <summary>Writes the table.</summary>
+    /// <summary>Measures and writes all rows of the table.</summary>
     public static void Write(TableOptions options)
     {
         var table = options.CreateTable("loading.csv", "file", "faces", "bytes", "step", "ms", "megabytes_a_second");

@@ -7,7 +7,7 @@ internal sealed class AlphaTexture : GlObject
 {
     private readonly int _name;
 
-    /// <summary>Uploads the texels.</summary>
+    /// <summary>Uploads the texels of a texture.</summary>
     /// <param name="resources">Resources of the current context.</param>
     /// <param name="label">Name of the texture, for messages.</param>
     /// <param name="width">Width in texels.</param>

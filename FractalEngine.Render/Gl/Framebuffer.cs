@@ -11,7 +11,7 @@ internal sealed class Framebuffer : GlObject
     private readonly int _colour;
     private readonly int _depth;
 
-    /// <summary>Allocates a framebuffer.</summary>
+    /// <summary>Allocates a framebuffer and its attachments.</summary>
     /// <param name="resources">Resources of the current context.</param>
     /// <param name="label">Name of the framebuffer, for messages.</param>
     /// <param name="width">Width in pixels, at least 1.</param>

@@ -26,7 +26,7 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     private long _frameNumber;
     private (FrameView Frame, bool Wireframe, Shading Shading)? _frameState;
 
-    /// <summary>Begins a frame.</summary>
+    /// <summary>Begins drawing the meshes of a frame.</summary>
     /// <param name="frame">View of the frame.</param>
     /// <param name="wireframe">Whether light grey edges are drawn instead of lit surfaces.</param>
     /// <param name="shading">Points of a surface at which lighting is computed.</param>

@@ -20,7 +20,7 @@ internal sealed class ModelBuffers : IDisposable
     private readonly int _indexCount;
     private readonly int _instanceCount;
 
-    /// <summary>Uploads a model.</summary>
+    /// <summary>Uploads the buffers of a model.</summary>
     /// <exception cref="GlException">The GPU's memory does not suffice.</exception>
     public ModelBuffers(GlResources resources, DrawableModel model)
     {

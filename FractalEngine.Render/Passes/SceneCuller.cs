@@ -91,7 +91,7 @@ internal sealed class SceneCuller : IDisposable
     /// <summary>Returns true for an object whose visible instances are selected here; all instances of others are drawn.</summary>
     public bool SelectsInstances(int index) => _visibleInstances[index] is not null;
 
-    /// <summary>Moves an object.</summary>
+    /// <summary>Moves an object of the scene.</summary>
     /// <param name="index">Index of the object in the scene, from 0.</param>
     /// <param name="map">Map from the model's frame to world space.</param>
     public void Move(int index, AffineMap map)

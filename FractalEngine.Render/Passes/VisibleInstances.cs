@@ -15,7 +15,7 @@ internal sealed class VisibleInstances : IDisposable
     private readonly VertexArray _vertexArray;
     private int _instanceCount;
 
-    /// <summary>Creates empty buffers.</summary>
+    /// <summary>Creates empty buffers for visible instances.</summary>
     /// <param name="resources">Resources of the current context.</param>
     /// <param name="name">Name of the object, for messages.</param>
     /// <param name="model">Buffers of the object's model.</param>
@@ -36,7 +36,7 @@ internal sealed class VisibleInstances : IDisposable
     /// <summary>Bytes that were uploaded so far.</summary>
     public long UploadedBytes { get; private set; }
 
-    /// <summary>Replaces the instances.</summary>
+    /// <summary>Replaces the instances on the GPU.</summary>
     /// <param name="visible">Visible instances of all objects.</param>
     /// <param name="objectIndex">Index of the object in that set.</param>
     public void Upload(VisibleSet visible, int objectIndex)

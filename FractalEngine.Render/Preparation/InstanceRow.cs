@@ -5,7 +5,7 @@ namespace FractalEngine.Render.Preparation;
 /// <summary>Writes affine maps as instances for the GPU: the three rows of a 3×4 matrix in single precision.</summary>
 internal static class InstanceRow
 {
-    /// <summary>Writes one instance.</summary>
+    /// <summary>Writes the row of one instance.</summary>
     /// <param name="linear">Linear part of the map, by columns.</param>
     /// <param name="translation">Translation of the map.</param>
     /// <param name="target">Receives the rows in its first <see cref="DrawableModel.FloatsPerInstance"/> floats.</param>

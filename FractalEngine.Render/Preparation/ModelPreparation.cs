@@ -14,7 +14,7 @@ internal static class ModelPreparation
     private const int MinInstancesForSolidTest = 100;
     private const int MaxFacesForSolidTest = 256;
 
-    /// <summary>Prepares a model.</summary>
+    /// <summary>Prepares a model for the GPU.</summary>
     /// <param name="model">Model with its mesh and materials.</param>
     /// <param name="settings">Settings with the budgets and the crease angle.</param>
     /// <param name="textures">Cache that decodes the textures.</param>
