@@ -24,7 +24,8 @@ Console.WriteLine($"instance {string.Join(' ', nearest.InstancePath.Take(10))} .
 var context = new QueryContext();
 if (collider.TryFindClosest(new(0.1, 0.1, 0.1), maxDistance: 0.5, context, out var closest))
 {
-    Console.WriteLine(FormattableString.Invariant($"distance {closest.Distance:F12} after {context.FaceTests} of {sponge.FaceCount} faces"));
+    Console.WriteLine(
+        FormattableString.Invariant($"distance {closest.Distance:F12} after {context.FaceTests} of {sponge.FaceCount} faces"));
 }
 
 // Output:

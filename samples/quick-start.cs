@@ -30,7 +30,8 @@ using var renderer = Renderer.Offscreen(1280, 720);
 renderer.Draw(scene, Camera.Framing(scene)).SavePng("sponge.png");      // a managed writer, no native library
 
 FractalFile.Write("sponge.fdo", sponge);                                // and back: parsing gives an equal fractal
-Console.WriteLine(FormattableString.Invariant($"{nearest.Distance:F9} {ball.Velocity.Y:F9} {FractalFile.Read("sponge.fdo").Equals(sponge)}"));
+Console.WriteLine(
+    FormattableString.Invariant($"{nearest.Distance:F9} {ball.Velocity.Y:F9} {FractalFile.Read("sponge.fdo").Equals(sponge)}"));
 
 // Output:
 // 2.958039892 -0.163333333 True

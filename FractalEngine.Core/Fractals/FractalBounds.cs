@@ -8,7 +8,8 @@ namespace FractalEngine.Core.Fractals;
 /// </summary>
 /// <remarks>
 /// Along each axis the farthest point is searched for from the whole fractal down, best bound first. The bounds are a sphere and a box
-/// around the sub-fractal at each level. The box is exact to 1e-12 of the fractal's size in nearly all cases. Where a search would visit more than
+/// around the sub-fractal at each level. The box is exact to 1e-12 of the fractal's size in nearly all cases. Where a search would visit
+/// more than
 /// <see cref="MaxSearchedNodes"/> sub-fractals it stops and returns the bound that it has, which holds the fractal but may be wider.
 /// Infinite fractals are bounded by their limit. The box is not finite where the maps grow beyond a double.
 /// </remarks>

@@ -8,8 +8,9 @@ namespace FractalEngine.Core.Fractals;
 /// </summary>
 /// <remarks>
 /// So the whole fractal is drawn in place of its sub-fractal. A queue, the trail, keeps the last few m, and the oldest of them is drawn:
-/// what lies behind the camera does not vanish at once. The class exists for comparison with <see cref="FractalAddress"/>, which loses no precision. Each call starts at the whole fractal
-/// again, as in the paper: cost O(depth · maps). World coordinates end at a depth of about 50 for halves.
+/// what lies behind the camera does not vanish at once. The class exists for comparison with <see cref="FractalAddress"/>, which loses no
+/// precision. Each call starts at the whole fractal again, as in the paper: cost O(depth · maps). World coordinates end at a depth of about
+/// 50 for halves.
 /// </remarks>
 /// <param name="fractal">
 /// Fractal whose levels give the sub-transformations; identities are skipped, since m·1 would be repeated without end.

@@ -61,7 +61,8 @@ public class ReferenceTests
     private static string[] Packages(string name) => [.. Includes(name, "PackageReference")];
 
     private static string[] Projects(string name) =>
-        [.. Includes(name, "ProjectReference").Select(path => Path.GetFileNameWithoutExtension(path.Replace('\\', '/'))["FractalEngine.".Length..])];
+        [.. Includes(name, "ProjectReference")
+        .Select(path => Path.GetFileNameWithoutExtension(path.Replace('\\', '/'))["FractalEngine.".Length..])];
 
     private static IEnumerable<string> Includes(string name, string element) =>
         Project(name).Descendants(element).Select(reference => (string?)reference.Attribute("Include")).OfType<string>();

@@ -6,9 +6,9 @@ using Vector = FractalEngine.Core.Maths.Vector;
 namespace FractalEngine.Tests.Benchmarks;
 
 /// <summary>
-/// Squared distances that prove themselves by the Karush-Kuhn-Tucker conditions. A point q is the point of a convex hull closest to p if and
-/// only if q is in the hull and (p − q)·(x − q) ≤ 0 for every vertex x. Candidates come from the normal equations of each feature. Whichever
-/// passes is right, however it was found. Coordinates are integers times a common power of two.
+/// Squared distances that prove themselves by the Karush-Kuhn-Tucker conditions. A point q is the point of a convex hull closest to p if
+/// and only if q is in the hull and (p − q)·(x − q) ≤ 0 for every vertex x. Candidates come from the normal equations of each feature.
+/// Whichever passes is right, however it was found. Coordinates are integers times a common power of two.
 /// </summary>
 /// <remarks>It stays apart from the two that it checks: <c>ExactDistance</c> and, through that, <c>ExactTriangleDistance</c>.</remarks>
 internal static class KktDistanceOracle

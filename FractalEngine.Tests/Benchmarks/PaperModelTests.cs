@@ -93,7 +93,8 @@ public partial class PaperModelTests
 
     /// <summary>Parses the first number of each cell, or null where there is none.</summary>
     private static double?[] ParseNumbers(string[] lines, string label) =>
-        [.. Cells(lines, label).Select(cell => Number().Match(cell)).Select(match => match.Success ? ParseNumber(match.Value) : (double?)null)];
+        [.. Cells(lines, label).Select(cell => Number().Match(cell))
+        .Select(match => match.Success ? ParseNumber(match.Value) : (double?)null)];
 
     private static double ParseNumber(string text) =>
         double.Parse(text.Replace(",", "", StringComparison.Ordinal), CultureInfo.InvariantCulture);

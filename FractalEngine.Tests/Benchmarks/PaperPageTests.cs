@@ -4,8 +4,8 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.Benchmarks;
 
 /// <summary>
-/// Compares the tables of docs/benchmarks/paper.md with the files that they are from. A number is the file's, rounded to as many decimals as
-/// are printed.
+/// Compares the tables of docs/benchmarks/paper.md with the files that they are from. A number is the file's, rounded to as many decimals
+/// as are printed.
 /// </summary>
 public class PaperPageTests
 {

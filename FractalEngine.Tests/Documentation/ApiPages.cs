@@ -25,7 +25,8 @@ internal static partial class ApiPages
 
     private static string Page(string name, IEnumerable<Type> types, Dictionary<string, string> summaries)
     {
-        var text = new StringBuilder($"# {name}\n\nThe public types of this namespace, made from the assembly and its XML documentation.\n");
+        var text =
+            new StringBuilder($"# {name}\n\nThe public types of this namespace, made from the assembly and its XML documentation.\n");
         foreach (var type in types)
         {
             text.Append(CultureInfo.InvariantCulture, $"\n## {ApiSignatures.NameOf(type)}\n\n");
@@ -141,13 +142,16 @@ internal static partial class ApiPages
         {
             XText plain => plain.Value,
             XElement { Name.LocalName: "see" or "paramref" or "typeparamref" } reference =>
-                $"`{(reference.Attribute("cref") ?? reference.Attribute("name") ?? reference.Attribute("langword"))?.Value.Split('(')[0].Split('.', ':')[^1]}`",
+                $"`{Target(reference).Split('(')[0].Split('.', ':')[^1]}`",
             XElement { Name.LocalName: "c" } code => $"`{code.Value}`",
             XElement inner => inner.Value,
             _ => "",
         }));
         return Blanks().Replace(text, " ").Trim();
     }
+
+    private static string Target(XElement reference) =>
+        (reference.Attribute("cref") ?? reference.Attribute("name") ?? reference.Attribute("langword"))?.Value ?? "";
 
     /// <summary>Appends text in lines of at most 120 columns; signatures stay whole.</summary>
     private static void AppendWrapped(StringBuilder text, string head, string body)

@@ -39,7 +39,8 @@ internal static class ApiSignatures
             + $"{NameOf(method)}({Parameters(method, nullability)})",
         PropertyInfo property => $"{Static(property.GetMethod!)}{TypeOf(nullability.Create(property), property.PropertyType)} "
             + $"{NameOf(property, nullability)} {{ {Accessors(property)} }}",
-        FieldInfo { IsLiteral: true } constant => $"const {NameOf(constant.FieldType)} {constant.Name} = {Literal(constant.GetRawConstantValue())}",
+        FieldInfo { IsLiteral: true } constant =>
+            $"const {NameOf(constant.FieldType)} {constant.Name} = {Literal(constant.GetRawConstantValue())}",
         FieldInfo field => $"{(field.IsStatic ? "static " : "")}{TypeOf(nullability.Create(field), field.FieldType)} {field.Name}",
         EventInfo @event => $"event {NameOf(@event.EventHandlerType!)} {@event.Name}",
         _ => member.Name,
@@ -86,7 +87,8 @@ internal static class ApiSignatures
         return method.IsGenericMethod ? $"{name}<{string.Join(", ", method.GetGenericArguments().Select(NameOf))}>" : name;
     }
 
-    private static string NameOf(PropertyInfo property, NullabilityInfoContext nullability) => property.GetIndexParameters() is { Length: > 0 } indices
+    private static string NameOf(PropertyInfo property, NullabilityInfoContext nullability) =>
+        property.GetIndexParameters() is { Length: > 0 } indices
         ? $"this[{string.Join(", ", indices.Select(index => Parameter(index, nullability)))}]"
         : property.Name;
 
@@ -132,7 +134,8 @@ internal static class ApiSignatures
 
     private static string Default(ParameterInfo parameter) => parameter.DefaultValue is null && parameter.ParameterType.IsValueType
         ? Nullable.GetUnderlyingType(parameter.ParameterType) is null ? "default" : "null"
-        : parameter.ParameterType.IsEnum ? $"{parameter.ParameterType.Name}.{Enum.ToObject(parameter.ParameterType, parameter.DefaultValue!)}"
+        : parameter.ParameterType.IsEnum
+        ? $"{parameter.ParameterType.Name}.{Enum.ToObject(parameter.ParameterType, parameter.DefaultValue!)}"
         : Literal(parameter.DefaultValue);
 
     private static string Literal(object? value) => value switch

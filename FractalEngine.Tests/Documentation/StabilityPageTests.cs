@@ -9,8 +9,8 @@ namespace FractalEngine.Tests.Documentation;
 public partial class StabilityPageTests
 {
     /// <summary>
-    /// Compares each row with the tables. Its first cell is what was measured, or begins with that and a colon. Its last names the test class,
-    /// or says that it is the same. Numbers of soak tests are in brackets.
+    /// Compares each row with the tables. Its first cell is what was measured, or begins with that and a colon. Its last names the test
+    /// class, or says that it is the same. Numbers of soak tests are in brackets.
     /// </summary>
     [Fact]
     public void WorstNumbers_AreThoseOfTheTables()

@@ -68,7 +68,8 @@ public partial class WordsTests
         return [.. Quoted().Matches(list).Select(match => match.Groups[1].Value)];
     }
 
-    private static IEnumerable<(string Name, int Line, string Text)> LongLines(IEnumerable<(string Name, string Text)> files, int columns) =>
+    private static IEnumerable<(string Name, int Line, string Text)> LongLines(IEnumerable<(string Name, string Text)> files,
+        int columns) =>
         from file in files
         from line in file.Text.Split('\n').Select((text, index) => (Text: text.TrimEnd('\r'), Number: index + 1))
         where line.Text.Length > columns

@@ -15,9 +15,9 @@ using Vector = FractalEngine.Core.Maths.Vector;
 namespace FractalEngine.Tests.Stability;
 
 /// <summary>
-/// Tests exact colliders where objects are tiny, huge, far away, mirrored and squeezed, at positions equally close to many instances, and at
-/// every depth from 1 to 200. TriangleKernelTests have what triangles alone can break, ExactFractalAdversarialTests what fractals can, and
-/// DeepExactnessTests depths to a million.
+/// Tests exact colliders where objects are tiny, huge, far away, mirrored and squeezed, at positions equally close to many instances, and
+/// at every depth from 1 to 200. TriangleKernelTests have what triangles alone can break, ExactFractalAdversarialTests what fractals can,
+/// and DeepExactnessTests depths to a million.
 /// </summary>
 public class ColliderStabilityTests(ITestOutputHelper output)
 {
@@ -235,8 +235,8 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     }
 
     /// <summary>
-    /// Records the worse of two errors: of the distance, and of the distance to the point that is named. Returns false for a fractal without
-    /// instances.
+    /// Records the worse of two errors: of the distance, and of the distance to the point that is named. Returns false for a fractal
+    /// without instances.
     /// </summary>
     private static bool CheckQueries(StabilityReport report, Random random, string quantity, Model model, Transformation placement,
         double? at)

@@ -47,7 +47,8 @@ internal sealed class ExactWorldTriangles
     }
 
     /// <summary>
-    /// Computes the distance that is exact for these vertices. Triangles whose bounding spheres are farther than the closest one are skipped.
+    /// Computes the distance that is exact for these vertices. Triangles whose bounding spheres are farther than the closest one are
+    /// skipped.
     /// </summary>
     public double Distance(Vector position)
     {

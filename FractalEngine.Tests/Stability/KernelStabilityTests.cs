@@ -147,8 +147,8 @@ public class KernelStabilityTests(ITestOutputHelper output)
     }
 
     /// <summary>
-    /// Creates a needle, two of whose vertices are close together, or a sliver, whose vertices are nearly on a line. It is anywhere, or where
-    /// rounding the vertices does not make it thicker.
+    /// Creates a needle, two of whose vertices are close together, or a sliver, whose vertices are nearly on a line. It is anywhere, or
+    /// where rounding the vertices does not make it thicker.
     /// </summary>
     private static AdversarialTriangle RandomThinTriangle(Random random, double sine)
     {

@@ -18,8 +18,8 @@ using Vector = FractalEngine.Core.Maths.Vector;
 namespace FractalEngine.Tests.Stability;
 
 /// <summary>
-/// Tests numbers as text beyond NumberReaderTests: written and read back, compared with exact arithmetic, and in files of every format under
-/// other cultures.
+/// Tests numbers as text beyond NumberReaderTests: written and read back, compared with exact arithmetic, and in files of every format
+/// under other cultures.
 /// </summary>
 public class NumberStabilityTests(ITestOutputHelper output)
 {

@@ -5,7 +5,9 @@ namespace FractalEngine.Tests.Support;
 /// <summary>Waits for what another thread or program does, where nothing tells when it is done.</summary>
 internal static class Polling
 {
-    /// <summary>Time after which a wait is a failure: long enough for a loaded machine, as what is waited for comes soon or never.</summary>
+    /// <summary>
+    /// Time after which a wait is a failure: long enough for a loaded machine, as what is waited for comes soon or never.
+    /// </summary>
     public static readonly TimeSpan Deadline = TimeSpan.FromSeconds(60);
 
     private static readonly TimeSpan Interval = TimeSpan.FromMilliseconds(10);

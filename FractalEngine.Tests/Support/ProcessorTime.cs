@@ -13,7 +13,8 @@ internal static class ProcessorTime
     private const double TicksPerSecond = 100;
 
     /// <summary>
-    /// Processor time that the calling thread has used, to a hundredth of a second. Where the system has no such count, that of the process.
+    /// Processor time that the calling thread has used, to a hundredth of a second. Where the system has no such count, that of the
+    /// process.
     /// </summary>
     public static TimeSpan OfThread
     {

@@ -3,8 +3,8 @@ using System.Numerics;
 namespace FractalEngine.Tests.Support;
 
 /// <summary>
-/// Doubles as integers times a common power of two, for exact arithmetic in oracles. <c>Rational</c> of the benchmarks and its tests convert
-/// on their own, so that the two check each other.
+/// Doubles as integers times a common power of two, for exact arithmetic in oracles. <c>Rational</c> of the benchmarks and its tests
+/// convert on their own, so that the two check each other.
 /// </summary>
 internal static class ScaledInteger
 {

@@ -2,7 +2,9 @@ using System.Runtime.CompilerServices;
 
 namespace FractalEngine.Core.Collision.Bvh;
 
-/// <summary>Computes the limit for squared bounds of boxes, in the boxes' units, from the squared distance of the closest triangle.</summary>
+/// <summary>
+/// Computes the limit for squared bounds of boxes, in the boxes' units, from the squared distance of the closest triangle.
+/// </summary>
 /// <remarks>
 /// With rounding, the kernel may find a triangle closer than it is by δ = 2⁻⁴⁶·magnitude, some hundred last places of its coordinates. The
 /// triangle matters if its bound is below (d + δ)² ≤ (1 + s)·d² + (1 + 1/s)·δ², whatever the s.

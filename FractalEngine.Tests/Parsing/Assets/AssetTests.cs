@@ -175,7 +175,8 @@ public sealed class AssetTests
     [Fact]
     public void Playground_ItsShrinkingBody_LiesOnTheSpongeAndThenFallsThrough()
     {
-        // The sponge reaches from 1 to 4; the hole is as wide as the sphere of the body when that has lost 0.22 of 0.72, after about 6 seconds.
+        // The sponge reaches from 1 to 4; the hole is as wide as the sphere of the body when that has lost 0.22 of 0.72, after about 6
+        // seconds.
         Assert.InRange(ShrinkingBody(5 * 60).Position.Y, 4, 4.5);
         Assert.InRange(ShrinkingBody(9 * 60).Position.Y, 0, 1);
 
