@@ -1,6 +1,9 @@
 namespace FractalEngine.Core;
 
-/// <summary>Why an operation of the engine failed; the exit codes of the program follow it.</summary>
+/// <summary>
+/// Why an operation of the engine failed. The exit codes of the program follow it, except that a collider which does not fit counts as
+/// wrong usage.
+/// </summary>
 public enum ErrorKind
 {
     /// <summary>The input is malformed, contradicts itself, or does not fit what is asked of it.</summary>

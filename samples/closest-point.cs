@@ -25,7 +25,7 @@ var context = new QueryContext();
 if (collider.TryFindClosest(new(0.1, 0.1, 0.1), maxDistance: 0.5, context, out var closest))
 {
     Console.WriteLine(
-        FormattableString.Invariant($"distance {closest.Distance:F12} after {context.FaceTests} of {sponge.FaceCount} faces"));
+        FormattableString.Invariant($"distance {closest.Distance:F12} after {context.Statistics.FaceTests} of {sponge.FaceCount} faces"));
 }
 
 // Output:

@@ -113,8 +113,8 @@ internal static class QueryCommand
         if (queryCount > 0)
         {
             WriteReportLine($"queries {queryCount / queryTime.TotalSeconds:F0} a second");
-            WriteReportLine($"face tests {(double)context.FaceTests / queryCount:F2} a query");
-            WriteReportLine($"bound tests {(double)context.BoundTests / queryCount:F2} a query");
+            WriteReportLine($"face tests {(double)context.Statistics.FaceTests / queryCount:F2} a query");
+            WriteReportLine($"bound tests {(double)context.Statistics.BoundTests / queryCount:F2} a query");
         }
     }
 

@@ -35,8 +35,8 @@ internal static class ColliderQuality
         DistanceErrors? errors = oracle is null ? null : DistanceErrors.Compare(distances, oracle, size);
         return
         [
-            new("face_tests", (double)context.FaceTests / positions.Length),
-            new("bound_tests", (double)context.BoundTests / positions.Length),
+            new("face_tests", (double)context.Statistics.FaceTests / positions.Length),
+            new("bound_tests", (double)context.Statistics.BoundTests / positions.Length),
             new("largest_relative_error", errors?.MaxRelative),
             new("mean_relative_error", errors?.MeanRelative),
             new("missed_percent", errors?.MissedPercent),

@@ -81,12 +81,12 @@ internal sealed class ParetoFrontTable(int queries, int rounds, CsvTable table)
     /// <summary>Queries a row at all positions. The collider that is the oracle gets one query, for its costs only.</summary>
     private (double[] Distances, double FaceTests, double BoundTests) RunQueries(ColliderVariant row, Vector[] positions, double[]? oracle)
     {
-        _context.Reset();
+        _context.Statistics.Reset();
         var queried = row.Collider is SimpleCollider ? positions[..1] : positions;
         var distances = queried
             .Select(position => row.Collider.ClosestDistance(position, _context, double.PositiveInfinity, row.Epsilon)).ToArray();
-        return (queried.Length < positions.Length ? oracle! : distances, (double)_context.FaceTests / queried.Length,
-            (double)_context.BoundTests / queried.Length);
+        return (queried.Length < positions.Length ? oracle! : distances, (double)_context.Statistics.FaceTests / queried.Length,
+            (double)_context.Statistics.BoundTests / queried.Length);
     }
 
     private static void ThrowIfInaccurate(BenchmarkShape shape, ColliderVariant row, double[] distances, double[] oracle)

@@ -30,8 +30,8 @@ internal sealed class ColliderWorkload
             collider.TryFindClosest(position, double.PositiveInfinity, _context, out _);
         }
 
-        FaceTests = (double)_context.FaceTests / positions.Length;
-        BoundTests = (double)_context.BoundTests / positions.Length;
+        FaceTests = (double)_context.Statistics.FaceTests / positions.Length;
+        BoundTests = (double)_context.Statistics.BoundTests / positions.Length;
         // About the nanoseconds of a face and of a bound, which is good enough for the length of a run.
         _runLength = (int)Math.Clamp(200_000 / ((20 * FaceTests) + (5 * BoundTests) + 100), 1, 64);
         _bestSeconds = [.. Enumerable.Repeat(double.PositiveInfinity, (positions.Length + _runLength - 1) / _runLength)];

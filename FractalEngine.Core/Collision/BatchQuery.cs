@@ -111,8 +111,7 @@ public static class BatchQuery
             {
                 lock (totalsLock)
                 {
-                    context.FaceTests += threadContext.FaceTests;
-                    context.BoundTests += threadContext.BoundTests;
+                    context.Statistics.Add(threadContext.Statistics);
                 }
             });
     }
@@ -144,9 +143,9 @@ public static class BatchQuery
     {
         for (var i = 0; i < positions.Length; i++)
         {
-            var (faceTests, boundTests) = (context.FaceTests, context.BoundTests);
+            var (faceTests, boundTests) = (context.Statistics.FaceTests, context.Statistics.BoundTests);
             var isFound = query(positions[i], context, out var closest);
-            results[i] = new(isFound, closest, context.FaceTests - faceTests, context.BoundTests - boundTests);
+            results[i] = new(isFound, closest, context.Statistics.FaceTests - faceTests, context.Statistics.BoundTests - boundTests);
         }
     }
 }

@@ -5,8 +5,8 @@ using FractalEngine.Core.Collision.Reference;
 namespace FractalEngine.Core.Collision;
 
 /// <summary>
-/// What a query cost, and which instance it found. The caller makes one, passes it to as many queries as it likes, one thread at a time,
-/// and reads it in between: there are no counters that anybody else could see.
+/// What a caller lends to queries: counts of their work, the instance that the last one found, and memory that is kept for the next. One
+/// thread uses a context at a time, for any number of queries to any colliders.
 /// </summary>
 public sealed class QueryContext
 {
@@ -19,37 +19,31 @@ public sealed class QueryContext
     private ExpandedChildren? _expandedChildren;
     private DescentBeam? _descentBeam;
 
-    /// <summary>How many faces were looked at: the paper's collision cost (§5.2.3). Added up until <see cref="Reset"/>.</summary>
-    public long FaceTests { get; set; }
-
-    /// <summary>How many bounding volumes were looked at. Added up until <see cref="Reset"/>.</summary>
-    public long BoundTests { get; set; }
+    /// <summary>Counts of faces and bounding volumes that the queries of this context tested.</summary>
+    public QueryStatistics Statistics { get; } = new();
 
     /// <summary>
-    /// The instance that the last query found: for each level, the outermost first, the number of the transformation in its set. Empty for
-    /// a mesh. Shorter than the fractal's depth where deeper levels are below the precision of the answer.
+    /// The instance that the last query found: for each level, the outermost first, the index of the transformation in its set. Empty for
+    /// a mesh. Shorter than the fractal's depth where deeper levels are below the precision of the result.
     /// </summary>
     public ReadOnlySpan<int> InstancePath => CollectionsMarshal.AsSpan(_instancePath);
 
-    /// <summary>Sets the counters to zero.</summary>
-    public void Reset() => (FaceTests, BoundTests) = (0, 0);
-
-    /// <summary>Room for the way of a search; kept for the next one, and what is there stays.</summary>
+    /// <summary>Memory for the path of a search. It is kept for the next search with its contents.</summary>
     internal Span<int> PathBuffer(int length) => EnsureLength(ref _pathBuffer, length);
 
-    /// <summary>Room for the way to the best so far.</summary>
+    /// <summary>Memory for the path to the best result so far.</summary>
     internal Span<int> BestPathBuffer(int length) => EnsureLength(ref _bestPathBuffer, length);
 
-    /// <summary>Of searches that take long; made by the first.</summary>
+    /// <summary>The queue of best-first searches, made by the first of them.</summary>
     internal ExpandedChildren ExpandedChildren => _expandedChildren ??= new();
 
-    /// <summary>Of descents in several copies; made by the first.</summary>
+    /// <summary>The beam of descents into several children, made by the first of them.</summary>
     internal DescentBeam DescentBeam => _descentBeam ??= new();
 
-    /// <summary>Room for numbers of a search; kept for the next one.</summary>
+    /// <summary>Memory for the numbers of a search, kept for the next search.</summary>
     internal Span<double> ScratchBuffer(int length) => _scratch.Length >= length ? _scratch : _scratch = new double[length];
 
-    /// <summary>Room for a bound of each object of a scene.</summary>
+    /// <summary>Memory for a lower bound of each object of a scene.</summary>
     internal Span<double> ObjectBoundsBuffer(int count)
     {
         if (_objectBounds.Length < count)
@@ -60,14 +54,14 @@ public sealed class QueryContext
         return _objectBounds.AsSpan(0, count);
     }
 
-    /// <summary>Keeps the present path while other objects are asked.</summary>
+    /// <summary>Saves the present path while other objects are queried.</summary>
     internal void SavePath()
     {
         _savedPath.Clear();
         _savedPath.AddRange(InstancePath);
     }
 
-    /// <summary>Makes the path that was kept the present one again.</summary>
+    /// <summary>Restores the path that was saved last.</summary>
     internal void RestorePath()
     {
         _instancePath.Clear();

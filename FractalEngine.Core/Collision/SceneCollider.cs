@@ -170,7 +170,7 @@ public sealed class SceneCollider
             boundDistances[i] = i == excludedObject ? double.PositiveInfinity : Math.Sqrt(_instances[i].Bounds.DistanceSquared(position));
         }
 
-        context.BoundTests += _instances.Length;
+        context.Statistics.BoundTests += _instances.Length;
         for (var remaining = _instances.Length; remaining > 0; remaining--)
         {
             var nextObject = 0;

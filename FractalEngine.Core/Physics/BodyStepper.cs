@@ -45,8 +45,8 @@ internal sealed class BodyStepper
     public void Step(
         Body body, StaticColliders? staticColliders, CharacterController? character, Vector gravity, double stepLength, long stepIndex)
     {
-        var faceTestsBefore = _queryContext.FaceTests;
-        var boundTestsBefore = _queryContext.BoundTests;
+        var faceTestsBefore = _queryContext.Statistics.FaceTests;
+        var boundTestsBefore = _queryContext.Statistics.BoundTests;
         var description = body.Description;
         if (body.IsShrinking)
         {
@@ -73,8 +73,8 @@ internal sealed class BodyStepper
         }
 
         _grid.Update(body.Index);
-        body.FaceTests = _queryContext.FaceTests - faceTestsBefore;
-        body.BoundTests = _queryContext.BoundTests - boundTestsBefore;
+        body.FaceTests = _queryContext.Statistics.FaceTests - faceTestsBefore;
+        body.BoundTests = _queryContext.Statistics.BoundTests - boundTestsBefore;
         var sleepSpeed = _settings.SleepSpeed ?? SleepSpeedFraction * Math.Sqrt(accelerationMagnitude * body.Radius);
         _islands.Update(body, sleepSpeed, _settings.TimeBeforeSleep, stepLength);
     }

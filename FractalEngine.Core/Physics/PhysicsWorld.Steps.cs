@@ -40,8 +40,8 @@ public sealed partial class PhysicsWorld
     public void Step(double seconds)
     {
         ArgumentCheck.RequireTimeStep(seconds, nameof(seconds));
-        var faceTestsBefore = _queryContext.FaceTests;
-        var boundTestsBefore = _queryContext.BoundTests;
+        var faceTestsBefore = _queryContext.Statistics.FaceTests;
+        var boundTestsBefore = _queryContext.Statistics.BoundTests;
         var character = Character is { IsActive: true } active ? active : null;
         for (var i = 0; i < _bodies.Count; i++)
         {
@@ -55,6 +55,6 @@ public sealed partial class PhysicsWorld
 
         character?.Step(seconds);
         _clock.Tick(seconds);
-        LastStepCost = (_queryContext.FaceTests - faceTestsBefore, _queryContext.BoundTests - boundTestsBefore);
+        LastStepCost = (_queryContext.Statistics.FaceTests - faceTestsBefore, _queryContext.Statistics.BoundTests - boundTestsBefore);
     }
 }

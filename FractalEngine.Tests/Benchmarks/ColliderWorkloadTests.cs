@@ -20,7 +20,7 @@ public class ColliderWorkloadTests
         workload.RunQueries();
         hierarchy.SumDistances(positions, context);
         Assert.Equal(
-            (context.FaceTests / 100.0, context.BoundTests / 100.0, hierarchy.StorageBytes),
+            (context.Statistics.FaceTests / 100.0, context.Statistics.BoundTests / 100.0, hierarchy.StorageBytes),
             (workload.FaceTests, workload.BoundTests, workload.StorageBytes));
         Assert.Equal(300, new ColliderWorkload(new SimpleCollider(mesh), positions).FaceTests);
     }

@@ -21,9 +21,9 @@ public class BatchQueryTests
         {
             var context = new QueryContext();
             var isFound = Collider.TryFindClosest(positions[i], 0.3, context, out var closest);
-            expected[i] = new(isFound, closest, context.FaceTests, context.BoundTests);
-            sum.FaceTests += context.FaceTests;
-            sum.BoundTests += context.BoundTests;
+            expected[i] = new(isFound, closest, context.Statistics.FaceTests, context.Statistics.BoundTests);
+            sum.Statistics.FaceTests += context.Statistics.FaceTests;
+            sum.Statistics.BoundTests += context.Statistics.BoundTests;
         }
 
         foreach (var threads in new int?[] { null, 1, 2, 7 })
@@ -31,7 +31,7 @@ public class BatchQueryTests
             var (results, context) = (new BatchResult[count], new QueryContext());
             BatchQuery.FindClosest(Collider, positions, results, context, maxDistance: 0.3, threads: threads);
             Assert.Equal(expected, results);
-            Assert.Equal((sum.FaceTests, sum.BoundTests), (context.FaceTests, context.BoundTests));
+            Assert.Equal((sum.Statistics.FaceTests, sum.Statistics.BoundTests), (context.Statistics.FaceTests, context.Statistics.BoundTests));
         }
 
         Assert.True(count < 256 || (expected.Any(result => result.IsFound) && expected.Any(result => !result.IsFound)));

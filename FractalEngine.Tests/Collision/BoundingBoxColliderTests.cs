@@ -54,9 +54,9 @@ public class BoundingBoxColliderTests
             boxes.TryFindClosest(position, double.PositiveInfinity, context, out var closest);
             Assert.Equal(expected, closest);
         });
-        context.Reset();
+        context.Statistics.Reset();
         boxes.TryFindClosest(Vector.Zero, 1, context, out _);
-        Assert.Equal((50, 0), (context.FaceTests, context.BoundTests));
+        Assert.Equal((50, 0), (context.Statistics.FaceTests, context.Statistics.BoundTests));
     }
 
     [Fact]
@@ -67,8 +67,8 @@ public class BoundingBoxColliderTests
         Assert.Equal(10, boxes.Depth);
         boxes.TryFindClosest(2 * Vector.One, double.PositiveInfinity, context, out _);
         // One face in the leaf, as no two of the sphere's have one centre.
-        Assert.Equal((8 * 12 * 10) + 1, context.FaceTests);
-        Assert.InRange(context.BoundTests, 4, 8 * 10);
+        Assert.Equal((8 * 12 * 10) + 1, context.Statistics.FaceTests);
+        Assert.InRange(context.Statistics.BoundTests, 4, 8 * 10);
     }
 
     [Fact]

@@ -23,7 +23,7 @@ public class FractalColliderTests
         var fractal = new Fractal(new([new Repetition([new TransformationSet([.. set])], depth)]), Fan(faces));
         var context = new QueryContext();
         Assert.True(new FractalCollider(fractal).TryFindClosest(new(1, 2, 3), double.PositiveInfinity, context, out _));
-        Assert.Equal((cost, depth), (context.FaceTests, context.InstancePath.Length));
+        Assert.Equal((cost, depth), (context.Statistics.FaceTests, context.InstancePath.Length));
         Assert.Equal(cost, (long)faces * transformations * depth);
     }
 
@@ -33,7 +33,7 @@ public class FractalColliderTests
         // Appendix B: 5·5 transformations a level.
         var context = new QueryContext();
         Assert.True(new FractalCollider(Samples.AppendixBAt(6)).TryFindClosest(new(1, 2, 3), double.PositiveInfinity, context, out _));
-        Assert.Equal(1 * 25 * 6, context.FaceTests);
+        Assert.Equal(1 * 25 * 6, context.Statistics.FaceTests);
     }
 
     [Fact]

@@ -87,7 +87,7 @@ public class HierarchyColliderTests
             hierarchy.TryFindClosest(position, double.PositiveInfinity, exact, out _);
             hierarchy.TryFindClosest(position, double.PositiveInfinity, rough, out _, 0.1);
         });
-        Assert.True(rough.FaceTests < exact.FaceTests, $"{rough.FaceTests} instead of {exact.FaceTests} faces");
+        Assert.True(rough.Statistics.FaceTests < exact.Statistics.FaceTests, $"{rough.Statistics.FaceTests} instead of {exact.Statistics.FaceTests} faces");
     }
 
     [Fact]
@@ -99,7 +99,7 @@ public class HierarchyColliderTests
         Seeded.Run(200,
             random => hierarchy.TryFindClosest(1.05 * AdversarialTriangle.RandomInCube(random).UnitVector(), double.PositiveInfinity,
             context, out _));
-        Assert.InRange(context.FaceTests, 200, 200 * 60);
+        Assert.InRange(context.Statistics.FaceTests, 200, 200 * 60);
     }
 
     [Fact]

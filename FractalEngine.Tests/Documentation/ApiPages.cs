@@ -142,12 +142,19 @@ internal static partial class ApiPages
         {
             XText plain => plain.Value,
             XElement { Name.LocalName: "see" or "paramref" or "typeparamref" } reference =>
-                $"`{Target(reference).Split('(')[0].Split('.', ':')[^1]}`",
+                $"`{ShortName(Target(reference).Split('(')[0])}`",
             XElement { Name.LocalName: "c" } code => $"`{code.Value}`",
             XElement inner => inner.Value,
             _ => "",
         }));
         return Blanks().Replace(text, " ").Trim();
+    }
+
+    /// <summary>The name of a type, or that of a member with its type.</summary>
+    private static string ShortName(string id)
+    {
+        var parts = id.Split('.', ':');
+        return id.Length > 2 && id[1] == ':' && id[0] != 'T' && parts.Length > 1 ? $"{parts[^2]}.{parts[^1]}" : parts[^1];
     }
 
     private static string Target(XElement reference) =>

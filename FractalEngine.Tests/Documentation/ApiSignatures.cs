@@ -144,6 +144,7 @@ internal static class ApiSignatures
         string text => $"\"{text}\"",
         bool truth => truth ? "true" : "false",
         double.PositiveInfinity => "∞",
+        char character => char.IsControl(character) ? $"'\\u{(int)character:x4}'" : $"'{character}'",
         IFormattable number => number.ToString(null, CultureInfo.InvariantCulture),
         _ => value.ToString()!,
     };

@@ -71,7 +71,7 @@ public sealed class HierarchyCollider(Mesh mesh) : Collider
     private static void AddStatistics(QueryContext context, in ClosestTriangle closestTriangle)
     {
         context.ClearPath();
-        context.FaceTests += closestTriangle.FaceTests;
-        context.BoundTests += closestTriangle.BoundTests;
+        context.Statistics.FaceTests += closestTriangle.FaceTests;
+        context.Statistics.BoundTests += closestTriangle.BoundTests;
     }
 }

@@ -96,8 +96,8 @@ public sealed class ExactFractalCollider : Collider
             SearchLevels(position, in map, isSimilarity, ref search);
         }
 
-        context.FaceTests += search.FaceTests;
-        context.BoundTests += search.BoundTests;
+        context.Statistics.FaceTests += search.FaceTests;
+        context.Statistics.BoundTests += search.BoundTests;
         if (search.ClosestFace < 0)
         {
             return NeedsExactRetry(maxDistance, epsilon)

@@ -85,7 +85,7 @@ public sealed class BoundingBoxCollider : Collider
             scan.Test(face);
         }
 
-        context.FaceTests += ((long)CostPerLevel * Depth) + node.FaceCount;
+        context.Statistics.FaceTests += ((long)CostPerLevel * Depth) + node.FaceCount;
         closest = ClosestPointFactory.OnMesh(_mesh, scan.ClosestFace, scan.ClosestPoint);
         return closest.Distance <= maxDistance;
     }
@@ -131,7 +131,7 @@ public sealed class BoundingBoxCollider : Collider
                 closestDistanceSquared = distanceSquared;
             }
 
-            context.BoundTests++;
+            context.Statistics.BoundTests++;
             child++;
         }
 

@@ -69,7 +69,7 @@ public sealed partial class FractalCollider
                 _baseBvh.TestAllTransformedTriangles(position, entry.Map * set.Maps[childIndex], ref closest);
             }
 
-            context.FaceTests += closest.FaceTests;
+            context.Statistics.FaceTests += closest.FaceTests;
             if (closest.FaceIndex >= 0)
             {
                 beam.InsertIfCloser(closest.DistanceSquared, parent, childIndex, closest.FaceIndex);

@@ -118,7 +118,7 @@ public sealed partial class FractalCollider : Collider
         if (_hasNoLevels)
         {
             _baseBvh.TestAllTriangles(position, ref closest);
-            context.FaceTests += closest.FaceTests;
+            context.Statistics.FaceTests += closest.FaceTests;
         }
 
         return closest;
@@ -147,7 +147,7 @@ public sealed partial class FractalCollider : Collider
                 _baseBvh.TestAllTransformedTriangles(position, map * set.Maps[childIndex], ref closest);
             }
 
-            context.FaceTests += closest.FaceTests;
+            context.Statistics.FaceTests += closest.FaceTests;
             if (closest.FaceIndex >= 0)
             {
                 closestDistanceSquared = closest.DistanceSquared;

@@ -21,7 +21,7 @@ public sealed class SimpleCollider(Mesh mesh) : Collider
         out ClosestPoint closest)
     {
         context.ClearPath();
-        context.FaceTests += mesh.FaceCount;
+        context.Statistics.FaceTests += mesh.FaceCount;
         var closestDistanceSquared = double.PositiveInfinity;
         var closestFace = -1;
         for (var face = 0; face < mesh.FaceCount; face++)
@@ -44,7 +44,7 @@ public sealed class SimpleCollider(Mesh mesh) : Collider
         out ClosestPoint closest)
     {
         context.ClearPath();
-        context.FaceTests += mesh.FaceCount;
+        context.Statistics.FaceTests += mesh.FaceCount;
         var scan = new TriangleScan(mesh, position);
         for (var face = 0; face < mesh.FaceCount; face++)
         {

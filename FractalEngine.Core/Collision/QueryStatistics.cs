@@ -1,0 +1,25 @@
+namespace FractalEngine.Core.Collision;
+
+/// <summary>Counts of the work that queries did, added up until they are reset.</summary>
+public sealed class QueryStatistics
+{
+    /// <summary>Number of faces that were tested: the paper's collision cost (§5.2.3).</summary>
+    public long FaceTests { get; set; }
+
+    /// <summary>Number of bounding volumes that were tested.</summary>
+    public long BoundTests { get; set; }
+
+    /// <summary>Sets both counts to zero.</summary>
+    public void Reset()
+    {
+        FaceTests = 0;
+        BoundTests = 0;
+    }
+
+    /// <summary>Adds the counts of other queries.</summary>
+    public void Add(QueryStatistics other)
+    {
+        FaceTests += other.FaceTests;
+        BoundTests += other.BoundTests;
+    }
+}
