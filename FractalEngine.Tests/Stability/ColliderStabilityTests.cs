@@ -7,6 +7,7 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility;
 using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Collision.Fractals;
 using FractalEngine.Tests.Support;
 using FractalEngine.Tests.Visibility;
 using Xunit.Abstractions;
@@ -16,8 +17,8 @@ namespace FractalEngine.Tests.Stability;
 
 /// <summary>
 /// Exact colliders where objects are tiny, huge, far away, mirrored and squeezed; at places that are equally near to many parts; and at
-/// every depth from 1 to 200. What faces alone can break is in FaceKernelTests, what fractals can in ExactFractalAttackTests, depths to a
-/// million in DeepExactnessTests.
+/// every depth from 1 to 200. What faces alone can break is in TriangleKernelTests, what fractals can in
+/// ExactFractalColliderAdversarialTests, depths to a million in ExactFractalColliderDepthTests.
 /// </summary>
 public class ColliderStabilityTests(ITestOutputHelper output)
 {
