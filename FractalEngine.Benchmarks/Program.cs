@@ -11,27 +11,27 @@ using FractalEngine.Core.Fractals;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Windowing;
 
-// Measurements that BenchmarkDotNet can't make, since their rows have to take turns, or since they draw; everything else is a class of it.
+// Commands are for what BenchmarkDotNet can't measure: rows that take turns, and frames. Everything else is a class of it.
 var commands = new Dictionary<string, Func<string[], int>>
 {
-    ["front"] = words => ParetoFrontCommand.Run(words),
-    ["table"] = words => ColliderComparisonCommand.Run(words),
-    ["growth"] = words => GrowthCommand.Run(words),
-    ["loading"] = words => LoadingCommand.Run(words),
-    ["frames"] = words => FramesCommand.Run(words),
-    ["skips"] = words => OptimisationsCommand.Run(words),
-    ["window"] = words => WindowCommand.Run(words),
-    ["physics"] = words => PhysicsCommand.Run(words),
-    ["precision"] = words => PrecisionCommand.Run(words),
-    ["paper"] = words => PaperCommand.Run(words),
+    ["front"] = arguments => ParetoFrontCommand.Run(arguments),
+    ["growth"] = arguments => GrowthCommand.Run(arguments),
+    ["loading"] = arguments => LoadingCommand.Run(arguments),
+    ["frames"] = arguments => FramesCommand.Run(arguments),
+    ["skips"] = arguments => OptimisationsCommand.Run(arguments),
+    ["window"] = arguments => WindowCommand.Run(arguments),
+    ["physics"] = arguments => PhysicsCommand.Run(arguments),
+    ["precision"] = arguments => PrecisionCommand.Run(arguments),
+    ["paper"] = arguments => PaperCommand.Run(arguments),
 };
 
 if (args is not [[not '-', ..] name, .. var rest])
 {
-    var at = Array.IndexOf(args, "--output");
-    var output = at >= 0 && at + 1 < args.Length ? args[at + 1] : null;
-    string[] others = output is null ? args : [.. args[..at], .. args[(at + 2)..]];
-    var summaries = BenchmarkSwitcher.FromAssembly(typeof(CommandLineParser).Assembly).Run(others, ReportConfig.Create(output));
+    var outputIndex = Array.IndexOf(args, "--output");
+    var folder = outputIndex >= 0 && outputIndex + 1 < args.Length ? args[outputIndex + 1] : null;
+    string[] benchmarkDotNetArguments = folder is null ? args : [.. args[..outputIndex], .. args[(outputIndex + 2)..]];
+    var summaries = BenchmarkSwitcher.FromAssembly(typeof(CommandLineParser).Assembly)
+        .Run(benchmarkDotNetArguments, ReportConfig.Create(folder));
     return summaries.Any(summary => summary.HasCriticalValidationErrors || summary.Reports.Any(report => !report.Success)) ? 1 : 0;
 }
 

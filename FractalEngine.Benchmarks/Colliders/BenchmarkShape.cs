@@ -9,57 +9,62 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Benchmarks.Colliders;
 
 /// <summary>
-/// A shape that colliders of meshes and of fractals can be compared on; where its faces do not fit into memory, only those of fractals.
+/// A shape on which colliders of meshes and of fractals are compared. Where its faces do not fit into memory, only colliders of fractals
+/// are.
 /// </summary>
-/// <param name="Name">Short, for tables and files.</param>
-/// <param name="Fractal">Null for a mesh.</param>
-/// <param name="Faces">All of them; of a fractal, expanded; null where there are more than <see cref="MaxFaces"/>.</param>
-/// <param name="ExpansionMilliseconds">What it took to expand them; 0 for a mesh.</param>
+/// <param name="Name">A short name for tables and files.</param>
+/// <param name="Fractal">The fractal, or null for a mesh.</param>
+/// <param name="Faces">
+/// All faces, those of a fractal expanded. Null where there are more than <see cref="MaxFaces"/>.
+/// </param>
+/// <param name="ExpansionMilliseconds">Time of the expansion in milliseconds, 0 for a mesh.</param>
 internal sealed record BenchmarkShape(string Name, Fractal? Fractal, Mesh? Faces, double ExpansionMilliseconds)
 {
-    /// <summary>Shapes with more faces have no oracle, and no colliders of meshes.</summary>
+    /// <summary>Limit of the faces: shapes with more have neither an oracle nor colliders of meshes.</summary>
     public const int MaxFaces = 3_000_000;
 
-    private static readonly string[] Meshes = ["spaceship-interior", "tree-stump"];
+    private static readonly string[] MeshNames = ["spaceship-interior", "tree-stump"];
 
-    /// <summary>The shapes unless others are named; a number is the depth of a fractal, or the faces of a mesh.</summary>
+    /// <summary>
+    /// Names of the shapes that are measured unless others are given. A number is the depth of a fractal or the faces of a mesh.
+    /// </summary>
     public static string[] Default { get; } =
     [
-        "appendix-b:3", "menger:4", "terrain:8", "tree:7", "sierpinski:5", "tetrahedron:8", "fern:3", "romanesco:3", "diamond:3", "shell",
-        "snowflake", "tree-leaves", "appendix-b-structure:4",
-        "spaceship-interior:200000", "tree-stump:200000", "menger-40", "googol", "infinite-menger",
+        "appendix-b:3", "menger:4", "terrain:8", "tree:7", "sierpinski:5", "tetrahedron:8", "fern:3", "romanesco:3", "diamond:3",
+        "shell", "snowflake", "tree-leaves", "appendix-b-structure:4", "spaceship-interior:200000", "tree-stump:200000", "menger-40",
+        "googol", "infinite-menger",
     ];
 
-    /// <summary>The same with fewer faces: at most some 300,000.</summary>
+    /// <summary>Names of smaller shapes, of at most some 300,000 faces, for quick runs.</summary>
     public static string[] Quick { get; } =
     [
         "appendix-b:3", "menger:3", "terrain:7", "tree:6", "sierpinski:5", "tetrahedron:8", "fern:2", "romanesco:2",
         "spaceship-interior:50000", "tree-stump:50000", "menger-40", "infinite-menger",
     ];
 
-    /// <summary>The diagonal of the box: what errors are parts of.</summary>
+    /// <summary>Diagonal of the bounding box, which errors are measured against.</summary>
     public double Size => Bounds.Diagonal;
 
     private BoundingBox Bounds => Fractal?.Bounds ?? Faces!.Bounds;
 
-    /// <summary>True for the name of a shape, with a number after a colon or without.</summary>
+    /// <summary>Tells whether a text is the name of a shape, with a number after a colon or without.</summary>
     public static bool IsKnown(string text) => FractalCase.IsKnown(text) || text.Split(':') switch
     {
-        [var name] => Meshes.Contains(name),
-        [var name, var number] => Meshes.Contains(name) && CommandLineParser.TryParseCount(number, out _),
+        [var name] => MeshNames.Contains(name),
+        [var name, var number] => MeshNames.Contains(name) && CommandLineParser.TryParseCount(number, out _),
         _ => false,
     };
 
-    /// <summary>Makes the shape of a name.</summary>
+    /// <summary>Creates the shape of a name that <see cref="IsKnown"/> accepts.</summary>
     public static BenchmarkShape Create(string text)
     {
         var name = text.Split(':')[0];
-        if (Meshes.Contains(name))
+        if (MeshNames.Contains(name))
         {
-            return new(name, null,
-                MeshGenerators.Create(name, 1, text == name
+            int? faceCount = text == name
                 ? null
-                : int.Parse(text[(name.Length + 1)..], NumberStyles.None, CultureInfo.InvariantCulture)), 0);
+                : int.Parse(text[(name.Length + 1)..], NumberStyles.None, CultureInfo.InvariantCulture);
+            return new(name, null, MeshGenerators.Create(name, 1, faceCount), 0);
         }
 
         var fractal = FractalCase.Parse(text).Fractal;
@@ -73,10 +78,10 @@ internal sealed record BenchmarkShape(string Name, Fractal? Fractal, Mesh? Faces
         return new(name, fractal, faces, watch.Elapsed.TotalMilliseconds);
     }
 
-    /// <summary>Anywhere in its box.</summary>
+    /// <summary>Creates a random position anywhere in the bounding box.</summary>
     public Vector RandomInBounds(Random random) => QueryPositions.Uniform(random, Bounds);
 
-    /// <summary>Near a random face.</summary>
+    /// <summary>Creates a random position near the surface.</summary>
     public Vector RandomNearSurface(Random random) =>
         Fractal is null ? QueryPositions.NearSurface(random, Faces!) : QueryPositions.NearSurface(random, Fractal);
 }

@@ -9,8 +9,8 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Benchmarks.Colliders;
 
 /// <summary>
-/// What does an exact answer cost beside the paper's descent, and does a query allocate? One operation is one query. Errors are told where
-/// the fractal is small enough to look at every face.
+/// What does an exact result cost beside the paper's descent, and does a query allocate? One operation is one query. There are errors where
+/// the fractal is small enough for testing every face.
 /// </summary>
 [MemoryDiagnoser]
 public class FractalColliderBenchmarks : IExtraMetrics
@@ -38,42 +38,35 @@ public class FractalColliderBenchmarks : IExtraMetrics
         var random = new Random(1);
         _nearPositions = [.. Enumerable.Range(0, Queries).Select(_ => QueryPositions.NearSurface(random, fractal))];
         _farPositions = [.. Enumerable.Range(0, Queries).Select(_ => QueryPositions.Far(random, fractal.Bounds))];
-        (_descent, _exact, _maxDistance) = (new(fractal), new(fractal), DistanceErrors.TouchDistance * fractal.Bounds.Diagonal);
+        _maxDistance = DistanceErrors.TouchDistance * fractal.Bounds.Diagonal;
+        _descent = new(fractal);
+        _exact = new(fractal);
     }
 
-    /// <summary>The baseline: approximate, see <see cref="FractalCollider"/>.</summary>
+    /// <summary>Runs the baseline, which is approximate: see <see cref="FractalCollider"/>.</summary>
     [Benchmark(Baseline = true, OperationsPerInvoke = Queries)]
-    public double DescentNear() => SumDistances(_descent, _nearPositions, double.PositiveInfinity);
+    public double DescentNear() => _descent.SumDistances(_nearPositions, _context);
 
     [Benchmark(OperationsPerInvoke = Queries)]
-    public double ExactNear() => SumDistances(_exact, _nearPositions, double.PositiveInfinity);
+    public double ExactNear() => _exact.SumDistances(_nearPositions, _context);
 
-    /// <summary>What most bodies of a scene ask most of the time: is anything within 2 % of the size, where there is nothing?</summary>
+    /// <summary>Asks what most bodies ask most of the time: is anything within 2 % of the size, where there is nothing?</summary>
     [Benchmark(OperationsPerInvoke = Queries)]
-    public double ExactFarWithinReach() => SumDistances(_exact, _farPositions, _maxDistance);
+    public double ExactFarWithinReach() => _exact.SumDistances(_farPositions, _context, _maxDistance);
 
     /// <inheritdoc/>
     IEnumerable<ExtraMetric> IExtraMetrics.MeasureExtra(string method)
     {
         var isFar = method == nameof(ExactFarWithinReach);
         var positions = (isFar ? _farPositions : _nearPositions)[..ComparedQueries];
-        var isSmall = !isFar && _fractal.FaceCount <= BenchmarkShape.MaxFaces;
+        var hasOracle = !isFar && _fractal.FaceCount <= BenchmarkShape.MaxFaces;
+        var oracle = hasOracle
+            ? ColliderQuality.ComputeOracleDistances(FractalGenerator.Flatten(_fractal, BenchmarkShape.MaxFaces), positions)
+            : null;
+        Func<Collider> build = method == nameof(DescentNear)
+            ? () => new FractalCollider(_fractal)
+            : () => new ExactFractalCollider(_fractal);
         return ColliderQuality.Measure(
-            method == nameof(DescentNear) ? () => new FractalCollider(_fractal) : () => new ExactFractalCollider(_fractal),
-            positions,
-            isFar ? _maxDistance : double.PositiveInfinity,
-            isSmall ? ColliderQuality.ComputeOracleDistances(FractalGenerator.Flatten(_fractal, BenchmarkShape.MaxFaces), positions) : null,
-            _fractal.Bounds.Diagonal);
-    }
-
-    private double SumDistances(Collider collider, Vector[] positions, double maxDistance)
-    {
-        var sum = 0.0;
-        foreach (var position in positions)
-        {
-            sum += collider.TryFindClosest(position, maxDistance, _context, out var closest) ? closest.Distance : 0;
-        }
-
-        return sum;
+            build, positions, isFar ? _maxDistance : double.PositiveInfinity, oracle, _fractal.Bounds.Diagonal);
     }
 }

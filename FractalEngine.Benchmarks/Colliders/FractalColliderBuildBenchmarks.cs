@@ -15,13 +15,13 @@ public class FractalColliderBuildBenchmarks : IExtraMetrics
     [ParamsSource(nameof(Names))]
     public string Shape { get; set; } = "";
 
-    /// <summary>All fractals of the assets.</summary>
+    /// <summary>Names of all fractals of the assets.</summary>
     public static IEnumerable<string> Names => FractalCase.Names;
 
     [GlobalSetup]
     public void SetUp() => _fractal = FractalCase.Load(Shape).Fractal;
 
-    /// <summary>The baseline: a box around the fractal, which anything that shows it needs.</summary>
+    /// <summary>Runs the baseline: a box around the fractal, which whatever draws the fractal needs anyway.</summary>
     [Benchmark(Baseline = true)]
     public BoundingBox Bounds() => new Fractal(_fractal.Description, _fractal.BaseMesh).Bounds;
 
@@ -29,5 +29,6 @@ public class FractalColliderBuildBenchmarks : IExtraMetrics
     public Collider Exact() => new ExactFractalCollider(_fractal);
 
     /// <inheritdoc/>
-    IEnumerable<ExtraMetric> IExtraMetrics.MeasureExtra(string method) => [new("bytes", method == nameof(Exact) ? Exact().StorageBytes : null)];
+    IEnumerable<ExtraMetric> IExtraMetrics.MeasureExtra(string method) =>
+        [new("bytes", method == nameof(Exact) ? Exact().StorageBytes : null)];
 }

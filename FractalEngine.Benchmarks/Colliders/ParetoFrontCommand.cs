@@ -2,21 +2,29 @@ using FractalEngine.Benchmarks.Measuring;
 
 namespace FractalEngine.Benchmarks.Colliders;
 
-/// <summary>The words after <c>front</c>: shapes and options.</summary>
+/// <summary>Runs the command <c>front</c>, whose arguments are names of shapes and options.</summary>
 internal static class ParetoFrontCommand
 {
     private const string Usage = """
         front [NAME[:NUMBER] ...] [--quick] [--output FOLDER]
-          Which collider for which error? Writes front.csv, into docs/benchmarks unless stated. A number is a fractal's depth or a mesh's faces.
+          Which collider for which error? Writes front.csv, into docs/benchmarks unless stated.
+          A number is a fractal's depth or a mesh's faces.
           Fractals of more than 3,000,000 faces have rows without errors, of their own colliders only.
           --quick: smaller shapes and fewer positions.
         """;
 
+    /// <summary>Runs the command and returns the exit code.</summary>
+    /// <param name="args">The words after the command's name.</param>
     public static int Run(ReadOnlySpan<string> args)
     {
-        var (isQuick, folder, names) = (false, CommandLineParser.DefaultFolder, new List<string>());
-        if (!new CommandLineParser(Usage).Flag("--quick", () => isQuick = true).Option("--output", value => folder = value)
-            .Names(BenchmarkShape.IsKnown, names).TryParse(args))
+        var isQuick = false;
+        var folder = CommandLineParser.DefaultFolder;
+        var names = new List<string>();
+        var parser = new CommandLineParser(Usage)
+            .Flag("--quick", () => isQuick = true)
+            .Option("--output", value => folder = value)
+            .Names(BenchmarkShape.IsKnown, names);
+        if (!parser.TryParse(args))
         {
             return 2;
         }

@@ -6,17 +6,26 @@ using FractalEngine.Render;
 
 namespace FractalEngine.Benchmarks.Drawing;
 
-/// <summary>A picture whose cost is measured: a fractal, and where it is seen from.</summary>
-/// <param name="Name">For tables.</param>
-/// <param name="Scene">The fractal alone.</param>
-/// <param name="View">How it is looked at.</param>
+/// <summary>A frame whose cost is measured: a fractal and a view of it.</summary>
+/// <param name="Name">A name for tables.</param>
+/// <param name="Scene">A scene of the fractal alone.</param>
+/// <param name="View">Camera and projection of the frame.</param>
 internal sealed record FrameCase(string Name, LoadedScene Scene, View View)
 {
-    /// <summary>Of all pictures.</summary>
-    public const double Aspect = 16.0 / 9;
+    /// <summary>Width of all measured frames in pixels.</summary>
+    public const int Width = 1280;
 
-    /// <summary>A fractal seen from <c>afar</c>, <c>close</c> or <c>inside</c>.</summary>
-    /// <param name="text">As in <c>menger:5:inside</c>.</param>
+    /// <summary>Height of all measured frames in pixels.</summary>
+    public const int Height = 720;
+
+    /// <summary>Width of all measured frames divided by their height.</summary>
+    public const double Aspect = (double)Width / Height;
+
+    // Less than a thousandth of a pixel, but another view: nothing may be reused from the frame before.
+    private const double CameraPerturbation = 1e-9;
+
+    /// <summary>Creates the frame of a fractal seen from <c>afar</c>, <c>close</c> or <c>inside</c>.</summary>
+    /// <param name="text">Name, depth if wanted, and viewpoint, as in <c>menger:5:inside</c>.</param>
     public static FrameCase Parse(string text)
     {
         var words = text.Split(':');
@@ -24,6 +33,13 @@ internal sealed record FrameCase(string Name, LoadedScene Scene, View View)
         var model = new FractalModel(fractal.Fractal) { SourcePath = fractal.Name };
         var scene = new LoadedScene(new Scene(), [new PlacedModel(new SceneObject(fractal.Name, Transformation.Identity), model)]);
         return new($"{fractal.Name} {words[^1]}", scene, View.Of(scene, Aspect, CreateCamera(words[^1], scene.Bounds)));
+    }
+
+    /// <summary>Returns the view with the camera moved by less than a thousandth of a pixel where the number is odd.</summary>
+    public View PerturbedView(int drawCount)
+    {
+        var camera = View.Camera;
+        return View with { Camera = camera with { Position = camera.Position + (CameraPerturbation * (drawCount % 2) * Vector.One) } };
     }
 
     private static Camera CreateCamera(string viewpoint, BoundingBox bounds)

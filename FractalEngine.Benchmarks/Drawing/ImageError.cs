@@ -2,11 +2,13 @@ using FractalEngine.Core.Images;
 
 namespace FractalEngine.Benchmarks.Drawing;
 
-/// <summary>How far pictures are from each other, in the values that files hold (sRGB).</summary>
+/// <summary>Measures how far images are from each other, in the values that files hold (sRGB).</summary>
 internal static class ImageError
 {
-    /// <summary>Peak signal-to-noise ratio in decibels: 20·log₁₀(255 / root of the mean square); infinite for equal pictures.</summary>
-    /// <exception cref="ArgumentException">They are not of one size.</exception>
+    /// <summary>
+    /// Computes the peak signal-to-noise ratio in decibels: 20·log₁₀(255 / root of the mean square). It is infinite for equal images.
+    /// </summary>
+    /// <exception cref="ArgumentException">The images are not of one size.</exception>
     public static double PeakSignalToNoiseRatio(PixelImage image1, PixelImage image2)
     {
         if ((image1.Width, image1.Height) != (image2.Width, image2.Height))
@@ -25,7 +27,7 @@ internal static class ImageError
         return 20 * Math.Log10(255 / Math.Sqrt(sum / (0.75 * image1.Pixels.Length)));
     }
 
-    /// <summary>A smaller picture: averages of squares of pixels in linear light.</summary>
+    /// <summary>Creates a smaller image: each pixel is the mean of a square of pixels, in linear light.</summary>
     public static PixelImage Downsample(PixelImage image, int factor)
     {
         var linear = new double[256];

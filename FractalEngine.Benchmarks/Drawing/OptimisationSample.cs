@@ -3,18 +3,18 @@ using FractalEngine.Render;
 
 namespace FractalEngine.Benchmarks.Drawing;
 
-/// <summary>One measurement of a scene.</summary>
-/// <param name="StartMilliseconds">Loading, preparing, and the first picture: milliseconds.</param>
-/// <param name="MovingMilliseconds">A picture from another place than the one before: milliseconds.</param>
-/// <param name="StillMilliseconds">A picture like the one before: milliseconds.</param>
-/// <param name="AllocatedBytes">Allocated until the first picture.</param>
-/// <param name="StillStatistics">What the last picture took.</param>
-/// <param name="StillImage">The last picture.</param>
-internal sealed record OptimisationSample(double StartMilliseconds, double MovingMilliseconds, double StillMilliseconds,
-    long AllocatedBytes, FrameStatistics StillStatistics,
+/// <summary>One measurement of a scene. Times are in milliseconds.</summary>
+/// <param name="StartMilliseconds">Time of loading, preparing and drawing the first frame.</param>
+/// <param name="MovingMilliseconds">Time of a frame whose camera has moved since the frame before.</param>
+/// <param name="StillMilliseconds">Time of a frame like the one before.</param>
+/// <param name="AllocatedBytes">Bytes allocated until the first frame was drawn.</param>
+/// <param name="StillStatistics">Statistics of the last frame.</param>
+/// <param name="StillImage">Image of the last frame.</param>
+internal sealed record OptimisationSample(
+    double StartMilliseconds, double MovingMilliseconds, double StillMilliseconds, long AllocatedBytes, FrameStatistics StillStatistics,
     PixelImage StillImage)
 {
-    /// <summary>The better of two measurements, value by value.</summary>
+    /// <summary>Returns the better of two measurements, value by value.</summary>
     public OptimisationSample BestWith(OptimisationSample? other) => other is null ? this : this with
     {
         StartMilliseconds = Math.Min(StartMilliseconds, other.StartMilliseconds),

@@ -10,29 +10,29 @@ using FractalEngine.Render.Windowing;
 namespace FractalEngine.Benchmarks.Drawing;
 
 /// <summary>
-/// What each thing that is skipped saves: all skips on, beside each switched off alone, in turn within one run, and how far its picture is
-/// from the first.
+/// What does each optimisation save? All are on at first, then each is switched off alone, in turn within one run. Each image is compared
+/// with the first.
 /// </summary>
-/// <param name="rounds">Of which the best counts.</param>
+/// <param name="rounds">Number of rounds, the best of which counts.</param>
 /// <param name="output">Receives the rows as text.</param>
-/// <param name="table">Receives them too, if there is one.</param>
+/// <param name="table">Receives the rows too, unless it is null.</param>
 internal sealed class OptimisationTable(int rounds, TextWriter output, CsvTable? table)
 {
-    /// <summary>Names of the columns.</summary>
-    public static readonly string[] Columns = ["scene", "switched_off", "start_ms", "moving_ms", "standing_ms", "allocated_bytes",
-        "to_the_first_db", "counter", "count_with_all_skips", "count"];
+    /// <summary>Names of the table's columns.</summary>
+    public static readonly string[] Columns =
+    [
+        "scene", "switched_off", "start_ms", "moving_ms", "standing_ms", "allocated_bytes", "to_the_first_db", "counter",
+        "count_with_all_skips", "count",
+    ];
 
-    private const int Width = 1280;
-    private const int Height = 720;
-    private const double Aspect = (double)Width / Height;
     private const int MovingFrames = 5;
     private const int StillFrames = 3;
 
-    // Of the scene's size, between two pictures while moving.
+    // Step of the camera between two moving frames, as a fraction of the scene's size.
     private const double CameraStep = 2e-4;
 
     /// <summary>Writes a block of rows for a scene.</summary>
-    /// <param name="path">Its file.</param>
+    /// <param name="path">Path of the scene's file.</param>
     public void Write(string path)
     {
         using var context = new OffscreenContext();
@@ -50,8 +50,8 @@ internal sealed class OptimisationTable(int rounds, TextWriter output, CsvTable?
             }
         }
 
-        output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{Path.GetFileName(path)}, {Width}x{Height}, best of {rounds}"));
-        output.WriteLine("                      start ms  moving ms  standing ms       MB   to the first  counted");
+        WriteLine($"{Path.GetFileName(path)}, {FrameCase.Width}x{FrameCase.Height}, best of {rounds}");
+        output.WriteLine("                      start ms  moving ms     still ms       MB   to the first  counted");
         for (var i = 0; i < cases.Count; i++)
         {
             AddRow(Path.GetFileNameWithoutExtension(path), cases[i], best[i]!, best[0]!);
@@ -64,14 +64,14 @@ internal sealed class OptimisationTable(int rounds, TextWriter output, CsvTable?
     private static OptimisationSample Measure(string path, OptimisationCase optimisation, OffscreenContext context, FrameRenderer frame)
     {
         GC.Collect();
-        var bytes = GC.GetTotalAllocatedBytes(precise: true);
+        var bytesBefore = GC.GetTotalAllocatedBytes(precise: true);
         var watch = Stopwatch.StartNew();
         var file = AssetLoader.Load(path, optimisation.Load);
-        var view = View.Of(file.Scene, Aspect);
+        var view = View.Of(file.Scene, FrameCase.Aspect);
         var preparation = new ScenePreparation(file.Scene, optimisation.Settings);
         if (optimisation.Settings.LazyLoading)
         {
-            preparation.PrepareVisible(view, Aspect);
+            preparation.PrepareVisible(view, FrameCase.Aspect);
         }
         else
         {
@@ -81,53 +81,45 @@ internal sealed class OptimisationTable(int rounds, TextWriter output, CsvTable?
         using var renderer = new SceneRenderer(context, preparation.Scene);
         Draw(view);
         var start = watch.Elapsed.TotalMilliseconds;
-        bytes = GC.GetTotalAllocatedBytes(precise: true) - bytes;
+        var bytes = GC.GetTotalAllocatedBytes(precise: true) - bytesBefore;
         var step = CameraStep * file.Scene.Bounds.Diagonal * Vector.I;
-        var movingTime =
-            MeasureBest(MovingFrames,
-            i => Draw(view with { Camera = view.Camera with { Position = view.Camera.Position + ((i + 1) * step) } }));
+        var drawCount = 0;
+        var movingTime = InterleavedTiming.MeasureBestMilliseconds(
+            () => Draw(view with { Camera = view.Camera with { Position = view.Camera.Position + (++drawCount * step) } }), MovingFrames);
         Draw(view);
-        var stillTime = MeasureBest(StillFrames, _ => Draw(view));
+        var stillTime = InterleavedTiming.MeasureBestMilliseconds(() => Draw(view), StillFrames);
         return new(start, movingTime, stillTime, bytes, renderer.Statistics, frame.Capture());
 
         void Draw(View drawnView)
         {
-            frame.Draw(renderer, drawnView, Width, Height, optimisation.Settings);
+            frame.Draw(renderer, drawnView, FrameCase.Width, FrameCase.Height, optimisation.Settings);
             frame.Finish();
         }
-    }
-
-    private static double MeasureBest(int count, Action<int> draw)
-    {
-        var best = double.PositiveInfinity;
-        for (var i = 0; i < count; i++)
-        {
-            var watch = Stopwatch.StartNew();
-            draw(i);
-            best = Math.Min(best, watch.Elapsed.TotalMilliseconds);
-        }
-
-        return best;
     }
 
     private void AddRow(string scene, OptimisationCase optimisation, OptimisationSample sample, OptimisationSample first)
     {
         var ratio = ImageError.PeakSignalToNoiseRatio(sample.StillImage, first.StillImage);
-        var distance = double.IsPositiveInfinity(ratio) ? "the same" : string.Create(CultureInfo.InvariantCulture, $"{ratio:F1} dB");
-        var counted = optimisation.Unit.Length == 0
-            ? ""
-            : string.Create(CultureInfo.InvariantCulture,
-            $"{optimisation.Unit}: {optimisation.CounterOf(first):N0}, now {optimisation.CounterOf(sample):N0}");
-        output.WriteLine(string.Create(
-            CultureInfo.InvariantCulture,
-            $"{optimisation.Name,-20} {sample.StartMilliseconds,9:F1} {sample.MovingMilliseconds,10:F2} {sample.StillMilliseconds,12:F2} {sample.AllocatedBytes / 1e6,8:F1} {distance,14}  {counted}"));
+        var difference = double.IsPositiveInfinity(ratio) ? "the same" : FormattableString.Invariant($"{ratio:F1} dB");
         var isCounted = optimisation.Unit.Length > 0;
+        var firstCount = optimisation.CounterOf(first);
+        var count = optimisation.CounterOf(sample);
+        var counted = isCounted ? FormattableString.Invariant($"{optimisation.Unit}: {firstCount:N0}, now {count:N0}") : "";
+        var times = FormattableString.Invariant(
+            $"{sample.StartMilliseconds,9:F1} {sample.MovingMilliseconds,10:F2} {sample.StillMilliseconds,12:F2}");
+        WriteLine($"{optimisation.Name,-20} {times} {sample.AllocatedBytes / 1e6,8:F1} {difference,14}  {counted}");
         table?.Add(
-            scene, isCounted ? optimisation.Name[2..] : "nothing", Math.Round(sample.StartMilliseconds, 3),
+            scene,
+            isCounted ? optimisation.Name[2..] : "nothing",
+            Math.Round(sample.StartMilliseconds, 3),
             Math.Round(sample.MovingMilliseconds, 3),
-            Math.Round(sample.StillMilliseconds, 3), sample.AllocatedBytes,
-            double.IsPositiveInfinity(ratio) ? null : Math.Round(ratio, 2), isCounted ? optimisation.Unit : null, isCounted
-            ? optimisation.CounterOf(first)
-            : null, isCounted ? optimisation.CounterOf(sample) : null);
+            Math.Round(sample.StillMilliseconds, 3),
+            sample.AllocatedBytes,
+            double.IsPositiveInfinity(ratio) ? null : Math.Round(ratio, 2),
+            isCounted ? optimisation.Unit : null,
+            isCounted ? firstCount : null,
+            isCounted ? count : null);
     }
+
+    private void WriteLine(FormattableString text) => output.WriteLine(text.ToString(CultureInfo.InvariantCulture));
 }

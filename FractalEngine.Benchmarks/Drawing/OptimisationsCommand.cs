@@ -2,29 +2,34 @@ using FractalEngine.Benchmarks.Measuring;
 
 namespace FractalEngine.Benchmarks.Drawing;
 
-/// <summary>The words after <c>skips</c>: scenes and options.</summary>
+/// <summary>Runs the command <c>skips</c>, whose arguments are scenes and options.</summary>
 internal static class OptimisationsCommand
 {
     private const string Usage = """
         skips [SCENE.sdo ...] [--rounds N] [--output FOLDER]
-          What each thing that is skipped saves, switched off alone: for the gallery, a scene of textures and a crowd of 400 objects, or the named files.
+          What each optimisation saves, switched off alone.
+          For the gallery, a scene of textures and a crowd of 400 objects, or the named files.
           --output: also as skips.csv.
         """;
 
+    /// <summary>Runs the command and returns the exit code.</summary>
+    /// <param name="args">The words after the command's name.</param>
     public static int Run(ReadOnlySpan<string> args)
     {
-        var (rounds, folder, files) = (3, (string?)null, new List<string>());
-        if (!new CommandLineParser(Usage).Count("--rounds", count => rounds = count).Option("--output", value => folder = value)
-            .Names(File.Exists, files).TryParse(args))
+        var rounds = 3;
+        string? folder = null;
+        var files = new List<string>();
+        var parser = new CommandLineParser(Usage)
+            .Count("--rounds", count => rounds = count)
+            .Option("--output", value => folder = value)
+            .Names(File.Exists, files);
+        if (!parser.TryParse(args))
         {
             return 2;
         }
 
-        var csv = folder is null
-            ? null
-            : new CsvTable(Path.Combine(folder, "skips.csv"),
-            FormattableString.Invariant($"skips{string.Concat(files.Select(file => " " + file))} --rounds {rounds}"),
-            OptimisationTable.Columns);
+        var command = FormattableString.Invariant($"skips{string.Concat(files.Select(file => " " + file))} --rounds {rounds}");
+        var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "skips.csv"), command, OptimisationTable.Columns);
         Write(new(rounds, Console.Out, csv), files);
         csv?.Save();
         return 0;

@@ -5,32 +5,38 @@ using FractalEngine.Benchmarks.Measuring;
 namespace FractalEngine.Benchmarks.Drawing;
 
 /// <summary>
-/// <c>window [FILE]</c>: what a window costs in which nothing moves, with pictures left out that are like the one before, and without.
+/// Runs the command <c>window</c>: what does a window cost in which nothing moves, when it skips frames like the one before and when it
+/// draws them?
 /// </summary>
 internal static class WindowCommand
 {
     private const string Usage = """
         window [FILE] [--output FOLDER]
-          The share of a core that a still window takes over 5 seconds, of the gallery or of FILE. Opens two windows, one after the other, for 15 seconds each. --output: also as window.csv.
+          The share of a core that a still window takes over 5 seconds, of the gallery or of FILE.
+          Opens two windows, one after the other, for 15 seconds each.
+          --output: also as window.csv.
         """;
 
-    // Until the file is loaded and drawn, also on a slow machine.
+    // Enough for loading the file and drawing it, also on a slow machine.
     private static readonly TimeSpan LoadingDuration = TimeSpan.FromSeconds(10);
     private static readonly TimeSpan MeasuredDuration = TimeSpan.FromSeconds(5);
 
+    /// <summary>Runs the command and returns the exit code.</summary>
+    /// <param name="args">The words after the command's name.</param>
     public static int Run(ReadOnlySpan<string> args)
     {
-        var program =
-            Path.Combine(AppContext.BaseDirectory.Replace("FractalEngine.Benchmarks", "FractalEngine.App", StringComparison.Ordinal),
-            "FractalEngine.App.dll");
-        var (folder, files) = ((string?)null, new List<string>());
-        if (!new CommandLineParser(Usage).Option("--output", value => folder = value)
-            .Names(name => files.Count == 0 && File.Exists(name), files)
-            .TryParse(args))
+        string? folder = null;
+        var files = new List<string>();
+        var parser = new CommandLineParser(Usage)
+            .Option("--output", value => folder = value)
+            .Names(name => files.Count == 0 && File.Exists(name), files);
+        if (!parser.TryParse(args))
         {
             return 2;
         }
 
+        var appFolder = AppContext.BaseDirectory.Replace("FractalEngine.Benchmarks", "FractalEngine.App", StringComparison.Ordinal);
+        var program = Path.Combine(appFolder, "FractalEngine.App.dll");
         if (!File.Exists(program))
         {
             Console.Error.WriteLine($"error: {program} is not built: build the solution first");
@@ -38,11 +44,12 @@ internal static class WindowCommand
         }
 
         var file = files is [var given] ? given : Path.Combine(FractalCase.Assets, "scenes", "gallery.sdo");
+        var command = string.Join(' ', ["window", .. files]);
         var csv = folder is null
             ? null
-            : new CsvTable(Path.Combine(folder, "window.csv"), string.Join(' ', ["window", .. files]), "scene", "switched_off",
-            "percent_of_a_core");
-        foreach (var (name, options) in ((string, string[])[])[("everything skipped", []), ("- still", ["--without", "still"])])
+            : new CsvTable(Path.Combine(folder, "window.csv"), command, "scene", "switched_off", "percent_of_a_core");
+        (string Name, string[] Options)[] cases = [("all optimisations", []), ("- idle", ["--without", "idle"])];
+        foreach (var (name, options) in cases)
         {
             if (MeasureCoreUsage([program, "view", file, .. options]) is not { } usage)
             {
@@ -51,14 +58,14 @@ internal static class WindowCommand
             }
 
             Console.WriteLine(string.Create(CultureInfo.InvariantCulture, $"{name,-20} {100 * usage,8:F2} % of a core"));
-            csv?.Add(Path.GetFileNameWithoutExtension(file), options is [] ? "nothing" : "still", Math.Round(100 * usage, 3));
+            csv?.Add(Path.GetFileNameWithoutExtension(file), options is [] ? "nothing" : "idle", Math.Round(100 * usage, 3));
         }
 
         csv?.Save();
         return 0;
     }
 
-    /// <summary>Null where the program ended by itself.</summary>
+    /// <summary>Measures what share of a core a program takes once it has loaded; null where the program ended by itself.</summary>
     private static double? MeasureCoreUsage(string[] arguments)
     {
         var start = new ProcessStartInfo("dotnet", arguments);
@@ -71,14 +78,15 @@ internal static class WindowCommand
                 return null;
             }
 
-            var (before, watch) = (process.TotalProcessorTime, Stopwatch.StartNew());
+            var timeBefore = process.TotalProcessorTime;
+            var watch = Stopwatch.StartNew();
             if (process.WaitForExit(MeasuredDuration))
             {
                 return null;
             }
 
             process.Refresh();
-            return (process.TotalProcessorTime - before) / watch.Elapsed;
+            return (process.TotalProcessorTime - timeBefore) / watch.Elapsed;
         }
         finally
         {

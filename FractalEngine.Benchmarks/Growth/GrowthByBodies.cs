@@ -7,20 +7,21 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Benchmarks.Growth;
 
 /// <summary>
-/// How does the cost of a step grow with the bodies that fall on a sponge: in the first second, when all are awake, and when they have
-/// settled?
+/// How does the cost of a step grow with the bodies that fall on a sponge: in the first second, when all are awake, and when they have come
+/// to rest?
 /// </summary>
 internal static class GrowthByBodies
 {
     private const int FallSteps = 60;
     private const int MaxStepsToRest = 900;
     private const int RestSteps = 60;
-    private static readonly int[] Counts = [1, 10, 100, 1000, 10_000];
 
-    // So many take minutes to settle.
+    // More take minutes to come to rest.
     private const int MaxBodiesToRestWhenQuick = 1000;
 
-    /// <summary>Writes the file.</summary>
+    private static readonly int[] Counts = [1, 10, 100, 1000, 10_000];
+
+    /// <summary>Measures and writes all rows of the table.</summary>
     public static void Write(TableOptions options)
     {
         var sponge = FractalCase.Parse("menger:5");
@@ -63,19 +64,21 @@ internal static class GrowthByBodies
             var world = PhysicsTable.CreateWorld(sponge, count, ColliderKind.Exact);
             world.BuildColliders();
             Fall.RunRound(world);
-            while (measuresRest && world.StepCount < MaxStepsToRest && world.IsMoving)
+            if (!measuresRest)
+            {
+                return;
+            }
+
+            while (world.StepCount < MaxStepsToRest && world.IsMoving)
             {
                 world.Step();
             }
 
-            if (measuresRest)
-            {
-                Rest.RunRound(world);
-            }
+            Rest.RunRound(world);
         }
     }
 
-    /// <summary>Some steps, each with the best time of all rounds; all rounds make the same steps.</summary>
+    /// <summary>Some steps, each with its best time of all rounds. All rounds make the same steps.</summary>
     private sealed class Phase(int steps)
     {
         private readonly double[] _bestMilliseconds = [.. Enumerable.Repeat(double.PositiveInfinity, steps)];
@@ -85,13 +88,15 @@ internal static class GrowthByBodies
 
         public void RunRound(PhysicsWorld world)
         {
-            (_faceTests, _boundTests) = (0, 0);
+            _faceTests = 0;
+            _boundTests = 0;
             for (var step = 0; step < steps; step++)
             {
                 var start = Stopwatch.GetTimestamp();
                 world.Step();
                 _bestMilliseconds[step] = Math.Min(_bestMilliseconds[step], Stopwatch.GetElapsedTime(start).TotalMilliseconds);
-                (_faceTests, _boundTests) = (_faceTests + world.LastStepCost.FaceTests, _boundTests + world.LastStepCost.BoundTests);
+                _faceTests += world.LastStepCost.FaceTests;
+                _boundTests += world.LastStepCost.BoundTests;
             }
 
             _awakeCount = PhysicsTable.CountAwake(world);
@@ -101,7 +106,8 @@ internal static class GrowthByBodies
         {
             var sorted = _bestMilliseconds.Order().ToArray();
             var median = sorted[steps / 2];
-            table.Add(count, phase, _awakeCount, median, sorted[^1], Math.Round(1e3 * median / count, 4), (double)_faceTests / steps,
+            table.Add(
+                count, phase, _awakeCount, median, sorted[^1], Math.Round(1e3 * median / count, 4), (double)_faceTests / steps,
                 (double)_boundTests / steps);
         }
     }

@@ -4,7 +4,7 @@ using FractalEngine.Benchmarks.Measuring;
 
 namespace FractalEngine.Benchmarks.Growth;
 
-/// <summary>The words after <c>growth</c>: tables and options.</summary>
+/// <summary>Runs the command <c>growth</c>, whose arguments are names of tables and options.</summary>
 internal static class GrowthCommand
 {
     private const string Usage = """
@@ -21,13 +21,17 @@ internal static class GrowthCommand
         ["drawing"] = DrawingGrowth.Write,
     };
 
+    /// <summary>Runs the command and returns the exit code.</summary>
+    /// <param name="args">The words after the command's name.</param>
     public static int Run(ReadOnlySpan<string> args)
     {
-        var (options, names) = (new TableOptions("growth", false, CommandLineParser.DefaultFolder), new List<string>());
-        var words = new CommandLineParser($"{Usage}\nTables: {string.Join(' ', Tables.Keys)}")
+        var options = new TableOptions("growth", false, CommandLineParser.DefaultFolder);
+        var names = new List<string>();
+        var parser = new CommandLineParser($"{Usage}\nTables: {string.Join(' ', Tables.Keys)}")
             .Flag("--quick", () => options = options with { IsQuick = true })
-            .Option("--output", folder => options = options with { Folder = folder }).Names(Tables.ContainsKey, names);
-        if (!words.TryParse(args))
+            .Option("--output", folder => options = options with { Folder = folder })
+            .Names(Tables.ContainsKey, names);
+        if (!parser.TryParse(args))
         {
             return 2;
         }

@@ -11,7 +11,7 @@ public class PngBenchmarks : IExtraMetrics
     private string _folder = "";
     private PixelImage _image = null!;
 
-    /// <summary>The side of a large texture, and the height of a screenshot.</summary>
+    /// <summary>Height in pixels: of a large square texture, and of a screenshot.</summary>
     [Params(4096, 1080)]
     public int Height { get; set; }
 
@@ -25,7 +25,7 @@ public class PngBenchmarks : IExtraMetrics
     public void SetUp()
     {
         _folder = Directory.CreateTempSubdirectory("fractal-engine-").FullName;
-        _image = new(Width, Height, Photograph(Width, Height));
+        _image = new(Width, Height, CreatePhotograph(Width, Height));
         WriteManaged();
         File.Move(Target, Source, overwrite: true);
     }
@@ -33,7 +33,7 @@ public class PngBenchmarks : IExtraMetrics
     [GlobalCleanup]
     public void CleanUp() => Directory.Delete(_folder, recursive: true);
 
-    /// <summary>The baseline: libpng, without the copy that makes the pixels ours.</summary>
+    /// <summary>Runs the baseline: libpng, without copying the pixels into memory of ours.</summary>
     [Benchmark(Baseline = true)]
     public void ReadSdl() => SdlPng.Load(Source);
 
@@ -69,8 +69,8 @@ public class PngBenchmarks : IExtraMetrics
         return [new("megapixels_a_second", Width * Height / 1e6, IsPerSecond: true), new("megabytes", megabytes)];
     }
 
-    /// <summary>Waves with noise, as in photographs: every filter has rows to win, and little repeats.</summary>
-    private static byte[] Photograph(int width, int height)
+    /// <summary>Creates waves with noise, as in photographs. Every filter is best for some rows, and little repeats.</summary>
+    private static byte[] CreatePhotograph(int width, int height)
     {
         var random = new Random(1);
         var pixels = new byte[4 * width * height];

@@ -4,7 +4,7 @@ using FractalEngine.Core.Images;
 
 namespace FractalEngine.Benchmarks.Images;
 
-/// <summary>Reads and writes PNG files with SDL2_image, under the names that it has on Linux.</summary>
+/// <summary>Reads and writes PNG files with SDL2_image, whose libraries have their Linux names here.</summary>
 internal static class SdlPng
 {
     private const string Sdl = "libSDL2-2.0.so.0";
@@ -13,15 +13,15 @@ internal static class SdlPng
     // SDL_PIXELFORMAT_ABGR8888: red, green, blue, alpha in memory.
     private const uint Rgba = 0x16762004;
 
-    /// <summary>Decodes a file, and throws the pixels away.</summary>
+    /// <summary>Decodes a file and discards the pixels.</summary>
     public static void Load(string path)
     {
-        var surface = LoadSurface(Name(path));
+        var surface = LoadSurface(ToUtf8(path));
         ThrowIf(surface == IntPtr.Zero, path);
         FreeSurface(surface);
     }
 
-    /// <summary>Writes a file.</summary>
+    /// <summary>Writes an image to a file.</summary>
     public static void Save(PixelImage image, string path)
     {
         var pixels = GCHandle.Alloc(image.Pixels, GCHandleType.Pinned);
@@ -29,7 +29,7 @@ internal static class SdlPng
         {
             var surface = CreateSurface(pixels.AddrOfPinnedObject(), image.Width, image.Height, 32, 4 * image.Width, Rgba);
             ThrowIf(surface == IntPtr.Zero, path);
-            var result = SavePng(surface, Name(path));
+            var result = SavePng(surface, ToUtf8(path));
             FreeSurface(surface);
             ThrowIf(result != 0, path);
         }
@@ -39,11 +39,11 @@ internal static class SdlPng
         }
     }
 
-    private static byte[] Name(string path) => [.. Encoding.UTF8.GetBytes(path), 0];
+    private static byte[] ToUtf8(string path) => [.. Encoding.UTF8.GetBytes(path), 0];
 
-    private static void ThrowIf(bool isFailed, string path)
+    private static void ThrowIf(bool hasFailed, string path)
     {
-        if (isFailed)
+        if (hasFailed)
         {
             throw new IOException($"SDL2_image fails on {path}");
         }

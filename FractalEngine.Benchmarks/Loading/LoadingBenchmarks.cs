@@ -16,7 +16,7 @@ public class LoadingBenchmarks : IExtraMetrics
     private SourceText _fractal = null!;
     private Fractal _sponge = null!;
 
-    /// <summary>About the faces of the paper's first model.</summary>
+    /// <summary>Number of faces of the mesh, about that of the paper's first model.</summary>
     [Params(280_000)]
     public int Faces { get; set; }
 
@@ -24,14 +24,14 @@ public class LoadingBenchmarks : IExtraMetrics
     public void SetUp()
     {
         using var text = new MemoryStream();
-        ObjWriter.Write(MeshGenerators.Create("terrain", 1, Faces), "terrain", text);
+        ObjMeshWriter.Write(MeshGenerators.Create("terrain", 1, Faces), text, "terrain");
         _mesh = SourceText.Decode(text.ToArray(), "terrain.obj");
         var sponge = Path.Combine(FractalCase.Assets, "fractals", "menger-4.fdo");
         _fractal = SourceText.Decode(File.ReadAllBytes(sponge), "menger-4.fdo");
         _sponge = FractalCase.Load("menger-4").Fractal;
     }
 
-    /// <summary>The baseline: only splitting the same text into lines and words, which any parser has to do.</summary>
+    /// <summary>Runs the baseline: splits the same text into lines and words, as any parser has to.</summary>
     [Benchmark(Baseline = true)]
     public int SplitWords() => LoadingTable.CountWords(_mesh.Text);
 

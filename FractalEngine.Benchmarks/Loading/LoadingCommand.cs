@@ -3,14 +3,17 @@ using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.Benchmarks.Loading;
 
-/// <summary>The words after <c>loading</c>: options.</summary>
+/// <summary>Runs the command <c>loading</c>, whose arguments are options.</summary>
 internal static class LoadingCommand
 {
     private const string Usage = """
         loading [--quick] [--output FOLDER]
-          What do loading, parsing and expanding cost? loading.csv, expansion.csv and, where there is a display, first-picture.csv, in docs/benchmarks unless stated.
+          What do loading, parsing and expanding cost? Writes to docs/benchmarks unless stated:
+          loading.csv, expansion.csv and, where there is a display, first-picture.csv.
         """;
 
+    /// <summary>Runs the command and returns the exit code.</summary>
+    /// <param name="args">The words after the command's name.</param>
     public static int Run(ReadOnlySpan<string> args)
     {
         if (TableOptions.TryParse("loading", Usage, args) is not { } options)
@@ -26,7 +29,7 @@ internal static class LoadingCommand
         }
         catch (GraphicsUnavailableException exception)
         {
-            Console.WriteLine($"first-picture.csv is left out: {exception.Message}");
+            Console.WriteLine($"first-picture.csv is skipped: {exception.Message}");
         }
 
         return 0;

@@ -9,14 +9,20 @@ using FractalEngine.Parsing.Text;
 namespace FractalEngine.Benchmarks.Loading;
 
 /// <summary>
-/// How many megabytes of OBJ a second: bytes read, words split, every number read by the framework, the text parsed, and the file loaded
-/// with all that a scene needs? And how long do the texts of the assets' fractals and scenes take?
+/// How many megabytes of OBJ a second are read, split into words, read as numbers by the framework, parsed, and loaded with all that a
+/// scene needs? And how long do the fractals and scenes of the assets take?
 /// </summary>
 internal static class LoadingTable
 {
     private const long ByteLimit = 1L << 30;
 
-    /// <summary>Writes the file.</summary>
+    private static double _sink;
+
+    /// <summary>Paths of all fractals and scenes of the assets, ordered.</summary>
+    public static IEnumerable<string> AssetFiles => Directory.GetFiles(Path.Combine(FractalCase.Assets, "fractals"), "*.fdo")
+        .Concat(Directory.GetFiles(Path.Combine(FractalCase.Assets, "scenes"), "*.sdo")).Order(StringComparer.Ordinal);
+
+    /// <summary>Measures and writes all rows of the table.</summary>
     public static void Write(TableOptions options)
     {
         var table = options.CreateTable("loading.csv", "file", "faces", "bytes", "step", "ms", "megabytes_a_second");
@@ -29,7 +35,7 @@ internal static class LoadingTable
                 var mesh = MeshGenerators.Create(name, 1, faces);
                 using (var stream = File.Create(file))
                 {
-                    ObjWriter.Write(mesh, name, stream);
+                    ObjMeshWriter.Write(mesh, stream, name);
                 }
 
                 AddMesh(table, name, mesh, file, options.Rounds);
@@ -40,47 +46,17 @@ internal static class LoadingTable
             folder.Delete(recursive: true);
         }
 
-        string[] texts = [.. Directory.GetFiles(Path.Combine(FractalCase.Assets, "fractals"), "*.fdo"),
-            .. Directory.GetFiles(Path.Combine(FractalCase.Assets, "scenes"), "*.sdo")];
-        foreach (var file in texts.Order(StringComparer.Ordinal))
+        foreach (var file in AssetFiles)
         {
-            var seconds = InterleavedTiming.MeasureBestSeconds([() => AssetLoader.Load(file)], options.Rounds)[0];
+            var milliseconds = InterleavedTiming.MeasureBestMilliseconds(() => AssetLoader.Load(file), options.Rounds);
             var bytes = new FileInfo(file).Length;
-            table.Add(Path.GetFileName(file), null, bytes, "load with all it refers to", Math.Round(1e3 * seconds, 4), null);
+            table.Add(Path.GetFileName(file), null, bytes, "load with all it refers to", Math.Round(milliseconds, 4), null);
         }
 
         table.Save();
     }
 
-    private static IEnumerable<(string Name, int? Faces)> MeshSizes(bool isQuick) =>
-        [("terrain", 10_000), ("tree-stump", null), ("spaceship-interior", null), .. isQuick
-        ? Array.Empty<(string, int?)>()
-        : [("icosphere", 1_310_720)]];
-
-    private static void AddMesh(CsvTable table, string name, Mesh mesh, string file, int rounds)
-    {
-        var bytes = File.ReadAllBytes(file);
-        var source = SourceText.Decode(bytes, file);
-        (string Step, Action Do)[] steps =
-        [
-            ("read the bytes", () => File.ReadAllBytes(file)),
-            ("split into words", () => _sink = CountWords(source.Text)),
-            ("split, and read numbers with Utf8Parser", () => _sink = SumNumbers(bytes)),
-            ("read and decode", () => SourceText.Read(file, file, ByteLimit)),
-            ("parse", () => ObjParser.Parse(source)),
-            ("load", () => AssetLoader.Load(file)),
-        ];
-        var times = InterleavedTiming.MeasureBestSeconds([.. steps.Select(step => step.Do)], rounds);
-        foreach (var (step, seconds) in steps.Zip(times))
-        {
-            table.Add(name, mesh.FaceCount, bytes.Length, step.Step, Math.Round(1e3 * seconds, 4),
-                Math.Round(bytes.Length / seconds / 1e6, 1));
-        }
-    }
-
-    private static double _sink;
-
-    /// <summary>What any parser has to do.</summary>
+    /// <summary>Counts the words of a text, which any parser has to find.</summary>
     public static int CountWords(string text)
     {
         var count = 0;
@@ -95,8 +71,40 @@ internal static class LoadingTable
         return count;
     }
 
+    private static IEnumerable<(string Name, int? Faces)> MeshSizes(bool isQuick)
+    {
+        yield return ("terrain", 10_000);
+        yield return ("tree-stump", null);
+        yield return ("spaceship-interior", null);
+        if (!isQuick)
+        {
+            yield return ("icosphere", 1_310_720);
+        }
+    }
+
+    private static void AddMesh(CsvTable table, string name, Mesh mesh, string file, int rounds)
+    {
+        var bytes = File.ReadAllBytes(file);
+        var source = SourceText.Decode(bytes, file);
+        (string Step, Action Run)[] steps =
+        [
+            ("read the bytes", () => File.ReadAllBytes(file)),
+            ("split into words", () => _sink = CountWords(source.Text)),
+            ("split, and read numbers with Utf8Parser", () => _sink = SumNumbers(bytes)),
+            ("read and decode", () => SourceText.Read(file, file, ByteLimit)),
+            ("parse", () => ObjParser.Parse(source)),
+            ("load", () => AssetLoader.Load(file)),
+        ];
+        var times = InterleavedTiming.MeasureBestSeconds([.. steps.Select(step => step.Run)], rounds);
+        foreach (var ((step, _), seconds) in steps.Zip(times))
+        {
+            table.Add(
+                name, mesh.FaceCount, bytes.Length, step, Math.Round(1e3 * seconds, 4), Math.Round(bytes.Length / seconds / 1e6, 1));
+        }
+    }
+
     /// <summary>
-    /// The same with the framework's fastest conversion, and nothing kept: about what a parser without checks would take.
+    /// Adds up the numbers of a text by the framework's fastest conversion and keeps nothing, as a parser without any checks would.
     /// </summary>
     private static double SumNumbers(ReadOnlySpan<byte> text)
     {

@@ -2,25 +2,25 @@ using System.Globalization;
 
 namespace FractalEngine.Benchmarks.Measuring;
 
-/// <summary>What may stand after a command: options, and names of what it measures.</summary>
-/// <param name="usage">Written where something else stands there.</param>
+/// <summary>Parses what stands after a command: options, and names of what the command measures.</summary>
+/// <param name="usage">Usage of the command, written where an argument is not expected.</param>
 internal sealed class CommandLineParser(string usage)
 {
     private readonly Dictionary<string, Action> _flags = [];
     private readonly Dictionary<string, Func<string, bool>> _options = [];
     private Func<string, bool> _tryAddName = static _ => false;
 
-    /// <summary>Where measurements are kept.</summary>
+    /// <summary>Folder in which the repository keeps its measurements.</summary>
     public static string DefaultFolder => Path.Combine(Path.GetDirectoryName(FractalCase.Assets)!, "docs", "benchmarks");
 
-    /// <summary>An option without a value.</summary>
+    /// <summary>Declares an option without a value.</summary>
     public CommandLineParser Flag(string option, Action set)
     {
         _flags.Add(option, set);
         return this;
     }
 
-    /// <summary>An option with a value of any form but that of an option.</summary>
+    /// <summary>Declares an option whose value may be anything but another option.</summary>
     public CommandLineParser Option(string option, Action<string> set) => Option(option, text =>
     {
         var isValue = !text.StartsWith('-');
@@ -32,16 +32,16 @@ internal sealed class CommandLineParser(string usage)
         return isValue;
     });
 
-    /// <summary>An option with a value.</summary>
-    /// <param name="option">With its dashes.</param>
-    /// <param name="trySet">False for a value that is none.</param>
+    /// <summary>Declares an option with a value.</summary>
+    /// <param name="option">Name of the option with its dashes.</param>
+    /// <param name="trySet">Sets the value, or returns false where the text is none.</param>
     public CommandLineParser Option(string option, Func<string, bool> trySet)
     {
         _options.Add(option, trySet);
         return this;
     }
 
-    /// <summary>An option with a positive whole number.</summary>
+    /// <summary>Declares an option with a positive whole number.</summary>
     public CommandLineParser Count(string option, Action<int> set) => Option(option, text =>
     {
         var isCount = TryParseCount(text, out var count);
@@ -53,32 +53,34 @@ internal sealed class CommandLineParser(string usage)
         return isCount;
     });
 
-    /// <summary>Words that are no options.</summary>
+    /// <summary>Declares which words are names, and collects these in a list.</summary>
     public CommandLineParser Names(Func<string, bool> isName, List<string> names)
     {
         _tryAddName = text =>
         {
-            var known = isName(text);
-            if (known)
+            var isKnown = isName(text);
+            if (isKnown)
             {
                 names.Add(text);
             }
 
-            return known;
+            return isKnown;
         };
         return this;
     }
 
-    /// <summary>Reads them; false, with a line on standard error, where one is not expected.</summary>
+    /// <summary>
+    /// Parses the arguments. At the first that is not expected it writes an error and the usage to standard error, and returns false.
+    /// </summary>
     public bool TryParse(ReadOnlySpan<string> args)
     {
         for (var i = 0; i < args.Length; i++)
         {
-            if (_flags.TryGetValue(args[i], out var flag))
+            if (_flags.TryGetValue(args[i], out var setFlag))
             {
-                flag();
+                setFlag();
             }
-            else if (i + 1 < args.Length && _options.TryGetValue(args[i], out var value) && value(args[i + 1]))
+            else if (i + 1 < args.Length && _options.TryGetValue(args[i], out var trySet) && trySet(args[i + 1]))
             {
                 i++;
             }
@@ -92,7 +94,7 @@ internal sealed class CommandLineParser(string usage)
         return true;
     }
 
-    /// <summary>A positive whole number.</summary>
+    /// <summary>Parses a positive whole number of digits only.</summary>
     public static bool TryParseCount(string text, out int count) =>
         int.TryParse(text, NumberStyles.None, CultureInfo.InvariantCulture, out count) && count > 0;
 }

@@ -5,12 +5,15 @@ using BenchmarkDotNet.Running;
 
 namespace FractalEngine.Benchmarks.Measuring;
 
-/// <summary>The report of a class of benchmarks as a table of the project's form: its name, in lower case, <c>.csv</c>.</summary>
-/// <param name="folder">Of the file.</param>
-/// <param name="columns">Beside time and allocation.</param>
+/// <summary>
+/// Exports the report of a class of benchmarks as a table of the project's form. The file has the name of the class in lower case.
+/// </summary>
+/// <param name="folder">Folder of the file.</param>
+/// <param name="columns">Columns beside time and allocation.</param>
 internal sealed class CsvTableExporter(string folder, ExtraMetricColumns columns) : IExporter
 {
-    private static readonly string[] Measured = ["method", "mean_ns", "standard_deviation_ns", "ratio_to_baseline", "allocated_bytes"];
+    private static readonly string[] MeasuredColumns =
+        ["method", "mean_ns", "standard_deviation_ns", "ratio_to_baseline", "allocated_bytes"];
 
     /// <inheritdoc/>
     public string Name => nameof(CsvTableExporter);
@@ -27,9 +30,8 @@ internal sealed class CsvTableExporter(string folder, ExtraMetricColumns columns
         var parameters = summary.BenchmarksCases.SelectMany(item => item.Parameters.Items).Select(item => item.Name).Distinct().ToArray();
         var extraColumns = columns.ColumnNames(summary).ToArray();
         var file = Path.Combine(folder, $"{type.Replace("Benchmarks", "", StringComparison.Ordinal).ToLowerInvariant()}-classes.csv");
-        var table =
-            new CsvTable(file, $"--filter *.{type}.*",
-            [.. parameters.Select(name => name.ToLowerInvariant()), .. Measured, .. extraColumns]);
+        var table = new CsvTable(
+            file, $"--filter *.{type}.*", [.. parameters.Select(name => name.ToLowerInvariant()), .. MeasuredColumns, .. extraColumns]);
         foreach (var item in summary.BenchmarksCases)
         {
             if (summary[item] is not { ResultStatistics: { } statistics } report)
@@ -39,9 +41,12 @@ internal sealed class CsvTableExporter(string folder, ExtraMetricColumns columns
 
             table.Add(
             [
-                .. parameters.Select(name => item.Parameters[name]), item.Descriptor.WorkloadMethod.Name, Math.Round(statistics.Mean, 3),
+                .. parameters.Select(name => item.Parameters[name]),
+                item.Descriptor.WorkloadMethod.Name,
+                Math.Round(statistics.Mean, 3),
                 Math.Round(statistics.StandardDeviation, 3),
-                RatioToBaseline(summary, item, statistics.Mean), report.GcStats.GetBytesAllocatedPerOperation(item),
+                RatioToBaseline(summary, item, statistics.Mean),
+                report.GcStats.GetBytesAllocatedPerOperation(item),
                 .. extraColumns.Select(name => (object?)columns.Value(summary, item, name)),
             ]);
         }

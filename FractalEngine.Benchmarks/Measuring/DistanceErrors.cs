@@ -1,26 +1,26 @@
 namespace FractalEngine.Benchmarks.Measuring;
 
 /// <summary>
-/// How wrong distances are. Parts of the size are of the shape's diagonal; relative errors are parts of the right distance.
+/// Errors of distances. Those of the size are fractions of the shape's diagonal; relative errors are fractions of the right distance.
 /// </summary>
-/// <param name="Max">Of the size.</param>
-/// <param name="Mean">Of the size.</param>
-/// <param name="MaxRelative">What ε bounds.</param>
-/// <param name="MeanRelative">Of all positions.</param>
+/// <param name="Max">Largest error of the size.</param>
+/// <param name="Mean">Mean error of the size.</param>
+/// <param name="MaxRelative">Largest relative error, which ε bounds.</param>
+/// <param name="MeanRelative">Mean relative error of all positions.</param>
 /// <param name="MissedPercent">
-/// Positions within <see cref="TouchDistance"/> of the shape for which the collider says that they are not.
+/// Percent of the positions that are within <see cref="TouchDistance"/> of the shape though the collider says that they are not.
 /// </param>
 internal readonly record struct DistanceErrors(double Max, double Mean, double MaxRelative, double MeanRelative, double MissedPercent)
 {
-    /// <summary>What counts as touching, as a part of the size.</summary>
+    /// <summary>Distance that counts as touching, as a fraction of the size.</summary>
     public const double TouchDistance = 0.02;
 
-    /// <summary>What rounding may do to exact answers, as a part of the size.</summary>
+    /// <summary>Error that rounding may cause in exact results, as a fraction of the size.</summary>
     public const double RoundingTolerance = 1e-12;
 
     /// <summary>Compares distances with the right ones.</summary>
-    /// <param name="distances">Found.</param>
-    /// <param name="oracle">As many.</param>
+    /// <param name="distances">Distances that a collider found.</param>
+    /// <param name="oracle">The right distances, as many.</param>
     /// <param name="size">Diagonal of the shape.</param>
     public static DistanceErrors Compare(double[] distances, double[] oracle, double size)
     {
@@ -31,10 +31,10 @@ internal readonly record struct DistanceErrors(double Max, double Mean, double M
         return new(errors.Max() / size, errors.Average() / size, relative.Max(), relative.Average(), 100.0 * missedCount / oracle.Length);
     }
 
-    /// <summary>What is no number is as wrong as can be: <c>Max</c> leaves NaN out.</summary>
-    private static double AbsoluteError(double distance, double expected) => Math.Abs(distance - expected) switch
+    /// <summary>Computes an error in which NaN counts as infinite, since <c>Max</c> would ignore it.</summary>
+    private static double AbsoluteError(double distance, double expected)
     {
-        double.NaN => distance == expected ? 0 : double.PositiveInfinity,
-        var error => error,
-    };
+        var error = Math.Abs(distance - expected);
+        return !double.IsNaN(error) ? error : distance == expected ? 0 : double.PositiveInfinity;
+    }
 }

@@ -7,7 +7,7 @@ using BenchmarkDotNet.Running;
 
 namespace FractalEngine.Benchmarks.Measuring;
 
-/// <summary>Columns of what benchmarks say of themselves: see <see cref="IExtraMetrics"/>.</summary>
+/// <summary>Columns of the metrics that benchmarks report themselves, through <see cref="IExtraMetrics"/>.</summary>
 internal sealed class ExtraMetricColumns : IColumnProvider
 {
     private readonly Dictionary<string, ExtraMetric[]> _measured = [];
@@ -15,11 +15,11 @@ internal sealed class ExtraMetricColumns : IColumnProvider
     /// <inheritdoc/>
     public IEnumerable<IColumn> GetColumns(Summary summary) => ColumnNames(summary).Select(name => new Column(name, this));
 
-    /// <summary>In the order in which they are measured.</summary>
+    /// <summary>Names of all columns, in the order in which they are measured.</summary>
     public IEnumerable<string> ColumnNames(Summary summary) =>
         summary.BenchmarksCases.SelectMany(Measure).Select(value => value.Column).Distinct();
 
-    /// <summary>Null where there is none.</summary>
+    /// <summary>Returns the value of a benchmark in a column, or null where there is none.</summary>
     public double? Value(Summary summary, BenchmarkCase benchmarkCase, string column)
     {
         var measured = Measure(benchmarkCase).FirstOrDefault(value => value.Column == column);

@@ -7,26 +7,26 @@ using FractalEngine.Parsing.Assets;
 
 namespace FractalEngine.Benchmarks.Measuring;
 
-/// <summary>A fractal that colliders are measured on.</summary>
-/// <param name="Name">Short, for tables.</param>
-/// <param name="Fractal">At the depth that is asked for.</param>
+/// <summary>A fractal that is measured, with a name.</summary>
+/// <param name="Name">A short name for tables, with the depth where one was asked for.</param>
+/// <param name="Fractal">The fractal at that depth.</param>
 internal sealed record FractalCase(string Name, Fractal Fractal)
 {
     /// <summary>
-    /// Beside those of the assets: three branches of 0.6, each leaning another way; four maps of which none keeps shapes, like a fern's;
-    /// and a tree that keeps its trunk at each level by the identity, so that most of its chains are the same instance.
+    /// Names beside those of the assets. three-branches has three branches of 0.6 in different directions. four-fronds has four maps, none
+    /// of which keeps shapes, like a fern's. binary-tree keeps its trunk at each level by the identity, so that most of its chains are one
+    /// instance.
     /// </summary>
     private static readonly string[] BuiltInNames = ["three-branches", "four-fronds", "binary-tree"];
 
-    /// <summary>The names there are.</summary>
-    public static IEnumerable<string> Names =>
-        Directory.GetFiles(Path.Combine(Assets, "fractals"), "*.fdo").Select(file => Path.GetFileNameWithoutExtension(file))
-        .Order(StringComparer.Ordinal).Concat(BuiltInNames);
+    /// <summary>Names of all fractals that can be measured.</summary>
+    public static IEnumerable<string> Names => Directory.GetFiles(Path.Combine(Assets, "fractals"), "*.fdo")
+        .Select(file => Path.GetFileNameWithoutExtension(file)).Order(StringComparer.Ordinal).Concat(BuiltInNames);
 
-    /// <summary>The folder of the scenes, fractals and meshes.</summary>
+    /// <summary>Folder of the scenes, fractals and meshes.</summary>
     public static string Assets { get; } = FindAssets();
 
-    /// <summary>True for the name of a fractal, or its name and depth: <c>tree</c> or <c>tree:20</c>.</summary>
+    /// <summary>Tells whether a text is the name of a fractal, or its name and depth: <c>tree</c> or <c>tree:20</c>.</summary>
     public static bool IsKnown(string text) => text.Split(':') switch
     {
         [var name] => Names.Contains(name),
@@ -35,16 +35,16 @@ internal sealed record FractalCase(string Name, Fractal Fractal)
         _ => false,
     };
 
-    /// <summary>A fractal by its name, or its name and depth: <c>tree</c> or <c>tree:20</c>.</summary>
+    /// <summary>Loads a fractal by its name, or its name and depth: <c>tree</c> or <c>tree:20</c>.</summary>
     public static FractalCase Parse(string text) => text.Split(':') switch
     {
         [var name, var depth] => Load(name, int.Parse(depth, CultureInfo.InvariantCulture)),
         _ => Load(text),
     };
 
-    /// <summary>A fractal by its name.</summary>
+    /// <summary>Loads a fractal by its name.</summary>
     /// <param name="name">One of <see cref="Names"/>.</param>
-    /// <param name="depth">Of its outermost recursion; null for the depth in its file.</param>
+    /// <param name="depth">Depth of its outermost recursion; null for the depth in its file.</param>
     public static FractalCase Load(string name, int? depth = null)
     {
         var fractal = name switch

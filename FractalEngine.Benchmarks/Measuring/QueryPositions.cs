@@ -4,21 +4,23 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Benchmarks.Measuring;
 
-/// <summary>Where a shape is asked for its nearest point. The same seed gives the same positions.</summary>
+/// <summary>Random positions of queries around a shape. The same seed gives the same positions.</summary>
 internal static class QueryPositions
 {
-    /// <summary>Anywhere in a box.</summary>
+    /// <summary>Creates a position anywhere in a box.</summary>
     public static Vector Uniform(Random random, BoundingBox box) => box.Minimum + box.Size.Stretch(RandomInUnitCube(random));
 
-    /// <summary>Up to 1 % of the diagonal along each axis from a random point of a random face.</summary>
+    /// <summary>Creates a position up to 1 % of the diagonal along each axis from a random point of a random face.</summary>
     public static Vector NearSurface(Random random, Mesh mesh) =>
         OnSurface(random, mesh) + RandomOffset(random, 0.01 * mesh.Bounds.Diagonal);
 
-    /// <summary>Up to 1 % of the diagonal along each axis from a random point of a random instance.</summary>
+    /// <summary>Creates a position up to 1 % of the diagonal along each axis from a random point of a random instance.</summary>
     public static Vector NearSurface(Random random, Fractal fractal) =>
         OnSurface(random, fractal) + RandomOffset(random, 0.01 * fractal.Bounds.Diagonal);
 
-    /// <summary>One to one and a half diagonals from the centre of a box, to all sides: so at least half a diagonal from the box.</summary>
+    /// <summary>
+    /// Creates a position in any direction, 1 to 1.5 diagonals from the centre of a box: so at least half a diagonal from the box.
+    /// </summary>
     public static Vector Far(Random random, BoundingBox box)
     {
         while (true)
@@ -31,7 +33,7 @@ internal static class QueryPositions
         }
     }
 
-    /// <summary>On a random face of a random instance, by one random map a level.</summary>
+    /// <summary>Creates a position on a random face of a random instance, by one random map a level.</summary>
     public static Vector OnSurface(Random random, Fractal fractal)
     {
         // Deeper levels move a point by less than a coordinate can hold.
@@ -47,12 +49,19 @@ internal static class QueryPositions
         return point;
     }
 
+    /// <summary>Creates a point of a triangle, all of which are equally likely.</summary>
+    public static Vector InTriangle(Random random, Vector a, Vector b, Vector c)
+    {
+        var u = random.NextDouble();
+        var v = random.NextDouble();
+        (u, v) = u + v > 1 ? (1 - u, 1 - v) : (u, v);
+        return a + (u * (b - a)) + (v * (c - a));
+    }
+
     private static Vector OnSurface(Random random, Mesh mesh)
     {
         var (a, b, c) = mesh.Face(random.Next(mesh.FaceCount));
-        var (u, v) = (random.NextDouble(), random.NextDouble());
-        (u, v) = u + v > 1 ? (1 - u, 1 - v) : (u, v);
-        return a + (u * (b - a)) + (v * (c - a));
+        return InTriangle(random, a, b, c);
     }
 
     private static Vector RandomOffset(Random random, double maxOffset) => maxOffset * ((2 * RandomInUnitCube(random)) - Vector.One);

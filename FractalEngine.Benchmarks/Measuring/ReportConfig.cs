@@ -3,11 +3,11 @@ using BenchmarkDotNet.Jobs;
 
 namespace FractalEngine.Benchmarks.Measuring;
 
-/// <summary>BenchmarkDotNet's own report, with more columns, and as a table where a folder is given.</summary>
+/// <summary>Creates BenchmarkDotNet's configuration: its own report with more columns.</summary>
 internal static class ReportConfig
 {
-    /// <summary>For <c>BenchmarkSwitcher</c>.</summary>
-    /// <param name="folder">Of tables; null for none.</param>
+    /// <summary>Creates the configuration for <c>BenchmarkSwitcher</c>.</summary>
+    /// <param name="folder">Folder in which each class also writes a table; null for no tables.</param>
     public static IConfig Create(string? folder)
     {
         var columns = new ExtraMetricColumns();

@@ -1,19 +1,19 @@
 namespace FractalEngine.Benchmarks.Measuring;
 
-/// <summary>How much a command measures, and where its tables go.</summary>
-/// <param name="Command">Its name.</param>
-/// <param name="IsQuick">Fewer points and rounds.</param>
-/// <param name="Folder">Of the files.</param>
+/// <summary>Options of a command that writes tables.</summary>
+/// <param name="Command">Name of the command.</param>
+/// <param name="IsQuick">True for fewer points and rounds.</param>
+/// <param name="Folder">Folder of the tables.</param>
 internal sealed record TableOptions(string Command, bool IsQuick, string Folder)
 {
-    /// <summary>Of which the best counts.</summary>
+    /// <summary>Number of rounds, the best of which counts.</summary>
     public int Rounds => IsQuick ? 5 : 15;
 
-    /// <summary>A file in the folder.</summary>
+    /// <summary>Creates a table for a file in the folder.</summary>
     public CsvTable CreateTable(string file, params string[] columns) =>
         new(Path.Combine(Folder, file), IsQuick ? $"{Command} --quick" : Command, columns);
 
-    /// <summary>Reads <c>--quick</c> and <c>--output FOLDER</c>; null where other words stand there.</summary>
+    /// <summary>Parses <c>--quick</c> and <c>--output FOLDER</c>, or returns null where there are other words.</summary>
     public static TableOptions? TryParse(string command, string usage, ReadOnlySpan<string> args)
     {
         var options = new TableOptions(command, false, CommandLineParser.DefaultFolder);

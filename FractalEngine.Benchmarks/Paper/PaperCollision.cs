@@ -10,59 +10,67 @@ using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Benchmarks.Paper;
 
-/// <summary>What the colliders look at for a query near the surface of a model, and how often the two that approximate are wrong.</summary>
-/// <param name="SimpleFaceTests">Face tests.</param>
-/// <param name="FractalFaceTests">Face tests; null for a mesh.</param>
-/// <param name="BoundingBoxFaceTests">Face tests, counted as the paper counts: see <see cref="BoundingBoxCollider"/>.</param>
-/// <param name="OctreeDepth">Levels of the octree.</param>
-/// <param name="ExactTests">
-/// Face and bound tests of the engine's own collider: the hierarchy for a mesh, the exact one for a fractal.
+/// <summary>
+/// Tests that the colliders make in a query near the surface of a model, and how often the two approximate ones are wrong.
+/// </summary>
+/// <param name="SimpleFaceTests">Face tests of the simple collider.</param>
+/// <param name="FractalFaceTests">Face tests of the fractal collider; null for a mesh.</param>
+/// <param name="BoundingBoxFaceTests">
+/// Face tests of the bounding box collider, counted as the paper counts: see <see cref="BoundingBoxCollider"/>.
 /// </param>
-/// <param name="FractalWrongPercent">Percent of the answers that are off by more than 1e-6 of the size; null for a mesh.</param>
-/// <param name="BoundingBoxWrongPercent">The same.</param>
+/// <param name="OctreeDepth">Number of levels of the octree.</param>
+/// <param name="OwnFaceTests">
+/// Face tests of the engine's own collider: the hierarchy for a mesh, the exact one for a fractal.
+/// </param>
+/// <param name="OwnBoundTests">Bound tests of the engine's own collider.</param>
+/// <param name="FractalWrongPercent">
+/// Percent of the fractal collider's results that are off by more than 1e-6 of the size; null for a mesh.
+/// </param>
+/// <param name="BoundingBoxWrongPercent">Percent of the bounding box collider's results that are off by as much.</param>
 internal sealed record PaperCollision(
-    double SimpleFaceTests, double? FractalFaceTests, double BoundingBoxFaceTests, int OctreeDepth,
-    (double Faces, double Bounds) ExactTests, double? FractalWrongPercent,
-    double BoundingBoxWrongPercent)
+    double SimpleFaceTests, double? FractalFaceTests, double BoundingBoxFaceTests, int OctreeDepth, double OwnFaceTests,
+    double OwnBoundTests, double? FractalWrongPercent, double BoundingBoxWrongPercent)
 {
     private const int Queries = 1000;
     private const int SimpleQueries = 2;
     private const int MaxFaces = 50_000_000;
 
-    // As a part of the size; in the other table the same.
+    // As a fraction of the size.
     private const double MaxRelativeError = 1e-6;
 
-    /// <summary>Counts. Fractals are expanded for the colliders that know only meshes: a few GB for the largest.</summary>
+    /// <summary>
+    /// Counts the tests. Fractals are expanded for the colliders that know only meshes, which takes a few GB for the largest.
+    /// </summary>
     public static PaperCollision Measure(Model model)
     {
         var fractal = (model as FractalModel)?.Fractal;
         var random = new Random(1);
-        var positions = Enumerable.Range(0, Queries)
-            .Select(_ => fractal is null ? QueryPositions.NearSurface(random, model.Mesh) : QueryPositions.NearSurface(random, fractal))
-            .ToArray();
+        Func<Vector> nextPosition = fractal is null
+            ? () => QueryPositions.NearSurface(random, model.Mesh)
+            : () => QueryPositions.NearSurface(random, fractal);
+        var positions = Enumerable.Range(0, Queries).Select(_ => nextPosition()).ToArray();
         var mesh = fractal is null ? model.Mesh : FractalGenerator.Flatten(fractal, MaxFaces);
         var boxes = new BoundingBoxCollider(mesh);
-        Collider exact = fractal is null ? new HierarchyCollider(mesh) : new ExactFractalCollider(fractal);
+        Collider own = fractal is null ? new HierarchyCollider(mesh) : new ExactFractalCollider(fractal);
+        var ownWorkload = new ColliderWorkload(own, positions);
         var greedy = fractal is null ? null : new FractalCollider(fractal);
         return new(
             new ColliderWorkload(new SimpleCollider(mesh), positions[..SimpleQueries]).FaceTests,
             greedy is null ? null : new ColliderWorkload(greedy, positions).FaceTests,
             new ColliderWorkload(boxes, positions).FaceTests,
             boxes.Depth,
-            new ColliderWorkload(exact, positions) switch { var workload => (workload.FaceTests, workload.BoundTests) },
-            greedy is null ? null : MeasureWrongPercent(greedy, exact, positions, model.Bounds),
-            MeasureWrongPercent(boxes, exact, positions, model.Bounds));
+            ownWorkload.FaceTests,
+            ownWorkload.BoundTests,
+            greedy is null ? null : MeasureWrongPercent(greedy, own, positions, model.Bounds),
+            MeasureWrongPercent(boxes, own, positions, model.Bounds));
     }
 
     private static double MeasureWrongPercent(Collider collider, Collider exact, Vector[] positions, BoundingBox bounds)
     {
         var context = new QueryContext();
-        return Math.Round(100.0
-            * positions.Count(
-                position => Math.Abs(Distance(collider, position, context) - Distance(exact, position, context)) > MaxRelativeError
-                * bounds.Diagonal) / positions.Length, 3);
+        var maxError = MaxRelativeError * bounds.Diagonal;
+        var wrongCount = positions.Count(position =>
+            Math.Abs(collider.ClosestDistance(position, context) - exact.ClosestDistance(position, context)) > maxError);
+        return Math.Round(100.0 * wrongCount / positions.Length, 3);
     }
-
-    private static double Distance(Collider collider, Vector position, QueryContext context) =>
-        collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest) ? closest.Distance : double.PositiveInfinity;
 }

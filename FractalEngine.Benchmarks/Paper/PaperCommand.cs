@@ -3,28 +3,31 @@ using FractalEngine.Benchmarks.Measuring;
 
 namespace FractalEngine.Benchmarks.Paper;
 
-/// <summary>The words after <c>paper</c>: the paper's own tables, figures 17 and 18, measured here, beside what the paper prints.</summary>
+/// <summary>
+/// Runs the command <c>paper</c>, which measures the paper's own tables, figures 17 and 18, and writes what the paper prints beside them.
+/// </summary>
 internal static class PaperCommand
 {
     private const string Usage = """
         paper [--output FOLDER]
-          Load time, storage and collision cost of the paper's five models: paper-figure17.csv and paper-figure18.csv, in docs/benchmarks unless stated. Takes some minutes and 8 GB.
+          Load time, storage and collision cost of the paper's five models. Takes some minutes and 8 GB.
+          Writes paper-figure17.csv and paper-figure18.csv, to docs/benchmarks unless stated.
         """;
 
     private static readonly string[] Columns17 =
     [
         "model", "name", "fractal", "faces", "paper_faces", "load_s", "every_instance_load_s", "paper_load_s", "storage_bytes",
-        "paper_storage_bytes", "collision_cost",
-        "paper_collision_cost", "own_collider_cost", "note",
+        "paper_storage_bytes", "collision_cost", "paper_collision_cost", "own_collider_cost", "note",
     ];
 
     private static readonly string[] Columns18 =
     [
         "model", "name", "faces", "simple", "paper_simple", "fractal", "paper_fractal", "boxes", "paper_boxes", "box_depth",
-        "own_collider_faces", "own_collider_bounds",
-        "fractal_wrong_percent", "boxes_wrong_percent", "note",
+        "own_collider_faces", "own_collider_bounds", "fractal_wrong_percent", "boxes_wrong_percent", "note",
     ];
 
+    /// <summary>Runs the command and returns the exit code.</summary>
+    /// <param name="args">The words after the command's name.</param>
     public static int Run(ReadOnlySpan<string> args)
     {
         var output = CommandLineParser.DefaultFolder;
@@ -36,7 +39,9 @@ internal static class PaperCommand
         var folder = Directory.CreateTempSubdirectory("fractalengine");
         try
         {
-            Write(output, [.. PaperModel.All.Select(model => Measure(model, model.EnsureFile(folder.FullName)))]);
+            var rows = PaperModel.All.Select(model => Measure(model, model.EnsureFile(folder.FullName))).ToArray();
+            Write(output, "paper-figure17.csv", Columns17, [.. rows.Select(row => row.Figure17)]);
+            Write(output, "paper-figure18.csv", Columns18, [.. rows.Select(row => row.Figure18)]);
         }
         finally
         {
@@ -44,12 +49,6 @@ internal static class PaperCommand
         }
 
         return 0;
-    }
-
-    private static void Write(string output, (object?[] Figure17, object?[] Figure18)[] rows)
-    {
-        Write(output, "paper-figure17.csv", Columns17, [.. rows.Select(row => row.Figure17)]);
-        Write(output, "paper-figure18.csv", Columns18, [.. rows.Select(row => row.Figure18)]);
     }
 
     private static (object?[] Figure17, object?[] Figure18) Measure(PaperModel paper, string file)
@@ -62,16 +61,13 @@ internal static class PaperCommand
         return (
             [
                 paper.Id, paper.Name, paper.Shape is null ? "N" : "Y", model.FaceCount, paper.Faces, load, everyInstanceLoad,
-                paper.LoadSeconds,
-                loaded.StorageBytes, paper.StorageBytes,
-                cost.FractalFaceTests ?? cost.SimpleFaceTests, paper.FractalCost ?? paper.Faces, cost.ExactTests.Faces,
-                paper.NoteOnFigure17,
+                paper.LoadSeconds, loaded.StorageBytes, paper.StorageBytes, cost.FractalFaceTests ?? cost.SimpleFaceTests,
+                paper.FractalCost ?? paper.Faces, cost.OwnFaceTests, paper.NoteOnFigure17,
             ],
             [
                 paper.Id, paper.Name, model.FaceCount, cost.SimpleFaceTests, paper.Faces, cost.FractalFaceTests, paper.FractalCost,
-                cost.BoundingBoxFaceTests, paper.BoxCost,
-                cost.OctreeDepth, cost.ExactTests.Faces,
-                cost.ExactTests.Bounds, cost.FractalWrongPercent, cost.BoundingBoxWrongPercent, paper.NoteOnFigure18,
+                cost.BoundingBoxFaceTests, paper.BoxCost, cost.OctreeDepth, cost.OwnFaceTests, cost.OwnBoundTests,
+                cost.FractalWrongPercent, cost.BoundingBoxWrongPercent, paper.NoteOnFigure18,
             ]);
     }
 
@@ -87,15 +83,15 @@ internal static class PaperCommand
         // As text a model is a column, as in the paper.
         for (var column = 0; column < columns.Length; column++)
         {
-            Console.WriteLine($"{columns[column],-24}{string.Concat(rows.Select(row => $"{Text(row[column]),20}"))}");
+            Console.WriteLine($"{columns[column],-24}{string.Concat(rows.Select(row => $"{FormatCell(row[column]),20}"))}");
         }
 
         Console.WriteLine();
     }
 
-    private static string Text(object? value) => value switch
+    private static string FormatCell(object? value) => value switch
     {
-        // Too long for a column; it stands in the file.
+        // Too long for a column; the file has it.
         string { Length: > 20 } => "see file",
         _ => Convert.ToString(value, CultureInfo.InvariantCulture) ?? "",
     };

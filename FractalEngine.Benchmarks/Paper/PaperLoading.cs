@@ -5,8 +5,8 @@ using FractalEngine.Render.Preparation;
 namespace FractalEngine.Benchmarks.Paper;
 
 /// <summary>
-/// How long from a file's text to arrays that the GPU takes as they are: files read, parsed, normals and vertices made, instances placed.
-/// Median of some runs.
+/// Measures the time from a file's text to arrays that the GPU takes as they are: files are read and parsed, normals and vertices computed,
+/// instances placed. The median of some runs counts.
 /// </summary>
 internal static class PaperLoading
 {
@@ -16,10 +16,10 @@ internal static class PaperLoading
     private const int MaxInstances = 4_000_000;
     private const long MaxTriangles = 50_000_000;
 
-    /// <summary>As the engine does it: a fractal's instances are chosen picture by picture.</summary>
+    /// <summary>Measures the seconds that the engine takes, which culls a fractal's instances frame by frame.</summary>
     public static double MeasureSeconds(string file) => MeasureMedian(file, new());
 
-    /// <summary>As the paper does it: every instance's matrix is made.</summary>
+    /// <summary>Measures the seconds that it takes as in the paper, where every instance's matrix is computed.</summary>
     public static double MeasureSecondsWithEveryInstance(string file) =>
         MeasureMedian(file, new() { Culling = null, InstanceBudget = MaxInstances, TriangleBudget = MaxTriangles });
 

@@ -4,7 +4,7 @@ using FractalEngine.Parsing.Scenes;
 
 namespace FractalEngine.Benchmarks.Physics;
 
-/// <summary>The words after <c>physics</c>: fractals and options.</summary>
+/// <summary>Runs the command <c>physics</c>, whose arguments are names of fractals and options.</summary>
 internal static class PhysicsCommand
 {
     private const string Usage = """
@@ -13,21 +13,29 @@ internal static class PhysicsCommand
           --output: also as physics.csv.
         """;
 
+    /// <summary>Runs the command and returns the exit code.</summary>
+    /// <param name="args">The words after the command's name.</param>
     public static int Run(ReadOnlySpan<string> args)
     {
-        var (rounds, bodyCount, collider, folder, names) = (3, 1000, ColliderKind.Exact, (string?)null, new List<string>());
-        var words = new CommandLineParser($"{Usage}\nNames: {string.Join(' ', FractalCase.Names)}")
-            .Count("--rounds", count => rounds = count).Count("--balls", count => bodyCount = count)
+        var rounds = 3;
+        var bodyCount = 1000;
+        var collider = ColliderKind.Exact;
+        string? folder = null;
+        var names = new List<string>();
+        var parser = new CommandLineParser($"{Usage}\nNames: {string.Join(' ', FractalCase.Names)}")
+            .Count("--rounds", count => rounds = count)
+            .Count("--balls", count => bodyCount = count)
             .Option("--collider", text => TryParse(text, out collider))
-            .Option("--output", value => folder = value).Names(FractalCase.IsKnown, names);
-        if (!words.TryParse(args))
+            .Option("--output", value => folder = value)
+            .Names(FractalCase.IsKnown, names);
+        if (!parser.TryParse(args))
         {
             return 2;
         }
 
-        var command =
-            FormattableString.Invariant(
-                $"physics{string.Concat(names.Select(name => " " + name))} --balls {bodyCount} --collider {SceneParser.GetColliderName(collider)} --rounds {rounds}");
+        var nameList = string.Concat(names.Select(name => " " + name));
+        var colliderName = SceneParser.GetColliderName(collider);
+        var command = FormattableString.Invariant($"physics{nameList} --balls {bodyCount} --collider {colliderName} --rounds {rounds}");
         var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "physics.csv"), command, PhysicsTable.Columns);
         var table = new PhysicsTable(rounds, Console.Out, csv);
         foreach (var name in names.Count > 0 ? names : ["menger:5"])

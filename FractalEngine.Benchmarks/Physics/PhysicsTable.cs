@@ -8,77 +8,71 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Benchmarks.Physics;
 
 /// <summary>
-/// What a step costs while many balls fall on a fractal, bounce through its holes and come to rest: milliseconds a step on one core, median
-/// and worst of each phase, best of some rounds. All rounds make the same steps, bit for bit.
+/// What does a step cost while many spheres fall on a fractal, bounce through its holes and come to rest? The table has the milliseconds of
+/// a step on one core, median and worst of each phase, best of some rounds. All rounds make the same steps, bit for bit.
 /// </summary>
-/// <param name="rounds">Of which the best counts.</param>
+/// <param name="rounds">Number of rounds, the best of which counts.</param>
 /// <param name="output">Receives the rows as text.</param>
-/// <param name="table">Receives them too, if there is one.</param>
+/// <param name="table">Receives the rows too, unless it is null.</param>
 internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? table)
 {
-    /// <summary>Names of the columns.</summary>
+    /// <summary>Names of the table's columns.</summary>
     public static readonly string[] Columns =
-        ["fractal", "balls", "until_s", "awake_at_end", "bound_tests_a_step", "ms_a_step_median", "ms_a_step_worst",
-        "allocated_bytes_of_all_but_first", "state"];
+    [
+        "fractal", "balls", "until_s", "awake_at_end", "bound_tests_a_step", "ms_a_step_median", "ms_a_step_worst",
+        "allocated_bytes_of_all_but_first", "state",
+    ];
 
-    private const int Steps = 600;
+    private const int PhaseCount = 20;
     private const int StepsPerPhase = 30;
+    private const int StepCount = PhaseCount * StepsPerPhase;
+    private const double StepsPerSecond = 60;
     private const int Seed = 2;
 
     /// <summary>Writes a block of rows for a fractal.</summary>
-    /// <param name="fractal">Moved and scaled so that its largest side is 1; what falls through it is stopped by a floor.</param>
-    /// <param name="count">Of balls, with radii of 0.4 to 1 %.</param>
-    /// <param name="collider">Of all balls.</param>
+    /// <param name="fractal">
+    /// The fractal, which is moved and scaled so that its largest side is 1. A floor stops what falls through it.
+    /// </param>
+    /// <param name="count">Number of spheres, whose radii are 0.4 to 1 % of the fractal's side.</param>
+    /// <param name="collider">Collider of all spheres.</param>
     public void Write(FractalCase fractal, int count, ColliderKind collider)
     {
-        var phases = Steps / StepsPerPhase;
-        var best = new double[Steps];
-        Array.Fill(best, double.PositiveInfinity);
-        var (awake, bounds, hash, allocated) = (new int[phases], new double[phases], "", 0L);
+        var bestMilliseconds = new double[StepCount];
+        Array.Fill(bestMilliseconds, double.PositiveInfinity);
+        var phases = new Phase[PhaseCount];
+        var allocatedBytes = 0L;
+        string? stateHash = null;
         for (var round = 0; round <= rounds; round++)
         {
             var world = CreateWorld(fractal, count, collider);
-            var before = 0L;
-            for (var step = 0; step < Steps; step++)
+            // The first round is for the compiler.
+            allocatedBytes = RunRound(world, round == 0 ? null : bestMilliseconds, phases);
+            stateHash ??= world.StateHash;
+            if (world.StateHash != stateHash)
             {
-                // What is compiled and built at first is not counted.
-                before = step == StepsPerPhase ? GC.GetAllocatedBytesForCurrentThread() : before;
-                var start = Stopwatch.GetTimestamp();
-                world.Step();
-                // The first round is for the compiler.
-                best[step] = round > 0 ? Math.Min(best[step], Stopwatch.GetElapsedTime(start).TotalMilliseconds) : best[step];
-                bounds[step / StepsPerPhase] = (step % StepsPerPhase == 0 ? 0 : bounds[step / StepsPerPhase])
-                    + (world.LastStepCost.BoundTests / (double)StepsPerPhase);
-                awake[step / StepsPerPhase] = CountAwake(world);
+                throw new InvalidOperationException("two rounds of the same steps differ");
             }
-
-            allocated = GC.GetAllocatedBytesForCurrentThread() - before;
-            hash = round == 0 || hash == world.StateHash
-                ? world.StateHash
-                : throw new InvalidOperationException("two rounds of the same steps differ");
         }
 
-        output.WriteLine(
-            string.Create(CultureInfo.InvariantCulture,
-            $"{fractal.Name}, {count} balls, best of {rounds}; state {hash}; {allocated} bytes allocated in the last {Steps - StepsPerPhase} steps"));
+        var allocation = $"{allocatedBytes} bytes allocated in the last {StepCount - StepsPerPhase} steps";
+        WriteLine($"{fractal.Name}, {count} balls, best of {rounds}; state {stateHash}; {allocation}");
         output.WriteLine("until   awake at the end   bound tests   ms a step, median   worst");
-        for (var phase = 0; phase < phases; phase++)
+        for (var i = 0; i < PhaseCount; i++)
         {
-            var times = best.AsSpan(phase * StepsPerPhase, StepsPerPhase).ToArray();
-            Array.Sort(times);
-            output.WriteLine(string.Create(
-                CultureInfo.InvariantCulture,
-                $"{(phase + 1) * StepsPerPhase / 60.0,4:F1} s {awake[phase],18} {bounds[phase],13:F0} {times[StepsPerPhase / 2],19:F2} {times[^1],7:F2}"));
+            var sorted = bestMilliseconds.AsSpan(i * StepsPerPhase, StepsPerPhase).ToArray();
+            Array.Sort(sorted);
+            var (awakeCount, boundTests) = phases[i];
+            var (end, median, worst) = ((i + 1) * StepsPerPhase / StepsPerSecond, sorted[StepsPerPhase / 2], sorted[^1]);
+            WriteLine($"{end,4:F1} s {awakeCount,18} {boundTests,13:F0} {median,19:F2} {worst,7:F2}");
             table?.Add(
-                fractal.Name, count, (phase + 1) * StepsPerPhase / 60.0, awake[phase], Math.Round(bounds[phase], 1),
-                Math.Round(times[StepsPerPhase / 2], 4), Math.Round(times[^1], 4), allocated,
-                hash);
+                fractal.Name, count, end, awakeCount, Math.Round(boundTests, 1), Math.Round(median, 4), Math.Round(worst, 4),
+                allocatedBytes, stateHash);
         }
 
         output.Flush();
     }
 
-    /// <summary>How many do not sleep.</summary>
+    /// <summary>Counts the bodies that do not sleep.</summary>
     internal static int CountAwake(PhysicsWorld world)
     {
         var awake = 0;
@@ -90,7 +84,7 @@ internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? tabl
         return awake;
     }
 
-    /// <summary>A fractal of size 1 over a floor, and balls above it; the same every time.</summary>
+    /// <summary>Creates a fractal of size 1 over a floor, and spheres above it, the same every time.</summary>
     internal static PhysicsWorld CreateWorld(FractalCase fractal, int count, ColliderKind collider)
     {
         var box = fractal.Fractal.Bounds;
@@ -113,4 +107,42 @@ internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? tabl
         }));
         return world;
     }
+
+    /// <summary>Makes all steps, and returns the bytes allocated after the first phase.</summary>
+    /// <param name="world">A new world.</param>
+    /// <param name="bestMilliseconds">Best time of each step so far, which is updated; null to measure none.</param>
+    /// <param name="phases">Receives what the phases have met.</param>
+    private static long RunRound(PhysicsWorld world, double[]? bestMilliseconds, Phase[] phases)
+    {
+        var bytesBefore = 0L;
+        for (var step = 0; step < StepCount; step++)
+        {
+            var (phase, stepOfPhase) = Math.DivRem(step, StepsPerPhase);
+            if (step == StepsPerPhase)
+            {
+                // What is compiled and built at first is not counted.
+                bytesBefore = GC.GetAllocatedBytesForCurrentThread();
+            }
+
+            var start = Stopwatch.GetTimestamp();
+            world.Step();
+            var milliseconds = Stopwatch.GetElapsedTime(start).TotalMilliseconds;
+            if (bestMilliseconds is not null)
+            {
+                bestMilliseconds[step] = Math.Min(bestMilliseconds[step], milliseconds);
+            }
+
+            var boundTests = stepOfPhase == 0 ? 0 : phases[phase].BoundTestsPerStep;
+            phases[phase] = new(CountAwake(world), boundTests + (world.LastStepCost.BoundTests / (double)StepsPerPhase));
+        }
+
+        return GC.GetAllocatedBytesForCurrentThread() - bytesBefore;
+    }
+
+    private void WriteLine(FormattableString text) => output.WriteLine(text.ToString(CultureInfo.InvariantCulture));
+
+    /// <summary>What the steps of a phase have met.</summary>
+    /// <param name="AwakeCount">Number of bodies awake at its end.</param>
+    /// <param name="BoundTestsPerStep">Mean number of bound tests in a step.</param>
+    private readonly record struct Phase(int AwakeCount, double BoundTestsPerStep);
 }

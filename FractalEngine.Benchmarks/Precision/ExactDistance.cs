@@ -2,7 +2,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Benchmarks.Precision;
 
-/// <summary>Squared distances in fractions: what floats and doubles are measured against.</summary>
+/// <summary>Squared distances in rational arithmetic, which floats and doubles are measured against.</summary>
 internal static class ExactDistance
 {
     private readonly record struct Triple(Rational X, Rational Y, Rational Z)
@@ -21,8 +21,8 @@ internal static class ExactDistance
             new((v.Y * w.Z) - (v.Z * w.Y), (v.Z * w.X) - (v.X * w.Z), (v.X * w.Y) - (v.Y * w.X));
     }
 
-    /// <summary>From a triangle.</summary>
-    /// <exception cref="DivideByZeroException">It has no area.</exception>
+    /// <summary>Computes the squared distance of a position from a triangle.</summary>
+    /// <exception cref="DivideByZeroException">The triangle has no area.</exception>
     public static Rational SquaredToTriangle(Vector position, Vector corner1, Vector corner2, Vector corner3)
     {
         var (p, a, b, c) = (Triple.Of(position), Triple.Of(corner1), Triple.Of(corner2), Triple.Of(corner3));
@@ -40,7 +40,7 @@ internal static class ExactDistance
         return height * height / squared;
     }
 
-    /// <summary>From a box.</summary>
+    /// <summary>Computes the squared distance of a position from a box, 0 inside it.</summary>
     public static Rational SquaredToBox(Vector position, Vector minimum, Vector maximum)
     {
         var (p, low, high) = (Triple.Of(position), Triple.Of(minimum), Triple.Of(maximum));

@@ -1,28 +1,31 @@
-using FractalEngine.Core.Collision;
 using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Benchmarks.Measuring;
+using FractalEngine.Core.Collision;
 using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Benchmarks.Precision;
 
 /// <summary>
-/// What would floats save, and what would they cost: a face's distance, one after the other, and those of eight boxes at once, in float and
-/// in double, beside the same in fractions. All coordinates are floats, so nothing is lost before the first operation.
+/// What would floats save, and what would they cost? Distances from one triangle after the other, and from eight boxes at once, are
+/// computed in float and in double, and compared with rational arithmetic. All coordinates are floats, so that nothing is lost before the
+/// first operation.
 /// </summary>
 internal static class FloatVersusDouble
 {
-    /// <summary>Faces of a set.</summary>
+    /// <summary>Number of triangles in a set.</summary>
     public const int CaseCount = 1024;
 
     private const int BoxesPerGroup = 8;
 
-    /// <summary>Where the faces are, as the offset from the origin and the width, in sizes.</summary>
+    private static double _sink;
+
+    /// <summary>Sets of triangles: their offset from the origin and their width, both in sizes of a triangle.</summary>
     public static (string Name, double Offset, double Width)[] CoordinateSets { get; } =
         [("near the origin", 0, 1), ("1000 sizes away", 1000, 1), ("thin", 0, 1e-3)];
 
-    /// <summary>Writes the file.</summary>
+    /// <summary>Measures and writes all rows of the table.</summary>
     public static void Write(TableOptions options)
     {
         var measured = CoordinateSets.SelectMany(set => new[]
@@ -43,35 +46,29 @@ internal static class FloatVersusDouble
         table.Save();
     }
 
-    /// <summary>What is known of a kernel on a set.</summary>
-    internal sealed record Measurement(string Test, string Coordinates, string Type, Action Run, double WorstError,
-        double PercentAboveExact);
-
-    private static double _sink;
-
-    /// <summary>The distance of each position from its face.</summary>
+    /// <summary>Measures the distance of each position from its triangle, by the generic kernel.</summary>
     public static Measurement MeasureTriangles<T>((string Name, double Offset, double Width) set)
         where T : struct, IFloatingPointIeee754<T>
     {
         var random = new Random(1);
-        var faces = Enumerable.Range(0, CaseCount).Select(_ => RandomTriangle(random, set.Offset, set.Width)).ToArray();
-        var same = faces.Select(face => (P: ToTriple<T>(face.P), A: ToTriple<T>(face.A), B: ToTriple<T>(face.B), C: ToTriple<T>(face.C)))
-            .ToArray();
-        var results = same.Select(face => double.CreateChecked(GenericTriangleKernel<T>.DistanceSquared(face.P, face.A, face.B, face.C)));
-        var (worst, above) =
-            ComputeErrors(results.Zip(faces, (result, face) => (result, ExactDistance.SquaredToTriangle(face.P, face.A, face.B, face.C))));
-        return new("face", set.Name, typeof(T).Name, () => Sum(same), worst, above);
+        var triangles = Enumerable.Range(0, CaseCount).Select(_ => RandomTriangle(random, set.Offset, set.Width)).ToArray();
+        var converted = triangles
+            .Select(face => (P: ToTriple<T>(face.P), A: ToTriple<T>(face.A), B: ToTriple<T>(face.B), C: ToTriple<T>(face.C))).ToArray();
+        var (worst, above) = ComputeErrors(converted.Zip(triangles, (face, original) => (
+            double.CreateChecked(GenericTriangleKernel<T>.DistanceSquared(face.P, face.A, face.B, face.C)),
+            ExactDistance.SquaredToTriangle(original.P, original.A, original.B, original.C))));
+        return new("face", set.Name, typeof(T).Name, () => Sum(converted), worst, above);
     }
 
-    /// <summary>The engine's own, which also finds the point, its weights and the feature.</summary>
+    /// <summary>Measures the engine's own kernel, which also finds the point, its barycentrics and the feature.</summary>
     public static Measurement MeasureEngineKernel((string Name, double Offset, double Width) set)
     {
         var random = new Random(1);
-        var faces = Enumerable.Range(0, CaseCount).Select(_ => RandomTriangle(random, set.Offset, set.Width)).ToArray();
-        var (worst, above) = ComputeErrors(faces.Select(
-            face => (TriangleKernel.ClosestPoint(face.P, face.A, face.B, face.C).DistanceSquared,
+        var triangles = Enumerable.Range(0, CaseCount).Select(_ => RandomTriangle(random, set.Offset, set.Width)).ToArray();
+        var (worst, above) = ComputeErrors(triangles.Select(face => (
+            TriangleKernel.ClosestPoint(face.P, face.A, face.B, face.C).DistanceSquared,
             ExactDistance.SquaredToTriangle(face.P, face.A, face.B, face.C))));
-        return new("face, the engine's kernel", set.Name, "Double", () => Sum(faces), worst, above);
+        return new("face, the engine's kernel", set.Name, "Double", () => Sum(triangles), worst, above);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -87,8 +84,9 @@ internal static class FloatVersusDouble
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void Sum<T>((GenericTriangleKernel<T>.Triple P, GenericTriangleKernel<T>.Triple A, GenericTriangleKernel<T>.Triple B,
-    GenericTriangleKernel<T>.Triple C)[] faces)
+    private static void Sum<T>(
+        (GenericTriangleKernel<T>.Triple P, GenericTriangleKernel<T>.Triple A, GenericTriangleKernel<T>.Triple B,
+            GenericTriangleKernel<T>.Triple C)[] faces)
         where T : struct, IFloatingPointIeee754<T>
     {
         var sum = T.Zero;
@@ -105,26 +103,27 @@ internal static class FloatVersusDouble
     {
         var random = new Random(1);
         var boxes = Enumerable.Range(0, CaseCount * BoxesPerGroup)
-            .Select(_ => (Low: RandomPoint(random, set.Offset, 1), Size: RandomPoint(random, 0.5, 0.5))).Select(
-            box => (box.Low, High: RoundToSingle(box.Low + box.Size))).ToArray();
+            .Select(_ => (Low: RandomPoint(random, set.Offset, 1), Size: RandomPoint(random, 0.5, 0.5)))
+            .Select(box => (box.Low, High: RoundToSingle(box.Low + box.Size))).ToArray();
         var positions = Enumerable.Range(0, CaseCount).Select(_ => RandomPoint(random, set.Offset, 2)).ToArray();
-        // A group of eight: least x of all, then y and z, then the largest.
-        var numbers = boxes.Chunk(BoxesPerGroup).SelectMany(group => new Func<(Vector Low, Vector High), double>[]
-        {
+        // A group of eight has its eight lowest x first, then the lowest y and z, then the highest x, y and z.
+        Func<(Vector Low, Vector High), double>[] coordinates =
+        [
             box => box.Low.X, box => box.Low.Y, box => box.Low.Z, box => box.High.X, box => box.High.Y, box => box.High.Z,
-        }.SelectMany(group.Select)).Select(T.CreateChecked).ToArray();
+        ];
+        var numbers = boxes.Chunk(BoxesPerGroup).SelectMany(group => coordinates.SelectMany(group.Select))
+            .Select(T.CreateChecked).ToArray();
         var triples = positions.Select(ToTriple<T>).ToArray();
         var results = new T[CaseCount * BoxesPerGroup];
         ComputeBoxDistances(triples, numbers, results);
-        var (worst, above) =
-            ComputeErrors(results.Select(
-                (result, i) => (double.CreateChecked(result),
-                ExactDistance.SquaredToBox(positions[i / BoxesPerGroup], boxes[i].Low, boxes[i].High))));
+        var (worst, above) = ComputeErrors(results.Select((result, i) => (
+            double.CreateChecked(result),
+            ExactDistance.SquaredToBox(positions[i / BoxesPerGroup], boxes[i].Low, boxes[i].High))));
         return new("8 boxes", set.Name, typeof(T).Name, () => ComputeBoxDistances(triples, numbers, results), worst, above);
     }
 
     /// <summary>
-    /// Squared distances of each position from its eight boxes: one group of floats, two of doubles, in registers of 256 bits.
+    /// Computes the squared distances of each position from its eight boxes: one register of 256 bits in floats, two in doubles.
     /// </summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void ComputeBoxDistances<T>(GenericTriangleKernel<T>.Triple[] positions, T[] numbers, T[] results)
@@ -150,20 +149,22 @@ internal static class FloatVersusDouble
         Vector256<T>.Zero);
 
     /// <summary>
-    /// The worst error of the distance, and the percent that are more than the true one, which a lower bound must not be.
+    /// Computes the worst error of the distance, and the percent that are greater than the true one, which a lower bound must not be.
     /// </summary>
     private static (double Worst, double Above) ComputeErrors(IEnumerable<(double Squared, Rational Exact)> results)
     {
-        var errors = results.Select(pair => (Rational.Of(pair.Squared) - pair.Exact).ToDouble() switch
-        {
-            0.0 => 0,
-            var difference => difference / (Math.Sqrt(pair.Squared) + Math.Sqrt(pair.Exact.ToDouble())),
-        }).ToArray();
+        var errors = results.Select(pair => ErrorOfDistance(pair.Squared, pair.Exact)).ToArray();
         return (errors.Max(Math.Abs), 100.0 * errors.Count(error => error > 0) / errors.Length);
     }
 
+    private static double ErrorOfDistance(double squared, Rational exact)
+    {
+        var difference = (Rational.Of(squared) - exact).ToDouble();
+        return difference == 0 ? 0 : difference / (Math.Sqrt(squared) + Math.Sqrt(exact.ToDouble()));
+    }
+
     /// <summary>
-    /// A face of size 1, or one that is as narrow as asked for, and a position up to 1 from its first corner along each axis.
+    /// Creates a triangle of size 1, or one as narrow as asked for, and a position up to 1 from its first vertex along each axis.
     /// </summary>
     private static (Vector P, Vector A, Vector B, Vector C) RandomTriangle(Random random, double offset, double width)
     {
@@ -180,4 +181,14 @@ internal static class FloatVersusDouble
 
     private static GenericTriangleKernel<T>.Triple ToTriple<T>(Vector v)
         where T : struct, IFloatingPointIeee754<T> => new(T.CreateChecked(v.X), T.CreateChecked(v.Y), T.CreateChecked(v.Z));
+
+    /// <summary>A kernel on a set, and its errors.</summary>
+    /// <param name="Test">Name of the kernel.</param>
+    /// <param name="Coordinates">Name of the set.</param>
+    /// <param name="Type">Name of the type of the numbers.</param>
+    /// <param name="Run">Runs the kernel on all cases of the set.</param>
+    /// <param name="WorstError">Largest error of the distance, as a fraction of a triangle's size.</param>
+    /// <param name="PercentAboveExact">Percent of the distances that are greater than the true ones.</param>
+    internal sealed record Measurement(
+        string Test, string Coordinates, string Type, Action Run, double WorstError, double PercentAboveExact);
 }

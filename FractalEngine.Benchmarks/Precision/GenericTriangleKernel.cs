@@ -4,16 +4,16 @@ using System.Runtime.CompilerServices;
 namespace FractalEngine.Benchmarks.Precision;
 
 /// <summary>
-/// <see cref="Core.Collision.TriangleKernel"/>'s squared distance, the same operations in the same order, in float or in double: to compare
-/// the two. The engine itself has no floats before the GPU.
+/// Computes the squared distance of <see cref="Core.Collision.TriangleKernel"/> by the same operations in the same order, in float or in
+/// double, to compare the two. The engine itself has no floats before the GPU.
 /// </summary>
-/// <typeparam name="T">The number.</typeparam>
+/// <typeparam name="T">Type of the numbers.</typeparam>
 internal static class GenericTriangleKernel<T>
     where T : struct, IFloatingPointIeee754<T>
 {
     private static readonly T ThinSineSquared = T.CreateChecked(1e-6);
 
-    /// <summary>Three numbers.</summary>
+    /// <summary>A vector of three numbers.</summary>
     internal readonly record struct Triple(T X, T Y, T Z)
     {
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -36,7 +36,7 @@ internal static class GenericTriangleKernel<T>
         public T LengthSquared() => Dot(this, this);
     }
 
-    /// <summary>The squared distance of a position from the triangle abc.</summary>
+    /// <summary>Computes the squared distance of a position from the triangle abc.</summary>
     public static T DistanceSquared(Triple position, Triple a, Triple b, Triple c)
     {
         var closest = Min(Min(DistanceSquaredToEdge(position, a, b), DistanceSquaredToEdge(position, b, c)),

@@ -2,7 +2,7 @@ using FractalEngine.Benchmarks.Measuring;
 
 namespace FractalEngine.Benchmarks.Precision;
 
-/// <summary>The words after <c>precision</c>: options.</summary>
+/// <summary>Runs the command <c>precision</c>, whose arguments are options.</summary>
 internal static class PrecisionCommand
 {
     private const string Usage = """
@@ -10,6 +10,8 @@ internal static class PrecisionCommand
           Float or double? Time and error of the same kernels in both: float-double.csv, in docs/benchmarks unless stated.
         """;
 
+    /// <summary>Runs the command and returns the exit code.</summary>
+    /// <param name="args">The words after the command's name.</param>
     public static int Run(ReadOnlySpan<string> args)
     {
         if (TableOptions.TryParse("precision", Usage, args) is not { } options)

@@ -3,8 +3,8 @@ using System.Numerics;
 namespace FractalEngine.Benchmarks.Precision;
 
 /// <summary>A fraction of integers, for results without any rounding. Every finite double is one.</summary>
-/// <param name="Numerator">Of any sign.</param>
-/// <param name="Denominator">Positive.</param>
+/// <param name="Numerator">Numerator of any sign.</param>
+/// <param name="Denominator">Denominator, greater than 0.</param>
 internal readonly record struct Rational(BigInteger Numerator, BigInteger Denominator)
 {
     public static Rational Zero => new(0, 1);
@@ -18,7 +18,7 @@ internal readonly record struct Rational(BigInteger Numerator, BigInteger Denomi
 
     public static Rational operator *(Rational r, Rational s) => new(r.Numerator * s.Numerator, r.Denominator * s.Denominator);
 
-    /// <exception cref="DivideByZeroException">The second is zero.</exception>
+    /// <exception cref="DivideByZeroException">The divisor is 0.</exception>
     public static Rational operator /(Rational r, Rational s) => s.Numerator.Sign switch
     {
         0 => throw new DivideByZeroException(),
@@ -30,8 +30,8 @@ internal readonly record struct Rational(BigInteger Numerator, BigInteger Denomi
 
     public static bool operator >(Rational r, Rational s) => s < r;
 
-    /// <summary>Exactly this double.</summary>
-    /// <exception cref="ArgumentOutOfRangeException">It is NaN or infinite.</exception>
+    /// <summary>Converts a double without rounding.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">The number is NaN or infinite.</exception>
     public static Rational Of(double number)
     {
         if (!double.IsFinite(number))
@@ -40,22 +40,25 @@ internal readonly record struct Rational(BigInteger Numerator, BigInteger Denomi
         }
 
         var bits = BitConverter.DoubleToInt64Bits(Math.Abs(number));
-        var (exponent, fraction) = ((int)(bits >> 52), bits & ((1L << 52) - 1));
-        (exponent, fraction) = exponent == 0 ? (-1074, fraction) : (exponent - 1075, fraction | (1L << 52));
-        BigInteger numerator = number < 0 ? -fraction : fraction;
+        var exponentField = (int)(bits >> 52);
+        var isSubnormal = exponentField == 0;
+        var exponent = isSubnormal ? -1074 : exponentField - 1075;
+        var mantissa = (bits & ((1L << 52) - 1)) | (isSubnormal ? 0 : 1L << 52);
+        BigInteger numerator = number < 0 ? -mantissa : mantissa;
         return exponent >= 0 ? new(numerator << exponent, 1) : new(numerator, BigInteger.One << -exponent);
     }
 
-    /// <summary>True for the same number: ½ is 2/4.</summary>
+    /// <summary>Tells whether two fractions are the same number: ½ equals 2/4.</summary>
     public bool Equals(Rational other) => Numerator * other.Denominator == other.Numerator * Denominator;
 
     /// <inheritdoc/>
-    public override int GetHashCode() => BigInteger.GreatestCommonDivisor(Numerator, Denominator) switch
+    public override int GetHashCode()
     {
-        var divisor => HashCode.Combine(Numerator / divisor, Denominator / divisor),
-    };
+        var divisor = BigInteger.GreatestCommonDivisor(Numerator, Denominator);
+        return HashCode.Combine(Numerator / divisor, Denominator / divisor);
+    }
 
-    /// <summary>To about the last place of a double, whatever the size of the integers.</summary>
+    /// <summary>Converts to a double that is off by about its last place, however large the integers are.</summary>
     public double ToDouble()
     {
         if (Numerator.IsZero)
@@ -63,7 +66,7 @@ internal readonly record struct Rational(BigInteger Numerator, BigInteger Denomi
             return 0;
         }
 
-        // A quotient of 64 bits or one more.
+        // The quotient has 64 bits or one more.
         var shift = 64 - (int)(BigInteger.Abs(Numerator).GetBitLength() - Denominator.GetBitLength());
         var quotient = shift >= 0 ? (Numerator << shift) / Denominator : Numerator / (Denominator << -shift);
         return Math.ScaleB((double)quotient, -shift);

@@ -50,7 +50,8 @@ public static class ColliderFactory
         if (kind == ColliderKind.Fractal)
         {
             throw new ColliderMismatchException(
-                "the collider 'fractal' descends by affine maps, which componentwise composition has not: expected exact, hierarchy, bounding-box or simple");
+                "the collider 'fractal' descends by affine maps, which componentwise composition has not: "
+                + "expected exact, hierarchy, bounding-box or simple");
         }
 
         // A face uses at most three vertices, but the base mesh may have any number of unused ones, which are expanded too.

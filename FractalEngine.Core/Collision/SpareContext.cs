@@ -1,6 +1,8 @@
 namespace FractalEngine.Core.Collision;
 
-/// <summary>Keeps one context for queries whose caller passes none, so that they don't allocate one each. For any number of threads.</summary>
+/// <summary>
+/// Keeps one context for queries whose caller passes none, so that they don't allocate one each. For any number of threads.
+/// </summary>
 internal sealed class SpareContext
 {
     private QueryContext? _context;

@@ -41,7 +41,7 @@ internal static class CollisionMeshes
 
     /// <summary>Loads a scanned model; null where there are no files beside the checkout.</summary>
     public static Mesh? LoadScan(string file) => SharedModels.Folder is { } folder
-        ? ObjParser.Parse(SourceText.Read(Path.Combine(folder, file), file, ParsingLimits.ObjBytes, acceptLatin1: true)).Mesh
+        ? ObjParser.Parse(SourceText.Read(Path.Combine(folder, file), file, ParsingLimits.MaxObjBytes, acceptLatin1: true)).Mesh
         : null;
 
     /// <summary>Creates unconnected random triangles in the cube from −1 to 1.</summary>

@@ -14,7 +14,7 @@ internal sealed class TriangleBoundsBuilder(Mesh mesh, Vector origin, double sca
     // Chunks of this size keep a thread busy for some hundred microseconds.
     private const int ChunkSize = 16_384;
 
-    /// <summary>Computes the boxes.</summary>
+    /// <summary>Computes the boxes of all triangles.</summary>
     /// <param name="triangles">Receives one box a face, in the order of the faces.</param>
     /// <param name="loop">Runs the work on several threads.</param>
     /// <returns>The range of all triangles.</returns>

@@ -15,7 +15,7 @@ internal readonly record struct VectorX4(Vector256<double> X, Vector256<double> 
     /// <summary>Number of vectors, one for each lane.</summary>
     public const int Count = 4;
 
-    /// <summary>Four zero vectors.</summary>
+    /// <summary>Four vectors of zero length.</summary>
     public static VectorX4 Zero => default;
 
     /// <summary>Rounds a number of elements up to a multiple of <see cref="Count"/>.</summary>
@@ -36,7 +36,7 @@ internal readonly record struct VectorX4(Vector256<double> X, Vector256<double> 
     /// <param name="i">Lane, from 0 to 3.</param>
     public Vector this[int i] => new(X[i], Y[i], Z[i]);
 
-    /// <summary>Gathers four vertices.</summary>
+    /// <summary>Gathers four vertices of a mesh.</summary>
     /// <param name="positions">Vertex coordinates, [vertices × 3].</param>
     /// <param name="vertices">Vertex indices.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -17,7 +17,7 @@ internal sealed class DepthFirstSearch<TFrame>(SubFractalTable table, TriangleBv
     /// <param name="search">The state of the search.</param>
     public void Run(TFrame frame, ref FractalSearchState search) => Visit(table.Root, table.Levels, ref frame, 0, 0, ref search);
 
-    /// <summary>Searches a sub-fractal.</summary>
+    /// <summary>Searches a sub-fractal and its children.</summary>
     /// <param name="subFractal">The sub-fractal.</param>
     /// <param name="remainingLevels">Its remaining levels.</param>
     /// <param name="frame">Its frame, which stays as it is; an <c>in</c> parameter would be copied by each call of the interface.</param>

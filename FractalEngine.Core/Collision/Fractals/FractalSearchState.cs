@@ -19,7 +19,7 @@ internal ref struct FractalSearchState
     private Span<int> _closestPath;
     private Span<double> _scratch;
 
-    /// <summary>Begins a search.</summary>
+    /// <summary>Begins a search without a result.</summary>
     /// <param name="maxDistance">Search radius in the frame of the query.</param>
     /// <param name="epsilon">Relative error that the caller allows.</param>
     /// <param name="magnitude">Largest absolute coordinate of the fractal and the position.</param>

@@ -140,7 +140,7 @@ internal sealed class SubFractalBuilder
         }
     }
 
-    /// <summary>Adds one level.</summary>
+    /// <summary>Adds one level to the chain.</summary>
     /// <param name="levelsBelowRepetition">Remaining levels below the repetition that the level belongs to.</param>
     /// <param name="period">Number of levels after which the sets of the repetition recur.</param>
     /// <param name="set">The set of the level.</param>

@@ -19,7 +19,7 @@ internal sealed class DescentBeam
     /// <summary>Squared distance from which on candidates are not kept.</summary>
     public double CutoffSquared => _candidates.Count < _width ? double.PositiveInfinity : _candidates[^1].DistanceSquared;
 
-    /// <summary>Begins a search.</summary>
+    /// <summary>Empties the beam for another search.</summary>
     /// <param name="width">Maximum number of entries of a level.</param>
     /// <param name="root">The entry of the whole fractal.</param>
     public void Begin(int width, in Entry root)

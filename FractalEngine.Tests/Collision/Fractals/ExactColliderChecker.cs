@@ -73,7 +73,8 @@ internal sealed class ExactColliderChecker(string name, Fractal fractal)
         var ac = c - a;
         var isPerpendicular = Math.Abs(Vector.Dot(closest.Normal, ab)) <= 1e-6 * ab.Length()
             && Math.Abs(Vector.Dot(closest.Normal, ac)) <= 1e-6 * ac.Length();
-        ThrowUnless(isPerpendicular || ab.Length() + ac.Length() < Tolerance * size, position, $"normal {closest.Normal} is not that of the face");
+        var isPoint = ab.Length() + ac.Length() < Tolerance * size;
+        ThrowUnless(isPerpendicular || isPoint, position, $"normal {closest.Normal} is not that of the face");
     }
 
     /// <summary>
