@@ -14,7 +14,7 @@ internal readonly struct BoundCutoff(double factor, double summand)
     // An upper bound of the kernel's error, as a part of the coordinates.
     private const double KernelError = 1.0 / (1L << 46);
 
-    /// <summary>Computes the coefficients.</summary>
+    /// <summary>Computes the coefficients of the limit.</summary>
     /// <param name="scale">Boxes' units per unit of the mesh.</param>
     /// <param name="inverseBoundFactor">1 / (1 + ε)², where ε is the error that the caller allows.</param>
     /// <param name="slack">At least twice the relative error of a squared bound.</param>

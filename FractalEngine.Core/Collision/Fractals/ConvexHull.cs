@@ -10,8 +10,8 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// have hulls as well.
 /// </summary>
 /// <remarks>
-/// Quickhull (Barber, Dobkin and Huhdanpaa 1996): begin with a tetrahedron, then add the point farthest above some facet, and replace
-/// the facets that are visible from it by those between it and their horizon.
+/// Quickhull (Barber, Dobkin and Huhdanpaa 1996) begins with a tetrahedron, and adds the point farthest above some facet again and again.
+/// The facets that are visible from it are replaced by those between it and their horizon.
 /// </remarks>
 internal sealed partial class ConvexHull
 {
