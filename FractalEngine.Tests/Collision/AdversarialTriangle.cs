@@ -2,30 +2,37 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Tests.Collision;
 
-/// <summary>A triangle and a position, of all the sorts that break closest-point code.</summary>
+/// <summary>A triangle and a position of all the sorts that break closest-point code.</summary>
+/// <param name="Position">The position of the query.</param>
+/// <param name="A">The first vertex.</param>
+/// <param name="B">The second vertex.</param>
+/// <param name="C">The third vertex.</param>
 internal readonly record struct AdversarialTriangle(Vector Position, Vector A, Vector B, Vector C)
 {
-    /// <summary>What errors are measured against: the largest coordinate.</summary>
+    /// <summary>The largest absolute coordinate, which errors are measured against.</summary>
     public double Magnitude =>
         Math.Max(Math.Max(Position.MaxAbsComponent(), A.MaxAbsComponent()), Math.Max(B.MaxAbsComponent(), C.MaxAbsComponent()));
 
+    /// <summary>Draws a triangle and a position.</summary>
     public static AdversarialTriangle Random(Random random)
     {
         var (a, b, c) = RandomVertices(random);
         var position = RandomPosition(random, a, b, c);
-        // A power of ten from 1e-30 to 1e30, and now and then a place far from the origin.
+        // Scales are powers of ten from 1e-30 to 1e30, and some triangles are far from the origin.
         var scale = random.Next(2) == 0 ? 1 : Math.Pow(10, random.Next(-30, 31));
         var offset = random.Next(4) == 0 ? Math.Pow(10, random.Next(0, 9)) * RandomInCube(random) : Vector.Zero;
         return new(scale * (position + offset), scale * (a + offset), scale * (b + offset), scale * (c + offset));
     }
 
+    /// <summary>Draws a vector in the cube from −1 to 1.</summary>
     public static Vector RandomInCube(Random random) =>
         new((2 * random.NextDouble()) - 1, (2 * random.NextDouble()) - 1, (2 * random.NextDouble()) - 1);
 
-    /// <summary>A position on a corner, an edge, the face or its plane, or near, or far from it.</summary>
+    /// <summary>Draws a position on a vertex, an edge, the triangle or its plane, or near it, or far from it.</summary>
     public static Vector RandomPosition(Random random, Vector a, Vector b, Vector c)
     {
-        var (u, v) = (random.NextDouble(), random.NextDouble());
+        var u = random.NextDouble();
+        var v = random.NextDouble();
         (u, v) = u + v > 1 ? (1 - u, 1 - v) : (u, v);
         var inside = a + (u * (b - a)) + (v * (c - a));
         var normal = Vector.Cross(b - a, c - a);
@@ -46,7 +53,9 @@ internal readonly record struct AdversarialTriangle(Vector Position, Vector A, V
 
     private static (Vector A, Vector B, Vector C) RandomVertices(Random random)
     {
-        var (a, b, c) = (RandomInCube(random), RandomInCube(random), RandomInCube(random));
+        var a = RandomInCube(random);
+        var b = RandomInCube(random);
+        var c = RandomInCube(random);
         var small = Math.Pow(10, -random.Next(0, 18));
         (a, b, c) = random.Next(10) switch
         {

@@ -4,23 +4,26 @@ using FractalEngine.Parsing.Assets;
 
 namespace FractalEngine.Tests.Collision;
 
-/// <summary>The fractals that come with the program.</summary>
+/// <summary>Loads the fractals that come with the program.</summary>
 internal static class AssetFractals
 {
-    /// <summary>Where they are.</summary>
+    /// <summary>The folder of the fractal files.</summary>
     public static readonly string Folder = Find();
 
-    /// <summary>As its file says.</summary>
+    /// <summary>Loads a fractal with the depth that its file states.</summary>
+    /// <param name="name">Name of the file without its extension.</param>
     public static Fractal Load(string name) =>
         ((FractalModel)AssetLoader.Load(Path.Combine(Folder, name + ".fdo")).Scene.Objects[0].Model).Fractal;
 
-    /// <summary>With another depth of its outermost recursion; null for the infinite fractal.</summary>
+    /// <summary>Loads a fractal with another depth of its outermost recursion.</summary>
+    /// <param name="name">Name of the file without its extension.</param>
+    /// <param name="depth">The depth; null for the infinite fractal.</param>
     public static Fractal Load(string name, int? depth)
     {
         var fractal = Load(name);
         var recursion = fractal.Description.Steps.OfType<Repetition>().First();
-        return new(fractal.Description with { Steps = fractal.Description.Steps.Replace(recursion, recursion.WithCount(depth)) },
-            fractal.BaseMesh);
+        var steps = fractal.Description.Steps.Replace(recursion, recursion.WithCount(depth));
+        return new(fractal.Description with { Steps = steps }, fractal.BaseMesh);
     }
 
     private static string Find()

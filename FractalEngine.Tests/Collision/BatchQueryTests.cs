@@ -4,6 +4,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Tests.Collision;
 
+/// <summary>Batches of queries against single queries.</summary>
 public class BatchQueryTests
 {
     private static readonly HierarchyCollider Collider = new(CollisionMeshes.TriangleSoup(1, 2000, 0.1));
@@ -15,8 +16,9 @@ public class BatchQueryTests
     [InlineData(5001)]
     public void FindClosest_OnAnyNumberOfThreads_EqualsSingleQueries(int count)
     {
-        var positions = Positions(count);
-        var (expected, sum) = (new BatchResult[count], new QueryContext());
+        var positions = RandomPositions(count);
+        var expected = new BatchResult[count];
+        var sum = new QueryContext();
         for (var i = 0; i < count; i++)
         {
             var context = new QueryContext();
@@ -28,7 +30,8 @@ public class BatchQueryTests
 
         foreach (var threads in new int?[] { null, 1, 2, 7 })
         {
-            var (results, context) = (new BatchResult[count], new QueryContext());
+            var results = new BatchResult[count];
+            var context = new QueryContext();
             BatchQuery.FindClosest(Collider, positions, results, context, maxDistance: 0.3, threads: threads);
             Assert.Equal(expected, results);
             Assert.Equal((sum.Statistics.FaceTests, sum.Statistics.BoundTests), (context.Statistics.FaceTests, context.Statistics.BoundTests));
@@ -40,13 +43,15 @@ public class BatchQueryTests
     [Fact]
     public void FindClosest_OfManyPositions_AllocatesNoMoreThanOfFew()
     {
-        var (few, many) = (Positions(1000), Positions(20_000));
-        var (results, context) = (new BatchResult[many.Length], new QueryContext());
-        Allocated(few);
-        // What starts the threads; a byte a position would be more. One thread, so that it is the one that is measured.
-        Assert.InRange(Allocated(many) - Allocated(few), -10_000, 10_000);
+        var few = RandomPositions(1000);
+        var many = RandomPositions(20_000);
+        var results = new BatchResult[many.Length];
+        var context = new QueryContext();
+        MeasureAllocation(few);
+        // The tolerance is what starting threads takes; a byte a position would be more. One thread, so that it is the one measured.
+        Assert.InRange(MeasureAllocation(many) - MeasureAllocation(few), -10_000, 10_000);
 
-        long Allocated(Vector[] positions)
+        long MeasureAllocation(Vector[] positions)
         {
             var before = GC.GetAllocatedBytesForCurrentThread();
             BatchQuery.FindClosest(Collider, positions, results.AsMemory(0, positions.Length), context, threads: 1);
@@ -57,7 +62,8 @@ public class BatchQueryTests
     [Fact]
     public void FindClosest_OfBadArguments_Throws()
     {
-        var (results, context) = (new BatchResult[3], new QueryContext());
+        var results = new BatchResult[3];
+        var context = new QueryContext();
         var positions = new Vector[3];
         Assert.Throws<ArgumentException>("results", () => BatchQuery.FindClosest(Collider, positions, results.AsMemory(1), context));
         Assert.Throws<ArgumentOutOfRangeException>("maxDistance",
@@ -67,13 +73,14 @@ public class BatchQueryTests
         Assert.Throws<ArgumentOutOfRangeException>("threads",
             () => BatchQuery.FindClosest(Collider, positions, results, context, threads: 0));
         positions[2] = new(0, double.NaN, 0);
-        var error =
-            Assert.Throws<ArgumentOutOfRangeException>("positions", () => BatchQuery.FindClosest(Collider, positions, results, context));
+        var error = Assert.Throws<ArgumentOutOfRangeException>(
+            "positions", () => BatchQuery.FindClosest(Collider, positions, results, context));
         Assert.StartsWith("expected finite coordinates at index 2", error.Message, StringComparison.Ordinal);
     }
 
-    private static Vector[] Positions(int count) => new Random(count) switch
+    private static Vector[] RandomPositions(int count)
     {
-        var random => [.. Enumerable.Range(0, count).Select(_ => 1.5 * AdversarialTriangle.RandomInCube(random))],
-    };
+        var random = new Random(count);
+        return [.. Enumerable.Range(0, count).Select(_ => 1.5 * AdversarialTriangle.RandomInCube(random))];
+    }
 }

@@ -8,9 +8,10 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Collision;
 
-/// <summary>Meshes that colliders are tested on, and positions around them.</summary>
+/// <summary>Creates meshes that colliders are tested on, and positions around them.</summary>
 internal static class CollisionMeshes
 {
+    /// <summary>The meshes by names that say what is unusual about them.</summary>
     public static IReadOnlyDictionary<string, Func<Mesh>> All { get; } = new Dictionary<string, Func<Mesh>>
     {
         ["one face"] = () => TriangleSoup(1, 1, 1),
@@ -28,33 +29,45 @@ internal static class CollisionMeshes
         ["rough grid"] = () => Grid(40, (x, y) => Math.Sin(x) * Math.Cos(y)),
         ["coincident faces"] = () => Repeat(TriangleSoup(12, 1, 1), 300),
         ["points"] = () => Repeat(FromTriangles([(Vector.One, Vector.One, Vector.One)]), 100),
-        ["sizes from 1e-15 to 1"] = () => FromTriangles(Enumerable.Range(0, 200).Select(i => Math.Pow(0.84, i))
-        .Select(s => (s * Vector.I, s * Vector.J, s * Vector.K))),
+        ["sizes from 1e-15 to 1"] = () => FromTriangles(
+            Enumerable.Range(0, 200).Select(i => Math.Pow(0.84, i)).Select(s => (s * Vector.I, s * Vector.J, s * Vector.K))),
         ["sphere"] = () => MeshGenerators.Create("icosphere", 1, 1280),
         ["terrain"] = () => MeshGenerators.Create("terrain", 1, 5000),
         ["knot"] = () => MeshGenerators.Create("torus-knot", 1, 4000),
     };
 
+    /// <summary>The names of all meshes, for theories.</summary>
     public static TheoryData<string> Names => [.. All.Keys];
 
-    /// <summary>Null where there are no files beside the checkout.</summary>
+    /// <summary>Loads a scanned model; null where there are no files beside the checkout.</summary>
     public static Mesh? LoadScan(string file) => SharedModels.Folder is { } folder
         ? ObjParser.Parse(SourceText.Read(Path.Combine(folder, file), file, ParsingLimits.MaxObjBytes, acceptLatin1: true)).Mesh
         : null;
 
-    public static Mesh TriangleSoup(int seed, int faces, double size) => new Random(seed) switch
+    /// <summary>Creates unconnected random triangles in the cube from −1 to 1.</summary>
+    /// <param name="seed">Seed of the random numbers.</param>
+    /// <param name="faces">Number of triangles.</param>
+    /// <param name="size">Maximum extent of an edge along each axis.</param>
+    public static Mesh TriangleSoup(int seed, int faces, double size)
     {
-        var random => FromTriangles(Enumerable.Range(0, faces).Select(_ => AdversarialTriangle.RandomInCube(random)).Select(corner =>
-            (corner, corner + (size * AdversarialTriangle.RandomInCube(random)),
-            corner + (size * AdversarialTriangle.RandomInCube(random))))),
-    };
+        var random = new Random(seed);
+        return FromTriangles(Enumerable.Range(0, faces).Select(_ =>
+        {
+            var a = AdversarialTriangle.RandomInCube(random);
+            var b = a + (size * AdversarialTriangle.RandomInCube(random));
+            var c = a + (size * AdversarialTriangle.RandomInCube(random));
+            return (a, b, c);
+        }));
+    }
 
-    /// <summary>A position: far, near, on a corner, an edge or a face, or in the box.</summary>
+    /// <summary>Draws a position: far, near, on a vertex, an edge or a triangle, or in the box.</summary>
     public static Vector RandomPosition(Random random, Mesh mesh)
     {
-        var (bounds, diagonal) = (mesh.Bounds, mesh.Bounds.Diagonal);
+        var bounds = mesh.Bounds;
+        var diagonal = mesh.Bounds.Diagonal;
         var (a, b, c) = mesh.Face(random.Next(mesh.FaceCount));
-        var (u, v) = (random.NextDouble(), random.NextDouble());
+        var u = random.NextDouble();
+        var v = random.NextDouble();
         (u, v) = u + v > 1 ? (1 - u, 1 - v) : (u, v);
         var inside = a + (u * (b - a)) + (v * (c - a));
         return random.Next(8) switch
@@ -70,30 +83,33 @@ internal static class CollisionMeshes
         };
     }
 
-    private static Mesh AdversarialSoup(int seed, int faces) => new Random(seed) switch
+    private static Mesh AdversarialSoup(int seed, int faces)
     {
-        // Those that stand at the scale of 1, so that one mesh holds them all.
-        var random =>
-            FromTriangles(Enumerable.Range(0, int.MaxValue).Select(_ => AdversarialTriangle.Random(random))
-            .Where(face => face.Magnitude is > 0.1 and < 10)
-            .Take(faces).Select(face => (face.A, face.B, face.C))),
-    };
+        var random = new Random(seed);
+        // Triangles of one scale, so that they fit in one mesh.
+        return FromTriangles(Enumerable.Range(0, int.MaxValue).Select(_ => AdversarialTriangle.Random(random))
+            .Where(triangle => triangle.Magnitude is > 0.1 and < 10)
+            .Take(faces).Select(triangle => (triangle.A, triangle.B, triangle.C)));
+    }
 
     private static Mesh Repeat(Mesh mesh, int times) =>
         new(mesh.Positions, [.. Enumerable.Repeat(mesh.VertexIndices, times).SelectMany(faces => faces)]);
 
-    private static Mesh FromTriangles(IEnumerable<(Vector A, Vector B, Vector C)> faces)
+    private static Mesh FromTriangles(IEnumerable<(Vector A, Vector B, Vector C)> triangles)
     {
-        var positions = faces.SelectMany(face => new[] { face.A, face.B, face.C }).SelectMany(v => new[] { v.X, v.Y, v.Z }).ToArray();
+        var vertices = triangles.SelectMany(triangle => new[] { triangle.A, triangle.B, triangle.C });
+        var positions = vertices.SelectMany(v => new[] { v.X, v.Y, v.Z }).ToArray();
         return new([.. positions], [.. Enumerable.Range(0, positions.Length / 3)]);
     }
 
     private static Mesh Grid(int side, Func<double, double, double> height) => new(
-        [.. from i in Enumerable.Range(0, side + 1) from j in Enumerable.Range(0, side + 1) from x in new[] { i, height(i, j),
-        j } select x],
+        [.. from i in Enumerable.Range(0, side + 1)
+            from j in Enumerable.Range(0, side + 1)
+            from coordinate in new[] { i, height(i, j), j }
+            select coordinate],
         [.. from i in Enumerable.Range(0, side)
             from j in Enumerable.Range(0, side)
-            let corner = (i * (side + 1)) + j
-            from vertex in new[] { corner, corner + 1, corner + side + 1, corner + 1, corner + side + 2, corner + side + 1 }
+            let first = (i * (side + 1)) + j
+            from vertex in new[] { first, first + 1, first + side + 1, first + 1, first + side + 2, first + side + 1 }
             select vertex]);
 }

@@ -7,7 +7,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Collision;
 
-/// <summary>Queries on whole scenes, against every face of every object in world space.</summary>
+/// <summary>Queries on whole scenes against every face of every object in world space.</summary>
 public class SceneColliderTests
 {
     [Fact]
@@ -19,18 +19,18 @@ public class SceneColliderTests
         for (var query = 0; query < 10; query++)
         {
             var position = random.Vector(6);
-            var except = random.Next(-1, scene.Objects.Length);
-            var expected = oracles.Select((oracle, index) => index != except
+            var excludedObject = random.Next(-1, scene.Objects.Length);
+            var expected = oracles.Select((oracle, index) => index != excludedObject
                 && oracle.TryFindClosest(position, double.PositiveInfinity, new(), out var closest)
                 ? closest.Distance : double.PositiveInfinity).Min();
-            var found = collider.TryFindClosest(position, double.PositiveInfinity, new(), out var actual, out var index, except);
+            var found = collider.TryFindClosest(position, double.PositiveInfinity, new(), out var actual, out var index, excludedObject);
             Assert.Equal(!double.IsPositiveInfinity(expected), found);
             if (found)
             {
-                // Rounded to the last places of the coordinates of a scene of some units, through a chain of a few maps.
+                // Coordinates of a scene of some units are rounded in their last places, through a chain of a few maps.
                 Assert.Equal(expected, actual.Distance, 1e-12 * 20);
                 Assert.Equal(actual.Distance, (actual.Point - position).Length(), 1e-12 * 20);
-                Assert.NotEqual(except, index);
+                Assert.NotEqual(excludedObject, index);
                 Assert.Equal(1, actual.Normal.Length(), 1e-12);
             }
         }
@@ -39,9 +39,8 @@ public class SceneColliderTests
     [Fact]
     public void TryFindClosest_NamesTheClosestObjectAndItsInstance()
     {
-        var model =
-            new FractalModel(Samples.Repeated(2, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(5, 0, 0, 0.5))) { SourcePath =
-            "/f.fdo" };
+        var fractal = Samples.Repeated(2, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(5, 0, 0, 0.5));
+        var model = new FractalModel(fractal) { SourcePath = "/f.fdo" };
         var scene = new LoadedScene(new(),
         [
             new(new("f.fdo", Samples.Move(0, 0, 0)), model),
@@ -62,12 +61,10 @@ public class SceneColliderTests
     [Fact]
     public void Build_WithTheFractalColliderOnAMesh_SaysWhichFit()
     {
-        var scene =
-            new LoadedScene(new(),
-            [new(new("m.obj", Transformation.Identity), new MeshModel(Samples.Tetrahedron) { SourcePath = "/m.obj" })]);
-        Assert.Contains("expected exact, hierarchy",
-            Assert.Throws<ColliderMismatchException>(() => new SceneCollider(scene, ColliderKind.Fractal).Build()).Message,
-            StringComparison.Ordinal);
+        var model = new MeshModel(Samples.Tetrahedron) { SourcePath = "/m.obj" };
+        var scene = new LoadedScene(new(), [new(new("m.obj", Transformation.Identity), model)]);
+        var error = Assert.Throws<ColliderMismatchException>(() => new SceneCollider(scene, ColliderKind.Fractal).Build());
+        Assert.Contains("expected exact, hierarchy", error.Message, StringComparison.Ordinal);
     }
 
     private static LoadedScene RandomScene(Random random)
@@ -78,12 +75,12 @@ public class SceneColliderTests
             new FractalModel(RandomFractals.Create(random)) { SourcePath = "/fractal.fdo" },
             new FractalModel(RandomFractals.Create(random, Composition.Componentwise)) { SourcePath = "/sums.fdo" },
         ];
-        return new(new(),
-            [.. Enumerable.Range(0, 5)
-            .Select(i => new PlacedModel(new($"{i}.fdo", RandomPlacement(random)), models[random.Next(models.Length)]))]);
+        var objects = Enumerable.Range(0, 5)
+            .Select(i => new PlacedModel(new($"{i}.fdo", RandomPlacement(random)), models[random.Next(models.Length)]));
+        return new(new(), [.. objects]);
     }
 
-    /// <summary>Similar, mirrored or skewing.</summary>
+    /// <summary>Draws a placement that is a similarity, a mirror or skews.</summary>
     private static Transformation RandomPlacement(Random random) => random.Next(2) == 0 ? random.Transformation()
         : new(random.Vector(4), random.Degrees(), random.Between(0.3, 2) * (random.Next(2) == 0 ? Vector.One : new(-1, 1, 1)));
 

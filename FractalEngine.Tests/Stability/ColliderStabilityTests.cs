@@ -7,6 +7,7 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility;
 using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Collision.Fractals;
 using FractalEngine.Tests.Support;
 using FractalEngine.Tests.Visibility;
 using Xunit.Abstractions;
@@ -16,8 +17,8 @@ namespace FractalEngine.Tests.Stability;
 
 /// <summary>
 /// Tests exact colliders where objects are tiny, huge, far away, mirrored and squeezed, at positions equally close to many instances, and
-/// at every depth from 1 to 200. TriangleKernelTests have what triangles alone can break, ExactFractalAdversarialTests what fractals can,
-/// and DeepExactnessTests depths to a million.
+/// at every depth from 1 to 200. TriangleKernelTests have what triangles alone can break,
+/// ExactFractalColliderAdversarialTests what fractals can, and ExactFractalColliderDepthTests depths to a million.
 /// </summary>
 public class ColliderStabilityTests(ITestOutputHelper output)
 {

@@ -2,9 +2,7 @@ using System.Runtime.CompilerServices;
 
 namespace FractalEngine.Core.Collision.Bvh;
 
-/// <summary>
-/// Computes the limit for squared bounds of boxes, in the boxes' units, from the squared distance of the closest triangle.
-/// </summary>
+/// <summary>Computes the limit for squared bounds of boxes from the squared distance of the closest triangle.</summary>
 /// <remarks>
 /// With rounding, the kernel may find a triangle closer than it is by δ = 2⁻⁴⁶·magnitude, some hundred last places of its coordinates. The
 /// triangle matters if its bound is below (d + δ)² ≤ (1 + s)·d² + (1 + 1/s)·δ², whatever the s.
@@ -16,7 +14,7 @@ internal readonly struct BoundCutoff(double factor, double summand)
     // An upper bound of the kernel's error, as a part of the coordinates.
     private const double KernelError = 1.0 / (1L << 46);
 
-    /// <summary>Computes the coefficients of a cutoff.</summary>
+    /// <summary>Computes the coefficients of the limit.</summary>
     /// <param name="scale">Boxes' units per unit of the mesh.</param>
     /// <param name="inverseBoundFactor">1 / (1 + ε)², where ε is the error that the caller allows.</param>
     /// <param name="slack">At least twice the relative error of a squared bound.</param>
@@ -27,7 +25,7 @@ internal readonly struct BoundCutoff(double factor, double summand)
         return new((1 + (4 * slack)) * scale * scale * inverseBoundFactor, (1 + (1 / slack)) * rounding * rounding);
     }
 
-    /// <summary>Computes the limit: boxes with larger squared bounds contain no triangle that is closer.</summary>
+    /// <summary>Computes the limit in the boxes' units: boxes with larger squared bounds contain no triangle that is closer.</summary>
     /// <param name="distanceSquared">Squared distance of the closest triangle so far, in the mesh's units.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public double For(double distanceSquared) => (distanceSquared * factor) + summand;

@@ -74,9 +74,9 @@ internal sealed class BvhLayout
         {
             // The last triangle fills the lanes that are left over.
             var face = triangles[Math.Min(i, triangles.Length - 1)].FaceIndex;
-            for (var corner = 0; corner < 3; corner++)
+            for (var vertex = 0; vertex < 3; vertex++)
             {
-                indices[(corner * MaxLeafTriangles) + i] = mesh.VertexIndices[(3 * face) + corner];
+                indices[(vertex * MaxLeafTriangles) + i] = mesh.VertexIndices[(3 * face) + vertex];
             }
 
             indices[(3 * MaxLeafTriangles) + i] = face;

@@ -19,9 +19,7 @@ internal sealed class SahSplitter(TriangleBounds[] triangles)
     // Ranges of fewer triangles are split over half as many bins.
     private const int MinTrianglesForMaxBins = 64;
 
-    /// <summary>
-    /// Finds the range whose split saves most: the one with the largest surface, or deep in the tree with the most triangles.
-    /// </summary>
+    /// <summary>Finds the range to split next: the one with the largest surface or, deep in the tree, with the most triangles.</summary>
     /// <param name="ranges">The ranges to choose from.</param>
     /// <param name="depth">Depth of the node that they are to be children of.</param>
     /// <returns>The place of the range; −1 when all are small enough for leaves.</returns>

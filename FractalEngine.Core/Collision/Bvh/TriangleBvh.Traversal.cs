@@ -20,8 +20,12 @@ internal sealed partial class TriangleBvh
         var simdPosition = Vector256.Create(localPosition.X, localPosition.Y, localPosition.Z, 0);
         var lower = FloatRounding.Down(simdPosition);
         var upper = FloatRounding.Up(simdPosition);
-        var (lowerX, lowerY, lowerZ) = (Vector256.Create(lower[0]), Vector256.Create(lower[1]), Vector256.Create(lower[2]));
-        var (upperX, upperY, upperZ) = (Vector256.Create(upper[0]), Vector256.Create(upper[1]), Vector256.Create(upper[2]));
+        var lowerX = Vector256.Create(lower[0]);
+        var lowerY = Vector256.Create(lower[1]);
+        var lowerZ = Vector256.Create(lower[2]);
+        var upperX = Vector256.Create(upper[0]);
+        var upperY = Vector256.Create(upper[1]);
+        var upperZ = Vector256.Create(upper[2]);
         // The bits of the bound above those of the child: bounds are not negative, so the entries sort like the bounds.
         Span<ulong> stack = stackalloc ulong[_stackSize];
         Span<uint> boundBits = stackalloc uint[BvhLayout.BranchingFactor];

@@ -4,8 +4,8 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision.Bvh;
 
 /// <summary>
-/// Builds the tree of a <see cref="TriangleBvh"/> from the top downwards. A node takes its triangles as one range and splits the range
-/// with the largest surface, until there are eight or all are small enough for a leaf.
+/// Builds the tree of a <see cref="TriangleBvh"/> from the top downwards. A node takes its triangles as one range. It splits the range with
+/// the largest surface until there are eight, or all are small enough for a leaf.
 /// </summary>
 /// <remarks>
 /// A range is split by nothing but its triangles and their order. Ranges are numbered from the top, level by level, then subtree by

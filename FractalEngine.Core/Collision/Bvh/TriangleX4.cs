@@ -17,9 +17,9 @@ internal readonly struct TriangleX4
     private readonly PrecomputedTerms _terms;
 
     /// <summary>Precomputes the terms of four triangles.</summary>
-    /// <param name="a">The first corners.</param>
-    /// <param name="b">The second corners.</param>
-    /// <param name="c">The third corners.</param>
+    /// <param name="a">The first vertex of each triangle.</param>
+    /// <param name="b">The second vertex of each triangle.</param>
+    /// <param name="c">The third vertex of each triangle.</param>
     public TriangleX4(VectorX4 a, VectorX4 b, VectorX4 c)
     {
         _a = a;

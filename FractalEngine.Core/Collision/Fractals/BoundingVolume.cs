@@ -15,7 +15,7 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
     // An upper bound of the rounding error of a mapped point, as a part of the largest coordinate.
     private const double MappedPointError = 2e-15;
 
-    // More corners bound more tightly and take longer; this many leave about a hundredth of the size.
+    // More vertices bound more tightly and take longer; this many leave about a hundredth of the size.
     private const int MaxHullVertices = 48;
 
     // Beyond this, squares of coordinates leave the range of a double, and with them the hull.
@@ -31,7 +31,7 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
 
     /// <summary>Computes the bounds of the union of several volumes.</summary>
     /// <param name="box">Contains all volumes.</param>
-    /// <param name="vertices">The corners of all their hulls; null where one of them has no hull.</param>
+    /// <param name="vertices">The vertices of all their hulls; null where one of them has no hull.</param>
     /// <param name="margin">The largest margin of the hulls.</param>
     public static BoundingVolume FromVertices(BoundingBox box, Vector[]? vertices, double margin)
     {

@@ -17,13 +17,14 @@ internal sealed partial class ConvexHull
         private double _maxOutsideDistance;
 
         /// <summary>Builds the hull from an initial tetrahedron.</summary>
-        /// <param name="i0">Index of its first corner.</param>
-        /// <param name="i1">Index of its second corner.</param>
-        /// <param name="i2">Index of its third corner.</param>
-        /// <param name="i3">Index of its fourth corner.</param>
-        /// <param name="maxVertices">Maximum number of corners of the hull.</param>
+        /// <param name="i0">Index of its first vertex.</param>
+        /// <param name="i1">Index of its second vertex.</param>
+        /// <param name="i2">Index of its third vertex.</param>
+        /// <param name="i3">Index of its fourth vertex.</param>
+        /// <param name="maxVertices">Maximum number of vertices of the hull.</param>
         public ConvexHull Build(int i0, int i1, int i2, int i3, int maxVertices)
         {
+            // The first facet must face away from the fourth vertex.
             if (Vector.Dot(TriangleKernel.UnitNormal(points[i0], points[i1], points[i2]), points[i3] - points[i0]) > 0)
             {
                 (i1, i2) = (i2, i1);

@@ -6,12 +6,12 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// The convex hull of some points, or of the most important ones where it has too many corners. Flat sets, segments and single points
+/// The convex hull of some points, or of the most important ones where it has too many vertices. Flat sets, segments and single points
 /// have hulls as well.
 /// </summary>
 /// <remarks>
-/// Quickhull (Barber, Dobkin and Huhdanpaa 1996): begin with a tetrahedron, then add the point farthest above some facet, and replace
-/// the facets that are visible from it by those between it and their horizon.
+/// Quickhull (Barber, Dobkin and Huhdanpaa 1996) begins with a tetrahedron, and adds the point farthest above some facet again and again.
+/// The facets that are visible from it are replaced by those between it and their horizon.
 /// </remarks>
 internal sealed partial class ConvexHull
 {
@@ -35,7 +35,7 @@ internal sealed partial class ConvexHull
         _facets = facets;
     }
 
-    /// <summary>The corners, which are some of the points.</summary>
+    /// <summary>The vertices, which are some of the points.</summary>
     public ImmutableArray<Vector> Vertices { get; }
 
     /// <summary>The planes of the facets by descending area; the hull lies below each. None for a segment or a point.</summary>
@@ -46,7 +46,7 @@ internal sealed partial class ConvexHull
 
     /// <summary>Builds the hull of some points.</summary>
     /// <param name="points">At least one point, all of them finite.</param>
-    /// <param name="maxVertices">Maximum number of corners, at least 4. Beyond it, points near the hull are left outside.</param>
+    /// <param name="maxVertices">Maximum number of vertices, at least 4. Beyond it, points near the hull are left outside.</param>
     public static ConvexHull Build(ReadOnlySpan<Vector> points, int maxVertices)
     {
         var box = BoundingBox.Empty;
@@ -101,7 +101,7 @@ internal sealed partial class ConvexHull
     public double Volume() =>
         Math.Abs(_facets.Sum(facet => Vector.Dot(facet.A - Vertices[0], Vector.Cross(facet.B - Vertices[0], facet.C - Vertices[0])))) / 6;
 
-    /// <summary>Computes the support of the hull: the largest product of a direction with a corner.</summary>
+    /// <summary>Computes the support of the hull: the largest product of a direction with a vertex.</summary>
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     public double Support(Vector direction)
     {
@@ -248,7 +248,7 @@ internal sealed partial class ConvexHull
         return vertices;
     }
 
-    /// <summary>The same hull with planes raised so that rounding puts no corner above them.</summary>
+    /// <summary>The same hull with planes raised so that rounding puts no vertex above them.</summary>
     private ConvexHull WithConservativeOffsets() => new(
         Vertices,
         [.. Planes.Select(plane => plane with { Offset = Math.Max(plane.Offset, Support(plane.Normal)) })],

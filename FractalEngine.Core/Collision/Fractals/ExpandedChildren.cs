@@ -1,8 +1,7 @@
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// The children that a <see cref="BestFirstSearch"/> has yet to visit, and the nodes they belong to. The memory is kept for the next
-/// search.
+/// The children that a <see cref="BestFirstSearch"/> has yet to visit, and the nodes they belong to. The next search reuses the memory.
 /// </summary>
 internal sealed class ExpandedChildren
 {

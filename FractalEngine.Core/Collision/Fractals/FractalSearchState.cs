@@ -33,8 +33,8 @@ internal ref struct FractalSearchState
         _tolerance = ChainError * magnitude;
         BoundFactor = (1 + epsilon) * (1 + epsilon);
         ClosestFace = -1;
-        // One ulp more, so that a triangle at exactly the radius is found.
-        ClosestDistanceSquared = Math.BitIncrement(maxDistance * maxDistance);
+        // A triangle at exactly the radius may seem farther by what rounding in the frames of the levels adds.
+        ClosestDistanceSquared = DistanceCutoff.FromRadius(maxDistance + _tolerance);
         CutoffSquared = ClosestDistanceSquared;
     }
 

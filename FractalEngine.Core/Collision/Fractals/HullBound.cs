@@ -11,7 +11,7 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// Computes lower bounds of distances from a convex solid that contains a sub-fractal. Near the solid they come from the planes of its
 /// facets, far from it from its support in the direction of the position.
 /// </summary>
-/// <remarks>Both are exact where it matters: in front of a facet, and far from a corner or an edge.</remarks>
+/// <remarks>Both are exact where it matters: in front of a facet, and far from a vertex or an edge.</remarks>
 internal sealed class HullBound
 {
     // More planes save hardly any sub-fractals and cost time; those of the largest facets are kept.
@@ -106,7 +106,7 @@ internal sealed class HullBound
         bound = Math.Max(bound, SeparationSquared(direction, directionLengthSquared, position, support));
         if (bound < cutoffSquared)
         {
-            // The direction from the support vertex is exact where that is the closest point, as it mostly is for solids of few corners.
+            // The direction from the support vertex is exact where that is the closest point, as it mostly is for solids of few vertices.
             direction = position - supportVertex;
             bound = Math.Max(bound, SeparationSquared(direction, Vector256.Dot(direction, direction), position, VertexSupport(direction)));
         }
@@ -143,7 +143,7 @@ internal sealed class HullBound
     /// <param name="direction">Direction of any length.</param>
     /// <param name="directionLengthSquared">Squared length of the direction.</param>
     /// <param name="position">In the solid's frame.</param>
-    /// <param name="support">Largest product of the direction with a corner of the hull.</param>
+    /// <param name="support">Largest product of the direction with a vertex of the hull.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private double SeparationSquared(Vector256<double> direction, double directionLengthSquared, Vector256<double> position, double support)
     {
@@ -165,11 +165,12 @@ internal sealed class HullBound
     {
         var count = _planeCount;
         ref var planes = ref MemoryMarshal.GetArrayDataReference(_planes);
-        var (x, y, z) = (Vector256.Create(position[0]), Vector256.Create(position[1]), Vector256.Create(position[2]));
+        var positionX4 = VectorX4.Broadcast(position);
         var maxHeight = Vector256.Create(double.NegativeInfinity);
         for (var i = 0; i < count; i += VectorX4.Count)
         {
-            var height = DotX4(ref planes, i, count, x, y, z) - Vector256.LoadUnsafe(ref planes, (nuint)((3 * count) + i));
+            var height = VectorX4.Dot(positionX4, VectorX4.Load(ref planes, i, count))
+                - Vector256.LoadUnsafe(ref planes, (nuint)((3 * count) + i));
             maxHeight = Vector256.MaxNative(maxHeight, height);
         }
 
@@ -215,42 +216,36 @@ internal sealed class HullBound
             Vector256.Create(_planes[bestPlane], _planes[count + bestPlane], _planes[(2 * count) + bestPlane], 0));
     }
 
-    /// <summary>Computes the largest product of a direction with a corner.</summary>
+    /// <summary>Computes the largest product of a direction with a vertex.</summary>
     private double VertexSupport(Vector256<double> direction)
     {
         var count = _vertexCount;
         ref var vertices = ref MemoryMarshal.GetArrayDataReference(_vertices);
-        var (x, y, z) = (Vector256.Create(direction[0]), Vector256.Create(direction[1]), Vector256.Create(direction[2]));
+        var directionX4 = VectorX4.Broadcast(direction);
         var maxProduct = Vector256.Create(double.NegativeInfinity);
         for (var i = 0; i < count; i += VectorX4.Count)
         {
-            maxProduct = Vector256.MaxNative(maxProduct, DotX4(ref vertices, i, count, x, y, z));
+            maxProduct = Vector256.MaxNative(maxProduct, VectorX4.Dot(directionX4, VectorX4.Load(ref vertices, i, count)));
         }
 
         return HorizontalMax(maxProduct);
     }
 
-    /// <summary>Computes the largest product of a direction with a corner of a small hull, and that corner.</summary>
+    /// <summary>Computes the largest product of a direction with a vertex of a small hull, and that vertex.</summary>
     private double SmallHullSupport(Vector256<double> direction, out Vector256<double> supportVertex)
     {
         ref var vertices = ref MemoryMarshal.GetArrayDataReference(_vertices);
-        var (x, y, z) = (Vector256.Create(direction[0]), Vector256.Create(direction[1]), Vector256.Create(direction[2]));
-        // Hulls of up to four corners fill one vector, which is then read twice.
+        var directionX4 = VectorX4.Broadcast(direction);
+        // Hulls of up to four vertices fill one vector, which is then read twice.
         var secondStart = _vertexCount - VectorX4.Count;
-        var firstProducts = DotX4(ref vertices, 0, _vertexCount, x, y, z);
-        var secondProducts = DotX4(ref vertices, secondStart, _vertexCount, x, y, z);
+        var firstProducts = VectorX4.Dot(directionX4, VectorX4.Load(ref vertices, 0, _vertexCount));
+        var secondProducts = VectorX4.Dot(directionX4, VectorX4.Load(ref vertices, secondStart, _vertexCount));
         var maxProduct = HorizontalMax(Vector256.MaxNative(firstProducts, secondProducts));
         var matchMask = Vector256.Equals(firstProducts, Vector256.Create(maxProduct)).ExtractMostSignificantBits()
             | (Vector256.Equals(secondProducts, Vector256.Create(maxProduct)).ExtractMostSignificantBits() << secondStart);
         supportVertex = _smallHullVertices[BitOperations.TrailingZeroCount(matchMask)];
         return maxProduct;
     }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static Vector256<double> DotX4(
-        ref double rows, int first, int count, Vector256<double> x, Vector256<double> y, Vector256<double> z) =>
-        (x * Vector256.LoadUnsafe(ref rows, (nuint)first)) + (y * Vector256.LoadUnsafe(ref rows, (nuint)(count + first)))
-        + (z * Vector256.LoadUnsafe(ref rows, (nuint)((2 * count) + first)));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static double HorizontalMax(Vector256<double> v)

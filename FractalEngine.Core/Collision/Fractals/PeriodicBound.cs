@@ -15,7 +15,7 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// <param name="volumeAt">Gives the bounds of each level up to the top.</param>
 /// <param name="edgesAt">Gives the edges of each level up to the top.</param>
 /// <param name="toleranceFactor">
-/// Multiple of the usual tolerance for changes, at least 1. The choice of a hull's corners may change a little from round to round without
+/// Multiple of the usual tolerance for changes, at least 1. The choice of a hull's vertices may change a little from round to round without
 /// end.
 /// </param>
 internal sealed class PeriodicBound(
@@ -175,7 +175,7 @@ internal sealed class PeriodicBound(
             var isInvariant = true;
             for (var i = 0; i < edges.Length; i++)
             {
-                // A margin holds if it is no less than the distance of a child's corners plus the child's own margin.
+                // A margin holds if it is no less than the distance of a child's vertices plus the child's own margin.
                 var (phase, edge) = edges[i];
                 var childMargin = edge.RemainingLevels < FirstLevel
                     ? volumeAt(edge.RemainingLevels).Margin

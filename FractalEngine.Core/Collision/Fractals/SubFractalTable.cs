@@ -54,9 +54,7 @@ internal sealed class SubFractalTable
     /// <summary>The sub-fractal with a number of remaining levels, which must be one that a search can visit.</summary>
     public SubFractal At(long remainingLevels) => _subFractals[LevelRegion.FindIndex(_regions, remainingLevels)]!;
 
-    /// <summary>
-    /// The set on top of the sub-fractal with a number of remaining levels, whether or not it is visited; null for the base.
-    /// </summary>
+    /// <summary>The set on top of the sub-fractal with a number of remaining levels, visited or not; null for the base.</summary>
     public MapSet? MapSetAt(long remainingLevels) => _mapSets[LevelRegion.FindIndex(_regions, remainingLevels)];
 
     /// <summary>Determines which sub-fractals a search can visit; all, where finding that out would take long.</summary>

@@ -63,7 +63,7 @@ internal sealed class UnrotatedChildBounds
     /// <param name="queue">The queue of the children.</param>
     public void RaiseByFacets(Vector256<double> position, ChildQueue queue)
     {
-        Vector point = new(position[0], position[1], position[2]);
+        var point = SimdAffineMap.ToVector(position);
         Span<double> heights = stackalloc double[MaxFacets];
         for (var plane = 0; plane < _normals.Length; plane++)
         {
@@ -93,13 +93,13 @@ internal sealed class UnrotatedChildBounds
     {
         var unitDirection = direction * (1 / Math.Sqrt(directionLengthSquared));
         ref var translations = ref MemoryMarshal.GetArrayDataReference(_translationsAndScales);
-        var (x, y, z) = (Vector256.Create(unitDirection[0]), Vector256.Create(unitDirection[1]), Vector256.Create(unitDirection[2]));
+        var directionX4 = VectorX4.Broadcast(unitDirection);
         var height = Vector256.Create(Vector256.Dot(unitDirection, position));
         var support = Vector256.Create(_childHull.Support(unitDirection));
         for (var i = 0; i < _paddedCount; i += VectorX4.Count)
         {
             var translation = VectorX4.Load(ref translations, i, _paddedCount);
-            var separation = height - ((x * translation.X) + (y * translation.Y) + (z * translation.Z))
+            var separation = height - VectorX4.Dot(directionX4, translation)
                 - (Vector256.LoadUnsafe(ref translations, (nuint)((3 * _paddedCount) + i)) * support);
             separation = Vector256.MaxNative(separation, Vector256<double>.Zero);
             queue.RaiseBounds(separation * separation, i);

@@ -3,22 +3,25 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Collision;
+namespace FractalEngine.Tests.Collision.Fractals;
 
 /// <summary>
-/// Positions around a fractal of any depth: far, near, exactly on it, at its centres of symmetry, and midway between copies.
+/// Draws positions around a fractal of any depth: far, near, exactly on it, at its centres of symmetry, and midway between instances.
 /// </summary>
 internal static class FractalPositions
 {
-    // Deeper chains end in points: below any precision.
+    // Deeper chains end in points, smaller than any precision.
     private const int MaxLevels = 60;
 
+    /// <summary>Draws a position for a query.</summary>
     public static Vector RandomPosition(Random random, Fractal fractal)
     {
-        var (box, mesh) = (fractal.Bounds, fractal.BaseMesh);
+        var box = fractal.Bounds;
+        var mesh = fractal.BaseMesh;
         var levels = (int)Math.Min(fractal.LevelCount ?? MaxLevels, MaxLevels);
         var (a, b, c) = mesh.Face(random.Next(mesh.FaceCount));
-        var (u, v) = (random.NextDouble(), random.NextDouble());
+        var u = random.NextDouble();
+        var v = random.NextDouble();
         (u, v) = u + v > 1 ? (1 - u, 1 - v) : (u, v);
         var inside = a + (u * (b - a)) + (v * (c - a));
         return random.Next(12) switch
@@ -37,7 +40,11 @@ internal static class FractalPositions
         };
     }
 
-    /// <summary>The map of some instance of the levels from one to another.</summary>
+    /// <summary>Draws the map of an instance of some levels.</summary>
+    /// <param name="random">Source of the random numbers.</param>
+    /// <param name="fractal">The fractal.</param>
+    /// <param name="first">The outermost level.</param>
+    /// <param name="end">The level after the innermost one.</param>
     public static AffineMap RandomMap(Random random, Fractal fractal, int first, int end)
     {
         var map = AffineMap.Identity;
@@ -50,7 +57,7 @@ internal static class FractalPositions
         return map;
     }
 
-    /// <summary>As exact as coordinates are: points further away round more.</summary>
+    /// <summary>Computes the largest of all coordinates and the fractal's size, which rounding is measured against.</summary>
     public static double Magnitude(Fractal fractal, Vector position) => Math.Max(
         position.MaxAbsComponent(),
         Math.Max(fractal.Bounds.Diagonal, Math.Max(fractal.Bounds.Minimum.MaxAbsComponent(), fractal.Bounds.Maximum.MaxAbsComponent())));
@@ -58,7 +65,7 @@ internal static class FractalPositions
     private static Vector RandomInBox(Random random, BoundingBox box, double factor) =>
         box.Centre + box.Size.Stretch(factor * new Vector(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5));
 
-    /// <summary>Of a map, under the maps above it; about there, where the map does not shrink.</summary>
+    /// <summary>Computes the fixed point of a map under outer maps, or a point near it where the map does not shrink.</summary>
     private static Vector FixedPoint(Random random, Fractal fractal, int levels)
     {
         if (levels == 0)
@@ -78,7 +85,7 @@ internal static class FractalPositions
     }
 
     /// <summary>
-    /// Half-way between the images of one point of the surface under two maps of a set: often as near to one copy as to the other.
+    /// Draws a position midway between the images of one point of the surface under two maps of a set, often equally close to both.
     /// </summary>
     private static Vector BetweenSiblings(Random random, Fractal fractal, int levels, Vector inside)
     {

@@ -6,12 +6,12 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Collision;
+namespace FractalEngine.Tests.Collision.Fractals;
 
 /// <summary>The exact fractal collider against brute force over the expanded instances.</summary>
 public class ExactFractalColliderTests
 {
-    // A distance is that of a point rounded to the last places of coordinates of the fractal's size, over a chain of a few maps.
+    // As a part of the fractal's size: distances round in some last places over a chain of a few maps.
     private const double Tolerance = 1e-12;
 
     [Fact]
@@ -33,16 +33,18 @@ public class ExactFractalColliderTests
     public void TryFindClosest_OnAppendixB_EqualsBruteForce(int depth)
     {
         var fractal = Samples.AppendixBAt(depth);
-        var (collider, oracle) = (new ExactFractalCollider(fractal), new SimpleCollider(FractalGenerator.Flatten(fractal, 10_000_000)));
+        var collider = new ExactFractalCollider(fractal);
+        var oracle = new SimpleCollider(FractalGenerator.Flatten(fractal, 10_000_000));
         Seeded.Run(60, random => Check(collider, oracle, fractal, RandomPosition(random, fractal)));
     }
 
     [Fact]
-    public void TryFindClosest_OfEveryVertex_IsAtDistanceZero() => Seeded.Run(40, random =>
+    public void TryFindClosest_FromAVertex_IsAtDistanceZero() => Seeded.Run(40, random =>
     {
         var fractal = RandomFractals.Create(random);
         var collider = new ExactFractalCollider(fractal);
-        var (context, size) = (new QueryContext(), fractal.Bounds.Diagonal);
+        var context = new QueryContext();
+        var size = fractal.Bounds.Diagonal;
         foreach (var map in FractalGenerator.Expand(fractal, 10_000).Take(20))
         {
             Assert.True(collider.TryFindClosest(map * fractal.BaseMesh.Vertex(0), double.PositiveInfinity, context, out var closest));
@@ -52,7 +54,7 @@ public class ExactFractalColliderTests
     });
 
     [Fact]
-    public void TryFindClosest_WithMaxDistance_FindsWhatIsThereAndNothingElse() => Seeded.Run(200, random =>
+    public void TryFindClosest_WithMaxDistance_FindsPointsUpToIt() => Seeded.Run(200, random =>
     {
         var fractal = RandomFractals.Create(random);
         var collider = new ExactFractalCollider(fractal);
@@ -78,13 +80,13 @@ public class ExactFractalColliderTests
         if (collider.TryFindClosest(position, double.PositiveInfinity, context, out var exact))
         {
             Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, context, out var near, 0.25));
-            Assert.InRange(near.Distance, exact.Distance - (Tolerance * fractal.Bounds.Diagonal), (1.25 * exact.Distance)
-                + (Tolerance * fractal.Bounds.Diagonal));
+            var tolerance = Tolerance * fractal.Bounds.Diagonal;
+            Assert.InRange(near.Distance, exact.Distance - tolerance, (1.25 * exact.Distance) + tolerance);
         }
     });
 
     [Fact]
-    public void TryFindClosest_NamesTheInstanceThatItFound() => Seeded.Run(200, random =>
+    public void TryFindClosest_OnRandomFractals_ReportsTheInstance() => Seeded.Run(200, random =>
     {
         var fractal = RandomFractals.Create(random);
         var context = new QueryContext();
@@ -114,8 +116,9 @@ public class ExactFractalColliderTests
     [InlineData(null)]
     public void TryFindClosest_AtAnyDepth_AgreesWithAShallowerSponge(int? depth)
     {
-        // Depth 8 is within 3⁻⁸ of every deeper one; the difference of the distances can't be more.
-        var (deep, shallow) = (new ExactFractalCollider(CreateMenger(depth)), new ExactFractalCollider(CreateMenger(8)));
+        // Depth 8 is within 3⁻⁸ of every greater depth, and so are the distances.
+        var deep = new ExactFractalCollider(CreateMenger(depth));
+        var shallow = new ExactFractalCollider(CreateMenger(8));
         var context = new QueryContext();
         Seeded.Run(200, random =>
         {
@@ -149,16 +152,16 @@ public class ExactFractalColliderTests
     public void TryFindClosest_OnTheEmptyFractal_FindsNothing()
     {
         Fractal[] empty = [new(new([new TransformationSet([])]), Samples.Tetrahedron), new(new([]), Mesh.Empty)];
-        Assert.All(empty,
-            fractal => Assert.False(new ExactFractalCollider(fractal).TryFindClosest(Vector.Zero, double.PositiveInfinity, new(), out _)));
+        Assert.All(empty, fractal =>
+            Assert.False(new ExactFractalCollider(fractal).TryFindClosest(Vector.Zero, double.PositiveInfinity, new(), out _)));
     }
 
     [Fact]
     public void Create_OfAFractalBeyondADouble_NamesTheLevel()
     {
         var growing = Samples.Repeated(3000, new Transformation(Vector.I, Vector.Zero, 2 * Vector.One), Transformation.Identity);
-        Assert.Contains("levels above its base", Assert.Throws<FractalLimitException>(() => new ExactFractalCollider(growing)).Message,
-            StringComparison.Ordinal);
+        var error = Assert.Throws<FractalLimitException>(() => new ExactFractalCollider(growing));
+        Assert.Contains("levels above its base", error.Message, StringComparison.Ordinal);
     }
 
     private static Fractal CreateMenger(int? depth)
@@ -171,15 +174,12 @@ public class ExactFractalColliderTests
         return new(new([new Repetition([new TransformationSet([.. offsets])], depth)]), Samples.ParseObj(SampleFiles.Cube).Mesh);
     }
 
-    /// <summary>Anywhere around the fractal, near its surface, or exactly on it.</summary>
+    /// <summary>Draws a position around the fractal, near its surface, or exactly on it.</summary>
     private static Vector RandomPosition(Random random, Fractal fractal)
     {
         var box = fractal.Bounds;
-        var anywhere = box.IsEmpty
-            ? Vector.Zero
-            : box.Centre
-            + (box.Size + (0.01 * Vector.One)).Stretch(1.5
-                * new Vector(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5));
+        var offset = 1.5 * new Vector(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5);
+        var anywhere = box.IsEmpty ? Vector.Zero : box.Centre + (box.Size + (0.01 * Vector.One)).Stretch(offset);
         if (random.Next(3) == 0 || fractal.InstanceCount == 0)
         {
             return anywhere;

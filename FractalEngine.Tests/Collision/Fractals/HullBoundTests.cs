@@ -3,21 +3,21 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Collision;
+namespace FractalEngine.Tests.Collision.Fractals;
 
-/// <summary>Hulls as bounds of distances: never more than the distance of any point that they hold.</summary>
+/// <summary>Lower bounds by hulls never exceed the distance of a point that the hull contains.</summary>
 public class HullBoundTests
 {
     private const double RelativeTolerance = 1e-12;
 
-    // Of the largest coordinate that occurs: some last places.
+    // As a part of the largest coordinate: some last places.
     private const double RoundingTolerance = 1e-14;
 
     public static TheoryData<string> Names => [.. PointClouds.All.Keys];
 
     [Theory]
     [MemberData(nameof(Names))]
-    public void LowerBoundSquared_OfAnyPosition_IsNoMoreThanThatOfThePoints(string name) => Seeded.Run(60, random =>
+    public void LowerBoundSquared_OfAnyPosition_IsNoMoreThanThatOfAnyPoint(string name) => Seeded.Run(60, random =>
     {
         var points = PointClouds.Generate(name, random);
         var bound = CreateBound(points, random);
@@ -34,10 +34,11 @@ public class HullBoundTests
 
     [Theory]
     [MemberData(nameof(Names))]
-    public void TransformedLowerBoundSquared_UnderAnyMap_IsNoMoreThanThatOfTheTransformedPoints(string name) => Seeded.Run(60, random =>
+    public void TransformedLowerBoundSquared_UnderAnyMap_IsNoMoreThanThatOfAnyTransformedPoint(string name) => Seeded.Run(60, random =>
     {
         var points = PointClouds.Generate(name, random);
-        var (bound, size) = (CreateBound(points, random), PointClouds.MaxAbsCoordinate(points));
+        var bound = CreateBound(points, random);
+        var size = PointClouds.MaxAbsCoordinate(points);
         for (var query = 0; query < 30; query++)
         {
             var map = RandomMap(random, size);
@@ -57,9 +58,9 @@ public class HullBoundTests
         var bound = new HullBound(hull, BoundsOf(points), 0, includeAxisPlanes: true);
         foreach (var plane in hull.Planes)
         {
-            var corners = hull.Vertices.OrderByDescending(vertex => Vector.Dot(plane.Normal, vertex)).Take(3).ToArray();
+            var vertices = hull.Vertices.OrderByDescending(vertex => Vector.Dot(plane.Normal, vertex)).Take(3).ToArray();
             var height = random.Between(0.01, 0.5);
-            var position = ((corners[0] + corners[1] + corners[2]) / 3) + (height * plane.Normal);
+            var position = ((vertices[0] + vertices[1] + vertices[2]) / 3) + (height * plane.Normal);
             Assert.Equal(height, Math.Sqrt(bound.LowerBoundSquared(SimdAffineMap.ToVector256(position), double.PositiveInfinity)), 1e-9);
         }
     });
@@ -71,7 +72,7 @@ public class HullBoundTests
         var bound = CreateBound(points, random, margin: 0);
         var position = 1000 * random.Direction();
         var expected = points.Min(point => (position - point).Length());
-        // Seen from so far, the corner that reaches farthest is off the line from the centre by at most 2, so nearer by 2²/2000.
+        // The support vertex is off the line from the centre by at most 2, so closer by up to 2²/2000.
         Assert.InRange(Math.Sqrt(bound.LowerBoundSquared(SimdAffineMap.ToVector256(position), double.PositiveInfinity)), expected - 0.01,
             expected + 1e-9);
     });
@@ -81,18 +82,19 @@ public class HullBoundTests
     {
         Vector[] points = [Vector.Zero, Vector.I, Vector.J, Vector.K];
         var bound = CreateBound(points, random, margin: 0);
-        // Where no other direction could be nearer: the corner's own cone.
+        // The position is in the vertex's own cone, where no other point of the solid is closer.
         var position = -random.Between(1, 50) * random.Direction().Absolute();
         Assert.Equal(position.Length(), Math.Sqrt(bound.LowerBoundSquared(SimdAffineMap.ToVector256(position), double.PositiveInfinity)),
             1e-12 * position.Length());
     });
 
     [Fact]
-    public void LowerBoundSquared_WithAMargin_IsLessByNoMoreThanThat() => Seeded.Run(60, random =>
+    public void LowerBoundSquared_WithAMargin_IsLessByUpToTheMargin() => Seeded.Run(60, random =>
     {
         var points = Enumerable.Range(0, 20).Select(_ => random.Vector()).ToArray();
         var hull = ConvexHull.Build(points, 48);
-        var (exact, wide) = (new HullBound(hull, BoundsOf(points), 0, true), new HullBound(hull, BoundsOf(points), 0.1, true));
+        var exact = new HullBound(hull, BoundsOf(points), 0, true);
+        var wide = new HullBound(hull, BoundsOf(points), 0.1, true);
         var position = SimdAffineMap.ToVector256(random.Vector(4));
         var difference = Math.Sqrt(exact.LowerBoundSquared(position, double.PositiveInfinity))
             - Math.Sqrt(wide.LowerBoundSquared(position, double.PositiveInfinity));
@@ -111,18 +113,18 @@ public class HullBoundTests
     private static HullBound CreateBound(Vector[] points, Random random, double? margin = null)
     {
         var hull = ConvexHull.Build(points, margin == 0 ? 60 : random.Next(4, 60));
-        // As outlines have it: what the hull misses, and rounding.
-        return new(hull, BoundsOf(points), margin ?? (hull.MaxOutsideDistance + (2e-15 * PointClouds.MaxAbsCoordinate(points))),
-            random.Next(2) == 0
-            || margin == 0);
+        // The margin is that of bounding volumes: the points outside the hull, and rounding.
+        var actualMargin = margin ?? (hull.MaxOutsideDistance + (2e-15 * PointClouds.MaxAbsCoordinate(points)));
+        return new(hull, BoundsOf(points), actualMargin, includeAxisPlanes: random.Next(2) == 0 || margin == 0);
     }
 
     private static BoundingBox BoundsOf(Vector[] points) => points.Aggregate(BoundingBox.Empty, (box, point) => box.Including(point));
 
     private static Vector RandomPosition(Random random, Vector[] points)
     {
-        var (size, point, other) = (PointClouds.MaxAbsCoordinate(points), points[random.Next(points.Length)],
-            points[random.Next(points.Length)]);
+        var size = PointClouds.MaxAbsCoordinate(points);
+        var point = points[random.Next(points.Length)];
+        var other = points[random.Next(points.Length)];
         return random.Next(6) switch
         {
             0 => point,
@@ -134,7 +136,7 @@ public class HullBoundTests
         };
     }
 
-    /// <summary>Similar, skewed, mirrored or nearly singular.</summary>
+    /// <summary>Draws a map that is a similarity, skews, mirrors or is nearly singular.</summary>
     private static AffineMap RandomMap(Random random, double size)
     {
         var scale = random.Next(4) switch

@@ -6,13 +6,13 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Collision;
+namespace FractalEngine.Tests.Collision.Reference;
 
 /// <summary>The paper's descent: its exact costs, and how it errs.</summary>
 public class FractalColliderTests
 {
     [Theory]
-    // The paper's worked example (§5.2.3), and models 3 to 5 of its Figure 17. For model 3 it prints 420, which is not its own b·t·d.
+    // The paper's worked example (§5.2.3), and models 3 to 5 of its figure 17. For model 3 it prints 420, which is not its own b·t·d.
     [InlineData(10, 50, 4, 2_000)]
     [InlineData(10, 7, 5, 350)]
     [InlineData(10, 49, 3, 1_470)]
@@ -30,7 +30,7 @@ public class FractalColliderTests
     [Fact]
     public void TryFindClosest_WithTwoSetsInABody_ConcatenatesThem()
     {
-        // Appendix B: 5·5 transformations a level.
+        // Appendix B has 5·5 transformations a level.
         var context = new QueryContext();
         Assert.True(new FractalCollider(Samples.AppendixBAt(6)).TryFindClosest(new(1, 2, 3), double.PositiveInfinity, context, out _));
         Assert.Equal(1 * 25 * 6, context.Statistics.FaceTests);
@@ -52,8 +52,8 @@ public class FractalColliderTests
     [Fact]
     public void TryFindClosest_WhereTheCloserChildHasTheFartherChildren_Errs()
     {
-        // From (2.6, 0, 0) the copy at 0 ends at 1 and that at 4 begins at 4, so the latter is nearer; but the parts of the first reach on
-        // to the right at the next level.
+        // From (2.6, 0, 0) the instance at 0 ends at 1 and that at 4 begins at 4, so the latter is closer. But children of the first reach
+        // farther right at the next level.
         var fractal = new Fractal(new(
         [
             new TransformationSet([Transformation.Identity, Samples.Move(4, 0, 0)]),
@@ -68,12 +68,13 @@ public class FractalColliderTests
     }
 
     [Fact]
-    public void Width_OfMoreInstances_ErrsLess()
+    public void BeamWidth_OfMoreInstances_ErrsLess()
     {
         var fractal = AssetFractals.Load("appendix-b", 3);
         var exact = new ExactFractalCollider(fractal);
         var colliders = new[] { 1, 2, 4, 16, 64 }.Select(width => new FractalCollider(fractal, width)).ToArray();
-        var (context, random) = (new QueryContext(), new Random(1));
+        var context = new QueryContext();
+        var random = new Random(1);
         var errors = new double[colliders.Length];
         for (var query = 0; query < 200; query++)
         {
@@ -82,7 +83,7 @@ public class FractalColliderTests
             for (var i = 0; i < errors.Length; i++)
             {
                 Assert.True(colliders[i].TryFindClosest(position, double.PositiveInfinity, context, out var found));
-                // Rounding of both, as parts of the size.
+                // The tolerance is the rounding of both, as a part of the size.
                 Assert.True(found.Distance >= expected.Distance - (1e-12 * fractal.Bounds.Diagonal),
                     $"{found.Distance} and {expected.Distance}");
                 errors[i] += found.Distance - expected.Distance;
@@ -93,7 +94,7 @@ public class FractalColliderTests
     }
 
     [Fact]
-    public void Width_OfAllInstances_IsExactAndNamesTheInstance() => Seeded.Run(200, random =>
+    public void BeamWidth_OfAllInstances_IsExactAndReportsTheInstance() => Seeded.Run(200, random =>
     {
         var fractal = RandomFractals.Create(random);
         if (fractal.InstanceCount is not { } count || count > 2000)
@@ -101,17 +102,19 @@ public class FractalColliderTests
             return;
         }
 
-        var (context, position, size) = (new QueryContext(), random.Vector(4), fractal.Bounds.Diagonal);
+        var context = new QueryContext();
+        var position = random.Vector(4);
+        var size = fractal.Bounds.Diagonal;
         var found = new FractalCollider(fractal, 2000).TryFindClosest(position, double.PositiveInfinity, context, out var wide);
         var path = context.InstancePath.ToArray();
         Assert.Equal(new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, context, out var exact), found);
-        // Rounding of both, as parts of the size and of the distance.
+        // The tolerance is the rounding of both, as a part of the size and of the distance.
         Assert.Equal(exact.Distance, wide.Distance, 1e-12 * (size + exact.Distance));
         Assert.All(path, mapIndex => Assert.True(mapIndex >= 0));
     });
 
     [Fact]
-    public void Width_OfMoreInstances_AllocatesNothingAndRespectsMaxDistance()
+    public void BeamWidth_OfMoreInstances_AllocatesNothingAndRespectsMaxDistance()
     {
         var collider = new FractalCollider(AssetFractals.Load("tree", null), 8);
         var context = new QueryContext();
@@ -123,7 +126,7 @@ public class FractalColliderTests
     }
 
     [Fact]
-    public void Width_LessThanOne_IsRefused() =>
+    public void BeamWidth_LessThanOne_IsRefused() =>
         Assert.Throws<ArgumentOutOfRangeException>(() => new FractalCollider(Samples.AppendixBAt(2), 0));
 
     private static Mesh Fan(int faces) => new(

@@ -2,19 +2,19 @@ using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Collision;
+namespace FractalEngine.Tests.Collision.Fractals;
 
-/// <summary>Convex hulls of any points hold them.</summary>
+/// <summary>Convex hulls of any points contain them.</summary>
 public class ConvexHullTests
 {
-    // Of the largest coordinate: some hundred of its last places.
+    // As a part of the largest coordinate: some hundred of its last places.
     private const double Rounding = 1e-13;
 
     public static TheoryData<string> Names => [.. PointClouds.All.Keys];
 
     [Theory]
     [MemberData(nameof(Names))]
-    public void Of_AnyPoints_ContainsThemButForItsStatedMiss(string name) => Seeded.Run(60, random =>
+    public void Build_OfAnyPoints_ContainsThemWithinMaxOutsideDistance(string name) => Seeded.Run(60, random =>
     {
         var points = PointClouds.Generate(name, random);
         var hull = ConvexHull.Build(points, random.Next(4, 60));
@@ -25,20 +25,20 @@ public class ConvexHullTests
         {
             var distance = hull.DistanceUpperBound(point);
             Assert.True(distance <= hull.MaxOutsideDistance + rounding,
-                FormattableString.Invariant($"{point} lies {distance} out of the hull, which says {hull.MaxOutsideDistance}"));
+                FormattableString.Invariant($"{point} lies {distance} outside the hull, at most {hull.MaxOutsideDistance} expected"));
             foreach (var plane in hull.Planes)
             {
-                // Beyond a plane by no more than beyond the hull.
+                // A point is above a plane by no more than it is outside the hull.
                 var height = Vector.Dot(plane.Normal, point) - plane.Offset;
                 Assert.True(height <= hull.MaxOutsideDistance + rounding,
-                    FormattableString.Invariant($"{point} lies {height} above a plane, {hull.MaxOutsideDistance} is missed"));
+                    FormattableString.Invariant($"{point} lies {height} above a plane, but at most {hull.MaxOutsideDistance} outside"));
             }
         }
     });
 
     [Theory]
     [MemberData(nameof(Names))]
-    public void Of_AnyPoints_HasNoCornerAboveAPlane(string name) => Seeded.Run(60, random =>
+    public void Build_OfAnyPoints_HasNoVertexAboveAPlane(string name) => Seeded.Run(60, random =>
     {
         var hull = ConvexHull.Build(PointClouds.Generate(name, random), random.Next(4, 60));
         foreach (var plane in hull.Planes)
@@ -51,14 +51,14 @@ public class ConvexHullTests
     });
 
     [Fact]
-    public void Of_FewPoints_MissesNothing() => Seeded.Run(100, random =>
+    public void Build_OfFewPoints_LeavesNoneOutside() => Seeded.Run(100, random =>
     {
         var points = Enumerable.Range(0, 30).Select(_ => random.Vector()).ToArray();
         Assert.InRange(ConvexHull.Build(points, 60).MaxOutsideDistance, 0, 1e-11);
     });
 
     [Fact]
-    public void Of_ACubeOfPoints_IsTheCube()
+    public void Build_OfACubeOfPoints_IsTheCube()
     {
         var points = PointClouds.All["grid"](new(1));
         var hull = ConvexHull.Build(points, 48);
@@ -67,15 +67,15 @@ public class ConvexHullTests
     }
 
     [Fact]
-    public void Of_ARotatedCube_HasItsVolume() => Seeded.Run(40, random =>
+    public void Build_OfARotatedCube_HasItsVolume() => Seeded.Run(40, random =>
     {
-        var hull = ConvexHull.Build(PointClouds.All["turned grid"](random), 48);
-        // Points in the sides may be corners by rounding, and flat facets may lean.
+        var hull = ConvexHull.Build(PointClouds.All["rotated grid"](random), 48);
+        // By rounding, points in the sides may be vertices, and facets may tilt.
         Assert.Equal(64, hull.Volume(), 1e-9);
     });
 
     [Fact]
-    public void Volume_IsThatOfTheSumOfTetrahedra() => Seeded.Run(40, random =>
+    public void Volume_OfATetrahedron_IsASixthOfTheProduct() => Seeded.Run(40, random =>
     {
         var points = Enumerable.Range(0, 4).Select(_ => random.Vector()).ToArray();
         var volume = Math.Abs(Vector.Dot(points[1] - points[0], Vector.Cross(points[2] - points[0], points[3] - points[0]))) / 6;

@@ -1,17 +1,17 @@
-using FractalEngine.Core.Collision;
 using System.Collections.Immutable;
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Tests.Collision;
+namespace FractalEngine.Tests.Collision.Fractals;
 
 /// <summary>
-/// The nearest distance on a fractal of one recursion, at any depth, by means that share nothing with the colliders: a round is one set of
-/// chained maps, one ball holds the fractal at every depth, and balls of copies are looked at in the order of their distances.
+/// Finds the closest distance on a fractal of one recursion, at any depth, by means that share nothing with the colliders. A round is one
+/// set of composed maps, and one sphere contains the fractal at every depth. Instances are visited by the distances of their spheres.
 /// </summary>
 internal sealed class BranchAndBoundOracle
 {
-    // Of the fractal's size: what is smaller is a point.
+    // As a part of the fractal's size: smaller instances count as points.
     private const double MinRelativeSize = 1e-14;
 
     private readonly AffineMap[] _outerMaps;
@@ -21,6 +21,7 @@ internal sealed class BranchAndBoundOracle
     private readonly double _radius;
     private readonly long _roundCount;
 
+    /// <summary>Expands one round of a fractal.</summary>
     public BranchAndBoundOracle(Fractal fractal)
     {
         var steps = fractal.Description.Steps;
@@ -34,26 +35,28 @@ internal sealed class BranchAndBoundOracle
         var mesh = fractal.BaseMesh;
         _baseTriangles = [.. from chain in ExpandMaps(steps[(recursionIndex + 1)..])
                     from face in Enumerable.Range(0, mesh.FaceCount)
-                    let corners = mesh.Face(face)
-                    select (chain.Map * corners.A, chain.Map * corners.B, chain.Map * corners.C)];
-        // A ball that each map sends into itself.
+                    let triangle = mesh.Face(face)
+                    select (chain.Map * triangle.A, chain.Map * triangle.B, chain.Map * triangle.C)];
+        // Each map sends the sphere into itself.
         _centre = FixedPoint(_roundMaps.MinBy(chain => chain.Ratio).Map);
-        _radius = Math.Max(
-            _baseTriangles.Max(
-                face => Math.Max((face.A - _centre).Length(), Math.Max((face.B - _centre).Length(), (face.C - _centre).Length()))),
-            _roundMaps.Max(chain => ((chain.Map * _centre) - _centre).Length() / (1 - chain.Ratio))) * (1 + 1e-9);
+        var baseRadius = _baseTriangles.SelectMany(triangle => new[] { triangle.A, triangle.B, triangle.C })
+            .Max(vertex => (vertex - _centre).Length());
+        var roundRadius = _roundMaps.Max(chain => ((chain.Map * _centre) - _centre).Length() / (1 - chain.Ratio));
+        _radius = Math.Max(baseRadius, roundRadius) * (1 + 1e-9);
     }
 
-    /// <summary>True where a fractal holds all shallower ones.</summary>
+    /// <summary>True where a fractal contains all shallower ones.</summary>
     public bool RoundHasIdentity { get; }
 
-    /// <summary>By branch and bound.</summary>
-    /// <param name="position">Finite.</param>
-    /// <param name="maxNodes">With more balls than these the answer is null.</param>
-    /// <param name="maxDistance">The answer where nothing is nearer: what is no nearer is not looked at.</param>
+    /// <summary>Finds the closest distance by branch and bound.</summary>
+    /// <param name="position">Position of the query, finite.</param>
+    /// <param name="maxNodes">Number of spheres beyond which the search gives up.</param>
+    /// <param name="maxDistance">Limit of the search, and the result where nothing is closer.</param>
+    /// <returns>The distance; null when the search gave up.</returns>
     public double? FindClosestDistance(Vector position, int maxNodes, double maxDistance = double.PositiveInfinity)
     {
-        var (queue, nodeCount) = (new PriorityQueue<Node, double>(), 0);
+        var queue = new PriorityQueue<Node, double>();
+        var nodeCount = 0;
         foreach (var map in _outerMaps)
         {
             Enqueue(new(map, FrobeniusNorm(map), 0));
@@ -73,7 +76,7 @@ internal sealed class BranchAndBoundOracle
 
             if (RoundHasIdentity || IsLeaf(node))
             {
-                // No ball any more: the distance itself.
+                // The distance itself replaces that of the sphere.
                 Add(node with { Round = -1 }, DistanceToBase(position, node.Map));
             }
 
@@ -101,9 +104,9 @@ internal sealed class BranchAndBoundOracle
         }
     }
 
-    /// <summary>
-    /// The nearest of what is found by going down into the copies whose balls' centres are nearest, so many at each round.
-    /// </summary>
+    /// <summary>Finds an upper bound of the closest distance by descending into the instances with the closest centres.</summary>
+    /// <param name="position">Position of the query, finite.</param>
+    /// <param name="width">Number of instances of each round to descend into.</param>
     public double FindClosestDistanceByBeam(Vector position, int width)
     {
         var closest = double.PositiveInfinity;
@@ -124,17 +127,22 @@ internal sealed class BranchAndBoundOracle
 
     private bool IsLeaf(Node node) => node.Round >= _roundCount || node.Ratio * _radius < MinRelativeSize * _radius;
 
-    private IEnumerable<Node> Children(Node node) => _roundMaps.Select(chain => (node.Map * chain.Map) switch
+    private IEnumerable<Node> Children(Node node)
     {
-        var map => new Node(map, Math.Min(node.Ratio * chain.Ratio, FrobeniusNorm(map)), node.Round + 1),
-    });
+        foreach (var (roundMap, ratio) in _roundMaps)
+        {
+            var map = node.Map * roundMap;
+            yield return new(map, Math.Min(node.Ratio * ratio, FrobeniusNorm(map)), node.Round + 1);
+        }
+    }
 
     private double DistanceToBase(Vector position, AffineMap map) =>
-        Math.Sqrt(
-            _baseTriangles.Min(face => TriangleKernel.ClosestPoint(position, map * face.A, map * face.B, map * face.C).DistanceSquared));
+        Math.Sqrt(_baseTriangles.Min(triangle =>
+            TriangleKernel.ClosestPoint(position, map * triangle.A, map * triangle.B, map * triangle.C).DistanceSquared));
 
     /// <summary>
-    /// All maps of some steps, each with a factor by which it lengthens at most: a transformation stretches along axes, then turns.
+    /// Lists all maps of some steps, each with an upper bound of the factor by which it lengthens: a transformation stretches along axes,
+    /// then rotates.
     /// </summary>
     private static (AffineMap Map, double Ratio)[] ExpandMaps(ImmutableArray<FractalStep> steps)
     {
@@ -149,7 +157,7 @@ internal sealed class BranchAndBoundOracle
         return chains;
     }
 
-    /// <summary>The root of the sum of squares of the entries.</summary>
+    /// <summary>Computes the root of the sum of the entries' squares.</summary>
     private static double FrobeniusNorm(AffineMap map) =>
         Math.Sqrt(map.Linear.V1.LengthSquared() + map.Linear.V2.LengthSquared() + map.Linear.V3.LengthSquared());
 
@@ -164,5 +172,6 @@ internal sealed class BranchAndBoundOracle
         return point;
     }
 
+    /// <summary>An instance of a round, with an upper bound of its scale.</summary>
     private readonly record struct Node(AffineMap Map, double Ratio, long Round);
 }

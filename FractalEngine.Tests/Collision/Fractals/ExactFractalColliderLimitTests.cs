@@ -4,34 +4,35 @@ using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Collision;
+namespace FractalEngine.Tests.Collision.Fractals;
 
-/// <summary>Fractals on which assumptions of the exact search about bounds, precision and depth do not hold by themselves.</summary>
-public class ExactFractalLimitTests
+/// <summary>The exact collider at the limits of its bounds, its precision and its depth.</summary>
+public class ExactFractalColliderLimitTests
 {
-    /// <summary>What lies within the distance is found, however little nearer than that it is: ε allows worse answers, not none.</summary>
+    /// <summary>A point within the search radius is found however close to it: ε allows worse results, not none.</summary>
     [Theory]
     [InlineData("skewed")]
     [InlineData("mirrors")]
     [InlineData("identity alone")]
-    public void TryFindClosest_WithEpsilonAndMaxDistance_FindsWhatIsThere(string name)
+    public void TryFindClosest_WithEpsilonAndMaxDistance_FindsAPoint(string name)
     {
         var fractal = AdversarialFractals.All[name]();
-        var (probe, context) = (new ExactColliderChecker(name, fractal), new QueryContext());
+        var checker = new ExactColliderChecker(name, fractal);
+        var context = new QueryContext();
         Seeded.Run(60, random =>
         {
             var position = FractalPositions.RandomPosition(random, fractal);
             var tolerance = ExactColliderChecker.Tolerance * FractalPositions.Magnitude(fractal, position);
-            Assert.True(probe.Collider.TryFindClosest(position, double.PositiveInfinity, context, out var exact));
+            Assert.True(checker.Collider.TryFindClosest(position, double.PositiveInfinity, context, out var exact));
             foreach (var epsilon in new[] { 0.01, 0.5, 3 })
             {
                 foreach (var maxDistance in new[] { (2 * exact.Distance) + tolerance, exact.Distance + tolerance })
                 {
-                    var found = probe.Collider.TryFindClosest(position, maxDistance, context, out var near, epsilon);
-                    probe.ThrowUnless(found, position,
+                    var found = checker.Collider.TryFindClosest(position, maxDistance, context, out var near, epsilon);
+                    checker.ThrowUnless(found, position,
                         $"ε = {epsilon} finds nothing within {maxDistance:R}, though it is at {exact.Distance:R}");
-                    probe.ThrowUnless(near.Distance <= maxDistance && near.Distance <= ((1 + epsilon) * exact.Distance) + tolerance,
-                        position,
+                    var limit = Math.Min(maxDistance, ((1 + epsilon) * exact.Distance) + tolerance);
+                    checker.ThrowUnless(near.Distance <= limit, position,
                         $"ε = {epsilon} gives {near.Distance:R} within {maxDistance:R}");
                 }
             }
@@ -39,8 +40,8 @@ public class ExactFractalLimitTests
     }
 
     /// <summary>
-    /// Where copies are opened several levels at once, those of the first levels above the ones that are written out reach below the round
-    /// that stands for all above: there the bounds are not yet those of the round.
+    /// Where several levels are expanded at once, children of the first levels above the stored ones lie below the round that represents
+    /// all above. There the bounds are not yet those of the round.
     /// </summary>
     [Theory]
     [InlineData(0.5)]
@@ -49,30 +50,28 @@ public class ExactFractalLimitTests
     [InlineData(0.02)]
     public void TryFindClosest_JustAboveTheExpandedLevels_EqualsBranchAndBoundWithSpheres(double ratio)
     {
-        // A base much larger than what its copies shrink to, so that bounds shrink with each level.
+        // The base is much larger than its instances, so that bounds shrink with each level.
         var mesh = Samples.Tetrahedron.Transform(v => 3 * v);
         for (var depth = 3; depth <= 40; depth++)
         {
-            var fractal =
-                new Fractal(
-                    Samples.Repeated(depth, Samples.MoveAndScale(0, 0, 0, ratio), Samples.MoveAndScale(1 - ratio, 0, 0, ratio)).Description,
-                    mesh);
-            var (probe, oracle, context) = (new ExactColliderChecker($"two of {ratio} at depth {depth}", fractal),
-                new BranchAndBoundOracle(fractal),
-                new QueryContext());
+            Transformation[] maps = [Samples.MoveAndScale(0, 0, 0, ratio), Samples.MoveAndScale(1 - ratio, 0, 0, ratio)];
+            var fractal = new Fractal(Samples.Repeated(depth, maps).Description, mesh);
+            var checker = new ExactColliderChecker($"two of {ratio} at depth {depth}", fractal);
+            var oracle = new BranchAndBoundOracle(fractal);
+            var context = new QueryContext();
             Seeded.Run(40, random =>
             {
                 var position = random.Next(2) == 0 ? random.Vector(2) : FractalPositions.RandomPosition(random, fractal);
                 if (oracle.FindClosestDistance(position, 100_000) is { } expected)
                 {
-                    probe.CheckQuery(position, context, expected);
-                    probe.CheckMaxDistance(position, context, expected);
+                    checker.CheckQuery(position, context, expected);
+                    checker.CheckMaxDistance(position, context, expected);
                 }
             });
         }
     }
 
-    /// <summary>The precision is part of the fractal's size, not of its base's.</summary>
+    /// <summary>The precision is relative to the fractal's size, not to its base's.</summary>
     [Theory]
     [InlineData(1e3)]
     [InlineData(1e6)]
@@ -80,22 +79,22 @@ public class ExactFractalLimitTests
     public void TryFindClosest_OnABaseMuchLargerThanTheFractal_IsExactForTheFractal(double larger)
     {
         var mesh = Samples.Tetrahedron.Transform(v => larger * v);
-        var fractal =
-            new Fractal(Samples.Repeated(9, Samples.MoveAndScale(0, 0, 0, 0.002), Samples.MoveAndScale(1, 0, 0, 0.002),
-            Samples.MoveAndScale(0, 1, 0, 0.002)).Description, mesh);
-        var (probe, oracle, context) = (new ExactColliderChecker($"a base {larger} times larger", fractal),
-            ExactColliderChecker.BruteForce(fractal),
-            new QueryContext());
+        Transformation[] maps =
+            [Samples.MoveAndScale(0, 0, 0, 0.002), Samples.MoveAndScale(1, 0, 0, 0.002), Samples.MoveAndScale(0, 1, 0, 0.002)];
+        var fractal = new Fractal(Samples.Repeated(9, maps).Description, mesh);
+        var checker = new ExactColliderChecker($"a base {larger} times larger", fractal);
+        var oracle = ExactColliderChecker.BruteForce(fractal);
+        var context = new QueryContext();
         Seeded.Run(200, random =>
         {
             var position = FractalPositions.RandomPosition(random, fractal);
             Assert.True(oracle.TryFindClosest(position, double.PositiveInfinity, context, out var expected));
-            probe.CheckQuery(position, context, expected.Distance);
+            checker.CheckQuery(position, context, expected.Distance);
         });
     }
 
     /// <summary>
-    /// Six maps are too many to open two levels at once; one of them hardly shrinks, and its chain leads to the position.
+    /// Six maps are too many to expand two levels at once; one of them hardly shrinks, and its chain leads to the position.
     /// </summary>
     [Theory]
     [InlineData(0.985, 1500)]
@@ -105,12 +104,13 @@ public class ExactFractalLimitTests
     {
         var maps = Enumerable.Range(0, 5).Select(i => Samples.MoveAndScale(10, i, 0, 0.01)).Prepend(Samples.MoveAndScale(0, 0, 0, ratio))
             .ToArray();
-        // Away from the fixed point, so that each level comes nearer to it.
+        // The base is away from the fixed point, so that each level comes closer to it.
         var fractal = new Fractal(Samples.Repeated(depth, maps).Description, Samples.Triangle.Transform(v => v + Vector.One));
-        var (probe, context) = (new ExactColliderChecker($"ratio {ratio} at depth {depth}", fractal), new QueryContext());
+        var checker = new ExactColliderChecker($"ratio {ratio} at depth {depth}", fractal);
+        var context = new QueryContext();
         var (a, b, c) = fractal.BaseMesh.Face(0);
         var expected = Math.Pow(ratio, depth) * Math.Sqrt(TriangleKernel.ClosestPoint(Vector.Zero, a, b, c).DistanceSquared);
-        probe.CheckQuery(Vector.Zero, context, expected);
+        checker.CheckQuery(Vector.Zero, context, expected);
     }
 
     [Fact]
@@ -124,28 +124,29 @@ public class ExactFractalLimitTests
         }
     }
 
-    /// <summary>As in fractal files, a scale of 0 is refused (decision 3).</summary>
+    /// <summary>A scale of 0 is refused, as in fractal files (decision 3).</summary>
     [Fact]
     public void Create_WithAMapThatFlattens_IsRefused()
     {
         var fractal = Samples.Repeated(2, new(Vector.I, Vector.Zero, new(0.5, 0, 0.5)), Samples.MoveAndScale(0, 1, 0, 0.5));
-        Assert.Contains("determinant", Assert.Throws<SingularMatrixException>(() => new ExactFractalCollider(fractal)).Message,
-            StringComparison.Ordinal);
+        var error = Assert.Throws<SingularMatrixException>(() => new ExactFractalCollider(fractal));
+        Assert.Contains("determinant", error.Message, StringComparison.Ordinal);
     }
 
     [Fact]
     public void TryFindClosest_OnABaseOfOnePoint_EqualsEveryFace() => Seeded.Run(40, random =>
     {
         var fractal = new Fractal(RandomFractals.Create(random).Description, new([1, 1, 1, 1, 1, 1, 1, 1, 1], [0, 1, 2]));
-        var (probe, oracle, context) = (new ExactColliderChecker("point", fractal), ExactColliderChecker.BruteForce(fractal),
-            new QueryContext());
+        var checker = new ExactColliderChecker("point", fractal);
+        var oracle = ExactColliderChecker.BruteForce(fractal);
+        var context = new QueryContext();
         var position = FractalPositions.RandomPosition(random, fractal);
         Assert.True(oracle.TryFindClosest(position, double.PositiveInfinity, context, out var expected));
-        probe.CheckQuery(position, context, expected.Distance);
+        checker.CheckQuery(position, context, expected.Distance);
     });
 
     [Fact]
-    public void Hull_OfOnePoint_IsThePoint()
+    public void ConvexHull_OfOnePoint_IsThePoint()
     {
         foreach (var points in new Vector[][] { [Vector.Zero], [Vector.One, Vector.One, Vector.One] })
         {
@@ -154,7 +155,7 @@ public class ExactFractalLimitTests
         }
     }
 
-    /// <summary>Bounds of fractals that shrink settle, so that any depth takes no more memory than some levels.</summary>
+    /// <summary>Bounds of fractals that shrink converge, so that any depth takes no more memory than some levels.</summary>
     [Theory]
     [InlineData("diamond")]
     [InlineData("terrain")]
@@ -169,7 +170,7 @@ public class ExactFractalLimitTests
         Assert.InRange(new ExactFractalCollider(Samples.Repeated(null, [.. maps])).StorageBytes, 1, 1_000_000);
     }
 
-    /// <summary>Six maps are too many to open two levels at once: a frame of the stack for each level.</summary>
+    /// <summary>Six maps are too many to expand two levels at once, so that each level takes a frame of the stack.</summary>
     [Theory]
     [InlineData(0)]
     [InlineData(0.05)]
@@ -177,6 +178,6 @@ public class ExactFractalLimitTests
     {
         Transformation first = new(Vector.Zero, new(0, 10, 0), 0.985 * new Vector(1, 1, 1 - narrower));
         var maps = Enumerable.Range(1, 6).Select(i => Samples.MoveAndScale(5, i, 0, 0.05)).Prepend(first);
-        Assert.Null(ExactFractalAdversarialTests.RunOnSmallStack(Samples.Repeated(3000, [.. maps])));
+        Assert.Null(ExactFractalColliderAdversarialTests.RunOnSmallStack(Samples.Repeated(3000, [.. maps])));
     }
 }

@@ -5,13 +5,14 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Collision;
+namespace FractalEngine.Tests.Collision.Reference;
 
+/// <summary>The paper's octree: its exact costs, and how it errs.</summary>
 public class BoundingBoxColliderTests
 {
     public static TheoryData<string> Meshes => CollisionMeshes.Names;
 
-    // Figures 17 and 18.
+    // The numbers are those of figures 17 and 18.
     [Theory]
     [InlineData(277_654, 1736)]
     [InlineData(237_664, 1714)]
@@ -21,7 +22,7 @@ public class BoundingBoxColliderTests
     public void CostPerLevel_TimesThePapersDepth_IsThePapersCost(int faces, int cost)
     {
         Assert.Equal(cost, Math.Round(BoundingBoxCollider.CostPerLevel * 3 * Math.Log(faces, 8)));
-        // Whole levels: within half a level.
+        // Levels are whole, so that costs differ by up to half a level.
         Assert.InRange(BoundingBoxCollider.CostPerLevel * BoundingBoxCollider.DefaultDepth(faces), cost - 48, cost + 48);
     }
 
@@ -30,7 +31,9 @@ public class BoundingBoxColliderTests
     public void TryFindClosest_OnAnyMesh_FindsAFaceNoCloserThanTheClosest(string name)
     {
         var mesh = CollisionMeshes.All[name]();
-        var (simple, boxes, context) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh), new QueryContext());
+        var simple = new SimpleCollider(mesh);
+        var boxes = new BoundingBoxCollider(mesh);
+        var context = new QueryContext();
         Seeded.Run(100, random =>
         {
             var position = CollisionMeshes.RandomPosition(random, mesh);
@@ -46,7 +49,9 @@ public class BoundingBoxColliderTests
     public void TryFindClosest_OfDepthZero_IsExact()
     {
         var mesh = CollisionMeshes.TriangleSoup(1, 50, 0.5);
-        var (simple, boxes, context) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh, depth: 0), new QueryContext());
+        var simple = new SimpleCollider(mesh);
+        var boxes = new BoundingBoxCollider(mesh, depth: 0);
+        var context = new QueryContext();
         Seeded.Run(100, random =>
         {
             var position = CollisionMeshes.RandomPosition(random, mesh);
@@ -60,22 +65,24 @@ public class BoundingBoxColliderTests
     }
 
     [Fact]
-    public void TryFindClosest_CountsTwelveFacesForEachOfEightBoxesALevelAndTheLeaf()
+    public void TryFindClosest_OnASphere_CountsTwelveFacesForEachOfEightBoxesALevelAndTheLeaf()
     {
         var context = new QueryContext();
         var boxes = new BoundingBoxCollider(MeshGenerators.Create("icosphere", 1, 1280));
         Assert.Equal(10, boxes.Depth);
         boxes.TryFindClosest(2 * Vector.One, double.PositiveInfinity, context, out _);
-        // One face in the leaf, as no two of the sphere's have one centre.
-        Assert.Equal((8 * 12 * 10) + 1, context.Statistics.FaceTests);
-        Assert.InRange(context.Statistics.BoundTests, 4, 8 * 10);
+        // The leaf has one face, since no two faces of the sphere share a centroid.
+        Assert.Equal((8 * 12 * 10) + 1, context.FaceTests);
+        Assert.InRange(context.BoundTests, 4, 8 * 10);
     }
 
     [Fact]
-    public void TryFindClosest_MayMissTheClosestFace()
+    public void TryFindClosest_OnATerrain_OftenMissesTheClosestFace()
     {
         var mesh = MeshGenerators.Create("terrain", 1, 5000);
-        var (simple, boxes, context) = (new SimpleCollider(mesh), new BoundingBoxCollider(mesh), new QueryContext());
+        var simple = new SimpleCollider(mesh);
+        var boxes = new BoundingBoxCollider(mesh);
+        var context = new QueryContext();
         var missed = 0;
         Seeded.Run(200, random =>
         {
@@ -84,14 +91,14 @@ public class BoundingBoxColliderTests
             boxes.TryFindClosest(position, double.PositiveInfinity, context, out var closest);
             missed += closest.Distance > expected.Distance + 1e-9 ? 1 : 0;
         });
-        // This is what the paper's way gives, and why it is labelled so.
+        // The paper's octree misses faces, which is why it is not labelled exact.
         Assert.InRange(missed, 20, 200);
     }
 
     [Fact]
     public void TryFindClosest_WhereTheBoxOfThePositionIsEmpty_TakesTheClosestOccupiedBox()
     {
-        // Two faces in opposite corners; six of eight boxes are empty.
+        // Two faces are in opposite corners; six of eight boxes are empty.
         var mesh = new Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0, 9, 9, 9, 10, 9, 9, 9, 10, 9], [0, 1, 2, 3, 4, 5]);
         var boxes = new BoundingBoxCollider(mesh, depth: 3);
         Assert.True(boxes.TryFindClosest(new(9, 0, 0), double.PositiveInfinity, new(), out var closest));
@@ -111,7 +118,8 @@ public class BoundingBoxColliderTests
     [Fact]
     public void TryFindClosest_AllocatesNothing()
     {
-        var (boxes, context) = (new BoundingBoxCollider(CollisionMeshes.TriangleSoup(1, 500, 0.1)), new QueryContext());
+        var boxes = new BoundingBoxCollider(CollisionMeshes.TriangleSoup(1, 500, 0.1));
+        var context = new QueryContext();
         boxes.TryFindClosest(Vector.One, double.PositiveInfinity, context, out _);
         var before = GC.GetAllocatedBytesForCurrentThread();
         for (var i = 0; i < 100; i++)

@@ -8,33 +8,39 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 using Xunit.Sdk;
 
-namespace FractalEngine.Tests.Collision;
+namespace FractalEngine.Tests.Collision.Fractals;
 
 /// <summary>
-/// Checks what the exact collider answers about a fractal against what another way of finding it says. Any number of threads may.
+/// Checks results of the exact collider on a fractal against distances that were found by other means. Safe for concurrent use.
 /// </summary>
-/// <param name="name">For failures: the fractal and its depth.</param>
-/// <param name="fractal">In affine composition.</param>
+/// <param name="name">The fractal and its depth, for messages of failures.</param>
+/// <param name="fractal">A fractal in affine composition.</param>
 internal sealed class ExactColliderChecker(string name, Fractal fractal)
 {
-    // Distances are those of points rounded to the last places of coordinates, over a chain of some maps.
+    /// <summary>
+    /// Relative error of a distance, as a part of the largest coordinate: some last places over a chain of some maps.
+    /// </summary>
     public const double Tolerance = 1e-12;
 
-    // Where a point lies is known less well than its distance; the base's nearest point may move along a thin face.
+    // A point is known less well than its distance, since it may move along a thin triangle.
     private const double PointTolerance = 1e-9;
 
+    /// <summary>The fractal that is checked.</summary>
     public Fractal Fractal { get; } = fractal;
 
+    /// <summary>The exact collider of the fractal.</summary>
     public ExactFractalCollider Collider { get; } = new(fractal);
 
-    /// <summary>Every face.</summary>
+    /// <summary>Creates a collider that tests every face of a fractal.</summary>
+    /// <param name="fractal">The fractal, which is expanded.</param>
+    /// <param name="limit">Maximum number of faces.</param>
     public static Collider BruteForce(Fractal fractal, long limit = 10_000_000) =>
         new SimpleCollider(FractalGenerator.Flatten(fractal, limit));
 
-    /// <summary>Queries a position and fails unless all of the answer is right.</summary>
-    /// <param name="position">Finite.</param>
-    /// <param name="context">Of the thread.</param>
-    /// <param name="expected">The nearest distance.</param>
+    /// <summary>Queries a position, and fails unless all of the result is right.</summary>
+    /// <param name="position">Position of the query, finite.</param>
+    /// <param name="context">The context of the thread.</param>
+    /// <param name="expected">The closest distance.</param>
     public ClosestPoint CheckQuery(Vector position, QueryContext context, double expected)
     {
         var size = FractalPositions.Magnitude(Fractal, position);
@@ -46,7 +52,7 @@ internal sealed class ExactColliderChecker(string name, Fractal fractal)
         return closest;
     }
 
-    /// <summary>Fails unless the point, the normal, the weights and the instance of an answer belong together.</summary>
+    /// <summary>Fails unless the point, the normal, the barycentrics and the instance of a result belong together.</summary>
     public void CheckResult(Vector position, QueryContext context, ClosestPoint closest)
     {
         var size = FractalPositions.Magnitude(Fractal, position);
@@ -62,16 +68,18 @@ internal sealed class ExactColliderChecker(string name, Fractal fractal)
         var point = (weightA * a) + (weightB * b) + (weightC * c);
         ThrowUnless(Near.Difference(point, closest.Point) <= Tolerance * size, position,
             $"weights give {point} on instance {FormatPath(context)}, not {closest.Point}");
-        // A thin face's normal is less certain, but by much less than this.
-        var (ab, ac) = (b - a, c - a);
-        var isFlat = Math.Abs(Vector.Dot(closest.Normal, ab)) <= 1e-6 * ab.Length() && Math.Abs(Vector.Dot(closest.Normal, ac)) <= 1e-6
-            * ac.Length();
-        ThrowUnless(isFlat || ab.Length() + ac.Length() < Tolerance * size, position, $"normal {closest.Normal} is not that of the face");
+        // A thin triangle's normal is less certain, but by much less than this.
+        var ab = b - a;
+        var ac = c - a;
+        var isPerpendicular = Math.Abs(Vector.Dot(closest.Normal, ab)) <= 1e-6 * ab.Length()
+            && Math.Abs(Vector.Dot(closest.Normal, ac)) <= 1e-6 * ac.Length();
+        var isPoint = ab.Length() + ac.Length() < Tolerance * size;
+        ThrowUnless(isPerpendicular || isPoint, position, $"normal {closest.Normal} is not that of the face");
     }
 
     /// <summary>
-    /// Asks again with little more than the distance that is known to be right. A bound that is too large by far less than copies are apart
-    /// leaves the nearest copy out here, while else it mostly changes no more than the order of copies.
+    /// Queries again with search radii just above and just below the distance that is known to be right. Here a bound that is a little too
+    /// large culls the closest instance; without a radius it mostly changes only the order of instances.
     /// </summary>
     public void CheckMaxDistance(Vector position, QueryContext context, double distance)
     {
@@ -86,12 +94,13 @@ internal sealed class ExactColliderChecker(string name, Fractal fractal)
             $"found at {closest.Distance:R} within {justBelow:R}");
     }
 
+    /// <summary>Fails with the fractal and the position unless a condition holds.</summary>
     public void ThrowUnless(bool condition, Vector position, FormattableString message)
     {
         if (!condition)
         {
-            throw new XunitException(
-                string.Create(CultureInfo.InvariantCulture,
+            throw new XunitException(string.Create(
+                CultureInfo.InvariantCulture,
                 $"{name}, position new({position.X:R}, {position.Y:R}, {position.Z:R}): {message.ToString(CultureInfo.InvariantCulture)}"));
         }
     }
@@ -107,9 +116,9 @@ internal sealed class ExactColliderChecker(string name, Fractal fractal)
             map *= Fractal.LevelAt(level).Maps[context.InstancePath[level]];
         }
 
-        // It may end early where what is left is below the precision, and else go on with identities only.
-        var isSmall = BoundingSphere.OperatorNormBound(map.Linear) * Fractal.BaseMesh.Bounds.Diagonal <= Tolerance
-            * Fractal.Bounds.Diagonal;
+        // A path may end early where the rest is below the precision, or where only identities follow.
+        var isSmall = BoundingSphere.OperatorNormBound(map.Linear) * Fractal.BaseMesh.Bounds.Diagonal
+            <= Tolerance * Fractal.Bounds.Diagonal;
         var pathLength = context.InstancePath.Length;
         var hasIdentities = Fractal.LevelCount is not { } count || Enumerable.Range(pathLength, (int)Math.Min(100, count - pathLength))
             .All(level => Fractal.LevelAt(level).Maps.Contains(AffineMap.Identity));

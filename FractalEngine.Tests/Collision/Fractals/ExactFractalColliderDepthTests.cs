@@ -2,17 +2,17 @@ using FractalEngine.Core.Collision;
 using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Collision;
+namespace FractalEngine.Tests.Collision.Fractals;
 
 /// <summary>
-/// The exact collider where a fractal has too many faces to list: against the greedy one, a beam, and plain branch and bound with balls.
+/// The exact collider where a fractal has too many faces to list: against the greedy one, a beam, and branch and bound with spheres.
 /// </summary>
-public class DeepExactnessTests
+public class ExactFractalColliderDepthTests
 {
     private const int BeamWidth = 64;
     private const int MaxNodes = 400_000;
 
-    /// <summary>Assets whose copies hardly overlap, so that balls are enough, and depths; null for the infinite fractal.</summary>
+    /// <summary>Assets whose instances hardly overlap, so that spheres suffice, and depths; null for the infinite fractal.</summary>
     public static TheoryData<string, int?> DeepFractals
     {
         get
@@ -27,7 +27,7 @@ public class DeepExactnessTests
                 data.Add(name, null);
             }
 
-            // Deeper, its tiles are needles as tall as 300 of their widths, and a query takes up to a minute.
+            // Deeper tiles are needles 300 times as tall as they are wide, and a query takes up to a minute.
             data.Add("terrain", 20);
             return data;
         }
@@ -51,7 +51,9 @@ public class DeepExactnessTests
     public void Oracle_WhereFacesCanBeListed_EqualsThem(string name)
     {
         var fractal = AssetFractals.Load(name, 2);
-        var (oracle, simple, context) = (new BranchAndBoundOracle(fractal), ExactColliderChecker.BruteForce(fractal), new QueryContext());
+        var oracle = new BranchAndBoundOracle(fractal);
+        var simple = ExactColliderChecker.BruteForce(fractal);
+        var context = new QueryContext();
         Seeded.Run(60, random =>
         {
             var position = FractalPositions.RandomPosition(random, fractal);
@@ -65,9 +67,9 @@ public class DeepExactnessTests
     private static void Compare(string name, int? depth, int queries)
     {
         var fractal = AssetFractals.Load(name, depth);
-        var probe = new ExactColliderChecker(FormattableString.Invariant($"{name} of depth {depth}"), fractal);
+        var checker = new ExactColliderChecker(FormattableString.Invariant($"{name} of depth {depth}"), fractal);
         var oracle = new BranchAndBoundOracle(fractal);
-        // The descent takes the identity as often as it can, so that it does not end; a shallower fractal is part of a deeper one there.
+        // The descent takes the identity as often as it can, so that it does not end. A shallower fractal is then part of a deeper one.
         var greedy = new FractalCollider(oracle.RoundHasIdentity && depth is not <= 60 ? AssetFractals.Load(name, 60) : fractal);
         var compared = 0;
         Parallel.For(1, queries + 1, () => new QueryContext(), (seed, _, context) =>
@@ -76,28 +78,28 @@ public class DeepExactnessTests
             {
                 var position = FractalPositions.RandomPosition(random, fractal);
                 var tolerance = ExactColliderChecker.Tolerance * FractalPositions.Magnitude(fractal, position);
-                var found = probe.Collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest);
-                probe.ThrowUnless(found, position, $"nothing found");
-                probe.CheckResult(position, context, closest);
-                // The answer is a point of the fractal; so it is right if nothing is nearer.
+                var found = checker.Collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest);
+                checker.ThrowUnless(found, position, $"nothing found");
+                checker.CheckResult(position, context, closest);
+                // The result is a point of the fractal; so it is right if nothing is closer.
                 if (oracle.FindClosestDistance(position, MaxNodes, closest.Distance - tolerance) is { } expected)
                 {
-                    probe.ThrowUnless(expected >= closest.Distance - tolerance, position,
+                    checker.ThrowUnless(expected >= closest.Distance - tolerance, position,
                         $"distance {closest.Distance:R}, not {expected:R}");
                     Interlocked.Increment(ref compared);
                 }
 
-                probe.CheckMaxDistance(position, context, closest.Distance);
+                checker.CheckMaxDistance(position, context, closest.Distance);
                 greedy.TryFindClosest(position, double.PositiveInfinity, context, out var other);
-                probe.ThrowUnless(closest.Distance <= other.Distance + tolerance, position,
+                checker.ThrowUnless(closest.Distance <= other.Distance + tolerance, position,
                     $"distance {closest.Distance:R}, though greedily {other.Distance:R}");
                 var beamDistance = seed % 4 == 0 ? oracle.FindClosestDistanceByBeam(position, BeamWidth) : double.PositiveInfinity;
-                probe.ThrowUnless(closest.Distance <= beamDistance + tolerance, position,
+                checker.ThrowUnless(closest.Distance <= beamDistance + tolerance, position,
                     $"distance {closest.Distance:R}, though {beamDistance:R} by beam search");
             });
             return context;
         }, _ => { });
-        // Balls overlap more than what they hold does, so that some positions take too long.
+        // Spheres overlap more than what they contain, so that some positions take too long.
         Assert.InRange(compared, queries * 2 / 3, queries);
     }
 }
