@@ -7,7 +7,8 @@ internal static class ParetoFrontCommand
 {
     private const string Usage = """
         front [NAME[:NUMBER] ...] [--quick] [--output FOLDER]
-          Which collider for which error? Writes front.csv, into docs/benchmarks unless stated. A number is a fractal's depth or a mesh's faces.
+          Which collider for which error? Writes front.csv, into docs/benchmarks unless stated.
+          A number is a fractal's depth or a mesh's faces.
           Fractals of more than 3,000,000 faces have rows without errors, of their own colliders only.
           --quick: smaller shapes and fewer positions.
         """;

@@ -7,7 +7,8 @@ internal static class OptimisationsCommand
 {
     private const string Usage = """
         skips [SCENE.sdo ...] [--rounds N] [--output FOLDER]
-          What each optimisation saves, switched off alone: for the gallery, a scene of textures and a crowd of 400 objects, or the named files.
+          What each optimisation saves, switched off alone.
+          For the gallery, a scene of textures and a crowd of 400 objects, or the named files.
           --output: also as skips.csv.
         """;
 

@@ -12,7 +12,9 @@ internal static class WindowCommand
 {
     private const string Usage = """
         window [FILE] [--output FOLDER]
-          The share of a core that a still window takes over 5 seconds, of the gallery or of FILE. Opens two windows, one after the other, for 15 seconds each. --output: also as window.csv.
+          The share of a core that a still window takes over 5 seconds, of the gallery or of FILE.
+          Opens two windows, one after the other, for 15 seconds each.
+          --output: also as window.csv.
         """;
 
     // Enough for loading the file and drawing it, also on a slow machine.

@@ -8,7 +8,8 @@ internal static class LoadingCommand
 {
     private const string Usage = """
         loading [--quick] [--output FOLDER]
-          What do loading, parsing and expanding cost? loading.csv, expansion.csv and, where there is a display, first-picture.csv, in docs/benchmarks unless stated.
+          What do loading, parsing and expanding cost? Writes to docs/benchmarks unless stated:
+          loading.csv, expansion.csv and, where there is a display, first-picture.csv.
         """;
 
     /// <summary>Runs the command and returns the exit code.</summary>

@@ -10,7 +10,9 @@ using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Benchmarks.Paper;
 
-/// <summary>Tests that the colliders make in a query near the surface of a model, and how often the two approximate ones are wrong.</summary>
+/// <summary>
+/// Tests that the colliders make in a query near the surface of a model, and how often the two approximate ones are wrong.
+/// </summary>
 /// <param name="SimpleFaceTests">Face tests of the simple collider.</param>
 /// <param name="FractalFaceTests">Face tests of the fractal collider; null for a mesh.</param>
 /// <param name="BoundingBoxFaceTests">

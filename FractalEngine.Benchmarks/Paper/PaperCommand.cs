@@ -10,7 +10,8 @@ internal static class PaperCommand
 {
     private const string Usage = """
         paper [--output FOLDER]
-          Load time, storage and collision cost of the paper's five models: paper-figure17.csv and paper-figure18.csv, in docs/benchmarks unless stated. Takes some minutes and 8 GB.
+          Load time, storage and collision cost of the paper's five models. Takes some minutes and 8 GB.
+          Writes paper-figure17.csv and paper-figure18.csv, to docs/benchmarks unless stated.
         """;
 
     private static readonly string[] Columns17 =

@@ -6,7 +6,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Architecture;
 
-/// <summary>App ──► Render ──► Core ◄── Parsing ◄── App: who may know whom.</summary>
+/// <summary>Tests which assembly may refer to which: App ──► Render ──► Core ◄── Parsing ◄── App.</summary>
 public class ReferenceTests
 {
     [Fact]
@@ -61,8 +61,7 @@ public class ReferenceTests
     private static string[] Packages(string name) => [.. Includes(name, "PackageReference")];
 
     private static string[] Projects(string name) =>
-        [.. Includes(name, "ProjectReference")
-        .Select(path => Path.GetFileNameWithoutExtension(path.Replace('\\', '/')).Replace("FractalEngine.", "", StringComparison.Ordinal))];
+        [.. Includes(name, "ProjectReference").Select(path => Path.GetFileNameWithoutExtension(path.Replace('\\', '/'))["FractalEngine.".Length..])];
 
     private static IEnumerable<string> Includes(string name, string element) =>
         Project(name).Descendants(element).Select(reference => (string?)reference.Attribute("Include")).OfType<string>();

@@ -3,18 +3,17 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Benchmarks;
 
-/// <summary>The program of the benchmarks, run as a process: wrong words end it before anything is measured or written.</summary>
+/// <summary>Runs the benchmarks' program as a process. Wrong arguments end it before anything is measured or written.</summary>
 public sealed class BenchmarkCommandTests : IDisposable
 {
     private readonly TemporaryFolder _folder = new();
 
-    private static readonly string[] Names = ["front", "table", "growth", "loading", "frames", "skips", "window", "physics", "precision",
-        "paper"];
+    private static readonly string[] Names =
+        ["front", "growth", "loading", "frames", "skips", "window", "physics", "precision", "paper"];
 
     public static TheoryData<string> Commands => [.. Names];
 
-    private static IEnumerable<string> Classes =>
-        typeof(CommandLineParser).Assembly.GetTypes().Select(type => type.Name)
+    private static IEnumerable<string> Classes => typeof(CommandLineParser).Assembly.GetTypes().Select(type => type.Name)
         .Where(name => name.EndsWith("Benchmarks", StringComparison.Ordinal)).Order(StringComparer.Ordinal);
 
     public void Dispose() => _folder.Dispose();
@@ -30,12 +29,12 @@ public sealed class BenchmarkCommandTests : IDisposable
     [InlineData("front tree:2:2", "tree:2:2")]
     [InlineData("front Tree", "Tree")]
     [InlineData("front --output", "--output")]
-    [InlineData("table --queries", "--queries")]
-    [InlineData("table --queries 0", "--queries")]
-    [InlineData("table --queries -5", "--queries")]
-    [InlineData("table --rounds 1.5", "--rounds")]
-    [InlineData("table --rounds 99999999999", "--rounds")]
-    [InlineData("table tree-stump", "tree-stump")]
+    [InlineData("physics --balls", "--balls")]
+    [InlineData("physics --balls 0", "--balls")]
+    [InlineData("physics --balls -5", "--balls")]
+    [InlineData("physics --rounds 1.5", "--rounds")]
+    [InlineData("physics --rounds 99999999999", "--rounds")]
+    [InlineData("physics tree-stump", "tree-stump")]
     [InlineData("growth growth-nothing", "growth-nothing")]
     [InlineData("loading --quick --rounds", "--rounds")]
     [InlineData("frames menger", "menger")]
@@ -66,8 +65,8 @@ public sealed class BenchmarkCommandTests : IDisposable
     {
         var (exitCode, output, error) = AppProcess.RunBenchmarks(_folder.Path, "--list", "flat", "--output", "out");
         Assert.Equal((0, ""), (exitCode, error));
-        Assert.Equal(Classes, output.Split('\n', StringSplitOptions.RemoveEmptyEntries).Select(line => line.Split('.')[^2]).Distinct()
-            .Order(StringComparer.Ordinal));
+        var listed = output.Split('\n', StringSplitOptions.RemoveEmptyEntries).Select(line => line.Split('.')[^2]);
+        Assert.Equal(Classes, listed.Distinct().Order(StringComparer.Ordinal));
     }
 
     [Fact]
@@ -85,12 +84,11 @@ public sealed class BenchmarkCommandTests : IDisposable
 
     private void AssertRefused(string command, string unexpected, params string[] args)
     {
-        string[] line = command is "table" ? [command, .. args] : [command, "--output", "out", .. args];
-        var (exitCode, output, error) = AppProcess.RunBenchmarks(_folder.Path, line);
+        var (exitCode, output, error) = AppProcess.RunBenchmarks(_folder.Path, [command, "--output", "out", .. args]);
         Assert.Equal((2, ""), (exitCode, output));
         var lines = error.ReplaceLineEndings("\n").Split('\n');
         Assert.Equal($"error: unexpected '{unexpected}'", lines[0]);
-        // How it is called comes next, and no second error.
+        // The usage comes next, and no second error.
         Assert.StartsWith($"{command} [", lines[1], StringComparison.Ordinal);
         Assert.DoesNotContain("error:", string.Concat(lines[1..]), StringComparison.Ordinal);
         Assert.Empty(Directory.GetFileSystemEntries(_folder.Path));

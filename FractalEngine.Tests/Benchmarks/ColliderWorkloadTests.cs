@@ -18,49 +18,50 @@ public class ColliderWorkloadTests
         var workload = new ColliderWorkload(hierarchy, positions);
         workload.RunQueries();
         workload.RunQueries();
-        foreach (var position in positions)
-        {
-            hierarchy.TryFindClosest(position, double.PositiveInfinity, context, out _);
-        }
-
-        Assert.Equal((context.FaceTests / 100.0, context.BoundTests / 100.0, hierarchy.StorageBytes),
+        hierarchy.SumDistances(positions, context);
+        Assert.Equal(
+            (context.FaceTests / 100.0, context.BoundTests / 100.0, hierarchy.StorageBytes),
             (workload.FaceTests, workload.BoundTests, workload.StorageBytes));
         Assert.Equal(300, new ColliderWorkload(new SimpleCollider(mesh), positions).FaceTests);
     }
 
     [Fact]
-    public void MicrosecondsPerQuery_OfMoreFaces_AreMore()
+    public void MicrosecondsPerQuery_OfSeveralRounds_IsTheMeanOfEachRunsBest()
     {
-        var (small, large) = (CreateWorkload(20), CreateWorkload(20_000));
-        Assert.Equal(double.PositiveInfinity, small.MicrosecondsPerQuery);
-        for (var round = 0; round < 3; round++)
+        var clock = new ManualClock();
+        var microseconds = 1000;
+        // A query costs 30 µs of face tests by the workload's estimate, so a run has six positions, and twenty positions four runs.
+        var simple = new SimpleCollider(CollisionMeshes.TriangleSoup(1, 1500, 0.1));
+        var collider = new FaultyCollider(simple, isExact: true, distance =>
         {
-            small.RunQueries();
-            large.RunQueries();
+            clock.Advance(microseconds);
+            return distance;
+        });
+        Vector[] positions = [.. Enumerable.Range(0, 20).Select(i => i * Vector.One)];
+        var workload = new ColliderWorkload(collider, positions, clock);
+        // The queries that only count are not timed.
+        Assert.Equal(double.PositiveInfinity, workload.MicrosecondsPerQuery);
+        foreach (var (time, best) in ((int, double)[])[(300, 300), (200, 200), (500, 200)])
+        {
+            microseconds = time;
+            workload.RunQueries();
+            Assert.Equal(best, workload.MicrosecondsPerQuery, 1e-9);
         }
-
-        // A thousand times the work; that of a call is below a microsecond.
-        Assert.InRange(small.MicrosecondsPerQuery, 0.01, 1000);
-        Assert.InRange(large.MicrosecondsPerQuery / small.MicrosecondsPerQuery, 10, 100_000);
     }
 
     [Fact]
-    public void InterleavedTiming_OfActions_RunsEachOnceARoundAndKeepsTheBest()
+    public void MeasureBestSeconds_OfActions_RunsEachOnceARoundAndKeepsTheBest()
     {
+        var clock = new ManualClock();
         var calls = new List<int>();
-        var best = InterleavedTiming.MeasureBestSeconds([() => calls.Add(0), () => Wait(1, calls.Count < 4 ? 300 : 10)], 3);
+        var best = InterleavedTiming.MeasureBestSeconds([() => Run(0, 5, 7, 6), () => Run(1, 300, 20, 10)], 3, clock);
         Assert.Equal([0, 1, 0, 1, 0, 1], calls);
-        // The last round waits for 10 ms, those before for more; a timer may be a little early.
-        Assert.InRange(best[1], 0.005, 0.29);
-        Assert.True(best[0] < best[1]);
+        Assert.Equal([5e-6, 10e-6], best);
 
-        void Wait(int action, int milliseconds)
+        void Run(int action, params int[] microsecondsOfRounds)
         {
+            clock.Advance(microsecondsOfRounds[calls.Count / 2]);
             calls.Add(action);
-            Thread.Sleep(milliseconds);
         }
     }
-
-    private static ColliderWorkload CreateWorkload(int faces) =>
-        new(new SimpleCollider(CollisionMeshes.TriangleSoup(1, faces, 0.1)), [.. Enumerable.Range(0, 20).Select(i => i * Vector.One)]);
 }

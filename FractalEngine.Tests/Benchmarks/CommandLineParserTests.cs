@@ -3,7 +3,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Benchmarks;
 
-/// <summary>What is read; what is refused is written to standard error, and is tested with the whole program.</summary>
+/// <summary>Tests what is accepted. What is refused is tested with the whole program, since it is written to standard error.</summary>
 public class CommandLineParserTests
 {
     public static TheoryData<string> Cultures => InCulture.Names;
@@ -55,15 +55,21 @@ public class CommandLineParserTests
         Assert.Equal((true, true, 1234, "İ", "a"), InCulture.Run(culture, () => Parse("--quick", "--count", "1234", "--output", "İ", "a")));
 
     [Fact]
-    public void DefaultFolder_IsThatOfTheCommittedTables() =>
+    public void DefaultFolder_IsThatOfTheKeptTables() =>
         Assert.Equal(Path.GetFullPath(Repository.Full("docs/benchmarks")), Path.GetFullPath(CommandLineParser.DefaultFolder));
 
     private static (bool IsRead, bool Quick, int Count, string Output, string Names) Parse(params string[] args)
     {
-        var (quick, count, output, names) = (false, 7, "", new List<string>());
-        var isRead = new CommandLineParser("usage").Flag("--quick", () => quick = true).Count("--count", value => count = value)
+        var quick = false;
+        var count = 7;
+        var output = "";
+        var names = new List<string>();
+        var isRead = new CommandLineParser("usage")
+            .Flag("--quick", () => quick = true)
+            .Count("--count", value => count = value)
             .Option("--output", value => output = value)
-            .Names(text => text is "a" or "b", names).TryParse(args);
+            .Names(text => text is "a" or "b", names)
+            .TryParse(args);
         return (isRead, quick, count, output, string.Join(' ', names));
     }
 }

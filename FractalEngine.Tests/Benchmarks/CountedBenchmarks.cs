@@ -3,7 +3,7 @@ using FractalEngine.Benchmarks.Measuring;
 
 namespace FractalEngine.Tests.Benchmarks;
 
-/// <summary>Benchmarks of nothing, that say more of themselves than time.</summary>
+/// <summary>Benchmarks of nothing that report more than time.</summary>
 public class CountedBenchmarks : IExtraMetrics
 {
     private int _double;

@@ -10,7 +10,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Benchmarks;
 
-/// <summary>The table of a class of benchmarks, from a run in this process: times are nobody's, but all else is known.</summary>
+/// <summary>Tests the table of a class of benchmarks by a run in this process, of which all but the times is known.</summary>
 public sealed class CsvTableExporterTests : IDisposable
 {
     private readonly TemporaryFolder _folder = new();
@@ -28,8 +28,11 @@ public sealed class CsvTableExporterTests : IDisposable
         var table = ParsedCsv.Read(file);
         Assert.Equal("# --filter *.CountedBenchmarks.*", table.Comments[0]);
         Assert.Equal(
-            ["size", "method", "mean_ns", "standard_deviation_ns", "ratio_to_baseline", "allocated_bytes", "double_size", "only_second",
-            "amount_a_second"], table.Header);
+            [
+                "size", "method", "mean_ns", "standard_deviation_ns", "ratio_to_baseline", "allocated_bytes", "double_size", "only_second",
+                "amount_a_second",
+            ],
+            table.Header);
         Assert.Equal(
             [("3", "First", "6", ""), ("3", "Second", "6", "0.5"), ("5", "First", "10", ""), ("5", "Second", "10", "0.5")],
             table.NamedRows().Select(row => (row("size"), row("method"), row("double_size"), row("only_second"))));
@@ -40,10 +43,9 @@ public sealed class CsvTableExporterTests : IDisposable
             // Written to a thousandth of a nanosecond.
             Assert.Equal(ParsedCsv.ParseNumber(row("double_size")) * 1e9, ParsedCsv.ParseNumber(row("amount_a_second")) * mean,
                 0.001 * ParsedCsv.ParseNumber(row("amount_a_second")));
-            var baseline =
-                ParsedCsv.ParseNumber(table.NamedRows()
-                .Single(other => (other("size"), other("method")) == (row("size"), "First"))("mean_ns"));
-            Assert.Equal(mean / baseline, ParsedCsv.ParseNumber(row("ratio_to_baseline")), 1e-5 * (1 + (mean / baseline)));
+            var baselineRow = table.NamedRows().Single(other => (other("size"), other("method")) == (row("size"), "First"));
+            var ratio = mean / ParsedCsv.ParseNumber(baselineRow("mean_ns"));
+            Assert.Equal(ratio, ParsedCsv.ParseNumber(row("ratio_to_baseline")), 1e-5 * (1 + ratio));
         });
         IColumn[] shown = [.. columns.GetColumns(summary)];
         Assert.Equal(["double_size", "only_second", "amount_a_second"], shown.Select(column => column.ColumnName));
@@ -51,6 +53,9 @@ public sealed class CsvTableExporterTests : IDisposable
     }
 
     private Summary Run(ExtraMetricColumns columns) => BenchmarkRunner.Run<CountedBenchmarks>(ManualConfig.CreateEmpty()
-        .AddJob(Job.Dry.WithToolchain(InProcessNoEmitToolchain.Instance)).AddColumnProvider(columns).AddLogger(NullLogger.Instance)
-        .WithOptions(ConfigOptions.DisableOptimizationsValidator).WithArtifactsPath(_folder["artifacts"]));
+        .AddJob(Job.Dry.WithToolchain(InProcessNoEmitToolchain.Instance))
+        .AddColumnProvider(columns)
+        .AddLogger(NullLogger.Instance)
+        .WithOptions(ConfigOptions.DisableOptimizationsValidator)
+        .WithArtifactsPath(_folder["artifacts"]));
 }

@@ -4,7 +4,7 @@ namespace FractalEngine.Tests.Benchmarks;
 
 public class DistanceErrorsTests
 {
-    // Of a shape of this size, 2 is the reach.
+    // The touch distance of a shape of this size is 2.
     private const double Size = 100;
 
     [Fact]
@@ -23,11 +23,11 @@ public class DistanceErrorsTests
         Assert.Equal(DistanceErrors.Compare([50], [40], Size), DistanceErrors.Compare([30], [40], Size));
 
     [Theory]
-    // At the reach itself is within it.
+    // The touch distance itself is within it.
     [InlineData(2, 2, 0)]
     [InlineData(2, 2.0000000001, 100)]
     [InlineData(1, 3, 100)]
-    // What is out of reach can't be missed.
+    // What is farther away can't be missed.
     [InlineData(2.0000000001, 3, 0)]
     [InlineData(0, double.PositiveInfinity, 100)]
     [InlineData(0, double.NaN, 100)]
@@ -41,7 +41,7 @@ public class DistanceErrorsTests
     [Theory]
     [InlineData(double.PositiveInfinity)]
     [InlineData(double.NaN)]
-    public void Compare_WithOneDistanceThatIsNone_IsInfinite(double found)
+    public void Compare_WithOneDistanceThatIsNotFinite_IsInfinite(double found)
     {
         var errors = DistanceErrors.Compare([1, found, 5], [1, 3, 5], Size);
         Assert.Equal(
@@ -52,11 +52,12 @@ public class DistanceErrorsTests
 
     [Fact]
     public void Compare_OfNothingFoundWhereNothingIs_IsZero() =>
-        Assert.Equal(new DistanceErrors(0, 0, 0, 0, 0),
-        DistanceErrors.Compare([double.PositiveInfinity, 1], [double.PositiveInfinity, 1], Size));
+        Assert.Equal(
+            new DistanceErrors(0, 0, 0, 0, 0),
+            DistanceErrors.Compare([double.PositiveInfinity, 1], [double.PositiveInfinity, 1], Size));
 
     [Fact]
-    public void MaxRelative_OnTheSurface_LeavesOutRoundingOnly()
+    public void MaxRelative_OnTheSurface_IgnoresRoundingOnly()
     {
         // Rounding is 1e-10 here.
         var rounded = DistanceErrors.Compare([9e-11], [0], Size);

@@ -3,10 +3,10 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Tests.Benchmarks;
 
-/// <summary>A collider that promises what another one keeps, and says what it likes.</summary>
-/// <param name="inner">Whom it asks.</param>
-/// <param name="isExact">What it promises.</param>
-/// <param name="distort">What it makes of the distance; null for nothing found.</param>
+/// <summary>A collider that changes the distances which another one finds.</summary>
+/// <param name="inner">The collider that it queries.</param>
+/// <param name="isExact">True for a collider that promises exact results.</param>
+/// <param name="distort">Returns the distance to be told, or null for nothing found. Called in every query.</param>
 internal sealed class FaultyCollider(Collider inner, bool isExact, Func<double, double?> distort) : Collider
 {
     public override bool IsExact => isExact;

@@ -1,5 +1,5 @@
-using FractalEngine.Core.Collision;
 using FractalEngine.Benchmarks.Precision;
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Collision;
 using FractalEngine.Tests.Support;
@@ -8,7 +8,7 @@ namespace FractalEngine.Tests.Benchmarks;
 
 public class FloatVersusDoubleTests
 {
-    // The kernel that is measured in both precisions must be the engine's, or its errors say nothing of the engine.
+    // The kernel that is measured in both precisions must be the engine's. Otherwise its errors say nothing of the engine.
     [Fact]
     public void DistanceSquared_InDoubles_IsTheEnginesToTheBit() => Seeded.Run(3000, random =>
     {
@@ -23,9 +23,10 @@ public class FloatVersusDoubleTests
     public void WorstError_FarAway_IsThatOfTheCoordinatesRounding()
     {
         var set = FloatVersusDouble.CoordinateSets[1];
-        var (single, precise, engine) = (FloatVersusDouble.MeasureTriangles<float>(set), FloatVersusDouble.MeasureTriangles<double>(set),
-            FloatVersusDouble.MeasureEngineKernel(set));
-        // Coordinates are up to 1001, of which each rounding takes 2⁻²⁴ or 2⁻⁵³.
+        var single = FloatVersusDouble.MeasureTriangles<float>(set);
+        var precise = FloatVersusDouble.MeasureTriangles<double>(set);
+        var engine = FloatVersusDouble.MeasureEngineKernel(set);
+        // Coordinates are up to 1001, and each rounding changes one by 2⁻²⁴ or 2⁻⁵³ of that.
         Assert.InRange(single.WorstError, 1e-6, 1e-3);
         Assert.InRange(precise.WorstError, 1e-15, 1e-12);
         Assert.Equal((precise.WorstError, precise.PercentAboveExact), (engine.WorstError, engine.PercentAboveExact));

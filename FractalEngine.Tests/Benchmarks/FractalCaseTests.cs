@@ -21,7 +21,7 @@ public class FractalCaseTests
     [InlineData("../fractals/menger", false)]
     [InlineData("", false)]
     [InlineData(":3", false)]
-    public void IsKnown_OfAText_IsWhetherThereIsSuchAFractal(string text, bool isCase)
+    public void IsKnown_OfAText_TellsWhetherThereIsSuchAFractal(string text, bool isCase)
     {
         Assert.Equal(isCase, FractalCase.IsKnown(text));
         Assert.Equal(isCase, BenchmarkShape.IsKnown(text));
@@ -56,7 +56,7 @@ public class FractalCaseTests
     [InlineData("infinite-menger")]
     [InlineData("googol")]
     [InlineData("menger:5")]
-    public void Create_OfAFractalOfTooManyFaces_HasCollidersOfLevelsOnly(string name)
+    public void Create_OfAFractalOfTooManyFaces_HasCollidersOfFractalsOnly(string name)
     {
         var shape = BenchmarkShape.Create(name);
         Assert.Null(shape.Faces);

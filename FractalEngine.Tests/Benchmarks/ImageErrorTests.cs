@@ -1,5 +1,5 @@
-using FractalEngine.Core.Images;
 using FractalEngine.Benchmarks.Drawing;
+using FractalEngine.Core.Images;
 
 namespace FractalEngine.Tests.Benchmarks;
 
@@ -15,8 +15,8 @@ public class ImageErrorTests
     [InlineData(255, 0, 0)]
     [InlineData(100, 101, 48.130803608679)]
     [InlineData(60, 9, 13.979400086720)]
-    public void PeakSignalToNoiseRatio_OfImagesThatDifferEverywhere_IsTheLogarithmOfTheDifference(byte grey1, byte grey2,
-    double decibels) =>
+    public void PeakSignalToNoiseRatio_OfImagesThatDifferEverywhere_IsTheLogarithmOfTheDifference(
+        byte grey1, byte grey2, double decibels) =>
         Assert.Equal(decibels, ImageError.PeakSignalToNoiseRatio(Grey(3, 2, grey1), Grey(3, 2, grey2)), 1e-11);
 
     [Fact]
@@ -25,9 +25,9 @@ public class ImageErrorTests
         var image = Grey(10, 10, 50);
         // One of 300 components is off by 30: the mean square is 3.
         image.Pixels[(4 * 37) + 1] += 30;
-        Assert.Equal(20 * Math.Log10(255 / Math.Sqrt(3)), ImageError.PeakSignalToNoiseRatio(Grey(10, 10, 50), image), 1e-12);
-        Assert.Equal(ImageError.PeakSignalToNoiseRatio(image, Grey(10, 10, 50)),
-            ImageError.PeakSignalToNoiseRatio(Grey(10, 10, 50), image));
+        var ratio = ImageError.PeakSignalToNoiseRatio(Grey(10, 10, 50), image);
+        Assert.Equal(20 * Math.Log10(255 / Math.Sqrt(3)), ratio, 1e-12);
+        Assert.Equal(ratio, ImageError.PeakSignalToNoiseRatio(image, Grey(10, 10, 50)));
     }
 
     [Fact]
@@ -51,7 +51,7 @@ public class ImageErrorTests
     {
         var image = new PixelImage(2, 1, [.. Grey(1, 1, 0).Pixels, .. Grey(1, 1, 255).Pixels]);
         image = new(2, 2, [.. image.Pixels, .. image.Pixels]);
-        // The sRGB value of half the light of white; the mean of the values would be 128.
+        // This is the sRGB value of half the light of white. The mean of the values would be 128.
         Assert.Equal((188, 188, 188, 255), ImageError.Downsample(image, 2)[0, 0]);
     }
 
@@ -67,7 +67,7 @@ public class ImageErrorTests
     [Fact]
     public void Downsample_OfFourColours_KeepsTheirPlaces()
     {
-        // Each 2 × 2 pixels of one colour.
+        // Each colour fills 2 × 2 pixels.
         byte[][] colours = [[10, 20, 30, 255], [40, 50, 60, 255], [70, 80, 90, 255], [100, 110, 120, 255]];
         byte[] Row(int left, int right) => [.. colours[left], .. colours[left], .. colours[right], .. colours[right]];
         var shrunk = ImageError.Downsample(new(4, 4, [.. Row(0, 1), .. Row(0, 1), .. Row(2, 3), .. Row(2, 3)]), 2);

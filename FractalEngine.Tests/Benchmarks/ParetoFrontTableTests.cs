@@ -3,6 +3,7 @@ using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Collision;
 using FractalEngine.Tests.Support;
@@ -42,7 +43,7 @@ public sealed class ParetoFrontTableTests : IDisposable
     }
 
     [Fact]
-    public void Add_OfAMesh_LeavesOutWhatOnlyFractalsHave()
+    public void Add_OfAMesh_OmitsCollidersOfFractals()
     {
         // Four faces: the paper's octree has 2 levels, which is among the others.
         var table = Measure(new BenchmarkShape("mesh", null, Samples.Tetrahedron, 0));
@@ -61,12 +62,12 @@ public sealed class ParetoFrontTableTests : IDisposable
     }
 
     [Fact]
-    public void Add_OfAFractalComposedByComponents_LeavesOutTheCollidersOfLevels()
+    public void CreateAll_OfAFractalComposedByComponents_OmitsCollidersOfFractals()
     {
         var fractal = Tree(2).Fractal!;
         fractal = new(fractal.Description with { Composition = Composition.Componentwise }, fractal.BaseMesh);
-        Assert.Equal(["hierarchy", "octree", "simple"], ColliderVariant.CreateAll(CreateShape(fractal)).Select(row => row.ColliderName)
-            .Distinct());
+        var variants = ColliderVariant.CreateAll(CreateShape(fractal));
+        Assert.Equal(["hierarchy", "octree", "simple"], variants.Select(variant => variant.ColliderName).Distinct());
     }
 
     [Fact]
@@ -91,14 +92,14 @@ public sealed class ParetoFrontTableTests : IDisposable
             row => Assert.InRange(ParsedCsv.ParseNumber(row("largest_relative_error")), 0, ParsedCsv.ParseNumber(row("value"))));
         Assert.All(rows, row =>
         {
-            Assert.InRange(ParsedCsv.ParseNumber(row("query_ns")), 1, 1e9);
+            Assert.True(ParsedCsv.ParseNumber(row("query_ns")) > 0);
             Assert.InRange(ParsedCsv.ParseNumber(row("face_tests")), 1, 10_000);
-            Assert.InRange(ParsedCsv.ParseNumber(row("build_ms")), 0, 60_000);
+            Assert.True(ParsedCsv.ParseNumber(row("build_ms")) >= 0);
         });
-        // It may look at no bound, but never at more faces than there are.
+        // It tests no bound, and each face once.
         Assert.All(rows.Where(row => row("collider") == "simple"),
             row => Assert.Equal(("108", "0"), (row("face_tests"), row("bound_tests"))));
-        // The descent does err here, so that what is checked above is no triviality.
+        // The descent does err here, so that the check above is not trivial.
         Assert.Contains(rows, row => row("collider") == "fractal" && ParsedCsv.ParseNumber(row("largest_error")) > 1e-3);
     }
 
@@ -128,26 +129,24 @@ public sealed class ParetoFrontTableTests : IDisposable
     public void Add_OfAFaultyCollider_Throws(bool isExact, double factor, double offset)
     {
         var shape = Tree(2);
-        var message =
-            Assert.Throws<InvalidDataException>(
-                () => Measure(shape, isExact, 0, distance => (factor * distance) + (offset * shape.Size))).Message;
-        Assert.Matches("^tree, liar epsilon 0, position 0: found [^ ]+ where every face gives [^ ]+$", message);
+        var exception = Assert.Throws<InvalidDataException>(
+            () => Measure(shape, isExact, 0, distance => (factor * distance) + (offset * shape.Size)));
+        Assert.Matches("^tree, faulty epsilon 0, position 0: found [^ ]+ where every face gives [^ ]+$", exception.Message);
     }
 
     [Fact]
     public void Add_OfAnExactColliderThatFindsNothing_Throws() =>
-        Assert.Contains("found Infinity", Assert.Throws<InvalidDataException>(() => Measure(Tree(2), true, 0, _ => null)).Message,
-        StringComparison.Ordinal);
+        Assert.Contains(
+            "found Infinity", Assert.Throws<InvalidDataException>(() => Measure(Tree(2), true, 0, _ => null)).Message,
+            StringComparison.Ordinal);
 
     [Fact]
     public void Add_OfAColliderThatIsWrongOnce_Throws()
     {
         var count = 0;
-        var message =
-            Assert.Throws<InvalidDataException>(() => Measure(Tree(2), true, 0, distance => ++count == Queries
-            ? 0.99 * distance
-            : distance)).Message;
-        Assert.Contains($"position {Queries - 1}:", message, StringComparison.Ordinal);
+        double? Distort(double distance) => ++count == Queries ? 0.99 * distance : distance;
+        var exception = Assert.Throws<InvalidDataException>(() => Measure(Tree(2), true, 0, Distort));
+        Assert.Contains($"position {Queries - 1}:", exception.Message, StringComparison.Ordinal);
     }
 
     [Theory]
@@ -181,9 +180,8 @@ public sealed class ParetoFrontTableTests : IDisposable
     public void Add_OfAFlatMesh_TakesPositionsOnTheSurface()
     {
         // Its box is flat too, so that every position in it is at distance 0 or outside of the triangle.
-        var rows = Measure(new BenchmarkShape("flat", null, Samples.Triangle, 0)).NamedRows().Where(row => row("queries") == "uniform")
-            .ToArray();
-        Assert.All(rows, row => Assert.Equal("0", row("largest_error")));
+        var table = Measure(new BenchmarkShape("flat", null, Samples.Triangle, 0));
+        Assert.All(table.NamedRows().Where(row => row("queries") == "uniform"), row => Assert.Equal("0", row("largest_error")));
     }
 
     private static BenchmarkShape Tree(int depth) => CreateShape(Samples.Repeated(
@@ -194,9 +192,11 @@ public sealed class ParetoFrontTableTests : IDisposable
 
     private ParsedCsv Measure(BenchmarkShape shape) => Measure(table => table.Add(shape));
 
-    private ParsedCsv Measure(BenchmarkShape shape, bool isExact, double epsilon, Func<double, double?> distort) =>
-        Measure(table => table.Add(
-        shape, [new("liar", "epsilon", epsilon, new FaultyCollider(new SimpleCollider(shape.Faces!), isExact, distort), epsilon, 0, 0)]));
+    private ParsedCsv Measure(BenchmarkShape shape, bool isExact, double epsilon, Func<double, double?> distort)
+    {
+        var collider = new FaultyCollider(new SimpleCollider(shape.Faces!), isExact, distort);
+        return Measure(table => table.Add(shape, [new("faulty", "epsilon", epsilon, collider, epsilon, 0, 0)]));
+    }
 
     private ParsedCsv Measure(Action<ParetoFrontTable> add)
     {
@@ -210,27 +210,34 @@ public sealed class ParetoFrontTableTests : IDisposable
         rows.Where(row => (row("collider"), row("knob")) == (collider, parameterName)).Select(row => row("value"));
 
     /// <summary>
-    /// Of the descent of width 1: largest, mean, percent missed; with the exact distances of <see cref="ExactTriangleDistance"/>.
+    /// Computes the errors of the descent of width 1 by the exact distances of <see cref="ExactTriangleDistance"/>.
     /// </summary>
-    private static (double Largest, double Mean, double Missed) ComputeErrors(BenchmarkShape shape, Func<Random, Vector> make)
+    private static (double Max, double Mean, double Missed) ComputeErrors(BenchmarkShape shape, Func<Random, Vector> createPosition)
     {
         var (random, context, descent) = (new Random(1), new QueryContext(), new FractalCollider(shape.Fractal!));
-        var (max, sum, missed) = (0.0, 0.0, 0);
+        var max = 0.0;
+        var sum = 0.0;
+        var missedCount = 0;
         for (var i = 0; i < Queries; i++)
         {
-            var position = make(random);
-            var expected = Enumerable.Range(0, shape.Faces!.FaceCount)
-                .Min(face => shape.Faces.Face(face) switch { var (a, b, c) => ExactTriangleDistance.Distance(position, a, b, c) });
-            descent.TryFindClosest(position, double.PositiveInfinity, context, out var closest);
-            max = Math.Max(max, (closest.Distance - expected) / shape.Size);
-            sum += (closest.Distance - expected) / shape.Size;
-            missed += expected <= 0.02 * shape.Size && closest.Distance > 0.02 * shape.Size ? 1 : 0;
+            var position = createPosition(random);
+            var expected = Enumerable.Range(0, shape.Faces!.FaceCount).Min(face => DistanceFromFace(shape.Faces, face, position));
+            var found = descent.ClosestDistance(position, context);
+            max = Math.Max(max, (found - expected) / shape.Size);
+            sum += (found - expected) / shape.Size;
+            missedCount += expected <= 0.02 * shape.Size && found > 0.02 * shape.Size ? 1 : 0;
         }
 
-        return (Math.Round(max, 12), Math.Round(sum / Queries, 12), Math.Round(100.0 * missed / Queries, 9));
+        return (Math.Round(max, 12), Math.Round(sum / Queries, 12), Math.Round(100.0 * missedCount / Queries, 9));
     }
 
-    private static (double Largest, double Mean, double Missed) ReadErrors(ParsedCsv table, string queries)
+    private static double DistanceFromFace(Mesh faces, int face, Vector position)
+    {
+        var (a, b, c) = faces.Face(face);
+        return ExactTriangleDistance.Distance(position, a, b, c);
+    }
+
+    private static (double Max, double Mean, double Missed) ReadErrors(ParsedCsv table, string queries)
     {
         var row = table.NamedRows().Single(row => (row("queries"), row("collider"), row("value")) == (queries, "fractal", "1"));
         return (Math.Round(ParsedCsv.ParseNumber(row("largest_error")), 12), Math.Round(ParsedCsv.ParseNumber(row("mean_error")), 12),

@@ -3,13 +3,13 @@ using System.Text;
 
 namespace FractalEngine.Tests.Benchmarks;
 
-/// <summary>A table as RFC 4180 reads it, below comments.</summary>
+/// <summary>A table parsed by the rules of RFC 4180, below its comments.</summary>
 /// <param name="Comments">Lines at the start that begin with <c>#</c>.</param>
 /// <param name="Header">Names of the columns.</param>
-/// <param name="Rows">Fields, without the quotes around them.</param>
+/// <param name="Rows">Fields of the rows, without the quotes around them.</param>
 internal sealed record ParsedCsv(string[] Comments, string[] Header, string[][] Rows)
 {
-    /// <exception cref="FormatException">A quote stands where none may, or one is open at the end, or the last line has no end.</exception>
+    /// <exception cref="FormatException">A quote is misplaced or not closed, or the last line has no end.</exception>
     public static ParsedCsv Parse(string text)
     {
         var start = 0;
@@ -27,23 +27,26 @@ internal sealed record ParsedCsv(string[] Comments, string[] Header, string[][] 
 
     public static ParsedCsv Read(string file) => Parse(File.ReadAllText(file));
 
-    /// <summary>The fields of a column.</summary>
+    /// <summary>Returns the fields of a column.</summary>
     public string[] Column(string name) => [.. Rows.Select(row => row[IndexOf(name)])];
 
-    /// <summary>The rows by the names of their columns.</summary>
+    /// <summary>Returns the rows as functions from a column's name to the field.</summary>
     public IEnumerable<Func<string, string>> NamedRows() => Rows.Select<string[], Func<string, string>>(row => name => row[IndexOf(name)]);
 
     public static double ParseNumber(string field) => double.Parse(field, NumberStyles.Float, CultureInfo.InvariantCulture);
 
-    private int IndexOf(string name) => Array.IndexOf(Header, name) switch
+    private int IndexOf(string name)
     {
-        < 0 => throw new KeyNotFoundException($"no column '{name}'"),
-        var index => index,
-    };
+        var index = Array.IndexOf(Header, name);
+        return index >= 0 ? index : throw new KeyNotFoundException($"no column '{name}'");
+    }
 
     private static List<string[]> Records(string text)
     {
-        var (records, fields, field, isQuoted) = (new List<string[]>(), new List<string>(), new StringBuilder(), false);
+        var records = new List<string[]>();
+        var fields = new List<string>();
+        var field = new StringBuilder();
+        var isQuoted = false;
         for (var i = 0; i < text.Length; i++)
         {
             if (isQuoted)

@@ -7,7 +7,9 @@ using FsCheck.Fluent;
 
 namespace FractalEngine.Tests.Benchmarks;
 
-/// <summary>Against whole numbers: every double times 2¹⁰⁷⁴ is one.</summary>
+/// <summary>
+/// Compares with whole numbers: every double times 2¹⁰⁷⁴ is one. The conversion to these shares nothing with the one under test.
+/// </summary>
 public class RationalTests
 {
     private const int Exponent = 1074;
@@ -17,13 +19,13 @@ public class RationalTests
 
     private static Gen<double> NotZero { get; } = Laws.AnyFinite.Where(x => x != 0);
 
-    /// <summary>Quotients of any two doubles.</summary>
+    /// <summary>Generates quotients of any two doubles.</summary>
     private static Gen<Rational> Fractions { get; } = Laws.AnyFinite.Zip(NotZero, (x, y) => Rational.Of(x) / Rational.Of(y));
 
     [Fact]
     public void Of_AnyDouble_IsWhatItsDecimalsSay() => Laws.CheckForAll(Laws.AnyFinite, x =>
     {
-        // So many decimals write every double exactly; they are no work of the code under test.
+        // So many decimals write every double exactly. They are not made by the code under test.
         var decimals = BigInteger.Parse(x.ToString($"F{Exponent}", CultureInfo.InvariantCulture).Replace(".", "", StringComparison.Ordinal),
             CultureInfo.InvariantCulture);
         return AreEqual(Rational.Of(x), decimals, Tens);
@@ -42,14 +44,14 @@ public class RationalTests
     [InlineData(double.NaN)]
     [InlineData(double.PositiveInfinity)]
     [InlineData(double.NegativeInfinity)]
-    public void Of_WhatIsNoNumber_Throws(double number) =>
+    public void Of_AnInfiniteNumberOrNaN_Throws(double number) =>
         Assert.Throws<ArgumentOutOfRangeException>(nameof(number), () => Rational.Of(number));
 
     [Fact]
     public void Operators_OfAnyDoubles_AreThoseOfWholeNumbers() => Laws.CheckForAll(Laws.AnyFinite.Zip(NotZero), pair =>
     {
-        var ((x, y), (r, s)) =
-            ((ToScaledInteger(pair.Item1), ToScaledInteger(pair.Item2)), (Rational.Of(pair.Item1), Rational.Of(pair.Item2)));
+        var (x, y) = (ToScaledInteger(pair.Item1), ToScaledInteger(pair.Item2));
+        var (r, s) = (Rational.Of(pair.Item1), Rational.Of(pair.Item2));
         return AreEqual(r + s, x + y, Unit) && AreEqual(r - s, x - y, Unit) && AreEqual(r * s, x * y, Unit * Unit)
             && AreEqual(r / s, x * y.Sign, BigInteger.Abs(y));
     });
@@ -106,9 +108,10 @@ public class RationalTests
     [Fact]
     public void ToDouble_OfAnyFraction_IsLessThanAPlaceAway() => Laws.CheckForAll(Laws.AnyFinite.Zip(NotZero), pair =>
     {
-        var (x, y) = (ToScaledInteger(pair.Item1) * ToScaledInteger(pair.Item2).Sign, BigInteger.Abs(ToScaledInteger(pair.Item2)));
+        var (numerator, denominator) = (ToScaledInteger(pair.Item1), ToScaledInteger(pair.Item2));
+        var (x, y) = (numerator * denominator.Sign, BigInteger.Abs(denominator));
         var result = (Rational.Of(pair.Item1) / Rational.Of(pair.Item2)).ToDouble();
-        // Beyond the largest double there is none.
+        // There is no neighbour beyond the largest double.
         return (result == double.NegativeInfinity || ToScaledInteger(Math.BitDecrement(result)) * y < x * Unit)
             && (result == double.PositiveInfinity || x * Unit < ToScaledInteger(Math.BitIncrement(result)) * y
             || result == double.MaxValue);
@@ -128,7 +131,7 @@ public class RationalTests
     private static bool AreEqual(Rational rational, BigInteger numerator, BigInteger denominator) =>
         rational.Denominator.Sign > 0 && rational.Numerator * denominator == numerator * rational.Denominator;
 
-    /// <summary>Times 2¹⁰⁷⁴.</summary>
+    /// <summary>Converts a double times 2¹⁰⁷⁴ to an integer.</summary>
     private static BigInteger ToScaledInteger(double x)
     {
         if (double.IsInfinity(x))

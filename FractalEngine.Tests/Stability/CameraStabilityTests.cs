@@ -14,8 +14,8 @@ using Xunit.Abstractions;
 namespace FractalEngine.Tests.Stability;
 
 /// <summary>
-/// A camera that goes down in a fractal and comes back. FractalAddressTests do so for more fractals, ZoomDrawingTests compare neighbouring
-/// levels and what world space still tells.
+/// Moves a camera deep into a fractal and back. FractalAddressTests do so for more fractals. DeepZoomDrawingTests compare neighbouring
+/// levels, and frames that world space can still describe.
 /// </summary>
 [Collection(GlTests.Name)]
 public sealed class CameraStabilityTests(ITestOutputHelper output)
@@ -23,7 +23,7 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
     private const int Width = 160;
     private const int Height = 120;
 
-    // All that is drawn of what the camera is in; from there on pictures of self-similar fractals are the same.
+    // All ancestors that are drawn around the camera. From this depth on, frames of self-similar fractals are the same.
     private const int MaxAncestors = 30;
 
     private static readonly RenderSettings Settings = new() { Samples = 0 };
@@ -42,17 +42,17 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
     [Trait("Category", "Soak")]
     public void Camera_GoingAMillionLevelsInAndOutAgain_IsWhereItBegan(string name) => CheckThereAndBack(name, FractalLimits.MaxDepth);
 
-    /// <summary>The picture is one of the whole, seen from the same side; how deep it is does not change a pixel.</summary>
+    /// <summary>Each frame shows the whole fractal from the same side. The depth does not change a pixel.</summary>
     [SkippableTheory]
     [InlineData("menger")]
     [InlineData("sierpinski")]
-    public void Picture_OfASelfSimilarFractal_IsTheSameAtAnyDepth(string name) => CheckFrames(name, [41, 42, 47, 100, 1040]);
+    public void Frame_OfASelfSimilarFractal_IsTheSameAtAnyDepth(string name) => CheckFrames(name, [41, 42, 47, 100, 1040]);
 
     [SkippableTheory]
     [InlineData("menger")]
     [InlineData("sierpinski")]
     [Trait("Category", "Soak")]
-    public void Picture_OfASelfSimilarFractal_IsTheSameAMillionLevelsDown(string name) => CheckFrames(name, [100_000, 999_990]);
+    public void Frame_OfASelfSimilarFractal_IsTheSameAMillionLevelsDown(string name) => CheckFrames(name, [100_000, 999_990]);
 
     private void CheckThereAndBack(string name, int maxDepth, [CallerMemberName] string test = "")
     {
@@ -66,45 +66,42 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
             report.Record("enlargement (powers of ten)", -dive.Address.LogUnit / Math.Log(10));
             dive.ReturnToStart();
             Assert.Equal((0, 0.0), (dive.Address.Depth, dive.Address.LogUnit));
-            // As FractalAddressTests ask. What is lost deep down is a part of the unit there; coming back, the last steps outside decide.
-            report.Require("place after the return by depth (of the distance)",
-                Near.Difference(frameToCamera, dive.Address.FrameToCamera) / size,
-                1e-9, () => $"depth {depth}", depth);
+            // As FractalAddressTests demand. Rounding deep down is a fraction of the unit there, so that the last steps outside decide.
+            var error = Near.Difference(frameToCamera, dive.Address.FrameToCamera) / size;
+            report.Require("place after the return by depth (of the distance)", error, 1e-9, () => $"depth {depth}", depth);
         }
     }
 
     private void CheckFrames(string name, int[] depths, [CallerMemberName] string test = "")
     {
         using var report = new StabilityReport(output, name, test);
-        var scene = new LoadedScene(
-            new() { Background = Colour.Black,
-            Lights = [new AmbientLight(Colour.White, 0.1), new DirectionalLight(new(0.3, -0.5, 0.9), Colour.White, 0.9)] },
-            [new(new SceneObject("a.fdo", Transformation.Identity) { Colour = Colour.White },
-            new FractalModel(FractalAddressTests.CreateInfinite(name)) { SourcePath = "a.fdo" })]);
+        Light[] lights = [new AmbientLight(Colour.White, 0.1), new DirectionalLight(new(0.3, -0.5, 0.9), Colour.White, 0.9)];
+        var item = new SceneObject("a.fdo", Transformation.Identity) { Colour = Colour.White };
+        var model = new FractalModel(FractalAddressTests.CreateInfinite(name)) { SourcePath = "a.fdo" };
+        var scene = new LoadedScene(new() { Background = Colour.Black, Lights = [.. lights] }, [new(item, model)]);
         var drawable = DrawableScene.Prepare(scene, Settings);
         using var context = GlTests.OpenContext();
         using var renderer = new SceneRenderer(context, drawable);
         using var frame = new FrameRenderer(context);
         var dive = new FractalDive(drawable.Objects[0].Model.LodHierarchy!, 0, AffineMap.Identity, Direction);
         var first = At(40);
-        Assert.True(RenderScenes.CountDifferent(first, (0, 0, 0, 255)) > 500, "there is nothing to see");
+        Assert.True(RenderScenes.CountDifferent(first, (0, 0, 0, 255)) > 500, "the frame shows nothing");
         foreach (var depth in depths)
         {
             var (mean, share) = RenderScenes.Difference(first, At(depth));
             Assert.Equal(depth, dive.Address.Depth);
-            report.Require("picture beside that at depth 40: share of pixels that differ by more than 8 of 255", share, 0,
-                () => $"depth {depth}");
+            report.Require(
+                "picture beside that at depth 40: share of pixels that differ by more than 8 of 255", share, 0, () => $"depth {depth}");
             report.Require("picture beside that at depth 40: mean difference of 255", mean, 0, () => $"depth {depth}");
         }
 
         PixelImage At(int depth)
         {
             dive.GoToDepth(depth, 0.2);
-            // A place that is in no copy's reach and within the sub-fractal's own: the same at each level.
+            // A position within the bounds of the sub-fractal and outside those of its children: the same at each level.
             dive.ConvergeTo(1.5 * Direction);
-            var camera =
-                new Camera(dive.Address.WorldPosition(AffineMap.Identity), CameraFraming.LookRotation(dive.LocateTarget(Vector.Zero)),
-                50);
+            var camera = new Camera(
+                dive.Address.WorldPosition(AffineMap.Identity), CameraFraming.LookRotation(dive.LocateTarget(Vector.Zero)), 50);
             var zoom = new DeepZoom(0, dive.Address.CollectRoots(MaxAncestors), dive.Address.LogUnit);
             frame.Draw(renderer, new(camera, Projection.Perspective) { Clip = (0.02, 1e12), DeepZoom = zoom }, Width, Height, Settings);
             context.Resources.ThrowOnError("drawing");

@@ -15,58 +15,56 @@ using Vector = FractalEngine.Core.Maths.Vector;
 namespace FractalEngine.Tests.Stability;
 
 /// <summary>
-/// Exact colliders where objects are tiny, huge, far away, mirrored and squeezed; at places that are equally near to many parts; and at
-/// every depth from 1 to 200. What faces alone can break is in FaceKernelTests, what fractals can in ExactFractalAttackTests, depths to a
-/// million in DeepExactnessTests.
+/// Tests exact colliders where objects are tiny, huge, far away, mirrored and squeezed, at positions equally close to many instances, and at
+/// every depth from 1 to 200. TriangleKernelTests have what triangles alone can break, ExactFractalAdversarialTests what fractals can, and
+/// DeepExactnessTests depths to a million.
 /// </summary>
 public class ColliderStabilityTests(ITestOutputHelper output)
 {
-    // Of the larger of the size and of the coordinates, as promised.
+    // As promised, of the larger of the size and the largest coordinate.
     private const double Tolerance = 1e-12;
 
-    /// <summary>What there are exact colliders for.</summary>
-    private static readonly (string Name, Func<Random, Model> Draw)[] Shapes =
+    /// <summary>Generators of the shapes that have exact colliders.</summary>
+    private static readonly (string Name, Func<Random, Model> Create)[] Shapes =
     [
         ("mesh", random => new MeshModel(CollisionMeshes.TriangleSoup(random.Next(), 40, 0.3)) { SourcePath = "/mesh.obj" }),
-        ("similar fractal",
-        random => new FractalModel(
-            Samples.Repeated(3, RandomSimilarity(random), RandomSimilarity(random), RandomSimilarity(random))) { SourcePath =
-            "/similar.fdo" }),
-        ("skewed fractal",
-        random => new FractalModel(
-            Samples.Repeated(3, random.Transformation(), random.Transformation(), random.Transformation())) { SourcePath = "/skewed.fdo" }),
-        ("fractal of sums",
-        random => new FractalModel(RandomFractals.Create(random, Composition.Componentwise)) { SourcePath = "/sums.fdo" }),
+        ("similar fractal", random => ModelOf(
+            Samples.Repeated(3, RandomSimilarity(random), RandomSimilarity(random), RandomSimilarity(random)))),
+        ("skewed fractal", random => ModelOf(
+            Samples.Repeated(3, random.Transformation(), random.Transformation(), random.Transformation()))),
+        ("fractal of sums", random => ModelOf(RandomFractals.Create(random, Composition.Componentwise))),
     ];
 
-    /// <summary>How objects are placed, sizes aside.</summary>
+    /// <summary>Names of kinds of placement.</summary>
     public static TheoryData<string> Placements => ["scale", "far", "scale and far", "mirror", "condition 1e6", "condition 1e6 and far"];
 
     [Theory]
     [MemberData(nameof(Placements))]
-    public void Find_OnAPlacedObject_IsThatOfExactArithmetic(string placement) => CheckPlaced(placement, 12);
+    public void TryFindClosest_OnAPlacedObject_IsThatOfExactArithmetic(string placement) => CheckPlaced(placement, 12);
 
     [Theory]
     [MemberData(nameof(Placements))]
     [Trait("Category", "Soak")]
-    public void Find_OnAPlacedObjectForLong_IsThatOfExactArithmetic(string placement) => CheckPlaced(placement, 1000);
+    public void TryFindClosest_OnAPlacedObjectForLong_IsThatOfExactArithmetic(string placement) => CheckPlaced(placement, 1000);
 
-    /// <summary>What an object's placement has one at a time, and its powers of ten.</summary>
+    /// <summary>Properties of a placement that vary one at a time, and their first and last powers of ten.</summary>
     public static TheoryData<string, int, int> Decades =>
         new() { { "translation in sizes", 0, 9 }, { "scale", -12, 12 }, { "condition", 0, 6 } };
 
     [Theory]
     [MemberData(nameof(Decades))]
-    public void Find_OnAnObjectOfEveryPlacement_IsThatOfExactArithmetic(string by, int first, int last) => CheckDecades(by, first, last, 3);
+    public void TryFindClosest_OnAnObjectOfEveryPlacement_IsThatOfExactArithmetic(string property, int first, int last) =>
+        CheckDecades(property, first, last, 3);
 
     [Theory]
     [MemberData(nameof(Decades))]
     [Trait("Category", "Soak")]
-    public void Find_OnAnObjectOfEveryPlacementForLong_IsThatOfExactArithmetic(string by, int first, int last) =>
-        CheckDecades(by, first, last, 150);
+    public void TryFindClosest_OnAnObjectOfEveryPlacementForLong_IsThatOfExactArithmetic(string property, int first, int last) =>
+        CheckDecades(property, first, last, 150);
 
     /// <summary>
-    /// A cube's 48 symmetries are the sponge's: what is asked at the images of a position must be the same, in the middle 48 times at once.
+    /// The 48 symmetries of a cube are the sponge's too. Queries at the images of a position must give the same distance, in the middle 48
+    /// times at once.
     /// </summary>
     [Theory]
     [InlineData(1)]
@@ -74,35 +72,39 @@ public class ColliderStabilityTests(ITestOutputHelper output)
     [InlineData(30)]
     [InlineData(200)]
     [InlineData(null)]
-    public void Find_AtSymmetricPlaces_IsTheSameDistance(int? depth)
+    public void TryFindClosest_AtSymmetricPositions_IsTheSameDistance(int? depth)
     {
         using var report = new StabilityReport(output, (object?)depth ?? "infinite");
         var (collider, context) = (new ExactFractalCollider(CullingViews.Menger(depth)), new QueryContext());
         Seeded.Run(60, random =>
         {
-            var position = random.Next(3) switch { 0 => random.Vector(1.5), 1 => new(random.NextDouble(), 0, 0), _ =>
-                0.5 * random.Next(4) * Vector.One };
+            var position = random.Next(3) switch
+            {
+                0 => random.Vector(1.5),
+                1 => new(random.NextDouble(), 0, 0),
+                _ => 0.5 * random.Next(4) * Vector.One,
+            };
             var distances = SymmetricPositions(position).Select(image =>
             {
                 Assert.True(collider.TryFindClosest(image, double.PositiveInfinity, context, out var closest));
                 Assert.True(closest.Normal.IsFinite());
                 return closest.Distance;
             }).ToArray();
-            report.Require("48 symmetric places of the sponge (of the size)", (distances.Max() - distances.Min()) / Math.Sqrt(12),
-                Tolerance, () => $"{position}");
+            var spread = (distances.Max() - distances.Min()) / Math.Sqrt(12);
+            report.Require("48 symmetric places of the sponge (of the size)", spread, Tolerance, () => $"{position}");
         });
         // The hole in the middle has edges at a third: 1/3·√2 from the middle of a cube of half 1.
         Assert.True(collider.TryFindClosest(Vector.Zero, double.PositiveInfinity, context, out var centre));
-        report.Require("distance of the middle of the sponge", Math.Abs(centre.Distance - (Math.Sqrt(2) / 3)), Tolerance,
-            () => $"{centre}");
+        var error = Math.Abs(centre.Distance - (Math.Sqrt(2) / 3));
+        report.Require("distance of the middle of the sponge", error, Tolerance, () => $"{centre}");
     }
 
     /// <summary>
-    /// Corners, edges and middles of the tetrahedron fractal, whose maps halve: each position of an instance's face lies on the fractal, to
-    /// the last place.
+    /// Queries vertices, edges and middles of the tetrahedron fractal, whose maps halve. Each position on an instance's face lies on the
+    /// fractal, to the last place.
     /// </summary>
     [Fact]
-    public void Find_AtEveryDepthTo200_IsOnTheInstanceThatThePathNames()
+    public void TryFindClosest_AtEveryDepthTo200_IsOnTheInstanceThatThePathNames()
     {
         using var report = new StabilityReport(output);
         var context = new QueryContext();
@@ -119,115 +121,136 @@ public class ColliderStabilityTests(ITestOutputHelper output)
                     var local = i % 3 == 0 ? a : i % 3 == 1 ? 0.5 * (a + b) : (0.25 * a) + (0.5 * b) + (0.25 * c);
                     var position = ExactPosition(path, local, 1);
                     Assert.True(collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest));
-                    report.Require("distance of what lies on an instance (of the size)", closest.Distance / fractal.Bounds.Diagonal,
-                        Tolerance, () => $"depth {depth}, path {string.Join(' ', path)}, at {local}");
+                    report.Require(
+                        "distance of what lies on an instance (of the size)", closest.Distance / fractal.Bounds.Diagonal, Tolerance,
+                        () => $"depth {depth}, path {string.Join(' ', path)}, at {local}");
                 }
             });
         }
     }
 
     [Fact]
-    public void Find_AtEveryDepthTo200_HasNothingNearer()
+    public void TryFindClosest_AtEveryDepthTo200_HasNothingCloser()
     {
         using var report = new StabilityReport(output);
         var (context, compared) = (new QueryContext(), 0);
         for (var depth = 1; depth <= 200; depth++)
         {
-            // Quarters, which lie apart: balls are enough to tell which copies may be near.
+            // Quarters lie apart, so that spheres are enough to tell which instances may be close.
             var fractal = CornerTetrahedra(depth, 2);
-            var (probe, oracle) = (new ExactColliderChecker($"depth {depth}", fractal), new BranchAndBoundOracle(fractal));
+            var (checker, oracle) = (new ExactColliderChecker($"depth {depth}", fractal), new BranchAndBoundOracle(fractal));
             Seeded.RunOne(depth, random =>
             {
                 for (var i = 0; i < 3; i++)
                 {
-                    // Beside an instance that some copies lead to: by as much as that part of the fractal measures.
+                    // Beside the sub-fractal of a path, by as much as that measures.
                     var path = Enumerable.Range(0, random.Next(1, Math.Min(depth, 40) + 1)).Select(_ => random.Next(4)).ToArray();
-                    compared += IsClosest(report, probe, oracle, ExactPosition(path, random.Vector(3), 2), context) ? 1 : 0;
+                    compared += IsClosest(report, checker, oracle, ExactPosition(path, random.Vector(3), 2), context) ? 1 : 0;
                 }
             });
         }
 
-        // Balls overlap more than what they hold does, so that some positions take too long.
+        // Spheres overlap more than their contents do, so that some positions take too long.
         Assert.InRange(compared, 400, 600);
     }
 
     /// <summary>
-    /// A place told by a path and where in its frame it is, beside the same in exact arithmetic. Maps halve, so that each is exact in a
-    /// double.
+    /// Compares the world position of a path and a position in its frame with exact arithmetic. Maps halve, so that doubles hold them
+    /// exactly.
     /// </summary>
     [Fact]
-    public void WorldPosition_OfAPathAndAPlaceInItsFrame_IsThatOfExactArithmetic()
+    public void WorldPosition_OfAPathAndAPositionInItsFrame_IsThatOfExactArithmetic()
     {
         using var report = new StabilityReport(output);
         var fractal = CornerTetrahedra(null, 1);
-        var (hierarchy, probe, oracle, context) = (LodHierarchy.Build(fractal), new ExactColliderChecker("halves", fractal),
-            new BranchAndBoundOracle(fractal),
-            new QueryContext());
+        var hierarchy = LodHierarchy.Build(fractal);
+        var checker = new ExactColliderChecker("halves", fractal);
+        var oracle = new BranchAndBoundOracle(fractal);
+        var context = new QueryContext();
         var maxDepth = 0;
+        var (queried, compared) = (0, 0);
         Seeded.Run(10, random =>
         {
             var address = new FractalAddress(hierarchy, AffineMap.Identity, new(3, 4, 5));
             while (address.Depth < 200)
             {
-                // Into some copy of where it is, to one of its corners, and not all of the way.
+                // Towards a vertex of some child, for a part of the path.
                 var child = fractal.LevelAt(0).Maps[random.Next(4)];
                 address.Move(0.7 * (address.FrameToCamera * (child * fractal.BaseMesh.Vertex(random.Next(4)))));
                 var local = address.FrameToCamera.Inverse() * Vector.Zero;
                 var (position, expected) = (address.WorldPosition(AffineMap.Identity), ExactPosition([.. address.Path], local, 1));
                 var size = FractalPositions.Magnitude(fractal, position);
-                report.Require("world position of a path and a place in its frame (of the size)",
-                    Near.Difference(expected, position) / size, Tolerance, () => $"depth {address.Depth}, {local}");
+                report.Require(
+                    "world position of a path and a place in its frame (of the size)", Near.Difference(expected, position) / size,
+                    Tolerance, () => $"depth {address.Depth}, {local}");
                 maxDepth = Math.Max(maxDepth, address.Depth);
                 if (random.Next(10) == 0)
                 {
-                    IsClosest(report, probe, oracle, position, context);
+                    queried++;
+                    compared += IsClosest(report, checker, oracle, position, context) ? 1 : 0;
                 }
             }
         });
         report.Record("depth", maxDepth);
+        Assert.True(queried > 50, $"only {queried} positions were queried");
+        Seeded.AssertMost(compared, queried, minShare: 0.75);
     }
 
     private void CheckPlaced(string placement, int seeds, [CallerMemberName] string test = "")
     {
         using var report = new StabilityReport(output, placement, test);
+        var checkedCount = 0;
         Parallel.For(1, seeds + 1, seed => Seeded.RunOne(seed, random =>
         {
-            foreach (var (name, draw) in Shapes)
+            foreach (var (name, create) in Shapes)
             {
-                CheckQueries(report, random, $"distance from placed objects (of the magnitude): {name}", draw(random),
-                    RandomPlacement(random, placement), null);
+                var quantity = $"distance from placed objects (of the magnitude): {name}";
+                if (CheckQueries(report, random, quantity, create(random), RandomPlacement(random, placement), null))
+                {
+                    Interlocked.Increment(ref checkedCount);
+                }
             }
         }));
+        Seeded.AssertMost(checkedCount, seeds * Shapes.Length);
     }
 
     private void CheckDecades(string property, int first, int last, int seeds, [CallerMemberName] string test = "")
     {
         using var report = new StabilityReport(output, property, test);
-        Parallel.For(0, (last - first + 1) * seeds, i => Seeded.RunOne(i, random =>
+        var cases = (last - first + 1) * seeds;
+        var checkedCount = 0;
+        Parallel.For(0, cases, i => Seeded.RunOne(i, random =>
         {
             var decade = RoundNumbers.PowerOfTen(first + (i / seeds));
-            foreach (var (name, draw) in Shapes)
+            foreach (var (name, create) in Shapes)
             {
-                CheckQueries(report, random, $"distance by the {property} (of the magnitude): {name}", draw(random),
-                    RandomPlacementBy(random, property, decade),
-                    decade);
+                var quantity = $"distance by the {property} (of the magnitude): {name}";
+                if (CheckQueries(report, random, quantity, create(random), RandomPlacementBy(random, property, decade), decade))
+                {
+                    Interlocked.Increment(ref checkedCount);
+                }
             }
         }));
+        Seeded.AssertMost(checkedCount, cases * Shapes.Length);
     }
 
-    /// <summary>The distance that is told, and that of the point that is named: the worse is noted.</summary>
-    private static void CheckQueries(StabilityReport report, Random random, string quantity, Model model, Transformation placement,
+    /// <summary>
+    /// Records the worse of two errors: of the distance, and of the distance to the point that is named. Returns false for a fractal without
+    /// instances.
+    /// </summary>
+    private static bool CheckQueries(StabilityReport report, Random random, string quantity, Model model, Transformation placement,
         double? at)
     {
         if (model.Mesh.FaceCount == 0 || (model is FractalModel { Fractal.InstanceCount: var count } && count == 0))
         {
-            return;
+            return false;
         }
 
         var faces = model is FractalModel { Fractal: var fractal }
             ? ExactWorldTriangles.Of(fractal, placement)
             : ExactWorldTriangles.Of(model.Mesh, placement);
-        var (collider, context) = (new SceneCollider(new Scene { Objects = [new(model) { Placement = placement }] }), new QueryContext());
+        var collider = new SceneCollider(new Scene { Objects = [new(model) { Placement = placement }] });
+        var context = new QueryContext();
         for (var query = 0; query < 10; query++)
         {
             var position = faces.RandomPosition(random);
@@ -237,23 +260,25 @@ public class ColliderStabilityTests(ITestOutputHelper output)
             var error = Math.Max(Math.Abs(closest.Distance - expected), Math.Abs((closest.Point - position).Length() - expected)) / size;
             report.Require(quantity, error, Tolerance, () => $"{placement} at {position}: {closest}, not {expected:R}", at);
         }
+
+        return true;
     }
 
     /// <summary>
-    /// Checks that the answer is a point of the fractal, and that nothing is nearer; false where the oracle takes too long.
+    /// Checks that the result is a point of the fractal, and that nothing is closer. Returns false where the oracle takes too long.
     /// </summary>
-    private static bool IsClosest(StabilityReport report, ExactColliderChecker probe, BranchAndBoundOracle oracle, Vector position,
+    private static bool IsClosest(StabilityReport report, ExactColliderChecker checker, BranchAndBoundOracle oracle, Vector position,
         QueryContext context)
     {
-        Assert.True(probe.Collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest));
-        probe.CheckResult(position, context, closest);
+        Assert.True(checker.Collider.TryFindClosest(position, double.PositiveInfinity, context, out var closest));
+        checker.CheckResult(position, context, closest);
         if (oracle.FindClosestDistance(position, 20_000, closest.Distance) is not { } expected)
         {
             return false;
         }
 
-        report.Require("farther than by branch and bound with balls (of the size)",
-            (closest.Distance - expected) / FractalPositions.Magnitude(probe.Fractal, position), Tolerance, () => $"{position}");
+        var excess = (closest.Distance - expected) / FractalPositions.Magnitude(checker.Fractal, position);
+        report.Require("farther than by branch and bound with balls (of the size)", excess, Tolerance, () => $"{position}");
         return true;
     }
 
@@ -280,23 +305,25 @@ public class ColliderStabilityTests(ITestOutputHelper output)
         _ => throw new ArgumentOutOfRangeException(nameof(property), property, null),
     };
 
+    private static FractalModel ModelOf(Fractal fractal) => new(fractal) { SourcePath = "/fractal.fdo" };
+
     private static Transformation RandomSimilarity(Random random) =>
         new(random.Vector(2), random.Degrees(), random.Between(0.3, 0.7) * (random.Next(2) == 0 ? Vector.One : new(-1, 1, 1)));
 
     /// <summary>
-    /// Four copies of a tetrahedron in its corners, halves or quarters or smaller: whole numbers and powers of two, so that a map rounds
-    /// nothing.
+    /// Creates the fractal of a tetrahedron with four children in its corners, of half the size or a quarter or less. Coordinates are whole
+    /// numbers times powers of two, so that a map rounds nothing.
     /// </summary>
-    private static Fractal CornerTetrahedra(int? depth, int halvings) => Math.ScaleB(1, -halvings) switch
+    private static Fractal CornerTetrahedra(int? depth, int halvings)
     {
-        var ratio =>
-            Samples.Repeated(depth,
-            [.. Enumerable.Range(0, 4).Select(Samples.Tetrahedron.Vertex).Select(corner => (1 - ratio) * corner)
-            .Select(v => Samples.MoveAndScale(v.X, v.Y, v.Z, ratio))]),
-    };
+        var ratio = Math.ScaleB(1, -halvings);
+        var corners = Enumerable.Range(0, 4).Select(corner => (1 - ratio) * Samples.Tetrahedron.Vertex(corner));
+        return Samples.Repeated(depth, [.. corners.Select(corner => Samples.MoveAndScale(corner.X, corner.Y, corner.Z, ratio))]);
+    }
 
     /// <summary>
-    /// The place in the world, rounded once: (1 − r)·corner + r·((1 − r)·corner + …), with a common denominator of a power of two.
+    /// Computes the position in the world, rounded once: (1 − r)·corner + r·((1 − r)·corner + …), with a power of two as the common
+    /// denominator.
     /// </summary>
     private static Vector ExactPosition(int[] path, Vector local, int halvings)
     {
@@ -306,21 +333,19 @@ public class ColliderStabilityTests(ITestOutputHelper output)
 
         double Along(Func<Vector, double> coordinate)
         {
-            var sum = ToInteger(coordinate(local), exponent + (halvings * path.Length));
+            var sum = ScaledInteger.Of(coordinate(local), exponent + (halvings * path.Length));
             for (var i = 0; i < path.Length; i++)
             {
-                sum += ToInteger((1 - Math.ScaleB(1, -halvings)) * coordinate(Samples.Tetrahedron.Vertex(path[i])), exponent) >> (halvings
-                    * i);
+                var corner = (1 - Math.ScaleB(1, -halvings)) * coordinate(Samples.Tetrahedron.Vertex(path[i]));
+                // Corners are small numbers: nothing but zeros is shifted out.
+                sum += ScaledInteger.Of(corner, exponent) >> (halvings * i);
             }
 
-            // Corners are small numbers: nothing but zeros is shifted out. 120 bits are left for the last rounding.
+            // 120 bits are left for the last rounding.
             var shift = (int)Math.Max(0, BigInteger.Abs(sum).GetBitLength() - 120);
             return Math.ScaleB((double)(sum >> shift), exponent + shift);
         }
     }
-
-    private static BigInteger ToInteger(double x, int exponent) =>
-        x == 0 ? 0 : new BigInteger(Math.ScaleB(x, 52 - Math.ILogB(x))) << (Math.ILogB(x) - 52 - exponent);
 
     private static IEnumerable<Vector> SymmetricPositions(Vector v) =>
         from order in (Vector[])[v, new(v.Y, v.Z, v.X), new(v.Z, v.X, v.Y), new(v.Y, v.X, v.Z), new(v.X, v.Z, v.Y), new(v.Z, v.Y, v.X)]

@@ -9,26 +9,26 @@ using Xunit.Abstractions;
 
 namespace FractalEngine.Tests.Stability;
 
-/// <summary>Surfaces that are close behind each other, from the near plane to the far one.</summary>
+/// <summary>Draws surfaces that are close behind each other, from the near plane to the far one.</summary>
 [Collection(GlTests.Name)]
 public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
 {
     private const int Size = 40;
     private const double Near = 1;
 
-    // Of the distance.
+    // Both are fractions of the distance.
     private const double Gap = 1e-4;
     private const double Millionth = 1e-6;
 
-    // Nothing but the depth buffer decides what hides what.
+    // Without culling, only the depth buffer decides what hides what.
     private static readonly RenderSettings Settings = new() { Samples = 0, Culling = null };
 
-    /// <summary>Far plane divided by near plane.</summary>
+    /// <summary>Distance of the far plane divided by that of the near plane.</summary>
     public static TheoryData<double> Ranges => [1e2, 1e4, 1e7];
 
     /// <summary>
-    /// Oracle: the red one is nearer, so each pixel is red. Turned by 40°, both still are the same part of the distance apart along every
-    /// line of sight.
+    /// The red surface is closer, so each pixel is red. Rotated by 40°, the two are still the same fraction of the distance apart along
+    /// every line of sight.
     /// </summary>
     [SkippableTheory]
     [MemberData(nameof(Ranges))]
@@ -38,40 +38,44 @@ public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
         using var stage = new Stage();
         foreach (var distance in Distances(range))
         {
-            // Turned, they reach from two thirds of their distance to twice as far: there neither plane may cut them.
+            // Rotated, they reach from two thirds of their distance to twice as far, where neither plane may cut them.
             foreach (var degrees in distance < 2 * Near || distance > 0.5 * range ? (double[])[0] : [0, 40])
             {
-                report.Require("pixels that show what is 1e-4 of the distance behind", stage.CountWrong(distance, range, degrees, Gap), 0,
+                report.Require(
+                    "pixels that show what is 1e-4 of the distance behind", stage.CountWrong(distance, range, degrees, Gap), 0,
                     () => $"at {distance} of {range}, turned by {degrees}");
             }
         }
     }
 
     /// <summary>
-    /// How near surfaces can be. Without any gap one of both orders of drawing shows what it should not, or the test would see nothing.
+    /// Finds how close surfaces can be. At some gap one of both orders of drawing shows the wrong surface, or the test would prove nothing.
     /// </summary>
     [SkippableTheory]
     [MemberData(nameof(Ranges))]
-    public void Surfaces_ThatAreNearer_KeepTheirOrderDownToAMillionth(double range)
+    public void Surfaces_CloserTogether_KeepTheirOrderDownToAMillionth(double range)
     {
         using var report = new StabilityReport(output, range);
         using var stage = new Stage();
         var maxFailingGap = 0.0;
         foreach (var distance in Distances(range))
         {
-            // One distance alone may have luck with its roundings.
+            // The roundings of one distance alone may be lucky.
             var around = Enumerable.Range(0, 5).Select(i => distance * (1 - (0.0013 * i))).ToArray();
-            var (minGap, gap) = (double.PositiveInfinity, Millionth);
+            var minGap = double.PositiveInfinity;
+            var gap = Millionth;
             while (gap > 1e-12 && around.All(near => stage.CountWrong(near, range, 0, gap) == 0))
             {
-                (minGap, gap) = (gap, gap / 2);
+                minGap = gap;
+                gap /= 2;
             }
 
             maxFailingGap = Math.Max(maxFailingGap, gap);
-            // A float has 24 bits: two depths that are one part in 10⁷ apart are next to each other. Ten of these, for the roundings of the
-            // matrices.
-            report.Require("smallest gap that keeps its order by distance (of the distance)", minGap, Millionth,
-                () => $"at {distance} of {range}", distance);
+            // A float has 24 bits: two depths that are 1e-7 of themselves apart are next to each other. The limit is ten of these, for the
+            // roundings of the matrices.
+            report.Require(
+                "smallest gap that keeps its order by distance (of the distance)", minGap, Millionth, () => $"at {distance} of {range}",
+                distance);
         }
 
         Assert.InRange(maxFailingGap, 1e-9, Millionth);
@@ -81,7 +85,7 @@ public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
         Enumerable.Range(0, 30).Select(i => Near * Math.Pow(10, i / 3.0)).Where(distance => distance < 0.7 * range)
         .Select(distance => Math.Max(distance, 1.01 * Near)).Append(0.999 * range);
 
-    /// <summary>Draws two squares that fill the picture, in full light.</summary>
+    /// <summary>Draws two squares that fill the frame, in full light.</summary>
     private sealed class Stage : IDisposable
     {
         private readonly OffscreenContext _context = GlTests.OpenContext();
@@ -89,7 +93,7 @@ public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
 
         public Stage() => _frame = new(_context);
 
-        /// <summary>How many pixels show what is behind, whichever is drawn first.</summary>
+        /// <summary>Counts the pixels that show the surface behind, whichever is drawn first.</summary>
         public int CountWrong(double distance, double range, double degrees, double gap)
         {
             var (red, green) = (Square(distance, degrees, new(1, 0, 0)), Square(distance * (1 + gap), degrees, new(0, 1, 0)));
@@ -106,8 +110,8 @@ public sealed class DepthBufferStabilityTests(ITestOutputHelper output)
         {
             var scene = RenderScenes.Scene(new Scene { Background = Colour.Black, Lights = [RenderScenes.FullLight] }, squares);
             using var renderer = new SceneRenderer(_context, DrawableScene.Prepare(scene, Settings));
-            _frame.Draw(renderer, new(new(Vector.Zero, Vector.Zero, 60), Projection.Perspective) { Clip = (Near, range * Near) }, Size,
-                Size, Settings);
+            var view = new View(new(Vector.Zero, Vector.Zero, 60), Projection.Perspective) { Clip = (Near, range * Near) };
+            _frame.Draw(renderer, view, Size, Size, Settings);
             _context.Resources.ThrowOnError("drawing");
             return RenderScenes.CountDifferent(_frame.Capture(), (255, 0, 0, 255));
         }

@@ -1,5 +1,5 @@
-using FractalEngine.Core.Collision;
 using System.Runtime.CompilerServices;
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Collision;
 using FractalEngine.Tests.Support;
@@ -7,10 +7,12 @@ using Xunit.Abstractions;
 
 namespace FractalEngine.Tests.Stability;
 
-/// <summary>The triangle kernel beyond what FaceKernelTests asks: all orders of the corners, and places as far off as 10¹² sizes.</summary>
+/// <summary>
+/// Tests the triangle kernel beyond TriangleKernelTests: with all orders of the vertices, and up to 10¹² sizes from the origin.
+/// </summary>
 public class KernelStabilityTests(ITestOutputHelper output)
 {
-    // Of the largest coordinate. What is asked for is 1e-9; this is what FaceKernelTests promises.
+    // Of the largest coordinate. The requirement is 1e-9; this is what TriangleKernelTests promise.
     private const double Tolerance = 1e-12;
 
     // The largest coordinate that the kernel is for.
@@ -19,28 +21,27 @@ public class KernelStabilityTests(ITestOutputHelper output)
     private const int Cases = 1000;
 
     [Fact]
-    public void ClosestPoint_OfNastyFacesInAllOrders_IsThatOfExactArithmetic() => Check(20);
-
-    /// <summary>Ten million.</summary>
-    [Fact]
-    [Trait("Category", "Soak")]
-    public void ClosestPoint_OfTenMillionNastyFacesInAllOrders_IsThatOfExactArithmetic() => Check(10_000);
-
-    /// <summary>From as thick as faces can be to sines of 1e-16, and those without any area.</summary>
-    [Fact]
-    public void ClosestPoint_OfFacesOfEveryThinness_IsThatOfExactArithmetic() => CheckThin(1000);
+    public void ClosestPoint_OfAdversarialTrianglesInAllOrders_IsThatOfExactArithmetic() => Check(20);
 
     [Fact]
     [Trait("Category", "Soak")]
-    public void ClosestPoint_OfAMillionFacesOfEveryThinness_IsThatOfExactArithmetic() => CheckThin(60_000);
+    public void ClosestPoint_OfTenMillionAdversarialTrianglesInAllOrders_IsThatOfExactArithmetic() => Check(10_000);
 
-    /// <summary>Faces and positions of a size of about 1, moved together.</summary>
+    /// <summary>Takes triangles from the thickest to sines of 1e-16, and those without any area.</summary>
     [Fact]
-    public void ClosestPoint_OfFacesFarFromTheOrigin_IsThatOfExactArithmetic() => CheckFar(1000);
+    public void ClosestPoint_OfTrianglesOfEveryThinness_IsThatOfExactArithmetic() => CheckThin(1000);
 
     [Fact]
     [Trait("Category", "Soak")]
-    public void ClosestPoint_OfAMillionFacesFarFromTheOrigin_IsThatOfExactArithmetic() => CheckFar(80_000);
+    public void ClosestPoint_OfAMillionTrianglesOfEveryThinness_IsThatOfExactArithmetic() => CheckThin(60_000);
+
+    /// <summary>Moves triangles of a size of about 1 together with their positions.</summary>
+    [Fact]
+    public void ClosestPoint_OfTrianglesFarFromTheOrigin_IsThatOfExactArithmetic() => CheckFar(1000);
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void ClosestPoint_OfAMillionTrianglesFarFromTheOrigin_IsThatOfExactArithmetic() => CheckFar(80_000);
 
     private void Check(int seeds, [CallerMemberName] string test = "")
     {
@@ -62,11 +63,12 @@ public class KernelStabilityTests(ITestOutputHelper output)
             for (var i = 0; i < cases; i++)
             {
                 var face = RandomThinTriangle(random, Math.Pow(10, random.Between(-decade - 1, -decade)));
-                // Measured, since rounding the corners changes it. What is thinner than 1e-16 or has no area is in the last decade.
-                var sineDecade = Math.Clamp(Math.Floor(Math.Log10(ExactTriangleDistance.SineOfSmallestAngle(face.A, face.B, face.C))) + 1,
-                    -16, 0);
-                report.Require("distance by the sine of the smallest angle (of the magnitude)", MaxError(face), Tolerance,
-                    () => $"{face}", RoundNumbers.PowerOfTen((int)sineDecade));
+                // Measured, since rounding the vertices changes it. What is thinner than 1e-16 or has no area is in the last decade.
+                var sine = ExactTriangleDistance.SineOfSmallestAngle(face.A, face.B, face.C);
+                var sineDecade = Math.Clamp(Math.Floor(Math.Log10(sine)) + 1, -16, 0);
+                report.Require(
+                    "distance by the sine of the smallest angle (of the magnitude)", MaxError(face), Tolerance, () => $"{face}",
+                    RoundNumbers.PowerOfTen((int)sineDecade));
             }
         }));
     }
@@ -78,10 +80,11 @@ public class KernelStabilityTests(ITestOutputHelper output)
         {
             for (var i = 0; i < cases; i++)
             {
-                var (offset, (position, a, b, c)) =
-                    (Math.Pow(10, decade) * random.Direction(), RandomThinTriangle(random, random.NextDouble()));
+                var offset = Math.Pow(10, decade) * random.Direction();
+                var (position, a, b, c) = RandomThinTriangle(random, random.NextDouble());
                 var face = new AdversarialTriangle(position + offset, a + offset, b + offset, c + offset);
-                report.Require("distance by the offset in sizes (of the magnitude)", MaxError(face), Tolerance, () => $"{face}",
+                report.Require(
+                    "distance by the offset in sizes (of the magnitude)", MaxError(face), Tolerance, () => $"{face}",
                     RoundNumbers.PowerOfTen(decade));
             }
         }));
@@ -91,37 +94,38 @@ public class KernelStabilityTests(ITestOutputHelper output)
     {
         var (position, a, b, c) = face;
         var exact = ExactTriangleDistance.Distance(position, a, b, c);
-        var (closest, farthest) = (double.PositiveInfinity, double.NegativeInfinity);
+        var closest = double.PositiveInfinity;
+        var farthest = double.NegativeInfinity;
         foreach (var (first, second, third) in VertexOrders(a, b, c))
         {
             var result = TriangleKernel.ClosestPoint(position, first, second, third);
             var distance = Math.Sqrt(result.DistanceSquared);
-            (closest, farthest) = (Math.Min(closest, distance), Math.Max(farthest, distance));
+            closest = Math.Min(closest, distance);
+            farthest = Math.Max(farthest, distance);
             Assert.True(result.Point.IsFinite() && result.Barycentrics.IsFinite(), $"{face}: {result}");
             report.Require("distance (of the magnitude)", RelativeError(distance - exact, face), Tolerance, () => $"{face}");
-            // The point itself is on the face, and as far away as was said; so it is a nearest one, of which there may be several.
-            report.Require("distance of the point that is named (of the magnitude)",
-                RelativeError((position - result.Point).Length() - exact, face),
-                Tolerance, () => $"{face}");
+            // The point itself is on the triangle and at that distance. So it is a closest one, of which there may be several.
+            var pointError = RelativeError((position - result.Point).Length() - exact, face);
+            report.Require("distance of the point that is named (of the magnitude)", pointError, Tolerance, () => $"{face}");
             var normal = TriangleKernel.UnitNormal(first, second, third);
             report.Require("length of the normal − 1", Math.Abs(normal.Length() - 1), 1e-15, () => $"{face}");
         }
 
-        report.Require("difference between the six orders (of the magnitude)", RelativeError(farthest - closest, face), Tolerance,
-            () => $"{face}");
-        report.Require("point that is named off the face (of the magnitude)",
-            RelativeError(ExactTriangleDistance.Distance(TriangleKernel.ClosestPoint(position, a, b, c).Point, a, b, c), face), Tolerance,
-            () => $"{face}");
+        var difference = RelativeError(farthest - closest, face);
+        report.Require("difference between the six orders (of the magnitude)", difference, Tolerance, () => $"{face}");
+        var point = TriangleKernel.ClosestPoint(position, a, b, c).Point;
+        var height = RelativeError(ExactTriangleDistance.Distance(point, a, b, c), face);
+        report.Require("point that is named off the face (of the magnitude)", height, Tolerance, () => $"{face}");
     }
 
-    /// <summary>Of the distances that the six orders of the corners give.</summary>
+    /// <summary>Computes the largest error of the distances that the six orders of the vertices give.</summary>
     private static double MaxError(AdversarialTriangle face)
     {
         var (position, a, b, c) = face;
         var exact = ExactTriangleDistance.Distance(position, a, b, c);
         return VertexOrders(a, b, c)
-            .Max(order => RelativeError(Math.Sqrt(TriangleKernel.ClosestPoint(position, order.A, order.B, order.C).DistanceSquared) - exact,
-            face));
+            .Select(order => TriangleKernel.ClosestPoint(position, order.A, order.B, order.C))
+            .Max(result => RelativeError(Math.Sqrt(result.DistanceSquared) - exact, face));
     }
 
     private static (Vector A, Vector B, Vector C)[] VertexOrders(Vector a, Vector b, Vector c) =>
@@ -131,7 +135,7 @@ public class KernelStabilityTests(ITestOutputHelper output)
         face.Magnitude == 0 ? Math.Abs(error) : Math.Abs(error) / face.Magnitude;
 
     /// <summary>
-    /// One in four is moved by up to 10¹² of its largest coordinate: what is left of its shape is what doubles hold there.
+    /// Moves one triangle in four by up to 10¹² of its largest coordinate. Of its shape remains what doubles can hold there.
     /// </summary>
     private static AdversarialTriangle MaybeTranslateFar(Random random, AdversarialTriangle face)
     {
@@ -143,13 +147,14 @@ public class KernelStabilityTests(ITestOutputHelper output)
     }
 
     /// <summary>
-    /// A needle, two of whose corners are close together, or a sliver, whose corners are nearly on a line; anywhere, or where rounding the
-    /// corners does not make it thicker.
+    /// Creates a needle, two of whose vertices are close together, or a sliver, whose vertices are nearly on a line. It is anywhere, or where
+    /// rounding the vertices does not make it thicker.
     /// </summary>
     private static AdversarialTriangle RandomThinTriangle(Random random, double sine)
     {
-        var (start, end, aside) = (AdversarialTriangle.RandomInCube(random), AdversarialTriangle.RandomInCube(random),
-            sine * AdversarialTriangle.RandomInCube(random));
+        var start = AdversarialTriangle.RandomInCube(random);
+        var end = AdversarialTriangle.RandomInCube(random);
+        var aside = sine * AdversarialTriangle.RandomInCube(random);
         var (a, b, c) = random.Next(4) switch
         {
             0 => (start, end, end + aside),

@@ -5,7 +5,7 @@ using Xunit.Abstractions;
 
 namespace FractalEngine.Tests.Stability;
 
-/// <summary>Inverses near singular, and rotations that are turned a million times.</summary>
+/// <summary>Tests inverses of nearly singular matrices, and rotations that are applied a million times.</summary>
 public class MatrixStabilityTests(ITestOutputHelper output)
 {
     private const double Epsilon = 2.220446049250313e-16;
@@ -14,68 +14,76 @@ public class MatrixStabilityTests(ITestOutputHelper output)
 
     public static TheoryData<int> Conditions => [.. Enumerable.Range(0, 17)];
 
-    /// <summary>The condition is measured, since rounding the entries changes it where it is 1e16.</summary>
+    /// <summary>Compares with the measured condition, since rounding the entries changes it where it is 1e16.</summary>
     [Theory]
     [MemberData(nameof(Conditions))]
     public void Inverse_UpToSingular_IsOffByNoMoreThanTheCondition(int exponent)
     {
         using var report = new StabilityReport(output, exponent);
-        Seeded.Run(1000, random =>
+        Seeded.RunMost(1000, random =>
         {
             var matrix = RandomMatrix(random, Math.Pow(10, exponent));
             var exact = new ExactMatrix(matrix);
             if (exact.IsSingular)
             {
-                return;
+                return false;
             }
 
             var inverse = exact.Inverse;
             var condition = 3 * matrix.MaxAbsEntry() * inverse.MaxAbsEntry();
             report.Record("condition", condition);
-            // Cofactors are right to two last places each, and so is each product of the determinant's sum; that the sum cancels down to a
-            // part of 1/condition is what the condition means.
+            // Each cofactor is off by two last places, and so is each product in the determinant's sum. That the sum cancels down to
+            // 1/condition of these is what the condition means.
             var error = RelativeError(matrix, inverse);
-            report.Require("inverse by the condition (relative error)", error, 8 * Epsilon * condition, () => $"{matrix}",
+            report.Require(
+                "inverse by the condition (relative error)", error, 8 * Epsilon * condition, () => $"{matrix}",
                 RoundNumbers.PowerOfTen(exponent));
             report.Require("inverse (relative error of condition × 2⁻⁵²)", error / (Epsilon * condition), 8, () => $"{matrix}");
             var largest = matrix.V1.Length() * matrix.V2.Length() * matrix.V3.Length();
-            report.Require("determinant (error of the product of the columns' lengths)",
-                Math.Abs(matrix.Determinant() - exact.Determinant) / largest, 8 * Epsilon, () => $"{matrix}");
-            report.Record("determinant (relative error)", Math.Abs((matrix.Determinant() - exact.Determinant) / exact.Determinant));
+            var determinantError = Math.Abs(matrix.Determinant() - exact.Determinant);
+            report.Require(
+                "determinant (error of the product of the columns' lengths)", determinantError / largest, 8 * Epsilon, () => $"{matrix}");
+            report.Record("determinant (relative error)", Math.Abs(determinantError / exact.Determinant));
+            return true;
         });
     }
 
-    /// <summary>Oracles: an orthogonal matrix times its transpose is the identity; turns about one axis add up.</summary>
+    /// <summary>Proves by two laws: an orthogonal matrix times its transpose is the identity, and angles about one axis add up.</summary>
     [Fact]
     public void Product_OfAMillionRotations_DriftsByAFewLastPlacesEach()
     {
         using var report = new StabilityReport(output);
         var random = new Random(1);
         var axis = random.Direction();
-        var (rotation, sum, mixed, orthonormalised) = (Matrix.Rotation(axis, 0.001), Matrix.Identity, Matrix.Identity, Matrix.Identity);
-        var turns = Enumerable.Range(0, 1000).Select(_ => Matrix.Rotation(random.Direction(), random.Between(-3, 3))).ToArray();
+        var rotation = Matrix.Rotation(axis, 0.001);
+        var (sum, mixed, orthonormalised) = (Matrix.Identity, Matrix.Identity, Matrix.Identity);
+        var rotations = Enumerable.Range(0, 1000).Select(_ => Matrix.Rotation(random.Direction(), random.Between(-3, 3))).ToArray();
         for (var i = 0; i < RotationCount; i++)
         {
-            (sum, mixed, orthonormalised) =
-                (rotation * sum, turns[i % turns.Length] * mixed, (turns[i % turns.Length] * orthonormalised).Orthonormalized());
+            var next = rotations[i % rotations.Length];
+            sum = rotation * sum;
+            mixed = next * mixed;
+            orthonormalised = (next * orthonormalised).Orthonormalized();
         }
 
-        // Three products and two sums an entry, and the factor itself is off by as much: at most 6 units of 2⁻⁵³ a turn, were they all on
-        // one side.
+        // An entry takes three products and two sums, and the factor itself is off by as much. That is at most 6 units of 2⁻⁵³ a rotation,
+        // were they all on one side.
         const double Worst = RotationCount * 6 * Epsilon;
         report.Require("one rotation a million times: columns' scalar products", OrthogonalityError(sum), Worst, () => $"{sum}");
-        report.Require("one rotation a million times: from the sum of the angles",
+        report.Require(
+            "one rotation a million times: from the sum of the angles",
             Near.Difference(Matrix.Rotation(axis, 0.001 * RotationCount), sum), Worst, () => $"{sum}");
         report.Require("random rotations a million times: columns' scalar products", OrthogonalityError(mixed), Worst, () => $"{mixed}");
-        // Made orthonormal each time, only the last time's roundings are left.
-        report.Require("random rotations made orthonormal each time: columns' scalar products", OrthogonalityError(orthonormalised),
-            8 * Epsilon, () => $"{orthonormalised}");
-        report.Require("random rotations made orthonormal each time: determinant − 1",
-            Math.Abs(new ExactMatrix(orthonormalised).Determinant - 1),
+        // Made orthonormal each time, only the last time's roundings remain.
+        report.Require(
+            "random rotations made orthonormal each time: columns' scalar products", OrthogonalityError(orthonormalised), 8 * Epsilon,
+            () => $"{orthonormalised}");
+        report.Require(
+            "random rotations made orthonormal each time: determinant − 1", Math.Abs(new ExactMatrix(orthonormalised).Determinant - 1),
             8 * Epsilon, () => $"{orthonormalised}");
     }
 
-    /// <summary>EulerAngleTests go there and back once, at distances from 1e-13 on.</summary>
+    /// <summary>Converts a hundred times, where EulerAngleTests do so once, at distances from 1e-13 on.</summary>
     [Fact]
     public void EulerAngles_ThereAndBackAtTheLock_DoNotWander()
     {
@@ -93,9 +101,10 @@ public class MatrixStabilityTests(ITestOutputHelper output)
                     Near.Difference(first, axes));
             }
 
-            // Near the lock the first trip may take it as complete, which is worth 1e-12 as in EulerAngleTests; the others add some
+            // Near the lock the first conversion may take it as complete, which costs 1e-12 as in EulerAngleTests. The others add some
             // roundings each.
-            report.Require("angles of a rotation and back: at the end", Near.Difference(first, axes), 1e-12 + (100 * 8 * Epsilon),
+            report.Require(
+                "angles of a rotation and back: at the end", Near.Difference(first, axes), 1e-12 + (100 * 8 * Epsilon),
                 () => $"yaw {yaw:R}");
         });
     }
@@ -104,26 +113,31 @@ public class MatrixStabilityTests(ITestOutputHelper output)
     public void Camera_TurnedAMillionTimes_KeepsItsAxesAndItsHeading()
     {
         using var report = new StabilityReport(output);
-        var (random, around, wandering) = (new Random(1), Camera.Default, Camera.Default);
+        var random = new Random(1);
+        var (around, wandering) = (Camera.Default, Camera.Default);
         for (var i = 0; i < RotationCount; i++)
         {
             around = i < FullTurnSteps ? CameraNavigation.Turn(around, 2 * Math.PI / 1000, 0) : around;
             wandering = CameraNavigation.Turn(wandering, random.Between(-1, 1), random.Between(-1, 1));
         }
 
-        // A camera's axes are made from its angles anew each time.
-        report.Require("camera turned a million times: axes' scalar products",
+        // A camera's axes are computed from its angles each time.
+        report.Require(
+            "camera turned a million times: axes' scalar products",
             Math.Max(OrthogonalityError(around.LocalAxes), OrthogonalityError(wandering.LocalAxes)),
             8 * Epsilon, () => $"{wandering.LocalAxes}");
-        report.Require("camera turned a million times: inverse of its axes",
+        report.Require(
+            "camera turned a million times: inverse of its axes",
             Near.Difference(Matrix.Identity, wandering.LocalAxes * wandering.LocalAxesInverse), 8 * Epsilon,
             () => $"{wandering.LocalAxes}");
-        // Each step's angle, matrix and angles back are off by some last places of π.
-        report.Require("camera's heading after a hundred full turns", Near.Difference(Matrix.Identity, around.LocalAxes),
+        // In each step the angle, the matrix and the angles back are off by some last places of π.
+        report.Require(
+            "camera's heading after a hundred full turns", Near.Difference(Matrix.Identity, around.LocalAxes),
             FullTurnSteps * 6 * Epsilon, () => $"{around.Rotation}");
-        // Right stays level: what of it points up is roll. Steps near the zenith, 0.1° away at most, magnify roundings by their distance's
-        // reciprocal, 573.
-        report.Require("camera's roll after a million random turns", Math.Abs(wandering.LocalAxes.V1.Y), RotationCount * 6 * Epsilon,
+        // The right axis stays level, and its height is the roll. Steps are at least 0.1° from the zenith, where roundings grow by the
+        // reciprocal of the distance, 573.
+        report.Require(
+            "camera's roll after a million random turns", Math.Abs(wandering.LocalAxes.V1.Y), RotationCount * 6 * Epsilon,
             () => $"{wandering.LocalAxes}");
     }
 
@@ -131,7 +145,8 @@ public class MatrixStabilityTests(ITestOutputHelper output)
         random.Orthogonal() * Matrix.Diagonal(new(1, Math.Pow(condition, -random.NextDouble()), 1 / condition)) * random.Orthogonal();
 
     /// <summary>
-    /// Of the largest entry. At a condition of 1e16 the determinant may round to 0: that is said, and an error as large as the inverse.
+    /// Computes the error of the inverse, of its largest entry. At a condition of 1e16 the determinant may round to 0. The engine says so
+    /// then, which counts as an error as large as the inverse.
     /// </summary>
     private static double RelativeError(Matrix matrix, Matrix expected)
     {

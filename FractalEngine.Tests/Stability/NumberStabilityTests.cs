@@ -18,8 +18,8 @@ using Vector = FractalEngine.Core.Maths.Vector;
 namespace FractalEngine.Tests.Stability;
 
 /// <summary>
-/// Numbers as text, beyond what NumberReaderTests ask: to and fro, beside exact arithmetic, and in files of every format under other
-/// cultures.
+/// Tests numbers as text beyond NumberReaderTests: written and read back, compared with exact arithmetic, and in files of every format under
+/// other cultures.
 /// </summary>
 public class NumberStabilityTests(ITestOutputHelper output)
 {
@@ -28,7 +28,6 @@ public class NumberStabilityTests(ITestOutputHelper output)
     [Fact]
     public void TryRead_OfRandomText_IsTheNearestDouble() => CheckText(8);
 
-    /// <summary>Ten million.</summary>
     [Fact]
     [Trait("Category", "Soak")]
     public void TryRead_OfTenMillionRandomTexts_IsTheNearestDouble() => CheckText(1000);
@@ -40,7 +39,7 @@ public class NumberStabilityTests(ITestOutputHelper output)
     [Trait("Category", "Soak")]
     public void TryRead_OfTenMillionThatWereWritten_IsTheSameBits() => CheckWritten(1000);
 
-    /// <summary>What is written under a culture is read under it, and is the text that the invariant culture gives.</summary>
+    /// <summary>Writes and reads under a culture. The text must be that of the invariant culture.</summary>
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
     public void Formats_InAnyCulture_AreWrittenAndReadToTheSameBits(string culture) => Seeded.Run(30, random =>
@@ -61,14 +60,14 @@ public class NumberStabilityTests(ITestOutputHelper output)
                 var text = RandomDecimalText(random);
                 var expected = double.Parse(text, NumberStyles.Float, CultureInfo.InvariantCulture);
                 Assert.True(NumberReader.TryRead(text, out var value, out var length) && length == text.Length, text);
-                report.Require("decimal texts whose bits are not those of double.Parse",
-                    BitConverter.DoubleToInt64Bits(expected) == BitConverter.DoubleToInt64Bits(value)
-                    ? 0
-                    : 1, 0, () => $"{text}: {value}, not {expected}");
-                // That takes long.
+                report.Require(
+                    "decimal texts whose bits are not those of double.Parse", HasSameBits(expected, value) ? 0 : 1, 0,
+                    () => $"{text}: {value}, not {expected}");
+                // Rational arithmetic takes long.
                 if (i % 50 == 0 && double.IsFinite(value))
                 {
-                    report.Require("decimal texts off rational arithmetic (units in the last place)", UnitsOff(text, value), 0.5,
+                    report.Require(
+                        "decimal texts off rational arithmetic (units in the last place)", UnitsOff(text, value), 0.5,
                         () => $"{text}: {value}");
                 }
             }
@@ -84,21 +83,26 @@ public class NumberStabilityTests(ITestOutputHelper output)
             {
                 var number = RandomFinite(random);
                 Assert.True(NumberReader.TryRead(number.ToString("R", CultureInfo.InvariantCulture), out var value, out _));
-                report.Require("numbers written and read whose bits changed: doubles",
-                    BitConverter.DoubleToInt64Bits(number) == BitConverter.DoubleToInt64Bits(value) ? 0 : 1, 0, () => $"{number}: {value}");
+                report.Require(
+                    "numbers written and read whose bits changed: doubles", HasSameBits(number, value) ? 0 : 1, 0,
+                    () => $"{number}: {value}");
                 var single = BitConverter.Int32BitsToSingle(random.Next());
                 if (float.IsFinite(single))
                 {
                     Assert.True(NumberReader.TryRead(single.ToString("R", CultureInfo.InvariantCulture), out value, out _));
-                    report.Require("numbers written and read whose bits changed: floats", single.Equals((float)value)
-                        ? 0
-                        : 1, 0, () => $"{single}: {value}");
+                    report.Require(
+                        "numbers written and read whose bits changed: floats", single.Equals((float)value) ? 0 : 1, 0,
+                        () => $"{single}: {value}");
                 }
             }
         }));
     }
 
-    /// <summary>Plain, with exponents, subnormal, at the ends of the range, and exactly or nearly between two doubles.</summary>
+    private static bool HasSameBits(double x, double y) => BitConverter.DoubleToInt64Bits(x) == BitConverter.DoubleToInt64Bits(y);
+
+    /// <summary>
+    /// Creates a number: plain, with an exponent, subnormal, at the ends of the range, or exactly or nearly between two doubles.
+    /// </summary>
     private static string RandomDecimalText(Random random) => random.Next(8) switch
     {
         0 => $"{RandomDigits(random, 1, 20)}.{RandomDigits(random, 0, 20)}",
@@ -107,15 +111,22 @@ public class NumberStabilityTests(ITestOutputHelper output)
         3 => $"{RandomDigits(random, 1, 17)}e-{random.Next(305, 345)}",
         4 => $".{RandomDigits(random, 1, 800)}e{random.Next(-400, 300)}",
         5 => MidpointText(BitConverter.Int64BitsToDouble(random.NextInt64(1L << 52)), random.Next(3)),
-        _ => MidpointText(BitConverter.Int64BitsToDouble(random.NextInt64(0x7FEFFFFFFFFFFFFF)) switch { var d when d > 1e250 =>
-            Math.Sqrt(d), var d => d }, random.Next(3)),
+        _ => MidpointText(RandomPositive(random), random.Next(3)),
     };
 
-    /// <summary>All digits of the middle between a number and its neighbour; or the same a little less or more.</summary>
+    /// <summary>Creates a positive number. Very large ones, whose digits take long, are replaced by their square roots.</summary>
+    private static double RandomPositive(Random random)
+    {
+        var number = BitConverter.Int64BitsToDouble(random.NextInt64(0x7FEFFFFFFFFFFFFF));
+        return number > 1e250 ? Math.Sqrt(number) : number;
+    }
+
+    /// <summary>Writes all digits of the midpoint between a number and its neighbour, or of a number a little less or more.</summary>
     private static string MidpointText(double number, int more)
     {
         var (mantissa, exponent) = Decompose(number);
-        var (middle, power) = ((2 * mantissa) + 1, exponent - 1);
+        var middle = (2 * mantissa) + 1;
+        var power = exponent - 1;
         // m·2⁻ᵏ = m·5ᵏ·10⁻ᵏ
         var (digits, ten) = power >= 0 ? (middle << power, 0) : (middle * BigInteger.Pow(5, -power), power);
         return more switch
@@ -127,7 +138,8 @@ public class NumberStabilityTests(ITestOutputHelper output)
     }
 
     /// <summary>
-    /// How far a double is from a decimal text, in units of the double's last place; a tie that did not go to the even one counts as 1.
+    /// Computes how far a double is from a decimal text, in units of the double's last place. A tie that did not go to the even one counts
+    /// as 1.
     /// </summary>
     private static double UnitsOff(string text, double value)
     {
@@ -137,14 +149,13 @@ public class NumberStabilityTests(ITestOutputHelper output)
         var decimals = BigInteger.Parse("0" + whole + fraction, CultureInfo.InvariantCulture);
         var power = (lower.Length > 1 ? int.Parse(lower[1], CultureInfo.InvariantCulture) : 0) - fraction.Length;
         // decimals·10^power against mantissa·2^exponent, both as whole numbers.
-        var (left, right) = (decimals * BigInteger.Pow(10, Math.Max(0, power)) * BigInteger.Pow(2, Math.Max(0, -exponent)),
-            mantissa * BigInteger.Pow(2, Math.Max(0, exponent)) * BigInteger.Pow(10, Math.Max(0, -power)));
+        var left = decimals * BigInteger.Pow(10, Math.Max(0, power)) * BigInteger.Pow(2, Math.Max(0, -exponent));
         var unit = BigInteger.Pow(2, Math.Max(0, exponent)) * BigInteger.Pow(10, Math.Max(0, -power));
-        var twice = 2 * BigInteger.Abs(left - right);
+        var twice = 2 * BigInteger.Abs(left - (mantissa * unit));
         return twice > unit || (twice == unit && !mantissa.IsEven) ? 1 : (double)(1000 * twice / unit) / 2000;
     }
 
-    /// <summary>|number| = mantissa·2^exponent.</summary>
+    /// <summary>Decomposes a number, whose magnitude is mantissa·2^exponent.</summary>
     private static (BigInteger Mantissa, int Exponent) Decompose(double number)
     {
         var bits = BitConverter.DoubleToInt64Bits(number);
@@ -155,16 +166,15 @@ public class NumberStabilityTests(ITestOutputHelper output)
     private static string RandomDigits(Random random, int minCount, int maxCount) =>
         string.Concat(Enumerable.Range(0, random.Next(minCount, maxCount + 1)).Select(_ => (char)('0' + random.Next(10))));
 
-    private static double RandomFinite(Random random) =>
-        BitConverter.Int64BitsToDouble(random.NextInt64(long.MinValue, long.MaxValue)) switch
+    private static double RandomFinite(Random random)
     {
-        var number when double.IsFinite(number) => number,
-        _ => random.Next(2) == 0 ? double.Epsilon : double.MaxValue,
-    };
+        var number = BitConverter.Int64BitsToDouble(random.NextInt64(long.MinValue, long.MaxValue));
+        return double.IsFinite(number) ? number : random.Next(2) == 0 ? double.Epsilon : double.MaxValue;
+    }
 
     private static string Bits(double number) => $"{BitConverter.DoubleToInt64Bits(number):X}";
 
-    /// <summary>OBJ, SDO, CSV and a text for people.</summary>
+    /// <summary>Writes the numbers as OBJ, SDO and CSV, and texts for people.</summary>
     private static string Written(double[] numbers)
     {
         using var stream = new MemoryStream();
@@ -177,26 +187,22 @@ public class NumberStabilityTests(ITestOutputHelper output)
             new Diagnostic("ı.fdo", 1234567, 89, DiagnosticSeverity.Warning, "i"), DecimalText.FormatApproximately(1234567));
     }
 
-    /// <summary>The bits of all numbers; fails unless all formats agree.</summary>
+    /// <summary>Writes and reads the numbers in all formats, and returns their bits. Fails unless all formats agree.</summary>
     private static string ReadBack(double[] numbers)
     {
         using var stream = new MemoryStream();
         ObjWriter.Write(MeshOf(numbers), "mesh", stream);
         var mesh = ObjParser.Parse(new SourceText("a.obj", Encoding.UTF8.GetString(stream.ToArray()))).Mesh;
         var scene = SceneParser.Parse(new("a.sdo", SceneWriter.Write(SceneOf(numbers)))).Scene;
-        var points =
-            PointsParser.Parse(
-                new("a.txt",
-                string.Join('\n', numbers.Chunk(3).Select(point => new Vector(point[0], point[1], point[2]).ToString().Trim('(', ')')))));
-        var fractal =
-            Samples.ParseFractal(
-                $"v {Invariant(numbers[0])} {Invariant(numbers[1])} {Invariant(numbers[2])}\nt.a. (a, #, #)\nx. \"b.obj\"\n<$>. [t.1] x\n");
+        var lines = numbers.Chunk(3).Select(point => new Vector(point[0], point[1], point[2]).ToString().Trim('(', ')'));
+        var points = PointsParser.Parse(new("a.txt", string.Join('\n', lines)));
+        var vector = $"v {Invariant(numbers[0])} {Invariant(numbers[1])} {Invariant(numbers[2])}";
+        var fractal = Samples.ParseFractal($"{vector}\nt.a. (a, #, #)\nx. \"b.obj\"\n<$>. [t.1] x\n");
         var material = MtlParser.Parse(new("a.mtl", $"newmtl m\nNs {Invariant(Math.Abs(numbers[0]) % 1000)}\n"));
         Assert.Equal(Math.Abs(numbers[0]) % 1000, material.Materials["m"].SpecularExponent);
         Assert.Equal(new Vector(numbers[0], numbers[1], numbers[2]), NaiveFractal.Levels(fractal.Description.Steps).Single()[0].Position);
-        Assert.Equal(string.Join(' ', numbers.Select(Bits)), string.Join(' ', points.SelectMany(Components).Select(Bits)));
-        Assert.Equal(string.Join(' ', numbers[..6].Select(Bits)),
-            string.Join(' ', scene.Objects.Select(o => o.Placement.Position).SelectMany(Components).Select(Bits)));
+        Assert.Equal(numbers.Select(Bits), points.SelectMany(Components).Select(Bits));
+        Assert.Equal(numbers[..6].Select(Bits), scene.Objects.Select(item => item.Placement.Position).SelectMany(Components).Select(Bits));
         return string.Join(' ', mesh.Positions.Select(Bits));
     }
 
@@ -209,6 +215,9 @@ public class NumberStabilityTests(ITestOutputHelper output)
     private static Scene SceneOf(double[] numbers) => new()
     {
         Objects =
-        [new("a.obj", Samples.Move(numbers[0], numbers[1], numbers[2])), new("b.obj", Samples.Move(numbers[3], numbers[4], numbers[5]))],
+        [
+            new("a.obj", Samples.Move(numbers[0], numbers[1], numbers[2])),
+            new("b.obj", Samples.Move(numbers[3], numbers[4], numbers[5])),
+        ],
     };
 }

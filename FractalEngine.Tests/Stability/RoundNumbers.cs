@@ -2,7 +2,7 @@ using System.Globalization;
 
 namespace FractalEngine.Tests.Stability;
 
-/// <summary>1, 2, 5, 10, 20, 50 …: where curves over many orders of magnitude are measured.</summary>
+/// <summary>Numbers like 1, 2, 5, 10, 20, 50, at which curves over many orders of magnitude are measured.</summary>
 internal static class RoundNumbers
 {
     public static IEnumerable<int> To(int last) =>
@@ -12,12 +12,12 @@ internal static class RoundNumbers
         where number <= last
         select (int)number;
 
-    /// <summary>The double next to a power of ten.</summary>
+    /// <summary>Returns the double next to a power of ten.</summary>
     public static double PowerOfTen(int exponent) =>
         double.Parse(string.Create(CultureInfo.InvariantCulture, $"1e{exponent}"), CultureInfo.InvariantCulture);
 
-    /// <summary>The first that is not smaller.</summary>
-    /// <param name="number">From 1 to 10⁹.</param>
+    /// <summary>Returns the first round number that is not smaller.</summary>
+    /// <param name="number">A number from 1 to 10⁹.</param>
     public static int From(long number)
     {
         var ten = 1;

@@ -7,52 +7,51 @@ using Xunit.Sdk;
 namespace FractalEngine.Tests.Stability;
 
 /// <summary>
-/// The worst number of each kind that a test has met, written to the test's output at its end: what docs/stability.md states as measured.
-/// Any number of threads may note. Where the environment variable FRACTALENGINE_STABILITY names a folder, a file there holds the same: a
-/// part of docs/benchmarks/stability.csv.
+/// Keeps the worst number of each kind that a test has met, which docs/stability.md states as measured. It is written to the test's output
+/// at its end. Where the environment variable FRACTALENGINE_STABILITY names a folder, a file there holds the same: a part of
+/// docs/benchmarks/stability.csv. Any number of threads may record.
 /// </summary>
-/// <param name="output">Of the test.</param>
-/// <param name="argument">What tells the cases of a theory apart.</param>
-/// <param name="method">The test's.</param>
-/// <param name="file">The test class's, which has its name.</param>
+/// <param name="output">Output of the test.</param>
+/// <param name="argument">Argument that tells the cases of a theory apart.</param>
+/// <param name="method">Name of the test's method.</param>
+/// <param name="file">Path of the test class's file, which has its name.</param>
 internal sealed class StabilityReport(ITestOutputHelper output, object? argument = null, [CallerMemberName] string method = "",
     [CallerFilePath] string file = "") : IDisposable
 {
     private readonly Dictionary<(string What, double? At), Measurement> _measurements = [];
     private readonly Lock _lock = new();
 
-    /// <summary>Class, method, argument.</summary>
+    /// <summary>Name of the test: class, method, argument.</summary>
     public string Test { get; } = $"{Path.GetFileNameWithoutExtension(file)}.{method}"
         + (argument is null ? "" : string.Create(CultureInfo.InvariantCulture, $"({argument})"));
 
-    /// <summary>Keeps the largest; NaN is worse than any number.</summary>
-    /// <param name="what">What the value is of.</param>
+    /// <summary>Records a value, of which the largest is kept. NaN is worse than any number.</summary>
+    /// <param name="what">Name of the quantity.</param>
     /// <param name="value">The value.</param>
-    /// <param name="at">Where on a curve: one of few places, each of which has its own largest too.</param>
+    /// <param name="at">Position on a curve: one of few, each of which has a largest of its own too.</param>
     public void Record(string what, double value, double? at = null) => Add(what, value, null, at);
 
-    /// <summary>Notes an error, and fails where it is larger than promised, or NaN.</summary>
-    /// <param name="what">What the error is of.</param>
-    /// <param name="error">Not negative.</param>
-    /// <param name="bound">The largest allowed.</param>
-    /// <param name="describeCase">What repeats the case.</param>
-    /// <param name="at">Where on a curve.</param>
+    /// <summary>Records an error, and fails where it is larger than promised, or NaN.</summary>
+    /// <param name="what">Name of the quantity.</param>
+    /// <param name="error">The error, not negative.</param>
+    /// <param name="bound">Largest error that is allowed.</param>
+    /// <param name="describeCase">Describes the case so that it can be repeated.</param>
+    /// <param name="at">Position on a curve.</param>
     public void Require(string what, double error, double bound, Func<FormattableString> describeCase, double? at = null)
     {
         Add(what, error, bound, at);
         if (!(error <= bound))
         {
-            throw new XunitException(
-                string.Create(CultureInfo.InvariantCulture,
-                $"{what}: {error:R}, allowed {bound:R}: {describeCase().ToString(CultureInfo.InvariantCulture)}"));
+            var description = describeCase().ToString(CultureInfo.InvariantCulture);
+            throw new XunitException(FormattableString.Invariant($"{what}: {error:R}, allowed {bound:R}: {description}"));
         }
     }
 
     /// <summary>
-    /// Writes what was noted to a file of the test's own: the whole test first, then each place of its curves, whatever order it was noted
-    /// in.
+    /// Writes what was recorded to a file of the test's own. Of each quantity the whole test comes first, then each position of its curve,
+    /// in whatever order they were recorded.
     /// </summary>
-    /// <param name="folder">Made where it is missing.</param>
+    /// <param name="folder">Folder of the file, created where it is missing.</param>
     /// <exception cref="IOException">The folder can't be written to, or has a test of this name already.</exception>
     public void Save(string folder)
     {
@@ -63,8 +62,8 @@ internal sealed class StabilityReport(ITestOutputHelper output, object? argument
         }
 
         var table = new CsvTable(path, "stability", "test", "what", "at", "cases", "worst", "promised");
-        foreach (var ((what, at), measurement) in _measurements.OrderBy(item => item.Key.What, StringComparer.Ordinal)
-            .ThenBy(item => item.Key.At))
+        var ordered = _measurements.OrderBy(item => item.Key.What, StringComparer.Ordinal).ThenBy(item => item.Key.At);
+        foreach (var ((what, at), measurement) in ordered)
         {
             table.Add(Test, what, at, measurement.Cases, measurement.WorstValue, measurement.Promised);
         }
@@ -79,8 +78,7 @@ internal sealed class StabilityReport(ITestOutputHelper output, object? argument
             if (at is null)
             {
                 output.WriteLine(
-                    string.Create(CultureInfo.InvariantCulture,
-                    $"{what}: at most {measurement.WorstValue:G3} in {measurement.Cases} cases"));
+                    FormattableString.Invariant($"{what}: at most {measurement.WorstValue:G3} in {measurement.Cases} cases"));
             }
         }
 
@@ -102,16 +100,18 @@ internal sealed class StabilityReport(ITestOutputHelper output, object? argument
         }
     }
 
-    /// <param name="Cases">How many.</param>
-    /// <param name="WorstValue">Of their values.</param>
-    /// <param name="Promised">The bound of the worst, which may differ from case to case; the smallest where several are as bad.</param>
+    /// <summary>The worst of some cases.</summary>
+    /// <param name="Cases">Number of cases.</param>
+    /// <param name="WorstValue">Largest of their values.</param>
+    /// <param name="Promised">Bound of the worst case, as bounds may differ; the smallest where several are as bad.</param>
     private readonly record struct Measurement(long Cases, double WorstValue, double? Promised)
     {
         public static readonly Measurement Nothing = new(0, double.NegativeInfinity, null);
 
         public Measurement With(double value, double? promised)
         {
-            var isWorse = value > WorstValue || (double.IsNaN(value) && !double.IsNaN(WorstValue))
+            var isWorse = value > WorstValue
+                || (double.IsNaN(value) && !double.IsNaN(WorstValue))
                 || (value.Equals(WorstValue) && promised < Promised);
             return isWorse ? new(Cases + 1, value, promised) : this with { Cases = Cases + 1 };
         }

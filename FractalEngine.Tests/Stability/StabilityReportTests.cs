@@ -44,7 +44,8 @@ public class StabilityReportTests(ITestOutputHelper output)
         var report = new StabilityReport(output);
         Assert.ThrowsAny<IOException>(() => report.Save(folder.Write("file", "")));
         report.Save(folder.Path);
-        Assert.EndsWith("a test of this name is there already", Assert.Throws<IOException>(() => report.Save(folder.Path)).Message,
+        Assert.EndsWith(
+            "a test of this name is there already", Assert.Throws<IOException>(() => report.Save(folder.Path)).Message,
             StringComparison.Ordinal);
     }
 }

@@ -4,27 +4,24 @@ using System.Reflection;
 namespace FractalEngine.Tests.Support;
 
 /// <summary>
-/// The program as its users start it, or that of the benchmarks: another process, with arguments, streams and an exit code.
+/// Starts the program as its users do, or that of the benchmarks: in a process, with arguments, streams and an exit code.
 /// </summary>
 internal static class AppProcess
 {
-    // Long enough for a loaded machine; a hang is a failure.
-    private static readonly TimeSpan Timeout = TimeSpan.FromSeconds(60);
-
     /// <summary>Runs the program to its end.</summary>
-    /// <param name="folder">The working directory.</param>
-    /// <param name="arguments">As on the command line.</param>
+    /// <param name="folder">Working directory of the process.</param>
+    /// <param name="arguments">Arguments as on the command line.</param>
     public static AppResult Run(string folder, params string[] arguments) => Run(folder, [], arguments);
 
-    /// <summary>Runs the program to its end with some variables of the environment changed; null removes one.</summary>
+    /// <summary>Runs the program to its end with some environment variables changed. Null removes a variable.</summary>
     public static AppResult Run(string folder, Dictionary<string, string?> environment, params string[] arguments) =>
         WaitForResult(Start(folder, environment, arguments), arguments);
 
-    /// <summary>Runs the program of the benchmarks to its end.</summary>
+    /// <summary>Runs the benchmarks' program to its end.</summary>
     public static AppResult RunBenchmarks(string folder, params string[] arguments) =>
         WaitForResult(Start("FractalEngine.Benchmarks", folder, [], arguments), arguments);
 
-    /// <summary>Starts the program; whoever calls waits for its end.</summary>
+    /// <summary>Starts the program. The caller waits for its end.</summary>
     public static Process Start(string folder, Dictionary<string, string?> environment, params string[] arguments) =>
         Start("FractalEngine.App", folder, environment, arguments);
 
@@ -33,10 +30,10 @@ internal static class AppProcess
         using var ended = process;
         var output = process.StandardOutput.ReadToEndAsync();
         var error = process.StandardError.ReadToEndAsync();
-        if (!process.WaitForExit(Timeout))
+        if (!process.WaitForExit(Polling.Deadline))
         {
             process.Kill(entireProcessTree: true);
-            throw new TimeoutException($"{string.Join(' ', arguments)} did not end within {Timeout}");
+            throw new TimeoutException($"{string.Join(' ', arguments)} did not end within {Polling.Deadline}");
         }
 
         return new(process.ExitCode, output.GetAwaiter().GetResult(), error.GetAwaiter().GetResult());

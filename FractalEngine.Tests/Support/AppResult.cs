@@ -1,4 +1,4 @@
 namespace FractalEngine.Tests.Support;
 
-/// <summary>What a run of the program left behind.</summary>
+/// <summary>Exit code and texts of a run of the program.</summary>
 internal sealed record AppResult(int ExitCode, string Output, string Error);

@@ -3,7 +3,7 @@ using System.Runtime.CompilerServices;
 
 namespace FractalEngine.Tests.Support;
 
-/// <summary>All that a description says, down to the bits of every number: −0 is not 0 here, as it is to ==.</summary>
+/// <summary>Writes all properties of a value, down to the bits of every number. So −0 differs from 0, unlike with ==.</summary>
 internal static class Bits
 {
     public static string Of(object? value) => string.Join(' ', Leaves(value));

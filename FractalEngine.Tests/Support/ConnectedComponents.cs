@@ -3,7 +3,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Tests.Support;
 
-/// <summary>Counts the pieces that the copies of a mesh form when those that share a corner are joined.</summary>
+/// <summary>Counts the connected components of the instances of a mesh, where those that share a vertex are connected.</summary>
 internal static class ConnectedComponents
 {
     public static int Count(IReadOnlyList<AffineMap> instances, Mesh mesh, double tolerance)
@@ -15,7 +15,7 @@ internal static class ConnectedComponents
             for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
             {
                 var point = (0.25 / tolerance) * (instances[instance] * mesh.Vertex(vertex));
-                // Eight grids, shifted by half a cell: two points nearer than the tolerance share a cell of at least one.
+                // Eight grids, shifted by half a cell: two points closer than the tolerance share a cell of at least one.
                 for (var grid = 0; grid < 8; grid++)
                 {
                     var cell = (Cell(point.X, grid & 1), Cell(point.Y, grid & 2), Cell(point.Z, grid & 4), grid);

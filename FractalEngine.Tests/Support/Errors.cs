@@ -2,7 +2,7 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Tests.Support;
 
-/// <summary>Whole messages: file, line, column, text, the source line and the caret.</summary>
+/// <summary>Catches errors of parsers, whose messages have file, line, column, text, the source line and the caret.</summary>
 internal static class Errors
 {
     public static string MessageOf(Func<object> parse) => Assert.Throws<SourceException>(() => { parse(); }).Message;

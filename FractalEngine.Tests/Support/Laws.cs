@@ -4,13 +4,13 @@ using FsCheck.Fluent;
 
 namespace FractalEngine.Tests.Support;
 
-/// <summary>Laws for all inputs, checked by FsCheck on the same inputs in every run; a failure prints them shrunk.</summary>
+/// <summary>Checks laws by FsCheck, on the same random inputs in every run. A failure prints them shrunk.</summary>
 internal static class Laws
 {
-    // A fixed start, so that a red run can be repeated; any odd second number will do.
+    // A fixed seed, so that a red run can be repeated. Any odd second number will do.
     private static readonly Config Replayed = Config.QuickThrowOnFailure.WithReplay(20260101, 7).WithMaxTest(300);
 
-    /// <summary>Whole numbers up to 1000: sums and products of a few are exact, so algebra holds to the last bit.</summary>
+    /// <summary>Generates whole numbers up to 1000. Sums and products of a few are exact, so algebra holds to the last bit.</summary>
     public static Gen<double> Whole { get; } = Gen.Choose(-1000, 1000).Select(number => (double)number);
 
     public static Gen<Vector> Vectors { get; } = Whole.Three().Select(t => new Vector(t.Item1, t.Item2, t.Item3));
@@ -19,7 +19,7 @@ internal static class Laws
 
     public static Gen<AffineMap> Maps { get; } = Matrices.Zip(Vectors, (linear, translation) => new AffineMap(linear, translation));
 
-    /// <summary>Of any size that a double has, ±0, subnormals and the largest among them.</summary>
+    /// <summary>Generates doubles of any size, ±0, subnormals and the largest among them.</summary>
     public static Gen<double> AnyFinite { get; } = Gen.OneOf(
         Gen.Elements(0.0, -0.0, double.Epsilon, -double.Epsilon, 2.2250738585072014e-308, 2.225073858507201e-308, double.MaxValue,
         double.MinValue, 1e308, 0.1, 1.0 / 3),

@@ -5,12 +5,12 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Tests.Support;
 
 /// <summary>
-/// The meaning of a fractal spelt out: every chain of transformations, one after the other, by 3×4 arrays of rows.
-/// It shares no arithmetic with the engine.
+/// Spells out the meaning of a fractal: every chain of transformations, one after the other, by 3×4 arrays of rows. It shares no arithmetic
+/// with the engine.
 /// </summary>
 internal static class NaiveFractal
 {
-    /// <summary>p + Pitch·Yaw·Roll·stretch, the rotation matrices by rows as the format defines them.</summary>
+    /// <summary>Computes p + Pitch·Yaw·Roll·stretch, with the rotation matrices by rows as the format defines them.</summary>
     public static double[][] MapOf(Transformation t)
     {
         var (sx, cx) = Math.SinCos(t.Rotation.X * Math.PI / 180);
@@ -32,15 +32,15 @@ internal static class NaiveFractal
 
     public static Vector Apply(double[][] map, Vector v) => new(Row(map[0], v), Row(map[1], v), Row(map[2], v));
 
-    /// <summary>All sets that a chain passes through, outermost first.</summary>
+    /// <summary>Returns all sets that a chain passes through, outermost first.</summary>
     public static IEnumerable<IReadOnlyList<Transformation>> Levels(IEnumerable<FractalStep> steps) => steps.SelectMany(step => step switch
     {
         TransformationSet set => [set.Transformations],
         Repetition { Count: { } count } repetition => Enumerable.Repeat(repetition.Body, count).SelectMany(body => Levels(body)),
-        _ => throw new ArgumentException("infinite"),
+        _ => throw new ArgumentException("an infinite repetition has no list of levels"),
     });
 
-    /// <summary>All chains, equal ones too.</summary>
+    /// <summary>Returns the maps of all chains, equal ones too.</summary>
     public static List<double[][]> Chains(FractalDescription description)
     {
         var chains = new List<Transformation[]> { Array.Empty<Transformation>() };
@@ -51,12 +51,10 @@ internal static class NaiveFractal
 
         return [.. chains.Select(chain => description.Composition == Composition.Affine
             ? chain.Select(MapOf).Aggregate(MapOf(Transformation.Identity), Compose)
-            : MapOf(chain.Aggregate(Transformation.Identity, (sum, t) => new(
-                sum.Position + t.Position, sum.Rotation + t.Rotation,
-                new(sum.Scale.X * t.Scale.X, sum.Scale.Y * t.Scale.Y, sum.Scale.Z * t.Scale.Z)))))];
+            : MapOf(chain.Aggregate(Transformation.Identity, ComposeByComponents)))];
     }
 
-    /// <summary>The chains without those that differ by less than <paramref name="tolerance"/> from an earlier one.</summary>
+    /// <summary>Removes the maps that differ by less than <paramref name="tolerance"/> from an earlier one.</summary>
     public static List<double[][]> Distinct(IEnumerable<double[][]> maps, double tolerance)
     {
         var distinct = new List<double[][]>();
@@ -74,12 +72,13 @@ internal static class NaiveFractal
     public static double MaxDifference(double[][] map1, double[][] map2) =>
         Enumerable.Range(0, 12).Max(i => Math.Abs(map1[i / 4][i % 4] - map2[i / 4][i % 4]));
 
-    public static double[][] Rows(AffineMap map) => (map.Linear, map.Translation) switch
+    public static double[][] Rows(AffineMap map)
     {
-        var (m, p) => [[m.V1.X, m.V2.X, m.V3.X, p.X], [m.V1.Y, m.V2.Y, m.V3.Y, p.Y], [m.V1.Z, m.V2.Z, m.V3.Z, p.Z]],
-    };
+        var (m, p) = (map.Linear, map.Translation);
+        return [[m.V1.X, m.V2.X, m.V3.X, p.X], [m.V1.Y, m.V2.Y, m.V3.Y, p.Y], [m.V1.Z, m.V2.Z, m.V3.Z, p.Z]];
+    }
 
-    /// <summary>Fails unless both lists hold the same maps, in any order, each as often as the other.</summary>
+    /// <summary>Fails unless both lists have the same maps in any order, each as often as the other.</summary>
     public static void AssertSameMaps(IReadOnlyCollection<double[][]> expected, IEnumerable<AffineMap> actual, double tolerance)
     {
         var unmatched = actual.Select(Rows).ToList();
@@ -94,7 +93,7 @@ internal static class NaiveFractal
 
     public static IEnumerable<Vector> Vertices(Mesh mesh) => Enumerable.Range(0, mesh.VertexCount).Select(mesh.Vertex);
 
-    /// <summary>The corners of all faces of all instances, [faces × 3].</summary>
+    /// <summary>Returns the corners of all faces of all instances, [faces × 3].</summary>
     public static IEnumerable<Vector> Corners(FractalDescription description, Mesh mesh, double[][] placement) =>
         from chain in Chains(description)
         let map = Compose(placement, chain)
@@ -104,6 +103,11 @@ internal static class NaiveFractal
     public static BoundingBox Box(IEnumerable<Vector> points) => points.Aggregate(BoundingBox.Empty, (box, point) => new(
         new(Math.Min(box.Minimum.X, point.X), Math.Min(box.Minimum.Y, point.Y), Math.Min(box.Minimum.Z, point.Z)),
         new(Math.Max(box.Maximum.X, point.X), Math.Max(box.Maximum.Y, point.Y), Math.Max(box.Maximum.Z, point.Z))));
+
+    private static Transformation ComposeByComponents(Transformation outer, Transformation inner) => new(
+        outer.Position + inner.Position,
+        outer.Rotation + inner.Rotation,
+        new(outer.Scale.X * inner.Scale.X, outer.Scale.Y * inner.Scale.Y, outer.Scale.Z * inner.Scale.Z));
 
     private static double Row(double[] row, Vector v) => (row[0] * v.X) + (row[1] * v.Y) + (row[2] * v.Z) + row[3];
 }

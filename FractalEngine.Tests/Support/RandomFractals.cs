@@ -3,7 +3,9 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Tests.Support;
 
-/// <summary>Small fractals of every shape: rotations, skew, mirrors, the identity, sets above, below and between recursives.</summary>
+/// <summary>
+/// Creates small fractals of every shape: with rotations, skew, mirrors, the identity, and sets before, behind and between recursives.
+/// </summary>
 internal static class RandomFractals
 {
     public static Fractal Create(Random random, Composition composition = Composition.Affine, bool infinite = false)
@@ -29,6 +31,8 @@ internal static class RandomFractals
     }
 
     private static TransformationSet RandomSet(Random random, int maxCount = 4) =>
-        new([.. Enumerable.Range(0, random.Next(1, maxCount + 1))
-        .Select(_ => random.Next(6) == 0 ? Transformation.Identity : random.Transformation())]);
+        new([.. Enumerable.Range(0, random.Next(1, maxCount + 1)).Select(_ => RandomMap(random))]);
+
+    private static Transformation RandomMap(Random random) =>
+        random.Next(6) == 0 ? Transformation.Identity : random.Transformation();
 }

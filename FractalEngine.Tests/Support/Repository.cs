@@ -1,12 +1,12 @@
 namespace FractalEngine.Tests.Support;
 
-/// <summary>The checkout that the tests were built in.</summary>
+/// <summary>Finds files of the checkout in which the tests were built.</summary>
 internal static class Repository
 {
     public static string Root { get; } = FindRoot(new(AppContext.BaseDirectory));
 
-    /// <summary>The full path of a file in it.</summary>
-    /// <param name="file">Relative to the root, with slashes.</param>
+    /// <summary>Returns the full path of a file.</summary>
+    /// <param name="file">Path relative to the root, with slashes.</param>
     public static string Full(string file) => Path.Combine(Root, file);
 
     private static string FindRoot(DirectoryInfo? folder)
@@ -16,6 +16,6 @@ internal static class Repository
             folder = folder.Parent;
         }
 
-        return folder?.FullName ?? throw new InvalidOperationException("the tests do not lie below FractalEngine.sln");
+        return folder?.FullName ?? throw new InvalidOperationException("expected FractalEngine.sln in a folder above the tests");
     }
 }

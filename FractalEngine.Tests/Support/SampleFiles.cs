@@ -1,9 +1,9 @@
 namespace FractalEngine.Tests.Support;
 
-/// <summary>Small files that many tests need.</summary>
+/// <summary>Texts of small files that many tests need.</summary>
 internal static class SampleFiles
 {
-    /// <summary>A cube of side 1 around the origin: 8 vertices, 12 faces.</summary>
+    /// <summary>OBJ text of a cube of side 1 around the origin: 8 vertices, 6 quads, 12 triangles.</summary>
     public const string Cube = """
         v -0.5 -0.5 -0.5
         v 0.5 -0.5 -0.5
@@ -22,7 +22,7 @@ internal static class SampleFiles
 
         """;
 
-    /// <summary>Two maps of half the size, side by side: 2ⁿ instances at depth n.</summary>
+    /// <summary>Creates FDO text of two maps of half the size, side by side: 2ⁿ instances at depth n.</summary>
     public static string Row(string depth) => $"""
         v -0.25 0 0
         v 0.25 0 0

@@ -8,7 +8,7 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Tests.Support;
 
-/// <summary>The paper's own files, and small meshes.</summary>
+/// <summary>The paper's own files, small meshes and small fractals.</summary>
 internal static class Samples
 {
     public const string AppendixA = """
@@ -56,12 +56,12 @@ internal static class Samples
     /// <summary>A closed tetrahedron with outward faces, none of whose symmetries maps it to itself.</summary>
     public static Mesh Tetrahedron { get; } = new([0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0, 3], [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]);
 
-    /// <summary>A single point that maps tell apart less than the tetrahedron, and much faster.</summary>
+    /// <summary>A single triangle, which is much faster than the tetrahedron, though symmetries map it to itself.</summary>
     public static Mesh Triangle { get; } = new([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 2]);
 
     public static FractalFile ParseFractal(string text) => FractalParser.Parse(new("test.fdo", text));
 
-    /// <summary>As from a file: a byte order mark is none of its characters.</summary>
+    /// <summary>Parses a text as from a file: a byte order mark is none of its characters.</summary>
     public static FractalFile ParseFractalBytes(string text) =>
         FractalParser.Parse(SourceText.Decode(Encoding.UTF8.GetBytes(text), "test.fdo"));
 
@@ -70,7 +70,7 @@ internal static class Samples
     public static Fractal AppendixBAt(int depth, Composition composition = Composition.Affine) =>
         new(ParseFractal(AppendixB).Description.WithDepth(depth) with { Composition = composition }, Triangle);
 
-    /// <summary>One set repeated: S^depth.</summary>
+    /// <summary>Creates a fractal of one set that is repeated: S^depth.</summary>
     public static Fractal Repeated(int? depth, params Transformation[] set) =>
         new(new([new Repetition([new TransformationSet([.. set])], depth)]), Tetrahedron);
 

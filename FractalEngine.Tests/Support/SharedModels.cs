@@ -1,13 +1,13 @@
 namespace FractalEngine.Tests.Support;
 
-/// <summary>Real OBJ files by other people, in a folder beside the checkout where there is one; no part of the project.</summary>
+/// <summary>Finds real OBJ files by other people, in a folder beside the checkout. They are no part of the project.</summary>
 internal static class SharedModels
 {
-    /// <summary>The nearest <c>shared/models</c> beside a folder above the tests; null when there is none.</summary>
+    /// <summary>Path of the nearest <c>shared/models</c> in a folder above the tests, or null where there is none.</summary>
     public static string? Folder { get; } = Ancestors(AppContext.BaseDirectory).Select(folder => Path.Combine(folder, "shared", "models"))
         .FirstOrDefault(folder => File.Exists(Path.Combine(folder, "TABLE.tsv")));
 
-    /// <summary>The file's name, its number of vertices and of triangles, as an independent script counted them.</summary>
+    /// <summary>Reads each file's name, and its numbers of vertices and triangles as an independent script counted them.</summary>
     public static IEnumerable<(string File, int Vertices, int Triangles)> ReadTable() =>
         from line in File.ReadLines(Path.Combine(Folder!, "TABLE.tsv")).Skip(1)
         let cells = line.Split('\t')

@@ -1,14 +1,14 @@
 namespace FractalEngine.Tests.Support;
 
-/// <summary>A folder of one test's own, gone after it.</summary>
+/// <summary>A folder of one test's own, which is deleted after it.</summary>
 internal sealed class TemporaryFolder : IDisposable
 {
     public string Path { get; } = Directory.CreateTempSubdirectory("fractal-engine-").FullName;
 
-    /// <summary>The full path of a file in the folder.</summary>
+    /// <summary>Returns the full path of a file in the folder.</summary>
     public string this[string name] => System.IO.Path.Combine(Path, name);
 
-    /// <summary>Writes a file, folders above it included; returns its full path.</summary>
+    /// <summary>Writes a file, with the folders above it, and returns its full path.</summary>
     public string Write(string name, string text)
     {
         Directory.CreateDirectory(System.IO.Path.GetDirectoryName(this[name])!);
