@@ -1,6 +1,7 @@
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Collision;
 
@@ -8,7 +9,7 @@ namespace FractalEngine.Tests.Collision;
 internal static class AssetFractals
 {
     /// <summary>Where they are.</summary>
-    public static readonly string Folder = Find();
+    public static readonly string Folder = Repository.Full("assets/fractals");
 
     /// <summary>As its file says.</summary>
     public static Fractal Load(string name) =>
@@ -21,19 +22,5 @@ internal static class AssetFractals
         var recursion = fractal.Description.Steps.OfType<Repetition>().First();
         return new(fractal.Description with { Steps = fractal.Description.Steps.Replace(recursion, recursion.WithCount(depth)) },
             fractal.BaseMesh);
-    }
-
-    private static string Find()
-    {
-        for (DirectoryInfo? folder = new(AppContext.BaseDirectory); folder is not null; folder = folder.Parent)
-        {
-            var fractals = Path.Combine(folder.FullName, "assets", "fractals");
-            if (Directory.Exists(fractals))
-            {
-                return fractals;
-            }
-        }
-
-        throw new DirectoryNotFoundException("expected the folder 'assets/fractals' above the tests");
     }
 }

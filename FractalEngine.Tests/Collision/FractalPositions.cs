@@ -18,8 +18,7 @@ internal static class FractalPositions
         var (box, mesh) = (fractal.Bounds, fractal.BaseMesh);
         var levels = (int)Math.Min(fractal.LevelCount ?? MaxLevels, MaxLevels);
         var (a, b, c) = mesh.Face(random.Next(mesh.FaceCount));
-        var (u, v) = (random.NextDouble(), random.NextDouble());
-        (u, v) = u + v > 1 ? (1 - u, 1 - v) : (u, v);
+        var (u, v) = random.Barycentrics();
         var inside = a + (u * (b - a)) + (v * (c - a));
         return random.Next(12) switch
         {

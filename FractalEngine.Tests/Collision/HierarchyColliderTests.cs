@@ -43,16 +43,14 @@ public class HierarchyColliderTests
         {
             var position = CollisionMeshes.RandomPosition(random, mesh);
             Assert.True(simple.TryFindClosest(position, double.PositiveInfinity, context, out var expected));
-            foreach (var maxDistance in new[] { 0, Math.BitDecrement(expected.Distance), expected.Distance,
-                Math.BitIncrement(expected.Distance),
-                2 * expected.Distance })
+            // On the surface nothing is below the distance.
+            var below = Math.Max(0, Math.BitDecrement(expected.Distance));
+            foreach (var maxDistance in
+                new[] { 0, below, expected.Distance, Math.BitIncrement(expected.Distance), 2 * expected.Distance })
             {
-                if (maxDistance >= 0)
-                {
-                    var isFound = hierarchy.TryFindClosest(position, maxDistance, context, out var closest);
-                    Assert.Equal((maxDistance, expected.Distance <= maxDistance), (maxDistance, isFound));
-                    Assert.True(!isFound || closest.Distance == expected.Distance);
-                }
+                var isFound = hierarchy.TryFindClosest(position, maxDistance, context, out var closest);
+                Assert.Equal((maxDistance, expected.Distance <= maxDistance), (maxDistance, isFound));
+                Assert.True(!isFound || closest.Distance == expected.Distance);
             }
         });
     }
