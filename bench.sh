@@ -31,7 +31,7 @@ commands=(front growth loading precision frames skips physics window paper stabi
 [ $# = 0 ] || commands=("$@")
 
 classes='*'
-[ -z "$quick" ] || classes='*.MeshColliderBenchmarks.* *.LoadingBenchmarks.* *.PrecisionBenchmarks.*'
+[ -z "$quick" ] || classes='*.MeshColliderBenchmarks.* *.LoadingBenchmarks.*'
 
 # Prints the words that a command is called with.
 words() {

@@ -4,37 +4,34 @@ using FractalEngine.Core.Physics;
 namespace FractalEngine.App;
 
 /// <summary>
-/// What bodies do, as comma-separated values (RFC 4180, but lines end in a line feed): a row for each body and step. Numbers are invariant,
-/// with all digits.
+/// Writes the states of bodies as comma-separated values, one row per body and step. Numbers are invariant and round-trip.
 /// </summary>
-/// <param name="writer">Receives the text.</param>
+/// <remarks>The format is that of RFC 4180, except that lines end in a single line feed.</remarks>
+/// <param name="writer">The writer that receives the text.</param>
 internal sealed class BodyCsvWriter(TextWriter writer)
 {
-    /// <summary>The names of the columns.</summary>
+    /// <summary>The header row with the column names.</summary>
     public const string Header = "time,body,x,y,z,vx,vy,vz,asleep,faceTests";
 
-    /// <summary>Writes the names of the columns.</summary>
-    public void WriteHeader() => Write(Header);
+    /// <summary>Writes the header row.</summary>
+    public void WriteHeader() => writer.Write($"{Header}\n");
 
-    /// <summary>Writes a row for each body as the last step left it.</summary>
+    /// <summary>Writes one row per body with its state after the last step.</summary>
     public void WriteStep(PhysicsWorld world)
     {
         foreach (var body in world.Bodies)
         {
-            var (position, velocity) = (body.Position, body.Velocity);
-            Write(string.Create(
-                CultureInfo.InvariantCulture,
-                $"{world.Time:R},{Quote(body.Name)},{position.X:R},{position.Y:R},{position.Z:R},{velocity.X:R},{velocity.Y:R},{velocity.Z:R},{(body.IsAsleep ? 1 : 0)},{body.FaceTests}"));
+            var position = body.Position;
+            var velocity = body.Velocity;
+            var asleep = body.IsAsleep ? 1 : 0;
+            writer.Write(string.Create(
+                CultureInfo.InvariantCulture, $"{world.Time:R},{Quote(body.Name)},{position.X:R},{position.Y:R},{position.Z:R},"));
+            writer.Write(string.Create(
+                CultureInfo.InvariantCulture, $"{velocity.X:R},{velocity.Y:R},{velocity.Z:R},{asleep},{body.FaceTests}\n"));
         }
     }
 
-    /// <summary>A text as one field: in quotes where it would be more than one.</summary>
+    /// <summary>Formats a text as one field, in quotes where it contains a comma, a quote or a line break.</summary>
     public static string Quote(string text) =>
         text.AsSpan().ContainsAny(",\"\r\n") ? $"\"{text.Replace("\"", "\"\"", StringComparison.Ordinal)}\"" : text;
-
-    private void Write(string line)
-    {
-        writer.Write(line);
-        writer.Write('\n');
-    }
 }

@@ -3,11 +3,11 @@ using FractalEngine.App.Commands;
 
 namespace FractalEngine.App;
 
-/// <summary>The commands, and what becomes of their errors: one message on stderr and an exit code.</summary>
+/// <summary>Parses and runs the commands, and turns each error into one message on stderr and an exit code.</summary>
 internal static class CommandLine
 {
-    /// <summary>Runs what the arguments ask for.</summary>
-    /// <returns>The exit code.</returns>
+    /// <summary>Runs the command that the arguments name.</summary>
+    /// <returns>One of <see cref="ExitCode"/>.</returns>
     public static int Run(string[] args)
     {
         var root = CreateRootCommand();
@@ -28,7 +28,9 @@ internal static class CommandLine
 
     private static RootCommand CreateRootCommand()
     {
-        var root = new RootCommand("FractalEngine draws fractals of any size, and regular models beside them.");
+        var root = new RootCommand(
+            "Draw, measure and simulate fractals of any size, together with regular meshes. "
+            + "Without a command, FILE or the gallery is opened in a window.");
         foreach (var command in (Command[])[
             ViewCommand.Create(), RenderCommand.Create(), InfoCommand.Create(), CountCommand.Create(), ExportCommand.Create(),
             CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create(), QueryCommand.Create(), SimulateCommand.Create()])
@@ -39,7 +41,7 @@ internal static class CommandLine
         return root;
     }
 
-    /// <summary>Without the name of a command, <c>view</c> is meant. Asking for help without one is about the program as a whole.</summary>
+    /// <summary>Prepends <c>view</c> to arguments that begin neither with a command nor with a request for help.</summary>
     private static string[] WithDefaultCommand(RootCommand root, string[] args) => args switch
     {
         [var first, ..] when root.Subcommands.Any(command => command.Name == first) => args,

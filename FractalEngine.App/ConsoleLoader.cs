@@ -1,15 +1,17 @@
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Text;
 using Spectre.Console;
 
 namespace FractalEngine.App;
 
-/// <summary>Loads files for the commands: warnings on stderr, and a bar there when it takes long and somebody watches.</summary>
+/// <summary>Loads files for the commands, with warnings on stderr and a progress bar on a terminal.</summary>
 internal static class ConsoleLoader
 {
-    // Shorter loads show nothing: a bar that flickers up tells less than none.
+    // A bar that only flickers up would tell less than none.
     private static readonly TimeSpan ProgressBarDelay = TimeSpan.FromSeconds(0.5);
 
-    /// <summary>Loads a file and all that it refers to.</summary>
+    /// <summary>Loads a file with all files that it refers to.</summary>
+    /// <exception cref="SourceException">A file is missing or faulty.</exception>
     public static LoadedFile Load(string path, LoadOptions options)
     {
         var file = Console.IsErrorRedirected ? AssetLoader.Load(path, options) : LoadWithProgressBar(path, options);

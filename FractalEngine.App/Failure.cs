@@ -5,17 +5,17 @@ using FractalEngine.Parsing.Text;
 namespace FractalEngine.App;
 
 /// <summary>
-/// What the user is told of an error: the exit code and the text for stderr. The one place that knows which error is which.
+/// The exit code and the message of an error. This is the only place that maps exceptions to exit codes.
 /// </summary>
-/// <param name="ExitCode">See <see cref="App.ExitCode"/>.</param>
-/// <param name="Text">One line; a line of source and a caret follow where the error is in a file.</param>
+/// <param name="ExitCode">One of <see cref="App.ExitCode"/>.</param>
+/// <param name="Text">The text for stderr: one line, with a source line and a caret below if the error is in a file.</param>
 internal sealed record Failure(int ExitCode, string Text)
 {
-    /// <summary>Translates an error of any kind, so that no command prints a stack trace.</summary>
+    /// <summary>Maps an exception of any type, so that no command prints a stack trace.</summary>
     public static Failure Of(Exception exception) => exception switch
     {
         SourceException source => new(CodeOf(source.Kind), source.Diagnostic.ToString()),
-        // The collider that does not fit was asked for by an option, or by a line of the scene that fits other scenes.
+        // An option asked for the collider, or a line of the scene that is valid in other scenes.
         ColliderMismatchException or UsageException => new(App.ExitCode.WrongUsage, Line(exception.Message)),
         FractalEngineException engine => new(CodeOf(engine.Kind), Line(engine.Message)),
         OutOfMemoryException => new(App.ExitCode.OverLimit, Line("the machine's memory does not suffice")),
@@ -35,7 +35,7 @@ internal sealed record Failure(int ExitCode, string Text)
 
     private static string Line(string message) => $"error: {message}";
 
-    /// <summary>The message with the method that threw, since nobody sees a stack trace.</summary>
+    /// <summary>Formats the message on one line, with the method that threw in place of a stack trace.</summary>
     private static string OneLine(Exception exception)
     {
         var message = exception.Message.ReplaceLineEndings(" ");

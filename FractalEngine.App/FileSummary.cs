@@ -10,8 +10,16 @@ using BigInteger = System.Numerics.BigInteger;
 namespace FractalEngine.App;
 
 /// <summary>
-/// What <c>info</c> tells of a file. Counts are exact; null stands for infinitely many, or for an unknown number of distinct instances.
+/// The facts that <c>info</c> prints about a file. Counts are exact, of the scene with all fractals expanded.
 /// </summary>
+/// <param name="Kind">The kind of file: mesh, fractal or scene.</param>
+/// <param name="Vertices">Number of vertices; null where it is infinite.</param>
+/// <param name="Faces">Number of faces; null where it is infinite.</param>
+/// <param name="Instances">Number of base mesh instances; null where it is infinite.</param>
+/// <param name="DistinctInstances">Number of instances without duplicates; null where it is unknown.</param>
+/// <param name="Bounds">Bounding box of the scene in world space, scene units.</param>
+/// <param name="StorageBytes">Size of the files in bytes.</param>
+/// <param name="LoadTime">Time from opening the file until its scene could be drawn.</param>
 internal sealed record FileSummary(
     string Kind,
     BigInteger? Vertices,
@@ -22,26 +30,26 @@ internal sealed record FileSummary(
     long StorageBytes,
     TimeSpan LoadTime)
 {
-    /// <summary>Counts a loaded file; repeated objects count as often as they stand in the scene.</summary>
+    /// <summary>Counts the contents of a loaded file. A model counts once per object that shows it.</summary>
     public static FileSummary Of(LoadedFile file, TimeSpan loadTime)
     {
         var models = file.Scene.Objects.Select(placed => placed.Model).ToArray();
-        var distinct = models.Distinct().ToDictionary(model => model, CountDistinctInstances);
+        var distinctCounts = file.Scene.Models.ToDictionary(model => model, CountDistinctInstances);
         return new(
             file.Kind.ToString().ToLowerInvariant(),
             Sum(models, model => model.VertexCount),
             Sum(models, model => model.FaceCount),
             Sum(models, model => model.InstanceCount),
-            Sum(models, model => distinct[model]),
+            Sum(models, model => distinctCounts[model]),
             file.Scene.Bounds,
             file.StorageBytes,
             loadTime);
     }
 
-    /// <summary>One JSON object; numbers of any length are written out.</summary>
+    /// <summary>Formats the summary as one JSON object, in which numbers of any length are written out.</summary>
     public string ToJson() => "{" + string.Join(", ", Fields(FormatJson).Select(field => $"\"{field.Name}\": {field.Value}")) + "}";
 
-    /// <summary>A line a field.</summary>
+    /// <summary>Formats the summary as text with one field per line.</summary>
     public string ToText() => string.Join('\n', Fields(FormatPlain).Select(field => $"{field.Name,-18}{field.Value}"));
 
     private IEnumerable<(string Name, string Value)> Fields(Func<object?, string> format) =>

@@ -3,24 +3,26 @@ using System.Runtime.InteropServices;
 namespace FractalEngine.App;
 
 /// <summary>
-/// Notes that somebody asks the program to end, so that what it has begun can be taken back first. What does not react, or is asked again,
-/// ends at once.
+/// Receives SIGINT and SIGTERM, so that unfinished work can be undone before the program ends. A second signal ends the program at once.
 /// </summary>
 internal sealed class InterruptSignal : IDisposable
 {
-    // What is done between two looks takes milliseconds. Where it takes longer something is wrong, and the user is not made to wait.
+    // Work between two polls takes milliseconds. Where it takes longer something is wrong, and the user is not made to wait.
     private static readonly TimeSpan AcknowledgeTimeout = TimeSpan.FromSeconds(3);
 
     private readonly PosixSignalRegistration[] _registrations;
     private readonly ManualResetEventSlim _acknowledged = new();
     private volatile bool _isRequested;
 
-    /// <summary>Listens until it is disposed.</summary>
+    /// <summary>Registers the signal handlers until the object is disposed.</summary>
     public InterruptSignal() => _registrations =
-        [PosixSignalRegistration.Create(PosixSignal.SIGINT, OnSignal), PosixSignalRegistration.Create(PosixSignal.SIGTERM, OnSignal)];
+    [
+        PosixSignalRegistration.Create(PosixSignal.SIGINT, OnSignal),
+        PosixSignalRegistration.Create(PosixSignal.SIGTERM, OnSignal),
+    ];
 
-    /// <summary>Throws when somebody has asked.</summary>
-    /// <exception cref="OperationCanceledException">Somebody has.</exception>
+    /// <summary>Throws if a signal has arrived, and acknowledges it.</summary>
+    /// <exception cref="OperationCanceledException">A signal has arrived.</exception>
     public void ThrowIfRequested()
     {
         if (_isRequested)
@@ -30,9 +32,10 @@ internal sealed class InterruptSignal : IDisposable
         }
     }
 
+    /// <inheritdoc/>
     public void Dispose() => Array.ForEach(_registrations, static registration => registration.Dispose());
 
-    // Runs on a thread of its own.
+    // Runs on a thread of the runtime. Cancelling the signal keeps the process alive for the work to be undone.
     private void OnSignal(PosixSignalContext context)
     {
         var isFirst = !_isRequested;

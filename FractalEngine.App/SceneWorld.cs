@@ -4,11 +4,11 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.App;
 
-/// <summary>Makes and steps the physics of a scene file, so that its errors name the file.</summary>
+/// <summary>Creates and steps the physics of a scene file, with errors that name the file.</summary>
 internal static class SceneWorld
 {
-    /// <summary>Makes the world of a scene.</summary>
-    /// <exception cref="SourceException">The scene declares a body that none can be, such as one without size.</exception>
+    /// <summary>Creates the world of a scene.</summary>
+    /// <exception cref="SourceException">The scene declares an invalid body, such as one without size.</exception>
     public static PhysicsWorld Create(string path, LoadedScene scene, PhysicsSettings settings)
     {
         try
@@ -17,12 +17,12 @@ internal static class SceneWorld
         }
         catch (ArgumentException exception)
         {
-            // The settings have been checked by the command line, so this is about what the scene says of a body.
+            // The command line has checked the settings, so the scene declares an invalid body.
             throw new SourceException(path, exception.Message);
         }
     }
 
-    /// <summary>Makes one step of a world.</summary>
+    /// <summary>Advances a world by one step.</summary>
     /// <exception cref="SourceException">A body leaves the range of a double.</exception>
     public static void Step(string path, PhysicsWorld world)
     {

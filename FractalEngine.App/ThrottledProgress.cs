@@ -3,13 +3,15 @@ using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.App;
 
-/// <summary>Keeps only the last report, for whoever looks at it from another thread.</summary>
+/// <summary>
+/// Keeps only the latest report, so that another thread reads progress at its own rate, however often it is reported.
+/// </summary>
 internal sealed class ThrottledProgress : IProgress<LoadProgress>, IProgress<PreparationProgress>
 {
     private readonly Lock _lock = new();
     private (string Text, double Fraction) _latest = ("", 0);
 
-    /// <summary>What is being done, and the fraction of it that is done.</summary>
+    /// <summary>The latest file name, and the completed fraction from 0 to 1.</summary>
     public (string Text, double Fraction) Latest
     {
         get

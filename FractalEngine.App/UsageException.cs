@@ -1,4 +1,5 @@
 namespace FractalEngine.App;
 
-/// <summary>The command line is well-formed, but asks for something that can't be done with the file it names.</summary>
+/// <summary>Thrown where a well-formed command line asks for something that its file does not support.</summary>
+/// <param name="message">The message for the user, without a full stop.</param>
 internal sealed class UsageException(string message) : Exception(message);

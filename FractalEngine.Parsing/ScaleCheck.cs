@@ -3,12 +3,12 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Parsing;
 
 /// <summary>
-/// Scales that flatten space are refused where they are written: a map without an inverse has no normals, no local frame to
-/// zoom into and nothing to pull a query back through (docs/decisions/0003-singular-scales.md).
+/// Rejects scales that flatten space where they are written (docs/decisions/0003-singular-scales.md). A map without an inverse
+/// has no normals, no local frame to zoom into and no way to pull a query back.
 /// </summary>
 internal static class ScaleCheck
 {
-    // The product of three factors, and its inverse, have to stay within the range of a double.
+    // The product of three factors and the inverse of that product must stay within the range of a double.
     private const double MinFactor = 1e-100;
     private const double MaxFactor = 1e100;
 

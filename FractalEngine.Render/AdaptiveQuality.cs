@@ -3,50 +3,50 @@ using FractalEngine.Core.Visibility;
 namespace FractalEngine.Render;
 
 /// <summary>
-/// How pictures are drawn while the camera moves: without multisampling, with at most 150,000 instances, and with parts as coarse as it
-/// takes to draw ten pictures a second, from 3 to 24 pixels. When the camera stands, the full picture follows.
+/// Adapts render settings to a moving camera: no multisampling, at most 150,000 instances, and coarser detail while frames are slow.
 /// </summary>
 /// <remarks>
-/// Draw with <see cref="Adapt(RenderSettings)"/>, then tell <see cref="RecordFrameTime"/> how long that took. Changes at most every fourth
-/// picture, since each makes useless what was chosen ahead.
+/// The minimum projected size stays between 3 and 24 pixels, and follows the frame time so that ten frames a second are drawn. It changes
+/// at most every fourth frame, since each change discards what was culled ahead. Draw with <see cref="Adapt(RenderSettings)"/> and pass the
+/// time taken to <see cref="RecordFrameTime"/>. When the camera stops, draw once more with the full settings.
 /// </remarks>
 public sealed class AdaptiveQuality
 {
+    // Limits of the minimum projected size, pixels.
     private const double FinestProjectedSize = 3;
     private const double CoarsestProjectedSize = 24;
     private const int MaxInstances = 150_000;
 
-    // Between the two nothing changes.
+    // Frame times between the two leave the size as it is.
     private static readonly TimeSpan SlowFrameTime = TimeSpan.FromSeconds(0.09);
     private static readonly TimeSpan FastFrameTime = TimeSpan.FromSeconds(0.05);
 
-    // Each change makes what was chosen ahead useless.
+    // Each change discards what was culled ahead.
     private const int FramesBetweenChanges = 4;
     private const double CoarseningFactor = 1.4;
     private const double RefinementFactor = 1.15;
 
     private double _minProjectedSize = FinestProjectedSize;
     private int _framesSinceChange;
-    private (RenderSettings Source, double PixelSize, RenderSettings Adapted)? _lastAdapted;
+    private (RenderSettings Source, double MinProjectedSize, RenderSettings Adapted)? _lastAdapted;
 
-    /// <summary>The settings for pictures of a moving camera.</summary>
-    /// <param name="settings">Those for a camera that stands.</param>
-    /// <returns>The same object as long as nothing has changed.</returns>
+    /// <summary>Returns the settings for frames of a moving camera.</summary>
+    /// <param name="settings">Settings of a camera at rest.</param>
+    /// <returns>The same object for as long as nothing has changed.</returns>
     public RenderSettings Adapt(RenderSettings settings)
     {
-        if (_lastAdapted is not { } last || last.Source != settings || last.PixelSize != _minProjectedSize)
+        if (_lastAdapted is not { } last || last.Source != settings || last.MinProjectedSize != _minProjectedSize)
         {
-            _lastAdapted =
-                (settings, _minProjectedSize,
-                settings with { Samples = 0, Culling = settings.Culling is { } culling ? Adapt(culling) : null });
+            var culling = settings.Culling is null ? null : Adapt(settings.Culling);
+            last = (settings, _minProjectedSize, settings with { Samples = 0, Culling = culling });
+            _lastAdapted = last;
         }
 
-        return _lastAdapted.Value.Adapted;
+        return last.Adapted;
     }
 
-    /// <summary>
-    /// Tells how long a picture took from the first step to the window: above 90 ms parts get coarser, below 50 ms finer.
-    /// </summary>
+    /// <summary>Adjusts the detail to the time that a frame took: above 90 ms it gets coarser, below 50 ms finer.</summary>
+    /// <param name="frameTime">Time from the first step of drawing until the window showed the frame.</param>
     public void RecordFrameTime(TimeSpan frameTime)
     {
         if (++_framesSinceChange < FramesBetweenChanges)
@@ -55,10 +55,19 @@ public sealed class AdaptiveQuality
         }
 
         var previousSize = _minProjectedSize;
-        _minProjectedSize = frameTime > SlowFrameTime
-            ? Math.Min(CoarseningFactor * _minProjectedSize, CoarsestProjectedSize)
-            : frameTime < FastFrameTime ? Math.Max(_minProjectedSize / RefinementFactor, FinestProjectedSize) : _minProjectedSize;
-        _framesSinceChange = previousSize.Equals(_minProjectedSize) ? _framesSinceChange : 0;
+        if (frameTime > SlowFrameTime)
+        {
+            _minProjectedSize = Math.Min(CoarseningFactor * _minProjectedSize, CoarsestProjectedSize);
+        }
+        else if (frameTime < FastFrameTime)
+        {
+            _minProjectedSize = Math.Max(_minProjectedSize / RefinementFactor, FinestProjectedSize);
+        }
+
+        if (!previousSize.Equals(_minProjectedSize))
+        {
+            _framesSinceChange = 0;
+        }
     }
 
     private CullingSettings Adapt(CullingSettings culling) => culling with

@@ -5,9 +5,9 @@ using FractalEngine.Core.Visibility;
 namespace FractalEngine.Render;
 
 /// <summary>
-/// An object that the camera is so deep in that its place is told relative to a part of it, see <see cref="FractalAddress"/>.
+/// Describes a camera so deep inside an object that its position is given relative to a sub-fractal, see <see cref="FractalAddress"/>.
 /// </summary>
-/// <param name="ObjectIndex">Its place in the scene, from 0. Nothing else is drawn.</param>
-/// <param name="Roots">What drawing begins with, about the camera, in the unit of the address.</param>
-/// <param name="LogUnit">The natural logarithm of that unit, in scene units.</param>
+/// <param name="ObjectIndex">Index of the object in the scene, from 0. No other object is drawn.</param>
+/// <param name="Roots">Sub-fractals that culling starts from, in world axes about the camera, in the unit of the address.</param>
+/// <param name="LogUnit">Natural logarithm of that unit, which is given in scene units.</param>
 public sealed record DeepZoom(int ObjectIndex, ImmutableArray<LodRoot> Roots, double LogUnit);

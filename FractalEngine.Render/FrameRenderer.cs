@@ -9,13 +9,13 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render;
 
 /// <summary>
-/// Makes pictures of scenes: draws into a multisampled picture of its own, which is then shown in a window or read back. Windows and
-/// files take the same path, so they show the same pixels.
+/// Draws frames into a multisampled framebuffer of its own, which is then presented in a window or read back as an image. Windows and files
+/// take the same path and therefore show the same pixels.
 /// </summary>
-/// <remarks>What was drawn last is kept: presenting or reading it again costs no drawing.</remarks>
+/// <remarks>The last frame is kept: presenting or reading it again draws nothing.</remarks>
 public sealed class FrameRenderer : IDisposable
 {
-    // Bars beside the picture are this much darker than the background, in linear light.
+    // Brightness of the bars beside the viewport, as a fraction of the background's.
     private const double LetterboxShade = 0.45;
 
     private readonly RenderContext _context;
@@ -25,7 +25,8 @@ public sealed class FrameRenderer : IDisposable
     private Framebuffer? _resolvedTarget;
     private int _sampleCount;
 
-    /// <summary>For a context.</summary>
+    /// <summary>Creates the framebuffer-independent resources of a context.</summary>
+    /// <param name="context">Context to draw in. It must outlive this renderer.</param>
     public FrameRenderer(RenderContext context)
     {
         context.MakeCurrent();
@@ -35,24 +36,25 @@ public sealed class FrameRenderer : IDisposable
     }
 
     /// <summary>Draws a scene, or the background alone.</summary>
-    /// <param name="scene">Null while there is none yet.</param>
+    /// <param name="scene">Scene of the same context; null to draw only the background.</param>
     /// <param name="view">Camera and projection.</param>
-    /// <param name="width">Of the picture, pixels.</param>
-    /// <param name="height">Of the picture, pixels.</param>
-    /// <param name="settings">How it is drawn.</param>
+    /// <param name="width">Width of the frame in pixels.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
+    /// <param name="settings">Style, multisampling and optimisations.</param>
     /// <param name="nextView">
-    /// The view that is likely to be drawn next: what it needs is chosen on other threads while this one is drawn. Null for none.
+    /// View that the next frame will probably have; null for none. Its instances are culled on other threads while this frame is drawn.
     /// </param>
-    /// <exception cref="GlException">The picture is larger than the driver allows.</exception>
+    /// <exception cref="GlException">The frame is larger than the driver allows.</exception>
+    /// <remarks>Allocates nothing while scene, size and settings stay the same.</remarks>
     public void Draw(SceneRenderer? scene, View view, int width, int height, RenderSettings settings, View? nextView = null)
     {
         _context.MakeCurrent();
         _context.ApplySettings(settings);
         var target = EnsureTarget(width, height, Math.Clamp(settings.Samples, 0, _context.MaxSampleCount));
         target.Bind();
-        var (x, y, viewportWidth, viewportHeight) = view.Viewport(width, height);
-        var background = scene?.Scene.Source.Scene.Background ?? settings.Background;
-        Clear(background, (x, height - y - viewportHeight, viewportWidth, viewportHeight), (width, height));
+        var bounds = scene is null ? BoundingBox.Empty : LinesPass.BoundsIncludingLines(scene.Bounds, settings);
+        var frame = FrameView.Create(view, width, height, bounds);
+        Clear(scene?.Scene.Source.Scene.Background ?? settings.Background, in frame, width, height);
         if (scene is null)
         {
             return;
@@ -62,36 +64,37 @@ public sealed class FrameRenderer : IDisposable
         GL.Enable(EnableCap.DepthTest);
         GL.DepthFunc(_context.HasReversedDepth ? DepthFunction.Greater : DepthFunction.Less);
         GL.FrontFace(FrontFaceDirection.Cw);
-        var aspect = view.EffectiveAspect(width, height);
-        var bounds = LinesPass.BoundsIncludingLines(scene.Bounds, settings);
-        scene.Draw(view, (viewportWidth, viewportHeight), aspect, bounds, settings, nextView);
+        scene.Draw(in frame, nextView is null ? null : FrameView.Create(nextView, width, height, bounds), settings);
         if (view.DeepZoom is null)
         {
-            _linesPass.Draw(view, aspect, scene.Bounds, settings);
-            _linesPass.Draw(view, aspect, bounds, scene.Lines);
+            _linesPass.DrawGridAndAxes(in frame, scene.Bounds, settings);
+            _linesPass.DrawSegments(in frame, scene.Lines);
         }
 
         GL.Disable(EnableCap.DepthTest);
     }
 
-    /// <summary>Waits until everything has been drawn, for who measures time.</summary>
+    /// <summary>Waits until the GPU has drawn everything, for measurements of time.</summary>
     public void Finish()
     {
         _context.MakeCurrent();
         GL.Finish();
     }
 
-    /// <summary>Shows what was drawn last in a window.</summary>
-    /// <param name="window">Of this renderer's context.</param>
-    /// <param name="overlay">Panels over the picture. They can change while the scene need not be drawn again.</param>
+    /// <summary>Presents the last frame in a window.</summary>
+    /// <param name="window">Window of this renderer's context.</param>
+    /// <param name="overlay">Panels over the frame. They can change without drawing the scene again.</param>
+    /// <exception cref="InvalidOperationException">No frame has been drawn yet.</exception>
     public void Present(RenderWindow window, params IReadOnlyList<OverlayPanel> overlay)
     {
         Resolve(overlay).CopyToWindow(window.Width, window.Height);
         window.SwapBuffers();
     }
 
-    /// <summary>Reads what was drawn last.</summary>
-    /// <param name="overlay">Panels over the picture; none for the scene alone.</param>
+    /// <summary>Reads the last frame back as an image.</summary>
+    /// <param name="overlay">Panels over the frame; none for the scene alone.</param>
+    /// <exception cref="InvalidOperationException">No frame has been drawn yet.</exception>
+    /// <exception cref="GlException">The driver reports an error while the pixels are read.</exception>
     public PixelImage Capture(params IReadOnlyList<OverlayPanel> overlay)
     {
         var frame = Resolve(overlay);
@@ -100,7 +103,7 @@ public sealed class FrameRenderer : IDisposable
         return PixelImage.FromBottomUp(frame.Width, frame.Height, pixels);
     }
 
-    /// <inheritdoc/>
+    /// <summary>Deletes the framebuffers and shaders. Harmless when repeated.</summary>
     public void Dispose()
     {
         _sceneTarget?.Dispose();
@@ -109,24 +112,26 @@ public sealed class FrameRenderer : IDisposable
         _overlayPass.Dispose();
     }
 
-    /// <summary>Fills the picture. The sRGB values are written as they are, so that the background is exact.</summary>
-    private void Clear(Colour background, (int X, int Y, int Width, int Height) viewport, (int Width, int Height) frameSize)
+    /// <summary>Fills the frame with the background. Its sRGB values are written unchanged, so that the background is exact.</summary>
+    private void Clear(Colour background, in FrameView frame, int width, int height)
     {
         GL.Disable(EnableCap.FramebufferSrgb);
         GL.DepthMask(true);
         GL.ClearDepth(_context.HasReversedDepth ? 0.0 : 1.0);
-        if ((viewport.Width, viewport.Height) != frameSize)
+        if ((frame.Width, frame.Height) != (width, height))
         {
             SetClearColour(LetterboxColour(background));
             GL.Clear(ClearBufferMask.ColorBufferBit);
         }
 
+        // OpenGL counts rows from the bottom.
+        var bottom = height - frame.Y - frame.Height;
         GL.Enable(EnableCap.ScissorTest);
-        GL.Scissor(viewport.X, viewport.Y, viewport.Width, viewport.Height);
+        GL.Scissor(frame.X, bottom, frame.Width, frame.Height);
         SetClearColour(background);
         GL.Clear(ClearBufferMask.ColorBufferBit | ClearBufferMask.DepthBufferBit);
         GL.Disable(EnableCap.ScissorTest);
-        GL.Viewport(viewport.X, viewport.Y, viewport.Width, viewport.Height);
+        GL.Viewport(frame.X, bottom, frame.Width, frame.Height);
     }
 
     private static void SetClearColour(Colour colour) =>
@@ -135,6 +140,7 @@ public sealed class FrameRenderer : IDisposable
     private static Colour LetterboxColour(Colour colour) =>
         new(LetterboxShade * colour.Red, LetterboxShade * colour.Green, LetterboxShade * colour.Blue);
 
+    /// <summary>Returns a framebuffer of the requested size, replacing the last one where that differs.</summary>
     private Framebuffer EnsureTarget(int width, int height, int sampleCount)
     {
         if (_sceneTarget is not null && (_sceneTarget.Width, _sceneTarget.Height, _sampleCount) == (width, height, sampleCount))
@@ -145,14 +151,16 @@ public sealed class FrameRenderer : IDisposable
         if (width < 1 || height < 1 || Math.Max(width, height) > _context.MaxFrameSize)
         {
             throw new GlException(
-                $"a picture of {width}×{height} pixels cannot be drawn: this driver allows 1 to {_context.MaxFrameSize} pixels a side");
+                $"a frame of {width}×{height} pixels cannot be drawn: this driver allows 1 to {_context.MaxFrameSize} pixels a side");
         }
 
         _sceneTarget?.Dispose();
         _resolvedTarget?.Dispose();
-        (_sceneTarget, _resolvedTarget) = (null, null);
+        // Stays null if one of the allocations fails.
+        _sceneTarget = null;
+        _resolvedTarget = null;
         _sceneTarget = new(_context.Resources, "scene", width, height, sampleCount, hasDepth: true);
-        _resolvedTarget = new(_context.Resources, "picture", width, height, 0, hasDepth: false);
+        _resolvedTarget = new(_context.Resources, "resolved frame", width, height, 0, hasDepth: false);
         _sampleCount = sampleCount;
         return _sceneTarget;
     }

@@ -2,17 +2,17 @@ using FractalEngine.Core.Visibility;
 
 namespace FractalEngine.Render;
 
-/// <summary>What a picture took.</summary>
-/// <param name="InstanceCount">Copies of meshes that were chosen and drawn.</param>
-/// <param name="TriangleCount">Of these copies.</param>
-/// <param name="Culling">What was looked at and left out.</param>
+/// <summary>Counts and times of the last frame.</summary>
+/// <param name="InstanceCount">Number of mesh instances that were selected and drawn.</param>
+/// <param name="TriangleCount">Number of triangles of these instances together.</param>
+/// <param name="Culling">Number of nodes that culling visited and discarded.</param>
 /// <param name="MinProjectedSize">
-/// Sub-fractals of fewer pixels were drawn as one copy: the setting, or more where the budget asked for it.
+/// Size in pixels below which a sub-fractal was drawn as one instance: the setting's, or more where the instance budget demanded it.
 /// </param>
-/// <param name="CullCount">How often instances were chosen so far: not for pictures that need the same ones as the picture before.</param>
-/// <param name="UploadedBytes">Of instances moved to the GPU so far.</param>
-/// <param name="CullWaitTime">How long the last choice kept the drawing thread waiting.</param>
-/// <param name="Optimisations">What else was not needed.</param>
+/// <param name="CullCount">Number of culling passes so far. A frame that needs the same instances as the last one adds none.</param>
+/// <param name="UploadedBytes">Bytes of instances that were uploaded to the GPU so far.</param>
+/// <param name="CullWaitTime">Time that the drawing thread waited for the last culling pass.</param>
+/// <param name="Optimisations">Counts of the other optimisations.</param>
 public readonly record struct FrameStatistics(
     int InstanceCount, long TriangleCount, CullingStatistics Culling, double MinProjectedSize, int CullCount, long UploadedBytes,
     TimeSpan CullWaitTime, OptimisationStatistics Optimisations);

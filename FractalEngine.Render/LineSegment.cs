@@ -3,8 +3,8 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Render;
 
-/// <summary>A line over a picture, in front of everything.</summary>
-/// <param name="From">World space.</param>
-/// <param name="To">World space.</param>
-/// <param name="Colour">sRGB.</param>
+/// <summary>A line that is drawn over a frame, in front of all surfaces.</summary>
+/// <param name="From">Start of the line, world space.</param>
+/// <param name="To">End of the line, world space.</param>
+/// <param name="Colour">Colour of the line, sRGB.</param>
 public readonly record struct LineSegment(Vector From, Vector To, Colour Colour);

@@ -1,14 +1,14 @@
 namespace FractalEngine.Render;
 
-/// <summary>What is left out because it is not needed, apart from what <see cref="FrameStatistics.Culling"/> counts.</summary>
-/// <param name="ObjectCount">Of the scene.</param>
-/// <param name="BackFaceCulledCount">Of these, drawn without the backs of their faces in the last picture.</param>
-/// <param name="ModelCount">The files that the objects show, each once.</param>
-/// <param name="PlaceholderCount">Of these, not prepared yet: boxes stand for them.</param>
-/// <param name="TextureCount">Pictures on surfaces, each once.</param>
-/// <param name="DegenerateTriangleCount">Faces without area that were left out of the models, each model counted once.</param>
-/// <param name="Uploads">Of the last picture: buffers moved to the GPU, and those that were there already.</param>
-/// <param name="StateChanges">Of the last picture: bindings and uniforms, and those that held already.</param>
+/// <summary>Counts the work that optimisations saved, apart from what <see cref="FrameStatistics.Culling"/> counts.</summary>
+/// <param name="ObjectCount">Number of objects in the scene.</param>
+/// <param name="BackFaceCulledCount">Number of objects that the last frame drew with one face of their triangles culled.</param>
+/// <param name="ModelCount">Number of files that the objects show, each counted once.</param>
+/// <param name="PlaceholderCount">Number of models that are not prepared yet and shown as placeholder boxes.</param>
+/// <param name="TextureCount">Number of textures, each counted once.</param>
+/// <param name="DegenerateTriangleCount">Number of triangles without area that were removed, each model counted once.</param>
+/// <param name="Uploads">Buffer uploads of the last frame: performed, and skipped since the buffer was up to date.</param>
+/// <param name="StateChanges">Bindings and uniforms of the last frame: performed, and skipped since they were in effect.</param>
 public readonly record struct OptimisationStatistics(
     int ObjectCount, int BackFaceCulledCount, int ModelCount, int PlaceholderCount, int TextureCount, long DegenerateTriangleCount,
     RedundancyCounts Uploads, RedundancyCounts StateChanges);

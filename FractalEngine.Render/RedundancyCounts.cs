@@ -1,11 +1,11 @@
 namespace FractalEngine.Render;
 
-/// <summary>How often something was done, and how often it would have changed nothing.</summary>
-/// <param name="Performed">Done.</param>
-/// <param name="Skipped">Not needed, and not done.</param>
+/// <summary>Counts how often an operation was performed, and how often it was skipped since it would have changed nothing.</summary>
+/// <param name="Performed">Number of operations that were performed.</param>
+/// <param name="Skipped">Number of operations that were redundant and skipped.</param>
 public readonly record struct RedundancyCounts(long Performed, long Skipped)
 {
-    /// <summary>What came to pass between two counts.</summary>
-    public static RedundancyCounts operator -(RedundancyCounts now, RedundancyCounts before) =>
-        new(now.Performed - before.Performed, now.Skipped - before.Skipped);
+    /// <summary>Returns the counts between two moments.</summary>
+    public static RedundancyCounts operator -(RedundancyCounts later, RedundancyCounts earlier) =>
+        new(later.Performed - earlier.Performed, later.Skipped - earlier.Skipped);
 }

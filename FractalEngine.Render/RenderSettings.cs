@@ -4,59 +4,56 @@ using FractalEngine.Core.Visibility;
 
 namespace FractalEngine.Render;
 
-/// <summary>How a scene is prepared and drawn, apart from what the scene itself says.</summary>
+/// <summary>Settings for preparing and drawing a scene, apart from what the scene itself declares.</summary>
 public sealed record RenderSettings
 {
-    /// <summary>
-    /// What is left out of a picture because it would not be seen; null to draw every instance of every fractal in every picture.
-    /// </summary>
+    /// <summary>Settings for culling instances per frame; null to draw every instance of every fractal in every frame.</summary>
     public CullingSettings? Culling { get; init; } = new();
 
     /// <summary>
-    /// Without <see cref="Culling"/>, the most instances of one fractal that are drawn; deeper fractals are drawn at a smaller depth, with
-    /// a notice.
+    /// Maximum number of instances of one fractal without <see cref="Culling"/>. Deeper fractals are drawn at a smaller depth, with a
+    /// notice.
     /// </summary>
     public int InstanceBudget { get; init; } = FractalLimits.MaxDrawnInstances;
 
     /// <summary>
-    /// Without <see cref="Culling"/>, the most triangles of one fractal that are drawn: limits instances of large meshes further.
+    /// Maximum number of triangles of one fractal without <see cref="Culling"/>. It limits the instances of large meshes further.
     /// </summary>
     public long TriangleBudget { get; init; } = 200_000_000;
 
-    /// <summary>Where faces meet at a larger angle, generated normals make an edge. Degrees.</summary>
+    /// <summary>Angle in degrees above which two adjacent faces get separate normals, where normals are generated.</summary>
     public double CreaseAngle { get; init; } = NormalGenerator.DefaultCreaseAngle;
 
-    /// <summary>Samples a pixel; 0 switches multisampling off. More than the driver has means as many as it has.</summary>
+    /// <summary>Number of samples a pixel; 0 switches multisampling off. A driver that offers fewer uses its maximum.</summary>
     public int Samples { get; init; } = 4;
 
-    /// <summary>Leaves out the backs of closed meshes, where only fronts can be seen.</summary>
+    /// <summary>Culls the back faces of closed meshes, where only front faces can be seen.</summary>
     public bool BackFaceCulling { get; init; } = true;
 
-    /// <summary>Leaves out faces without area, when a mesh is prepared.</summary>
+    /// <summary>Removes triangles without area when a mesh is prepared.</summary>
     public bool RemoveDegenerateTriangles { get; init; } = true;
 
-    /// <summary>Decodes and keeps each picture once, however many models show it.</summary>
+    /// <summary>Decodes and stores each texture once, however many models use it.</summary>
     public bool ShareTextures { get; init; } = true;
 
     /// <summary>
-    /// In a window, prepares a model when one of its objects is first in sight, and not before; where false, all of them before the first
-    /// picture.
+    /// Prepares a model when one of its objects first comes into view in a window; otherwise all models before the first frame.
     /// </summary>
     public bool LazyLoading { get; init; } = true;
 
-    /// <summary>Does not bind what is bound already, nor set uniforms to what they are.</summary>
+    /// <summary>Skips bindings and uniforms that are in effect already.</summary>
     public bool FilterRedundantState { get; init; } = true;
 
     /// <summary>
-    /// Keeps what is on the GPU where it has not changed: chosen instances, objects and lights. Where false, all are chosen and uploaded
-    /// for each picture.
+    /// Keeps visible instances, objects and lights on the GPU for as long as they are unchanged; otherwise all are culled and uploaded
+    /// for each frame.
     /// </summary>
     public bool ReuseBuffers { get; init; } = true;
 
-    /// <summary>Where the lights act.</summary>
+    /// <summary>Points of a surface at which lighting is computed.</summary>
     public Shading Shading { get; init; }
 
-    /// <summary>Draws the edges of the triangles only.</summary>
+    /// <summary>Draws only the edges of the triangles.</summary>
     public bool Wireframe { get; init; }
 
     /// <summary>Draws a grid on the plane y = 0.</summary>
@@ -65,9 +62,9 @@ public sealed record RenderSettings
     /// <summary>Draws the x axis red, the y axis green and the z axis blue.</summary>
     public bool Axes { get; init; }
 
-    /// <summary>Behind everything, where the scene does not say.</summary>
+    /// <summary>Background colour where the scene declares none.</summary>
     public Colour Background { get; init; } = DefaultBackground;
 
-    /// <summary>A dark blue grey that lets both light and saturated surfaces stand out.</summary>
+    /// <summary>A dark blue grey, against which both light and saturated surfaces stand out.</summary>
     public static Colour DefaultBackground => new(0.118, 0.133, 0.161);
 }

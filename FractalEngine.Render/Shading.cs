@@ -1,11 +1,11 @@
 namespace FractalEngine.Render;
 
-/// <summary>Where the lights act on a surface.</summary>
+/// <summary>Selects the points of a surface at which lighting is computed.</summary>
 public enum Shading
 {
-    /// <summary>At the vertices; between them the colour is interpolated. Fast where triangles are small.</summary>
+    /// <summary>Lighting at the vertices, interpolated between them. Fast where triangles are small.</summary>
     PerVertex,
 
-    /// <summary>At every pixel, with the normal interpolated: round highlights and edges of light also on large triangles.</summary>
+    /// <summary>Lighting at every pixel with an interpolated normal. Highlights and light edges stay round on large triangles.</summary>
     PerPixel,
 }

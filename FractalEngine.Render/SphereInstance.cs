@@ -2,7 +2,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Render;
 
-/// <summary>A ball that is no object of the scene.</summary>
-/// <param name="Centre">World space.</param>
-/// <param name="Radius">Scene units.</param>
+/// <summary>A sphere that is drawn beside the objects of the scene.</summary>
+/// <param name="Centre">Centre of the sphere, world space.</param>
+/// <param name="Radius">Radius of the sphere, scene units.</param>
 public readonly record struct SphereInstance(Vector Centre, double Radius);

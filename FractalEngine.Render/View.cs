@@ -4,63 +4,70 @@ using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Render;
 
-/// <summary>How a scene is looked at: camera and projection (paper §4.1.3–4.1.4). What is null follows the scene or the window.</summary>
-/// <param name="Camera">Where from.</param>
-/// <param name="Projection">How depth becomes size.</param>
+/// <summary>A camera with its projection (paper §4.1.3–4.1.4). Properties that are null follow the scene or the window.</summary>
+/// <param name="Camera">Position and orientation of the viewer.</param>
+/// <param name="Projection">Perspective or orthographic projection.</param>
 public sealed record View(Camera Camera, Projection Projection)
 {
     /// <summary>
-    /// The least near plane, as a fraction of the far one: a 32-bit depth buffer then tells apart depths that differ by 1/1000.
+    /// Minimum of the near depth divided by the far one: a 32-bit depth buffer then separates depths that differ by 1/1000.
     /// </summary>
     private const double MinNearToFarRatio = 1e-4;
 
-    /// <summary>The height that an orthographic picture shows, scene units; not used by perspective.</summary>
-    public double OrthographicHeight { get; init; } = 10;
+    // Clip planes and height where the scene has no bounds to derive them from, scene units.
+    private static readonly (double Near, double Far) DefaultClipPlanes = (0.1, 1000);
+    private const double DefaultHeight = 10;
 
-    /// <summary>Width divided by height of what is shown; null for the picture's own, else bars fill the rest.</summary>
+    /// <summary>Visible height of an orthographic view, scene units; perspective ignores it.</summary>
+    public double OrthographicHeight { get; init; } = DefaultHeight;
+
+    /// <summary>Width divided by height of the viewport, with bars around it where the frame differs; null for the frame's own.</summary>
     public double? Aspect { get; init; }
 
-    /// <summary>The object that the camera is deep in; null where world space tells where it is.</summary>
+    /// <summary>Object that the camera is deep inside; null where world space is precise enough for the camera's position.</summary>
     public DeepZoom? DeepZoom { get; init; }
 
-    /// <summary>The depths between which things are drawn; null to take them from the bounds of what there is.</summary>
-    public (double Near, double Far)? Clip { get; init; }
+    /// <summary>Depths of the near and far clip planes, scene units; null to derive them from the scene's bounds.</summary>
+    public (double Near, double Far)? FixedClipPlanes { get; init; }
 
-    /// <summary>The view that a scene asks for, where it asks for one.</summary>
-    /// <param name="scene">Gives projection, planes, aspect and its bounds.</param>
-    /// <param name="frameAspect">Width divided by height of the window or file: decides how far away a default camera stands.</param>
-    /// <param name="camera">Takes the place of the scene's camera, for one that the user moves.</param>
+    /// <summary>Half of the visible height, scene units: at depth 1 in perspective, at any depth in orthographic projection.</summary>
+    internal double HalfHeight => Projection == Projection.Perspective ? Camera.HalfHeightAtUnitDepth : 0.5 * OrthographicHeight;
+
+    /// <summary>Creates the view that a scene declares, with defaults for what it leaves open.</summary>
+    /// <param name="scene">Scene that gives projection, clip planes, aspect ratio and bounds.</param>
+    /// <param name="frameAspect">Width divided by height of the window or image. A default camera frames the scene for it.</param>
+    /// <param name="camera">Camera that replaces the scene's own; null for none.</param>
     public static View Of(LoadedScene scene, double frameAspect, Camera? camera = null)
     {
-        var (settings, bounds) = (scene.Scene, scene.Bounds);
-        camera ??= settings.Camera ?? CameraFraming.Default(bounds, settings.Aspect ?? frameAspect);
+        var settings = scene.Scene;
+        camera ??= settings.Camera ?? CameraFraming.Default(scene.Bounds, settings.Aspect ?? frameAspect);
         return new(camera, settings.Projection)
         {
-            OrthographicHeight = settings.OrthographicHeight ?? DefaultOrthographicHeight(camera, bounds),
+            OrthographicHeight = settings.OrthographicHeight ?? DefaultOrthographicHeight(camera, scene.Bounds),
             Aspect = settings.Aspect,
-            Clip = settings.Clip,
+            FixedClipPlanes = settings.Clip,
         };
     }
 
-    /// <summary>
-    /// The part of a picture that shows the scene, in whole pixels from the upper left corner: all of it, or the largest middle part
-    /// with the aspect asked for.
-    /// </summary>
+    /// <summary>Returns the part of a frame that shows the scene: all of it, or the largest centred part of the requested aspect.</summary>
+    /// <param name="width">Width of the frame in pixels.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
+    /// <returns>A rectangle in whole pixels, from the upper left corner.</returns>
     public (int X, int Y, int Width, int Height) Viewport(int width, int height)
     {
-        var aspect = Aspect ?? ((double)width / height);
+        var aspect = EffectiveAspect(width, height);
         var viewportWidth = Math.Clamp((int)Math.Round(height * aspect), 1, width);
         var viewportHeight = Math.Clamp((int)Math.Round(width / aspect), 1, height);
         return ((width - viewportWidth) / 2, (height - viewportHeight) / 2, viewportWidth, viewportHeight);
     }
 
-    /// <summary>Where a point of the world appears in a picture.</summary>
-    /// <param name="point">World space.</param>
-    /// <param name="width">Of the picture, pixels.</param>
-    /// <param name="height">Of the picture, pixels.</param>
+    /// <summary>Projects a point of the world into a frame.</summary>
+    /// <param name="point">Point in world space.</param>
+    /// <param name="width">Width of the frame in pixels.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
     /// <returns>
-    /// Pixels from the upper left corner, so that (0.5, 0.5) is the middle of the first pixel, and the depth. Null where there
-    /// is no such place: perspective shows nothing behind the camera.
+    /// Pixels from the upper left corner, with the centre of the first pixel at (0.5, 0.5), and the depth in scene units. Null for a point
+    /// behind a perspective camera.
     /// </returns>
     public (double X, double Y, double Depth)? Project(Vector point, int width, int height)
     {
@@ -71,7 +78,7 @@ public sealed record View(Camera Camera, Projection Projection)
         }
 
         var viewport = Viewport(width, height);
-        var halfHeight = Projection == Projection.Perspective ? depth * Camera.HalfHeightAtUnitDepth : 0.5 * OrthographicHeight;
+        var halfHeight = Projection == Projection.Perspective ? depth * HalfHeight : HalfHeight;
         var aspect = EffectiveAspect(width, height);
         return (
             viewport.X + (0.5 * viewport.Width * (1 + (right / (halfHeight * aspect)))),
@@ -79,22 +86,22 @@ public sealed record View(Camera Camera, Projection Projection)
             depth);
     }
 
-    /// <summary>The planes between which things are drawn.</summary>
-    /// <param name="bounds">Of everything there is, world space; may be empty.</param>
+    /// <summary>Returns the depths of the near and far clip planes.</summary>
+    /// <param name="bounds">Bounds of all that is drawn, world space; may be empty.</param>
     /// <returns>
-    /// The scene's own, or planes that hold all of the bounds before the camera, with a margin of a hundredth. Near is positive in
-    /// perspective and not negative otherwise.
+    /// <see cref="FixedClipPlanes"/>, or planes that enclose the part of the bounds before the camera, with a margin of a hundredth. The
+    /// near depth is positive in perspective and not negative otherwise.
     /// </returns>
     public (double Near, double Far) ClipPlanes(BoundingBox bounds)
     {
-        if (Clip is { } fixedPlanes)
+        if (FixedClipPlanes is { } fixedPlanes)
         {
             return fixedPlanes;
         }
 
         if (bounds.IsEmpty || !bounds.Minimum.IsFinite() || !bounds.Maximum.IsFinite())
         {
-            return (0.1, 1000);
+            return DefaultClipPlanes;
         }
 
         var (centreDepth, halfExtent) = DepthExtent(bounds);
@@ -103,16 +110,18 @@ public sealed record View(Camera Camera, Projection Projection)
         if (far <= 0)
         {
             // Everything lies behind the camera.
-            return (0.1, 1000);
+            return DefaultClipPlanes;
         }
 
         var near = centreDepth - halfExtent - margin;
         return Projection == Projection.Perspective ? (Math.Max(near, MinNearToFarRatio * far), far) : (Math.Max(near, 0), far);
     }
 
-    /// <summary>False for a box that certainly lies outside the picture: behind the camera, or beyond one of the picture's edges.</summary>
-    /// <param name="box">World space; infinite ones are seen from everywhere.</param>
-    /// <param name="aspect">Width divided by height of the picture.</param>
+    /// <summary>
+    /// Tests conservatively whether a box can be visible: false if it is certainly behind the camera or beyond an edge of the frame.
+    /// </summary>
+    /// <param name="box">Box in world space. An infinite box is visible from everywhere.</param>
+    /// <param name="aspect">Width divided by height of the frame.</param>
     public bool MayIntersectFrustum(BoundingBox box, double aspect)
     {
         if (box.IsEmpty || !box.Size.IsFinite())
@@ -120,40 +129,38 @@ public sealed record View(Camera Camera, Projection Projection)
             return !box.IsEmpty;
         }
 
-        var axes = Camera.LocalAxesInverse;
-        var (centre, halfSize) = (Camera.ToCameraSpace(box.Centre), axes.Absolute() * (0.5 * box.Size));
-        var effectiveAspect = Aspect ?? aspect;
-        if (Projection == Projection.Orthographic)
-        {
-            return centre.Z + halfSize.Z > 0 && Math.Abs(centre.X) - halfSize.X < 0.5 * OrthographicHeight * effectiveAspect
-                && Math.Abs(centre.Y) - halfSize.Y < 0.5 * OrthographicHeight;
-        }
-
-        var halfHeightAtUnitDepth = Camera.HalfHeightAtUnitDepth;
+        var centre = Camera.ToCameraSpace(box.Centre);
+        var halfSize = Camera.LocalAxesInverse.Absolute() * (0.5 * box.Size);
         var farthestDepth = centre.Z + halfSize.Z;
-        return farthestDepth > 0 && Math.Abs(centre.X) - halfSize.X < halfHeightAtUnitDepth * effectiveAspect * farthestDepth
-            && Math.Abs(centre.Y) - halfSize.Y < halfHeightAtUnitDepth * farthestDepth;
+        var depthScale = Projection == Projection.Perspective ? farthestDepth : 1;
+        var halfHeight = HalfHeight;
+        return farthestDepth > 0 && Math.Abs(centre.X) - halfSize.X < halfHeight * (Aspect ?? aspect) * depthScale
+            && Math.Abs(centre.Y) - halfSize.Y < halfHeight * depthScale;
     }
 
-    /// <summary>True when no part of a box is nearer than the near plane: then it is seen from outside, and whole.</summary>
-    internal bool IsBeyondNearPlane(BoundingBox box, BoundingBox bounds) =>
-        DepthExtent(box) is var (centreDepth, halfExtent) && centreDepth - halfExtent > ClipPlanes(bounds).Near;
+    /// <summary>Tests whether a whole box is deeper than a plane, so that this plane cuts through none of it.</summary>
+    internal bool IsBeyondDepth(BoundingBox box, double depth)
+    {
+        var (centreDepth, halfExtent) = DepthExtent(box);
+        return centreDepth - halfExtent > depth;
+    }
 
-    /// <summary>Width divided by height of what is shown, exact where it was asked for.</summary>
+    /// <summary>Returns width divided by height of the viewport, exact where the view requests an aspect.</summary>
     internal double EffectiveAspect(int width, int height) => Aspect ?? ((double)width / height);
 
-    /// <summary>The depth of a box's middle, and how far it reaches from there to both sides.</summary>
-    private (double Middle, double Reach) DepthExtent(BoundingBox box)
+    /// <summary>Returns the depth of a box's centre, and half of its extent along the viewing direction.</summary>
+    private (double CentreDepth, double HalfExtent) DepthExtent(BoundingBox box)
     {
         var axes = Camera.LocalAxesInverse.Absolute();
         return (Camera.ToCameraSpace(box.Centre).Z, 0.5 * Vector.Dot(new(axes.V1.Z, axes.V2.Z, axes.V3.Z), box.Size));
     }
 
-    /// <summary>What perspective shows at the depth of the middle of things; their size where that lies behind the camera.</summary>
-    private static double DefaultOrthographicHeight(Camera camera, BoundingBox bounds) => camera.ToCameraSpace(bounds.Centre).Z switch
+    /// <summary>Returns the height that perspective shows at the scene's centre, or the scene's size if that lies behind.</summary>
+    private static double DefaultOrthographicHeight(Camera camera, BoundingBox bounds)
     {
-        > 0 and < double.PositiveInfinity and var depth => 2 * camera.HalfHeightAtUnitDepth * depth,
-        _ when bounds.Diagonal is > 0 and < double.PositiveInfinity => bounds.Diagonal,
-        _ => 10,
-    };
+        var depth = camera.ToCameraSpace(bounds.Centre).Z;
+        return depth is > 0 and < double.PositiveInfinity
+            ? 2 * camera.HalfHeightAtUnitDepth * depth
+            : bounds.FiniteDiagonalOr(DefaultHeight);
+    }
 }

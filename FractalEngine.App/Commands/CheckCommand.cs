@@ -4,13 +4,14 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.App.Commands;
 
-/// <summary><c>check FILE</c></summary>
+/// <summary>The command <c>check FILE</c>, which prints the diagnostics of a file and of all files that it refers to.</summary>
 internal static class CheckCommand
 {
+    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var shared = new SharedOptions();
-        var command = new Command("check", "Parse a file and everything that it refers to, and say what is wrong.");
+        var command = new Command("check", "Parse FILE and all files that it refers to, and print every error and warning.");
         shared.AddTo(command);
         command.SetAction(result => Run(result.GetRequiredValue(shared.File), shared.LoadOptions(result)));
         return command;

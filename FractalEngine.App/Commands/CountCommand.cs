@@ -4,13 +4,17 @@ using FractalEngine.Parsing.Meshes;
 
 namespace FractalEngine.App.Commands;
 
-/// <summary><c>count FILE</c>: the paper's header (§4.1.1).</summary>
+/// <summary>The command <c>count FILE</c>, which writes the face count into the head of a mesh file (paper §4.1.1).</summary>
 internal static class CountCommand
 {
+    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var file = SharedOptions.FileArgument("A mesh (.obj).");
-        var command = new Command("count", "Write the number of faces into the head of a mesh file: '# Mesh count: N'.") { file };
+        var command = new Command("count", "Write or correct the comment '# Mesh count: N' at the head of a mesh file, and print N.")
+        {
+            file,
+        };
         command.SetAction(result => Run(result.GetRequiredValue(file)));
         return command;
     }
@@ -21,7 +25,7 @@ internal static class CountCommand
         if (file.Kind != FileKind.Mesh)
         {
             throw new UsageException(
-                $"only meshes (.obj) have a mesh count header, and {path} is none; 'info' counts the faces of all files");
+                $"{path} is not a mesh (.obj), and only meshes have a count at their head; use 'info' to count the faces of other files");
         }
 
         var faces = file.Scene.Objects[0].Model.Mesh.FaceCount;

@@ -1,4 +1,5 @@
 using System.CommandLine;
+using System.Globalization;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility;
@@ -7,102 +8,101 @@ using FractalEngine.Render;
 
 namespace FractalEngine.App.Commands;
 
-/// <summary>The options of the commands that draw.</summary>
+/// <summary>The options of the commands that draw, and the settings that follow from them.</summary>
 internal sealed class DrawOptions
 {
     private static readonly (string Word, Optimisation Value)[] OptimisationWords =
     [
-        ("backs", Optimisation.BackFaceCulling), ("outside", Optimisation.FrustumCulling), ("hidden", Optimisation.OcclusionCulling),
-        ("empty-faces", Optimisation.DegenerateRemoval), ("state", Optimisation.StateFiltering),
-        ("buffers", Optimisation.BufferReuse), ("sharing", Optimisation.MeshSharing), ("sight", Optimisation.LazyLoading),
-        ("still", Optimisation.Idle),
+        ("backface-culling", Optimisation.BackFaceCulling),
+        ("frustum-culling", Optimisation.FrustumCulling),
+        ("occlusion-culling", Optimisation.OcclusionCulling),
+        ("degenerate-removal", Optimisation.DegenerateRemoval),
+        ("state-filtering", Optimisation.StateFiltering),
+        ("buffer-reuse", Optimisation.BufferReuse),
+        ("mesh-sharing", Optimisation.MeshSharing),
+        ("lazy-loading", Optimisation.LazyLoading),
+        ("idle", Optimisation.Idle),
     ];
+
+    private static readonly RenderSettings DefaultSettings = new();
+    private static readonly CullingSettings DefaultCulling = new();
 
     private readonly Option<bool> _wireframe = new("--wireframe") { Description = "Draw only the edges of the triangles." };
     private readonly Option<bool> _grid = new("--grid") { Description = "Draw a grid on the ground, and the axes." };
 
-    private readonly Option<long?> _maxInstances = new("--instances")
-    {
-        Description =
-        $"The most instances to draw; {new CullingSettings().InstanceBudget} unless stated ({FractalLimits.MaxDrawnInstances} of one fractal with --detail 0).",
-        HelpName = "N",
-        CustomParser = SharedOptions.ParseInteger(1, 100_000_000),
-    };
+    private readonly Option<int?> _maxInstances = NumberOption.Integer(
+        "--instances", "N", 1, 100_000_000,
+        $"Maximum number of instances in a frame (default: {DefaultCulling.InstanceBudget}); "
+        + $"with --detail 0, of each fractal (default: {FractalLimits.MaxDrawnInstances}).");
 
-    private readonly Option<long?> _sampleCount = new("--samples")
-    {
-        Description = "Samples a pixel against jagged edges; 4 unless stated.",
-        HelpName = "N",
-        CustomParser = SharedOptions.ParseInteger(0, 32),
-    };
+    private readonly Option<int?> _sampleCount = NumberOption.Integer(
+        "--samples", "N", 0, 32, $"Samples per pixel for antialiasing, 0 for none (default: {DefaultSettings.Samples}).");
 
-    private readonly Option<double?> _minProjectedSize = new("--detail")
-    {
-        Description =
-        "Sub-fractals that appear smaller are drawn as one copy of their base mesh: pixels, 1.5 unless stated; 0 draws every instance of every fractal.",
-        HelpName = "PIXELS",
-        CustomParser = SharedOptions.ParseNumber(0, 1000),
-    };
+    private readonly Option<double?> _minProjectedSize = NumberOption.Decimal(
+        "--detail", "PIXELS", 0, 1000,
+        "Draw each sub-fractal that appears smaller as a proxy, a single instance of its base mesh "
+        + string.Create(CultureInfo.InvariantCulture, $"(default: {DefaultCulling.MinProjectedSize}); 0 draws every instance."));
 
-    private readonly Option<Shading?> _shading = new("--shading")
-    {
-        Description = "Where the lights act: at the vertices, or at every pixel; vertex unless stated.",
-        HelpName = "vertex|pixel",
-        CustomParser = result => SharedOptions.ParseWord(result, ("vertex", Shading.PerVertex), ("pixel", Shading.PerPixel)),
-    };
+    private readonly Option<Shading?> _shading = WordOption.Single(
+        "--shading", "Compute the lighting at each vertex or at each pixel (default: vertex).",
+        ("vertex", Shading.PerVertex), ("pixel", Shading.PerPixel));
 
-    private readonly Option<Optimisation[]> _disabled = new("--without")
-    {
-        Description =
-        $"Do something that is left out since nothing is seen of it, for comparison: {string.Join(", ", OptimisationWords.Select(item => item.Word))}. May be given several times.",
-        HelpName = "SKIP",
-        CustomParser = result => SharedOptions.ParseWords(result, OptimisationWords),
-    };
+    private readonly Option<Optimisation[]> _disabled = WordOption.Repeatable(
+        "--without", "OPTIMISATION",
+        "Disable one optimisation, for comparison; repeatable. "
+        + $"One of {string.Join(", ", OptimisationWords.Select(static word => word.Word))}.",
+        OptimisationWords);
 
     private readonly Option<Projection?> _projection = SharedOptions.ProjectionOption();
     private readonly Option<(int Width, int Height)?> _resolution = SharedOptions.ResolutionOption();
 
+    /// <summary>Adds the options to a command.</summary>
     public void AddTo(Command command)
     {
-        foreach (var option in (Option[])[_resolution, _projection, _shading, _wireframe, _grid, _minProjectedSize, _maxInstances,
-            _sampleCount, _disabled])
+        Option[] options =
+            [_resolution, _projection, _shading, _wireframe, _grid, _minProjectedSize, _maxInstances, _sampleCount, _disabled];
+        foreach (var option in options)
         {
             command.Add(option);
         }
     }
 
-    public (int Width, int Height) Resolution(ParseResult result) => result.GetValue(_resolution) ?? (1280, 720);
+    /// <summary>Returns width and height of the frame in pixels.</summary>
+    public (int Width, int Height) Resolution(ParseResult result) => result.GetValue(_resolution) ?? SharedOptions.DefaultResolution;
 
+    /// <summary>Returns the projection that overrides the scene's, or null.</summary>
     public Projection? Projection(ParseResult result) => result.GetValue(_projection);
 
-    /// <summary>True unless <c>--without</c> names it.</summary>
+    /// <summary>Returns true unless <c>--without</c> names the optimisation.</summary>
     public bool IsEnabled(ParseResult result, Optimisation optimisation) => !(result.GetValue(_disabled) ?? []).Contains(optimisation);
 
-    /// <summary>How to load the file, given how any command would.</summary>
+    /// <summary>Applies the drawing options that concern loading.</summary>
+    /// <param name="result">The parsed command line.</param>
+    /// <param name="options">The load options of a command that does not draw.</param>
     public LoadOptions WithLoadOptions(ParseResult result, LoadOptions options) =>
         options with { ShareModels = IsEnabled(result, Optimisation.MeshSharing) };
 
+    /// <summary>Returns the render settings that the command line asks for.</summary>
     public RenderSettings Settings(ParseResult result)
     {
-        var settings = new RenderSettings
+        var maxInstances = result.GetValue(_maxInstances);
+        var minProjectedSize = result.GetValue(_minProjectedSize) ?? DefaultCulling.MinProjectedSize;
+        var culling = DefaultCulling with
+        {
+            MinProjectedSize = minProjectedSize,
+            InstanceBudget = maxInstances ?? DefaultCulling.InstanceBudget,
+            FrustumCulling = IsEnabled(result, Optimisation.FrustumCulling),
+            OcclusionCulling = IsEnabled(result, Optimisation.OcclusionCulling),
+        };
+        return DefaultSettings with
         {
             Wireframe = result.GetValue(_wireframe),
             Grid = result.GetValue(_grid),
             Axes = result.GetValue(_grid),
-        };
-        var culling = settings.Culling! with
-        {
-            MinProjectedSize = result.GetValue(_minProjectedSize) ?? settings.Culling.MinProjectedSize,
-            InstanceBudget = (int)(result.GetValue(_maxInstances) ?? settings.Culling.InstanceBudget),
-            FrustumCulling = IsEnabled(result, Optimisation.FrustumCulling),
-            OcclusionCulling = IsEnabled(result, Optimisation.OcclusionCulling),
-        };
-        return settings with
-        {
-            Culling = culling.MinProjectedSize > 0 ? culling : null,
-            InstanceBudget = (int)(result.GetValue(_maxInstances) ?? settings.InstanceBudget),
-            Samples = (int)(result.GetValue(_sampleCount) ?? settings.Samples),
-            Shading = result.GetValue(_shading) ?? settings.Shading,
+            Culling = minProjectedSize > 0 ? culling : null,
+            InstanceBudget = maxInstances ?? DefaultSettings.InstanceBudget,
+            Samples = result.GetValue(_sampleCount) ?? DefaultSettings.Samples,
+            Shading = result.GetValue(_shading) ?? DefaultSettings.Shading,
             BackFaceCulling = IsEnabled(result, Optimisation.BackFaceCulling),
             RemoveDegenerateTriangles = IsEnabled(result, Optimisation.DegenerateRemoval),
             FilterRedundantState = IsEnabled(result, Optimisation.StateFiltering),

@@ -6,29 +6,24 @@ using FractalEngine.Parsing.Meshes;
 
 namespace FractalEngine.App.Commands;
 
-/// <summary><c>export FILE --output X.obj</c></summary>
+/// <summary>The command <c>export FILE --output X.obj</c>, which expands a file into one flat mesh.</summary>
 internal static class ExportCommand
 {
+    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var shared = new SharedOptions();
-        var output = SharedOptions.OutputOption(".obj", "The mesh to write.");
-        var depth = new Option<long?>("--depth")
+        var output = SharedOptions.OutputOption(".obj", "Mesh to write.");
+        var depth = NumberOption.Integer("--depth", "N", 0, int.MaxValue, "Recursion depth, overriding the fractal's file.");
+        var maxFaces = NumberOption.Integer(
+            "--limit", "FACES", 1, int.MaxValue, $"Maximum number of faces to write (default: {FractalLimits.MaxExportedFaces}).");
+        var command = new Command("export", "Write all faces of FILE as one flat mesh, with fractals expanded.")
         {
-            Description = "The depth of the recursion, whatever the fractal's file says.",
-            HelpName = "N",
-            CustomParser = SharedOptions.ParseInteger(0, int.MaxValue),
+            output, depth, maxFaces,
         };
-        var maxFaces = new Option<long?>("--limit")
-        {
-            Description = $"The most faces to write; {FractalLimits.MaxExportedFaces} unless stated.",
-            HelpName = "FACES",
-            CustomParser = SharedOptions.ParseInteger(1, int.MaxValue),
-        };
-        var command = new Command("export", "Write all faces of a file, fractals expanded, as one flat mesh.") { output, depth, maxFaces };
         shared.AddTo(command);
         command.SetAction(result => Run(
-            result.GetRequiredValue(shared.File), shared.LoadOptions(result) with { Depth = (int?)result.GetValue(depth) },
+            result.GetRequiredValue(shared.File), shared.LoadOptions(result) with { Depth = result.GetValue(depth) },
             result.GetRequiredValue(output), result.GetValue(maxFaces) ?? FractalLimits.MaxExportedFaces));
         return command;
     }
@@ -37,18 +32,18 @@ internal static class ExportCommand
     {
         if (options.Depth > FractalLimits.MaxDepth)
         {
-            throw new FractalLimitException($"--depth is more than the limit of {FractalLimits.MaxDepth}");
+            throw new FractalLimitException($"--depth {options.Depth} exceeds the limit of {FractalLimits.MaxDepth}");
         }
 
         var file = ConsoleLoader.Load(path, options);
         if (file.Scene.Models.Select(model => model.SourcePath).Append(file.Path).Contains(Path.GetFullPath(output)))
         {
-            throw new UsageException($"{output} is one of the files to export: it is not overwritten");
+            throw new UsageException($"{output} is one of the files to export, and is not overwritten");
         }
 
         if (options.Depth is not null && !file.Scene.Models.Any(model => model is FractalModel { Fractal.Description.HasDepth: true }))
         {
-            throw new UsageException($"{path} has no recursive fractal, so --depth has nothing to change");
+            throw new UsageException($"{path} has no recursive fractal, so --depth has no effect");
         }
 
         AtomicFile.Write(output, stream => ObjWriter.Write(file.Scene, stream, maxFaces));

@@ -1,5 +1,4 @@
 using System.CommandLine;
-using System.CommandLine.Parsing;
 using System.Globalization;
 using FractalEngine.Core.Generation;
 using FractalEngine.Parsing.Assets;
@@ -8,56 +7,40 @@ using FractalEngine.Parsing.Meshes;
 namespace FractalEngine.App.Commands;
 
 /// <summary>
-/// <c>generate NAME --output X.obj</c>: meshes made by a program, the stand-ins for the paper's models 1 and 2 among them.
+/// The command <c>generate NAME --output X.obj</c>, which writes a procedural mesh, such as a substitute for the paper's model 1 or 2.
 /// </summary>
 internal static class GenerateCommand
 {
+    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var name = new Argument<string>("NAME") { Description = Descriptions() };
-        var output = SharedOptions.OutputOption(".obj", "The mesh to write.");
-        var seed = new Option<ulong?>("--seed")
+        var output = SharedOptions.OutputOption(".obj", "Mesh to write.");
+        var seed = NumberOption.Integer(
+            "--seed", "N", ulong.MinValue, ulong.MaxValue, "Seed of the generator; equal seeds give equal meshes (default: 0).");
+        var faces = NumberOption.Integer(
+            "--faces", "N", 1, MeshGenerators.MaxFaceCount, "Number of faces, or the closest number that the shape allows.");
+        var command = new Command("generate", "Generate a mesh, such as a substitute for one of the paper's regular models.")
         {
-            Description = "Another number gives another mesh of the same kind; 0 unless stated.",
-            HelpName = "N",
-            CustomParser = ParseSeed,
+            name, output, seed, faces,
         };
-        var faces = new Option<long?>("--faces")
-        {
-            Description = "How many faces the mesh shall have: exactly, or the nearest number that its shape allows.",
-            HelpName = "N",
-            CustomParser = SharedOptions.ParseInteger(1, MeshGenerators.MaxFaceCount),
-        };
-        var command = new Command("generate", "Make a mesh by program, such as stand-ins for the paper's regular models.") { name, output,
-            seed, faces };
         command.SetAction(result => Run(
-            result.GetRequiredValue(name), result.GetRequiredValue(output), result.GetValue(seed) ?? 0, (int?)result.GetValue(faces)));
+            result.GetRequiredValue(name), result.GetRequiredValue(output), result.GetValue(seed) ?? 0, result.GetValue(faces)));
         return command;
     }
 
     private static int Run(string name, string output, ulong seed, int? faces)
     {
         var generator = MeshGenerators.Find(name)
-            ?? throw new UsageException($"'{name}' is nothing that can be generated, expected one of: {Names()}");
+            ?? throw new UsageException($"unknown mesh '{name}', expected one of: {Names()}");
         var mesh = generator.Create(seed, faces);
-        AtomicFile.Write(output, stream => ObjWriter.Write(mesh, name, stream));
+        AtomicFile.Write(output, stream => ObjMeshWriter.Write(mesh, stream, name));
         Console.WriteLine(mesh.FaceCount);
         return ExitCode.Done;
     }
 
     private static string Names() => string.Join(", ", MeshGenerators.All.Select(generator => generator.Name));
 
-    private static string Descriptions() => string.Join(" ", MeshGenerators.All.Select(generator => string.Create(
-        CultureInfo.InvariantCulture, $"{generator.Name}: {generator.Description}; {generator.DefaultFaceCount} faces unless stated.")));
-
-    private static ulong? ParseSeed(ArgumentResult result)
-    {
-        if (result.Tokens is [{ Value: var token }] && ulong.TryParse(token, NumberStyles.None, CultureInfo.InvariantCulture, out var seed))
-        {
-            return seed;
-        }
-
-        result.AddError($"expected a whole number from 0 to {ulong.MaxValue}");
-        return null;
-    }
+    private static string Descriptions() => string.Join('\n', MeshGenerators.All.Select(generator => string.Create(
+        CultureInfo.InvariantCulture, $"{generator.Name}: {generator.Description} (default: {generator.DefaultFaceCount} faces).")));
 }

@@ -6,15 +6,15 @@ using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.App.Commands;
 
-/// <summary><c>info FILE [--json]</c></summary>
+/// <summary>The command <c>info FILE [--json]</c>, which prints exact counts, bounds, storage size and load time.</summary>
 internal static class InfoCommand
 {
+    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var shared = new SharedOptions();
-        var json = new Option<bool>("--json") { Description = "Write JSON." };
-        var command =
-            new Command("info", "Count what a file holds, measure it, and time how long it takes until it could be drawn.") { json };
+        var json = new Option<bool>("--json") { Description = "Print JSON instead of text." };
+        var command = new Command("info", "Print exact counts, bounds, storage size and load time of FILE.") { json };
         shared.AddTo(command);
         command.SetAction(result => Run(result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetValue(json)));
         return command;

@@ -1,32 +1,32 @@
 namespace FractalEngine.App.Commands;
 
-/// <summary>What can be left out without being missed, for <c>--without</c>.</summary>
+/// <summary>The optimisations that <c>--without</c> can disable. They change the cost of a frame, but hardly the frame itself.</summary>
 internal enum Optimisation
 {
-    /// <summary>The backs of closed meshes.</summary>
+    /// <summary>Skips the back faces of closed meshes.</summary>
     BackFaceCulling,
 
-    /// <summary>What lies beside the picture.</summary>
+    /// <summary>Skips sub-fractals and objects outside the view frustum.</summary>
     FrustumCulling,
 
-    /// <summary>What is hidden behind nearer things.</summary>
+    /// <summary>Skips sub-fractals that are hidden behind closer ones or cover no sample.</summary>
     OcclusionCulling,
 
-    /// <summary>Faces without area.</summary>
+    /// <summary>Removes triangles without area when a mesh is prepared.</summary>
     DegenerateRemoval,
 
-    /// <summary>GL state that holds already.</summary>
+    /// <summary>Skips OpenGL calls that would not change the state.</summary>
     StateFiltering,
 
-    /// <summary>Uploads of what has not changed.</summary>
+    /// <summary>Keeps unchanged buffers on the GPU, and the culling result of an unchanged view.</summary>
     BufferReuse,
 
-    /// <summary>Reading and decoding a file that another object shows already.</summary>
+    /// <summary>Loads each mesh and decodes each texture once, however many objects show it.</summary>
     MeshSharing,
 
-    /// <summary>Preparing what has not been in sight.</summary>
+    /// <summary>Prepares a model only when one of its objects first becomes visible.</summary>
     LazyLoading,
 
-    /// <summary>Pictures like the one before.</summary>
+    /// <summary>Draws no frame while nothing has changed.</summary>
     Idle,
 }

@@ -7,23 +7,19 @@ using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.App.Commands;
 
-/// <summary><c>render FILE --output X.png</c></summary>
+/// <summary>The command <c>render FILE --output X.png</c>, which draws a file into an image without a window.</summary>
 internal static class RenderCommand
 {
     private const double MaxTime = 3600;
 
+    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var shared = new SharedOptions();
         var draw = new DrawOptions();
-        var output = SharedOptions.OutputOption(".png", "The picture to write.");
-        var command = new Command("render", "Draw a file into a picture, without a window.") { output };
-        var time = new Option<double?>("--time")
-        {
-            Description = "Let the physics run for so many seconds first.",
-            HelpName = "SECONDS",
-            CustomParser = SharedOptions.ParseNumber(0, MaxTime),
-        };
+        var output = SharedOptions.OutputOption(".png", "Image to write.");
+        var time = NumberOption.Decimal("--time", "SECONDS", 0, MaxTime, "Simulate the physics for this time first (default: 0).");
+        var command = new Command("render", "Draw FILE into a PNG image, without a window.") { output };
         shared.AddTo(command);
         draw.AddTo(command);
         command.Add(time);
@@ -33,7 +29,15 @@ internal static class RenderCommand
         return command;
     }
 
-    /// <summary>Draws a file into a picture.</summary>
+    /// <summary>Draws a file into an image.</summary>
+    /// <param name="path">Path of the mesh, fractal or scene.</param>
+    /// <param name="options">The load options of the file.</param>
+    /// <param name="output">Path of the PNG to write.</param>
+    /// <param name="size">Width and height in pixels.</param>
+    /// <param name="projection">Overrides the projection of the scene; null keeps it.</param>
+    /// <param name="settings">The render settings of the frame.</param>
+    /// <param name="time">The physics time at which the scene is drawn, in seconds.</param>
+    /// <returns>The exit code.</returns>
     public static int Run(
         string path, LoadOptions options, string output, (int Width, int Height) size, Projection? projection, RenderSettings settings,
         double time = 0)
@@ -42,7 +46,7 @@ internal static class RenderCommand
         var scene = projection is { } requestedProjection
             ? file.Scene with { Scene = file.Scene.Scene with { Projection = requestedProjection } }
             : file.Scene;
-        // A camera that the scene leaves open frames it as it is at first, so that pictures of several times show the same.
+        // A default camera frames the scene as it is at time 0, so that images of several times show the same view.
         var view = View.Of(scene, (double)size.Width / size.Height);
         var drawable = DrawableScene.Prepare(time > 0 ? Simulate(path, scene, time) : scene, settings);
         foreach (var notice in drawable.Notices)
@@ -50,7 +54,8 @@ internal static class RenderCommand
             Console.Error.WriteLine(notice);
         }
 
-        var image = OffscreenRenderer.Render(drawable, view, size.Width, size.Height, settings);
+        using var renderer = Renderer.Offscreen(size.Width, size.Height, settings);
+        var image = renderer.Draw(drawable, view);
         Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(output))!);
         ImageFile.SavePng(image, output);
         return ExitCode.Done;

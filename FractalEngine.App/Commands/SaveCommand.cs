@@ -5,14 +5,15 @@ using FractalEngine.Parsing.Scenes;
 
 namespace FractalEngine.App.Commands;
 
-/// <summary><c>save FILE --output Y.sdo</c></summary>
+/// <summary>The command <c>save FILE --output Y.sdo</c>, which loads a file and writes it as a scene.</summary>
 internal static class SaveCommand
 {
+    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var shared = new SharedOptions();
-        var output = SharedOptions.OutputOption(".sdo", "The scene to write.");
-        var command = new Command("save", "Load a scene and write it back; a mesh or fractal becomes a scene of one object.") { output };
+        var output = SharedOptions.OutputOption(".sdo", "Scene to write.");
+        var command = new Command("save", "Load a scene and write it back; a mesh or fractal becomes a scene with one object.") { output };
         shared.AddTo(command, hasComposition: false);
         command.SetAction(result => Run(result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetRequiredValue(output)));
         return command;
@@ -25,20 +26,24 @@ internal static class SaveCommand
         return ExitCode.Done;
     }
 
-    /// <summary>Writes a scene, which may have changed since it was loaded; file names are made relative to its new place.</summary>
+    /// <summary>Writes a scene that may have changed since it was loaded. File names become relative to the output.</summary>
+    /// <param name="file">The file that the scene was loaded from.</param>
+    /// <param name="scene">The scene to write.</param>
+    /// <param name="output">Path of the scene file to write.</param>
+    /// <exception cref="UsageException">The path of a file can't be written in a scene.</exception>
     public static void Save(LoadedFile file, Core.Scenes.Scene scene, string output)
     {
         var relocated = SceneRelocation.Relocate(scene, file.Path, Path.GetFullPath(output));
         if (relocated.Objects.Any(declared => declared.File!.IndexOfAny(['"', '\n', '\r']) >= 0))
         {
-            throw new UsageException("a scene can't name a file that has a quote or a line break in its path");
+            throw new UsageException("a scene can't refer to a file with a quote or a line break in its path");
         }
 
-        AtomicFile.Write(output, stream => stream.Write(Encoding.UTF8.GetBytes(SceneWriter.Write(relocated, file.SceneFile))));
+        AtomicFile.Write(output, stream => stream.Write(Encoding.UTF8.GetBytes(SceneWriter.Write(relocated, file.ParsedScene))));
         var folder = AssetFolder.ForFile(Path.GetFullPath(output));
         if (file.Scene.Models.Any(model => !folder.Contains(model.SourcePath!)))
         {
-            Console.Error.WriteLine($"warning: {output} names files outside its folder: it opens only with --allow-outside");
+            Console.Error.WriteLine($"warning: {output} refers to files outside its folder, so it opens only with --allow-outside");
         }
     }
 }

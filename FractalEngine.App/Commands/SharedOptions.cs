@@ -1,5 +1,4 @@
 using System.CommandLine;
-using System.CommandLine.Parsing;
 using System.Globalization;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
@@ -8,30 +7,31 @@ using FractalEngine.Parsing.Scenes;
 
 namespace FractalEngine.App.Commands;
 
-/// <summary>Arguments and options that several commands have.</summary>
+/// <summary>Arguments and options that several commands have in common.</summary>
 internal sealed class SharedOptions
 {
-    /// <summary>The file that a command works on.</summary>
+    private const int MaxImageSide = 1_000_000;
+
+    /// <summary>Width and height of an image or window unless <c>--resolution</c> is given, in pixels.</summary>
+    public static (int Width, int Height) DefaultResolution => (1280, 720);
+
+    /// <summary>The input file of a command.</summary>
     public Argument<string> File { get; } = FileArgument("A mesh (.obj), a fractal (.fdo) or a scene (.sdo).");
 
-    /// <summary>Lifts the restriction of <see cref="AssetFolder"/>.</summary>
+    /// <summary>The option that lifts the restriction of <see cref="AssetFolder"/>.</summary>
     public Option<bool> AllowOutside { get; } = new("--allow-outside")
     {
-        Description = "Let files name others outside their folder.",
+        Description = "Allow files to refer to files outside their folder.",
     };
 
-    /// <summary>How transformations are composed.</summary>
-    public Option<Composition?> Composition { get; } = new("--composition")
-    {
-        Description = "How the transformations of a fractal are composed, whatever its file says: affine or componentwise.",
-        HelpName = "affine|componentwise",
-        CustomParser = result => ParseWord(
-            result, ("affine", Core.Fractals.Composition.Affine), ("componentwise", Core.Fractals.Composition.Componentwise)),
-    };
+    /// <summary>The option that selects how transformations are composed.</summary>
+    public Option<Composition?> Composition { get; } = WordOption.Single(
+        "--composition", "How to compose the transformations of fractals, overriding their files.",
+        ("affine", Core.Fractals.Composition.Affine), ("componentwise", Core.Fractals.Composition.Componentwise));
 
-    /// <summary>Adds what every command that loads a file has.</summary>
-    /// <param name="command">The command.</param>
-    /// <param name="hasComposition">Whether it matters to the command how fractals are composed.</param>
+    /// <summary>Adds the input file and the options of loading to a command.</summary>
+    /// <param name="command">The command that loads a file.</param>
+    /// <param name="hasComposition">Whether composition makes a difference to the command.</param>
     public void AddTo(Command command, bool hasComposition = true)
     {
         command.Add(File);
@@ -42,7 +42,14 @@ internal sealed class SharedOptions
         }
     }
 
-    /// <summary>A file to read. What looks like an option is no file: <c>./-x.obj</c> names one that does.</summary>
+    /// <summary>Returns the load options that the command line asks for.</summary>
+    public LoadOptions LoadOptions(ParseResult result) => new()
+    {
+        AllowOutsideFiles = result.GetValue(AllowOutside),
+        Composition = result.CommandResult.Command.Options.Contains(Composition) ? result.GetValue(Composition) : null,
+    };
+
+    /// <summary>Creates an argument for an input file. Names that begin with a dash need the prefix <c>./</c>.</summary>
     public static Argument<string> FileArgument(string description) => new("FILE")
     {
         Description = description,
@@ -58,14 +65,9 @@ internal sealed class SharedOptions
         },
     };
 
-    /// <summary>How to load the file.</summary>
-    public LoadOptions LoadOptions(ParseResult result) => new()
-    {
-        AllowOutsideFiles = result.GetValue(AllowOutside),
-        Composition = result.CommandResult.Command.Options.Contains(Composition) ? result.GetValue(Composition) : null,
-    };
-
-    /// <summary>Where a command writes to.</summary>
+    /// <summary>Creates the required option for an output file.</summary>
+    /// <param name="extension">The extension that the file name must have, with its dot.</param>
+    /// <param name="description">The sentence in the help text.</param>
     public static Option<string> OutputOption(string extension, string description) => new("--output", "-o")
     {
         Description = description,
@@ -83,105 +85,33 @@ internal sealed class SharedOptions
         },
     };
 
-    /// <summary>One of a few words.</summary>
-    public static T? ParseWord<T>(ArgumentResult result, params (string Word, T Value)[] words)
-        where T : struct =>
-        ParseWords(result, words) is [var value] ? value : null;
+    /// <summary>Creates the option that selects the collider of closest-point queries.</summary>
+    public static Option<ColliderKind?> ColliderOption(string description) => WordOption.Single(
+        "--collider", description, [.. Enum.GetValues<ColliderKind>().Select(kind => (SceneParser.GetColliderName(kind), kind))]);
 
-    /// <summary>Any of a few words.</summary>
-    public static T[] ParseWords<T>(ArgumentResult result, params ReadOnlySpan<(string Word, T Value)> words)
-    {
-        var values = new List<T>();
-        foreach (var token in result.Tokens)
-        {
-            var countBefore = values.Count;
-            foreach (var (word, value) in words)
-            {
-                if (token.Value == word)
-                {
-                    values.Add(value);
-                }
-            }
+    /// <summary>Creates the option that selects the projection of a frame.</summary>
+    public static Option<Projection?> ProjectionOption() => WordOption.Single(
+        "--projection", "Projection, overriding the scene's.",
+        ("perspective", Projection.Perspective), ("orthographic", Projection.Orthographic));
 
-            if (values.Count == countBefore)
-            {
-                result.AddError(
-                    $"{NameOf(result)}: expected one of {string.Join(", ", words.ToArray().Select(item => item.Word))}, not '{token.Value}'");
-                return [];
-            }
-        }
-
-        return [.. values];
-    }
-
-    /// <summary>A whole number within bounds.</summary>
-    public static Func<ArgumentResult, long?> ParseInteger(long min, long max) => result =>
-    {
-        if (result.Tokens is [{ Value: var token }]
-            && long.TryParse(token, NumberStyles.AllowLeadingSign, CultureInfo.InvariantCulture, out var number)
-            && number >= min && number <= max)
-        {
-            return number;
-        }
-
-        result.AddError($"{NameOf(result)}: expected a whole number from {min} to {max}");
-        return null;
-    };
-
-    /// <summary>A decimal number between two others.</summary>
-    public static Func<ArgumentResult, double?> ParseNumber(double min, double max) => result =>
-    {
-        if (result.Tokens is [{ Value: var token }]
-            && double.TryParse(token, NumberStyles.Float, CultureInfo.InvariantCulture, out var number)
-            && number >= min && number <= max)
-        {
-            return number;
-        }
-
-        result.AddError(string.Create(CultureInfo.InvariantCulture, $"{NameOf(result)}: expected a number from {min} to {max}"));
-        return null;
-    };
-
-    private static string NameOf(ArgumentResult result) => result.Parent is OptionResult option ? option.Option.Name : result.Argument.Name;
-
-    /// <summary>How what is nearest is found.</summary>
-    public static Option<ColliderKind?> ColliderOption(string description)
-    {
-        (string Word, ColliderKind Kind)[] words =
-            [.. Enum.GetValues<ColliderKind>().Select(kind => (SceneParser.GetColliderName(kind), kind))];
-        return new("--collider")
-        {
-            Description = description,
-            HelpName = string.Join('|', words.Select(item => item.Word)),
-            CustomParser = result => ParseWord(result, words),
-        };
-    }
-
-    /// <summary>The projection of a picture.</summary>
-    public static Option<Projection?> ProjectionOption() => new("--projection")
-    {
-        Description = "The projection, whatever the scene says: perspective or orthographic.",
-        HelpName = "perspective|orthographic",
-        CustomParser = result => ParseWord(
-            result, ("perspective", Core.Scenes.Projection.Perspective), ("orthographic", Core.Scenes.Projection.Orthographic)),
-    };
-
-    /// <summary>The size of a picture or window in pixels.</summary>
+    /// <summary>Creates the option for the size of an image or window in pixels.</summary>
     public static Option<(int Width, int Height)?> ResolutionOption() => new("--resolution")
     {
-        Description = "Width and height in pixels; 1280x720 unless stated.",
+        Description = $"Width and height in pixels (default: {DefaultResolution.Width}x{DefaultResolution.Height}).",
         HelpName = "WIDTHxHEIGHT",
         CustomParser = result =>
         {
-            if (result.Tokens is [{ Value: var token }] && token.Split('x') is [var width, var height]
-                && int.TryParse(width, NumberStyles.None, CultureInfo.InvariantCulture, out var w) && w is > 0 and <= 1_000_000
-                && int.TryParse(height, NumberStyles.None, CultureInfo.InvariantCulture, out var h) && h is > 0 and <= 1_000_000)
+            if (result.Tokens is [{ Value: var token }] && token.Split('x') is [var widthText, var heightText]
+                && TryParseSide(widthText, out var width) && TryParseSide(heightText, out var height))
             {
-                return (w, h);
+                return (width, height);
             }
 
-            result.AddError($"{NameOf(result)}: expected a size such as 1280x720");
+            result.AddError("--resolution: expected a size such as 1280x720");
             return null;
         },
     };
+
+    private static bool TryParseSide(string text, out int side) =>
+        int.TryParse(text, NumberStyles.None, CultureInfo.InvariantCulture, out side) && side is > 0 and <= MaxImageSide;
 }

@@ -8,29 +8,33 @@ using FractalEngine.Parsing.Assets;
 
 namespace FractalEngine.App.Commands;
 
-/// <summary><c>simulate SCENE.sdo --seconds 10 [--output bodies.csv]</c></summary>
+/// <summary>
+/// The command <c>simulate SCENE.sdo --seconds 10 [--output bodies.csv]</c>, which writes the state of each body after each step.
+/// </summary>
 internal static class SimulateCommand
 {
     private const double DefaultSeconds = 10;
 
     private const long MaxSteps = 10_000_000;
 
-    // Of a step: by how much a quotient of two rounded numbers may exceed the whole number that is meant.
+    // Excess of a quotient of two rounded numbers over the whole number that is meant, in steps.
     private const double StepTolerance = 1e-9;
 
+    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var shared = new SharedOptions();
-        var seconds =
-            PositiveOption("--seconds",
-            string.Create(CultureInfo.InvariantCulture, $"How long to simulate; {DefaultSeconds} unless stated."), "SECONDS");
-        var step = PositiveOption("--step", "The length of a step; a sixtieth of a second unless stated.", "SECONDS");
-        var collider = SharedOptions.ColliderOption("How all bodies find what they touch, whatever the scene says.");
-        var output = SharedOptions.OutputOption(".csv", "The table to write: a row for each body and step; stdout unless stated.");
+        var seconds = NumberOption.Positive(
+            "--seconds", "SECONDS",
+            string.Create(CultureInfo.InvariantCulture, $"Duration to simulate (default: {DefaultSeconds})."));
+        var step = NumberOption.Positive("--step", "SECONDS", "Duration of one step (default: a sixtieth of a second).");
+        var collider = SharedOptions.ColliderOption("Collider of all bodies, overriding the scene.");
+        var output = SharedOptions.OutputOption(".csv", "Table to write, one row per body and step (default: standard output).");
         output.Required = false;
-        var command =
-            new Command("simulate", "Let the physics objects of a scene fall, and write where they are after each step.") { seconds, step,
-            collider, output };
+        var command = new Command("simulate", "Simulate the physics objects of a scene, and write their states after each step.")
+        {
+            seconds, step, collider, output,
+        };
         shared.AddTo(command);
         command.SetAction(result => Run(
             result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetValue(seconds) ?? DefaultSeconds,
@@ -38,32 +42,13 @@ internal static class SimulateCommand
         return command;
     }
 
-    private static Option<double?> PositiveOption(string name, string description, string helpName) => new(name)
-    {
-        Description = description,
-        HelpName = helpName,
-        CustomParser = result =>
-        {
-            if (result.Tokens is [{ Value: var token }]
-                && double.TryParse(token, NumberStyles.Float, CultureInfo.InvariantCulture, out var number)
-                && number > 0 && double.IsFinite(number))
-            {
-                return number;
-            }
-
-            result.AddError($"{name}: expected a number above 0");
-            return null;
-        },
-    };
-
     private static int Run(string path, LoadOptions options, double seconds, double step, ColliderKind? collider, string? output)
     {
         var steps = Math.Max(0, Math.Ceiling((seconds / step) - StepTolerance));
         if (steps > MaxSteps)
         {
-            throw new UsageException(
-                string.Create(CultureInfo.InvariantCulture,
-                $"{seconds:R} s are {steps:G4} steps of {step:R} s, and more than {MaxSteps} are not made"));
+            throw new UsageException(FormattableString.Invariant(
+                $"{seconds:R} s take {steps:G4} steps of {step:R} s, which exceeds the limit of {MaxSteps} steps"));
         }
 
         var file = ConsoleLoader.Load(path, options);
@@ -72,12 +57,12 @@ internal static class SimulateCommand
             throw new UsageException($"{path} has no physics objects, so there is nothing to simulate");
         }
 
-        var clock = Stopwatch.StartNew();
+        var buildClock = Stopwatch.StartNew();
         var world = SceneWorld.Create(path, file.Scene, new() { TimeStep = step });
         world.ColliderOverride = collider;
-        // Built first, so that building is neither counted with the steps nor an error in the midst of them.
+        // Built ahead, so that the steps are timed without it and can't fail because of it.
         world.BuildColliders();
-        var buildTime = clock.Elapsed;
+        var buildTime = buildClock.Elapsed;
         var stepTime = TimeSpan.Zero;
         using (var interruption = new InterruptSignal())
         {
@@ -95,12 +80,13 @@ internal static class SimulateCommand
         return ExitCode.Done;
     }
 
-    /// <summary>Makes the steps, and writes a row for each body after each of them.</summary>
-    /// <returns>How long the steps took, without the writing.</returns>
+    /// <summary>Advances the world by a number of steps, and writes one row per body after each of them.</summary>
+    /// <returns>The time that the steps took, without the writing.</returns>
     private static TimeSpan Simulate(string path, PhysicsWorld world, long steps, Stream stream, InterruptSignal interruption)
     {
         using var writer = new StreamWriter(stream, new UTF8Encoding(encoderShouldEmitUTF8Identifier: false), 1 << 16);
-        var (table, clock) = (new BodyCsvWriter(writer), new Stopwatch());
+        var table = new BodyCsvWriter(writer);
+        var clock = new Stopwatch();
         table.WriteHeader();
         for (var step = 0L; step < steps; step++)
         {
@@ -114,7 +100,17 @@ internal static class SimulateCommand
         return clock.Elapsed;
     }
 
-    private static void WriteReport(PhysicsWorld world, TimeSpan buildTime, TimeSpan stepTime) => Console.Error.WriteLine(string.Create(
-        CultureInfo.InvariantCulture,
-        $"bodies {world.Bodies.Count}\nbuild {buildTime.TotalMilliseconds:F3} ms\nsteps {world.StepCount}\nstep {stepTime.TotalMilliseconds / Math.Max(1, world.StepCount):F3} ms\nasleep {world.Bodies.Count(body => body.IsAsleep)}\nstuck {world.Bodies.Count(body => body.IsStuck)}\nstate {world.StateHash}"));
+    private static void WriteReport(PhysicsWorld world, TimeSpan buildTime, TimeSpan stepTime)
+    {
+        var millisecondsPerStep = stepTime.TotalMilliseconds / Math.Max(1, world.StepCount);
+        WriteReportLine($"bodies {world.Bodies.Count}");
+        WriteReportLine($"build {buildTime.TotalMilliseconds:F3} ms");
+        WriteReportLine($"steps {world.StepCount}");
+        WriteReportLine($"step {millisecondsPerStep:F3} ms");
+        WriteReportLine($"asleep {world.Bodies.Count(static body => body.IsAsleep)}");
+        WriteReportLine($"stuck {world.Bodies.Count(static body => body.IsStuck)}");
+        WriteReportLine($"state {world.StateHash}");
+    }
+
+    private static void WriteReportLine(FormattableString line) => Console.Error.WriteLine(FormattableString.Invariant(line));
 }

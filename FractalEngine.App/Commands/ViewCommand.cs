@@ -3,31 +3,27 @@ using FractalEngine.App.Window;
 
 namespace FractalEngine.App.Commands;
 
-/// <summary><c>[view] [FILE]</c>: what the program does when it is told nothing else.</summary>
+/// <summary>The command <c>[view] [FILE]</c>, which opens a window. It is the default command.</summary>
 internal static class ViewCommand
 {
     private const string GalleryPath = "assets/scenes/gallery.sdo";
 
     private static readonly int DefaultTrailLength = new WindowOptions().TrailLength;
 
-    // Set by run.sh where it brings up a virtual display that nobody looks at.
+    // Set to 1 by run.sh where it starts a virtual display, which nobody can see.
     private const string NoWindowVariable = "FRACTALENGINE_NO_WINDOW";
 
+    /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var shared = new SharedOptions();
         var draw = new DrawOptions();
         shared.File.Arity = ArgumentArity.ZeroOrOne;
-        var command = new Command("view", "Open a window on a file, or on the gallery. This is what happens without a command, too.");
+        var command = new Command("view", "Open FILE, or the gallery, in a window. This is the default command.");
+        var trailLength = NumberOption.Integer(
+            "--trail", "N", 1, 1000, $"Length of the trail of the paper's zoom, key T (default: {DefaultTrailLength}).");
         shared.AddTo(command);
         draw.AddTo(command);
-        var trailLength = new Option<long?>("--trail")
-        {
-            Description =
-            $"The length of the queue with which key T follows the paper's way into a fractal; {DefaultTrailLength} unless stated.",
-            HelpName = "N",
-            CustomParser = SharedOptions.ParseInteger(1, 1000),
-        };
         command.Add(trailLength);
         command.SetAction(result => Run(
             result.GetValue(shared.File) ?? FindGallery(),
@@ -36,7 +32,7 @@ internal static class ViewCommand
                 Load = draw.WithLoadOptions(result, shared.LoadOptions(result)),
                 Settings = draw.Settings(result),
                 Projection = draw.Projection(result),
-                TrailLength = (int)(result.GetValue(trailLength) ?? DefaultTrailLength),
+                TrailLength = result.GetValue(trailLength) ?? DefaultTrailLength,
                 Size = draw.Resolution(result),
                 IdleWhenUnchanged = draw.IsEnabled(result, Optimisation.Idle),
             }));
@@ -52,11 +48,11 @@ internal static class ViewCommand
 
         var output = Path.Combine("out", Path.GetFileNameWithoutExtension(path) + ".png");
         var exitCode = RenderCommand.Run(path, options.Load, output, options.Size, options.Projection, options.Settings);
-        Console.Error.WriteLine($"there is no display to open a window on: drew {output} instead");
+        Console.Error.WriteLine($"there is no display for a window, so {output} was drawn instead");
         return exitCode;
     }
 
-    /// <summary>The gallery of the source tree that the program was built in, wherever it is started.</summary>
+    /// <summary>Finds the gallery in the source tree that the program was built in, whatever the current folder is.</summary>
     private static string FindGallery()
     {
         for (var folder = AppContext.BaseDirectory; folder is not null; folder = Path.GetDirectoryName(folder))
@@ -68,6 +64,6 @@ internal static class ViewCommand
             }
         }
 
-        throw new UsageException($"{GalleryPath} is not beside the program: name a file to view");
+        throw new UsageException($"{GalleryPath} is not found, so the file to view must be named");
     }
 }

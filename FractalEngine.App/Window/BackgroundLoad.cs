@@ -5,18 +5,18 @@ using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>Loads and prepares a file on another thread.</summary>
+/// <summary>Loads a file and prepares its scene on another thread.</summary>
 internal sealed class BackgroundLoad
 {
     private readonly ThrottledProgress _progress = new();
     private readonly Task<(LoadedFile File, ScenePreparation Preparation)> _task;
 
-    /// <summary>Starts at once.</summary>
-    /// <param name="path">The file.</param>
-    /// <param name="options">How to load it.</param>
-    /// <param name="settings">How to prepare it.</param>
-    /// <param name="aspect">Width divided by height of the window: what is in sight at first is prepared.</param>
-    /// <param name="completed">Called on the other thread when it is done, or has failed.</param>
+    /// <summary>Starts to load a file.</summary>
+    /// <param name="path">Path of the mesh, fractal or scene.</param>
+    /// <param name="options">The load options of the file.</param>
+    /// <param name="settings">The render settings to prepare the scene for.</param>
+    /// <param name="aspect">Width divided by height of the window. Only models visible at first are prepared.</param>
+    /// <param name="completed">Called on the other thread when the load has succeeded or failed.</param>
     public BackgroundLoad(string path, LoadOptions options, RenderSettings settings, double aspect, Action completed)
     {
         _task = Task.Run(() =>
@@ -25,7 +25,7 @@ internal sealed class BackgroundLoad
             var preparation = new ScenePreparation(file.Scene, settings);
             if (file.Scene.Objects.Length == 1 || !settings.LazyLoading)
             {
-                // Of one object, whatever the camera looks at, there is nothing else to show.
+                // A single object is prepared even if it is out of view, since there is nothing else to show.
                 preparation.PrepareAll(_progress, CancellationToken.None);
             }
             else
@@ -38,18 +38,18 @@ internal sealed class BackgroundLoad
         _task.ContinueWith(_ => completed(), TaskScheduler.Default);
     }
 
-    /// <summary>Done, or failed.</summary>
+    /// <summary>True when the load has succeeded or failed.</summary>
     public bool IsCompleted => _task.IsCompleted;
 
-    /// <summary>True once the result has been asked for.</summary>
+    /// <summary>True once <see cref="TakeResult"/> has been called.</summary>
     public bool IsResultTaken { get; private set; }
 
-    /// <summary>What it is doing, and how far it has come.</summary>
+    /// <summary>The file being loaded, and the completed fraction from 0 to 1.</summary>
     public (string Text, double Fraction) Progress => _progress.Latest;
 
-    /// <summary>The result; null where the file can't be loaded.</summary>
-    /// <param name="exitCode">Of a program that does nothing but load this file.</param>
-    /// <param name="error">Why it can't be loaded; null where it can.</param>
+    /// <summary>Waits for the load and returns its result; null if the file can't be loaded.</summary>
+    /// <param name="exitCode">The exit code of a program that only loads this file.</param>
+    /// <param name="error">The reason why the file can't be loaded; null if it can.</param>
     public (LoadedFile File, ScenePreparation Preparation)? TakeResult(out int exitCode, out string? error)
     {
         IsResultTaken = true;

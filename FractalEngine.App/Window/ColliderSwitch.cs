@@ -6,25 +6,27 @@ using FractalEngine.Parsing.Scenes;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>Takes one collider after the other for all bodies, as far as they fit the scene; then each body its own again.</summary>
+/// <summary>Switches all bodies to the next collider that fits the scene, and after the last one back to their own.</summary>
 internal static class ColliderSwitch
 {
-    // Beyond, meshes of whole fractals take seconds to build.
-    private const int MaxExpandedFaces = 2_000_000;
+    // Colliders of more expanded faces take seconds to build, during which the window would not react.
+    private const int MaxInteractiveFaces = 2_000_000;
 
-    /// <summary>Takes the next. Why others were passed over is written to the terminal.</summary>
-    /// <returns>What to say.</returns>
+    /// <summary>Switches to the next collider. The reasons why others were skipped are written to stderr.</summary>
+    /// <returns>A message for the user.</returns>
     public static string SwitchToNext(PhysicsWorld world, LoadedScene scene)
     {
         var kinds = Enum.GetValues<ColliderKind>();
-        for (var next = world.ColliderOverride is { } before ? (int)before + 1 : 0; next < kinds.Length; next++)
+        var nextIndex = world.ColliderOverride is { } current ? (int)current + 1 : 0;
+        foreach (var kind in kinds.Skip(nextIndex))
         {
-            if (TrySwitchTo(world, scene, kinds[next], out var reason))
+            var name = SceneParser.GetColliderName(kind);
+            if (TrySwitchTo(world, scene, kind, out var reason))
             {
-                return $"collider: {SceneParser.GetColliderName(kinds[next])}";
+                return $"collider: {name}";
             }
 
-            Console.Error.WriteLine($"collider {SceneParser.GetColliderName(kinds[next])}: {reason}");
+            Console.Error.WriteLine($"collider {name}: {reason}");
         }
 
         world.ColliderOverride = null;
@@ -33,12 +35,10 @@ internal static class ColliderSwitch
 
     private static bool TrySwitchTo(PhysicsWorld world, LoadedScene scene, ColliderKind kind, out string reason)
     {
-        var models = scene.Objects.Where(static placed => placed.Declaration is not PhysicsObject).Select(static placed => placed.Model)
-            .Distinct();
-        var faces = models.Aggregate(BigInteger.Zero, (sum, model) => sum + (model.FaceCount ?? MaxExpandedFaces + 1));
-        if (kind is ColliderKind.Hierarchy or ColliderKind.BoundingBox or ColliderKind.Simple && faces > MaxExpandedFaces)
+        var needsExpansion = kind is ColliderKind.Hierarchy or ColliderKind.BoundingBox or ColliderKind.Simple;
+        if (needsExpansion && CountFaces(scene) > MaxInteractiveFaces)
         {
-            reason = "the scene has more faces than it is made for in a window";
+            reason = FormattableString.Invariant($"more than {MaxInteractiveFaces:N0} faces are too many to build it in a window");
             return false;
         }
 
@@ -52,8 +52,13 @@ internal static class ColliderSwitch
         }
         catch (FractalEngineException exception)
         {
-            (world.ColliderOverride, reason) = (previous, exception.Message);
+            world.ColliderOverride = previous;
+            reason = exception.Message;
             return false;
         }
     }
+
+    /// <summary>Counts the faces of all models that no physics moves; an infinite fractal counts as too many.</summary>
+    private static BigInteger CountFaces(LoadedScene scene) =>
+        scene.StaticModels.Aggregate(BigInteger.Zero, static (sum, model) => sum + (model.FaceCount ?? MaxInteractiveFaces + 1));
 }

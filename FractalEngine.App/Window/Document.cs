@@ -7,62 +7,73 @@ using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>The file that a window shows, and where it is seen from.</summary>
+/// <summary>The file that a window shows, with its camera, its physics and its renderer.</summary>
 internal sealed class Document : IDisposable
 {
-    /// <summary>Uploads what is prepared. On the window's thread.</summary>
-    /// <param name="window">Shows it.</param>
-    /// <param name="file">Loaded.</param>
-    /// <param name="preparation">What has been in sight is prepared.</param>
-    /// <param name="options">Projection and trail.</param>
+    /// <summary>Uploads the prepared models. Must be called on the window's thread.</summary>
+    /// <param name="window">The window that shows the file.</param>
+    /// <param name="file">The loaded file.</param>
+    /// <param name="preparation">The preparation of the file's scene, with the visible models prepared.</param>
+    /// <param name="options">The options of the window.</param>
     public Document(RenderWindow window, LoadedFile file, ScenePreparation preparation, WindowOptions options)
     {
-        (File, FirstSightLoader) = (file, new(preparation, window.Wake));
-        var (scene, drawable) = (file.Scene.Scene, preparation.Scene);
+        File = file;
+        FirstSightLoader = new(preparation, window.Wake);
+        var scene = file.Scene.Scene;
         var camera = View.Of(file.Scene, window.Aspect).Camera;
-        CameraControls = new(file.Scene.Bounds, camera, options.Projection ?? scene.Projection, scene.OrthographicHeight,
-            FindFractal(drawable));
+        FlyingCamera = new(
+            file.Scene.Bounds, camera, options.Projection ?? scene.Projection, scene.OrthographicHeight, FindFractal(preparation.Scene));
+        CameraControls = new(FlyingCamera);
         Trail = file.Scene.Objects is [{ Model: FractalModel { Fractal: var fractal } }] ? new(fractal, options.TrailLength) : null;
-        Renderer = new(window, drawable);
+        Renderer = new(window, preparation.Scene);
         Physics = new(file.Scene, window.Wake, alwaysBuild: !options.Settings.LazyLoading);
     }
 
-    /// <summary>The file.</summary>
+    /// <summary>The loaded file with its scene.</summary>
     public LoadedFile File { get; }
 
-    /// <summary>Draws it.</summary>
+    /// <summary>The renderer of the scene.</summary>
     public SceneRenderer Renderer { get; }
 
-    /// <summary>Moves the camera.</summary>
-    public CameraControls CameraControls { get; }
-
-    /// <summary>Moves the bodies.</summary>
-    public ScenePhysics Physics { get; }
-
-    /// <summary>Tells the player where to go.</summary>
-    public WalkControls WalkControls { get; } = new();
-
-    /// <summary>True while camera or bodies move.</summary>
-    public bool IsMoving => Physics.IsRunning || (!Physics.IsWalking && CameraControls.IsMoving);
-
-    /// <summary>Prepares what comes in sight.</summary>
+    /// <summary>The loader that prepares models when they first become visible.</summary>
     public FirstSightLoader FirstSightLoader { get; }
 
-    /// <summary>The paper's way into a fractal; null where there is not exactly one.</summary>
+    /// <summary>The bodies of the scene and the player.</summary>
+    public ScenePhysics Physics { get; }
+
+    /// <summary>The camera while no player walks.</summary>
+    public FlyingCamera FlyingCamera { get; }
+
+    /// <summary>The controls of the flying camera.</summary>
+    public CameraControls CameraControls { get; }
+
+    /// <summary>The controls of the player.</summary>
+    public WalkControls WalkControls { get; } = new();
+
+    /// <summary>The paper's zoom into the fractal; null unless the scene is one fractal.</summary>
     public FractalTrail? Trail { get; }
 
-    /// <summary>Whether it is taken.</summary>
+    /// <summary>Whether the paper's zoom replaces that of the engine.</summary>
     public bool IsTrailEnabled { get; private set; }
 
-    /// <summary>Takes the paper's way into the fractal, or ours again.</summary>
+    /// <summary>True while the camera or a body moves.</summary>
+    public bool IsMoving => Physics.IsRunning || (!Physics.IsWalking && CameraControls.IsMoving);
+
+    /// <summary>The present camera in world space: the flying one, or the one at the player's eyes.</summary>
+    public Camera Camera => Physics is { IsWalking: true, Character: { } controller }
+        ? WalkControls.EyeCamera(controller, Physics.InterpolationAlpha)
+        : FlyingCamera.Camera;
+
+    /// <summary>Switches between the paper's zoom into the fractal and that of the engine.</summary>
     public void ToggleTrail()
     {
         IsTrailEnabled = Trail is not null && !IsTrailEnabled;
         Renderer.Move(0, File.Scene.Objects[0].ObjectToWorld);
     }
 
-    /// <summary>The view as the camera is now. Moves the fractal where the paper's way is taken.</summary>
-    /// <param name="aspect">Width divided by height of the picture.</param>
+    /// <summary>Moves what is drawn to its present place, and returns the view of the present camera.</summary>
+    /// <remarks>Bodies move to their interpolated positions, and the fractal to that of the paper's zoom where it is enabled.</remarks>
+    /// <param name="aspect">Width divided by height of the frame.</param>
     public View UpdateView(double aspect)
     {
         Physics.ApplyTo(Renderer);
@@ -74,31 +85,32 @@ internal sealed class Document : IDisposable
 
         if (!IsTrailEnabled)
         {
-            return CameraControls.WithDeepZoom(view);
+            return FlyingCamera.WithDeepZoom(view);
         }
 
         Renderer.Move(0, Trail!.Update(File.Scene.Objects[0].ObjectToWorld, view.Camera.Position));
         return view;
     }
 
-    /// <summary>Takes in an event: the player's, or the camera's.</summary>
-    /// <returns>True when the view changed.</returns>
+    /// <summary>Passes an event to the controls of the player or the camera.</summary>
+    /// <returns>True when the view has changed.</returns>
     public bool Handle(WindowEvent windowEvent, double aspect) =>
         Physics.IsWalking ? WalkControls.Handle(windowEvent, Physics.Character!) : CameraControls.Handle(windowEvent, aspect);
 
-    /// <summary>Moves on for a while.</summary>
-    /// <returns>True when something may look different.</returns>
+    /// <summary>Advances bodies and camera by a time.</summary>
+    /// <returns>True when the view may have changed.</returns>
     public bool Advance(TimeSpan time)
     {
         var mayHaveMoved = Physics.Advance(time);
         return (!Physics.IsWalking && CameraControls.Advance(time)) || mayHaveMoved;
     }
 
-    /// <summary>Lets the player walk from where the camera looks, or the camera fly from where the player stands.</summary>
-    /// <returns>What to say.</returns>
+    /// <summary>Starts walking in the direction of the camera, or continues flying from the player's eyes.</summary>
+    /// <returns>A message for the user.</returns>
     public string ToggleWalking()
     {
-        var (camera, wasWalking) = (Camera, Physics.IsWalking);
+        var camera = Camera;
+        var wasWalking = Physics.IsWalking;
         var message = Physics.ToggleWalking(camera);
         if (Physics.IsWalking)
         {
@@ -107,24 +119,19 @@ internal sealed class Document : IDisposable
         }
         else if (wasWalking)
         {
-            CameraControls.MoveTo(camera);
+            CameraControls.ReleaseKeys();
+            FlyingCamera.MoveTo(camera);
         }
 
         return message;
     }
 
-    /// <summary>Where the scene is seen from: the camera's place, or the player's eyes.</summary>
-    public Camera Camera =>
-        Physics is { IsWalking: true, Character: { } walker }
-        ? WalkControls.EyeCamera(walker, Physics.InterpolationAlpha)
-        : CameraControls.Camera;
-
-    /// <summary>The scene as it would be saved: with the present camera and projection.</summary>
+    /// <summary>Returns the scene as it would be saved, with the present camera and projection.</summary>
     public Scene GetCurrentScene() => File.Scene.Scene with
     {
         Camera = Camera,
-        Projection = CameraControls.Projection,
-        OrthographicHeight = CameraControls.OrthographicHeight,
+        Projection = FlyingCamera.Projection,
+        OrthographicHeight = FlyingCamera.OrthographicHeight,
     };
 
     /// <inheritdoc/>
@@ -134,9 +141,14 @@ internal sealed class Document : IDisposable
         Renderer.Dispose();
     }
 
-    /// <summary>The fractal, where it is all there is: the camera can then go into it as deep as it likes.</summary>
-    private static FractalLocation? FindFractal(DrawableScene drawable) =>
-        drawable.Source.Objects is [{ Model: FractalModel, ObjectToWorld: var map }] && drawable.Objects[0].Model.LodHierarchy is { } table
-        ? new(0, table, map)
-        : null;
+    /// <summary>Finds the fractal that the camera can enter: the only object of the scene, if that is a fractal.</summary>
+    private static FractalLocation? FindFractal(DrawableScene drawable)
+    {
+        if (drawable.Source.Objects is not [{ Model: FractalModel, ObjectToWorld: var objectToWorld }])
+        {
+            return null;
+        }
+
+        return drawable.Objects[0].Model.LodHierarchy is { } hierarchy ? new(0, hierarchy, objectToWorld) : null;
+    }
 }

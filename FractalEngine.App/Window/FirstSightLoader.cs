@@ -3,23 +3,23 @@ using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>Prepares models in the background when their objects come in sight.</summary>
-/// <param name="preparation">Of the scene.</param>
-/// <param name="completed">Called on the other thread when some are prepared.</param>
+/// <summary>Prepares models in the background when their objects first become visible.</summary>
+/// <param name="preparation">The preparation of the scene.</param>
+/// <param name="completed">Called on the other thread when models have been prepared.</param>
 internal sealed class FirstSightLoader(ScenePreparation preparation, Action completed)
 {
     private readonly ThrottledProgress _progress = new();
     private Task? _task;
 
-    /// <summary>True from <see cref="Start"/> until <see cref="TakeScene"/> has returned what was prepared.</summary>
+    /// <summary>True from <see cref="Start"/> until <see cref="TakeScene"/> has returned the new scene.</summary>
     public bool IsRunning => _task is not null;
 
-    /// <summary>What is being prepared, and how far that has come; null when nothing is.</summary>
+    /// <summary>The model being prepared, and the completed fraction from 0 to 1; null while nothing is prepared.</summary>
     public (string Text, double Fraction)? Progress => _task is null ? null : _progress.Latest;
 
-    /// <summary>Begins to prepare what is in sight and is not prepared yet, unless that is going on.</summary>
-    /// <param name="view">Camera and projection.</param>
-    /// <param name="aspect">Width divided by height of the picture.</param>
+    /// <summary>Starts to prepare the visible models that are still placeholders, unless a preparation is running.</summary>
+    /// <param name="view">Camera and projection of the frame.</param>
+    /// <param name="aspect">Width divided by height of the frame.</param>
     public void Start(View view, double aspect)
     {
         if (_task is null && !preparation.IsComplete && preparation.HasUnpreparedVisibleModels(view, aspect))
@@ -32,7 +32,8 @@ internal sealed class FirstSightLoader(ScenePreparation preparation, Action comp
         }
     }
 
-    /// <summary>The scene with what was prepared since; null while nothing is new. An error of the preparation comes up here.</summary>
+    /// <summary>Returns the scene with newly prepared models, or null while there are none.</summary>
+    /// <remarks>Throws the exception of a preparation that has failed.</remarks>
     public DrawableScene? TakeScene()
     {
         if (_task is not { IsCompleted: true } task)
@@ -45,7 +46,7 @@ internal sealed class FirstSightLoader(ScenePreparation preparation, Action comp
         return preparation.Scene;
     }
 
-    /// <summary>Waits until nothing runs any more.</summary>
+    /// <summary>Waits until no preparation is running.</summary>
     public void Wait()
     {
         _task?.GetAwaiter().GetResult();

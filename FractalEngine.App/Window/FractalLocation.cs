@@ -3,8 +3,8 @@ using FractalEngine.Core.Visibility;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>A fractal in a scene.</summary>
-/// <param name="ObjectIndex">Its object's place in the scene, from 0.</param>
-/// <param name="Hierarchy">Its levels.</param>
-/// <param name="ObjectToWorld">The object's matrix m.</param>
+/// <summary>A fractal in a scene that the camera can enter.</summary>
+/// <param name="ObjectIndex">The index of its object in the scene, from 0.</param>
+/// <param name="Hierarchy">The levels of the fractal.</param>
+/// <param name="ObjectToWorld">The object's matrix m, from the fractal's frame to world space.</param>
 internal sealed record FractalLocation(int ObjectIndex, LodHierarchy Hierarchy, AffineMap ObjectToWorld);

@@ -1,61 +1,66 @@
 using FractalEngine.Core.Visibility;
 using FractalEngine.Render;
 using FractalEngine.Render.Ui;
+using static System.FormattableString;
 
 namespace FractalEngine.App.Window;
 
 /// <summary>
-/// What the last picture took and what was left out, as key I shows it. Plain values: counted and written out only where it is shown.
+/// The cost of the last frame and the savings of each optimisation, shown by key I. Numbers are formatted only while they are shown.
 /// </summary>
-/// <param name="Renderer">Drew it.</param>
-/// <param name="Culling">What was left out of its instances; null for nothing.</param>
-/// <param name="DrawTime">How long it took to draw.</param>
-/// <param name="Depth">Levels that the camera has gone down.</param>
-/// <param name="Log10Magnification">Decimal logarithm.</param>
-/// <param name="Physics">Has or has not built colliders.</param>
-internal readonly record struct FrameReport(SceneRenderer Renderer, CullingSettings? Culling, TimeSpan DrawTime, int Depth,
-    double Log10Magnification, ScenePhysics Physics)
+/// <param name="Renderer">The renderer that drew the frame.</param>
+/// <param name="Culling">The culling settings of the frame; null where every instance was drawn.</param>
+/// <param name="DrawTime">The time that drawing the frame took.</param>
+/// <param name="Depth">Number of fractal levels between the whole and the camera.</param>
+/// <param name="Log10Magnification">Decimal logarithm of the magnification around the camera.</param>
+/// <param name="Physics">The physics of the scene, for the number of colliders.</param>
+internal readonly record struct FrameReport(
+    SceneRenderer Renderer, CullingSettings? Culling, TimeSpan DrawTime, int Depth, double Log10Magnification, ScenePhysics Physics)
 {
-    /// <summary>Two panels.</summary>
-    /// <param name="frames">
-    /// Drawn so far; shown again without drawing, below another text; and not shown since nothing had changed, that a loop of 60 a second
-    /// would have drawn.
-    /// </param>
-    public IReadOnlyList<OverlayPanel> ToPanels((long Drawn, long ShownAgain, long NotNeeded) frames)
+    /// <summary>Creates the two panels of the report.</summary>
+    public IReadOnlyList<OverlayPanel> ToPanels(FrameCounts frames)
     {
         var statistics = Renderer.Statistics;
-        var (culling, optimisations, colliders) = (statistics.Culling, statistics.Optimisations, Physics.ColliderCounts);
-        return
-        [
-            OverlayPanel.OfTable(OverlayAnchor.BottomRight, "Last picture",
-            [
-                ("time", Invariant($"{DrawTime.TotalMilliseconds:F1} ms, {statistics.CullWaitTime.TotalMilliseconds:F1} choosing")),
-                ("instances", Invariant($"{statistics.InstanceCount:N0}")),
-                ("triangles", Invariant($"{statistics.TriangleCount:N0}")),
-                ("parts looked at", Invariant($"{culling.VisitedNodes:N0}")),
-                ("drawn as one", Invariant($"{culling.Proxies:N0}")),
-                ("depth", Invariant($"{Depth:N0}, enlarged 10^{Log10Magnification:F1}")),
-                ("choices so far", Invariant($"{statistics.CullCount:N0}")),
-                ("moved to GPU", Invariant($"{statistics.UploadedBytes / 1e6:F1} MB")),
-            ]),
-            OverlayPanel.OfTable(OverlayAnchor.TopLeft, "Left out",
-            [
-                ("outside", Invariant($"{culling.OutsideFrustum:N0} parts")),
-                ("hidden", Invariant($"{culling.Occluded:N0} parts")),
-                ("covering nothing", Invariant($"{culling.ZeroCoverage:N0} parts")),
-                ("backs", Invariant($"of {optimisations.BackFaceCulledCount:N0} of {optimisations.ObjectCount:N0} objects")),
-                ("empty faces", Invariant($"{optimisations.DegenerateTriangleCount:N0}")),
-                ("not in sight yet", Invariant($"{optimisations.PlaceholderCount:N0} of {optimisations.ModelCount:N0} models")),
-                ("not asked yet", Invariant($"{colliders.All - colliders.Built:N0} of {colliders.All:N0} colliders")),
-                ("shared",
-                Invariant(
-                    $"{optimisations.ObjectCount:N0} objects, {optimisations.ModelCount:N0} files, {optimisations.TextureCount:N0} textures")),
-                ("uploads", Invariant($"{optimisations.Uploads.Skipped:N0}; {optimisations.Uploads.Performed:N0} made")),
-                ("state changes", Invariant($"{optimisations.StateChanges.Skipped:N0}; {optimisations.StateChanges.Performed:N0} made")),
-                ("pictures at 60/s", Invariant($"{frames.NotNeeded:N0}; {frames.Drawn:N0} drawn, {frames.ShownAgain:N0} shown again")),
-            ]),
-        ];
+        return [CostPanel(statistics), SavingsPanel(statistics, frames)];
     }
 
-    private static string Invariant(FormattableString text) => FormattableString.Invariant(text);
+    private OverlayPanel CostPanel(FrameStatistics statistics)
+    {
+        var drawTime = DrawTime.TotalMilliseconds;
+        // Adding zero turns a rounded -0 into 0.
+        var magnification = Math.Round(Log10Magnification, 1) + 0.0;
+        var cullTime = statistics.CullWaitTime.TotalMilliseconds;
+        return OverlayPanel.OfTable(OverlayAnchor.BottomRight, "Last frame",
+        [
+            ("draw time", Invariant($"{drawTime:F1} ms, culling {cullTime:F1}")),
+            ("instances", Invariant($"{statistics.InstanceCount:N0}")),
+            ("triangles", Invariant($"{statistics.TriangleCount:N0}")),
+            ("visited nodes", Invariant($"{statistics.Culling.VisitedNodes:N0}")),
+            ("proxies", Invariant($"{statistics.Culling.Proxies:N0}")),
+            ("fractal depth", Invariant($"{Depth:N0}, magnified 10^{magnification:F1}")),
+            ("culling runs", Invariant($"{statistics.CullCount:N0}")),
+            ("uploaded", Invariant($"{statistics.UploadedBytes / 1e6:F1} MB")),
+        ]);
+    }
+
+    private OverlayPanel SavingsPanel(FrameStatistics statistics, FrameCounts frames)
+    {
+        var culling = statistics.Culling;
+        var saved = statistics.Optimisations;
+        var (builtColliders, allColliders) = Physics.ColliderCounts;
+        return OverlayPanel.OfTable(OverlayAnchor.TopLeft, "Optimisations",
+        [
+            ("frustum culling", Invariant($"{culling.OutsideFrustum:N0} nodes outside")),
+            ("occlusion culling", Invariant($"{culling.Occluded:N0} nodes hidden")),
+            ("zero coverage", Invariant($"{culling.ZeroCoverage:N0} instances")),
+            ("back-face culling", Invariant($"{saved.BackFaceCulledCount:N0} of {saved.ObjectCount:N0} objects")),
+            ("degenerate removal", Invariant($"{saved.DegenerateTriangleCount:N0} triangles")),
+            ("lazy loading", Invariant($"{saved.PlaceholderCount:N0} of {saved.ModelCount:N0} models pending")),
+            ("lazy colliders", Invariant($"{allColliders - builtColliders:N0} of {allColliders:N0} not built")),
+            ("sharing", Invariant($"{saved.ObjectCount:N0} objects, {saved.ModelCount:N0} models, {saved.TextureCount:N0} textures")),
+            ("buffer reuse", Invariant($"{saved.Uploads.Skipped:N0} uploads skipped, {saved.Uploads.Performed:N0} made")),
+            ("state filtering", Invariant($"{saved.StateChanges.Skipped:N0} calls skipped, {saved.StateChanges.Performed:N0} made")),
+            ("idle", Invariant($"{frames.Skipped:N0} frames skipped, {frames.Drawn:N0} drawn, {frames.PresentedAgain:N0} reused")),
+        ]);
+    }
 }

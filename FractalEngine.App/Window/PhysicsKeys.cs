@@ -2,11 +2,11 @@ using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>The keys that let time pass, drop balls and let a player walk.</summary>
+/// <summary>Maps keys to commands of the physics: pausing, dropping spheres, walking and showing contacts.</summary>
 internal static class PhysicsKeys
 {
-    /// <summary>Does what a key asks for.</summary>
-    /// <returns>What to say; null for keys that mean nothing here.</returns>
+    /// <summary>Runs the command of a key.</summary>
+    /// <returns>A message for the user; null for keys without a command.</returns>
     public static string? Apply(Document document, Key key)
     {
         var physics = document.Physics;
@@ -26,7 +26,7 @@ internal static class PhysicsKeys
                 return document.ToggleWalking();
             case Key.V:
                 physics.ShowsClosestPoints = !physics.ShowsClosestPoints;
-                return physics.ShowsClosestPoints ? "closest points and normals are shown" : "closest points are hidden";
+                return physics.ShowsClosestPoints ? "closest points and normals: shown" : "closest points and normals: hidden";
             default:
                 return null;
         }

@@ -5,16 +5,18 @@ using FractalEngine.Render.Windowing;
 namespace FractalEngine.App.Window;
 
 /// <summary>
-/// The window: loads a file in the background, draws when something has changed, and sleeps otherwise. What keys and mouse do to
-/// the camera is <see cref="CameraControls"/>, how pictures are drawn is <see cref="WindowRenderer"/>; here are the loop, and the keys that
-/// do something else.
+/// The event loop of a window: passes events on, advances time, draws when something has changed, and sleeps otherwise.
 /// </summary>
+/// <remarks>
+/// <see cref="DocumentLoader"/> loads files, <see cref="WindowKeys"/> and <see cref="CameraControls"/> handle keys and mouse, and
+/// <see cref="WindowRenderer"/> draws frames.
+/// </remarks>
 internal sealed class SceneWindow : IDisposable
 {
     private static readonly TimeSpan FrameTime = TimeSpan.FromSeconds(1 / 60.0);
     private static readonly TimeSpan ProgressInterval = TimeSpan.FromSeconds(0.1);
 
-    // A frame that took long must not make the camera jump.
+    // After a frame that took long, camera and bodies must not jump.
     private static readonly TimeSpan MaxTimeStep = TimeSpan.FromSeconds(0.1);
 
     private readonly WindowOptions _options;
@@ -22,46 +24,47 @@ internal sealed class SceneWindow : IDisposable
     private readonly FrameRenderer _frameRenderer;
     private readonly WindowRenderer _windowRenderer;
     private readonly WindowOverlay _overlay = new();
+    private readonly DocumentLoader _loader;
+    private readonly WindowKeys _keys;
     private readonly Stopwatch _clock = Stopwatch.StartNew();
-    private RenderSettings _settings;
-    private BackgroundLoad _load;
-    private Document? _document;
     private TimeSpan _lastAdvance;
     private TimeSpan _lastRefresh;
-    private int _exitCode;
+    private Redraw _redraw = Redraw.Overlay | Redraw.Scene;
     private bool _isClosing;
     private bool _isVisible = true;
 
-    // What the window shows is older than the scene, or than the text over it. A new text costs no new drawing.
-    private bool _needsDraw = true;
-    private bool _needsPresent = true;
-
     private SceneWindow(string path, WindowOptions options)
     {
-        (_options, _settings) = (options, options.Settings);
+        _options = options;
         _window = new("FractalEngine", options.Size.Width, options.Size.Height);
         _frameRenderer = new(_window);
         _windowRenderer = new(_frameRenderer);
-        _load = StartLoading(path);
+        _loader = new(_window, _overlay, options);
+        _keys = new(_window, _windowRenderer, _overlay, options.Settings);
+        _loader.Open(path, options.Settings);
     }
 
-    /// <summary>Opens a window on a file and returns when it is closed.</summary>
-    /// <returns>The exit code: that of the load, since everything else succeeds or says so on the screen.</returns>
+    /// <summary>Opens a window on a file, and returns when the user closes it.</summary>
+    /// <returns>The exit code of the load. Later errors are shown in the window.</returns>
     /// <exception cref="GraphicsUnavailableException">There is no display, or no OpenGL.</exception>
     public static int Show(string path, WindowOptions options)
     {
         using var window = new SceneWindow(path, options);
         window.Run();
-        return window._exitCode;
+        return window._loader.ExitCode;
     }
 
     /// <inheritdoc/>
     public void Dispose()
     {
-        _document?.Dispose();
+        _loader.Dispose();
         _frameRenderer.Dispose();
         _window.Dispose();
     }
+
+    private Document? Document => _loader.Document;
+
+    private bool NeedsRefresh => (_isVisible || !_options.IdleWhenUnchanged) && _redraw != Redraw.None;
 
     private void Run()
     {
@@ -72,10 +75,13 @@ internal sealed class SceneWindow : IDisposable
                 Handle(windowEvent);
             }
 
-            PollLoading();
-            PollPreparation();
+            PollLoader();
             Advance();
-            _needsPresent |= _overlay.Expire(_clock.Elapsed);
+            if (_overlay.Expire(_clock.Elapsed))
+            {
+                _redraw |= Redraw.Overlay;
+            }
+
             if (NeedsRefresh && _window.Width > 0 && _window.Height > 0 && !_isClosing)
             {
                 Refresh();
@@ -83,169 +89,79 @@ internal sealed class SceneWindow : IDisposable
         }
     }
 
-    private bool NeedsRefresh => (_isVisible || !_options.IdleWhenUnchanged) && (_needsDraw || _needsPresent);
-
-    private TimeSpan WaitTimeout() =>
-        NeedsRefresh ? TimeSpan.Zero
-        : !_options.IdleWhenUnchanged ? TimeUntil(_lastRefresh + FrameTime)
-        : _document?.IsMoving == true ? TimeUntil(_lastAdvance + FrameTime)
-        : !_load.IsResultTaken || _document?.FirstSightLoader.IsRunning == true ? ProgressInterval
-        : _overlay.NextExpiry is { } expiry ? TimeUntil(expiry)
-        : Timeout.InfiniteTimeSpan;
-
-    private TimeSpan TimeUntil(TimeSpan time) => time - _clock.Elapsed is { Ticks: > 0 } left ? left : TimeSpan.Zero;
-
-    private BackgroundLoad StartLoading(string path)
+    /// <summary>Returns the time until the loop must run again, even if no event arrives.</summary>
+    private TimeSpan WaitTimeout()
     {
-        _window.Title = $"{Path.GetFileName(path)} - FractalEngine";
-        return new(path, _options.Load, _settings, _window.Aspect, _window.Wake);
+        if (NeedsRefresh)
+        {
+            return TimeSpan.Zero;
+        }
+
+        if (!_options.IdleWhenUnchanged)
+        {
+            return TimeUntil(_lastRefresh + FrameTime);
+        }
+
+        if (Document?.IsMoving == true)
+        {
+            return TimeUntil(_lastAdvance + FrameTime);
+        }
+
+        if (_loader.IsBusy)
+        {
+            return ProgressInterval;
+        }
+
+        return _overlay.NextExpiry is { } expiry ? TimeUntil(expiry) : Timeout.InfiniteTimeSpan;
     }
 
-    private void PollLoading()
+    private TimeSpan TimeUntil(TimeSpan time) => time - _clock.Elapsed is { Ticks: > 0 } remaining ? remaining : TimeSpan.Zero;
+
+    private void PollLoader()
     {
-        if (_load.IsResultTaken)
+        var previousDocument = Document;
+        _redraw |= _loader.Poll();
+        if (Document != previousDocument)
         {
-            return;
-        }
-
-        if (!_load.IsCompleted)
-        {
-            _overlay.Progress = _load.Progress;
-            _needsPresent = true;
-            return;
-        }
-
-        (_overlay.Progress, _needsPresent) = (null, true);
-        var loaded = _load.TakeResult(out _exitCode, out var error);
-        _overlay.Error = error;
-        if (loaded is not var (file, preparation))
-        {
-            Console.Error.WriteLine(error);
-            return;
-        }
-
-        _document?.Dispose();
-        _document = null;
-        _windowRenderer.Reset();
-        _document = new(_window, file, preparation, _options);
-        foreach (var message in file.Warnings.Select(warning => warning.ToString()).Concat(preparation.Scene.Notices))
-        {
-            Console.Error.WriteLine(message);
-        }
-
-        _overlay.DescribeFile(file, preparation.Scene);
-        _needsDraw = true;
-    }
-
-    /// <summary>Shows what has been prepared since it came in sight.</summary>
-    private void PollPreparation()
-    {
-        if (_document is not { FirstSightLoader.IsRunning: true } document)
-        {
-            return;
-        }
-
-        _needsPresent = true;
-        var prepared = document.FirstSightLoader.TakeScene();
-        _overlay.Progress = document.FirstSightLoader.Progress;
-        if (prepared is not null)
-        {
-            foreach (var notice in prepared.Notices.Skip(document.Renderer.Scene.Notices.Length))
-            {
-                Console.Error.WriteLine(notice);
-            }
-
-            document.Renderer.Update(prepared);
-            _overlay.DescribeFile(document.File, prepared);
-            _needsDraw = true;
+            _windowRenderer.Reset();
         }
     }
 
     private void Handle(WindowEvent windowEvent)
     {
+        var wasMoving = Document?.IsMoving == true;
         switch (windowEvent)
         {
             case CloseRequested or KeyPressed { Key: Key.Escape }:
                 _isClosing = true;
                 return;
             case WindowResized:
-                _needsDraw = true;
+                _redraw |= Redraw.Scene;
                 break;
             case WindowExposed:
-                _needsPresent = true;
+                _redraw |= Redraw.Overlay;
                 break;
             case VisibilityChanged visibility:
                 _isVisible = visibility.IsVisible;
-                _needsPresent = true;
+                _redraw |= Redraw.Overlay;
                 break;
-            case FileDropped dropped when _load.IsResultTaken:
-                _load = StartLoading(dropped.Path);
+            case FileDropped dropped:
+                _loader.Open(dropped.Path, _keys.Settings);
                 break;
             case KeyPressed { IsRepeat: false } pressed:
-                HandleKey(pressed);
+                _redraw |= _keys.Handle(pressed, Document, _clock.Elapsed);
                 break;
         }
 
-        if (_document is { } document)
+        if (Document?.Handle(windowEvent, _window.Aspect) == true)
         {
-            var wasMoving = document.IsMoving;
-            _needsDraw |= document.Handle(windowEvent, _window.Aspect);
-            if (!wasMoving)
-            {
-                _lastAdvance = _clock.Elapsed;
-            }
+            _redraw |= Redraw.Scene;
         }
-    }
 
-    private void HandleKey(KeyPressed pressed)
-    {
-        switch (pressed.Key)
+        if (!wasMoving)
         {
-            case Key.H:
-                _overlay.ShowsKeys = !_overlay.ShowsKeys;
-                _needsPresent = true;
-                break;
-            case Key.I:
-                _overlay.ShowsStatistics = !_overlay.ShowsStatistics;
-                _needsPresent = true;
-                break;
-            case Key.T when _document is { Trail: { } trail } document:
-                document.ToggleTrail();
-                _overlay.ShowMessage(document.IsTrailEnabled
-                    ? $"m becomes m·t, with a trail of {trail.Length}"
-                    : "parts of the fractal are chosen from all its levels", _clock.Elapsed);
-                _needsDraw = true;
-                break;
-            case Key.F12 when _document is { } document:
-                ShowMessage(WindowFiles.SaveScreenshot(_windowRenderer.Capture(document, _settings, _window.Width, _window.Height),
-                    document.File.Path));
-                _needsDraw = true;
-                break;
-            case Key.S when pressed.Modifiers.HasFlag(KeyModifiers.Control) && _document is { } document:
-                ShowMessage(WindowFiles.SaveScene(document));
-                break;
-            case var key when !pressed.Modifiers.HasFlag(KeyModifiers.Control) && _document is { } document
-            && PhysicsKeys.Apply(document, key) is { } message:
-                _lastAdvance = _clock.Elapsed;
-                _overlay.PhysicsStatus = document.Physics.StatusText;
-                _overlay.ShowMessage(message, _clock.Elapsed);
-                _needsDraw = true;
-                break;
-            default:
-                ApplySettings(SettingKeys.Apply(_settings, pressed.Key));
-                break;
-        }
-    }
-
-    private void ApplySettings((RenderSettings Settings, string? Message)? change)
-    {
-        if (change is var (settings, message))
-        {
-            (_settings, _needsDraw) = (settings, true);
-            if (message is not null)
-            {
-                _overlay.ShowMessage(message, _clock.Elapsed);
-            }
+            // Time begins to count with the event that starts a movement.
+            _lastAdvance = _clock.Elapsed;
         }
     }
 
@@ -253,27 +169,39 @@ internal sealed class SceneWindow : IDisposable
     {
         var now = _clock.Elapsed;
         var time = now - _lastAdvance;
-        if (_document?.IsMoving == true && time >= FrameTime)
+        if (Document is { IsMoving: true } document && time >= FrameTime)
         {
             _lastAdvance = now;
-            _needsDraw |= _document.Advance(time < MaxTimeStep ? time : MaxTimeStep);
-            _overlay.PhysicsStatus = _document.Physics.StatusText;
+            if (document.Advance(time < MaxTimeStep ? time : MaxTimeStep))
+            {
+                _redraw |= Redraw.Scene;
+            }
+
+            _overlay.PhysicsStatus = document.Physics.StatusText;
         }
 
-        if (_document?.Physics.TakeProblem() is { } problem)
+        if (Document?.Physics.TakeProblem() is { } problem)
         {
-            ShowMessage(problem);
+            _overlay.Report(problem, now);
+            _redraw |= Redraw.Overlay;
         }
 
-        // What was drawn while moving was coarse, and one picture behind.
-        _needsDraw |= _windowRenderer.IsReducedQuality && _document?.IsMoving != true;
-        _needsDraw |= !_options.IdleWhenUnchanged && now - _lastRefresh >= FrameTime;
+        // The last frame of a movement was coarse and one view behind, so a full one follows it.
+        var hasStopped = _windowRenderer.IsReducedQuality && Document?.IsMoving != true;
+        var isFrameDue = !_options.IdleWhenUnchanged && now - _lastRefresh >= FrameTime;
+        if (hasStopped || isFrameDue)
+        {
+            _redraw |= Redraw.Scene;
+        }
     }
 
     private void Refresh()
     {
-        var start = _lastRefresh = _clock.Elapsed;
-        if (_needsDraw)
+        var start = _clock.Elapsed;
+        _lastRefresh = start;
+        var needsDraw = _redraw.HasFlag(Redraw.Scene);
+        _redraw = Redraw.None;
+        if (needsDraw)
         {
             Draw();
         }
@@ -284,33 +212,23 @@ internal sealed class SceneWindow : IDisposable
 
         _overlay.FrameCounts = _windowRenderer.CountFrames((long)(start / FrameTime));
         _frameRenderer.Present(_window, _overlay.Panels);
-        if (_needsDraw)
+        if (needsDraw)
         {
             _windowRenderer.RecordFrameTime(_clock.Elapsed - start);
         }
-
-        (_needsDraw, _needsPresent) = (false, false);
     }
 
     private void Draw()
     {
         var start = _clock.Elapsed;
-        var usedSettings = _windowRenderer.Draw(_document, _settings, _window.Width, _window.Height);
-        if (_document is { } document)
+        var usedSettings = _windowRenderer.Draw(Document, _keys.Settings, _window.Width, _window.Height);
+        if (Document is { } document)
         {
             document.FirstSightLoader.Start(_windowRenderer.LatestView!, _window.Aspect);
-            var controls = document.CameraControls;
-            _overlay.SetReport(
-                new(document.Renderer, usedSettings.Culling, _clock.Elapsed - start, controls.Depth, controls.Log10Magnification,
-                document.Physics));
+            var camera = document.FlyingCamera;
+            var drawTime = _clock.Elapsed - start;
+            _overlay.SetReport(new(
+                document.Renderer, usedSettings.Culling, drawTime, camera.Depth, camera.Log10Magnification, document.Physics));
         }
-    }
-
-    /// <summary>Says on the screen and the terminal what came of something.</summary>
-    private void ShowMessage(string message)
-    {
-        Console.Error.WriteLine(message);
-        _overlay.ShowMessage(message, _clock.Elapsed);
-        _needsPresent = true;
     }
 }

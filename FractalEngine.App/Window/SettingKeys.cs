@@ -3,18 +3,19 @@ using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>The keys that change how a scene is drawn.</summary>
+/// <summary>Maps keys to changes of the render settings.</summary>
 internal static class SettingKeys
 {
-    /// <summary>
-    /// The settings after a key was pressed, and a message where that is not plain to see; null for keys that change none.
-    /// </summary>
+    /// <summary>Applies the change of a key to the settings.</summary>
+    /// <returns>
+    /// The changed settings, with a message where the change may be hard to see; null for keys that change no setting.
+    /// </returns>
     public static (RenderSettings Settings, string? Message)? Apply(RenderSettings settings, Key key) => key switch
     {
         Key.G => (settings with { Grid = !settings.Grid, Axes = !settings.Grid }, null),
         Key.X => (settings with { Wireframe = !settings.Wireframe }, null),
-        Key.L when settings.Shading == Shading.PerVertex => (settings with { Shading = Shading.PerPixel }, "light at every pixel"),
-        Key.L => (settings with { Shading = Shading.PerVertex }, "light at the vertices"),
+        Key.L when settings.Shading == Shading.PerVertex => (settings with { Shading = Shading.PerPixel }, "lighting: per pixel"),
+        Key.L => (settings with { Shading = Shading.PerVertex }, "lighting: per vertex"),
         _ => null,
     };
 }

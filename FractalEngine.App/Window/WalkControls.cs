@@ -6,66 +6,57 @@ using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>Turns keys and mouse into where a player walks and looks.</summary>
+/// <summary>Translates keys and mouse into the walking direction and the gaze of a player.</summary>
 internal sealed class WalkControls
 {
-    // Radians a pixel, as for the free camera.
-    private const double RadiansPerPixel = 0.003;
-
-    // Of the height, below the top.
+    // Depth of the eyes below the top of the player, divided by its height.
     private const double EyeDepthFraction = 0.08;
 
-    private readonly HashSet<Key> _heldKeys = [];
+    private readonly HeldKeys _heldKeys = new();
     private bool _isLooking;
 
-    /// <summary>Where the player looks; its position is not used.</summary>
+    /// <summary>The camera that looks in the player's direction; its position is not used.</summary>
     public Camera Direction { get; set; } = Camera.Default;
 
-    /// <summary>Lets go of all keys.</summary>
+    /// <summary>Releases all keys and mouse buttons.</summary>
     public void ReleaseKeys()
     {
         _heldKeys.Clear();
         _isLooking = false;
     }
 
-    /// <summary>Takes in an event.</summary>
-    /// <returns>True when the player looks elsewhere.</returns>
+    /// <summary>Processes an event, and updates the move input of the player.</summary>
+    /// <param name="windowEvent">Any event of the window.</param>
+    /// <param name="controller">The player.</param>
+    /// <returns>True when the direction of the gaze has changed.</returns>
     public bool Handle(WindowEvent windowEvent, CharacterController controller)
     {
-        var before = Direction;
+        var directionBefore = Direction;
+        _heldKeys.Handle(windowEvent);
         switch (windowEvent)
         {
             case KeyPressed { Key: Key.Space, IsRepeat: false }:
                 controller.Jump();
                 break;
-            case KeyPressed pressed:
-                _heldKeys.Add(pressed.Key);
-                break;
-            case KeyReleased released:
-                _heldKeys.Remove(released.Key);
-                break;
             case MousePressed:
                 _isLooking = true;
                 break;
-            case MouseReleased:
+            case MouseReleased or FocusLost:
                 _isLooking = false;
                 break;
             case MouseMoved moved when _isLooking:
-                Direction = CameraNavigation.Turn(Direction, RadiansPerPixel * moved.DeltaX, -RadiansPerPixel * moved.DeltaY);
-                break;
-            case FocusLost:
-                _heldKeys.Clear();
-                _isLooking = false;
+                Direction = CameraNavigation.Turn(
+                    Direction, CameraControls.RadiansPerPixel * moved.DeltaX, -CameraControls.RadiansPerPixel * moved.DeltaY);
                 break;
         }
 
         controller.MoveInput = ComputeMoveInput(controller.Up);
-        return Direction != before;
+        return Direction != directionBefore;
     }
 
-    /// <summary>The view from the player's eyes.</summary>
+    /// <summary>Returns the camera at the player's eyes.</summary>
     /// <param name="controller">The player.</param>
-    /// <param name="alpha">How far between two steps, see <see cref="Body.InterpolatedMap"/>.</param>
+    /// <param name="alpha">The fraction of a step since the last one, from 0 to 1; see <see cref="Body.InterpolatedMap"/>.</param>
     public Camera EyeCamera(CharacterController controller, double alpha)
     {
         var centre = controller.PreviousPosition + (alpha * (controller.Position - controller.PreviousPosition));
@@ -74,19 +65,19 @@ internal sealed class WalkControls
 
     private Vector ComputeMoveInput(Vector up)
     {
-        var (right, _, forward) = Direction.LocalAxes;
-        // Looking down does not slow down.
-        var groundForward = ProjectToGround(forward, up) is var groundDirection && groundDirection != Vector.Zero
-            ? groundDirection
-            : ProjectToGround(Direction.LocalAxes.V2, up);
-        var input = ((Axis(Key.W, Key.Up) - Axis(Key.S, Key.Down)) * groundForward)
-            + ((Axis(Key.D, Key.Right) - Axis(Key.A, Key.Left)) * ProjectToGround(right, up));
-        return UnitOrZero(input);
+        var (right, cameraUp, forward) = Direction.LocalAxes;
+        var groundForward = ProjectToGround(forward, up);
+        if (groundForward == Vector.Zero)
+        {
+            // The gaze is vertical, so the top of the view counts as ahead.
+            groundForward = ProjectToGround(cameraUp, up);
+        }
+
+        return UnitOrZero((_heldKeys.Forward * groundForward) + (_heldKeys.Right * ProjectToGround(right, up)));
     }
 
+    /// <summary>Projects a direction to the ground. The result is a unit vector, so that looking down does not slow the player.</summary>
     private static Vector ProjectToGround(Vector vector, Vector up) => UnitOrZero(vector - (Vector.Dot(vector, up) * up));
 
     private static Vector UnitOrZero(Vector vector) => vector == Vector.Zero ? vector : vector.UnitVector();
-
-    private double Axis(Key letter, Key arrow) => _heldKeys.Contains(letter) || _heldKeys.Contains(arrow) ? 1 : 0;
 }

@@ -5,12 +5,12 @@ using FractalEngine.Render.Images;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>The files that a window writes. Each method returns a sentence for the user, also where it fails.</summary>
+/// <summary>Writes the files of a window. Each method returns a message for the user, in case of an error too.</summary>
 internal static class WindowFiles
 {
-    /// <summary>Saves a picture into <c>out/</c>, with the next free number.</summary>
-    /// <param name="image">The scene alone.</param>
-    /// <param name="path">The file that is shown.</param>
+    /// <summary>Saves an image into the folder <c>out</c>, under the next free number.</summary>
+    /// <param name="image">The frame without its overlay.</param>
+    /// <param name="path">Path of the file that the window shows.</param>
     public static string SaveScreenshot(PixelImage image, string path) => Try(() =>
     {
         Directory.CreateDirectory("out");
@@ -23,14 +23,14 @@ internal static class WindowFiles
     });
 
     /// <summary>
-    /// Saves the scene with the present camera: into its own file, or beside a mesh or fractal, where it overwrites no other scene.
+    /// Saves the scene with the present camera into its own file. For a mesh or fractal, a new scene file is created beside it.
     /// </summary>
     public static string SaveScene(Document document) => Try(() =>
     {
         var output = Path.ChangeExtension(document.File.Path, ".sdo");
         if (document.File.Kind != FileKind.Scene && File.Exists(output))
         {
-            throw new IOException($"{Path.GetFileName(output)} exists already and is another scene: it is not overwritten");
+            throw new IOException($"{Path.GetFileName(output)} is another scene, and is not overwritten");
         }
 
         SaveCommand.Save(document.File, document.GetCurrentScene(), output);

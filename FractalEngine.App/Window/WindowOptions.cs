@@ -1,29 +1,30 @@
+using FractalEngine.App.Commands;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>What a window is told when it is opened, whatever file it shows.</summary>
+/// <summary>The options of a window, which hold for every file that it shows.</summary>
 internal sealed record WindowOptions
 {
-    /// <summary>How files are loaded.</summary>
+    /// <summary>The load options of all files.</summary>
     public LoadOptions Load { get; init; } = new();
 
-    /// <summary>How scenes are prepared and drawn at first; keys change some of it.</summary>
+    /// <summary>The initial render settings, some of which keys can change.</summary>
     public RenderSettings Settings { get; init; } = new();
 
-    /// <summary>Whatever the scene says; null for what it says.</summary>
+    /// <summary>The initial projection; null for that of the scene.</summary>
     public Projection? Projection { get; init; }
 
-    /// <summary>The length of the queue with which the paper's way into a fractal is followed.</summary>
+    /// <summary>Length of the trail of the paper's zoom into a fractal.</summary>
     public int TrailLength { get; init; } = 3;
 
-    /// <summary>Width and height of the contents, pixels.</summary>
-    public (int Width, int Height) Size { get; init; } = (1280, 720);
+    /// <summary>Width and height of the window's contents in pixels.</summary>
+    public (int Width, int Height) Size { get; init; } = SharedOptions.DefaultResolution;
 
     /// <summary>
-    /// Draws nothing while nothing has changed or nobody sees the window. Where false, 60 pictures a second are drawn all the same, for
+    /// Whether the window draws nothing while nothing has changed or while it is hidden. Otherwise it draws 60 frames a second, for
     /// comparison.
     /// </summary>
     public bool IdleWhenUnchanged { get; init; } = true;

@@ -7,7 +7,7 @@ using FractalEngine.Render.Ui;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>What is written over the picture: what it shows, keys, progress, errors and passing messages.</summary>
+/// <summary>The texts over the frame: file description, keys, statistics, progress, errors and temporary messages.</summary>
 internal sealed class WindowOverlay
 {
     private static readonly TimeSpan MessageDuration = TimeSpan.FromSeconds(4);
@@ -22,20 +22,20 @@ internal sealed class WindowOverlay
         ("middle drag", "pan (or Shift + left)"),
         ("wheel", "zoom"),
         ("F", "frame the scene"),
-        ("1 3 7", "front, right, top"),
-        ("5", "perspective, orthographic"),
-        ("Enter", "back to the start"),
+        ("1 3 7", "front, right, top view"),
+        ("5", "switch projection"),
+        ("Enter", "return to the start"),
         ("G X", "grid, wireframe"),
-        ("L", "light at vertices, at pixels"),
-        ("T", "the paper's way into a fractal"),
-        ("Space N", "pause, one step"),
-        ("B R", "drop a ball, reset"),
+        ("L", "light per vertex, per pixel"),
+        ("T", "the paper's zoom, or ours"),
+        ("Space N", "pause, single step"),
+        ("B R", "drop a ball, reset bodies"),
         ("P", "walk, fly"),
         ("C V", "next collider, closest points"),
-        ("I", "what a picture takes"),
+        ("I", "frame statistics"),
         ("F12", "screenshot"),
         ("Ctrl+S", "save scene and camera"),
-        ("H", "these keys"),
+        ("H", "show or hide keys"),
         ("Esc", "close"),
     ]);
 
@@ -43,58 +43,97 @@ internal sealed class WindowOverlay
     private OverlayPanel? _message;
     private FrameReport? _report;
 
-    /// <summary>What is being loaded, and how far; null when nothing is.</summary>
+    /// <summary>The file being loaded, and the completed fraction from 0 to 1; null while nothing is loaded.</summary>
     public (string Text, double Fraction)? Progress { get; set; }
 
-    /// <summary>Why there is no picture; null when there is one.</summary>
+    /// <summary>The error of a file that can't be shown; null if there is none.</summary>
     public string? Error { get; set; }
 
-    /// <summary>What is written of the bodies; null where there are none.</summary>
+    /// <summary>Lines about the bodies of the scene; null if there are none to show.</summary>
     public string? PhysicsStatus { get; set; }
 
-    /// <summary>Whether the keys are listed.</summary>
+    /// <summary>Whether the list of keys is shown.</summary>
     public bool ShowsKeys { get; set; }
 
-    /// <summary>Whether it is written what a picture takes.</summary>
+    /// <summary>Whether the statistics of the last frame are shown.</summary>
     public bool ShowsStatistics { get; set; }
 
-    /// <summary>Pictures drawn, shown again and not needed, see <see cref="FrameReport.ToPanels"/>.</summary>
-    public (long Drawn, long ShownAgain, long NotNeeded) FrameCounts { get; set; }
+    /// <summary>Numbers of frames since the window was opened, for the statistics.</summary>
+    public FrameCounts FrameCounts { get; set; }
 
-    /// <summary>When a message will have been shown long enough; null when there is none.</summary>
+    /// <summary>The time at which the present message disappears; null if there is none.</summary>
     public TimeSpan? NextExpiry { get; private set; }
 
-    /// <summary>Everything that is written now.</summary>
-    public IReadOnlyList<OverlayPanel> Panels =>
-    [
-        .. PhysicsStatus is { } physics
-        ? [new OverlayPanel(OverlayAnchor.TopLeft, [new OverlayLine(physics, null, OverlayTone.Dim)])]
-        : Array.Empty<OverlayPanel>(),
-        .. ShowsKeys ? [KeysPanel] : Array.Empty<OverlayPanel>(),
-        .. ShowsStatistics && _report is { } report ? report.ToPanels(FrameCounts) : [],
-        .. Error is { } error
-            ? [new OverlayPanel(OverlayAnchor.Centre,
-            [.. error.Split('\n').Select(line => new OverlayLine(line, null, OverlayTone.Warning))])]
-            : _description is { } description
-            ? [BudgetNotice is { } budgetNotice ? description with { Lines = description.Lines.Add(budgetNotice) } : description]
-            : Array.Empty<OverlayPanel>(),
-        .. Progress is { } progress
-        ? [OverlayPanel.OfProgress($"loading {progress.Text}".TrimEnd(), progress.Fraction)]
-        : Array.Empty<OverlayPanel>(),
-        .. _message is { } message ? [message] : Array.Empty<OverlayPanel>(),
-    ];
+    /// <summary>All panels that are shown now.</summary>
+    public IReadOnlyList<OverlayPanel> Panels
+    {
+        get
+        {
+            var panels = new List<OverlayPanel>();
+            if (PhysicsStatus is { } status)
+            {
+                panels.Add(new(OverlayAnchor.TopLeft, [new OverlayLine(status, null, OverlayTone.Dim)]));
+            }
 
-    /// <summary>Says that parts are coarser than asked for; null where they are not.</summary>
-    private OverlayLine? BudgetNotice =>
-        _report is { Culling: { } detail, Renderer.MinProjectedSize: var size } && size > detail.MinProjectedSize
-        ? new(string.Create(CultureInfo.InvariantCulture,
-        $"more than {detail.InstanceBudget:N0} instances: parts below {size:F1} pixels are drawn as one"), null, OverlayTone.Accent)
-        : null;
+            if (ShowsKeys)
+            {
+                panels.Add(KeysPanel);
+            }
 
-    /// <summary>Tells what is shown from now on.</summary>
+            if (ShowsStatistics && _report is { } report)
+            {
+                panels.AddRange(report.ToPanels(FrameCounts));
+            }
+
+            if (Error is { } error)
+            {
+                var lines = error.Split('\n').Select(static line => new OverlayLine(line, null, OverlayTone.Warning));
+                panels.Add(new(OverlayAnchor.Centre, [.. lines]));
+            }
+            else if (_description is { } description)
+            {
+                panels.Add(BudgetNotice is { } notice ? description with { Lines = description.Lines.Add(notice) } : description);
+            }
+
+            if (Progress is { } progress)
+            {
+                panels.Add(OverlayPanel.OfProgress($"loading {progress.Text}".TrimEnd(), progress.Fraction));
+            }
+
+            if (_message is { } message)
+            {
+                panels.Add(message);
+            }
+
+            return panels;
+        }
+    }
+
+    /// <summary>A line for frames that are coarser than the settings ask for; null for all others.</summary>
+    private OverlayLine? BudgetNotice
+    {
+        get
+        {
+            if (_report is not { Culling: { } culling, Renderer.MinProjectedSize: var minProjectedSize }
+                || minProjectedSize <= culling.MinProjectedSize)
+            {
+                return null;
+            }
+
+            var text = string.Create(
+                CultureInfo.InvariantCulture,
+                $"more than {culling.InstanceBudget:N0} instances: sub-fractals below {minProjectedSize:F1} pixels are drawn as proxies");
+            return new(text, null, OverlayTone.Accent);
+        }
+    }
+
+    /// <summary>Describes the file that is shown from now on.</summary>
+    /// <param name="file">The loaded file.</param>
+    /// <param name="drawable">Its prepared scene, whose notices are shown too.</param>
     public void DescribeFile(LoadedFile file, DrawableScene drawable)
     {
-        (_report, PhysicsStatus) = (null, null);
+        _report = null;
+        PhysicsStatus = null;
         var faces = file.Scene.Objects.Aggregate((BigInteger?)BigInteger.Zero, (sum, placed) => sum + placed.Model.FaceCount);
         _description = new(OverlayAnchor.BottomLeft,
         [
@@ -103,26 +142,37 @@ internal sealed class WindowOverlay
         ]);
     }
 
-    /// <summary>Tells what the last picture took.</summary>
+    /// <summary>Replaces the statistics by those of the last frame.</summary>
     public void SetReport(FrameReport report) => _report = report;
 
     /// <summary>Shows a message for a few seconds.</summary>
+    /// <param name="message">One line for the user.</param>
+    /// <param name="now">The present time.</param>
     public void ShowMessage(string message, TimeSpan now)
     {
         _message = OverlayPanel.OfText(OverlayAnchor.Bottom, message);
         NextExpiry = now + MessageDuration;
     }
 
-    /// <summary>Takes a message away that was shown long enough.</summary>
-    /// <returns>True when there was one.</returns>
+    /// <summary>Shows a message for a few seconds, and writes it to stderr.</summary>
+    /// <inheritdoc cref="ShowMessage"/>
+    public void Report(string message, TimeSpan now)
+    {
+        Console.Error.WriteLine(message);
+        ShowMessage(message, now);
+    }
+
+    /// <summary>Removes the message if its time is over.</summary>
+    /// <returns>True when a message was removed.</returns>
     public bool Expire(TimeSpan now)
     {
-        if (!(now >= NextExpiry))
+        if (NextExpiry is not { } expiry || now < expiry)
         {
             return false;
         }
 
-        (_message, NextExpiry) = (null, null);
+        _message = null;
+        NextExpiry = null;
         return true;
     }
 }

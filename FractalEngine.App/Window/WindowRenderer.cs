@@ -5,10 +5,10 @@ using FractalEngine.Render;
 namespace FractalEngine.App.Window;
 
 /// <summary>
-/// Draws what a window shows. While the camera moves, pictures are coarser and one behind: the instances of the next are chosen while one
-/// is drawn. When it stands, the full picture follows.
+/// Draws the frames of a window. While the camera moves, frames are coarser and one view behind, so that the instances of the next frame
+/// are culled while one is drawn. When it stops, a full frame follows.
 /// </summary>
-/// <param name="frame">Of the window.</param>
+/// <param name="frame">The frame renderer of the window.</param>
 internal sealed class WindowRenderer(FrameRenderer frame)
 {
     private readonly AdaptiveQuality _adaptiveQuality = new();
@@ -17,29 +17,34 @@ internal sealed class WindowRenderer(FrameRenderer frame)
     private View? _nextView;
     private View? _shownView;
 
-    /// <summary>The camera's view when the last picture was drawn; null before the first of a document.</summary>
+    /// <summary>The camera's view at the time of the last frame; null before the first frame of a document.</summary>
     public View? LatestView { get; private set; }
 
-    /// <summary>True where the last picture was drawn for a moving camera.</summary>
+    /// <summary>True when the last frame was drawn for a moving camera.</summary>
     public bool IsReducedQuality { get; private set; }
 
-    /// <summary>Counts a picture that was shown again, below another text.</summary>
+    /// <summary>Counts a frame that is presented again, below a new overlay.</summary>
     public void CountPresentedAgain() => _presentedAgainCount++;
 
-    /// <summary>Pictures drawn so far, shown again without drawing, and neither.</summary>
-    /// <param name="frameCount">How many there would be if each were drawn.</param>
-    public (long Drawn, long ShownAgain, long NotNeeded) CountFrames(long frameCount) =>
-        (_drawnCount, _presentedAgainCount, Math.Max(0, frameCount - _drawnCount - _presentedAgainCount));
+    /// <summary>Counts the frames so far.</summary>
+    /// <param name="frameCount">Number of frames that a loop of 60 frames a second would have drawn.</param>
+    public FrameCounts CountFrames(long frameCount) =>
+        new(_drawnCount, _presentedAgainCount, Math.Max(0, frameCount - _drawnCount - _presentedAgainCount));
 
-    /// <summary>Forgets the views of a document that is no longer shown.</summary>
-    public void Reset() => (_nextView, _shownView, LatestView) = (null, null, null);
+    /// <summary>Discards the views of a document that is no longer shown.</summary>
+    public void Reset()
+    {
+        _nextView = null;
+        _shownView = null;
+        LatestView = null;
+    }
 
-    /// <summary>Draws a picture.</summary>
-    /// <param name="document">Null while there is none.</param>
-    /// <param name="settings">Of pictures that stand.</param>
-    /// <param name="width">Pixels.</param>
-    /// <param name="height">Pixels.</param>
-    /// <returns>How it was drawn.</returns>
+    /// <summary>Draws one frame of the document.</summary>
+    /// <param name="document">The document to draw; null for the background alone.</param>
+    /// <param name="settings">The render settings for a camera at rest.</param>
+    /// <param name="width">Width of the frame in pixels.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
+    /// <returns>The settings that were used.</returns>
     public RenderSettings Draw(Document? document, RenderSettings settings, int width, int height)
     {
         _drawnCount++;
@@ -54,19 +59,31 @@ internal sealed class WindowRenderer(FrameRenderer frame)
         LatestView = view;
         if (!IsReducedQuality)
         {
-            (_shownView, _nextView) = (view, null);
+            _shownView = view;
+            _nextView = null;
             frame.Draw(document.Renderer, view, width, height, settings);
             return settings;
         }
 
         var adapted = _adaptiveQuality.Adapt(settings);
-        // The paper's way moves the fractal with the camera: there the picture is that of the camera's place.
-        (_shownView, _nextView) = document.IsTrailEnabled ? (view, null) : (_nextView ?? view, view);
+        if (document.IsTrailEnabled)
+        {
+            // The paper's zoom moves the fractal with the camera, so an older view would not fit it.
+            _shownView = view;
+            _nextView = null;
+        }
+        else
+        {
+            _shownView = _nextView ?? view;
+            _nextView = view;
+        }
+
         frame.Draw(document.Renderer, _shownView, width, height, adapted, _nextView);
         return adapted;
     }
 
-    /// <summary>Tells how long it took to draw and show a picture, so that the next ones keep up with a moving camera.</summary>
+    /// <summary>Reports the time of the last frame, so that the next ones keep up with a moving camera.</summary>
+    /// <param name="frameTime">The time that drawing and presenting took.</param>
     public void RecordFrameTime(TimeSpan frameTime)
     {
         if (IsReducedQuality)
@@ -76,13 +93,13 @@ internal sealed class WindowRenderer(FrameRenderer frame)
     }
 
     /// <summary>
-    /// The scene alone in full detail: as the window shows it while the camera moves, else as the camera is now. What the window shows must
-    /// be drawn again.
+    /// Captures the scene without overlay in full quality: the view on the screen while the camera moves, else the present one.
     /// </summary>
-    /// <param name="document">Loaded.</param>
-    /// <param name="settings">Of pictures that stand.</param>
-    /// <param name="width">Pixels.</param>
-    /// <param name="height">Pixels.</param>
+    /// <remarks>Overwrites the frame, so the window must be drawn again.</remarks>
+    /// <param name="document">The document to capture.</param>
+    /// <param name="settings">The render settings for a camera at rest.</param>
+    /// <param name="width">Width of the image in pixels.</param>
+    /// <param name="height">Height of the image in pixels.</param>
     public PixelImage Capture(Document document, RenderSettings settings, int width, int height)
     {
         var view = document.IsMoving && _shownView is { } shownView ? shownView : document.UpdateView((double)width / height);

@@ -47,7 +47,7 @@ internal sealed class CrowdScene : IDisposable
     private void WriteMesh(Mesh mesh, string name)
     {
         using var stream = File.Create(PathOf(name + ".obj"));
-        ObjWriter.Write(mesh, name, stream);
+        ObjMeshWriter.Write(mesh, stream, name);
     }
 
     private static string CreateSceneText()

@@ -21,7 +21,7 @@ internal static class GrowthByBodies
 
     private static readonly int[] Counts = [1, 10, 100, 1000, 10_000];
 
-    /// <summary>Writes the table.</summary>
+    /// <summary>Measures and writes all rows of the table.</summary>
     public static void Write(TableOptions options)
     {
         var sponge = FractalCase.Parse("menger:5");

@@ -10,7 +10,7 @@ internal static class GrowthByDepth
 {
     private static readonly string[] Names = ["menger", "sierpinski", "tree", "terrain", "tetrahedron", "fern"];
 
-    /// <summary>Writes the table.</summary>
+    /// <summary>Measures and writes all rows of the table.</summary>
     public static void Write(TableOptions options)
     {
         int[] depths = options.IsQuick

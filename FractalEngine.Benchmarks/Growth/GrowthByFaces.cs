@@ -18,7 +18,7 @@ internal static class GrowthByFaces
     // Colliders that test every face of the base are queried at fewer positions.
     private const int MaxFaceTests = 4_000_000;
 
-    /// <summary>Writes the table.</summary>
+    /// <summary>Measures and writes all rows of the table.</summary>
     public static void Write(TableOptions options)
     {
         (string Name, int[] Faces)[] cases =

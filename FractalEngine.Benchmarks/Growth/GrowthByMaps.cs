@@ -13,7 +13,7 @@ internal static class GrowthByMaps
 {
     private const int Depth = 5;
 
-    /// <summary>Writes the table.</summary>
+    /// <summary>Measures and writes all rows of the table.</summary>
     public static void Write(TableOptions options)
     {
         int[] counts = options.IsQuick ? [2, 3, 5, 10, 20, 50, 100] : [2, 3, 4, 5, 7, 10, 14, 20, 30, 40, 50, 70, 100];

@@ -10,7 +10,7 @@ internal static class ExpansionTable
     private const long MaxFaces = 3_000_000;
     private const int BytesPerMap = 12 * sizeof(double);
 
-    /// <summary>Writes the table.</summary>
+    /// <summary>Measures and writes all rows of the table.</summary>
     public static void Write(TableOptions options)
     {
         var table = options.CreateTable("expansion.csv", "fractal", "depth", "what", "count", "ms", "million_a_second", "copy_ms");

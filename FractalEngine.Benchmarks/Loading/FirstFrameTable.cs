@@ -15,7 +15,7 @@ namespace FractalEngine.Benchmarks.Loading;
 /// </summary>
 internal static class FirstFrameTable
 {
-    /// <summary>Writes the table.</summary>
+    /// <summary>Measures and writes all rows of the table.</summary>
     /// <exception cref="GraphicsUnavailableException">There is no display, or no OpenGL.</exception>
     public static void Write(TableOptions options)
     {

@@ -24,7 +24,7 @@ public class LoadingBenchmarks : IExtraMetrics
     public void SetUp()
     {
         using var text = new MemoryStream();
-        ObjWriter.Write(MeshGenerators.Create("terrain", 1, Faces), "terrain", text);
+        ObjMeshWriter.Write(MeshGenerators.Create("terrain", 1, Faces), text, "terrain");
         _mesh = SourceText.Decode(text.ToArray(), "terrain.obj");
         var sponge = Path.Combine(FractalCase.Assets, "fractals", "menger-4.fdo");
         _fractal = SourceText.Decode(File.ReadAllBytes(sponge), "menger-4.fdo");

@@ -22,7 +22,7 @@ internal static class LoadingTable
     public static IEnumerable<string> AssetFiles => Directory.GetFiles(Path.Combine(FractalCase.Assets, "fractals"), "*.fdo")
         .Concat(Directory.GetFiles(Path.Combine(FractalCase.Assets, "scenes"), "*.sdo")).Order(StringComparer.Ordinal);
 
-    /// <summary>Writes the table.</summary>
+    /// <summary>Measures and writes all rows of the table.</summary>
     public static void Write(TableOptions options)
     {
         var table = options.CreateTable("loading.csv", "file", "faces", "bytes", "step", "ms", "megabytes_a_second");
@@ -35,7 +35,7 @@ internal static class LoadingTable
                 var mesh = MeshGenerators.Create(name, 1, faces);
                 using (var stream = File.Create(file))
                 {
-                    ObjWriter.Write(mesh, name, stream);
+                    ObjMeshWriter.Write(mesh, stream, name);
                 }
 
                 AddMesh(table, name, mesh, file, options.Rounds);

@@ -19,7 +19,7 @@ internal sealed class CsvTable(string path, string command, params string[] colu
     /// <summary>Name of the graphics driver, written beside the machine. Null where nothing is drawn.</summary>
     public string? GraphicsDriver { get; set; }
 
-    /// <summary>Adds a row.</summary>
+    /// <summary>Adds one row of fields.</summary>
     /// <param name="values">
     /// A value for each column. Numbers are written so that they read back to the same bits; null is an empty field.
     /// </param>

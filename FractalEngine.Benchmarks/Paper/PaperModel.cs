@@ -76,7 +76,7 @@ internal sealed record PaperModel(
 
         var file = Path.Combine(folder, Name + ".obj");
         using var stream = File.Create(file);
-        ObjWriter.Write(MeshGenerators.Create(Name), Name, stream);
+        ObjMeshWriter.Write(MeshGenerators.Create(Name), stream, Name);
         return file;
     }
 

@@ -25,7 +25,7 @@ internal static class FloatVersusDouble
     public static (string Name, double Offset, double Width)[] CoordinateSets { get; } =
         [("near the origin", 0, 1), ("1000 sizes away", 1000, 1), ("thin", 0, 1e-3)];
 
-    /// <summary>Writes the table.</summary>
+    /// <summary>Measures and writes all rows of the table.</summary>
     public static void Write(TableOptions options)
     {
         var measured = CoordinateSets.SelectMany(set => new[]

@@ -3,17 +3,35 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
 
-/// <summary>Completes what the kernel found on a face to the answer of a query.</summary>
+/// <summary>Completes the closest point of a triangle to the result of a query.</summary>
 internal static class ClosestPointFactory
 {
-    /// <summary>On a face of a mesh.</summary>
-    public static ClosestPoint Create(Mesh mesh, int face, TrianglePoint point) => mesh.Face(face) switch
+    /// <summary>Creates the result for a triangle of a mesh.</summary>
+    /// <param name="mesh">The mesh, in the frame of the query.</param>
+    /// <param name="face">Face index of the triangle.</param>
+    /// <param name="point">The closest point of the triangle.</param>
+    public static ClosestPoint OnMesh(Mesh mesh, int face, TrianglePoint point)
     {
-        var (a, b, c) => Create(a, b, c, face, point),
-    };
+        var (a, b, c) = mesh.Face(face);
+        return Create(a, b, c, face, point);
+    }
 
-    /// <summary>On a face of an instance: looked at once more in the frame of the query, where its answer is needed.</summary>
-    public static ClosestPoint Create(Mesh mesh, int face, AffineMap map, Vector position)
+    /// <summary>Creates the result for a triangle of a mesh, which is tested once more.</summary>
+    /// <param name="mesh">The mesh, in the frame of the query.</param>
+    /// <param name="face">Face index of the triangle.</param>
+    /// <param name="position">In the frame of the query.</param>
+    public static ClosestPoint OnMesh(Mesh mesh, int face, Vector position)
+    {
+        var (a, b, c) = mesh.Face(face);
+        return Create(a, b, c, face, TriangleKernel.ClosestPoint(position, a, b, c));
+    }
+
+    /// <summary>Creates the result for a triangle of an instance, which is tested once more in the frame of the query.</summary>
+    /// <param name="mesh">The mesh of the instance.</param>
+    /// <param name="face">Face index of the triangle.</param>
+    /// <param name="map">From the mesh's frame to that of the query.</param>
+    /// <param name="position">In the frame of the query.</param>
+    public static ClosestPoint OnInstance(Mesh mesh, int face, AffineMap map, Vector position)
     {
         var (a, b, c) = mesh.Face(face);
         (a, b, c) = (map * a, map * b, map * c);

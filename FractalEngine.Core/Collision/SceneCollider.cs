@@ -59,6 +59,20 @@ public sealed class SceneCollider
     public SceneCollider WithObject(int index, PlacedModel placed) =>
         new(_instances.SetItem(index, CreateInstance(placed)), _sharedColliders, _kind);
 
+    /// <summary>Makes the collider of the same scene with another object behind the others. Colliders that exist are shared.</summary>
+    /// <param name="placed">Shares the collider of an object with the same model, if there is one.</param>
+    internal SceneCollider WithAddedObject(PlacedModel placed)
+    {
+        var sharedColliders = _sharedColliders;
+        if (!sharedColliders.ContainsKey(placed.Model))
+        {
+            sharedColliders = new(sharedColliders) { [placed.Model] = new(() => CreateCollider(placed.Model)) };
+        }
+
+        var withModel = new SceneCollider(_instances, sharedColliders, _kind);
+        return new(_instances.Add(withModel.CreateInstance(placed)), sharedColliders, _kind);
+    }
+
     private ColliderInstance CreateInstance(PlacedModel placed) => Similarity.TryCreate(placed.ObjectToWorld, out var similarity)
         ? new(_sharedColliders[placed.Model], similarity, null, placed.Bounds)
         : ColliderFactory.SupportsTransformedQueries(_kind)

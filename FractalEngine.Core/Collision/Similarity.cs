@@ -2,18 +2,19 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
 
-/// <summary>A map that keeps all distances in proportion: a rotation or mirror, a uniform scale, a translation.</summary>
-/// <param name="Map">From the local frame to the world's.</param>
-/// <param name="Inverse">Back.</param>
-/// <param name="Scale">World distances divided by local ones, positive.</param>
+/// <summary>A map that keeps all distances in proportion: a rotation or mirror, a uniform scale and a translation.</summary>
+/// <param name="Map">From the local frame to world space.</param>
+/// <param name="Inverse">From world space to the local frame.</param>
+/// <param name="Scale">Distances in world space divided by those in the local frame, positive.</param>
 internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale)
 {
-    // Of the squared scale: what rotations by double arithmetic miss.
+    // As a part of the squared scale: more than the rounding error of rotations.
     private const double Tolerance = 1e-13;
 
+    /// <summary>The similarity whose frames are the same.</summary>
     public static Similarity Identity { get; } = new(AffineMap.Identity, AffineMap.Identity, 1);
 
-    /// <summary>True for the linear parts of similarities.</summary>
+    /// <summary>Tells whether a matrix is the linear part of a similarity.</summary>
     public static bool IsSimilarity(Matrix m)
     {
         var scaleSquared = m.V1.LengthSquared();
@@ -23,7 +24,10 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
             && Math.Abs(Vector.Dot(m.V2, m.V3)) <= tolerance;
     }
 
-    /// <summary>False for maps that do not keep distances in proportion.</summary>
+    /// <summary>Creates a similarity from a map.</summary>
+    /// <param name="map">From the local frame to world space.</param>
+    /// <param name="similarity">The similarity; the identity if the map is none.</param>
+    /// <returns>False for maps that do not keep distances in proportion.</returns>
     public static bool TryCreate(AffineMap map, out Similarity similarity)
     {
         var isSimilarity = IsSimilarity(map.Linear);
@@ -31,25 +35,18 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
         return isSimilarity;
     }
 
-    /// <summary>A position of the world in the local frame.</summary>
+    /// <summary>Maps a position from world space to the local frame.</summary>
     public Vector ToLocal(Vector position) => ReferenceEquals(this, Identity) ? position : Inverse * position;
 
-    /// <summary>
-    /// An answer found in the local frame, in the world. The normal goes with the cofactors, as the product of two edges does: by the
-    /// winding of the face's image, which a mirror turns.
-    /// </summary>
-    public ClosestPoint ToWorld(ClosestPoint local)
+    /// <summary>Maps a query result from the local frame to world space.</summary>
+    /// <remarks>
+    /// The normal transforms by the cofactors, like the cross product of two edges. So it follows the winding of the mapped triangle, which
+    /// a mirror reverses.
+    /// </remarks>
+    public ClosestPoint ToWorld(ClosestPoint local) => ReferenceEquals(this, Identity) ? local : local with
     {
-        if (ReferenceEquals(this, Identity))
-        {
-            return local;
-        }
-
-        return local with
-        {
-            Point = Map * local.Point,
-            Distance = Scale * local.Distance,
-            Normal = (Map.Linear.Cofactors() * local.Normal).UnitVector(),
-        };
-    }
+        Point = Map * local.Point,
+        Distance = Scale * local.Distance,
+        Normal = (Map.Linear.Cofactors() * local.Normal).UnitVector(),
+    };
 }

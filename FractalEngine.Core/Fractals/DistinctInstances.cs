@@ -6,17 +6,18 @@ using BigInteger = System.Numerics.BigInteger;
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>
-/// How many different instances a fractal has. The identity in a set, and some sets without it, produce the same instance over
-/// and over; whether a given fractal does is undecidable in general, so the answer is proved, enumerated, or unknown.
+/// Counts the distinct instances of a fractal. The identity in a set, and some sets without it, produce the same instance over and over.
 /// </summary>
+/// <remarks>Whether a given fractal does so is undecidable in general, so the number is proved, enumerated, or unknown.</remarks>
 public static class DistinctInstances
 {
-    // A proof looks at every round until the boxes settle; sponges settle at once, others within a hundred.
+    // A proof visits every round until the boxes converge: those of sponges do so at once, others within a hundred rounds.
     private const int MaxProvedRounds = 1000;
 
-    /// <summary>The exact number, or null where it is unknown (infinite, or too many to enumerate and not proved).</summary>
-    /// <param name="fractal">Any fractal.</param>
-    /// <param name="budget">The most instances that are enumerated.</param>
+    /// <summary>Counts the distinct instances of a fractal.</summary>
+    /// <param name="fractal">Fractal of any composition and depth.</param>
+    /// <param name="budget">Maximum number of instances that are enumerated.</param>
+    /// <returns>The exact number; null for an infinite fractal, or if there are too many to enumerate and no proof succeeds.</returns>
     public static BigInteger? Count(Fractal fractal, long budget = FractalLimits.MaxEnumeratedInstances)
     {
         if (fractal.Description.IsInfinite)
@@ -37,18 +38,18 @@ public static class DistinctInstances
         }
         catch (FractalLimitException)
         {
-            // The limit is the answer here: more sums than are enumerated means that their number is not known.
+            // More sums than are enumerated: their number is unknown.
             return null;
         }
     }
 
     /// <summary>
-    /// True when different chains certainly give different instances: at every level the images of what stands below lie side
-    /// by side. Two equal maps would have equal images, and those would overlap entirely. False proves nothing.
+    /// Tests whether different chains certainly give different instances. False proves nothing.
     /// </summary>
     /// <remarks>
-    /// Boxes are exact bounds for maps that send axes to axes (scales, mirrors, quarter turns), so the test is made for those
-    /// only. Images that touch may overlap by rounding.
+    /// At every level the images of the next level's box must lie side by side: equal maps would have equal images, which overlap entirely.
+    /// Boxes are exact bounds for maps that scale and permute the axes (scales, mirrors, quarter turns), so only those are tested. Images
+    /// that touch may overlap by rounding.
     /// </remarks>
     public static bool AreProvedDistinct(Fractal fractal)
     {
@@ -58,20 +59,23 @@ public static class DistinctInstances
         }
 
         var box = fractal.BaseMesh.Bounds;
-        return AreProvedDistinct(fractal.Description.Steps, ref box);
+        return TryProveSteps(fractal.Description.Steps, ref box);
     }
 
-    /// <summary>Goes through the steps from the innermost; <paramref name="box"/> holds what stands below, then the whole.</summary>
-    private static bool AreProvedDistinct(ImmutableArray<FractalStep> steps, ref BoundingBox box)
+    /// <summary>Tries to prove that the chains of some steps give distinct instances, from the innermost step outwards.</summary>
+    /// <param name="steps">Steps, outermost first.</param>
+    /// <param name="box">Box of the child instances; becomes that of the whole.</param>
+    private static bool TryProveSteps(ImmutableArray<FractalStep> steps, ref BoundingBox box)
     {
         foreach (var step in steps.Reverse())
         {
-            if (!(step switch
+            var isProved = step switch
             {
-                TransformationSet set => AreProvedDistinct(set, ref box),
-                Repetition repetition => AreProvedDistinct(repetition, ref box),
+                TransformationSet set => TryProveSet(set, ref box),
+                Repetition repetition => TryProveRepetition(repetition, ref box),
                 _ => throw new InvalidOperationException($"unknown step {step}"),
-            }))
+            };
+            if (!isProved)
             {
                 return false;
             }
@@ -80,12 +84,12 @@ public static class DistinctInstances
         return true;
     }
 
-    private static bool AreProvedDistinct(Repetition repetition, ref BoundingBox box)
+    private static bool TryProveRepetition(Repetition repetition, ref BoundingBox box)
     {
         for (var round = 0; round < repetition.Count; round++)
         {
             var previousBox = box;
-            if (round == MaxProvedRounds || !AreProvedDistinct(repetition.Body, ref box))
+            if (round == MaxProvedRounds || !TryProveSteps(repetition.Body, ref box))
             {
                 return false;
             }
@@ -100,9 +104,9 @@ public static class DistinctInstances
         return true;
     }
 
-    private static bool AreProvedDistinct(TransformationSet set, ref BoundingBox box)
+    private static bool TryProveSet(TransformationSet set, ref BoundingBox box)
     {
-        if (set.Maps.Length == 0 || !set.Maps.All(IsScaledAxisPermutation) || !AreDisjoint(set, box))
+        if (set.Maps.Length == 0 || !set.Maps.All(map => map.Linear.IsScaledAxisPermutation()) || !HasDisjointImages(set, box))
         {
             return false;
         }
@@ -115,13 +119,7 @@ public static class DistinctInstances
         Math.Max((box1.Minimum - box2.Minimum).MaxAbsComponent(), (box1.Maximum - box2.Maximum).MaxAbsComponent())
         <= 1e-12 * box1.Diagonal;
 
-    private static bool IsScaledAxisPermutation(AffineMap map) =>
-        HasExactlyOneNonzero(map.Linear.V1) && HasExactlyOneNonzero(map.Linear.V2) && HasExactlyOneNonzero(map.Linear.V3)
-        && map.Linear.Determinant() != 0;
-
-    private static bool HasExactlyOneNonzero(Vector v) => (v.X != 0 ? 1 : 0) + (v.Y != 0 ? 1 : 0) + (v.Z != 0 ? 1 : 0) == 1;
-
-    private static bool AreDisjoint(TransformationSet set, BoundingBox box)
+    private static bool HasDisjointImages(TransformationSet set, BoundingBox box)
     {
         var images = set.Maps.Select(box.Transform).ToArray();
         for (var i = 0; i < images.Length; i++)
@@ -141,7 +139,8 @@ public static class DistinctInstances
     private static bool AreDisjoint(BoundingBox box1, BoundingBox box2)
     {
         var overlap = Vector.Min(box1.Maximum, box2.Maximum) - Vector.Max(box1.Minimum, box2.Minimum);
-        var (size1, size2) = (box1.Size, box2.Size);
+        var size1 = box1.Size;
+        var size2 = box2.Size;
         return AreIntervalsDisjoint(overlap.X, size1.X, size2.X) || AreIntervalsDisjoint(overlap.Y, size1.Y, size2.Y)
             || AreIntervalsDisjoint(overlap.Z, size1.Z, size2.Z);
     }

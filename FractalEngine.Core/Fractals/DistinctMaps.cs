@@ -4,23 +4,25 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>
-/// Removes repeated maps from a list. Two count as equal when no entry differs by more than
-/// <see cref="RelativeTolerance"/> of the largest entry of its kind in the list: the same sum or product in another order
-/// differs by rounding only.
+/// Removes repeated maps from a list. Two maps count as equal when no entry differs by more than <see cref="RelativeTolerance"/> of the
+/// largest entry of its kind in the list.
 /// </summary>
 /// <remarks>
-/// Entries are rounded to the points of a grid that is 2¹⁶ times coarser than the tolerance and hashed. Equal maps share a cell,
-/// except where an entry lies within the tolerance of a cell's edge: then the cell beyond is searched too. So nothing is
-/// missed, and the cost is linear.
+/// The same sum or product in another order differs by rounding only, which the tolerance covers. Entries are rounded to the cells of a
+/// grid about 2¹⁶ times coarser than the tolerance, and hashed. Equal maps share a cell, except where an entry lies within the tolerance of
+/// a cell's edge: then the cell beyond is searched too. So no repetition is missed, and the cost is linear.
 /// </remarks>
 internal static class DistinctMaps
 {
-    /// <summary>64 units in the last place: what a few dozen roundings can add up to.</summary>
+    /// <summary>64 units in the last place, which covers the sum of a few dozen roundings.</summary>
     public const double RelativeTolerance = 64 * 2.220446049250313e-16;
 
     private const int EntryCount = 12;
 
-    /// <summary>The maps in order, each one once.</summary>
+    // Width of a cell in tolerances. It is no power of two, so that round numbers do not lie on the cells' edges.
+    private const double TolerancesPerCell = 65521.7;
+
+    /// <summary>Keeps the first of each group of equal maps, in order.</summary>
     public static AffineMap[] Deduplicate(AffineMap[] maps) => Distinct(maps, static (in AffineMap map, Span<double> entries) =>
     {
         WriteTriple(map.Translation, entries);
@@ -29,7 +31,8 @@ internal static class DistinctMaps
         WriteTriple(map.Linear.V3, entries[9..]);
     });
 
-    /// <summary>The transformations in order, each one once; angles are compared as numbers, so 360° differs from 0°.</summary>
+    /// <summary>Keeps the first of each group of equal transformations, in order.</summary>
+    /// <remarks>Angles are compared as numbers, so 360° differs from 0°.</remarks>
     public static Transformation[] Deduplicate(Transformation[] transformations) =>
         Distinct(transformations, static (in Transformation transformation, Span<double> entries) =>
     {
@@ -41,11 +44,16 @@ internal static class DistinctMaps
 
     private delegate void EntryWriter<T>(in T item, Span<double> entries);
 
-    private static void WriteTriple(Vector v, Span<double> entries) => (entries[0], entries[1], entries[2]) = (v.X, v.Y, v.Z);
+    private static void WriteTriple(Vector v, Span<double> entries)
+    {
+        entries[0] = v.X;
+        entries[1] = v.Y;
+        entries[2] = v.Z;
+    }
 
     private static T[] Distinct<T>(T[] items, EntryWriter<T> write)
     {
-        // Triples of entries are of one kind: lengths, angles, factors, or the columns of a matrix.
+        // The entries of a triple are of one kind: lengths, angles, factors, or a column of a matrix.
         Span<double> maxEntries = stackalloc double[EntryCount];
         Span<double> entries = stackalloc double[EntryCount];
         foreach (ref readonly var item in items.AsSpan())
@@ -65,8 +73,12 @@ internal static class DistinctMaps
         return new HashGrid<T>(items, write, maxEntries).Distinct();
     }
 
+    /// <summary>A hash table over the cells of a grid in the space of all entries.</summary>
     private ref struct HashGrid<T>(T[] items, EntryWriter<T> write, ReadOnlySpan<double> maxEntries)
     {
+        // The offset basis of the hash FNV-1a.
+        private const ulong Seed = 14695981039346656037;
+
         private readonly ReadOnlySpan<double> _maxEntries = maxEntries;
         private readonly Dictionary<ulong, int> _firstOfCell = new(items.Length);
         private readonly int[] _nextOfCell = new int[items.Length];
@@ -88,13 +100,10 @@ internal static class DistinctMaps
             return _distinct.Count == items.Length ? items : [.. _distinct];
         }
 
-        private const ulong Seed = 14695981039346656037;
-
-        /// <summary>The cell of an entry, and how far within it the entry lies, from −½ to ½ cells.</summary>
+        /// <summary>Computes the cell of an entry, and the entry's offset from the cell's centre, from −½ to ½ cells.</summary>
         private readonly (long Cell, double Offset) Quantize(double entry, int index)
         {
-            // Not a power of two times the tolerance, so that round numbers do not lie on the cells' edges.
-            var size = 65521.7 * RelativeTolerance * _maxEntries[index];
+            var size = TolerancesPerCell * RelativeTolerance * _maxEntries[index];
             var position = size > 0 ? entry / size : 0;
             var cell = Math.Round(position);
             return ((long)cell, position - cell);
@@ -102,7 +111,7 @@ internal static class DistinctMaps
 
         private static ulong CombineHash(ulong hash, long cell)
         {
-            hash = (hash ^ (ulong)cell) * 0x9E3779B97F4A7C15;
+            hash = (hash ^ (ulong)cell) * HashMixing.GoldenGamma;
             return hash ^ (hash >> 29);
         }
 
@@ -117,12 +126,17 @@ internal static class DistinctMaps
             return hash;
         }
 
+        /// <summary>Searches for an equal item in the cell of the entries, and beyond the edges that they are close to.</summary>
+        /// <param name="entries">Entries of the item.</param>
+        /// <param name="index">Number of the entries that are in the hash already.</param>
+        /// <param name="hash">Hash of the cells of these entries.</param>
+        /// <param name="other">Memory for the entries of another item.</param>
         private readonly bool Contains(ReadOnlySpan<double> entries, int index, ulong hash, Span<double> other)
         {
             for (; index < EntryCount; index++)
             {
                 var (cell, offset) = Quantize(entries[index], index);
-                if (Math.Abs(offset) > 0.5 - (2.0 / 65521.7)
+                if (Math.Abs(offset) > 0.5 - (2.0 / TolerancesPerCell)
                     && Contains(entries, index + 1, CombineHash(hash, cell + Math.Sign(offset)), other))
                 {
                     return true;

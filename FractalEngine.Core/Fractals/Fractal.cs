@@ -84,7 +84,8 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <summary>Makes the same fractal with chains composed in another way.</summary>
     /// <exception cref="ArgumentException">An infinite fractal can't be composed componentwise: its positions don't shrink.</exception>
     public Fractal WithComposition(Composition composition) => composition == Composition.Componentwise && Description.IsInfinite
-        ? throw new ArgumentException("an infinite fractal can't be composed componentwise: its positions don't shrink", nameof(composition))
+        ? throw new ArgumentException(
+            "an infinite fractal can't be composed componentwise: its positions don't shrink", nameof(composition))
         : With(Description with { Composition = composition });
 
     /// <summary>Makes the same fractal at another depth, see <see cref="FractalDescription.WithDepth"/>.</summary>

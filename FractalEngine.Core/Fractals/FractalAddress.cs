@@ -6,84 +6,80 @@ using FractalEngine.Core.Visibility;
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>
-/// Where a camera is in a fractal, at any depth: a sub-fractal near it, by the way that leads there, and its place relative to that. As the
-/// camera moves, it is told relative to a sub-fractal further in or further out, so that all numbers stay about 1 and nothing loses
-/// precision, however deep it goes.
+/// The position of a camera in a fractal, at any depth: the path to a sub-fractal near the camera, and the camera's position relative to
+/// that sub-fractal.
 /// </summary>
 /// <remarks>
-/// Replaces the paper's m ← m·t (§4.3.2), which keeps one matrix and loses it at about level 50. Memory: 16 bytes a level, at most <see
-/// cref="FractalLimits.MaxDepth"/> levels. Lengths are in a unit that changes with the depth; perspective shows the same in any unit.
+/// As the camera moves, the sub-fractal is replaced by one further in or further out. So all numbers stay about 1 and nothing loses
+/// precision, however deep the camera goes. This replaces the paper's m ← m·t (§4.3.2), which keeps one matrix and loses it at about
+/// level 50. Memory: 16 bytes a level, at most <see cref="FractalLimits.MaxDepth"/> levels. Lengths are in a unit that changes with the
+/// depth; perspective shows the same in any unit.
 /// </remarks>
-public sealed partial class FractalAddress
+public sealed class FractalAddress
 {
-    // A sub-fractal is entered within this part of its box's diagonal, and left beyond the other: between them nothing changes.
+    // A sub-fractal is entered within the first multiple of its box's diagonal, and left beyond the second: in between nothing changes.
     private const double EnterDistanceRatio = 0.5;
     private const double LeaveDistanceRatio = 1.5;
 
-    // Of the distance: smaller parts are as far away as their boxes.
+    // Boxes smaller than this fraction of their distance are as far away as what they hold.
     private const double RelativeDistanceTolerance = 0.1;
-    private const int MaxExpandedNodes = 2000;
 
-    // Of the sub-fractal's size: what is nearer than this has parts enough of its own to be told relative to one.
+    // What is closer than this fraction of the sub-fractal's size is small enough to have a frame of its own.
     private const double SwitchDistanceRatio = 0.02;
     private const int MovesBeforeSwitch = 6;
 
-    // In the present unit: of what is larger nothing is seen that is not seen nearer.
+    // Of sub-fractals larger than this, in the present unit, nothing is visible beyond what smaller ones show.
     private const double MaxFrameScale = 1e15;
 
-    // Of the determinant, for a largest entry of 1.
+    // Smallest determinant of a frame whose largest entry is 1.
     private const double MinRelativeDeterminant = 1e-8;
 
-    private const int MaxColouredLevels = 64;
-
-    // Of the whole: smaller sub-fractals are below the last place of a coordinate.
+    // Sub-fractals smaller than this fraction of the whole are below the last place of a coordinate.
     private const double MinRelativeSize = 1e-17;
 
-    // What is near may be part of any of those further out, up to where they are too large to come into it.
+    // The closest surface may belong to any ancestor, up to where ancestors are too large for it to matter.
     private const int MaxSearchedAncestors = 30;
 
-    private readonly LodHierarchy _hierarchy;
-    private readonly List<int> _path = [];
-    private readonly List<long> _remainingLevels = [];
+    // Among surfaces that are never far, as in a solid, distances are no smaller than this fraction of the sub-fractal's size.
+    private const double MinRelativeDistance = 1e-3;
 
-    // Of the maps that are not the identity, up to each depth.
-    private readonly List<int> _mapCounts = [0];
-    private readonly PriorityQueue<(int Up, int Node), double> _open = new();
-    private readonly List<(int Parent, int Child, long Levels, AffineMap Map)> _searchNodes = [];
+    private readonly LodHierarchy _hierarchy;
+    private readonly ClosestNodeSearch _search;
+    private readonly FractalPath _path;
     private double? _closestDistance;
     private AffineMap _frameToCamera;
     private int _movesSinceFrameChange;
 
-    /// <summary>A camera outside, at the top.</summary>
-    /// <param name="hierarchy">Of the fractal.</param>
+    /// <summary>Creates the address of a camera relative to the whole fractal.</summary>
+    /// <param name="hierarchy">Hierarchy of the fractal.</param>
     /// <param name="objectToWorld">The object's matrix m, from the fractal's frame to world space.</param>
-    /// <param name="cameraPosition">Its position in world space.</param>
+    /// <param name="cameraPosition">Camera position, world space.</param>
     public FractalAddress(LodHierarchy hierarchy, AffineMap objectToWorld, Vector cameraPosition)
     {
         _hierarchy = hierarchy;
+        _search = new(hierarchy);
+        _path = new(hierarchy);
         _frameToCamera = new(objectToWorld.Linear, objectToWorld.Translation - cameraPosition);
-        _remainingLevels.Add(hierarchy.LevelCount);
     }
 
-    /// <summary>How many copies lead to the sub-fractal.</summary>
-    public int Depth => _path.Count;
+    /// <summary>Number of child instances that lead to the sub-fractal.</summary>
+    public int Depth => _path.Depth;
 
-    /// <summary>The way there: for each level the number of the copy.</summary>
-    public IReadOnlyList<int> Path => _path;
+    /// <summary>The path to the sub-fractal: for each level the index of the child instance.</summary>
+    public IReadOnlyList<int> Path => _path.Children;
 
-    /// <summary>From the sub-fractal's frame to world axes about the camera, in the present unit.</summary>
+    /// <summary>Map from the sub-fractal's frame to world axes about the camera, in the present unit.</summary>
     public AffineMap FrameToCamera => _frameToCamera;
 
     /// <summary>The natural logarithm of the present unit, in scene units.</summary>
     public double LogUnit { get; private set; }
 
-    /// <summary>Bytes of the path.</summary>
-    public long StorageBytes =>
-        (sizeof(int) * ((long)_path.Capacity + _mapCounts.Capacity)) + (sizeof(long) * (long)_remainingLevels.Capacity);
+    /// <summary>Memory of the path in bytes.</summary>
+    public long StorageBytes => _path.StorageBytes;
 
-    private LodNode CurrentNode => _hierarchy.NodeAt(_remainingLevels[^1]);
+    private double CurrentDiagonal => _path.CurrentNode.Box.Transform(_frameToCamera).Diagonal;
 
-    /// <summary>Moves the camera, and tells its place anew.</summary>
+    /// <summary>Moves the camera, and updates the address.</summary>
     /// <param name="displacement">World axes, in the present unit; finite.</param>
     public void Move(Vector displacement)
     {
@@ -91,8 +87,7 @@ public sealed partial class FractalAddress
         _frameToCamera = _frameToCamera with { Translation = _frameToCamera.Translation - displacement };
         var depth = Depth;
         UpdateFrame();
-        // To look for what is nearest takes long; it matters only after the camera has come nearer for a while and nothing could be
-        // entered.
+        // Searching the closest surface takes long. It matters only after the camera has approached one for a while and entered nothing.
         _movesSinceFrameChange = Depth == depth ? _movesSinceFrameChange + 1 : 0;
         if (_movesSinceFrameChange == MovesBeforeSwitch)
         {
@@ -102,93 +97,126 @@ public sealed partial class FractalAddress
         }
     }
 
-    /// <summary>What drawing begins with: the sub-fractal itself, and the other parts of those that it is in.</summary>
+    /// <summary>
+    /// Collects the sub-fractals to draw, the closest first: the one that the address names, and the siblings of its ancestors.
+    /// </summary>
     /// <param name="maxAncestors">
-    /// How many of these at most; what is further out, or 10¹⁵ times as large as the present unit, is not drawn.
+    /// Maximum number of ancestors; what is further out, or 10¹⁵ times as large as the present unit, is not drawn.
     /// </param>
     public ImmutableArray<LodRoot> CollectRoots(int maxAncestors)
     {
         var roots = ImmutableArray.CreateBuilder<LodRoot>();
-        roots.Add(new(_remainingLevels[^1], _frameToCamera, ColourPathTo(_path.Count)));
-        var map = _frameToCamera;
-        for (var i = _path.Count - 1; i >= Math.Max(0, _path.Count - maxAncestors); i--)
+        roots.Add(new(_path.RemainingLevelsAt(Depth), _frameToCamera, _path.ColourPathTo(Depth)));
+        var frameToCamera = _frameToCamera;
+        for (var depth = Depth - 1; depth >= Math.Max(0, Depth - maxAncestors); depth--)
         {
-            var node = _hierarchy.NodeAt(_remainingLevels[i]);
-            map *= node.ChildMaps[_path[i]].ToAffineMap().Inverse();
-            if (!map.IsFinite() || map.Linear.MaxAbsEntry() > MaxFrameScale)
+            var node = _path.NodeAt(depth);
+            frameToCamera *= node.ChildMaps[Path[depth]].ToAffineMap().Inverse();
+            if (!IsWithinScale(frameToCamera))
             {
                 break;
             }
 
-            var colourPath = ColourPathTo(i);
+            var colourPath = _path.ColourPathTo(depth);
             for (var child = 0; child < node.ChildMaps.Length; child++)
             {
-                if (child != _path[i])
+                if (child != Path[depth])
                 {
                     roots.Add(new(
-                        ChildRemainingLevels(_remainingLevels[i], node.ChildLevelSteps[child]), map * node.ChildMaps[child].ToAffineMap(),
+                        _path.ChildLevels(depth, child),
+                        frameToCamera * node.ChildMaps[child].ToAffineMap(),
                         colourPath.Append(node.ChildMapIndices[child], child, node.ChildMaps.Length)));
                 }
             }
         }
 
-        // The nearest first: they hide the others.
-        return [.. roots.OrderBy(root => _hierarchy.NodeAt(root.RemainingLevels) is { IsEmpty: false } node
-            ? DistanceToBox(node.Box.Transform(root.FrameToCamera), Vector.Zero)
-            : double.PositiveInfinity)];
+        return [.. roots.OrderBy(DistanceTo)];
     }
 
-    /// <summary>The camera's place in world space, as far as a double can tell it.</summary>
+    /// <summary>Computes the camera position in world space, as far as a double can tell it.</summary>
     /// <param name="objectToWorld">The object's matrix m.</param>
     public Vector WorldPosition(AffineMap objectToWorld)
     {
-        var (map, depth, minDiagonal) =
-            (objectToWorld, 0, MinRelativeSize * _hierarchy.NodeAt(_hierarchy.LevelCount).Box.Transform(objectToWorld).Diagonal);
-        for (; depth < Depth && _hierarchy.NodeAt(_remainingLevels[depth]).Box.Transform(map).Diagonal > minDiagonal; depth++)
+        var frameToWorld = objectToWorld;
+        var minDiagonal = MinRelativeSize * _path.NodeAt(0).Box.Transform(objectToWorld).Diagonal;
+        for (var depth = 0; depth < Depth; depth++)
         {
-            map *= _hierarchy.NodeAt(_remainingLevels[depth]).ChildMaps[_path[depth]].ToAffineMap();
+            var node = _path.NodeAt(depth);
+            if (!(node.Box.Transform(frameToWorld).Diagonal > minDiagonal))
+            {
+                return frameToWorld * node.Box.Centre;
+            }
+
+            frameToWorld *= node.ChildMaps[Path[depth]].ToAffineMap();
         }
 
-        return map * (depth == Depth ? _frameToCamera.Inverse() * Vector.Zero : _hierarchy.NodeAt(_remainingLevels[depth]).Box.Centre);
+        return frameToWorld * CameraInFrame();
     }
 
-    /// <summary>How far away the farthest drawn part can be, in the present unit.</summary>
-    public double MaxDrawDistance(ImmutableArray<LodRoot> roots) => roots.Max(root =>
-        _hierarchy.NodeAt(root.RemainingLevels) is { IsEmpty: false, Box: var box } && box.Transform(root.FrameToCamera) is var image
-        ? image.Centre.Length() + image.Diagonal
-        : 0);
-
-    /// <summary>What leads to the sub-fractal that so many copies of the path lead to.</summary>
-    private ColourPath ColourPathTo(int depth)
+    /// <summary>Computes an upper bound of the distance of drawn surfaces, in the present unit.</summary>
+    /// <param name="roots">Sub-fractals that are drawn, see <see cref="CollectRoots"/>.</param>
+    public double MaxDrawDistance(ImmutableArray<LodRoot> roots)
     {
-        // Further down the weights are below the last place of a colour.
-        var colourPath = ColourPath.Start;
-        for (var i = 0; i < Math.Min(depth, MaxColouredLevels); i++)
+        var maxDistance = 0.0;
+        foreach (var root in roots)
         {
-            var node = _hierarchy.NodeAt(_remainingLevels[i]);
-            colourPath = colourPath.Append(node.ChildMapIndices[_path[i]], _path[i], node.ChildMaps.Length);
+            var node = _hierarchy.NodeAt(root.RemainingLevels);
+            if (!node.IsEmpty)
+            {
+                var box = node.Box.Transform(root.FrameToCamera);
+                maxDistance = Math.Max(maxDistance, box.Centre.Length() + box.Diagonal);
+            }
         }
 
-        return colourPath with { MapCount = _mapCounts[depth] };
+        return maxDistance;
     }
 
-    private static long ChildRemainingLevels(long remainingLevels, long levelStep) =>
-        levelStep < 0 ? ~levelStep : remainingLevels - levelStep;
+    /// <summary>Estimates the distance of the closest surface, in the present unit.</summary>
+    /// <remarks>
+    /// It is right to about a tenth, unless more than some thousand sub-fractals are about as close. Close to an instance of the base mesh
+    /// it is the distance of the instance's box. The result is kept until the camera moves.
+    /// </remarks>
+    public double ClosestSurfaceDistance()
+    {
+        if (_closestDistance is { } cached)
+        {
+            return cached;
+        }
 
-    /// <summary>The distance of the camera from a box.</summary>
+        var node = _path.CurrentNode;
+        var distance = node.ChildMaps.Length == 0
+            ? DistanceToBox(node.Box.Transform(_frameToCamera), Vector.Zero)
+            : FindClosestNode(RelativeDistanceTolerance).Distance;
+        var closestDistance = Math.Max(distance, MinRelativeDistance * CurrentDiagonal);
+        _closestDistance = closestDistance;
+        return closestDistance;
+    }
+
     private static double DistanceToBox(BoundingBox box, Vector position) => Math.Sqrt(box.DistanceSquared(position));
+
+    private static bool IsWithinScale(AffineMap frameToCamera) =>
+        frameToCamera.IsFinite() && !(frameToCamera.Linear.MaxAbsEntry() > MaxFrameScale);
+
+    private double DistanceTo(LodRoot root)
+    {
+        var node = _hierarchy.NodeAt(root.RemainingLevels);
+        return node.IsEmpty ? double.PositiveInfinity : DistanceToBox(node.Box.Transform(root.FrameToCamera), Vector.Zero);
+    }
+
+    /// <summary>Computes the camera position in the frame of the sub-fractal.</summary>
+    private Vector CameraInFrame() => _frameToCamera.Inverse() * Vector.Zero;
 
     private void UpdateFrame()
     {
-        while (TryLeave() || TryEnter())
+        while (TryLeave() || TryEnterClosestChild())
         {
         }
     }
 
     private bool TryLeave()
     {
-        if (_path.Count == 0
-            || !(DistanceToBox(CurrentNode.Box, _frameToCamera.Inverse() * Vector.Zero) > LeaveDistanceRatio * CurrentNode.Box.Diagonal))
+        var box = _path.CurrentNode.Box;
+        if (Depth == 0 || !(DistanceToBox(box, CameraInFrame()) > LeaveDistanceRatio * box.Diagonal))
         {
             return false;
         }
@@ -197,76 +225,130 @@ public sealed partial class FractalAddress
         return true;
     }
 
-    private bool TryEnter()
+    /// <summary>Enters the child whose distance is smallest compared with its size, if it is close enough.</summary>
+    private bool TryEnterClosestChild()
     {
-        var (node, camera) = (CurrentNode, _frameToCamera.Inverse() * Vector.Zero);
-        var (closestChild, minRelativeDistance) = (-1, double.PositiveInfinity);
-        for (var child = 0; child < node.ChildMaps.Length && _path.Count < FractalLimits.MaxDepth; child++)
+        if (Depth >= FractalLimits.MaxDepth)
         {
-            var childNode = _hierarchy.NodeAt(ChildRemainingLevels(_remainingLevels[^1], node.ChildLevelSteps[child]));
-            if (childNode.ChildMaps.Length > 0)
+            return false;
+        }
+
+        var node = _path.CurrentNode;
+        var camera = CameraInFrame();
+        var closestChild = -1;
+        var minRelativeDistance = double.PositiveInfinity;
+        for (var child = 0; child < node.ChildMaps.Length; child++)
+        {
+            var childNode = _path.ChildNode(child);
+            if (childNode.ChildMaps.Length == 0)
             {
-                // In the copy's own frame, by its own size.
-                var distance =
-                    DistanceToBox(childNode.Box, node.ChildMaps[child].ToAffineMap().Inverse() * camera) / childNode.Box.Diagonal;
-                (closestChild, minRelativeDistance) = distance < minRelativeDistance
-                    ? (child, distance)
-                    : (closestChild, minRelativeDistance);
+                continue;
+            }
+
+            // The distance is measured in the child's own frame, by its own size.
+            var childCamera = node.ChildMaps[child].ToAffineMap().Inverse() * camera;
+            var relativeDistance = DistanceToBox(childNode.Box, childCamera) / childNode.Box.Diagonal;
+            if (relativeDistance < minRelativeDistance)
+            {
+                closestChild = child;
+                minRelativeDistance = relativeDistance;
             }
         }
 
         return minRelativeDistance <= EnterDistanceRatio && TryEnter(closestChild);
     }
 
+    /// <summary>Enters a child, unless its frame is nearly singular or the path is too long.</summary>
     private bool TryEnter(int child)
     {
-        var node = CurrentNode;
-        if (_path.Count >= FractalLimits.MaxDepth || IsNearlySingular(_frameToCamera.Linear * node.ChildMaps[child].ToAffineMap().Linear))
+        var childToCamera = _frameToCamera * _path.CurrentNode.ChildMaps[child].ToAffineMap();
+        if (Depth >= FractalLimits.MaxDepth || IsNearlySingular(childToCamera.Linear))
         {
             return false;
         }
 
-        _remainingLevels.Add(ChildRemainingLevels(_remainingLevels[^1], node.ChildLevelSteps[child]));
-        _path.Add(child);
-        _mapCounts.Add(_mapCounts[^1] + (node.ChildMapIndices[child] < 0 ? 0 : 1));
-        NormalizeUnit(_frameToCamera * node.ChildMaps[child].ToAffineMap());
+        _path.Enter(child);
+        SetFrame(childToCamera);
         return true;
     }
 
     private void Leave()
     {
-        var child = _path[^1];
-        _path.RemoveAt(_path.Count - 1);
-        _remainingLevels.RemoveAt(_remainingLevels.Count - 1);
-        _mapCounts.RemoveAt(_mapCounts.Count - 1);
-        NormalizeUnit(_frameToCamera * CurrentNode.ChildMaps[child].ToAffineMap().Inverse());
+        var child = _path.Leave();
+        SetFrame(_frameToCamera * _path.CurrentNode.ChildMaps[child].ToAffineMap().Inverse());
     }
 
-    /// <summary>
-    /// True for a frame so skewed that places in it can't be told. Maps that stretch one direction more than another come there after some
-    /// ten levels of more than double precision can tell from outside.
-    /// </summary>
+    /// <summary>Switches to the frame of the sub-fractal that is closest to the camera, wherever it belongs.</summary>
+    /// <remarks>
+    /// Where child instances overlap, the closest surface may belong to another one than that which the camera is in, and be far smaller.
+    /// </remarks>
+    private void SwitchFrame()
+    {
+        var closest = FindClosestNode(1);
+        if (closest.Distance > SwitchDistanceRatio * CurrentDiagonal || !closest.IsFound)
+        {
+            return;
+        }
+
+        var childPath = _search.PathTo(closest);
+        for (var i = 0; i < closest.LevelsUp; i++)
+        {
+            Leave();
+        }
+
+        foreach (var child in childPath)
+        {
+            if (_path.ChildNode(child).ChildMaps.Length == 0 || !TryEnter(child))
+            {
+                break;
+            }
+        }
+    }
+
+    /// <summary>Searches the closest sub-fractal among the children of the present one and the siblings of its ancestors.</summary>
+    /// <param name="relativeTolerance">As in <see cref="ClosestNodeSearch.Find"/>.</param>
+    /// <returns>A result whose levels up are the number of levels to leave.</returns>
+    private ClosestNodeSearch.Result FindClosestNode(double relativeTolerance)
+    {
+        _search.Clear();
+        var frameToCamera = _frameToCamera;
+        for (var depth = Depth; depth >= Math.Max(0, Depth - MaxSearchedAncestors); depth--)
+        {
+            var childOnPath = -1;
+            if (depth < Depth)
+            {
+                // The child on the path has been added before.
+                childOnPath = Path[depth];
+                frameToCamera *= _path.NodeAt(depth).ChildMaps[childOnPath].ToAffineMap().Inverse();
+            }
+
+            if (!IsWithinScale(frameToCamera))
+            {
+                break;
+            }
+
+            _search.AddStart(_path.RemainingLevelsAt(depth), frameToCamera, Depth - depth, childOnPath);
+        }
+
+        return _search.Find(relativeTolerance);
+    }
+
+    /// <summary>Tests whether a frame is so skewed that coordinates in it have no precision.</summary>
+    /// <remarks>
+    /// Maps that stretch one direction more than another get there some ten levels after double precision fails from outside.
+    /// </remarks>
     private static bool IsNearlySingular(Matrix linear)
     {
         var maxEntry = linear.MaxAbsEntry();
         return !(Math.Abs((linear / maxEntry).Determinant()) > MinRelativeDeterminant);
     }
 
-    /// <summary>Chooses the unit so that the sub-fractal's frame has it.</summary>
-    private void NormalizeUnit(AffineMap frameToCamera)
+    /// <summary>Sets the frame, and changes the unit so that the frame has it.</summary>
+    private void SetFrame(AffineMap frameToCamera)
     {
-        var scale = Math.Cbrt(Math.Abs(frameToCamera.Linear.Determinant()));
-        if (Depth == 0)
-        {
-            // Outside, lengths are in scene units again.
-            scale = Math.Exp(-LogUnit);
-        }
-
+        // Relative to the whole fractal, lengths are in scene units again.
+        var scale = Depth == 0 ? Math.Exp(-LogUnit) : Math.Cbrt(Math.Abs(frameToCamera.Linear.Determinant()));
         _frameToCamera = new(frameToCamera.Linear / scale, frameToCamera.Translation / scale);
-        LogUnit += Math.Log(scale);
-        if (Depth == 0)
-        {
-            LogUnit = 0;
-        }
+        LogUnit = Depth == 0 ? 0 : LogUnit + Math.Log(scale);
     }
 }

@@ -4,20 +4,21 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>
-/// The box of a fractal, found without expanding it: along each axis the farthest point is searched for from the top, best
-/// bound first, with a ball and a box around what stands below each level.
+/// Computes the bounding box of a fractal without expanding it.
 /// </summary>
 /// <remarks>
-/// Exact to 1e-12 of the fractal's size in nearly all cases; where a search would visit more than
-/// <see cref="MaxSearchedNodes"/> sub-fractals it stops and answers with the bound that it has, which holds the fractal but may be
-/// wider. Infinite fractals are bounded by their limit. Not finite where the maps grow beyond a double.
+/// Along each axis the farthest point is searched for from the whole fractal down, best bound first. The bounds are a sphere and a box
+/// around the sub-fractal at each level. The box is exact to 1e-12 of the fractal's size in nearly all cases. Where a search would visit more than
+/// <see cref="MaxSearchedNodes"/> sub-fractals it stops and returns the bound that it has, which holds the fractal but may be wider.
+/// Infinite fractals are bounded by their limit. The box is not finite where the maps grow beyond a double.
 /// </remarks>
 public static class FractalBounds
 {
     private const int MaxSearchedNodes = 20_000;
     private const double RelativeTolerance = 1e-13;
+    private const long MaxEnumeratedVertices = 20L * FractalLimits.MaxEnumeratedInstances;
 
-    /// <summary>A box that holds all instances.</summary>
+    /// <summary>Computes a box that holds all instances of a fractal, in its own frame.</summary>
     public static BoundingBox ComputeBox(Fractal fractal) => fractal switch
     {
         { BaseMesh.VertexCount: 0 } => BoundingBox.Empty,
@@ -34,19 +35,27 @@ public static class FractalBounds
             return whole.Box;
         }
 
-        var (maximum, minimum) = (whole.Box.Maximum, whole.Box.Minimum);
+        var (minimum, maximum) = whole.Box;
         return new(
-            new(0 - ComputeSupport(fractal, bounds, -Vector.I, -minimum.X), 0 - ComputeSupport(fractal, bounds, -Vector.J, -minimum.Y),
-            0 - ComputeSupport(fractal, bounds, -Vector.K, -minimum.Z)),
-            new(ComputeSupport(fractal, bounds, Vector.I, maximum.X), ComputeSupport(fractal, bounds, Vector.J, maximum.Y),
-            ComputeSupport(fractal, bounds, Vector.K, maximum.Z)));
+            new(
+                0 - ComputeSupport(fractal, bounds, -Vector.I, -minimum.X),
+                0 - ComputeSupport(fractal, bounds, -Vector.J, -minimum.Y),
+                0 - ComputeSupport(fractal, bounds, -Vector.K, -minimum.Z)),
+            new(
+                ComputeSupport(fractal, bounds, Vector.I, maximum.X),
+                ComputeSupport(fractal, bounds, Vector.J, maximum.Y),
+                ComputeSupport(fractal, bounds, Vector.K, maximum.Z)));
     }
 
-    /// <summary>The largest <c>Dot(direction, v)</c> over all points v of the fractal.</summary>
+    /// <summary>Computes the largest <c>Dot(direction, v)</c> over all points v of the fractal.</summary>
+    /// <param name="fractal">Fractal in affine composition.</param>
+    /// <param name="bounds">Bounds of the fractal's levels.</param>
+    /// <param name="direction">Unit vector along an axis.</param>
+    /// <param name="bound">Upper bound of the result.</param>
     private static double ComputeSupport(Fractal fractal, LevelBounds bounds, Vector direction, double bound)
     {
         var tolerance = RelativeTolerance * Math.Max(bounds.At(0).Box.Diagonal, Math.Abs(bound));
-        // Ties are common in symmetric fractals: among equal bounds (to the tolerance) the deeper one is taken first.
+        // Ties are common in symmetric fractals: of bounds that are equal to the tolerance the deepest is taken first.
         var open = new PriorityQueue<(AffineMap Map, long Level, double Bound), (double, long)>();
         open.Enqueue((AffineMap.Identity, 0, bound), default);
         for (var visitedCount = 0; open.TryDequeue(out var node, out _); visitedCount++)
@@ -86,28 +95,24 @@ public static class FractalBounds
         return support + Vector.Dot(direction, map.Translation);
     }
 
-    /// <summary>
-    /// The box of enumerated sums where they are few; else the box of the summed positions, widened by the base mesh's farthest
-    /// vertex under the largest product of scales.
-    /// </summary>
+    /// <summary>Computes the box of all vertices of the enumerated sums where they are few, else a box that may be wider.</summary>
     private static BoundingBox ComputeComponentwiseBox(Fractal fractal)
     {
-        if (FractalSteps.HasAtMostInstances(fractal.Description.Steps,
-            20L * FractalLimits.MaxEnumeratedInstances / fractal.BaseMesh.VertexCount))
-        {
-            var box = BoundingBox.Empty;
-            foreach (var map in FractalGenerator.Expand(fractal, 20L * FractalLimits.MaxEnumeratedInstances))
-            {
-                for (var vertex = 0; vertex < fractal.BaseMesh.VertexCount; vertex++)
-                {
-                    box = box.Including(map * fractal.BaseMesh.Vertex(vertex));
-                }
-            }
+        var mesh = fractal.BaseMesh;
+        return FractalSteps.HasAtMostInstances(fractal.Description.Steps, MaxEnumeratedVertices / mesh.VertexCount)
+            ? FractalGenerator.Expand(fractal, MaxEnumeratedVertices).Aggregate(
+                BoundingBox.Empty, (box, map) => BoundingBox.Union(box, mesh.ComputeBounds(map)))
+            : ComputeSummedBox(fractal);
+    }
 
-            return box;
-        }
-
-        var (minimum, maximum, scale) = (Vector.Zero, Vector.Zero, 1.0);
+    /// <summary>
+    /// Computes the box of the summed positions, widened by the base mesh's farthest vertex under the largest product of scales.
+    /// </summary>
+    private static BoundingBox ComputeSummedBox(Fractal fractal)
+    {
+        var minimum = Vector.Zero;
+        var maximum = Vector.Zero;
+        var scale = 1.0;
         for (var level = 0L; level < fractal.LevelCount; level++)
         {
             var set = fractal.LevelAt(level).Transformations;

@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -10,17 +11,15 @@ namespace FractalEngine.Core.Fractals;
 /// </summary>
 public static class FractalGenerator
 {
-    /// <summary>
-    /// The distinct instances of a fractal as maps from the base mesh's frame to the fractal's.
-    /// </summary>
-    /// <param name="fractal">Finite.</param>
+    /// <summary>Expands a fractal into its distinct instances, as maps from the base mesh's frame to the fractal's.</summary>
+    /// <param name="fractal">Fractal with finitely many levels.</param>
     /// <param name="maxInstances">
-    /// The most instances allowed, equal ones counted in affine mode, distinct ones in componentwise mode.
+    /// Maximum number of instances: repeated ones are counted in affine composition, only distinct ones in componentwise composition.
     /// </param>
     /// <exception cref="FractalLimitException">The fractal has more instances.</exception>
     /// <remarks>
-    /// Two maps count as equal when they differ by rounding only (see <see cref="DistinctMaps"/>); the first in the order of
-    /// the file stays. Time and memory are proportional to the instances, 96 bytes each.
+    /// Two maps count as equal when they differ by rounding only (see <see cref="DistinctMaps"/>); the first in the order of the file is
+    /// kept. Time and memory are proportional to the instances, 96 bytes each.
     /// </remarks>
     public static ImmutableArray<AffineMap> Expand(Fractal fractal, long maxInstances)
     {
@@ -31,8 +30,9 @@ public static class FractalGenerator
 
         if (!FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances) || fractal.Description.IsInfinite)
         {
-            throw new FractalLimitException(
-                $"the fractal has {DecimalText.FormatApproximately(fractal.InstanceCount)} instances, more than the limit of {DecimalText.FormatApproximately(maxInstances)}");
+            var count = DecimalText.FormatApproximately(fractal.InstanceCount);
+            var limit = DecimalText.FormatApproximately(maxInstances);
+            throw new FractalLimitException($"the fractal has {count} instances, more than the limit of {limit}");
         }
 
         var isProvedDistinct = DistinctInstances.AreProvedDistinct(fractal);
@@ -40,7 +40,7 @@ public static class FractalGenerator
         for (var level = 0L; level < fractal.LevelCount; level++)
         {
             var set = fractal.LevelAt(level);
-            // A level of the identity alone changes nothing; a recursion of depth a million may consist of them.
+            // A level of the identity alone changes nothing; a recursion of a million levels may consist of them.
             if (set.Maps is not [var only] || only != AffineMap.Identity)
             {
                 var pairs = ConcatenatePair(instances, set.Maps.AsSpan(), static (m1, m2) => m1 * m2);
@@ -48,18 +48,20 @@ public static class FractalGenerator
             }
         }
 
-        return System.Runtime.InteropServices.ImmutableCollectionsMarshal.AsImmutableArray(instances);
+        return ImmutableCollectionsMarshal.AsImmutableArray(instances);
     }
 
-    /// <summary>The fractal as one mesh of all its faces, for who can't do with less.</summary>
-    /// <param name="fractal">Finite.</param>
-    /// <param name="maxFaces">The most faces allowed.</param>
+    /// <summary>Expands a fractal into one mesh of all its faces.</summary>
+    /// <param name="fractal">Fractal with finitely many levels.</param>
+    /// <param name="maxFaces">Maximum number of faces.</param>
     /// <exception cref="FractalLimitException">The fractal has more faces.</exception>
-    /// <remarks>Mirrored instances are inside out, as their maps make them: the normal of a face is that of its image.</remarks>
+    /// <remarks>Mirrored instances are inside out: the normal of a face is that of its image.</remarks>
     public static Mesh Flatten(Fractal fractal, long maxFaces) =>
         Flatten(fractal.BaseMesh, Expand(fractal, maxFaces / Math.Max(1, fractal.BaseMesh.FaceCount)));
 
-    /// <summary>Expands instances of a mesh into one mesh.</summary>
+    /// <summary>Joins instances of a mesh into one mesh.</summary>
+    /// <param name="mesh">Mesh whose vertices and faces are repeated for each instance.</param>
+    /// <param name="instances">Maps from the mesh's frame to that of the result.</param>
     /// <exception cref="FractalLimitException">There are more vertices or faces than an array holds.</exception>
     public static Mesh Flatten(Mesh mesh, ImmutableArray<AffineMap> instances)
     {
@@ -70,8 +72,9 @@ public static class FractalGenerator
         }
 
         var positions = new double[instances.Length * mesh.Positions.Length];
-        var faces = new int[instances.Length * mesh.VertexIndices.Length];
-        var (nextPosition, nextFace) = (0, 0);
+        var indices = new int[instances.Length * mesh.VertexIndices.Length];
+        var nextPosition = 0;
+        var nextIndex = 0;
         for (var instance = 0; instance < instances.Length; instance++)
         {
             for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
@@ -83,19 +86,19 @@ public static class FractalGenerator
 
             foreach (var vertex in mesh.VertexIndices)
             {
-                faces[nextFace++] = (instance * mesh.VertexCount) + vertex;
+                indices[nextIndex++] = (instance * mesh.VertexCount) + vertex;
             }
         }
 
-        return new(
-            System.Runtime.InteropServices.ImmutableCollectionsMarshal.AsImmutableArray(positions),
-            System.Runtime.InteropServices.ImmutableCollectionsMarshal.AsImmutableArray(faces));
+        return new(ImmutableCollectionsMarshal.AsImmutableArray(positions), ImmutableCollectionsMarshal.AsImmutableArray(indices));
     }
 
-    /// <summary>
-    /// The distinct sums of componentwise composition. Since it commutes, their number grows like a power of the
-    /// depth only.
-    /// </summary>
+    /// <summary>Expands a fractal in componentwise composition into its distinct sums.</summary>
+    /// <param name="fractal">Fractal with finitely many levels.</param>
+    /// <param name="maxInstances">
+    /// Maximum number of distinct sums, at most <see cref="FractalLimits.MaxComponentwiseSums"/>.
+    /// </param>
+    /// <remarks>Since this composition commutes, the number of sums grows like a power of the depth only.</remarks>
     /// <exception cref="FractalLimitException">There are more than <paramref name="maxInstances"/>, or the fractal is infinite.</exception>
     public static ImmutableArray<Transformation> ExpandComponentwise(Fractal fractal, long maxInstances)
     {
@@ -111,10 +114,11 @@ public static class FractalGenerator
             sums = AddLevel(sums, fractal.LevelAt(level).Transformations, maxInstances);
         }
 
-        return System.Runtime.InteropServices.ImmutableCollectionsMarshal.AsImmutableArray(sums);
+        return ImmutableCollectionsMarshal.AsImmutableArray(sums);
     }
 
-    /// <summary>Adds one level, a transformation at a time, so that there are never many more sums in memory than distinct ones.</summary>
+    /// <summary>Adds the transformations of one level to all sums.</summary>
+    /// <remarks>It adds one transformation at a time, so that memory never holds many more sums than there are distinct ones.</remarks>
     private static Transformation[] AddLevel(Transformation[] sums, ImmutableArray<Transformation> set, long maxInstances)
     {
         if (set is [{ IsIdentity: true }])
@@ -125,8 +129,8 @@ public static class FractalGenerator
         Transformation[] extended = [];
         foreach (var transformation in set)
         {
-            extended =
-                DistinctMaps.Deduplicate([.. extended, .. ConcatenatePair(sums, [transformation], Transformation.ComposeComponentwise)]);
+            var added = ConcatenatePair(sums, [transformation], Transformation.ComposeComponentwise);
+            extended = DistinctMaps.Deduplicate([.. extended, .. added]);
             if (extended.Length > maxInstances)
             {
                 throw new FractalLimitException($"componentwise composition of the fractal has more than {maxInstances} distinct sums");
@@ -136,7 +140,7 @@ public static class FractalGenerator
         return extended;
     }
 
-    /// <summary>The paper's concatPair: [m1·m2 | ∀ m1 ∈ set1, ∀ m2 ∈ set2], in that order.</summary>
+    /// <summary>Composes all pairs of two sets, the paper's concatPair: [m1·m2 | ∀ m1 ∈ set1, ∀ m2 ∈ set2], in that order.</summary>
     public static T[] ConcatenatePair<T>(ReadOnlySpan<T> set1, ReadOnlySpan<T> set2, Func<T, T, T> compose)
     {
         var pairs = new T[set1.Length * set2.Length];

@@ -1,35 +1,31 @@
 namespace FractalEngine.Core.Fractals;
 
-/// <summary>The stated limits of fractals. Each bounds time or memory, and is named in the error that it causes.</summary>
+/// <summary>The limits of fractals: each bounds time or memory, and is named in the error that it causes.</summary>
 public static class FractalLimits
 {
-    /// <summary>The largest n of <c>z n</c>.</summary>
+    /// <summary>Maximum number n of repetitions in <c>z n</c>.</summary>
     public const int MaxDepth = 1_000_000;
 
-    /// <summary>
-    /// The most sets that a chain may pass through, repetitions of repetitions multiplied out. Of 25 maps each, so many give
-    /// a number of instances of 2.8 million digits, which takes some seconds to write out.
-    /// </summary>
+    /// <summary>Maximum number of sets that a chain passes through, repetitions of repetitions multiplied out.</summary>
+    /// <remarks>With 25 maps each, the number of instances then has 2.8 million digits, which take some seconds to write out.</remarks>
     public const long MaxLevels = 2_000_000;
 
-    /// <summary>The most sets and repetitions, one after the other, that an object may be made of.</summary>
+    /// <summary>Maximum number of sets and repetitions, one after the other, of an object.</summary>
     public const int MaxSteps = 1_000;
 
-    /// <summary>The most repetitions inside each other.</summary>
+    /// <summary>Maximum number of repetitions inside each other.</summary>
     public const int MaxNesting = 32;
 
-    /// <summary>
-    /// The most instances that are drawn, when nothing else is asked for: the paper's Menger sponge of 3.2 million
-    /// fits; at 48 bytes each they take 192 MB on the GPU.
-    /// </summary>
+    /// <summary>Maximum number of instances that are drawn, unless stated otherwise.</summary>
+    /// <remarks>The paper's Menger sponge of 3.2 million fits; at 48 bytes each they take 192 MB on the GPU.</remarks>
     public const int MaxDrawnInstances = 4_000_000;
 
-    /// <summary>The most faces that are exported, when nothing else is asked for: about 3 GB of text.</summary>
+    /// <summary>Maximum number of faces that are exported, unless stated otherwise: about 3 GB of text.</summary>
     public const long MaxExportedFaces = 50_000_000;
 
-    /// <summary>The most chains that are enumerated only to count the distinct ones among them.</summary>
+    /// <summary>Maximum number of chains that are enumerated only to count the distinct ones.</summary>
     public const int MaxEnumeratedInstances = 500_000;
 
-    /// <summary>The most distinct sums that componentwise composition is carried out for: about 100 MB.</summary>
+    /// <summary>Maximum number of distinct sums of componentwise composition: about 100 MB.</summary>
     public const int MaxComponentwiseSums = 1_000_000;
 }

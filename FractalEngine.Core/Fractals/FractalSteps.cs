@@ -3,31 +3,29 @@ using System.Numerics;
 
 namespace FractalEngine.Core.Fractals;
 
-/// <summary>Sums and look-ups over a sequence of steps, outermost first.</summary>
+/// <summary>Counts and look-ups over a sequence of steps, outermost first.</summary>
 public static class FractalSteps
 {
-    /// <summary>How many sets a chain passes through; null when they are infinitely many.</summary>
+    /// <summary>Counts the sets that a chain passes through; null stands for infinitely many.</summary>
     public static long? LevelCount(ImmutableArray<FractalStep> steps) =>
         steps.Aggregate((long?)0, (sum, step) => sum + step.LevelCount);
 
-    /// <summary>How many chains of transformations there are, repeated ones counted; null for infinitely many.</summary>
+    /// <summary>Counts the chains of transformations, repeated ones too; null stands for infinitely many.</summary>
     public static BigInteger? InstanceCount(ImmutableArray<FractalStep> steps) =>
         steps.Any(step => step.InstanceCount is { IsZero: true }) ? BigInteger.Zero
         : steps.Aggregate((BigInteger?)BigInteger.One, (product, step) => product * step.InstanceCount);
 
-    /// <summary>
-    /// True when there are at most <paramref name="limit"/> chains. Unlike the exact count, which may have millions of digits, this
-    /// costs next to nothing.
-    /// </summary>
+    /// <summary>Tells whether there are at most <paramref name="limit"/> chains of transformations.</summary>
+    /// <remarks>This costs next to nothing, unlike the exact number, which may have millions of digits.</remarks>
     public static bool HasAtMostInstances(ImmutableArray<FractalStep> steps, long limit) => CountUpTo(steps, limit) <= limit;
 
-    /// <summary>How many chains there are, or, if they are more, some number above the limit.</summary>
+    /// <summary>Counts the chains of transformations up to a limit; the result is above the limit if there are more.</summary>
     internal static BigInteger CountUpTo(ImmutableArray<FractalStep> steps, long limit)
     {
         var product = BigInteger.One;
         foreach (var step in steps)
         {
-            // A set without maps anywhere leaves nothing, so the product may not be given up before the last step.
+            // A set without maps at any step makes the product zero, so the loop may not end at the limit.
             product *= step.CountUpTo(limit);
             product = BigInteger.Min(product, new BigInteger(limit) + 1);
         }
@@ -35,9 +33,9 @@ public static class FractalSteps
         return product;
     }
 
-    /// <summary>The set at one level. Cost O(steps), whatever the number of rounds.</summary>
-    /// <param name="steps">Outermost first.</param>
-    /// <param name="level">From 0, the outermost.</param>
+    /// <summary>Finds the set at one level, in O(steps) whatever the number of rounds.</summary>
+    /// <param name="steps">Steps, outermost first.</param>
+    /// <param name="level">Level from 0, the outermost.</param>
     /// <exception cref="ArgumentOutOfRangeException">There is no such level.</exception>
     public static TransformationSet LevelAt(ImmutableArray<FractalStep> steps, long level)
     {

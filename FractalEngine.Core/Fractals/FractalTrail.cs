@@ -3,37 +3,40 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>
-/// The paper's way of showing endless detail (§4.3.2–4.3.4): while the camera is within the radius of the nearest sub-transformation t, m
-/// becomes m·t, so that the whole fractal is drawn where its part was; a queue keeps the last few m, and the oldest of them is drawn, so
-/// that what lies behind the camera does not vanish at once.
+/// The paper's method of showing endless detail (§4.3.2–4.3.4): while the camera is within the radius of the closest sub-transformation t,
+/// the matrix m becomes m·t.
 /// </summary>
 /// <remarks>
-/// Kept beside <see cref="FractalAddress"/>, which loses nothing, to be compared with it. Each call begins at the top again, as in the
-/// paper: cost O(depth · maps). World coordinates end at a depth of about 50 for halves.
+/// So the whole fractal is drawn in place of its sub-fractal. A queue, the trail, keeps the last few m, and the oldest of them is drawn:
+/// what lies behind the camera does not vanish at once. The class exists for comparison with <see cref="FractalAddress"/>, which loses no precision. Each call starts at the whole fractal
+/// again, as in the paper: cost O(depth · maps). World coordinates end at a depth of about 50 for halves.
 /// </remarks>
 /// <param name="fractal">
-/// Its levels give the sub-transformations; identities are passed over, since m·1 would be repeated without end.
+/// Fractal whose levels give the sub-transformations; identities are skipped, since m·1 would be repeated without end.
 /// </param>
-/// <param name="length">Of the queue, at least 1: 1 keeps no trail, and 3 draws what is two transformations further out (Figure 9).</param>
+/// <param name="length">
+/// Length of the trail, at least 1: 1 keeps no trail, and 3 draws what is two transformations further out (Figure 9).
+/// </param>
 public sealed class FractalTrail(Fractal fractal, int length)
 {
-    /// <summary>Beyond this a double can't tell the parts of a fractal apart.</summary>
+    /// <summary>Maximum depth; beyond it a double can't tell the sub-fractals apart.</summary>
     public const int MaxDepth = 1000;
 
     private readonly Queue<AffineMap> _queue = new();
 
-    /// <summary>Of the queue.</summary>
+    /// <summary>Length of the trail.</summary>
     public int Length => length;
 
-    /// <summary>How many transformations the camera is within.</summary>
+    /// <summary>Number of transformations whose radius the camera is within.</summary>
     public int Depth { get; private set; }
 
-    /// <summary>The queue as it stands: the head, which is drawn, first.</summary>
+    /// <summary>The matrices of the trail: first the head, which is drawn.</summary>
     public IEnumerable<AffineMap> Queue => _queue;
 
-    /// <summary>The matrix that is drawn.</summary>
-    /// <param name="placement">The object's own matrix m, which is left as it is.</param>
-    /// <param name="cameraPosition">World space.</param>
+    /// <summary>Follows the camera, and computes the matrix to draw with.</summary>
+    /// <param name="placement">The object's own matrix m, which stays unchanged.</param>
+    /// <param name="cameraPosition">Camera position, world space.</param>
+    /// <returns>The oldest matrix of the trail.</returns>
     public AffineMap Update(AffineMap placement, Vector cameraPosition)
     {
         _queue.Clear();
@@ -44,9 +47,14 @@ public sealed class FractalTrail(Fractal fractal, int length)
 
         var map = placement;
         var maxDepth = Math.Min(fractal.LevelCount ?? MaxDepth, MaxDepth);
-        for (Depth = 0; Depth < maxDepth && FindClosest(map, fractal.LevelAt(Depth), cameraPosition) is { } closest
-            && IsCameraWithinRadius(closest, cameraPosition); Depth++)
+        for (Depth = 0; Depth < maxDepth; Depth++)
         {
+            if (FindClosest(map, fractal.LevelAt(Depth), cameraPosition) is not { } closest
+                || !IsCameraWithinRadius(closest, cameraPosition))
+            {
+                break;
+            }
+
             map = closest;
             _queue.Dequeue();
             _queue.Enqueue(map);
@@ -55,19 +63,17 @@ public sealed class FractalTrail(Fractal fractal, int length)
         return _queue.Peek();
     }
 
-    /// <summary>
-    /// The paper's ClosestMatrix over a set: of all m·t the one whose position is nearest to the camera; null where there is only the
-    /// identity.
-    /// </summary>
+    /// <summary>Finds the m·t of a set whose position is closest to the camera: the paper's ClosestMatrix.</summary>
+    /// <returns>Null where the set has only identities.</returns>
     private static AffineMap? FindClosest(AffineMap map, TransformationSet set, Vector cameraPosition)
     {
         AffineMap? closest = null;
         foreach (var transformation in set.Maps)
         {
             var candidate = map * transformation;
+            var distanceSquared = (candidate.Translation - cameraPosition).LengthSquared();
             if (transformation != AffineMap.Identity
-                && (closest is null
-                || (candidate.Translation - cameraPosition).LengthSquared() < (closest.Value.Translation - cameraPosition).LengthSquared()))
+                && (closest is null || distanceSquared < (closest.Value.Translation - cameraPosition).LengthSquared()))
             {
                 closest = candidate;
             }

@@ -2,24 +2,26 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Generation;
 
-/// <summary>Consoles: a desk with keys that leans out of the wall, and screens above it.</summary>
+/// <summary>Generates consoles: a desk with keys that leans out of the wall, and screens above it.</summary>
 internal static class Consoles
 {
     private const double DeskHeight = 0.42;
     private const double DeskDepth = 0.4;
 
-    /// <summary>Fills a piece of wall with a console.</summary>
+    /// <summary>Fills a rectangle of wall with a console.</summary>
     /// <param name="mesh">Receives the faces.</param>
-    /// <param name="frame">Whose first axis points upwards.</param>
-    /// <param name="area">In the frame: x upwards, y along the wall.</param>
-    /// <param name="detail">About proportional to the number of faces.</param>
-    /// <param name="random">Of the keys and screens.</param>
+    /// <param name="frame">Frame whose right axis points upwards in the room.</param>
+    /// <param name="area">Rectangle in the frame: x upwards, y along the wall.</param>
+    /// <param name="detail">Amount of detail, about proportional to the number of faces.</param>
+    /// <param name="random">Source of chance for the keys and screens.</param>
     public static void Add(MeshBuilder mesh, WallFrame frame, WallArea area, double detail, SplitMix64 random)
     {
         var desk = area with { X1 = area.X0 + DeskHeight };
         // The desk: a front that leans towards the room, and a top that slopes down from the wall.
-        Vector[] wallLow = Edge(desk.X0, 0), frontLow = Edge(desk.X0, 0.5 * DeskDepth), frontHigh = Edge(desk.X1 - 0.12, DeskDepth),
-            wallHigh = Edge(desk.X1 + 0.1, 0.06);
+        var wallLow = Edge(desk.X0, 0);
+        var frontLow = Edge(desk.X0, 0.5 * DeskDepth);
+        var frontHigh = Edge(desk.X1 - 0.12, DeskDepth);
+        var wallHigh = Edge(desk.X1 + 0.1, 0.06);
         Vector[][] outline = [wallLow, frontLow, frontHigh, wallHigh];
         for (var i = 0; i + 1 < outline.Length; i++)
         {
@@ -37,9 +39,11 @@ internal static class Consoles
 
     private static void AddKeys(MeshBuilder mesh, Vector[] front, Vector[] back, double detail, SplitMix64 random)
     {
-        var (along, away) = (front[1] - front[0], back[0] - front[0]);
+        var along = front[1] - front[0];
+        var away = back[0] - front[0];
         var top = new WallFrame(front[0], away.UnitVector(), along.UnitVector());
-        var (depth, width) = (away.Length(), along.Length());
+        var depth = away.Length();
+        var width = along.Length();
         var size = Math.Max(0.012, 0.045 / Math.Sqrt(Math.Max(0.3, detail)));
         foreach (var block in new WallArea(0.03, 0.04, depth - 0.05, width - 0.04).Cells(1, 4))
         {
@@ -51,7 +55,9 @@ internal static class Consoles
             }
 
             var raised = top.Translated(0, 0, 0.008);
-            foreach (var key in field.Inset(0.015).Cells(Math.Max(2, (int)(field.Width / size)), Math.Max(2, (int)(field.Height / size))))
+            var columns = Math.Max(2, (int)(field.Width / size));
+            var rows = Math.Max(2, (int)(field.Height / size));
+            foreach (var key in field.Inset(0.015).Cells(columns, rows))
             {
                 if (random.Chance(0.9))
                 {
@@ -75,8 +81,8 @@ internal static class Consoles
                 var bars = (int)Math.Clamp(6 * Math.Sqrt(detail), 2, 60);
                 foreach (var bar in outer.Inset(0.04).Cells(1, bars))
                 {
-                    mesh.AddPlate(wall.Translated(0, 0, 0.03),
-                        (bar with { X1 = bar.X0 + (bar.Width * random.NextInRange(0.2, 1)) }).Inset(0.1 * bar.Height), 0.004, 0.002);
+                    var shortened = bar with { X1 = bar.X0 + (bar.Width * random.NextInRange(0.2, 1)) };
+                    mesh.AddPlate(wall.Translated(0, 0, 0.03), shortened.Inset(0.1 * bar.Height), 0.004, 0.002);
                 }
             }
             else

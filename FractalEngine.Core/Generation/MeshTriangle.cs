@@ -1,12 +1,14 @@
 namespace FractalEngine.Core.Generation;
 
-/// <summary>A corner of a face: the numbers of its position and texture coordinate.</summary>
-internal readonly record struct MeshCorner(int PositionIndex, int CoordinateIndex);
-
-/// <summary>A face with the group of faces that it is smooth with; 0 for none.</summary>
+/// <summary>A generated face with its smoothing group.</summary>
+/// <param name="A">First corner.</param>
+/// <param name="B">Second corner.</param>
+/// <param name="C">Third corner.</param>
+/// <param name="SmoothingGroup">Group of faces that share normals; 0 for a flat face.</param>
 internal readonly record struct MeshTriangle(MeshCorner A, MeshCorner B, MeshCorner C, int SmoothingGroup)
 {
-    /// <summary>The same face, beginning with another corner: 0 is A, 1 is B, 2 is C.</summary>
+    /// <summary>Rotates the corners of the face, so that it starts at another one.</summary>
+    /// <param name="corner">0 for A, 1 for B, 2 for C.</param>
     public MeshTriangle StartingAt(int corner) => corner switch
     {
         0 => this,

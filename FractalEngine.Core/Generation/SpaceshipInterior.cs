@@ -4,12 +4,13 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Generation;
 
 /// <summary>
-/// A corridor of a spaceship, eight-sided, seen from inside: ribs, panelled walls, floor plates, lights, pipes, cables, consoles and
-/// a hatch at either end. It stands in for the paper's first model (§5.3), of which only the number of faces is known.
+/// Generates the interior of a spaceship's corridor with eight sides: ribs, panelled walls, floor plates, lights, pipes, cables, consoles
+/// and a hatch at either end.
 /// </summary>
+/// <remarks>It replaces the paper's first model (§5.3), of which only the number of faces is known.</remarks>
 internal sealed class SpaceshipInterior
 {
-    /// <summary>What the corridor has with no details at all.</summary>
+    /// <summary>Minimum number of faces, of a corridor without details.</summary>
     public const int MinFaceCount = 16_000;
 
     private const int Bays = 12;
@@ -18,7 +19,7 @@ internal sealed class SpaceshipInterior
     private const double Length = Bays * BayLength;
     private const double MaxDetail = 4096;
 
-    /// <summary>The section, seen along z, counter-clockwise from the floor's left end; units are metres.</summary>
+    /// <summary>Corners of the section, seen along z, counter-clockwise from the left end of the floor, metres.</summary>
     private static readonly (double X, double Y)[] Section =
         [(-0.95, 0), (0.95, 0), (1.6, 0.55), (1.6, 2.15), (1.05, 2.75), (-1.05, 2.75), (-1.6, 2.15), (-1.6, 0.55)];
 
@@ -30,10 +31,13 @@ internal sealed class SpaceshipInterior
 
     private SpaceshipInterior(ulong seed, double detail)
     {
-        (_random, _detail, _isPlain) = (new(seed), detail, detail < WallPanels.MinFittingDetail);
+        _random = new(seed);
+        _detail = detail;
+        _isPlain = detail < WallPanels.MinFittingDetail;
         _panels = new(_mesh, detail);
     }
 
+    /// <summary>Sides of the section, in the order of its corners.</summary>
     private enum Side
     {
         Floor,
@@ -46,22 +50,31 @@ internal sealed class SpaceshipInterior
         LeftSlope,
     }
 
-    /// <summary>A corridor of exactly so many faces.</summary>
-    /// <param name="seed">Of the panelling and the fittings.</param>
-    /// <param name="faceCount">At least <see cref="MinFaceCount"/>.</param>
+    /// <summary>Generates a corridor with an exact number of faces.</summary>
+    /// <param name="seed">Seed of the panelling and the fittings.</param>
+    /// <param name="faceCount">Number of faces, at least <see cref="MinFaceCount"/>.</param>
     public static Mesh Create(ulong seed, int faceCount)
     {
-        // More detail means more faces, though not strictly: the search ends at the most detail found that fits.
-        var (fits, tooMuch) = (0.0, MaxDetail);
+        // More detail means more faces, though not strictly: the search ends at the largest detail found that fits.
+        var fits = 0.0;
+        var tooMuch = MaxDetail;
         var best = new SpaceshipInterior(seed, 0).BuildMesh();
         for (var step = 0; step < 24 && tooMuch - fits > 0.01 * fits; step++)
         {
             var detail = fits == 0 ? Math.Min(0.25, tooMuch / 4) : Math.Sqrt(fits * tooMuch);
             var mesh = new SpaceshipInterior(seed, detail).BuildMesh();
-            (fits, tooMuch, best) = mesh.FaceCount <= faceCount ? (detail, tooMuch, mesh) : (fits, detail, best);
+            if (mesh.FaceCount <= faceCount)
+            {
+                fits = detail;
+                best = mesh;
+            }
+            else
+            {
+                tooMuch = detail;
+            }
         }
 
-        // What is missing is made up for by halving the longest edges.
+        // Halving the longest edges adds the faces that are missing.
         EdgeSplitting.SplitTo(best, faceCount);
         return best.Build();
     }
@@ -92,17 +105,19 @@ internal sealed class SpaceshipInterior
         return _mesh;
     }
 
-    /// <summary>A side of a bay: x runs along the section, y along the corridor, out is inwards.</summary>
+    /// <summary>Computes the frame and the width of a side of the section at z.</summary>
+    /// <remarks>The frame's right axis runs along the section, its up axis against z, and it faces the inside of the corridor.</remarks>
     private static (WallFrame Frame, double Width) Wall(Side side, double z)
     {
-        var (start, end) = (Section[(int)side], Section[((int)side + 1) % Section.Length]);
+        var start = Section[(int)side];
+        var end = Section[((int)side + 1) % Section.Length];
         var along = new Vector(end.X - start.X, end.Y - start.Y, 0);
         return (new(new(start.X, start.Y, z), along.UnitVector(), -Vector.K), along.Length());
     }
 
     private void AddWall(Side side, int bay, SplitMix64 random)
     {
-        // The frame's up axis runs against z, so that it starts at the bay's far end.
+        // The frame's up axis runs against z, so that it starts at the far end of the bay.
         var (frame, width) = Wall(side, (bay + 1) * BayLength);
         var whole = new WallArea(0, 0, width, BayLength);
         _mesh.AddWall(frame, whole);
@@ -161,18 +176,18 @@ internal sealed class SpaceshipInterior
         }
     }
 
-    /// <summary>A pipe along the whole corridor with a collar at each rib; in some bays it swings out from the wall.</summary>
+    /// <summary>Adds a pipe along the whole corridor with a collar at each rib; in some bays it swings out from the wall.</summary>
     private void AddPipe(double x, double y, double radius, int perBay, int sides, SplitMix64 random)
     {
         var points = new List<Vector>();
         for (var bay = 0; bay < Bays; bay++)
         {
             var swing = random.Chance(0.3) ? random.NextInRange(0.04, 0.1) : 0;
-            for (var piece = 0; piece < perBay; piece++)
+            for (var segment = 0; segment < perBay; segment++)
             {
-                var along = (double)piece / perBay;
-                var off = swing * SmoothStep(Math.Clamp((Math.Abs(along - 0.5) - 0.2) * -8 + 0.8, 0, 1));
-                points.Add(new(x - (Math.Sign(x) * off), y - (Math.Sign(y - 1.4) * off), (bay + along) * BayLength));
+                var along = (double)segment / perBay;
+                var offset = swing * SmoothStep(Math.Clamp((Math.Abs(along - 0.5) - 0.2) * -8 + 0.8, 0, 1));
+                points.Add(new(x - (Math.Sign(x) * offset), y - (Math.Sign(y - 1.4) * offset), (bay + along) * BayLength));
             }
 
             if (!_isPlain)
@@ -188,41 +203,46 @@ internal sealed class SpaceshipInterior
     private void AddCollar(Vector start, double radius, int sides)
     {
         double[] steps = [1, 1.45, 1.45, 1];
-        _mesh.AddTube([start, start + (0.005 * Vector.K), start + (0.05 * Vector.K), start + (0.055 * Vector.K)], i => steps[i] * radius,
-            sides);
+        Vector[] points = [start, start + (0.005 * Vector.K), start + (0.05 * Vector.K), start + (0.055 * Vector.K)];
+        _mesh.AddTube(points, i => steps[i] * radius, sides);
     }
 
-    /// <summary>A cable that hangs from rib to rib under the ceiling.</summary>
-    private void AddCable(int bay, int pieces, int sides, SplitMix64 random)
+    /// <summary>Adds a cable that hangs from rib to rib under the ceiling.</summary>
+    private void AddCable(int bay, int segments, int sides, SplitMix64 random)
     {
-        var (x, sag) = (random.NextInRange(-0.75, 0.75), random.NextInRange(0.05, 0.2));
+        var x = random.NextInRange(-0.75, 0.75);
+        var sag = random.NextInRange(0.05, 0.2);
         var drift = random.NextInRange(-0.2, 0.2);
-        var points = Enumerable.Range(0, pieces + 1).Select(piece => (double)piece / pieces).Select(along =>
-            new Vector(x + (drift * along), 2.61 - (4 * sag * along * (1 - along)), (bay + along) * BayLength)).ToList();
+        var points = new Vector[segments + 1];
+        for (var segment = 0; segment <= segments; segment++)
+        {
+            var along = (double)segment / segments;
+            points[segment] = new(x + (drift * along), 2.61 - (4 * sag * along * (1 - along)), (bay + along) * BayLength);
+        }
+
         _mesh.AddTube(points, _ => 0.014, sides);
     }
 
-    /// <summary>A round hatch in a bulkhead: rings, a wheel with spokes, bolts around.</summary>
+    /// <summary>Adds a round hatch in a bulkhead: rings, a wheel with spokes, bolts around.</summary>
     private void AddHatch(WallFrame frame)
     {
-        var pieces = (int)Math.Clamp(24 + (8 * Math.Sqrt(_detail)), 24, 160);
+        var segments = (int)Math.Clamp(24 + (8 * Math.Sqrt(_detail)), 24, 160);
         var sides = (int)Math.Clamp(6 + (2 * Math.Sqrt(_detail)), 6, 24);
-        var middle = new WallFrame(frame.Origin, frame.Right, frame.Up);
-        _mesh.AddWall(middle, new(-1.62, -1.4, 1.62, 1.4));
-        _mesh.AddRing(middle, 0, 0, 1.02, 0.09, pieces, sides);
-        _mesh.AddRing(middle.Translated(0, 0, 0.04), 0, 0, 0.8, 0.04, pieces, sides);
-        _mesh.AddRing(middle.Translated(0, 0, 0.16), 0, 0, 0.3, 0.03, pieces, sides);
+        _mesh.AddWall(frame, new(-1.62, -1.4, 1.62, 1.4));
+        _mesh.AddRing(frame, 0, 0, 1.02, 0.09, segments, sides);
+        _mesh.AddRing(frame.Translated(0, 0, 0.04), 0, 0, 0.8, 0.04, segments, sides);
+        _mesh.AddRing(frame.Translated(0, 0, 0.16), 0, 0, 0.3, 0.03, segments, sides);
         for (var spoke = 0; spoke < 5; spoke++)
         {
             var (s, c) = Math.SinCos(2 * Math.PI * spoke / 5);
-            _mesh.AddTube([middle.At(0, 0, 0.1), middle.At(0.3 * c, 0.3 * s, 0.16)], _ => 0.02, sides);
+            _mesh.AddTube([frame.At(0, 0, 0.1), frame.At(0.3 * c, 0.3 * s, 0.16)], _ => 0.02, sides);
         }
 
-        _mesh.AddPlate(middle, new(-0.12, -0.12, 0.12, 0.12), 0.13, 0.05);
+        _mesh.AddPlate(frame, new(-0.12, -0.12, 0.12, 0.12), 0.13, 0.05);
         for (var bolt = 0; bolt < 24 && !_isPlain; bolt++)
         {
             var (s, c) = Math.SinCos(2 * Math.PI * bolt / 24);
-            _mesh.AddBolt(middle, 0.91 * c, 0.91 * s, 0.025);
+            _mesh.AddBolt(frame, 0.91 * c, 0.91 * s, 0.025);
         }
     }
 

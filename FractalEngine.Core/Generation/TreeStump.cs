@@ -4,11 +4,16 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Generation;
 
 /// <summary>
-/// A tree stump: bark with deep ridges, roots that run out over the ground, and a sawn top with growth rings and cracks. It
-/// stands in for the paper's second model (§5.3), of which only the number of faces is known. Open below.
+/// Generates a tree stump: bark with deep ridges, roots that run out over the ground, and a sawn top with growth rings and cracks.
 /// </summary>
+/// <remarks>
+/// It replaces the paper's second model (§5.3), of which only the number of faces is known. The mesh has no faces below.
+/// </remarks>
 internal sealed class TreeStump
 {
+    /// <summary>Minimum number of faces that make a stump.</summary>
+    public const int MinFaceCount = 300;
+
     private const double Radius = 0.62;
     private const double Height = 0.95;
     private const double ShareOfTop = 0.36;
@@ -33,12 +38,12 @@ internal sealed class TreeStump
         _tilt = new(random.NextInRange(-0.06, 0.06), 0, random.NextInRange(-0.06, 0.06));
     }
 
-    /// <summary>A stump of exactly so many faces.</summary>
-    /// <param name="seed">Of the roots, the bark and the cracks.</param>
-    /// <param name="faceCount">At least <see cref="MinFaceCount"/>.</param>
+    /// <summary>Generates a stump with an exact number of faces.</summary>
+    /// <param name="seed">Seed of the roots, the bark and the cracks.</param>
+    /// <param name="faceCount">Number of faces, at least <see cref="MinFaceCount"/>.</param>
     public static Mesh Create(ulong seed, int faceCount)
     {
-        // A grid of rows and columns, about half as many columns again as rows, and a fan in the middle of the top.
+        // A grid with about half as many columns again as rows, and a fan around the centre of the top.
         var rows = (int)Math.Sqrt(faceCount / 3.0);
         var columns = faceCount / ((2 * rows) - 1);
         var mesh = new MeshBuilder();
@@ -47,53 +52,52 @@ internal sealed class TreeStump
         return mesh.Build();
     }
 
-    /// <summary>What makes a stump at all.</summary>
-    public const int MinFaceCount = 300;
-
     private void AddTo(MeshBuilder mesh, int rows, int columns)
     {
         var topRows = (int)(ShareOfTop * rows);
         var barkRows = rows - topRows;
         var bark = new MeshCorner[barkRows, columns + 1];
-        AddRows(mesh, bark, columns, row => Math.Pow((double)row / (barkRows - 1), 1.35), Bark);
+        AddCorners(mesh, bark, row => Math.Pow((double)row / (barkRows - 1), 1.35), Bark);
         mesh.SmoothingGroup = 1;
         mesh.AddGrid(bark);
 
-        // The top shares the rim's positions with the bark, but not its smoothing.
+        // The top shares the rim's positions with the bark, but not its smoothing group.
         var top = new MeshCorner[topRows + 1, columns + 1];
         for (var column = 0; column <= columns; column++)
         {
             top[0, column] = bark[barkRows - 1, column];
         }
 
-        AddRows(mesh, top, columns, row => 1 - ((double)row / (topRows + 1)), Top, firstRow: 1);
+        AddCorners(mesh, top, row => 1 - ((double)row / (topRows + 1)), Top, firstRow: 1);
         mesh.SmoothingGroup = 2;
         mesh.AddGrid(top);
-        var middle = new MeshCorner(mesh.AddPosition(Top(0, 0)), mesh.AddTextureCoordinate(0.5, 1));
+        var centre = new MeshCorner(mesh.AddPosition(Top(0, 0)), mesh.AddTextureCoordinate(0.5, 1));
         for (var column = 0; column < columns; column++)
         {
-            mesh.AddTriangle(top[topRows, column], top[topRows, column + 1], middle);
+            mesh.AddTriangle(top[topRows, column], top[topRows, column + 1], centre);
         }
     }
 
-    private static void AddRows(
-        MeshBuilder mesh, MeshCorner[,] corners, int columns, Func<int, double> along, Func<double, double, Vector> surface,
-        int firstRow = 0)
+    /// <summary>Adds the corners of a surface that is closed around the stump.</summary>
+    /// <param name="mesh">Receives the vertices.</param>
+    /// <param name="corners">Receives the corners, [rows, columns].</param>
+    /// <param name="along">Computes the second coordinate of the surface from the row.</param>
+    /// <param name="surface">Computes a position from an angle in radians and the second coordinate.</param>
+    /// <param name="firstRow">First row to add.</param>
+    private static void AddCorners(
+        MeshBuilder mesh, MeshCorner[,] corners, Func<int, double> along, Func<double, double, Vector> surface, int firstRow = 0)
     {
-        for (var row = firstRow; row < corners.GetLength(0); row++)
-        {
-            for (var column = 0; column <= columns; column++)
-            {
-                var around = (double)column / columns;
-                var position = column == columns
-                    ? corners[row, 0].PositionIndex
-                    : mesh.AddPosition(surface(2 * Math.PI * around, along(row)));
-                corners[row, column] = new(position, mesh.AddTextureCoordinate(around, along(row)));
-            }
-        }
+        var columns = corners.GetLength(1) - 1;
+        mesh.AddCorners(
+            corners, GridClosure.Columns,
+            (row, column) => surface(2 * Math.PI * ((double)column / columns), along(row)),
+            (row, column) => ((double)column / columns, along(row)),
+            firstRow);
     }
 
-    /// <summary>The bark at an angle and a height, both from the ground at 0 to the rim at 1.</summary>
+    /// <summary>Computes a point of the bark.</summary>
+    /// <param name="angle">Angle around the trunk, radians.</param>
+    /// <param name="along">Height, from the ground at 0 to the rim at 1.</param>
     private Vector Bark(double angle, double along)
     {
         var low = Math.Exp(-along * Height / 0.13);
@@ -101,8 +105,8 @@ internal sealed class TreeStump
         var reach = 0.0;
         foreach (var (rootAngle, width, rootReach, bend) in _roots)
         {
-            var off = Math.IEEERemainder(twisted - rootAngle - (bend * low), 2 * Math.PI) / width;
-            reach += rootReach * Math.Exp(-off * off);
+            var offset = Math.IEEERemainder(twisted - rootAngle - (bend * low), 2 * Math.PI) / width;
+            reach += rootReach * Math.Exp(-offset * offset);
         }
 
         var (s, c) = Math.SinCos(angle);
@@ -116,30 +120,32 @@ internal sealed class TreeStump
         return new(radius * s, (Height * along) + Rim(radius * s, radius * c, along) - (0.05 * low * reach), radius * c);
     }
 
-    /// <summary>The sawn top at an angle, and at a share of the way from the middle to the rim.</summary>
+    /// <summary>Computes a point of the sawn top.</summary>
+    /// <param name="angle">Angle around the trunk, radians.</param>
+    /// <param name="outwards">Distance from the centre at 0 to the rim at 1.</param>
     private Vector Top(double angle, double outwards)
     {
         var rim = Bark(angle, 1);
         var (x, z) = (outwards * rim.X, outwards * rim.Z);
-        // The rings follow the stump's outline, but not the furrows of its bark, and waver a little.
+        // The rings follow the outline of the stump, but not the furrows of its bark, and waver a little.
         var (s, c) = Math.SinCos(angle);
         var outline = Radius * (1.03 + (0.06 * _noise.Octaves(new(1.3 * c, 0.8, 1.3 * s), 2)));
         var wavering = (Math.Sqrt((x * x) + (z * z)) / outline) + (0.012 * _noise.Octaves(new(3 * x, 0.5, 3 * z), 2));
         var rings = 0.004 * Math.Sin(2 * Math.PI * _rings * wavering) * Math.Min(1, 8 * outwards);
-        // Bark stands apart from wood by a furrow.
+        // A furrow separates bark from wood.
         var furrow = 0.03 * Math.Exp(-Math.Pow((outwards - 0.925) / 0.012, 2));
         var saw = 0.003 * _noise.At(40 * ((0.8 * x) + (0.6 * z)), 2, 3 * ((0.8 * z) - (0.6 * x)));
         var cracks = 0.0;
         foreach (var (crackAngle, width, depth) in _cracks)
         {
-            var off = outwards * Math.IEEERemainder(angle - crackAngle - (0.1 * _noise.At(4 * outwards, crackAngle, 0)), 2 * Math.PI);
-            cracks += depth * Math.Exp(-Math.Pow(off / (width * (0.4 + outwards)), 2)) * Math.Clamp(3 * (outwards - 0.15), 0, 1);
+            var offset = outwards * Math.IEEERemainder(angle - crackAngle - (0.1 * _noise.At(4 * outwards, crackAngle, 0)), 2 * Math.PI);
+            cracks += depth * Math.Exp(-Math.Pow(offset / (width * (0.4 + outwards)), 2)) * Math.Clamp(3 * (outwards - 0.15), 0, 1);
         }
 
         var inside = Math.Clamp((1 - outwards) * 60, 0, 1);
         return new(x, Height + Rim(x, z, 1) + (inside * (rings + saw - furrow - cracks)), z);
     }
 
-    /// <summary>The saw did not run level.</summary>
+    /// <summary>Computes how far a point of the top is raised, as the saw did not run level.</summary>
     private double Rim(double x, double z, double along) => along * along * ((_tilt.X * x) + (_tilt.Z * z));
 }

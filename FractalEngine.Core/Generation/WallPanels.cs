@@ -1,17 +1,17 @@
 namespace FractalEngine.Core.Generation;
 
-/// <summary>Panelling: an area is divided at random until its parts are small, and each part is fitted with something.</summary>
+/// <summary>Generates panelling: divides an area at random until its parts are small, and adds a fitting to each.</summary>
 /// <param name="mesh">Receives the faces.</param>
-/// <param name="detail">About proportional to the number of faces; 0 gives one plate an area.</param>
+/// <param name="detail">Amount of detail, about proportional to the number of faces; 0 gives one plate an area.</param>
 internal sealed class WallPanels(MeshBuilder mesh, double detail)
 {
-    /// <summary>The detail below which plates stay bare.</summary>
+    /// <summary>Minimum detail of fittings; below it plates stay bare.</summary>
     public const double MinFittingDetail = 0.02;
 
     private const double Gap = 0.008;
     private const double Bevel = 0.012;
 
-    /// <summary>Plates, grilles, buttons and bolted covers, of random sizes.</summary>
+    /// <summary>Adds plates, grilles, buttons and bolted covers of random sizes.</summary>
     public void AddPanels(WallFrame frame, WallArea area, SplitMix64 random) => Divide(area, MinPanelArea(0.05), random, part =>
     {
         var height = random.NextInRange(0.005, 0.05);
@@ -19,7 +19,7 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
         AddFitting(frame.Translated(0, 0, height), part.Inset(Gap + Bevel + 0.01), random);
     });
 
-    /// <summary>Two rows of plates with a tread of studs, and a drain along the middle.</summary>
+    /// <summary>Adds a floor: two rows of plates with a tread of studs, and a drain along the centre line.</summary>
     public void AddFloor(WallFrame frame, WallArea area)
     {
         var half = 0.5 * area.Width;
@@ -32,24 +32,28 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
                 continue;
             }
 
-            foreach (var (stud, index) in plate.Inset(0.05).Cells(CountAtDetail(3, 14), CountAtDetail(3, 12))
-                .Select((cell, index) => (cell, index)))
+            // Studs lie across each other by turns, as on chequer plate.
+            var isAcross = false;
+            foreach (var stud in plate.Inset(0.05).Cells(CountAtDetail(3, 14), CountAtDetail(3, 12)))
             {
-                // Studs lie across each other by turns, as on chequer plate.
-                var (x, y) = (0.5 * (stud.X0 + stud.X1), 0.5 * (stud.Y0 + stud.Y1));
-                var (longer, shorter) = (0.36 * Math.Min(stud.Width, stud.Height), 0.1 * Math.Min(stud.Width, stud.Height));
-                var (w, h) = index % 2 == 0 ? (longer, shorter) : (shorter, longer);
+                var x = 0.5 * (stud.X0 + stud.X1);
+                var y = 0.5 * (stud.Y0 + stud.Y1);
+                var longer = 0.36 * Math.Min(stud.Width, stud.Height);
+                var shorter = 0.1 * Math.Min(stud.Width, stud.Height);
+                var (w, h) = isAcross ? (shorter, longer) : (longer, shorter);
                 mesh.AddPlate(frame.Translated(0, 0, 0.01), new(x - w, y - h, x + w, y + h), 0.006, 0.004);
+                isAcross = !isAcross;
             }
         }
 
         AddGrille(frame, new(area.X0 + half - 0.05, area.Y0, area.X0 + half + 0.05, area.Y1), 8);
     }
 
-    /// <summary>A long light between panels.</summary>
+    /// <summary>Adds a ceiling: a long light between panels.</summary>
     public void AddCeiling(WallFrame frame, WallArea area, SplitMix64 random)
     {
-        var (x0, x1) = (area.X0 + (0.36 * area.Width), area.X0 + (0.64 * area.Width));
+        var x0 = area.X0 + (0.36 * area.Width);
+        var x1 = area.X0 + (0.64 * area.Width);
         AddPanels(frame, area with { X1 = x0 }, random);
         AddPanels(frame, area with { X0 = x1 }, random);
         var light = new WallArea(x0, area.Y0, x1, area.Y1).Inset(0.02);
@@ -83,7 +87,8 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
                     part => mesh.AddPlate(frame, part.Inset(0.003), random.NextInRange(0.004, 0.02), 0.004));
                 break;
             case 6:
-                var (handle, inset) = (0.2 * Math.Min(area.Width, area.Height), area.Inset(0.25 * Math.Min(area.Width, area.Height)));
+                var handle = 0.2 * Math.Min(area.Width, area.Height);
+                var inset = area.Inset(0.25 * Math.Min(area.Width, area.Height));
                 mesh.AddPlate(frame, inset, 0.008, 0.006);
                 mesh.AddTube(
                     [
@@ -97,7 +102,7 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
         }
     }
 
-    /// <summary>Slats across the shorter side.</summary>
+    /// <summary>Adds a grille of slats across the shorter side.</summary>
     private void AddGrille(WallFrame frame, WallArea area, int minSlats)
     {
         var slats = CountAtDetail(minSlats, 4 * minSlats);
@@ -128,7 +133,7 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
         }
     }
 
-    /// <summary>Halves about the middle, the longer side first, until the parts are small.</summary>
+    /// <summary>Splits an area near its centre, the longer side first, until the parts are small.</summary>
     private static void Divide(WallArea area, double minArea, SplitMix64 random, Action<WallArea> fit)
     {
         if (area.Width * area.Height < minArea * random.NextInRange(0.7, 2.4))
@@ -142,7 +147,8 @@ internal sealed class WallPanels(MeshBuilder mesh, double detail)
         Divide(second, minArea, random, fit);
     }
 
-    /// <summary>An area below which nothing is divided, in m², at the given detail.</summary>
+    /// <summary>Computes the area in m² below which nothing is divided.</summary>
+    /// <param name="atDetailOne">That area at detail 1.</param>
     private double MinPanelArea(double atDetailOne) => detail == 0 ? double.PositiveInfinity : atDetailOne / detail;
 
     private int CountAtDetail(int minCount, int atDetailOne) =>

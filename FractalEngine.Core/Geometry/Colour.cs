@@ -2,22 +2,23 @@ using System.Globalization;
 
 namespace FractalEngine.Core.Geometry;
 
-/// <summary>A colour as files and screens write it: sRGB components from 0 to 1.</summary>
-/// <param name="Red">0..1.</param>
-/// <param name="Green">0..1.</param>
-/// <param name="Blue">0..1.</param>
+/// <summary>A colour with sRGB components from 0 to 1, as files and screens use them.</summary>
+/// <param name="Red">Red component, from 0 to 1.</param>
+/// <param name="Green">Green component, from 0 to 1.</param>
+/// <param name="Blue">Blue component, from 0 to 1.</param>
 public readonly record struct Colour(double Red, double Green, double Blue)
 {
-    /// <summary>White.</summary>
+    /// <summary>The colour white, (1, 1, 1).</summary>
     public static Colour White => new(1, 1, 1);
 
-    /// <summary>Black.</summary>
+    /// <summary>The colour black, (0, 0, 0).</summary>
     public static Colour Black => default;
 
-    /// <summary>The components divided into light: IEC 61966-2-1's curve, the inverse of what the screen applies.</summary>
+    /// <summary>Converts the components to linear light by the curve of IEC 61966-2-1.</summary>
+    /// <remarks>It is the inverse of the curve that the screen applies.</remarks>
     public Colour ToLinear() => new(Linear(Red), Linear(Green), Linear(Blue));
 
-    /// <summary>As files write it, invariant culture.</summary>
+    /// <summary>Formats the colour as files write it, in the invariant culture.</summary>
     public override string ToString() => string.Create(CultureInfo.InvariantCulture, $"({Red:R}, {Green:R}, {Blue:R})");
 
     private static double Linear(double component) =>

@@ -1,18 +1,21 @@
 namespace FractalEngine.Core.Geometry;
 
 /// <summary>
-/// A picture on a surface. At texture coordinates (u, v) lies its place scale · (u, v) + offset; (0, 0) is its lower left corner, (1, 1)
-/// the upper right one.
+/// A texture of a material: an image file, and how texture coordinates map to it.
 /// </summary>
-/// <param name="Path">The picture's file: as the material file names it, or in full once it has been looked for.</param>
+/// <remarks>
+/// Texture coordinates (u, v) show the point scale · (u, v) + offset of the image. Its lower left corner is (0, 0), its upper right corner
+/// (1, 1).
+/// </remarks>
+/// <param name="Path">Path of the image file: as the material file names it, or in full once it has been resolved.</param>
 public sealed record MaterialTexture(string Path)
 {
-    /// <summary><c>-clamp on</c>: beyond its edges the picture goes on with their colours, instead of again from the other side.</summary>
+    /// <summary><c>-clamp on</c>: beyond its edges the texture continues with their colours instead of repeating.</summary>
     public bool IsClamped { get; init; }
 
-    /// <summary><c>-s</c>.</summary>
+    /// <summary><c>-s</c>: the scale of the texture coordinates.</summary>
     public (double U, double V) Scale { get; init; } = (1, 1);
 
-    /// <summary><c>-o</c>.</summary>
+    /// <summary><c>-o</c>: the offset of the texture coordinates.</summary>
     public (double U, double V) Offset { get; init; }
 }

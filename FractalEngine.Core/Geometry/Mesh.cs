@@ -135,6 +135,18 @@ public sealed class Mesh : IEquatable<Mesh>
         return maxDistance;
     }
 
+    /// <summary>Computes the box of all vertices under a map, unused ones included. Cost O(vertices).</summary>
+    internal BoundingBox ComputeBounds(AffineMap map)
+    {
+        var box = BoundingBox.Empty;
+        for (var vertex = 0; vertex < VertexCount; vertex++)
+        {
+            box = box.Including(map * Vertex(vertex));
+        }
+
+        return box;
+    }
+
     /// <summary>Tells whether all arrays of both meshes are equal, each number bit for bit.</summary>
     public bool Equals(Mesh? other) => ReferenceEquals(this, other) || (other is not null
         && HaveSameBits(Positions, other.Positions) && VertexIndices.AsSpan().SequenceEqual(other.VertexIndices.AsSpan())

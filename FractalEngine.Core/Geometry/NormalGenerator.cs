@@ -4,26 +4,29 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Geometry;
 
 /// <summary>
-/// Makes normals for meshes without them: smooth where faces meet at a small angle, sharp where they meet at a large one.
+/// Generates normals for meshes without them: smooth where faces meet at a small angle, sharp where they meet at a large one.
 /// </summary>
 /// <remarks>
-/// The normal at a face's corner is the sum of the normals of all faces around that position whose direction differs from this face's by no
-/// more than the crease angle, each weighted with the angle it has there (G. Thürmer, C. Wüthrich, "Computing vertex normals
-/// from polygonal facets", 1998), so that the result does not depend on how a surface is cut into triangles.
-/// Faces without area contribute nothing. Cost O(faces): 300,000 in about 100 ms.
+/// The normal at a face's corner is a sum over the faces around that position whose direction differs from this face's by no more than the
+/// crease angle. Each normal is weighted with its angle there (G. Thürmer, C. Wüthrich, "Computing vertex normals from polygonal
+/// facets", 1998), so that the result does not depend on how a surface is cut into triangles. Faces without area contribute nothing.
+/// Cost O(faces): 300,000 in about 100 ms.
 /// </remarks>
 public static class NormalGenerator
 {
-    /// <summary>The crease angle used where nothing else is asked for, degrees: cubes stay sharp, 12-sided cylinders are round.</summary>
+    /// <summary>The default crease angle in degrees.</summary>
+    /// <remarks>Cubes stay sharp under it, and cylinders of 12 sides are round.</remarks>
     public const double DefaultCreaseAngle = 40;
 
-    // Around a position with more corners (the tip of a finely cut cone) pairs are not compared one by one.
+    // Around a position with more corners than this (the tip of a finely cut cone) pairs are not compared one by one.
     private const int MaxPairwiseCorners = 64;
 
-    /// <summary>The same mesh with generated normals, whatever normals it had.</summary>
-    /// <param name="mesh">Any mesh; vertices at the same position are taken as one.</param>
+    /// <summary>Generates the normals of a mesh, whatever normals it had.</summary>
+    /// <param name="mesh">Mesh whose vertices at the same position are welded.</param>
     /// <param name="creaseAngle">Degrees, from 0 (every face flat) to 180 (everything smooth).</param>
-    /// <returns>Unit normals; a corner whose face has no area has the number −1 where no neighbour gives it a direction.</returns>
+    /// <returns>
+    /// The mesh with unit normals. A corner whose face has no area has the index −1 where no neighbour gives it a direction.
+    /// </returns>
     /// <exception cref="ArgumentOutOfRangeException">The angle is outside 0..180.</exception>
     public static Mesh Generate(Mesh mesh, double creaseAngle = DefaultCreaseAngle)
     {
@@ -41,7 +44,7 @@ public static class NormalGenerator
             ImmutableCollectionsMarshal.AsImmutableArray(builder.NormalIndices));
     }
 
-    /// <summary>What every corner of every face contributes, and which corners share a position.</summary>
+    /// <summary>The normals and angles of all faces at their corners, and the corners that share a position.</summary>
     private sealed class MeshCorners(Vector[] faceNormals, double[] angles, int[] starts, int[] sorted)
     {
         public int PositionCount => starts.Length - 1;
@@ -51,8 +54,9 @@ public static class NormalGenerator
         public static MeshCorners FromMesh(Mesh mesh)
         {
             var vertexIndices = mesh.VertexIndices.AsSpan();
-            var representatives = Weld(mesh);
-            var (normals, angles) = (new Vector[mesh.FaceCount], new double[vertexIndices.Length]);
+            var representatives = VertexWelding.FindRepresentatives(mesh);
+            var normals = new Vector[mesh.FaceCount];
+            var angles = new double[vertexIndices.Length];
             for (var face = 0; face < normals.Length; face++)
             {
                 var (a, b, c) = mesh.Face(face);
@@ -89,7 +93,8 @@ public static class NormalGenerator
                 starts[i] += starts[i - 1];
             }
 
-            var (next, sorted) = (starts.ToArray(), new int[vertexIndices.Length]);
+            var next = starts.ToArray();
+            var sorted = new int[vertexIndices.Length];
             for (var corner = 0; corner < vertexIndices.Length; corner++)
             {
                 sorted[next[representatives[vertexIndices[corner]]]++] = corner;
@@ -98,29 +103,16 @@ public static class NormalGenerator
             return (starts, sorted);
         }
 
-        /// <summary>For each vertex the first vertex at exactly the same position.</summary>
-        private static int[] Weld(Mesh mesh)
+        /// <summary>Computes the unit vector, or zero where there is no direction, robustly for very large and very small faces.</summary>
+        private static Vector NormalizeOrZero(Vector v)
         {
-            var representatives = new int[mesh.VertexCount];
-            var first = new Dictionary<Vector, int>(mesh.VertexCount);
-            for (var vertex = 0; vertex < representatives.Length; vertex++)
-            {
-                ref var representative = ref CollectionsMarshal.GetValueRefOrAddDefault(first, mesh.Vertex(vertex), out var exists);
-                representatives[vertex] = representative = exists ? representative : vertex;
-            }
-
-            return representatives;
+            var lengthSquared = v.LengthSquared();
+            return lengthSquared > 1e-280 && lengthSquared < 1e280 ? v / Math.Sqrt(lengthSquared)
+                : v.IsFinite() && v != Vector.Zero ? v.UnitVector()
+                : Vector.Zero;
         }
 
-        /// <summary>A unit vector, or zero where there is no direction: robust for very large and very small faces.</summary>
-        private static Vector NormalizeOrZero(Vector v) => v.LengthSquared() switch
-        {
-            > 1e-280 and < 1e280 and var lengthSquared => v / Math.Sqrt(lengthSquared),
-            _ when v.IsFinite() && v != Vector.Zero => v.UnitVector(),
-            _ => Vector.Zero,
-        };
-
-        /// <summary>False for slivers and points, whose direction is decided by the rounding of their corners.</summary>
+        /// <summary>Tests whether a face is neither a sliver nor a point, whose direction is decided by rounding.</summary>
         private static bool IsNonDegenerate(Vector ab, Vector bc, Vector ca)
         {
             const double MinSine = 1e-9;
@@ -129,10 +121,11 @@ public static class NormalGenerator
                 && Vector.Cross(ca, ab).LengthSquared() > MinSine * MinSine;
         }
 
-        /// <summary>Between unit vectors, radians.</summary>
+        /// <summary>Computes the angle between two unit vectors in radians.</summary>
         private static double AngleBetween(Vector v1, Vector v2) => Math.Atan2(Vector.Cross(v1, v2).Length(), Vector.Dot(v1, v2));
     }
 
+    /// <summary>Sums and numbers the normals, one position after the other.</summary>
     private sealed class NormalBuilder(MeshCorners corners, double creaseCosine)
     {
         private readonly List<(Vector Direction, Vector Sum)> _clusters = [];
@@ -171,16 +164,15 @@ public static class NormalGenerator
             return sum;
         }
 
-        /// <summary>
-        /// Puts directions within a few degrees of each other together; there are never more than some hundred such groups.
-        /// </summary>
+        /// <summary>Clusters directions within a few degrees of each other; there are never more than some hundred clusters.</summary>
         private void ClusterDirections(ReadOnlySpan<int> around)
         {
             const double MinClusterCosine = 0.985; // 10°
             _clusters.Clear();
             foreach (var corner in around)
             {
-                var (direction, weighted) = (corners.FaceNormal(corner), corners.WeightedNormal(corner));
+                var direction = corners.FaceNormal(corner);
+                var weighted = corners.WeightedNormal(corner);
                 var index = _clusters.FindIndex(cluster => Vector.Dot(cluster.Direction, direction) >= MinClusterCosine);
                 if (index < 0)
                 {
@@ -207,11 +199,12 @@ public static class NormalGenerator
             return sum;
         }
 
-        /// <summary>A face without area has no direction of its own and takes that of everything around.</summary>
+        /// <summary>Tests whether a face contributes to the normal of another.</summary>
+        /// <remarks>A face without area has no direction of its own, and takes that of all faces around.</remarks>
         private bool IsWithinCreaseAngle(Vector direction, Vector other) =>
             direction == Vector.Zero || Vector.Dot(direction, other) >= creaseCosine;
 
-        /// <summary>The number of a normal, shared by the corners of a position that have the same one.</summary>
+        /// <summary>Finds the index of a normal, which the corners of a position share that have the same one.</summary>
         private int FindOrAddNormal(Vector sum, int firstIndex)
         {
             if (!(sum.LengthSquared() > 1e-24))

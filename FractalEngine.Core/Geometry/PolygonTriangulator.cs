@@ -4,12 +4,13 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Geometry;
 
 /// <summary>
-/// Cuts polygons in space into triangles by ear clipping, so that concave ones come out right (a fan would cover
-/// area outside them). Source: G. H. Meisters, "Polygons have ears", 1975. One instance is reused for many polygons.
+/// Cuts polygons in space into triangles by ear clipping (G. H. Meisters, "Polygons have ears", 1975). One instance is reused for many
+/// polygons.
 /// </summary>
 /// <remarks>
-/// A polygon of n corners gives exactly n − 2 triangles, wound as the polygon. Polygons that are not simple (crossing or
-/// of zero area) have no right answer; they still give n − 2 triangles over their corners. Cost O(n·r) for r reflex corners.
+/// Concave polygons come out right, where a fan would cover area outside them. A polygon of n corners gives exactly n − 2 triangles, wound
+/// as the polygon. Polygons that are not simple (crossing or of zero area) have no right result; they still give n − 2 triangles over
+/// their corners. Cost O(n·r) for r reflex corners.
 /// </remarks>
 public sealed class PolygonTriangulator
 {
@@ -18,9 +19,9 @@ public sealed class PolygonTriangulator
     private readonly List<int> _next = [];
     private readonly List<int> _reflex = [];
 
-    /// <summary>Triangulates one polygon.</summary>
-    /// <param name="corners">Positions in order, at least three.</param>
-    /// <param name="triangles">Receives numbers into <paramref name="corners"/>, three a triangle; it is not cleared.</param>
+    /// <summary>Cuts one polygon into triangles.</summary>
+    /// <param name="corners">Positions of the corners in order, at least three.</param>
+    /// <param name="triangles">Receives indices into <paramref name="corners"/>, three a triangle; it is not cleared.</param>
     public void Triangulate(ReadOnlySpan<Vector> corners, List<int> triangles)
     {
         ArgumentOutOfRangeException.ThrowIfLessThan(corners.Length, 3);
@@ -36,7 +37,7 @@ public sealed class PolygonTriangulator
         ClipEars(corners.Length, triangles);
     }
 
-    /// <summary>Drops the axis along which the polygon's normal (by Newell's sums) is longest, keeping the winding.</summary>
+    /// <summary>Projects the corners along the longest axis of the polygon's normal (by Newell's sums), keeping the winding.</summary>
     private void Project(ReadOnlySpan<Vector> corners)
     {
         var origin = corners[0];
@@ -68,9 +69,8 @@ public sealed class PolygonTriangulator
         }
     }
 
-    /// <summary>
-    /// Corners that turn inwards, or straight on: only they can reach into an ear. Cutting ears makes none of the others so.
-    /// </summary>
+    /// <summary>Collects the corners that turn inwards or go straight on: only these can reach into an ear.</summary>
+    /// <remarks>Clipping ears makes no other corner reflex.</remarks>
     private void CollectReflexCorners(int count)
     {
         _reflex.Clear();
@@ -91,7 +91,7 @@ public sealed class PolygonTriangulator
         var attempts = 0;
         for (var remaining = count; remaining > 3;)
         {
-            // A corner is cut when it is an ear, or, where the polygon is not simple, once nothing else is left to try.
+            // A corner is clipped when it is an ear or, where the polygon is not simple, once no other corner is left to try.
             if (attempts < remaining && !IsEar(corner))
             {
                 corner = _next[corner];
@@ -101,13 +101,14 @@ public sealed class PolygonTriangulator
 
             var (previous, next) = (_previous[corner], _next[corner]);
             triangles.AddRange([previous, corner, next]);
-            (_next[previous], _previous[next]) = (next, previous);
+            _next[previous] = next;
+            _previous[next] = previous;
             if (_reflex.Count > 0)
             {
                 _reflex.RemoveAll(reflex => reflex == corner || ((reflex == previous || reflex == next) && !IsReflex(reflex)));
             }
 
-            // Going on two corners later spreads the cuts and avoids long thin fans.
+            // Continuing two corners later spreads the ears and avoids long thin fans.
             corner = _next[_next[corner]];
             attempts = 0;
             remaining--;
@@ -139,7 +140,7 @@ public sealed class PolygonTriangulator
         return true;
     }
 
-    /// <summary>Twice the signed area of a triangle; positive when it turns the way the polygon does.</summary>
+    /// <summary>Computes twice the signed area of a triangle, positive when it is wound as the polygon.</summary>
     private static double TwiceSignedArea((double X, double Y) a, (double X, double Y) b, (double X, double Y) c) =>
         ((b.X - a.X) * (c.Y - a.Y)) - ((b.Y - a.Y) * (c.X - a.X));
 }

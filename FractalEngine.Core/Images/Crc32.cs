@@ -15,7 +15,7 @@ internal static class Crc32
     // [16 × 256]: the effect of a byte that is followed by 0, 1, … 15 others.
     private static readonly uint[] Tables = CreateTables();
 
-    /// <summary>Continues a checksum.</summary>
+    /// <summary>Continues a checksum with further bytes.</summary>
     /// <param name="crc">The checksum so far; 0 at the beginning.</param>
     /// <param name="bytes">The bytes that follow.</param>
     public static uint Append(uint crc, ReadOnlySpan<byte> bytes)

@@ -25,7 +25,7 @@ internal sealed class PngChunkReader(Stream stream)
     /// <summary>Bytes of the current chunk's data that are still to be read.</summary>
     public int Remaining { get; private set; }
 
-    /// <summary>Reads the signature.</summary>
+    /// <summary>Reads and checks the file signature.</summary>
     /// <exception cref="PngException">The file is no PNG.</exception>
     public void ReadSignature()
     {

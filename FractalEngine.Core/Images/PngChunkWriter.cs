@@ -6,10 +6,10 @@ namespace FractalEngine.Core.Images;
 /// <param name="stream">Where to; left open.</param>
 internal sealed class PngChunkWriter(Stream stream)
 {
-    /// <summary>Writes the signature.</summary>
+    /// <summary>Writes the signature of the file.</summary>
     public void WriteSignature() => stream.Write(PngChunk.Signature);
 
-    /// <summary>Writes one chunk.</summary>
+    /// <summary>Writes one chunk with its CRC.</summary>
     /// <param name="type">Its type, the first letter highest.</param>
     /// <param name="data">Its contents.</param>
     public void Write(uint type, ReadOnlySpan<byte> data)

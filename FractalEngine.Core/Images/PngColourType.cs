@@ -6,13 +6,13 @@ public enum PngColourType
     /// <summary>One sample of grey.</summary>
     Grey = 0,
 
-    /// <summary>Red, green, blue.</summary>
+    /// <summary>Samples of red, green and blue.</summary>
     Rgb = 2,
 
     /// <summary>One index into a palette.</summary>
     Palette = 3,
 
-    /// <summary>Grey, alpha.</summary>
+    /// <summary>Samples of grey and alpha.</summary>
     GreyAlpha = 4,
 
     /// <summary>Red, green, blue, alpha.</summary>

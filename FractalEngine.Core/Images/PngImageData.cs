@@ -35,7 +35,7 @@ internal sealed class PngImageData
         _pixels = GC.AllocateUninitializedArray<byte>(checked(4 * header.Width * header.Height));
     }
 
-    /// <summary>Decodes the pixels.</summary>
+    /// <summary>Decodes all pixels of the image.</summary>
     /// <param name="header">Of the image, whose pixels fit into an array.</param>
     /// <param name="colours">Its palette and transparency.</param>
     /// <param name="chunks">At the first <c>IDAT</c>; afterwards at the first chunk behind the last of them.</param>

@@ -8,7 +8,7 @@ namespace FractalEngine.Core.Images;
 /// </summary>
 internal interface IPngPredictor
 {
-    /// <summary>Predicts bytes.</summary>
+    /// <summary>Predicts bytes from their neighbours.</summary>
     /// <param name="left">The bytes a pixel to the left.</param>
     /// <param name="above">The bytes of the row above.</param>
     /// <param name="aboveLeft">The bytes a pixel to the left of those.</param>

@@ -30,7 +30,7 @@ public static class PngReader
         return ReadHeader(new PngChunkReader(stream));
     }
 
-    /// <summary>Reads an image.</summary>
+    /// <summary>Reads an image from a stream.</summary>
     /// <param name="stream">At the beginning of the image; left open. Need not seek. Read to the end of the image, not beyond.</param>
     /// <param name="maxPixels">The most pixels that are read; no memory is taken for an image that has more.</param>
     /// <returns>Samples of less than 8 bits are spread over the whole range, those of 16 bits rounded to the nearest of 8.</returns>

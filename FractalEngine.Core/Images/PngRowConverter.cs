@@ -33,7 +33,7 @@ internal sealed class PngRowConverter
         }
     }
 
-    /// <summary>Converts a row.</summary>
+    /// <summary>Converts one row to RGBA.</summary>
     /// <param name="samples">The restored bytes of the row.</param>
     /// <param name="pixels">RGBA. [pixels × 4]</param>
     /// <returns>False where an index is beyond the palette.</returns>

@@ -10,7 +10,7 @@ namespace FractalEngine.Core.Images;
 /// </summary>
 internal static class PngUnfilter
 {
-    /// <summary>Restores a row.</summary>
+    /// <summary>Restores the bytes of a row.</summary>
     /// <param name="filter">Its filter type, 0 to 4.</param>
     /// <param name="source">The filtered bytes.</param>
     /// <param name="above">The restored row above, of the same length; zeros above the first row.</param>

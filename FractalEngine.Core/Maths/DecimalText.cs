@@ -4,15 +4,18 @@ using System.Numerics;
 namespace FractalEngine.Core.Maths;
 
 /// <summary>
-/// Large whole numbers in decimal. Halving the digits with one division at a time takes as long as a few multiplications of
-/// that size; the framework's own conversion takes the square of the digits: 2 s against 40 s for 1.4 million of them.
+/// Converts large whole numbers to decimal text, in less time than the framework does.
 /// </summary>
+/// <remarks>
+/// Each division halves the digits, which takes as long as a few multiplications of that size. The framework's conversion takes time
+/// quadratic in the digits: for 1.4 million of them 40 s, against 2 s here.
+/// </remarks>
 public static class DecimalText
 {
     private const int LeafDigits = 512;
 
-    /// <summary>The digits of a number, without separators.</summary>
-    /// <param name="number">Not negative.</param>
+    /// <summary>Formats a number as digits without separators.</summary>
+    /// <param name="number">Number to format, not negative.</param>
     public static string Format(BigInteger number)
     {
         ArgumentOutOfRangeException.ThrowIfNegative(number);
@@ -34,8 +37,8 @@ public static class DecimalText
         return new string(digits).TrimStart('0');
     }
 
-    /// <summary>A number for people: with separators, or as a power of ten once it is longer than a line.</summary>
-    /// <param name="number">Null for infinitely many.</param>
+    /// <summary>Formats a number for people: with separators, or from 10¹⁵ as a power of ten.</summary>
+    /// <param name="number">Number to format; null stands for infinitely many.</param>
     public static string FormatApproximately(BigInteger? number) => number switch
     {
         null => "infinitely many",
@@ -43,9 +46,10 @@ public static class DecimalText
         { } count => string.Create(CultureInfo.InvariantCulture, $"about 10^{Math.Round(BigInteger.Log10(count)):F0}"),
     };
 
-    /// <param name="number">Has at most as many digits as there is room for.</param>
+    /// <summary>Writes a number into a span of digits, with zeros in front.</summary>
+    /// <param name="number">Number with at most as many digits as the span is long.</param>
     /// <param name="powers">10 to the power of 512, 1024, 2048, ….</param>
-    /// <param name="digits">Filled from the right, with zeros in front.</param>
+    /// <param name="digits">Receives the digits.</param>
     private static void Write(BigInteger number, List<BigInteger> powers, Span<char> digits)
     {
         if (digits.Length <= LeafDigits)

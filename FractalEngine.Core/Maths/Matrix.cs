@@ -11,123 +11,130 @@ namespace FractalEngine.Core.Maths;
 /// <param name="V3">Third column; the local forward axis of an orientation.</param>
 public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
 {
-    // The cosine of the yaw from which on the lock counts as complete: above the roundings of a few products, and an error of at most twice
-    // as much in an entry.
+    // Below this cosine of the yaw the gimbal lock counts as complete. It is above the roundings of a few products, and causes an error of
+    // at most twice as much in an entry.
     private const double MinYawCosine = 1e-13;
 
-    /// <summary>The neutral matrix (i j k).</summary>
+    /// <summary>The identity matrix (i j k).</summary>
     public static Matrix Identity => new(Vector.I, Vector.J, Vector.K);
 
-    /// <summary>The matrix that stretches by the given factors.</summary>
+    /// <summary>Creates the matrix that stretches along the axes by the given factors.</summary>
     public static Matrix Diagonal(Vector factors) =>
         new(new(factors.X, 0, 0), new(0, factors.Y, 0), new(0, 0, factors.Z));
 
-    /// <summary>The matrix with the given rows.</summary>
+    /// <summary>Creates the matrix with the given rows.</summary>
     public static Matrix FromRows(Vector row1, Vector row2, Vector row3) => new Matrix(row1, row2, row3).Transpose();
 
-    /// <summary>Rotation about the x axis, by rows [1 0 0; 0 c s; 0 −s c].</summary>
+    /// <summary>Creates a rotation about the x axis, by rows [1 0 0; 0 c s; 0 −s c].</summary>
     /// <param name="angle">Radians.</param>
     public static Matrix Pitch(double angle) => Pitch(SineCosine.FromRadians(angle));
 
-    /// <summary>Rotation about the y axis, by rows [c 0 −s; 0 1 0; s 0 c].</summary>
+    /// <summary>Creates a rotation about the y axis, by rows [c 0 −s; 0 1 0; s 0 c].</summary>
     /// <param name="angle">Radians.</param>
     public static Matrix Yaw(double angle) => Yaw(SineCosine.FromRadians(angle));
 
-    /// <summary>Rotation about the z axis, by rows [c s 0; −s c 0; 0 0 1].</summary>
+    /// <summary>Creates a rotation about the z axis, by rows [c s 0; −s c 0; 0 0 1].</summary>
     /// <param name="angle">Radians.</param>
     public static Matrix Roll(double angle) => Roll(SineCosine.FromRadians(angle));
 
-    /// <summary>Rotation by <paramref name="angle"/> about a unit <paramref name="axis"/> (Rodrigues' formula).</summary>
-    /// <param name="axis">Of length 1.</param>
+    /// <summary>Creates a rotation by an angle about an axis (Rodrigues' formula).</summary>
+    /// <param name="axis">Unit vector.</param>
     /// <param name="angle">
-    /// Radians, in the direction in which <see cref="Pitch(double)"/> turns for a negative angle: i → j about k.
+    /// Radians, in the direction in which <see cref="Pitch(double)"/> rotates for a negative angle: i → j about k.
     /// </param>
-    public static Matrix Rotation(Vector axis, double angle) => SineCosine.FromRadians(angle) switch
+    public static Matrix Rotation(Vector axis, double angle)
     {
-        var (s, c) => (c * Identity) + (s * SkewSymmetric(axis)) + ((1 - c) * Outer(axis, axis)),
-    };
+        var (s, c) = SineCosine.FromRadians(angle);
+        return (c * Identity) + (s * SkewSymmetric(axis)) + ((1 - c) * Outer(axis, axis));
+    }
 
-    /// <summary>The matrix that sends v to <c>Cross(axis, v)</c>.</summary>
+    /// <summary>Creates the matrix that maps v to <c>Cross(axis, v)</c>.</summary>
     public static Matrix SkewSymmetric(Vector axis) =>
         new(Vector.Cross(axis, Vector.I), Vector.Cross(axis, Vector.J), Vector.Cross(axis, Vector.K));
 
-    /// <summary>The matrix that sends v to <c>Dot(v2, v)·v1</c>.</summary>
+    /// <summary>Creates the matrix that maps v to <c>Dot(v2, v)·v1</c>.</summary>
     public static Matrix Outer(Vector v1, Vector v2) => new(v2.X * v1, v2.Y * v1, v2.Z * v1);
 
-    /// <summary>The matrix applied to a vector.</summary>
+    /// <summary>Applies a matrix to a vector.</summary>
     public static Vector operator *(Matrix m, Vector v) => (v.X * m.V1) + (v.Y * m.V2) + (v.Z * m.V3);
 
-    /// <summary>Composition: <paramref name="m2"/> first, then <paramref name="m1"/>.</summary>
+    /// <summary>Composes two matrices: <paramref name="m2"/> is applied first, then <paramref name="m1"/>.</summary>
     public static Matrix operator *(Matrix m1, Matrix m2) => new(m1 * m2.V1, m1 * m2.V2, m1 * m2.V3);
 
-    /// <summary>Entry by entry product with a number.</summary>
+    /// <summary>Multiplies every entry by a number.</summary>
     public static Matrix operator *(double factor, Matrix m) => new(factor * m.V1, factor * m.V2, factor * m.V3);
 
-    /// <summary>Entry by entry division by a number.</summary>
+    /// <summary>Divides every entry by a number.</summary>
     public static Matrix operator /(Matrix m, double divisor) => new(m.V1 / divisor, m.V2 / divisor, m.V3 / divisor);
 
-    /// <summary>Entry by entry sum.</summary>
+    /// <summary>Adds two matrices entry by entry.</summary>
     public static Matrix operator +(Matrix m1, Matrix m2) => new(m1.V1 + m2.V1, m1.V2 + m2.V2, m1.V3 + m2.V3);
 
-    /// <summary>Rows and columns exchanged.</summary>
+    /// <summary>Exchanges the rows and columns.</summary>
     public Matrix Transpose() => new(new(V1.X, V2.X, V3.X), new(V1.Y, V2.Y, V3.Y), new(V1.Z, V2.Z, V3.Z));
 
-    /// <summary>The signed volume that a unit cube takes: <c>Dot(V1, Cross(V2, V3))</c>.</summary>
+    /// <summary>Computes the signed volume of the image of the unit cube: <c>Dot(V1, Cross(V2, V3))</c>.</summary>
     public double Determinant() => Vector.Dot(V1, AccurateCross(V2, V3));
 
-    /// <summary>The matrix that undoes this one: the transposed cofactors divided by the determinant.</summary>
+    /// <summary>Computes the inverse: the transposed cofactors divided by the determinant.</summary>
     /// <exception cref="SingularMatrixException">
     /// The determinant is zero, or an entry of the inverse is beyond the range of a double.
     /// </exception>
     /// <remarks>The relative error is about 1e-16 times the condition number.</remarks>
-    public Matrix Inverse() => (PowerOfTwoBelow(V1), PowerOfTwoBelow(V2), PowerOfTwoBelow(V3)) switch
+    public Matrix Inverse()
     {
         // Dividing each column by a power of two near its largest entry is exact, and keeps products of three entries from
         // under- or overflowing.
-        ({ } size1, { } size2, { } size3) => (new Matrix(V1 / size1, V2 / size2, V3 / size3).ScaledInverse(this).Transpose() switch
+        if (PowerOfTwoBelow(V1) is not { } size1 || PowerOfTwoBelow(V2) is not { } size2 || PowerOfTwoBelow(V3) is not { } size3)
         {
-            var rows => new Matrix(rows.V1 / size1, rows.V2 / size2, rows.V3 / size3).Transpose(),
-        }) switch
+            throw new SingularMatrixException(this);
+        }
+
+        var scaled = new Matrix(V1 / size1, V2 / size2, V3 / size3);
+        var determinant = scaled.Determinant();
+        if (determinant == 0)
         {
-            var inverse when inverse.IsFinite() => inverse,
-            _ => throw new SingularMatrixException(this),
-        },
-        _ => throw new SingularMatrixException(this),
-    };
+            throw new SingularMatrixException(this);
+        }
+
+        // The columns of the scaled inverse's transpose are its rows.
+        var rows = (scaled.Cofactors().Transpose() / determinant).Transpose();
+        var inverse = new Matrix(rows.V1 / size1, rows.V2 / size2, rows.V3 / size3).Transpose();
+        return inverse.IsFinite() ? inverse : throw new SingularMatrixException(this);
+    }
 
     /// <summary>
-    /// The cofactor matrix: it sends the normal <c>Cross(a, b)</c> of two edges to that of their images, for every
-    /// matrix, singular ones too.
+    /// Computes the cofactor matrix, which maps the normal <c>Cross(a, b)</c> of two edges to that of their images.
     /// </summary>
+    /// <remarks>This holds for every matrix, singular ones too.</remarks>
     public Matrix Cofactors() => new(AccurateCross(V2, V3), AccurateCross(V3, V1), AccurateCross(V1, V2));
 
-    /// <summary>The largest absolute entry.</summary>
+    /// <summary>Computes the largest absolute value of the entries.</summary>
     public double MaxAbsEntry() =>
         Math.Max(V1.MaxAbsComponent(), Math.Max(V2.MaxAbsComponent(), V3.MaxAbsComponent()));
 
-    /// <summary>Every entry replaced by its absolute value.</summary>
+    /// <summary>Takes the absolute value of each entry.</summary>
     public Matrix Absolute() => new(V1.Absolute(), V2.Absolute(), V3.Absolute());
 
     /// <summary>
-    /// The nearest-in-order orthonormal axes: forward kept, right made perpendicular to it, up rebuilt from the two.
-    /// Undoes the drift of an orientation that is turned many times.
+    /// Computes orthonormal axes: forward keeps its direction, right is made perpendicular to it, up is rebuilt from the two.
     /// </summary>
+    /// <remarks>This removes the drift of an orientation that is rotated many times.</remarks>
     /// <exception cref="InvalidOperationException">Forward is zero, or right is parallel to it.</exception>
-    public Matrix Orthonormalized() => V3.UnitVector() switch
+    public Matrix Orthonormalized()
     {
-        var forward => (V1 - (Vector.Dot(V1, forward) * forward)).UnitVector() switch
-        {
-            var right => new(right, Vector.Cross(forward, right), forward),
-        },
-    };
+        var forward = V3.UnitVector();
+        var right = (V1 - (Vector.Dot(V1, forward) * forward)).UnitVector();
+        return new(right, Vector.Cross(forward, right), forward);
+    }
 
     /// <summary>
-    /// The angles (pitch, yaw, roll) in radians whose <see cref="Vector.LocalAxes"/> is this rotation. Where the yaw
-    /// is ±90° only the sum or difference of pitch and roll is determined (gimbal lock): the pitch is 0 then.
+    /// Computes the angles (pitch, yaw, roll) in radians whose <see cref="Vector.LocalAxes"/> is this rotation.
     /// </summary>
     /// <remarks>
-    /// Read off Pitch·Yaw·Roll, whose first row is [cy·cr, cy·sr, −sy] and whose third column is (−sy, sp·cy, cp·cy). The roll is
-    /// read off Pitch⁻¹ times the matrix, so that it makes up for the error that the pitch has near the lock.
+    /// Where the yaw is ±90° only the sum or difference of pitch and roll is determined (gimbal lock): the pitch is 0 then.
+    /// The angles are read off Pitch·Yaw·Roll, whose first row is [cy·cr, cy·sr, −sy] and whose third column is (−sy, sp·cy, cp·cy).
+    /// The roll is read off Pitch⁻¹ times the matrix, so that it compensates the error that the pitch has near the lock.
     /// </remarks>
     public Vector EulerAngles()
     {
@@ -137,51 +144,63 @@ public readonly record struct Matrix(Vector V1, Vector V2, Vector V3)
         return new(pitch, Math.Atan2(-V3.X, yawCosine), Math.Atan2(-unpitched.V1.Y, unpitched.V2.Y));
     }
 
-    /// <summary>True when no entry is NaN or infinite.</summary>
+    /// <summary>Tells whether every axis-aligned box has an axis-aligned image.</summary>
+    /// <remarks>
+    /// Each column then has at most one entry that is not zero: scales, mirrors and quarter turns, flattening ones too.
+    /// </remarks>
+    internal bool KeepsBoxesAxisAligned() => HasAtMostOneNonzero(V1) && HasAtMostOneNonzero(V2) && HasAtMostOneNonzero(V3);
+
+    /// <summary>Tells whether the matrix scales and permutes the axes, and has an inverse.</summary>
+    /// <remarks>Each column then has exactly one entry that is not zero, each in a row of its own.</remarks>
+    internal bool IsScaledAxisPermutation() => KeepsBoxesAxisAligned() && Determinant() != 0;
+
+    /// <summary>Tells whether all entries are finite numbers.</summary>
     public bool IsFinite() => V1.IsFinite() && V2.IsFinite() && V3.IsFinite();
 
-    /// <summary>The three columns, invariant culture.</summary>
+    /// <summary>Formats the three columns in the invariant culture.</summary>
     public override string ToString() => string.Create(CultureInfo.InvariantCulture, $"[{V1} {V2} {V3}]");
 
-    internal static Matrix Pitch(SineCosine angle) => angle switch
+    internal static Matrix Pitch(SineCosine angle)
     {
-        var (s, c) => FromRows(new(1, 0, 0), new(0, c, s), new(0, -s, c)),
-    };
+        var (s, c) = angle;
+        return FromRows(new(1, 0, 0), new(0, c, s), new(0, -s, c));
+    }
 
-    internal static Matrix Yaw(SineCosine angle) => angle switch
+    internal static Matrix Yaw(SineCosine angle)
     {
-        var (s, c) => FromRows(new(c, 0, -s), new(0, 1, 0), new(s, 0, c)),
-    };
+        var (s, c) = angle;
+        return FromRows(new(c, 0, -s), new(0, 1, 0), new(s, 0, c));
+    }
 
-    internal static Matrix Roll(SineCosine angle) => angle switch
+    internal static Matrix Roll(SineCosine angle)
     {
-        var (s, c) => FromRows(new(c, s, 0), new(-s, c, 0), new(0, 0, 1)),
-    };
+        var (s, c) = angle;
+        return FromRows(new(c, s, 0), new(-s, c, 0), new(0, 0, 1));
+    }
 
-    private Matrix ScaledInverse(Matrix unscaled) => Determinant() switch
+    private static bool HasAtMostOneNonzero(Vector v) => (v.X != 0 ? 1 : 0) + (v.Y != 0 ? 1 : 0) + (v.Z != 0 ? 1 : 0) <= 1;
+
+    /// <summary>Computes the power of two next below the largest entry; null for a zero or infinite vector.</summary>
+    private static double? PowerOfTwoBelow(Vector v)
     {
-        0.0 => throw new SingularMatrixException(unscaled),
-        var determinant => Cofactors().Transpose() / determinant,
-    };
+        var largest = v.MaxAbsComponent();
+        return largest > 0 && largest < double.PositiveInfinity ? Math.ScaleB(1, Math.Max(Math.ILogB(largest), -1021)) : null;
+    }
 
-    /// <summary>The power of two next below the largest entry; null for a zero or infinite vector.</summary>
-    private static double? PowerOfTwoBelow(Vector v) => v.MaxAbsComponent() switch
-    {
-        > 0 and < double.PositiveInfinity and var largest => Math.ScaleB(1, Math.Max(Math.ILogB(largest), -1021)),
-        _ => null,
-    };
-
-    /// <summary>The vector product with each component right to an ulp or two, however much its two products cancel.</summary>
+    /// <summary>Computes the vector product with each component right to an ulp or two, however much its two products cancel.</summary>
     private static Vector AccurateCross(Vector v1, Vector v2) => new(
         DifferenceOfProducts(v1.Y, v2.Z, v1.Z, v2.Y),
         DifferenceOfProducts(v1.Z, v2.X, v1.X, v2.Z),
         DifferenceOfProducts(v1.X, v2.Y, v1.Y, v2.X));
 
-    /// <summary>a·b − c·d by Kahan's method: the rounding of c·d is found by a fused multiply-add and made up for.</summary>
-    private static double DifferenceOfProducts(double a, double b, double c, double d) => (c * d) switch
+    /// <summary>
+    /// Computes a·b − c·d by Kahan's method: a fused multiply-add finds the rounding of c·d, which is then subtracted.
+    /// </summary>
+    private static double DifferenceOfProducts(double a, double b, double c, double d)
     {
-        var product when double.IsFinite(product) =>
-            Math.FusedMultiplyAdd(a, b, -product) - Math.FusedMultiplyAdd(c, d, -product),
-        var product => (a * b) - product,
-    };
+        var product = c * d;
+        return double.IsFinite(product)
+            ? Math.FusedMultiplyAdd(a, b, -product) - Math.FusedMultiplyAdd(c, d, -product)
+            : (a * b) - product;
+    }
 }

@@ -3,13 +3,19 @@ namespace FractalEngine.Core.Maths;
 /// <summary>The sine and cosine of one angle, computed once and used in every entry of a rotation.</summary>
 internal readonly record struct SineCosine(double Sine, double Cosine)
 {
-    /// <summary>Of an angle in radians.</summary>
-    public static SineCosine FromRadians(double angle) => Math.SinCos(angle) switch { var (s, c) => new(s, c) };
+    /// <summary>Computes both for an angle in radians.</summary>
+    public static SineCosine FromRadians(double angle)
+    {
+        var (sine, cosine) = Math.SinCos(angle);
+        return new(sine, cosine);
+    }
 
-    /// <summary>
-    /// Of an angle in degrees, exact at multiples of 90°. The remainder is exact in floating point, so huge angles
-    /// lose nothing either.
-    /// </summary>
-    public static SineCosine FromDegrees(double angle) =>
-        double.SinCosPi(Math.IEEERemainder(angle, 360) / 180) switch { var (s, c) => new(s + 0.0, c + 0.0) };
+    /// <summary>Computes both for an angle in degrees, exactly at multiples of 90°.</summary>
+    /// <remarks>The remainder is exact in floating point, so huge angles lose nothing either.</remarks>
+    public static SineCosine FromDegrees(double angle)
+    {
+        var (sine, cosine) = double.SinCosPi(Math.IEEERemainder(angle, 360) / 180);
+        // Adding zero turns −0 into 0.
+        return new(sine + 0.0, cosine + 0.0);
+    }
 }

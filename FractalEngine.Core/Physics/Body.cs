@@ -1,104 +1,153 @@
+using System.Globalization;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
-/// A ball that falls, bounces and rests: the sphere around a physics object (paper §4.3.3, §4.4.1). Owned by a <see cref="PhysicsWorld"/>.
+/// A sphere that falls, bounces and rests: the bounding sphere of a physics object (paper §4.3.3, §4.4.1), or one of its own. Owned by a
+/// <see cref="PhysicsWorld"/>.
 /// </summary>
 public sealed class Body
 {
-    private readonly BodyDescription _description;
-
-    /// <param name="description">Checked.</param>
-    /// <param name="index">Its place among the bodies.</param>
-    /// <param name="acceleration">What it falls with until it is seen what it rests on.</param>
+    /// <summary>Creates a body in its initial state.</summary>
+    /// <param name="description">Already validated.</param>
+    /// <param name="index">Index among the bodies of the world.</param>
+    /// <param name="acceleration">Acceleration of free fall, until contacts take their part of it.</param>
     internal Body(BodyDescription description, int index, Vector acceleration)
     {
-        (_description, Index) = (description, index);
+        Description = description;
+        Index = index;
         Reset(acceleration);
     }
 
-    /// <summary>What it was made from.</summary>
-    public BodyDescription Description => _description;
+    /// <summary>The description that the body was made from.</summary>
+    public BodyDescription Description { get; }
 
-    /// <summary>Its place among the bodies of its world, from 0.</summary>
+    /// <summary>Index among the bodies of its world, from 0.</summary>
     public int Index { get; }
 
-    /// <summary>Of the centre, world space, scene units.</summary>
+    /// <summary>Current position of the centre in world space, scene units.</summary>
     public Vector Position { get; internal set; }
 
-    /// <summary>Where the centre was before the last step, for drawing in between.</summary>
+    /// <summary>Position of the centre before the last step, for interpolation between steps.</summary>
     public Vector PreviousPosition { get; internal set; }
 
-    /// <summary>Units a second.</summary>
+    /// <summary>Current velocity in units per second, see <see cref="PhysicsWorld.SetVelocity"/>.</summary>
     public Vector Velocity { get; internal set; }
 
-    /// <summary>A force that acts until it is changed, beside gravity. Kilograms times units a second².</summary>
+    /// <summary>
+    /// Constant force besides gravity, in kilograms times units per second², see <see cref="PhysicsWorld.SetForce"/>.
+    /// </summary>
     public Vector Force { get; internal set; }
 
-    /// <summary>The present radius, scene units.</summary>
-    public double Radius => Scale * _description.Radius;
+    /// <summary>Current radius of the sphere, scene units.</summary>
+    public double Radius => Scale * Description.Radius;
 
-    /// <summary>1 at first; less for a body that shrinks (paper §5.5).</summary>
+    /// <summary>Current size relative to the initial one: 1, or less for a body that shrinks (paper §5.5).</summary>
     public double Scale { get; internal set; }
 
-    /// <summary>The scale before the last step.</summary>
+    /// <summary>Relative size before the last step, for interpolation between steps.</summary>
     public double PreviousScale { get; internal set; }
 
-    /// <summary>At rest, and left alone until something touches it.</summary>
+    /// <summary>True for a body at rest that costs nothing until something touches it.</summary>
     public bool IsAsleep { get; internal set; }
 
-    /// <summary>Closed in: it overlaps something that it can't be moved out of, and stays where it is.</summary>
+    /// <summary>True for a body that overlaps something and cannot be pushed out. It stays where it is.</summary>
     public bool IsStuck { get; internal set; }
 
-    /// <summary>What the last step cost: faces that were looked at.</summary>
+    /// <summary>Number of triangles that the last step tested for this body.</summary>
     public long FaceTests { get; internal set; }
 
-    /// <summary>What the last step cost: bounding volumes that were looked at.</summary>
+    /// <summary>Number of bounding volumes that the last step tested for this body.</summary>
     public long BoundTests { get; internal set; }
 
-    /// <summary>The body's name for messages and tables: its own, or its number.</summary>
-    public string Name => _description.Name ?? string.Create(System.Globalization.CultureInfo.InvariantCulture, $"#{Index}");
+    /// <summary>Name for messages and tables: the description's, or the index after a number sign.</summary>
+    public string Name => Description.Name ?? string.Create(CultureInfo.InvariantCulture, $"#{Index}");
 
-    /// <summary>How the object is drawn that the body carries: moved and shrunk.</summary>
-    /// <param name="alpha">Of the last step that has passed, from 0 to 1: steps and pictures have different rates.</param>
+    /// <summary>Map that draws the body's object between its last two states, moved and shrunk.</summary>
+    /// <param name="alpha">Fraction of the last step that has passed, from 0 to 1: steps and frames have different rates.</param>
     public AffineMap InterpolatedMap(double alpha)
     {
         var scale = PreviousScale + (alpha * (Scale - PreviousScale));
-        return new(scale * _description.LinearPart, PreviousPosition + (alpha * (Position - PreviousPosition)));
+        return new(scale * Description.LinearPart, PreviousPosition + (alpha * (Position - PreviousPosition)));
     }
 
-    /// <summary>What is touched.</summary>
+    /// <summary>Surfaces and bodies that this body touches.</summary>
     internal ContactSet Contacts { get; } = new();
 
-    /// <summary>What is known of the surfaces near it.</summary>
+    /// <summary>Known lower bound on the distance to all surfaces.</summary>
     internal SafeDistance SafeDistance { get; } = new();
 
-    /// <summary>How long it has barely moved, seconds.</summary>
+    /// <summary>Time in seconds for which the body has barely moved.</summary>
     internal double SleepTimer { get; set; }
 
-    /// <summary>True when it has been looked at whether it begins inside of something.</summary>
+    /// <summary>True once the body has been checked for an initial overlap, and is free of it.</summary>
     internal bool IsOverlapResolved { get; set; }
 
-    /// <summary>The acceleration that is left after what it rests on has taken its part.</summary>
+    /// <summary>Acceleration that remains after contacts have taken their part.</summary>
     internal Vector NetAcceleration { get; set; }
 
-    /// <summary>The change of velocity by what other bodies press with, until the body's own turn.</summary>
+    /// <summary>Change of velocity by the load of other bodies, to be applied in the body's own turn.</summary>
     internal Vector PendingLoadVelocity { get; set; }
 
-    /// <summary>True while the scale has not reached its minimum.</summary>
-    internal bool IsShrinking => _description.Shrinkage > 0 && Scale > _description.MinimumScale;
+    /// <summary>True while the body shrinks and has not reached its minimum scale.</summary>
+    internal bool IsShrinking => Description.Shrinkage > 0 && Scale > Description.MinimumScale;
 
-    /// <summary>Back to the beginning.</summary>
+    /// <summary>Returns the body to its initial state.</summary>
+    /// <param name="acceleration">Acceleration of free fall.</param>
     internal void Reset(Vector acceleration)
     {
-        (Position, PreviousPosition, Velocity, Force) = (_description.Position, _description.Position, _description.Velocity, Vector.Zero);
-        (Scale, PreviousScale, IsAsleep, IsStuck, SleepTimer, IsOverlapResolved) = (1, 1, false, false, 0, false);
-        (FaceTests, BoundTests, NetAcceleration, PendingLoadVelocity) = (0, 0, acceleration, Vector.Zero);
+        Position = Description.Position;
+        PreviousPosition = Description.Position;
+        Velocity = Description.Velocity;
+        Force = Vector.Zero;
+        Scale = 1;
+        PreviousScale = 1;
+        IsAsleep = false;
+        IsStuck = false;
+        FaceTests = 0;
+        BoundTests = 0;
+        SleepTimer = 0;
+        IsOverlapResolved = false;
+        NetAcceleration = acceleration;
+        PendingLoadVelocity = Vector.Zero;
         Contacts.Clear();
         SafeDistance.Invalidate();
     }
 
-    /// <summary>Ends its sleep.</summary>
-    internal void Wake() => (IsAsleep, SleepTimer) = (false, 0);
+    /// <summary>Saves the state before a step, and sets the costs to 0.</summary>
+    internal void BeginStep()
+    {
+        PreviousPosition = Position;
+        PreviousScale = Scale;
+        FaceTests = 0;
+        BoundTests = 0;
+    }
+
+    /// <summary>Discards everything that is known of surfaces and contacts, and wakes the body.</summary>
+    /// <param name="acceleration">Acceleration of free fall.</param>
+    /// <param name="mayOverlap">True where an obstacle may have come to overlap the body.</param>
+    internal void InvalidateSurroundings(Vector acceleration, bool mayOverlap)
+    {
+        Wake();
+        NetAcceleration = acceleration;
+        SafeDistance.Invalidate();
+        Contacts.Clear();
+        IsOverlapResolved &= !mayOverlap;
+    }
+
+    /// <summary>Ends the body's sleep and restarts its sleep timer.</summary>
+    internal void Wake()
+    {
+        IsAsleep = false;
+        SleepTimer = 0;
+    }
+
+    /// <summary>Puts the body to sleep at rest.</summary>
+    internal void Sleep()
+    {
+        IsAsleep = true;
+        Velocity = Vector.Zero;
+        NetAcceleration = Vector.Zero;
+    }
 }

@@ -4,11 +4,24 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
-/// Which bodies are near: a hashed grid of cells as wide as most bodies. Those that are wider than a cell are kept apart, and always near.
-/// Follows bodies as they move; allocates only when bodies are added.
+/// Finds bodies near a path: a hashed grid of cells wide enough for most bodies. Those wider than a cell are kept in a list and always
+/// tested. Allocates only when bodies are added.
 /// </summary>
 internal sealed class BodyGrid
 {
+    // Of the number of bodies: at least twice as many buckets, and a power of two of them, for a cheap remainder.
+    private const int BucketsPerBody = 2;
+    private const int MinBuckets = 16;
+
+    // Of the radius of the body that is larger than nine tenths of all: it fits into a cell with half its size to spare.
+    private const double CellSizeFactor = 3;
+
+    // Beyond it, cell coordinates saturate: bodies so far away share a cell.
+    private const double MaxCellCoordinate = 1e15;
+
+    // Marks a large body, which is in no bucket, and the end of a bucket's chain.
+    private const int None = -1;
+
     private readonly List<int> _largeBodies = [];
     private int[] _heads = [];
     private int[] _next = [];
@@ -18,34 +31,36 @@ internal sealed class BodyGrid
     private double _maxGridRadius;
     private List<Body> _bodies = [];
 
-    /// <summary>Begins with other bodies, or with more. O(n·log n).</summary>
+    /// <summary>Builds the grid anew for all bodies. Cost O(n·log n).</summary>
     public void Build(List<Body> bodies)
     {
         _bodies = bodies;
         _largeBodies.Clear();
-        var bucketCount = 16;
-        while (bucketCount < 2 * bodies.Count)
+        var bucketCount = MinBuckets;
+        while (bucketCount < BucketsPerBody * bodies.Count)
         {
             bucketCount *= 2;
         }
 
-        (_heads, _next, _previous, _buckets) = (new int[bucketCount], new int[bodies.Count], new int[bodies.Count], new int[bodies.Count]);
-        Array.Fill(_heads, -1);
+        _heads = new int[bucketCount];
+        _next = new int[bodies.Count];
+        _previous = new int[bodies.Count];
+        _buckets = new int[bodies.Count];
+        Array.Fill(_heads, None);
         if (bodies.Count == 0)
         {
             return;
         }
 
         var radii = bodies.Select(body => body.Radius).Order().ToArray();
-        // Nine of ten bodies fit.
-        _cellSize = 3 * radii[9 * (radii.Length - 1) / 10];
+        _cellSize = CellSizeFactor * radii[9 * (radii.Length - 1) / 10];
         _maxGridRadius = 0;
         for (var i = 0; i < bodies.Count; i++)
         {
             if (2 * bodies[i].Radius > _cellSize)
             {
                 _largeBodies.Add(i);
-                _buckets[i] = -1;
+                _buckets[i] = None;
             }
             else
             {
@@ -55,10 +70,10 @@ internal sealed class BodyGrid
         }
     }
 
-    /// <summary>Follows a body that has moved.</summary>
+    /// <summary>Updates the cell of a body that has moved.</summary>
     public void Update(int index)
     {
-        if (_buckets[index] < 0)
+        if (_buckets[index] == None)
         {
             return;
         }
@@ -71,11 +86,11 @@ internal sealed class BodyGrid
         }
     }
 
-    /// <summary>Collects the bodies that a ball can meet on its way.</summary>
-    /// <param name="pathBounds">A box that holds the way of its centre.</param>
-    /// <param name="radius">Of the ball.</param>
-    /// <param name="excludedIndex">The ball itself, −1 for none.</param>
-    /// <param name="results">Receives their numbers, in no particular but always the same order.</param>
+    /// <summary>Collects the bodies that a moving sphere may meet.</summary>
+    /// <param name="pathBounds">Box that holds the path of its centre.</param>
+    /// <param name="radius">Radius of the sphere, scene units.</param>
+    /// <param name="excludedIndex">Index of the sphere itself, or <see cref="Contact.NoBody"/>.</param>
+    /// <param name="results">Receives the indices, in no particular order, but always in the same.</param>
     public void CollectOverlaps(in BoundingBox pathBounds, double radius, int excludedIndex, List<int> results)
     {
         foreach (var index in _largeBodies)
@@ -84,19 +99,12 @@ internal sealed class BodyGrid
         }
 
         var margin = (radius + _maxGridRadius) * Vector.One;
-        var (minCell, maxCell) = (CellAt(pathBounds.Minimum - margin), CellAt(pathBounds.Maximum + margin));
+        var minCell = CellAt(pathBounds.Minimum - margin);
+        var maxCell = CellAt(pathBounds.Maximum + margin);
         var cellCount = (maxCell.X - minCell.X + 1.0) * (maxCell.Y - minCell.Y + 1.0) * (maxCell.Z - minCell.Z + 1.0);
         if (!(cellCount <= _bodies.Count))
         {
-            // More cells than bodies.
-            for (var i = 0; i < _bodies.Count; i++)
-            {
-                if (_buckets[i] >= 0)
-                {
-                    AddIfOverlapping(i, in pathBounds, radius, excludedIndex, results);
-                }
-            }
-
+            CollectFromAllBodies(in pathBounds, radius, excludedIndex, results);
             return;
         }
 
@@ -119,6 +127,17 @@ internal sealed class BodyGrid
         }
     }
 
+    private void CollectFromAllBodies(in BoundingBox pathBounds, double radius, int excludedIndex, List<int> results)
+    {
+        for (var i = 0; i < _bodies.Count; i++)
+        {
+            if (_buckets[i] != None)
+            {
+                AddIfOverlapping(i, in pathBounds, radius, excludedIndex, results);
+            }
+        }
+    }
+
     private void AddIfOverlapping(int index, in BoundingBox pathBounds, double radius, int excludedIndex, List<int> results)
     {
         var maxDistance = radius + _bodies[index].Radius;
@@ -128,20 +147,29 @@ internal sealed class BodyGrid
         }
     }
 
-    private (long X, long Y, long Z) CellAt(Vector position) => (CellAt(position.X), CellAt(position.Y), CellAt(position.Z));
+    private (long X, long Y, long Z) CellAt(Vector position) =>
+        (CellCoordinate(position.X), CellCoordinate(position.Y), CellCoordinate(position.Z));
 
-    // Saturates: bodies far away share a cell.
-    private long CellAt(double coordinate) => (long)Math.Clamp(Math.Floor(coordinate / _cellSize), -1e15, 1e15);
+    private long CellCoordinate(double coordinate) =>
+        (long)Math.Clamp(Math.Floor(coordinate / _cellSize), -MaxCellCoordinate, MaxCellCoordinate);
 
-    private int BucketOf(Vector position) => CellAt(position) switch { var (x, y, z) => Hash(x, y, z) };
+    private int BucketOf(Vector position)
+    {
+        var (x, y, z) = CellAt(position);
+        return Hash(x, y, z);
+    }
 
+    // Three primes spread the coordinates; a multiplication by 2^64 divided by the golden ratio mixes the bits.
     private int Hash(long x, long y, long z) =>
         (int)(((ulong)((x * 73856093) ^ (y * 19349663) ^ (z * 83492791)) * 0x9E3779B97F4A7C15) >> 40) & (_heads.Length - 1);
 
     private void Insert(int index, int bucket)
     {
         var head = _heads[bucket];
-        (_buckets[index], _next[index], _previous[index], _heads[bucket]) = (bucket, head, -1, index);
+        _buckets[index] = bucket;
+        _next[index] = head;
+        _previous[index] = None;
+        _heads[bucket] = index;
         if (head >= 0)
         {
             _previous[head] = index;
@@ -150,7 +178,8 @@ internal sealed class BodyGrid
 
     private void Remove(int index)
     {
-        var (next, previous) = (_next[index], _previous[index]);
+        var next = _next[index];
+        var previous = _previous[index];
         if (previous >= 0)
         {
             _next[previous] = next;

@@ -6,31 +6,38 @@ using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;
 
-/// <summary>The radius of an object (paper §4.3.3): the distance of its farthest vertex under its matrix m from m's position.</summary>
+/// <summary>
+/// Computes the radius of a physics object (paper §4.3.3): the distance of its farthest vertex from the position of its matrix m.
+/// </summary>
 internal static class BodyRadius
 {
-    // Of the radius: fractals are searched until the rest can't add more.
+    // Of the radius: fractals are searched until no remaining part can add more.
     private const double RelativeTolerance = 1e-9;
     private const int MaxNodes = 50_000;
 
-    /// <summary>
-    /// For a mesh exactly the farthest vertex; for a fractal no less than it, by a billionth more, or further where 50,000 sub-fractals do
-    /// not tell.
-    /// </summary>
-    public static double Compute(PlacedModel placed) => placed.Model switch
+    /// <summary>Computes the radius in scene units; 0 for a model without vertices.</summary>
+    /// <returns>
+    /// Exact for a mesh. For a fractal an upper bound, greater by a billionth at most, or by more where 50,000 sub-fractals do not decide.
+    /// </returns>
+    public static double Compute(PlacedModel placed)
     {
-        FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } => Compute(fractal, placed.ObjectToWorld.Linear),
-        FractalModel { Fractal: var fractal } => FractalGenerator.Expand(fractal, FractalLimits.MaxDrawnInstances)
-            .Max(instance => MaxVertexDistance(fractal.BaseMesh, new AffineMap(placed.ObjectToWorld.Linear, Vector.Zero) * instance)),
-        _ => MaxVertexDistance(placed.Model.Mesh, new(placed.ObjectToWorld.Linear, Vector.Zero)),
-    };
+        var linear = new AffineMap(placed.ObjectToWorld.Linear, Vector.Zero);
+        return placed.Model switch
+        {
+            FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } => SearchFractal(fractal, linear),
+            FractalModel { Fractal: var fractal } => FractalGenerator.Expand(fractal, FractalLimits.MaxDrawnInstances)
+                .Max(instance => MaxVertexDistance(fractal.BaseMesh, linear * instance)),
+            _ => MaxVertexDistance(placed.Model.Mesh, linear),
+        };
+    }
 
-    private static double Compute(Fractal fractal, Matrix linear)
+    /// <summary>Searches the sub-fractals best first, those with the farthest corner of their boxes before the others.</summary>
+    private static double SearchFractal(Fractal fractal, AffineMap linear)
     {
         var table = SubFractalTable.Build(fractal);
-        var queue = new PriorityQueue<(SubFractal State, long Levels, AffineMap Map), double>();
+        var queue = new PriorityQueue<(SubFractal SubFractal, long Levels, AffineMap Map), double>();
         var maxDistance = 0.0;
-        Enqueue(table.Root, table.Levels, new(linear, Vector.Zero));
+        Enqueue(table.Root, table.Levels, linear);
         for (var nodes = 0; queue.TryDequeue(out var node, out var negatedBound); nodes++)
         {
             if (-negatedBound <= maxDistance * (1 + RelativeTolerance) || nodes == MaxNodes)
@@ -38,8 +45,13 @@ internal static class BodyRadius
                 return Math.Max(maxDistance, -negatedBound);
             }
 
-            maxDistance = Math.Max(maxDistance, node.Levels == 0 ? MaxVertexDistance(fractal.BaseMesh, node.Map) : 0);
-            foreach (var childInstance in node.Levels == 0 ? [] : node.State.Children)
+            if (node.Levels == 0)
+            {
+                maxDistance = Math.Max(maxDistance, MaxVertexDistance(fractal.BaseMesh, node.Map));
+                continue;
+            }
+
+            foreach (var childInstance in node.SubFractal.Children)
             {
                 var childLevels = childInstance.RemainingLevels(node.Levels);
                 Enqueue(table.At(childLevels), childLevels, node.Map * childInstance.Map);
@@ -63,9 +75,9 @@ internal static class BodyRadius
         for (var corner = 0; corner < 8; corner++)
         {
             var point = new Vector(
-                (corner & 1) == 0 ? box.Minimum.X : box.Maximum.X, (corner & 2) == 0 ? box.Minimum.Y : box.Maximum.Y, (corner & 4) == 0
-                ? box.Minimum.Z
-                : box.Maximum.Z);
+                (corner & 1) == 0 ? box.Minimum.X : box.Maximum.X,
+                (corner & 2) == 0 ? box.Minimum.Y : box.Maximum.Y,
+                (corner & 4) == 0 ? box.Minimum.Z : box.Maximum.Z);
             maxDistance = Math.Max(maxDistance, (map * point).Length());
         }
 

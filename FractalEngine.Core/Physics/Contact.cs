@@ -2,23 +2,32 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Physics;
 
-/// <summary>Something that a body's centre must keep a distance from.</summary>
-/// <param name="Point">The nearest point of a surface, or the centre of another body. World space.</param>
-/// <param name="CombinedRadius">The least distance allowed: the radius, or the sum of both radii.</param>
-/// <param name="SphereOffset">From the body's position to that of its spheres which touches.</param>
-/// <param name="BodyIndex">The number of the other body, −1 for a surface.</param>
-/// <param name="IsFlat">True inside of a face: near the point the surface is a plane.</param>
+/// <summary>An obstacle that the centre of a sphere must keep a distance from.</summary>
+/// <param name="Point">The closest point of a surface, or the centre of another sphere; world space.</param>
+/// <param name="CombinedRadius">The distance to keep: the sphere's radius, or the sum of both radii.</param>
+/// <param name="SphereOffset">Offset of the touching sphere's centre from the mover's position.</param>
+/// <param name="BodyIndex">Index of the other body; <see cref="NoBody"/> for a surface or the character.</param>
+/// <param name="IsFlat">True inside a face, where the surface near the point is a plane.</param>
 internal readonly record struct Contact(Vector Point, double CombinedRadius, Vector SphereOffset, int BodyIndex, bool IsFlat)
 {
-    /// <summary>The normal when it was touched.</summary>
+    /// <summary>The index that means no body.</summary>
+    public const int NoBody = -1;
+
+    /// <summary>True when the obstacle is another body, which moves and gives way.</summary>
+    public bool IsBody => BodyIndex >= 0;
+
+    /// <summary>Unit normal at the moment when the contact was added or updated.</summary>
     public Vector CachedNormal { get; init; }
 
-    /// <summary>From the point to the touching sphere's centre.</summary>
+    /// <summary>Vector from the contact point to the centre of the touching sphere.</summary>
+    /// <param name="position">Position of the mover, world space.</param>
     public Vector PointToCentre(Vector position) => position + SphereOffset - Point;
 
-    /// <summary>The free distance: 0 when it touches, negative when it overlaps.</summary>
+    /// <summary>Free distance between sphere and obstacle: 0 when they touch, negative when they overlap.</summary>
+    /// <param name="position">Position of the mover, world space.</param>
     public double Gap(Vector position) => PointToCentre(position).Length() - CombinedRadius;
 
-    /// <summary>Away from the obstacle, of length 1; zero where the centre is on it.</summary>
+    /// <summary>Unit vector away from the obstacle; zero where the centre is on it.</summary>
+    /// <param name="position">Position of the mover, world space.</param>
     public Vector Normal(Vector position) => PointToCentre(position).UnitVectorOrZero();
 }

@@ -2,36 +2,38 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Physics;
 
-/// <summary>What a body touches, so that it need not be found again while it stays so.</summary>
+/// <summary>The contacts of one body, kept from step to step so that they need not be found again.</summary>
 internal sealed class ContactSet
 {
-    // Relative to the speed: what rounding leaves of a velocity along the normal.
+    // Of the speed: what rounding leaves of a velocity along the normal.
     private const double RelativeTolerance = 1e-13;
 
-    // Squared sine of the angle below which two surfaces are one.
+    // Squared sine of the angle below which two normals count as parallel.
     private const double MinSineSquared = 1e-10;
 
-    // Of the reach: a gap that differs by less needs no other point.
+    // Of the combined radius: a gap within it needs no other closest point.
     private const double GapTolerance = 1e-13;
 
-    // Radians: by how much a way over another body turns before it is looked at anew.
+    // Radians: by how much a path over another body may turn before its acceleration is computed anew.
     private const double MaxTurnAngle = 1.0 / 64;
 
-    // Contacts whose directions differ by less are the same.
+    // Squared difference of unit normals below which two contacts are the same.
     private const double SameNormalToleranceSquared = 1e-12;
 
     private readonly Contact[] _contacts = new Contact[HalfSpaces.Capacity];
 
-    /// <summary>How many there are.</summary>
+    /// <summary>Number of contacts at present.</summary>
     public int Count { get; private set; }
 
-    /// <summary>One of them.</summary>
+    /// <summary>The contact at an index from 0 to <see cref="Count"/> − 1.</summary>
     public Contact this[int index] => _contacts[index];
 
-    /// <summary>Forgets all.</summary>
+    /// <summary>Removes all contacts of the body.</summary>
     public void Clear() => Count = 0;
 
-    /// <summary>Adds a contact, in the place of one in the same direction if there is one.</summary>
+    /// <summary>Adds a contact. It replaces one with the same obstacle and normal, or the oldest one where there is no room.</summary>
+    /// <param name="contact">Contact of the body.</param>
+    /// <param name="position">Position of the body, world space.</param>
     public void Add(in Contact contact, Vector position)
     {
         var normal = contact.Normal(position);
@@ -53,12 +55,12 @@ internal sealed class ContactSet
         _contacts[Count++] = contact with { CachedNormal = normal };
     }
 
-    /// <summary>True where a body is touched that does not sleep.</summary>
+    /// <summary>True where another body is touched that does not sleep.</summary>
     public bool HasAwakeBody(List<Body> bodies)
     {
         for (var i = 0; i < Count; i++)
         {
-            if (_contacts[i].BodyIndex >= 0 && !bodies[_contacts[i].BodyIndex].IsAsleep)
+            if (_contacts[i].IsBody && !bodies[_contacts[i].BodyIndex].IsAsleep)
             {
                 return true;
             }
@@ -67,32 +69,38 @@ internal sealed class ContactSet
         return false;
     }
 
-    /// <summary>Forgets those that are not touched any more, and those with other bodies, which move.</summary>
-    /// <param name="position">Of the body.</param>
-    /// <param name="contactSlop">See <see cref="Obstacles.ContactSlop"/>.</param>
-    /// <param name="radius">Of the body, which may have shrunk.</param>
+    /// <summary>Removes surfaces that are not touched any more, and all other bodies, since those move.</summary>
+    /// <param name="position">Position of the body, world space.</param>
+    /// <param name="contactSlop">See <see cref="ContactTolerances.Slop"/>.</param>
+    /// <param name="radius">Radius of the body, which may have shrunk.</param>
     public void Refresh(Vector position, double contactSlop, double radius)
     {
         for (var i = Count - 1; i >= 0; i--)
         {
             _contacts[i] = _contacts[i] with { CombinedRadius = radius };
-            if (_contacts[i].BodyIndex >= 0 || _contacts[i].Gap(position) > contactSlop)
+            if (_contacts[i].IsBody || _contacts[i].Gap(position) > contactSlop)
             {
                 RemoveAt(i);
             }
         }
     }
 
-    /// <summary>After a move: keeps those surfaces that are still touched, perhaps at another point, and forgets the others.</summary>
+    /// <summary>Finds the new closest points of surfaces after a move, and removes contacts that are not touched any more.</summary>
+    /// <param name="position">New position of the body, world space.</param>
+    /// <param name="contactSlop">See <see cref="ContactTolerances.Slop"/>.</param>
+    /// <param name="obstacles">Set up for the body.</param>
     public void UpdateAfterMove(Vector position, double contactSlop, Obstacles obstacles)
     {
         for (var i = Count - 1; i >= 0; i--)
         {
-            if (_contacts[i].BodyIndex < 0 && _contacts[i].Gap(position) is var gap
-                && Math.Abs(gap) > GapTolerance * _contacts[i].CombinedRadius
-                && obstacles.TryUpdateContact(position, in _contacts[i], out var updated))
+            if (!_contacts[i].IsBody)
             {
-                _contacts[i] = updated;
+                var gap = _contacts[i].Gap(position);
+                if (Math.Abs(gap) > GapTolerance * _contacts[i].CombinedRadius
+                    && obstacles.TryUpdateContact(position, in _contacts[i], out var updated))
+                {
+                    _contacts[i] = updated;
+                }
             }
 
             if (_contacts[i].Gap(position) > contactSlop)
@@ -102,25 +110,25 @@ internal sealed class ContactSet
         }
     }
 
-    /// <summary>Forgets those that a velocity leads away from.</summary>
-    /// <param name="position">Of the body.</param>
-    /// <param name="velocity">Of the body.</param>
-    /// <param name="bodies">The others.</param>
+    /// <summary>Removes the contacts from which a velocity leads away.</summary>
+    /// <param name="position">Position of the body, world space.</param>
+    /// <param name="velocity">Velocity of the body.</param>
+    /// <param name="bodies">All bodies.</param>
     /// <param name="negligibleSpeed">
-    /// What leaves a surface more slowly does not leave: it would be back at once, and several edges could pass a body to and fro. It loses
-    /// that speed, since gravity would have taken it.
+    /// Speed below which a body does not leave a surface: gravity would return it at once, and several edges could pass it back and forth.
     /// </param>
-    /// <param name="treatBodiesAsStatic">Bodies are left, too, only by what moves away from where they are.</param>
-    /// <returns>The velocity without what was too slow.</returns>
+    /// <param name="treatBodiesAsStatic">Other bodies count as left only by a velocity away from where they are.</param>
+    /// <returns>The velocity; where it leaves a surface too slowly, only its part along all surfaces.</returns>
     public Vector RemoveSeparating(Vector position, Vector velocity, List<Body> bodies, double negligibleSpeed, bool treatBodiesAsStatic)
     {
         var isSeparatingSlowly = false;
         for (var i = Count - 1; i >= 0; i--)
         {
-            var isSurface = _contacts[i].BodyIndex < 0;
+            var isSurface = !_contacts[i].IsBody;
             var relative = isSurface ? velocity : velocity - bodies[_contacts[i].BodyIndex].Velocity;
             var normal = _contacts[i].Normal(position);
-            var (separationSpeed, rounding) = (Vector.Dot(relative, normal), RelativeTolerance * relative.MaxAbsComponent());
+            var rounding = RelativeTolerance * relative.MaxAbsComponent();
+            var separationSpeed = Vector.Dot(relative, normal);
             separationSpeed = treatBodiesAsStatic ? Math.Min(separationSpeed, Vector.Dot(velocity, normal)) : separationSpeed;
             if (separationSpeed > negligibleSpeed + rounding)
             {
@@ -135,13 +143,14 @@ internal sealed class ContactSet
         return isSeparatingSlowly ? ProjectOntoSurfaces(velocity, position) : velocity;
     }
 
-    /// <summary>The part of a velocity along all surfaces at once: none where there are three.</summary>
+    /// <summary>The part of a velocity along all surfaces at once: zero where there are three.</summary>
     private Vector ProjectOntoSurfaces(Vector velocity, Vector position)
     {
-        var (firstAxis, secondAxis) = (Vector.Zero, Vector.Zero);
+        var firstAxis = Vector.Zero;
+        var secondAxis = Vector.Zero;
         for (var i = 0; i < Count; i++)
         {
-            if (_contacts[i].BodyIndex >= 0)
+            if (_contacts[i].IsBody)
             {
                 continue;
             }
@@ -155,42 +164,49 @@ internal sealed class ContactSet
 
             var direction = normal.UnitVector();
             velocity -= Vector.Dot(velocity, direction) * direction;
-            (firstAxis, secondAxis) = firstAxis == Vector.Zero ? (direction, secondAxis) : (firstAxis, direction);
+            if (firstAxis == Vector.Zero)
+            {
+                firstAxis = direction;
+            }
+            else
+            {
+                secondAxis = direction;
+            }
         }
 
         return velocity;
     }
 
-    /// <summary>The part of a velocity that leads into none of the contacts: zero where they leave no direction free.</summary>
+    /// <summary>Projects a velocity onto those that lead into no contact; zero where these leave no direction free.</summary>
     /// <param name="velocity">World space.</param>
-    /// <param name="position">Of the body.</param>
-    /// <param name="planes">Lends memory.</param>
-    /// <param name="onlySurfaces">Leaves other bodies out.</param>
+    /// <param name="position">Position of the body, world space.</param>
+    /// <param name="planes">Scratch memory, overwritten.</param>
+    /// <param name="onlySurfaces">Ignores other bodies.</param>
     public Vector ProjectVelocity(Vector velocity, Vector position, HalfSpaces planes, bool onlySurfaces = false)
     {
         planes.Clear();
         for (var i = 0; i < Count; i++)
         {
-            if (!onlySurfaces || _contacts[i].BodyIndex < 0)
+            if (!onlySurfaces || !_contacts[i].IsBody)
             {
                 planes.Add(_contacts[i].Normal(position), 0);
             }
         }
 
-        return ProjectOrZero(velocity, planes);
+        return ProjectWithoutRounding(velocity, planes);
     }
 
     /// <summary>
-    /// The part of an acceleration that leads into none of the contacts. Other bodies give way by their own, and who slides over one is
-    /// held to its sphere: a = −v²/r along the normal.
+    /// Projects an acceleration onto those that lead into no contact. Other bodies give way by their own acceleration, and a body that
+    /// slides over another follows its sphere: a = −v²/r along the normal.
     /// </summary>
     /// <param name="acceleration">World space.</param>
-    /// <param name="position">Of the body.</param>
-    /// <param name="velocity">Of the body.</param>
-    /// <param name="bodies">The others.</param>
-    /// <param name="planes">Lends memory.</param>
+    /// <param name="position">Position of the body, world space.</param>
+    /// <param name="velocity">Velocity of the body.</param>
+    /// <param name="bodies">All bodies.</param>
+    /// <param name="planes">Scratch memory, overwritten.</param>
     /// <param name="treatBodiesAsStatic">Other bodies do not give way.</param>
-    /// <param name="validDuration">How long it holds: until the way over another body has turned by 1/64.</param>
+    /// <param name="validDuration">Seconds for which the result holds: until the path over another body has turned by 1/64.</param>
     public Vector ProjectAcceleration(Vector acceleration, Vector position, Vector velocity, List<Body> bodies, HalfSpaces planes,
         bool treatBodiesAsStatic, out double validDuration)
     {
@@ -200,7 +216,7 @@ internal sealed class ContactSet
         {
             var normal = _contacts[i].Normal(position);
             var minNormalAcceleration = 0.0;
-            if (_contacts[i].BodyIndex >= 0)
+            if (_contacts[i].IsBody)
             {
                 var other = bodies[_contacts[i].BodyIndex];
                 var relative = treatBodiesAsStatic ? velocity : velocity - other.Velocity;
@@ -213,17 +229,13 @@ internal sealed class ContactSet
             planes.Add(normal, minNormalAcceleration);
         }
 
-        return ProjectOrZero(acceleration, planes);
+        return ProjectWithoutRounding(acceleration, planes);
     }
 
-    private static Vector ProjectOrZero(Vector vector, HalfSpaces planes)
+    private static Vector ProjectWithoutRounding(Vector vector, HalfSpaces planes)
     {
-        if (!planes.TryProject(vector, out var projected))
-        {
-            return Vector.Zero;
-        }
-
-        // What rounding leaves of a vector is nothing: a body in a corner rests.
+        var projected = planes.ProjectOrZero(vector);
+        // What rounding leaves of a vector counts as nothing: a body in a corner rests.
         return projected.MaxAbsComponent() <= RelativeTolerance * vector.MaxAbsComponent() ? Vector.Zero : projected;
     }
 

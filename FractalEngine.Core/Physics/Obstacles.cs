@@ -6,44 +6,53 @@ using FractalEngine.Core.Physics.Character;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
-/// What one mover can run into: the surfaces of the scene, and those other bodies that are within its reach. Set up anew for each mover and
-/// step.
+/// Everything that one mover can collide with: static surfaces, nearby bodies and the character. Set up anew for each mover and step. A
+/// mover is one sphere, or several at fixed offsets from its position.
 /// </summary>
 internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext queryContext)
 {
-    private readonly List<int> _candidates = new(256);
-    private StaticObjects? _staticObjects;
+    // Room for so many bodies near a mover; beyond it the list grows.
+    private const int InitialCandidateCapacity = 256;
+
+    // Of the radius: how far from the centre towards a contact the search for its present closest point begins, and how far it goes.
+    private const double UpdateDepth = 0.5;
+    private const double UpdateSearchRadius = 0.6;
+
+    private readonly List<int> _candidates = new(InitialCandidateCapacity);
+    private StaticColliders? _staticColliders;
     private SafeDistance _safeDistance = new();
     private Vector[] _sphereOffsets = [Vector.Zero];
     private double _radius;
     private double _searchMargin;
     private CharacterController? _character;
 
-    /// <summary>The numbers of the bodies that may be run into, see <see cref="CollectNearbyBodies"/>.</summary>
-    public List<int> Candidates => _candidates;
-
-    /// <summary>The mover's radius, scene units.</summary>
+    /// <summary>Radius of the mover's spheres, scene units.</summary>
     public double Radius => _radius;
 
-    /// <summary>Begins with another mover.</summary>
-    /// <param name="staticObjects">As its colliders see them; null where there are none.</param>
-    /// <param name="sphereOffsets">The centres of its spheres beside its position.</param>
-    /// <param name="radius">Of the spheres.</param>
-    /// <param name="safeDistance">What is known already of what is near.</param>
-    /// <param name="searchMargin">How far surfaces are looked for beyond what is asked, so that the next steps need not ask.</param>
-    /// <param name="character">A player who is in the way; null for none.</param>
-    public void SetMover(StaticObjects? staticObjects, Vector[] sphereOffsets, double radius, SafeDistance safeDistance,
-        double searchMargin, CharacterController? character = null)
+    /// <summary>Sets up another mover.</summary>
+    /// <param name="staticColliders">Colliders of the static objects; null where there are none.</param>
+    /// <param name="sphereOffsets">Offsets of the mover's spheres from its position.</param>
+    /// <param name="radius">Radius of the spheres, scene units.</param>
+    /// <param name="safeDistance">What is known of the distance to surfaces; receives what queries find.</param>
+    /// <param name="searchMargin">How much farther queries search than asked, so that the next steps need none.</param>
+    /// <param name="character">A character that is in the way; null for none.</param>
+    public void SetMover(
+        StaticColliders? staticColliders, Vector[] sphereOffsets, double radius, SafeDistance safeDistance, double searchMargin,
+        CharacterController? character = null)
     {
-        (_staticObjects, _sphereOffsets, _radius, _safeDistance, _searchMargin, _character) =
-            (staticObjects, sphereOffsets, radius, safeDistance, searchMargin, character);
+        _staticColliders = staticColliders;
+        _sphereOffsets = sphereOffsets;
+        _radius = radius;
+        _safeDistance = safeDistance;
+        _searchMargin = searchMargin;
+        _character = character;
         _candidates.Clear();
     }
 
-    /// <summary>Looks which other bodies are near a way.</summary>
-    /// <param name="motion">The way of the mover.</param>
-    /// <param name="duration">How long it goes.</param>
-    /// <param name="excludedIndex">The mover's own number, −1 for none.</param>
+    /// <summary>Collects the other bodies near a path. Only these are tested until the next call.</summary>
+    /// <param name="motion">Path of the mover.</param>
+    /// <param name="duration">Seconds that it takes.</param>
+    /// <param name="excludedIndex">Index of the mover itself, or <see cref="Contact.NoBody"/>.</param>
     public void CollectNearbyBodies(in Motion motion, double duration, int excludedIndex)
     {
         _candidates.Clear();
@@ -53,20 +62,18 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
             box = BoundingBox.Union(box, new(box.Minimum + sphere, box.Maximum + sphere));
         }
 
-        // A little more, for what touches.
-        grid.CollectOverlaps(in box, _radius * (1 + 1e-6), excludedIndex, _candidates);
+        grid.CollectOverlaps(in box, _radius * ContactTolerances.NeighbourRadiusFactor, excludedIndex, _candidates);
     }
 
-    /// <summary>What counts as touching: the free distances that rounding can't tell from 0.</summary>
-    public double TouchTolerance(Vector position) => (1e-9 * _radius) + (1e-14 * position.MaxAbsComponent());
+    /// <summary>Largest gap of the mover that rounding cannot tell from 0, see <see cref="ContactTolerances.Touch"/>.</summary>
+    public double TouchTolerance(Vector position) => ContactTolerances.Touch(_radius, position);
 
-    /// <summary>
-    /// Free distances at which what was touched still holds a mover: more than <see cref="TouchTolerance"/>, so that one which lies on
-    /// several edges is not passed from one to the next by the curve of its way.
-    /// </summary>
-    public double ContactSlop(Vector position) => (1e-6 * _radius) + (1e-14 * position.MaxAbsComponent());
+    /// <summary>Largest gap at which the mover keeps a contact, see <see cref="ContactTolerances.Slop"/>.</summary>
+    public double ContactSlop(Vector position) => ContactTolerances.Slop(_radius, position);
 
-    /// <summary>No more than the free distance at a place; nothing above a limit is looked for.</summary>
+    /// <summary>Lower bound on the free distance at a position, at most a maximum.</summary>
+    /// <param name="position">Position of the mover, world space.</param>
+    /// <param name="maxDistance">Largest free distance of interest; nothing beyond is searched for.</param>
     public double FreeDistance(Vector position, double maxDistance)
     {
         if (_safeDistance.LowerBoundAt(position) - _radius >= maxDistance)
@@ -77,11 +84,11 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
         return TryFindClosestContact(position, maxDistance, out var closestContact) ? closestContact.Gap(position) : maxDistance;
     }
 
-    /// <summary>Finds what is nearest.</summary>
-    /// <param name="position">Of the mover.</param>
-    /// <param name="maxDistance">Free distances above are of no interest.</param>
-    /// <param name="closestContact">What is nearest.</param>
-    /// <returns>False where nothing is so near.</returns>
+    /// <summary>Finds the closest obstacle, or the one that is overlapped most.</summary>
+    /// <param name="position">Position of the mover, world space.</param>
+    /// <param name="maxDistance">Largest free distance of interest.</param>
+    /// <param name="closestContact">The obstacle, if there is one.</param>
+    /// <returns>False where no obstacle is within the distance.</returns>
     public bool TryFindClosestContact(Vector position, double maxDistance, out Contact closestContact)
     {
         var isFound = TryFindClosestBody(position, ref maxDistance, out closestContact);
@@ -100,7 +107,10 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
         return isFound;
     }
 
-    /// <summary>Adds all bodies that are touched.</summary>
+    /// <summary>Adds contacts with all collected bodies that are touched.</summary>
+    /// <param name="position">Position of the mover, world space.</param>
+    /// <param name="tolerance">Largest gap that counts as touching.</param>
+    /// <param name="contacts">Receives the contacts.</param>
     public void AddTouchedBodies(Vector position, double tolerance, ContactSet contacts)
     {
         foreach (var candidate in _candidates)
@@ -113,39 +123,36 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
         }
     }
 
-    /// <summary>Finds the surface nearest to a point.</summary>
-    public bool TryFindClosestPoint(Vector point, double maxDistance, out ClosestPoint closest)
-    {
-        closest = default;
-        return _staticObjects is not null && _staticObjects.Collider.TryFindClosest(point, maxDistance, queryContext, out closest, out _);
-    }
+    /// <summary>Finds the surface point closest to a point, whatever the mover.</summary>
+    public bool TryFindClosestPoint(Vector point, double maxDistance, out ClosestPoint closest) =>
+        TryFindClosestPoint(point, maxDistance, out closest, out _);
 
-    /// <summary>The distance of a centre from the nearest surface; nothing above a limit is looked for.</summary>
+    /// <summary>Distance from the closest centre of the mover's spheres to a surface, at most a maximum.</summary>
+    /// <param name="position">Position of the mover, world space.</param>
+    /// <param name="maxDistance">Largest distance of interest.</param>
     public double SurfaceDistance(Vector position, double maxDistance)
     {
         foreach (var sphere in _sphereOffsets)
         {
-            maxDistance = _staticObjects is not null
-                && _staticObjects.Collider.TryFindClosest(position + sphere, maxDistance, queryContext, out var closest, out _)
-                ? closest.Distance
-                : maxDistance;
+            maxDistance = TryFindClosestPoint(position + sphere, maxDistance, out var closest, out _) ? closest.Distance : maxDistance;
         }
 
         return maxDistance;
     }
 
     /// <summary>
-    /// Finds where a surface that was touched is nearest now: looked for from half-way to it, where nothing else is as near.
+    /// Finds the present closest point of a surface that was touched. The search begins half-way between the centre and the old point,
+    /// where nothing else is as close.
     /// </summary>
-    /// <param name="position">Of the mover.</param>
-    /// <param name="contact">With a surface, as it was.</param>
-    /// <param name="updated">As it is.</param>
+    /// <param name="position">Position of the mover, world space.</param>
+    /// <param name="contact">Contact with a surface, as it was.</param>
+    /// <param name="updated">The contact as it is now.</param>
     /// <returns>False when the surface is not there any more.</returns>
     public bool TryUpdateContact(Vector position, in Contact contact, out Contact updated)
     {
         updated = contact;
-        var halfway = position + contact.SphereOffset - (0.5 * _radius * contact.CachedNormal);
-        if (_staticObjects is null || !_staticObjects.Collider.TryFindClosest(halfway, 0.6 * _radius, queryContext, out var closest, out _))
+        var halfway = position + contact.SphereOffset - (UpdateDepth * _radius * contact.CachedNormal);
+        if (!TryFindClosestPoint(halfway, UpdateSearchRadius * _radius, out var closest, out _))
         {
             return false;
         }
@@ -155,24 +162,36 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
         return true;
     }
 
-    /// <summary>Finds the surface that is nearest to a position, and on which side of it that is.</summary>
-    /// <param name="position">Of the mover.</param>
-    /// <param name="closest">The nearest point, if it is within the radius; its normal looks out of the object.</param>
-    /// <param name="isInside">True within a closed solid. Seen from within, the nearest point of a solid is inside of a face.</param>
+    /// <summary>Finds the surface closest to a position, and the side of it on which the position is.</summary>
+    /// <param name="position">Position of the mover, world space.</param>
+    /// <param name="closest">The closest point within the radius, with its normal out of the object.</param>
+    /// <param name="isInside">True within a closed solid, whose closest point from inside is always interior to a face.</param>
     /// <returns>False when no surface is within the radius.</returns>
     public bool TryFindSurfaceSide(Vector position, out ClosestPoint closest, out bool isInside)
     {
-        (closest, isInside) = (default, false);
-        if (_staticObjects is null || !_staticObjects.Collider.TryFindClosest(position, _radius, queryContext, out closest, out var index))
+        isInside = false;
+        if (!TryFindClosestPoint(position, _radius, out closest, out var index))
         {
             return false;
         }
 
-        var windingSign = _staticObjects.WindingSign(index);
+        var windingSign = _staticColliders!.WindingSign(index);
         closest = windingSign < 0 ? closest with { Normal = -closest.Normal } : closest;
         isInside = windingSign != 0 && closest.Feature == TriangleFeature.Interior
-            && Vector.Dot(position - closest.Point, closest.Normal) < 0 && _staticObjects.IsSolid(index);
+            && Vector.Dot(position - closest.Point, closest.Normal) < 0 && _staticColliders.IsSolid(index);
         return true;
+    }
+
+    private bool TryFindClosestPoint(Vector point, double maxDistance, out ClosestPoint closest, out int objectIndex)
+    {
+        if (_staticColliders is not null)
+        {
+            return _staticColliders.Scene.TryFindClosest(point, maxDistance, queryContext, out closest, out objectIndex);
+        }
+
+        closest = default;
+        objectIndex = -1;
+        return false;
     }
 
     private double FreeDistanceToBodies(Vector position, double maxDistance) =>
@@ -180,7 +199,8 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
 
     private bool TryFindClosestBody(Vector position, ref double maxDistance, out Contact closestContact)
     {
-        (closestContact, var isFound) = (default, false);
+        closestContact = default;
+        var isFound = false;
         foreach (var candidate in _candidates)
         {
             foreach (var sphere in _sphereOffsets)
@@ -189,15 +209,17 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
             }
         }
 
-        if (_character is { } character)
+        if (_character is not { } character)
         {
-            // As firm as a wall.
-            foreach (var sphere in character.SphereOffsets)
-            {
-                isFound |= TryUpdateClosest(
-                    new(character.Position + sphere, _radius + character.Description.Radius, Vector.Zero, -1, false), position,
-                    ref maxDistance, ref closestContact);
-            }
+            return isFound;
+        }
+
+        // To bodies, the character is as firm as a wall.
+        var combinedRadius = _radius + character.Description.Radius;
+        foreach (var sphere in character.SphereOffsets)
+        {
+            var contact = new Contact(character.Position + sphere, combinedRadius, Vector.Zero, Contact.NoBody, IsFlat: false);
+            isFound |= TryUpdateClosest(in contact, position, ref maxDistance, ref closestContact);
         }
 
         return isFound;
@@ -211,29 +233,31 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
             return false;
         }
 
-        (closestContact, maxDistance) = (contact, gap);
+        closestContact = contact;
+        maxDistance = gap;
         return true;
     }
 
     private bool TryFindClosestSurface(Vector position, double maxDistance, out Contact closestContact)
     {
         closestContact = default;
-        if (_staticObjects is null)
+        if (_staticColliders is null)
         {
             return false;
         }
 
-        var (isFound, maxCentreDistance) = (false, maxDistance + _radius);
+        var isFound = false;
+        var maxCentreDistance = maxDistance + _radius;
         var searchDistance = maxCentreDistance + _searchMargin;
         foreach (var sphere in _sphereOffsets)
         {
-            if (_staticObjects.Collider.TryFindClosest(position + sphere, searchDistance, queryContext, out var closest, out _))
+            if (_staticColliders.Scene.TryFindClosest(position + sphere, searchDistance, queryContext, out var closest, out _))
             {
                 searchDistance = closest.Distance;
                 if (searchDistance <= maxCentreDistance)
                 {
-                    (closestContact, isFound) = (new(closest.Point, _radius, sphere, -1, closest.Feature == TriangleFeature.Interior),
-                        true);
+                    closestContact = new(closest.Point, _radius, sphere, Contact.NoBody, closest.Feature == TriangleFeature.Interior);
+                    isFound = true;
                 }
             }
         }
@@ -245,6 +269,6 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
     private Contact CreateBodyContact(int candidate, Vector sphere)
     {
         var other = bodies[candidate];
-        return new(other.Position, _radius + other.Radius, sphere, candidate, false);
+        return new(other.Position, _radius + other.Radius, sphere, candidate, IsFlat: false);
     }
 }

@@ -2,28 +2,33 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Physics;
 
-/// <summary>Moves what overlaps something to the nearest place where it does not, if there is one that can be reached.</summary>
-internal sealed class OverlapResolver(Obstacles obstacles, HalfSpaces planes)
+/// <summary>Moves an overlapping mover to the closest free position, if there is one that can be reached.</summary>
+internal sealed class OverlapResolver(Obstacles obstacles)
 {
     private const int MaxPushes = 32;
     private const int MaxSteps = 64;
 
-    // Of the radius: how far before a surface a centre is put that was on it or behind it.
+    // Of the free distance: how much of it a step towards a free position uses, so that rounding crosses no surface.
+    private const double StepFraction = 0.9;
+
+    // Of the radius: how far in front of a surface a centre is put that was on it or behind it.
     private const double SurfaceOffset = 1e-6;
 
-    // Of the radius: a centre so near to a surface is taken to be on it.
+    // Of the radius: a centre this close to a surface is taken to be on it.
     private const double OnSurfaceTolerance = 1e-9;
 
-    /// <summary>Finds a free place. All surfaces that are met on the way must be kept from at once, not only the last one.</summary>
-    /// <param name="position">Receives the place; unchanged where there is none.</param>
-    /// <param name="excludedIndex">The mover's own number, −1 for none.</param>
+    private readonly HalfSpaces _planes = new();
+
+    /// <summary>Finds a free position. It keeps clear of all obstacles that were met so far at once, not only of the last one.</summary>
+    /// <param name="position">Position of the mover; receives the free position, and is unchanged where there is none.</param>
+    /// <param name="excludedIndex">Index of the mover itself, or <see cref="Contact.NoBody"/>.</param>
     /// <returns>False where the mover is closed in.</returns>
     public bool TryResolve(ref Vector position, int excludedIndex)
     {
-        var (original, touchTolerance) = (position, obstacles.TouchTolerance(position));
-        var current = MoveOutOfSurface(position);
-        var start = current;
-        planes.Clear();
+        var touchTolerance = obstacles.TouchTolerance(position);
+        var start = MoveOutOfSurface(position);
+        var current = start;
+        _planes.Clear();
         for (var push = 0; push < MaxPushes; push++)
         {
             obstacles.CollectNearbyBodies(new(current, Vector.Zero, Vector.Zero), 0, excludedIndex);
@@ -33,28 +38,28 @@ internal sealed class OverlapResolver(Obstacles obstacles, HalfSpaces planes)
                 return true;
             }
 
-            // Of two centres at one place none is to any side of the other.
+            // Of two centres at one position, neither is to any side of the other.
             var normal = overlap.PointToCentre(current).Length() > OnSurfaceTolerance * obstacles.Radius
                 ? overlap.Normal(current)
                 : Vector.J;
-            planes.Add(normal, Vector.Dot(normal, overlap.Point - overlap.SphereOffset) + overlap.CombinedRadius + (0.5 * touchTolerance));
-            if (!planes.TryProject(start, out var next) || !IsReachable(current, next))
+            var offset = Vector.Dot(normal, overlap.Point - overlap.SphereOffset) + overlap.CombinedRadius + (0.5 * touchTolerance);
+            _planes.Add(normal, offset);
+            if (!_planes.TryProject(start, out var next) || !IsReachable(current, next))
             {
-                break;
+                return false;
             }
 
             current = next;
         }
 
-        position = original;
         return false;
     }
 
-    /// <summary>The place itself; or, where it is on a surface or within a solid, one just before the surface.</summary>
+    /// <summary>The position itself; or one just in front of the surface, where it is on a surface or inside a solid.</summary>
     private Vector MoveOutOfSurface(Vector position)
     {
-        if (obstacles.TryFindSurfaceSide(position, out var closest, out var isBehind)
-            && (closest.Distance <= OnSurfaceTolerance * obstacles.Radius || isBehind))
+        if (obstacles.TryFindSurfaceSide(position, out var closest, out var isInside)
+            && (closest.Distance <= OnSurfaceTolerance * obstacles.Radius || isInside))
         {
             return closest.Point + (SurfaceOffset * obstacles.Radius * closest.Normal);
         }
@@ -62,11 +67,12 @@ internal sealed class OverlapResolver(Obstacles obstacles, HalfSpaces planes)
         return position;
     }
 
-    /// <summary>True when a centre can go there without meeting a surface on the way.</summary>
+    /// <summary>True when a centre can go straight to a position without meeting a surface.</summary>
     private bool IsReachable(Vector from, Vector to)
     {
-        var (path, travelled) = (to - from, 0.0);
+        var path = to - from;
         var length = path.Length();
+        var travelled = 0.0;
         for (var step = 0; step < MaxSteps && travelled < length; step++)
         {
             var position = from + (travelled / length * path);
@@ -76,7 +82,7 @@ internal sealed class OverlapResolver(Obstacles obstacles, HalfSpaces planes)
                 return false;
             }
 
-            travelled += 0.9 * distance;
+            travelled += StepFraction * distance;
         }
 
         return travelled >= length;

@@ -1,46 +1,42 @@
-
 namespace FractalEngine.Core.Physics;
 
-/// <summary>How a <see cref="PhysicsWorld"/> counts time and when it lets bodies rest.</summary>
+/// <summary>The step length of a <see cref="PhysicsWorld"/>, and the speeds below which bodies no longer bounce or stay awake.</summary>
 public sealed record PhysicsSettings
 {
-    /// <summary>The length of a step, seconds. All steps are equally long, however fast pictures are drawn.</summary>
+    /// <summary>
+    /// Length in seconds of the steps that <see cref="PhysicsWorld.Step()"/> and <see cref="PhysicsWorld.Advance"/> make, however fast
+    /// frames are drawn.
+    /// </summary>
     public double TimeStep { get; init; } = 1 / 60.0;
 
     /// <summary>
-    /// Approaches that are slower do not bounce, units a second; null for half of what a body gains in a step. Without this, what rests
-    /// would buzz.
+    /// Approach speed below which bodies do not bounce, units per second. Null means half the speed that a body gains in the step. Without
+    /// a threshold, resting bodies would tremble.
     /// </summary>
     public double? RestitutionThreshold { get; init; }
 
     /// <summary>
-    /// Bodies on something that are slower for <see cref="TimeBeforeSleep"/> fall asleep, units a second; null for 2 % of √(acceleration ·
-    /// radius). 0: none sleeps.
+    /// Speed below which a touching body falls asleep after <see cref="TimeBeforeSleep"/>, units per second. Null means 2 % of
+    /// √(acceleration · radius); at 0 no body sleeps.
     /// </summary>
     public double? SleepSpeed { get; init; }
 
-    /// <summary>Seconds.</summary>
+    /// <summary>Time in seconds for which a body must be slow before it sleeps.</summary>
     public double TimeBeforeSleep { get; init; } = 0.5;
 
-    /// <summary>Steps that are made up for at most when pictures take longer than they; the time of others is lost.</summary>
+    /// <summary>
+    /// Maximum number of steps in one <see cref="PhysicsWorld.Advance"/>, where frames take longer than steps. The remaining time is lost.
+    /// </summary>
     public int MaxStepsPerAdvance { get; init; } = 6;
 
-    /// <summary>Throws for what no world can be.</summary>
-    /// <exception cref="ArgumentException">A number is not finite, or outside of its range; the message names it.</exception>
+    /// <summary>Throws for settings that no world can have.</summary>
+    /// <exception cref="ArgumentException">A number is not finite, or outside its range; the message names it.</exception>
     internal void Validate()
     {
-        Require(TimeStep > 0 && double.IsFinite(TimeStep), "the step must be positive");
-        Require(RestitutionThreshold is null or >= 0, "the rest speed must not be negative");
-        Require(SleepSpeed is null or >= 0, "the sleep speed must not be negative");
-        Require(TimeBeforeSleep >= 0, "the sleep time must not be negative");
-        Require(MaxStepsPerAdvance > 0, "at least one step must be allowed at once");
-    }
-
-    private static void Require(bool condition, string message)
-    {
-        if (!condition)
-        {
-            throw new ArgumentException(message);
-        }
+        ArgumentCheck.Require(TimeStep > 0 && double.IsFinite(TimeStep), "the time step must be positive and finite");
+        ArgumentCheck.Require(RestitutionThreshold is null or >= 0, "the restitution threshold must not be negative");
+        ArgumentCheck.Require(SleepSpeed is null or >= 0, "the sleep speed must not be negative");
+        ArgumentCheck.Require(TimeBeforeSleep >= 0, "the time before sleep must not be negative");
+        ArgumentCheck.Require(MaxStepsPerAdvance > 0, "the maximum number of steps per advance must be positive");
     }
 }

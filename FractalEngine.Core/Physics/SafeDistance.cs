@@ -3,22 +3,26 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
-/// The free distance to all surfaces at some place. It tells the free distance elsewhere, less the way there, so that a body far from
-/// everything need not ask again at each step.
+/// A known lower bound on the distance to all surfaces at one position. It bounds the distance elsewhere as well, less the distance
+/// travelled. So a body far from everything needs no query in every step.
 /// </summary>
 internal sealed class SafeDistance
 {
     private Vector _position;
     private double _distance = double.NegativeInfinity;
 
-    /// <summary>Nothing is known any more.</summary>
+    /// <summary>Discards the bound, for example when a surface has moved.</summary>
     public void Invalidate() => _distance = double.NegativeInfinity;
 
-    /// <summary>Remembers what a query found.</summary>
-    /// <param name="position">Where.</param>
-    /// <param name="distance">From the centre to the nearest surface, or less.</param>
-    public void Store(Vector position, double distance) => (_position, _distance) = (position, distance);
+    /// <summary>Stores the result of a query as the new bound.</summary>
+    /// <param name="position">Where the query was made, world space.</param>
+    /// <param name="distance">Lower bound on the distance from there to the closest surface.</param>
+    public void Store(Vector position, double distance)
+    {
+        _position = position;
+        _distance = distance;
+    }
 
-    /// <summary>No more than the distance from a place to the nearest surface; negative where nothing is known.</summary>
+    /// <summary>Lower bound on the distance from a position to the closest surface; negative where nothing is known.</summary>
     public double LowerBoundAt(Vector position) => _distance - (position - _position).Length();
 }

@@ -4,37 +4,42 @@ namespace FractalEngine.Core.Physics;
 
 /// <summary>
 /// Moves spheres along a path until they touch something, by conservative advancement: as far as the free distance allows, then again
-/// (Mirtich and Canny 1995). A step goes a little beyond it, but never so far that a centre could reach a surface: so nothing is passed,
-/// however fast.
+/// (Mirtich and Canny 1995). An advance goes a little beyond that distance, but never so far that a centre could reach a surface. So
+/// nothing is passed through, however fast the spheres move.
 /// </summary>
 internal sealed class SphereSweep(Obstacles obstacles)
 {
-    // Of the radius. What is grazed by less than a 1/128 of the radius (the sagitta of a step, 0.25²/8) may be passed; nothing is passed
-    // through.
+    // Of the radius. An obstacle grazed by less than 1/128 of it (the sagitta of an advance, 0.25²/8) may be missed.
     private const double MaxOverstep = 0.25;
 
-    // Of the radius: how near to touching the moment of an impact is found.
+    // Of the radius: how close to touching the moment of an impact is found.
     private const double ImpactTolerance = 1e-10;
+
+    // Of the largest coordinate: about four roundings of a double.
+    private const double RoundingFraction = 1e-15;
 
     // Sine of the angle to a surface below which a path leads along it.
     private const double GrazingSine = 1e-12;
 
     private const int MaxSteps = 100_000;
-    private int _stepsLeft = MaxSteps;
     private const int MaxRefinements = 60;
+    private const int MaxFalsePositions = 40;
 
-    /// <summary>Begins with another mover or time step: what may be spent on it is limited.</summary>
+    private int _stepsLeft = MaxSteps;
+
+    /// <summary>Restores the number of advances that may be spent, for another mover or time step.</summary>
     public void ResetStepBudget() => _stepsLeft = MaxSteps;
 
-    /// <summary>Goes along a path that begins where nothing is overlapped.</summary>
+    /// <summary>Follows a path that begins where nothing is overlapped.</summary>
     /// <param name="motion">The path.</param>
-    /// <param name="maxTime">How long.</param>
-    /// <param name="hit">What was touched.</param>
-    /// <param name="elapsed">How long it went; less than the time where something was touched, or where it took too many steps.</param>
+    /// <param name="maxTime">Duration of the path, seconds.</param>
+    /// <param name="hit">The first obstacle that was touched.</param>
+    /// <param name="elapsed">Seconds of the path that were followed; fewer than all at an impact or after too many advances.</param>
     /// <returns>True when something was touched.</returns>
     public bool TryFindImpact(in Motion motion, double maxTime, out Contact hit, out double elapsed)
     {
-        (hit, elapsed) = (default, 0);
+        hit = default;
+        elapsed = 0;
         var radius = obstacles.Radius;
         for (; _stepsLeft > 0 && elapsed < maxTime; _stepsLeft--)
         {
@@ -64,20 +69,22 @@ internal sealed class SphereSweep(Obstacles obstacles)
         return false;
     }
 
-    /// <summary>Finds the moment of an impact.</summary>
+    /// <summary>Finds the moment of an impact by false position, each guess checked by a query.</summary>
     /// <param name="motion">Overlaps nothing at its start.</param>
-    /// <param name="upperTime">A time when it overlaps.</param>
+    /// <param name="upperTime">A time at which it overlaps something.</param>
     /// <param name="overlapped">What it overlaps then.</param>
     /// <param name="hit">Receives what is touched first.</param>
+    /// <returns>Seconds from the start of the path.</returns>
     private double FindImpactTime(in Motion motion, double upperTime, Contact overlapped, out Contact hit)
     {
-        (hit, var lowerTime) = (overlapped, 0.0);
+        hit = overlapped;
+        var lowerTime = 0.0;
         for (var i = 0; i < MaxRefinements && lowerTime < upperTime; i++)
         {
-            // The time at which what is overlapped last would be touched; now and then the middle, which always comes nearer.
+            // When the obstacle overlapped last would be touched; every fourth time the middle, which always shortens the interval.
             var time = i % 4 == 3 ? 0.5 * (lowerTime + upperTime) : FindTouchTime(in motion, in hit, lowerTime, upperTime);
             var position = motion.PositionAt(time);
-            var tolerance = (ImpactTolerance * obstacles.Radius) + (1e-15 * position.MaxAbsComponent());
+            var tolerance = (ImpactTolerance * obstacles.Radius) + (RoundingFraction * position.MaxAbsComponent());
             var gap = obstacles.TryFindClosestContact(position, MaxOverstep * obstacles.Radius, out var found)
                 ? found.Gap(position)
                 : double.PositiveInfinity;
@@ -89,7 +96,7 @@ internal sealed class SphereSweep(Obstacles obstacles)
                     return time;
                 }
 
-                // Something is touched all along, which may hide what is run into.
+                // Something touched all along may hide the obstacle that is run into.
                 if (Math.Abs(hit.Gap(position)) <= tolerance && IsApproaching(in motion, time, in hit))
                 {
                     hit = RefreshContact(position, in hit, in motion, upperTime);
@@ -101,7 +108,8 @@ internal sealed class SphereSweep(Obstacles obstacles)
 
             if (gap < 0)
             {
-                (upperTime, hit) = (time, found);
+                upperTime = time;
+                hit = found;
             }
             else
             {
@@ -113,11 +121,17 @@ internal sealed class SphereSweep(Obstacles obstacles)
         return lowerTime;
     }
 
-    /// <summary>What was overlapped at a later time, with the point that is nearest now.</summary>
-    private Contact RefreshContact(Vector position, in Contact contact, in Motion motion, double overlapTime) =>
-        contact.BodyIndex < 0
-        && obstacles.TryUpdateContact(position, contact with { CachedNormal = contact.Normal(motion.PositionAt(overlapTime)) },
-        out var updated) ? updated : contact;
+    /// <summary>Updates a surface contact of a later time to its closest point at a position.</summary>
+    private Contact RefreshContact(Vector position, in Contact contact, in Motion motion, double overlapTime)
+    {
+        if (contact.IsBody)
+        {
+            return contact;
+        }
+
+        var later = contact with { CachedNormal = contact.Normal(motion.PositionAt(overlapTime)) };
+        return obstacles.TryUpdateContact(position, in later, out var updated) ? updated : contact;
+    }
 
     private static bool IsApproaching(in Motion motion, double time, in Contact contact)
     {
@@ -125,28 +139,28 @@ internal sealed class SphereSweep(Obstacles obstacles)
         return Vector.Dot(velocity, contact.Normal(motion.PositionAt(time))) < -GrazingSine * velocity.MaxAbsComponent();
     }
 
-    /// <summary>When the distance from one contact would be its reach, between a time before and one after.</summary>
+    /// <summary>Finds when one obstacle alone would be touched, between a time before and a time of overlap.</summary>
     private static double FindTouchTime(in Motion motion, in Contact contact, double lowerTime, double upperTime)
     {
         var normal = contact.Normal(motion.PositionAt(upperTime));
         var isFlat = contact.IsFlat;
-        var gapAtLower = Gap(in motion, in contact, lowerTime);
+        var gapAtLower = Gap(in motion, in contact, normal, isFlat, lowerTime);
         if (isFlat && gapAtLower <= 0)
         {
-            // Before, the centre was beside the face, beyond its plane: then it is an edge that is met.
+            // Before, the centre was beside the face, beyond its plane: then an edge is met.
             isFlat = false;
-            gapAtLower = Gap(in motion, in contact, lowerTime);
+            gapAtLower = Gap(in motion, in contact, normal, isFlat, lowerTime);
         }
 
-        var gapAtUpper = Gap(in motion, in contact, upperTime);
+        var gapAtUpper = Gap(in motion, in contact, normal, isFlat, upperTime);
         var tolerance = 0.1 * ImpactTolerance * contact.CombinedRadius;
         if (gapAtLower <= tolerance && !IsApproaching(in motion, lowerTime, in contact))
         {
-            // It leaves what it touches, and comes back later.
+            // It leaves what it touches, and returns later: begin at a time in between when it is free.
             var time = 0.5 * (lowerTime + upperTime);
             for (var i = 0; i < MaxRefinements && gapAtLower <= tolerance && time > lowerTime; i++, time = 0.5 * (lowerTime + time))
             {
-                gapAtLower = Gap(in motion, in contact, time);
+                gapAtLower = Gap(in motion, in contact, normal, isFlat, time);
                 if (gapAtLower > tolerance)
                 {
                     lowerTime = time;
@@ -160,15 +174,9 @@ internal sealed class SphereSweep(Obstacles obstacles)
             return lowerTime;
         }
 
-        double Gap(in Motion path, in Contact to, double time)
-        {
-            var separation = to.PointToCentre(path.PositionAt(time));
-            return (isFlat ? Vector.Dot(separation, normal) : separation.Length()) - to.CombinedRadius;
-        }
-
         // False position with halved weights (Illinois): keeps both sides, and gains about half as many digits again in each round.
         var side = 0;
-        for (var i = 0; i < 40 && upperTime - lowerTime > 1e-16 * upperTime; i++)
+        for (var i = 0; i < MaxFalsePositions && upperTime - lowerTime > 1e-16 * upperTime; i++)
         {
             var guess = ((lowerTime * gapAtUpper) - (upperTime * gapAtLower)) / (gapAtUpper - gapAtLower);
             if (!(guess > lowerTime && guess < upperTime))
@@ -176,7 +184,7 @@ internal sealed class SphereSweep(Obstacles obstacles)
                 break;
             }
 
-            var gap = Gap(in motion, in contact, guess);
+            var gap = Gap(in motion, in contact, normal, isFlat, guess);
             if (Math.Abs(gap) <= tolerance)
             {
                 return guess;
@@ -184,18 +192,27 @@ internal sealed class SphereSweep(Obstacles obstacles)
 
             if (gap > 0)
             {
-                (lowerTime, gapAtLower) = (guess, gap);
+                lowerTime = guess;
+                gapAtLower = gap;
                 gapAtUpper = side == 1 ? 0.5 * gapAtUpper : gapAtUpper;
                 side = 1;
             }
             else
             {
-                (upperTime, gapAtUpper) = (guess, gap);
+                upperTime = guess;
+                gapAtUpper = gap;
                 gapAtLower = side == -1 ? 0.5 * gapAtLower : gapAtLower;
                 side = -1;
             }
         }
 
         return lowerTime;
+    }
+
+    /// <summary>Free distance from an obstacle at a time; for a flat one the distance from its plane, which may be negative.</summary>
+    private static double Gap(in Motion motion, in Contact contact, Vector normal, bool isFlat, double time)
+    {
+        var pointToCentre = contact.PointToCentre(motion.PositionAt(time));
+        return (isFlat ? Vector.Dot(pointToCentre, normal) : pointToCentre.Length()) - contact.CombinedRadius;
     }
 }

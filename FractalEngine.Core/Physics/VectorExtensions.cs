@@ -2,9 +2,9 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Physics;
 
-/// <summary>Directions of what may have none.</summary>
+/// <summary>Directions of vectors that may be zero.</summary>
 internal static class VectorExtensions
 {
-    /// <summary>The vector at length 1; zero for zero.</summary>
+    /// <summary>Scales a vector to length 1 and leaves the zero vector as it is.</summary>
     public static Vector UnitVectorOrZero(this Vector vector) => vector == Vector.Zero ? vector : vector.UnitVector();
 }

@@ -15,6 +15,10 @@ public sealed record LoadedScene(Scene Scene, ImmutableArray<PlacedModel> Object
     /// <summary>The models, each once, in the order of their first use.</summary>
     public IEnumerable<Model> Models => Objects.Select(placed => placed.Model).Distinct();
 
+    /// <summary>The models of the objects that no physics moves, each once.</summary>
+    public IEnumerable<Model> StaticModels =>
+        Objects.Where(static placed => placed.Declaration is not PhysicsObject).Select(static placed => placed.Model).Distinct();
+
     /// <summary>Places the models of a scene made in code, or loaded from a file.</summary>
     /// <exception cref="FractalEngineException">An object names a file that is not loaded.</exception>
     public static LoadedScene Of(Scene scene) => new(scene, [.. scene.Objects.Select(declared => new PlacedModel(declared))]);

@@ -45,18 +45,7 @@ public sealed class PlacedModel
     {
         FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } =>
             fractal.WithPlacement(declaration.Placement).Bounds,
-        MeshModel => ComputeWorldBounds(objectToWorld, model.Mesh),
+        MeshModel => model.Mesh.ComputeBounds(objectToWorld),
         _ => model.Bounds.Transform(objectToWorld),
     };
-
-    private static BoundingBox ComputeWorldBounds(AffineMap objectToWorld, Mesh mesh)
-    {
-        var box = BoundingBox.Empty;
-        for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
-        {
-            box = box.Including(objectToWorld * mesh.Vertex(vertex));
-        }
-
-        return box;
-    }
 }

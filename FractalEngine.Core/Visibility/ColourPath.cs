@@ -4,32 +4,33 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Core.Visibility;
 
 /// <summary>
-/// What the colour of a sub-fractal follows from, see <see cref="GradientKind"/>: what is known of the maps that lead to it, identities
+/// The facts about the maps that lead to a sub-fractal which decide about its colour, see <see cref="GradientKind"/>. Identities are
 /// left out.
 /// </summary>
-/// <param name="MapCount">How many they are.</param>
+/// <param name="MapCount">Number of maps that lead to the sub-fractal.</param>
 /// <param name="PathFraction">
-/// Between 0 and 1: the place of the outermost one in its set counts half, that of the next one a quarter, and so on.
+/// Number from 0 to 1: the position of the outermost map in its set decides about half of it, that of the next one about a quarter, and
+/// so on.
 /// </param>
-/// <param name="RemainingWeight">What the next one counts, twice.</param>
+/// <param name="RemainingWeight">Twice the weight that the position of the next map has.</param>
 public readonly record struct ColourPath(int MapCount, float PathFraction, float RemainingWeight)
 {
     private const int MaxSweepLevels = 12;
 
-    /// <summary>Of the whole fractal.</summary>
+    /// <summary>The path of the whole fractal, without any map.</summary>
     public static ColourPath Start => new(0, 0, 1);
 
-    /// <summary>One map further.</summary>
-    /// <param name="mapIndex">Its number in its set; −1 for the identity.</param>
-    /// <param name="childIndex">Its place among the copies.</param>
-    /// <param name="childCount">Of the copies.</param>
+    /// <summary>Appends one map to the path.</summary>
+    /// <param name="mapIndex">Index of the map in its set; −1 for the identity.</param>
+    /// <param name="childIndex">Index of the child instance among its siblings.</param>
+    /// <param name="childCount">Number of the child instances.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal ColourPath Append(int mapIndex, int childIndex, int childCount) => mapIndex < 0 ? this
         : new(MapCount + 1, PathFraction + (0.5f * RemainingWeight * childIndex / Math.Max(1, childCount - 1)), 0.5f * RemainingWeight);
 
-    /// <summary>From 0 to 1, between two colours.</summary>
-    /// <param name="gradient">What decides.</param>
-    /// <param name="levelCount">Of the whole fractal.</param>
+    /// <summary>Computes the position between the two colours of a gradient, from 0 to 1.</summary>
+    /// <param name="gradient">Kind of the gradient; not <see cref="GradientKind.None"/>.</param>
+    /// <param name="levelCount">Number of levels of the whole fractal.</param>
     internal float ComputeGradientFactor(GradientKind gradient, long levelCount)
     {
         if (gradient == GradientKind.Path)

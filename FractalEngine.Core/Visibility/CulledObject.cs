@@ -5,23 +5,24 @@ using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Visibility;
 
-/// <summary>An object of a scene, as far as it matters for what is drawn of it.</summary>
-/// <param name="Hierarchy">Of its fractal or mesh.</param>
-/// <param name="ObjectToWorld">From the frame of the fractal to world space.</param>
-/// <param name="VertexOrigin">The point of the base mesh that drawn vertices are relative to.</param>
+/// <summary>An object of a scene, reduced to what decides about its visible instances.</summary>
+/// <param name="Hierarchy">Level-of-detail hierarchy of the object's fractal or mesh.</param>
+/// <param name="ObjectToWorld">Map from the frame of the fractal to world space.</param>
+/// <param name="VertexOrigin">Point of the base mesh's frame that the drawn vertices are relative to.</param>
 /// <param name="WindingSign">
-/// 1 where the base mesh is a solid wound outwards, −1 inwards, so that its back is never seen; 0 where that is not known.
+/// 1 where the base mesh is a closed solid wound outwards, −1 inwards, so that its back faces are never visible; 0 where that is unknown.
 /// </param>
-/// <param name="IsOpaque">Whether it hides what lies behind.</param>
+/// <param name="IsOpaque">Whether the object occludes what lies behind it.</param>
 public sealed record CulledObject(LodHierarchy Hierarchy, AffineMap ObjectToWorld, Vector VertexOrigin, int WindingSign,
     bool IsOpaque = true)
 {
-    /// <summary>
-    /// What drawing begins with, in the place of the whole fractal under <see cref="ObjectToWorld"/>: for a camera that is told relative to
-    /// a sub-fractal (<see cref="FractalAddress"/>). The camera's position in the view is then not used.
-    /// </summary>
+    /// <summary>The sub-fractals to draw instead of the whole fractal under <see cref="ObjectToWorld"/>.</summary>
+    /// <remarks>
+    /// For a camera whose position is given relative to a sub-fractal (<see cref="FractalAddress"/>). The camera position of the view is
+    /// then not used.
+    /// </remarks>
     public ImmutableArray<LodRoot>? Roots { get; init; }
 
-    /// <summary>What the instances' colours differ by: each then has a number from 0 to 1.</summary>
+    /// <summary>The kind of the object's gradient; unless it is none, each instance has a gradient factor from 0 to 1.</summary>
     public GradientKind GradientKind { get; init; }
 }

@@ -1,28 +1,25 @@
-
 namespace FractalEngine.Core.Visibility;
 
-/// <summary>
-/// What is left out of a picture of a fractal. Each part can be switched off, which changes the cost of a picture and hardly the picture.
-/// </summary>
+/// <summary>The settings of culling and of the level of detail.</summary>
+/// <remarks>Each kind of culling can be switched off, which changes the cost of a frame and hardly its image.</remarks>
 public sealed record CullingSettings
 {
-    /// <summary>Sub-fractals that appear smaller are drawn as one copy of the base mesh. Pixels.</summary>
+    /// <summary>Projected size in pixels below which a sub-fractal is drawn as one proxy instance of the base mesh.</summary>
     public double MinProjectedSize { get; init; } = 1.5;
 
-    /// <summary>Leaves out what lies beside the picture.</summary>
+    /// <summary>Whether sub-fractals outside the view frustum are culled.</summary>
     public bool FrustumCulling { get; init; } = true;
 
-    /// <summary>Leaves out what is hidden behind nearer parts, and what covers no pixel.</summary>
+    /// <summary>Whether sub-fractals are culled that are hidden behind closer ones, or that cover no pixel.</summary>
     public bool OcclusionCulling { get; init; } = true;
 
-    /// <summary>True where pixels have several samples: coverage is then kept for quarters of pixels.</summary>
+    /// <summary>Whether pixels have several samples; occlusion is then tracked for quarters of pixels.</summary>
     public bool IsMultisampled { get; init; }
 
-    /// <summary>
-    /// More instances in one picture are avoided by raising <see cref="MinProjectedSize"/>; each object has one at least.
-    /// </summary>
+    /// <summary>Maximum number of instances of a frame, kept by raising <see cref="MinProjectedSize"/>.</summary>
+    /// <remarks>Each object has one instance at least, however small the budget.</remarks>
     public int InstanceBudget { get; init; } = 500_000;
 
-    /// <summary>The strips of a picture are worked on by so many threads; the result is the same for any number.</summary>
+    /// <summary>Number of threads that cull the strips of a frame; the result is the same for any number.</summary>
     public int ThreadCount { get; init; } = Environment.ProcessorCount;
 }

@@ -1,25 +1,24 @@
-
 namespace FractalEngine.Core.Visibility;
 
-/// <summary>What it took to choose what is drawn, and what was left out.</summary>
+/// <summary>Counts of what culling has visited and skipped in one frame.</summary>
 public record struct CullingStatistics
 {
-    /// <summary>Sub-fractals looked at.</summary>
+    /// <summary>Number of sub-fractals that were tested.</summary>
     public long VisitedNodes { get; set; }
 
-    /// <summary>Of these, beside the picture, with all below.</summary>
+    /// <summary>Number of tested sub-fractals outside the view frustum, whose children were skipped.</summary>
     public long OutsideFrustum { get; set; }
 
-    /// <summary>Of these, hidden behind nearer ones, with all below.</summary>
+    /// <summary>Number of tested sub-fractals hidden behind closer ones, whose children were skipped.</summary>
     public long Occluded { get; set; }
 
-    /// <summary>Of these, drawn as one copy of the base mesh because of their size.</summary>
+    /// <summary>Number of tested sub-fractals drawn as one proxy instance because of their size.</summary>
     public long Proxies { get; set; }
 
-    /// <summary>Copies of the base mesh that would have covered no pixel that is not covered by nearer ones.</summary>
+    /// <summary>Number of tested sub-fractals that cover no sample, or none that closer ones leave free.</summary>
     public long ZeroCoverage { get; set; }
 
-    /// <summary>Sum of two costs.</summary>
+    /// <summary>Adds the counts of two parts of a frame.</summary>
     public static CullingStatistics operator +(CullingStatistics statistics1, CullingStatistics statistics2) => new()
     {
         VisitedNodes = statistics1.VisitedNodes + statistics2.VisitedNodes,

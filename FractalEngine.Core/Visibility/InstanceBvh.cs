@@ -1,46 +1,56 @@
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Visibility;
 
 /// <summary>
-/// Groups instances that are near each other, and groups of groups, as states of a <see cref="LodHierarchy"/> whose levels are their
-/// numbers.
+/// A bounding volume hierarchy over the instances of a mesh, as nodes of a <see cref="LodHierarchy"/>. The number of remaining levels of
+/// a node is its index.
 /// </summary>
 internal sealed class InstanceBvh
 {
     private const int MaxLeafSize = 16;
+
+    // Each node has up to 2³ groups as its children.
+    private const int SplitsPerNode = 3;
 
     private readonly BoundingBox _baseBox;
     private readonly AffineMap[] _maps;
     private readonly BoundingBox[] _boxes;
     private readonly List<LodNode> _nodes = [];
 
-    /// <summary>For instances of a base mesh.</summary>
-    /// <param name="baseBox">Of the mesh.</param>
-    /// <param name="maps">From its frame, none twice.</param>
+    /// <summary>Builds the hierarchy over instances of a base mesh.</summary>
+    /// <param name="baseBox">Bounding box of the base mesh.</param>
+    /// <param name="maps">Distinct maps from the frame of the base mesh to that of the instances.</param>
     public InstanceBvh(BoundingBox baseBox, AffineMap[] maps)
     {
-        (_baseBox, _maps, _boxes) = (baseBox, maps, [.. maps.Select(baseBox.Transform)]);
+        _baseBox = baseBox;
+        _maps = maps;
+        _boxes = [.. maps.Select(baseBox.Transform)];
         _nodes.Add(new(maps.Length == 0 ? BoundingBox.Empty : baseBox, AffineMap.Identity, []));
         RootIndex = maps.Length == 0 ? 0 : BuildNode([.. Enumerable.Range(0, maps.Length)]);
         Nodes = [.. _nodes];
     }
 
-    /// <summary>The first is the base mesh.</summary>
+    /// <summary>Nodes of the hierarchy; the first is the base mesh.</summary>
     public LodNode[] Nodes { get; }
 
-    /// <summary>The number of the state of all instances.</summary>
+    /// <summary>Index of the node that holds all instances.</summary>
     public int RootIndex { get; }
 
-    /// <summary>The map from one box to another; where the first is flat, the second's size is not reached.</summary>
+    /// <summary>Computes the scale and translation from one box to another.</summary>
+    /// <remarks>Along an axis where the first box is flat, its size is kept.</remarks>
     public static AffineMap MapBoxToBox(BoundingBox from, BoundingBox to)
     {
-        var ((x1, y1, z1), (x2, y2, z2)) = (from.Size, to.Size);
+        var (x1, y1, z1) = from.Size;
+        var (x2, y2, z2) = to.Size;
         var scale = new Vector(x1 > 0 ? x2 / x1 : 1, y1 > 0 ? y2 / y1 : 1, z1 > 0 ? z2 / z1 : 1);
         return new(Matrix.Diagonal(scale), to.Centre - from.Centre.Stretch(scale));
     }
 
+    /// <summary>Builds the node of some instances, after those of its children.</summary>
+    /// <returns>Index of the node.</returns>
     private int BuildNode(Span<int> instances)
     {
         var box = BoundingBox.Empty;
@@ -54,25 +64,25 @@ internal sealed class InstanceBvh
         {
             foreach (var instance in instances)
             {
-                children.Add(new(_maps[instance], _boxes[instance], ~0L, instance));
+                children.Add(new(_maps[instance], _boxes[instance], LevelStep.To(0), instance));
             }
         }
         else
         {
-            SplitAtMedian(instances, 3, children);
+            SplitAtMedian(instances, SplitsPerNode, children);
         }
 
         _nodes.Add(new(box, MapBoxToBox(_baseBox, box), [.. children]));
         return _nodes.Count - 1;
     }
 
-    /// <summary>Halves along the longest side, three times.</summary>
+    /// <summary>Splits instances at the median of their centres along the longest side, and the halves in turn.</summary>
     private void SplitAtMedian(Span<int> instances, int remainingSplits, List<LodChild> children)
     {
         if (remainingSplits == 0 || instances.Length <= MaxLeafSize)
         {
             var node = BuildNode(instances);
-            children.Add(new(AffineMap.Identity, _nodes[node].Box, ~(long)node, -1));
+            children.Add(new(AffineMap.Identity, _nodes[node].Box, LevelStep.To(node), -1));
             return;
         }
 

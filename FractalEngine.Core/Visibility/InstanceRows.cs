@@ -5,13 +5,13 @@ using FractalEngine.Core.Collision.Fractals;
 
 namespace FractalEngine.Core.Visibility;
 
-/// <summary>A growing list of instances as the GPU takes them: rows of 3×4 maps in single precision.</summary>
+/// <summary>A growing list of instances in the form that the GPU takes: rows of 3×4 maps in single precision.</summary>
 internal sealed class InstanceRows
 {
-    /// <summary>Of one instance.</summary>
+    /// <summary>Number of floats that one instance takes.</summary>
     public const int FloatsPerInstance = 12;
 
-    // Grows by one in so many: what is kept is mostly used.
+    // The list grows by a quarter, so that most of the memory is used.
     private const int GrowthDivisor = 4;
 
     private readonly bool _hasPathHashes;
@@ -19,44 +19,42 @@ internal sealed class InstanceRows
     private float[] _gradientFactors = [];
     private ulong[] _pathHashes = [];
 
-    /// <summary>An empty list.</summary>
-    /// <param name="hasPathHashes">Whether it is kept what tells instances apart.</param>
+    /// <summary>Creates an empty list.</summary>
+    /// <param name="hasPathHashes">Whether the list keeps hashes that tell the instances of one object apart.</param>
     public InstanceRows(bool hasPathHashes) => _hasPathHashes = hasPathHashes;
 
-    /// <summary>How many.</summary>
+    /// <summary>Number of instances in the list.</summary>
     public int Count { get; private set; }
 
-    /// <summary>The rows, [<see cref="Count"/> × 12].</summary>
+    /// <summary>Rows of the maps, [<see cref="Count"/> × 12].</summary>
     public ReadOnlySpan<float> Span => _rows.AsSpan(0, Count * FloatsPerInstance);
 
-    /// <summary>
-    /// Numbers from 0 to 1 between two colours, [<see cref="Count"/>]; only those of objects that have them mean anything.
-    /// </summary>
+    /// <summary>Gradient factors from 0 to 1, [at most <see cref="Count"/>].</summary>
+    /// <remarks>Only those of objects with a gradient have a meaning; the list ends with the last of these.</remarks>
     public ReadOnlySpan<float> GradientFactors => _gradientFactors.AsSpan(0, Math.Min(Count, _gradientFactors.Length));
 
-    /// <summary>What tells the instances of one object apart.</summary>
+    /// <summary>Hashes that tell the instances of one object apart, [<see cref="Count"/>].</summary>
     public ReadOnlySpan<ulong> PathHashes => _pathHashes.AsSpan(0, Count);
 
-    /// <summary>Bytes.</summary>
-    public long StorageBytes =>
-        (_rows.Length * sizeof(float)) + (_gradientFactors.Length * sizeof(float)) + (_pathHashes.Length * sizeof(ulong));
-
-    /// <summary>Makes room without giving back memory.</summary>
+    /// <summary>Removes all instances, and keeps the memory for the next ones.</summary>
     public void Clear() => Count = 0;
 
-    /// <summary>Appends an instance.</summary>
-    /// <param name="map">From the frame of the base mesh.</param>
-    /// <param name="vertexOrigin">The point of that frame that drawn vertices are relative to.</param>
-    /// <param name="pathHash">What tells it apart.</param>
+    /// <summary>Appends an instance to the list.</summary>
+    /// <param name="map">Map from the frame of the base mesh.</param>
+    /// <param name="vertexOrigin">Point of that frame that the drawn vertices are relative to.</param>
+    /// <param name="pathHash">Hash that tells the instance apart from others of its object.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Add(in SimdAffineMap map, Vector256<double> vertexOrigin, ulong pathHash)
     {
         EnsureCapacity();
-        var (v1, v2, v3, t) = (ToSingle(map.V1), ToSingle(map.V2), ToSingle(map.V3), ToSingle(map.Apply(vertexOrigin)));
+        var v1 = ToSingle(map.V1);
+        var v2 = ToSingle(map.V2);
+        var v3 = ToSingle(map.V3);
+        var translation = ToSingle(map.Apply(vertexOrigin));
         ref var target = ref Unsafe.Add(ref MemoryMarshal.GetArrayDataReference(_rows), Count * FloatsPerInstance);
-        Vector128.Create(v1[0], v2[0], v3[0], t[0]).StoreUnsafe(ref target);
-        Vector128.Create(v1[1], v2[1], v3[1], t[1]).StoreUnsafe(ref target, 4);
-        Vector128.Create(v1[2], v2[2], v3[2], t[2]).StoreUnsafe(ref target, 8);
+        Vector128.Create(v1[0], v2[0], v3[0], translation[0]).StoreUnsafe(ref target);
+        Vector128.Create(v1[1], v2[1], v3[1], translation[1]).StoreUnsafe(ref target, 4);
+        Vector128.Create(v1[2], v2[2], v3[2], translation[2]).StoreUnsafe(ref target, 8);
         if (_hasPathHashes)
         {
             _pathHashes[Count] = pathHash;
@@ -65,19 +63,10 @@ internal sealed class InstanceRows
         Count++;
     }
 
-    /// <summary>Gives the last instance a number between two colours.</summary>
-    public void SetGradientFactor(float gradientFactor)
-    {
-        if (_gradientFactors.Length < Count)
-        {
-            Array.Resize(ref _gradientFactors, _rows.Length / FloatsPerInstance);
-        }
-
-        _gradientFactors[Count - 1] = gradientFactor;
-    }
-
-    /// <summary>Appends an instance of another list that has paths.</summary>
-    public void Add(InstanceRows other, int index)
+    /// <summary>Appends an instance of another list, with its gradient factor.</summary>
+    /// <param name="other">List that has path hashes if this one has.</param>
+    /// <param name="index">Index of the instance in the other list.</param>
+    public void AddFrom(InstanceRows other, int index)
     {
         EnsureCapacity();
         other._rows.AsSpan(index * FloatsPerInstance, FloatsPerInstance).CopyTo(_rows.AsSpan(Count * FloatsPerInstance));
@@ -91,6 +80,17 @@ internal sealed class InstanceRows
         {
             SetGradientFactor(other._gradientFactors[index]);
         }
+    }
+
+    /// <summary>Sets the gradient factor of the last instance, a number from 0 to 1.</summary>
+    public void SetGradientFactor(float gradientFactor)
+    {
+        if (_gradientFactors.Length < Count)
+        {
+            Array.Resize(ref _gradientFactors, _rows.Length / FloatsPerInstance);
+        }
+
+        _gradientFactors[Count - 1] = gradientFactor;
     }
 
     private void EnsureCapacity()

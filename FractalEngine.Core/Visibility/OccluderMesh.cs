@@ -3,17 +3,18 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Visibility;
 
-/// <summary>The corners of a base mesh as single floats about its middle, for drawing it into a <see cref="OcclusionBuffer"/>.</summary>
+/// <summary>
+/// A base mesh in the form that an <see cref="OccluderRasterizer"/> takes: welded vertices in single precision, relative to its centre.
+/// </summary>
 internal sealed class OccluderMesh
 {
-    /// <summary>
-    /// Meshes of more faces take too long to draw here: they hide nothing, and are themselves left out only with their boxes.
-    /// </summary>
+    /// <summary>Maximum number of faces of a mesh that occludes.</summary>
+    /// <remarks>Larger meshes take too long to rasterize here: they hide nothing, and are culled by their boxes only.</remarks>
     public const int MaxFaceCount = 256;
 
     private const int Lanes = 8;
 
-    /// <summary>For a mesh.</summary>
+    /// <summary>Prepares a mesh for rasterization.</summary>
     public OccluderMesh(Mesh mesh)
     {
         Centre = mesh.FaceCount == 0 ? Vector.Zero : mesh.Bounds.Centre;
@@ -22,43 +23,49 @@ internal sealed class OccluderMesh
             return;
         }
 
-        var indexOfPosition = new Dictionary<Vector, int>();
+        var representatives = VertexWelding.FindRepresentatives(mesh);
+        var indexOfRepresentative = new Dictionary<int, int>();
         var positions = new List<Vector>();
         VertexIndices = new int[mesh.VertexIndices.Length];
         for (var i = 0; i < VertexIndices.Length; i++)
         {
-            var position = mesh.Vertex(mesh.VertexIndices[i]);
-            if (!indexOfPosition.TryGetValue(position, out VertexIndices[i]))
+            var representative = representatives[mesh.VertexIndices[i]];
+            if (indexOfRepresentative.TryAdd(representative, positions.Count))
             {
-                indexOfPosition[position] = VertexIndices[i] = positions.Count;
-                positions.Add(position);
+                positions.Add(mesh.Vertex(representative));
             }
+
+            VertexIndices[i] = indexOfRepresentative[representative];
         }
 
         PaddedVertexCount = (positions.Count + Lanes - 1) / Lanes * Lanes;
-        (X, Y, Z) = (new float[PaddedVertexCount], new float[PaddedVertexCount], new float[PaddedVertexCount]);
+        X = new float[PaddedVertexCount];
+        Y = new float[PaddedVertexCount];
+        Z = new float[PaddedVertexCount];
         for (var i = 0; i < positions.Count; i++)
         {
             var (x, y, z) = positions[i] - Centre;
-            (X[i], Y[i], Z[i]) = ((float)x, (float)y, (float)z);
+            X[i] = (float)x;
+            Y[i] = (float)y;
+            Z[i] = (float)z;
         }
     }
 
-    /// <summary>What the coordinates are relative to.</summary>
+    /// <summary>Point of the mesh's frame that the coordinates are relative to.</summary>
     public Vector Centre { get; }
 
-    /// <summary>How many corners, rounded up to whole vectors.</summary>
+    /// <summary>Number of vertices, rounded up to whole vectors of eight.</summary>
     public int PaddedVertexCount { get; }
 
-    /// <summary>Numbers of corners, [faces × 3]; empty where the mesh has too many.</summary>
+    /// <summary>Indices of the triangles' vertices, [faces × 3]; empty where the mesh has too many faces.</summary>
     public int[] VertexIndices { get; } = [];
 
-    /// <summary>Of the corners.</summary>
+    /// <summary>The x coordinates of the vertices, [<see cref="PaddedVertexCount"/>].</summary>
     public float[] X { get; } = [];
 
-    /// <summary>Of the corners.</summary>
+    /// <summary>The y coordinates of the vertices, [<see cref="PaddedVertexCount"/>].</summary>
     public float[] Y { get; } = [];
 
-    /// <summary>Of the corners.</summary>
+    /// <summary>The z coordinates of the vertices, [<see cref="PaddedVertexCount"/>].</summary>
     public float[] Z { get; } = [];
 }

@@ -4,14 +4,14 @@ using System.Runtime.Intrinsics;
 
 namespace FractalEngine.Core.Visibility;
 
-/// <summary>
-/// How near the nearest surface is at each pixel of a part of a picture. Nearness is linear on the screen: one divided by the depth in
-/// perspective, the depth's negative otherwise. Tiles of 8 by 8 pixels keep the least nearness in them, so that what is hidden is mostly
-/// found so without looking at pixels.
-/// </summary>
+/// <summary>The inverse depth of the closest surface at each pixel of a strip of a frame.</summary>
+/// <remarks>
+/// Inverse depth is linear on the screen: 1 divided by the depth in perspective, the negative depth otherwise. Tiles of 8 × 8 pixels keep
+/// the minimum of their pixels, so that most hidden rectangles are found without reading pixels.
+/// </remarks>
 internal sealed class OcclusionBuffer
 {
-    /// <summary>Pixels of a tile's side, and of a row that is looked at together.</summary>
+    /// <summary>Side of a tile in pixels, and number of pixels in one vector.</summary>
     public const int TileSize = 8;
 
     private float[] _inverseDepths = [];
@@ -24,38 +24,47 @@ internal sealed class OcclusionBuffer
     private int _stride;
     private int _tilesPerRow;
 
-    /// <summary>The first column of the part.</summary>
+    /// <summary>First column of the strip.</summary>
     public int Left { get; private set; }
 
-    /// <summary>One more than the last column.</summary>
+    /// <summary>One more than the last column of the strip.</summary>
     public int Right { get; private set; }
 
-    /// <summary>Rows of the picture.</summary>
+    /// <summary>Number of rows of the frame.</summary>
     public int Height { get; private set; }
 
-    /// <summary>Begins a new picture without any surface.</summary>
-    /// <param name="left">The first column of the part.</param>
-    /// <param name="right">One more than the last.</param>
-    /// <param name="height">Of the picture.</param>
+    /// <summary>The smallest and largest coordinate of a sample within its pixel.</summary>
+    /// <param name="isMultisampled">As in <see cref="Clear"/>.</param>
+    public static (float Min, float Max) SampleOffsets(bool isMultisampled) => isMultisampled ? (0.25f, 0.75f) : (0.5f, 0.5f);
+
+    /// <summary>Begins a new frame without any surface.</summary>
+    /// <param name="left">First column of the strip.</param>
+    /// <param name="right">One more than the last column.</param>
+    /// <param name="height">Number of rows of the frame.</param>
     /// <param name="isMultisampled">
-    /// True where pixels are quarters of pixels that have four samples: then their samples are where graphics hardware has them (the
-    /// standard pattern of Direct3D 11, which OpenGL's drivers follow), else in the middles.
+    /// True where pixels are quarters of pixels that have four samples: each sample then lies where graphics hardware has it (the standard
+    /// pattern of Direct3D 11, which OpenGL drivers follow), else at the centre.
     /// </param>
     public void Clear(int left, int right, int height, bool isMultisampled = false)
     {
         _rowOffsets = isMultisampled ? new(0.25f, 0.75f) : new(0.5f, 0.5f);
         _columnOffsets = Vector256.Create(isMultisampled ? 0.75f : 0.5f, isMultisampled ? 0.25f : 0.5f, 0, 0, 0, 0, 0, 0);
         _columnOffsets = Vector256.Shuffle(_columnOffsets, Vector256.Create(0, 1, 0, 1, 0, 1, 0, 1));
-        (_minSampleOffset, _maxSampleOffset) = isMultisampled ? (0.25f, 0.75f) : (0.5f, 0.5f);
-        (Left, Right, Height) = (left, right, height);
+        (_minSampleOffset, _maxSampleOffset) = SampleOffsets(isMultisampled);
+        Left = left;
+        Right = right;
+        Height = height;
         _tilesPerRow = (right - left + TileSize - 1) / TileSize;
-        // Rows of eight may begin at any column.
+        // Vectors of eight pixels may begin at any column.
         _stride = (_tilesPerRow + 1) * TileSize;
         var rows = (height + TileSize - 1) / TileSize;
-        var (pixels, tiles) = (_stride * rows * TileSize, _tilesPerRow * rows);
+        var pixels = _stride * rows * TileSize;
+        var tiles = _tilesPerRow * rows;
         if (_inverseDepths.Length < pixels || _tileMinInverseDepths.Length < tiles)
         {
-            (_inverseDepths, _tileMinInverseDepths, _isTileStale) = (new float[pixels], new float[tiles], new bool[tiles]);
+            _inverseDepths = new float[pixels];
+            _tileMinInverseDepths = new float[tiles];
+            _isTileStale = new bool[tiles];
         }
 
         _inverseDepths.AsSpan(0, pixels).Fill(float.NegativeInfinity);
@@ -63,15 +72,16 @@ internal sealed class OcclusionBuffer
         _isTileStale.AsSpan(0, tiles).Clear();
     }
 
-    /// <summary>True when everything in a rectangle is nearer than what is asked for.</summary>
-    /// <param name="left">First column, within the part.</param>
+    /// <summary>Tests whether all pixels of a rectangle have surfaces at least as close as an inverse depth.</summary>
+    /// <param name="left">First column, within the strip.</param>
     /// <param name="top">First row.</param>
     /// <param name="right">Last column, no less than the first.</param>
     /// <param name="bottom">Last row, no less than the first.</param>
-    /// <param name="maxInverseDepth">The largest there.</param>
+    /// <param name="maxInverseDepth">Largest inverse depth of what is tested.</param>
     public bool IsOccluded(int left, int top, int right, int bottom, float maxInverseDepth)
     {
-        (left, right) = (left - Left, right - Left);
+        left -= Left;
+        right -= Left;
         for (var tileY = top / TileSize; tileY <= bottom / TileSize; tileY++)
         {
             for (var tileX = left / TileSize; tileX <= right / TileSize; tileX++)
@@ -87,12 +97,15 @@ internal sealed class OcclusionBuffer
         return true;
     }
 
-    /// <summary>Draws a triangle: x and y in pixels, y downwards, and nearness.</summary>
-    /// <returns>True when it is the nearest at some pixel's middle.</returns>
-    public bool RasterizeTriangle(float ax, float ay, float aInverseDepth, float bx, float by, float bInverseDepth, float cx, float cy,
-        float cInverseDepth)
+    /// <summary>Rasterizes a triangle with corners a, b and c.</summary>
+    /// <remarks>Coordinates x and y are pixels of the frame, y downwards.</remarks>
+    /// <returns>True when the triangle is the closest surface at some sample.</returns>
+    public bool RasterizeTriangle(
+        float ax, float ay, float aInverseDepth,
+        float bx, float by, float bInverseDepth,
+        float cx, float cy, float cInverseDepth)
     {
-        // What is far outside is cut off before it becomes an integer.
+        // Far coordinates are clamped before they become integers.
         var left = Math.Max(FirstSampleIndex(Math.Min(Math.Min(ax, bx), cx)), Left);
         var right = Math.Min(LastSampleIndex(Math.Max(Math.Max(ax, bx), cx)), Right - 1);
         var top = Math.Max(FirstSampleIndex(Math.Min(Math.Min(ay, by), cy)), 0);
@@ -109,7 +122,7 @@ internal sealed class OcclusionBuffer
             return false;
         }
 
-        // Weights of b and c at a place, and from them the nearness.
+        // Barycentric weights of b and c as linear functions of the position, and from them the inverse depth.
         var perArea = 1 / area;
         var (ub, vb) = (acY * perArea, -acX * perArea);
         var (uc, vc) = (-abY * perArea, abX * perArea);
@@ -121,20 +134,22 @@ internal sealed class OcclusionBuffer
         for (var x = left; x <= right; x += TileSize)
         {
             var dx = Vector256.Create(x - ax) + columns;
-            // Down even columns samples are elsewhere than down odd ones.
+            // Samples of even columns have other offsets than those of odd ones.
             var offsets = (x & 1) == 0 ? _columnOffsets : Vector256.Shuffle(_columnOffsets, Vector256.Create(1, 0, 1, 0, 1, 0, 1, 0));
-            var (weightB0, weightC0, columnInverseDepth) =
-                (Vector256.Create(ub) * dx, Vector256.Create(uc) * dx, Vector256.Create(aInverseDepth) + (Vector256.Create(slopeX) * dx));
+            var columnWeightB = Vector256.Create(ub) * dx;
+            var columnWeightC = Vector256.Create(uc) * dx;
+            var columnInverseDepth = Vector256.Create(aInverseDepth) + (Vector256.Create(slopeX) * dx);
             var columnMask = Vector256.LessThanOrEqual(columns, Vector256.Create((float)(right - x)));
             for (var y = top; y <= bottom; y++)
             {
                 var dy = Vector256.Create(y - ay) + offsets;
                 var ox = (y & 1) == 0 ? _rowOffsets.Even : _rowOffsets.Odd;
-                var weightB = weightB0 + (Vector256.Create(vb) * dy) + Vector256.Create(ub * ox);
-                var weightC = weightC0 + (Vector256.Create(vc) * dy) + Vector256.Create(uc * ox);
-                var isInside = Vector256.GreaterThanOrEqual(weightB, Vector256<float>.Zero) & Vector256.GreaterThanOrEqual(weightC,
-                    Vector256<float>.Zero)
-                    & Vector256.LessThanOrEqual(weightB + weightC, Vector256<float>.One) & columnMask;
+                var weightB = columnWeightB + (Vector256.Create(vb) * dy) + Vector256.Create(ub * ox);
+                var weightC = columnWeightC + (Vector256.Create(vc) * dy) + Vector256.Create(uc * ox);
+                var isInside = Vector256.GreaterThanOrEqual(weightB, Vector256<float>.Zero)
+                    & Vector256.GreaterThanOrEqual(weightC, Vector256<float>.Zero)
+                    & Vector256.LessThanOrEqual(weightB + weightC, Vector256<float>.One)
+                    & columnMask;
                 if (isInside == Vector256<float>.Zero)
                 {
                     continue;
@@ -177,14 +192,16 @@ internal sealed class OcclusionBuffer
         }
     }
 
+    /// <summary>The minimum of a tile's pixels, computed anew if triangles have been rasterized since.</summary>
     private float TileMinInverseDepth(int tileX, int tileY)
     {
         var tile = (tileY * _tilesPerRow) + tileX;
         if (_isTileStale[tile])
         {
             _isTileStale[tile] = false;
-            // Beyond the last row or column nothing is ever drawn, and nothing asked.
-            var (columns, rows) = (Math.Min(TileSize, Right - Left - (tileX * TileSize)), Math.Min(TileSize, Height - (tileY * TileSize)));
+            // Beyond the last row or column nothing is ever rasterized or tested.
+            var columns = Math.Min(TileSize, Right - Left - (tileX * TileSize));
+            var rows = Math.Min(TileSize, Height - (tileY * TileSize));
             ref var first = ref _inverseDepths[(tileY * TileSize * _stride) + (tileX * TileSize)];
             var columnMinima = Vector256.Create(float.PositiveInfinity);
             for (var y = 0; y < rows; y++)
@@ -204,11 +221,14 @@ internal sealed class OcclusionBuffer
         return _tileMinInverseDepths[tile];
     }
 
+    /// <summary>Tests the pixels of a rectangle that lie in one tile.</summary>
     private bool IsTileOccluded(int tileX, int tileY, int left, int top, int right, int bottom, float maxInverseDepth)
     {
-        var (x, firstRow, lastRow) =
-            (tileX * TileSize, Math.Max(top, tileY * TileSize), Math.Min(bottom, (tileY * TileSize) + TileSize - 1));
-        var (firstColumn, lastColumn) = (Math.Max(left - x, 0), Math.Min(right - x, TileSize - 1));
+        var x = tileX * TileSize;
+        var firstRow = Math.Max(top, tileY * TileSize);
+        var lastRow = Math.Min(bottom, (tileY * TileSize) + TileSize - 1);
+        var firstColumn = Math.Max(left - x, 0);
+        var lastColumn = Math.Min(right - x, TileSize - 1);
         var mask = (uint)((1 << (lastColumn + 1)) - (1 << firstColumn));
         ref var pixels = ref _inverseDepths[x];
         for (var y = firstRow; y <= lastRow; y++)

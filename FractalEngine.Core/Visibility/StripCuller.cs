@@ -1,5 +1,3 @@
-using System.Runtime.CompilerServices;
-using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -7,295 +5,231 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Core.Visibility;
 
 /// <summary>
-/// Chooses what is drawn in one strip of a picture: walks the levels of each object from the top, nearest first, and leaves out what lies
-/// outside, what is hidden, and what is too small to be told apart.
+/// Culls the objects of one strip of a frame: traverses the hierarchy of each object from the root, front to back, and emits the
+/// visible instances.
 /// </summary>
-internal sealed partial class StripCuller
+/// <remarks>
+/// Sub-fractals outside the frustum and hidden ones are skipped; those that appear small become one proxy instance. The culler owns only
+/// memory that is reused; all parameters of a run are in a <see cref="StripContext"/>.
+/// </remarks>
+internal sealed class StripCuller
 {
-    // A sub-fractal at this depth is drawn as it stands: its levels hardly shrink.
+    // A sub-fractal at this depth becomes a proxy, since its levels hardly shrink.
     private const int MaxDepth = 1000;
-    private const int MaxInsertionSortCount = 24;
-    private const float SubPixelsPerPixel = 256;
-    private const int MultisampleFactor = 2;
 
-    // Of a whole budget, in one strip.
-    private const int MaxNodesPerInstance = 4;
-    private const int MinInstancesForNodeLimit = 20_000;
-
-    // Left, right, top, bottom, nearness and depth of each copy.
-    private const int FootprintRows = 6;
-
-    // Of a pixel: more than what single precision rounds by.
-    private const float PixelPadding = 1f / 256;
-
-    // A sub-fractal is drawn as it stands, too, when its copies would be smaller than this part of what counts as small.
+    // A sub-fractal also becomes a proxy when its children would be smaller than this fraction of the minimum size.
     private const double MinChildSizeRatio = 0.5;
 
-    // Not when it is itself more than so many times what counts as small: copies that are tiny beside what lies between them are no solid.
+    // The rule for small children holds up to this multiple of the minimum size: children that are tiny beside the gaps between them are
+    // no solid.
     private const double MaxProxySizeRatio = 3;
 
-    private readonly OcclusionBuffer _occlusionBuffer = new();
-    private float[] _screenX = [];
-    private float[] _screenY = [];
-    private float[] _inverseDepths = [];
-    private float[] _sortKeys = new float[256];
-    private float[] _footprints = new float[256 * FootprintRows];
-    private int[] _order = new int[256];
-    private int _stackTop;
-    private CullingView _view;
-    private CullingSettings _settings = new();
-    private CulledObject _object = null!;
-    private OccluderMesh _occluder = null!;
-    private SimdAffineMap _viewToWorld;
-    private Vector256<double> _vertexOrigin;
-    private float _minSampleOffset;
-    private float _maxSampleOffset;
-    private double _minProjectedSize;
-    private double _scaleX;
-    private double _scaleY;
-    private double _centreX;
-    private double _centreY;
-    private int _instanceBudget;
-    private long _maxNodes;
-    private CullingStatistics _statistics;
+    private readonly OccluderRasterizer _rasterizer = new();
+    private readonly ChildFootprints _footprints = new();
 
-    /// <summary>The instances found: rows of 3×4 maps from the frame of the drawn mesh to world axes about the camera.</summary>
-    public InstanceRows Instances { get; } = new(hasPathHashes: false);
+    /// <summary>Instances and statistics of the last run.</summary>
+    public StripOutput Output { get; } = new();
 
-    /// <summary>Those that reach out of the strip, to which others may come as well, with what tells them apart.</summary>
-    public InstanceRows SharedInstances { get; } = new(hasPathHashes: true);
-
-    /// <summary>What it took.</summary>
-    public CullingStatistics Statistics => _statistics;
-
-    /// <summary>True when the near plane cuts through an instance of the object that was added last.</summary>
-    public bool IsNearClipped { get; private set; }
-
-    /// <summary>True when there was more than the budget.</summary>
-    public bool IsOverBudget { get; private set; }
-
-    /// <summary>Begins a picture.</summary>
-    /// <param name="view">Of the whole picture.</param>
-    /// <param name="settings">What is left out.</param>
-    /// <param name="minProjectedSize">What counts as small.</param>
-    /// <param name="instanceBudget">More instances are not looked for.</param>
-    /// <param name="left">First column of the strip.</param>
-    /// <param name="right">One more than the last.</param>
-    public void BeginFrame(in CullingView view, CullingSettings settings, double minProjectedSize, int instanceBudget, int left, int right)
+    /// <summary>Finds the visible instances of all objects.</summary>
+    /// <param name="frame">Parameters of the strip.</param>
+    /// <param name="objects">Objects of the scene.</param>
+    /// <param name="order">Indices of the objects, the closest first: close objects occlude others.</param>
+    public void Cull(in StripFrame frame, IReadOnlyList<CulledObject> objects, ReadOnlySpan<int> order)
     {
-        // From here on, pixels are those of the coverage: two by two where pixels have samples.
-        var samplesPerAxis = settings.IsMultisampled ? MultisampleFactor : 1;
-        (_view, _settings, _minProjectedSize, _instanceBudget, _statistics, IsOverBudget) =
-            (view, settings, samplesPerAxis * minProjectedSize, instanceBudget, default, false);
-        (_scaleX, _scaleY) = (samplesPerAxis * view.PixelsPerUnitX, samplesPerAxis * view.PixelsPerUnitY);
-        (_centreX, _centreY) = (samplesPerAxis * 0.5 * view.Width, samplesPerAxis * 0.5 * view.Height);
-        _viewToWorld = new(new AffineMap(view.Axes, Vector.Zero));
-        _occlusionBuffer.Clear(samplesPerAxis * left, samplesPerAxis * right, samplesPerAxis * view.Height, settings.IsMultisampled);
-        (_minSampleOffset, _maxSampleOffset) = settings.IsMultisampled
-            ? (0.25f - PixelPadding, 0.75f + PixelPadding)
-            : (0.5f - PixelPadding, 0.5f + PixelPadding);
-        _maxNodes = MaxNodesPerInstance * (long)Math.Max(instanceBudget, MinInstancesForNodeLimit);
-        Instances.Clear();
-        SharedInstances.Clear();
+        Output.Clear(order.Length);
+        _rasterizer.Clear(in frame);
+        foreach (var index in order)
+        {
+            CullObject(new StripContext(in frame, objects[index], Output), objects[index]);
+            Output.EndObject();
+        }
     }
 
-    /// <summary>Chooses what is drawn of an object.</summary>
-    /// <param name="item">The object; the nearest is asked first.</param>
-    public void CullObject(CulledObject item)
+    private void CullObject(in StripContext context, CulledObject item)
     {
-        (_object, _occluder, _vertexOrigin, _stackTop, IsNearClipped) =
-            (item, item.Hierarchy.Occluder, SimdAffineMap.ToVector256(item.VertexOrigin), 0, false);
-        if (_screenX.Length < _occluder.PaddedVertexCount)
-        {
-            (_screenX, _screenY, _inverseDepths) = (new float[_occluder.PaddedVertexCount], new float[_occluder.PaddedVertexCount],
-                new float[_occluder.PaddedVertexCount]);
-        }
-
-        var toView = _view.Axes.Inverse();
+        ref readonly var frame = ref context.Frame;
+        _footprints.Clear();
+        var worldToView = frame.Axes.Inverse();
         if (item.Roots is not { } roots)
         {
-            VisitRoot(item.Hierarchy.LevelCount,
-                new AffineMap(toView * item.ObjectToWorld.Linear, toView * (item.ObjectToWorld.Translation - _view.Position)),
-                new(0, ColourPath.Start));
+            var objectToView =
+                new AffineMap(worldToView * item.ObjectToWorld.Linear, worldToView * (item.ObjectToWorld.Translation - frame.Position));
+            VisitRoot(in context, item.Hierarchy.LevelCount, objectToView, CullingPath.Start);
             return;
         }
 
         for (var i = 0; i < roots.Length; i++)
         {
-            VisitRoot(roots[i].RemainingLevels,
-                new AffineMap(toView * roots[i].FrameToCamera.Linear, toView * roots[i].FrameToCamera.Translation),
-                new((ulong)(i + 1) << 40, roots[i].ColourPath));
+            var frameToCamera = roots[i].FrameToCamera;
+            var rootToView = new AffineMap(worldToView * frameToCamera.Linear, worldToView * frameToCamera.Translation);
+            VisitRoot(in context, roots[i].RemainingLevels, rootToView, CullingPath.FromRoot(i, roots[i].ColourPath));
         }
     }
 
-    /// <summary>Looks at a part that drawing begins with.</summary>
-    private void VisitRoot(long remainingLevels, AffineMap toView, CullingPath path)
+    private void VisitRoot(in StripContext context, long remainingLevels, AffineMap rootToView, CullingPath path)
     {
-        var (node, map) = (_object.Hierarchy.NodeAt(remainingLevels), new SimdAffineMap(toView));
-        // Of a picture of less than eight columns some strips have none.
-        if (!node.IsEmpty && _occlusionBuffer.Left < _occlusionBuffer.Right)
-        {
-            var footprint = ComputeFootprint(map.Apply(node.Centre), map.TransformHalfSize(node.HalfSize));
-            _statistics.VisitedNodes++;
-            Visit(node, remainingLevels, in map, 0, path, in footprint);
-        }
-    }
-
-    /// <summary>Looks at a sub-fractal whose place in the picture is known.</summary>
-    private void Visit(LodNode node, long remainingLevels, in SimdAffineMap map, int depth, CullingPath path, in Footprint footprint)
-    {
-        if (!IsVisible(in footprint))
+        ref readonly var frame = ref context.Frame;
+        var root = new LodInstance(context.Hierarchy.NodeAt(remainingLevels), remainingLevels, new SimdAffineMap(rootToView), 0, path);
+        // Some strips of a frame of less than eight columns have none.
+        if (root.Node.IsEmpty || frame.Left >= frame.Right)
         {
             return;
         }
 
-        VisitVisible(node, remainingLevels, in map, depth, path, in footprint);
+        context.Output.Statistics.VisitedNodes++;
+        VisitExact(in context, in root);
     }
 
-    private void VisitVisible(LodNode node, long remainingLevels, in SimdAffineMap map, int depth, CullingPath path, in Footprint footprint)
+    /// <summary>Visits a sub-fractal after projecting its box in double precision.</summary>
+    private void VisitExact(in StripContext context, in LodInstance instance)
     {
-        if (UpdateIsOverBudget())
+        var footprint = context.Frame.ProjectBox(
+            instance.NodeToView.Apply(instance.Node.Centre), instance.NodeToView.TransformHalfSize(instance.Node.HalfSize));
+        if (!TryCull(in context, in footprint))
         {
+            Visit(in context, in instance, in footprint);
+        }
+    }
+
+    /// <summary>Visits a sub-fractal whose footprint was not culled: draws it, or visits its children.</summary>
+    private void Visit(in StripContext context, in LodInstance instance, in Footprint footprint)
+    {
+        if (!IsWithinBudget(in context))
+        {
+            context.Output.IsOverBudget = true;
             return;
         }
 
-        if (node.ChildMaps.Length == 0)
+        if (instance.Node.ChildMaps.Length == 0)
         {
-            Emit(node, in map, in footprint, path);
+            Emit(in context, in instance, in footprint);
         }
-        else if (!(footprint.ProjectedSize > _minProjectedSize)
-        || (footprint.ProjectedSize <= MaxProxySizeRatio * _minProjectedSize
-        && footprint.ProjectedSize * node.MaxChildSizeRatio <= MinChildSizeRatio * _minProjectedSize) || depth >= MaxDepth)
+        else if (instance.Depth >= MaxDepth || IsSmall(footprint.ProjectedSize, instance.Node, context.Frame.MinProjectedSize))
         {
-            _statistics.Proxies++;
-            Emit(node, in map, in footprint, path);
+            context.Output.Statistics.Proxies++;
+            Emit(in context, in instance, in footprint);
         }
         else
         {
-            VisitChildren(node, remainingLevels, in map, depth, path);
+            VisitChildren(in context, in instance);
         }
     }
 
-    private bool UpdateIsOverBudget() =>
-        IsOverBudget |= _statistics.VisitedNodes > _maxNodes || Instances.Count + SharedInstances.Count > _instanceBudget;
-
-    private bool IsVisible(in Footprint footprint)
+    private static bool IsWithinBudget(in StripContext context)
     {
+        var output = context.Output;
+        return !output.IsOverBudget && output.Statistics.VisitedNodes <= context.Frame.MaxNodes
+            && output.InstanceCount <= context.Frame.InstanceBudget;
+    }
+
+    private static bool IsSmall(double projectedSize, LodNode node, double minProjectedSize) =>
+        !(projectedSize > minProjectedSize)
+        || (projectedSize <= MaxProxySizeRatio * minProjectedSize
+            && projectedSize * node.MaxChildSizeRatio <= MinChildSizeRatio * minProjectedSize);
+
+    /// <summary>Tests whether a footprint can be skipped, and counts it in the statistics if so.</summary>
+    private bool TryCull(in StripContext context, in Footprint footprint)
+    {
+        ref var statistics = ref context.Output.Statistics;
         if (footprint.IsOutside)
         {
-            _statistics.OutsideFrustum++;
-            return false;
+            statistics.OutsideFrustum++;
+            return true;
         }
 
-        if (!_settings.OcclusionCulling || !footprint.IsBeyondNearPlane)
+        if (!context.Frame.HasOcclusionCulling || !footprint.IsBeyondNearPlane)
         {
-            return true;
+            return false;
         }
 
         if (footprint.CoversNoSample)
         {
-            _statistics.ZeroCoverage++;
-            return false;
+            statistics.ZeroCoverage++;
+            return true;
         }
 
-        if (_occlusionBuffer.IsOccluded(footprint.Left, footprint.Top, footprint.Right, footprint.Bottom, footprint.MaxInverseDepth))
+        if (_rasterizer.IsOccluded(in footprint))
         {
-            _statistics.Occluded++;
-            return false;
+            statistics.Occluded++;
+            return true;
         }
 
-        return true;
+        return false;
     }
 
-    private void VisitChildren(LodNode node, long remainingLevels, in SimdAffineMap map, int depth, CullingPath path)
+    private void VisitChildren(in StripContext context, in LodInstance parent)
     {
-        var (count, first) = (node.ChildMaps.Length, _stackTop);
-        _stackTop += (count + LodNode.Lanes - 1) / LodNode.Lanes * LodNode.Lanes;
-        if (_stackTop > _order.Length)
+        var childCount = parent.Node.ChildMaps.Length;
+        context.Output.Statistics.VisitedNodes += childCount;
+        var start = _footprints.Push(in context.Frame, parent.Node, in parent.NodeToView);
+        for (var rank = 0; rank < childCount; rank++)
         {
-            Array.Resize(ref _order, 2 * _stackTop);
-            Array.Resize(ref _sortKeys, 2 * _stackTop);
-            Array.Resize(ref _footprints, 2 * _stackTop * FootprintRows);
-        }
-
-        _statistics.VisitedNodes += count;
-        ProjectChildren(node, in map, first);
-        SortFrontToBack(_sortKeys.AsSpan(first, count), _order.AsSpan(first, count));
-        for (var i = first; i < first + count; i++)
-        {
-            var child = _order[i];
-            var footprint = ComputeFootprint(first, child);
-            if (!footprint.NeedsDouble && !IsVisible(in footprint))
+            var child = _footprints.ChildAt(start, rank);
+            var footprint = _footprints.Read(in context.Frame, start, child);
+            if (!footprint.NeedsDouble && TryCull(in context, in footprint))
             {
                 continue;
             }
 
-            var levelStep = node.ChildLevelSteps[child];
-            var childLevels = levelStep < 0 ? ~levelStep : remainingLevels - levelStep;
-            var childNode = _object.Hierarchy.NodeAt(childLevels);
-            var childMap = SimdAffineMap.Compose(in map, in node.ChildMaps[child]);
-            var childDepth = depth + 1;
-            var childPath = path.Append(child, depth, node.ChildMapIndices[child], count, _object.GradientKind);
-            while (childNode.ChildMaps.Length == 1 && childDepth < MaxDepth)
+            var instance = Descend(in context, in parent, child);
+            while (instance.Node.ChildMaps.Length == 1 && instance.Depth < MaxDepth)
             {
-                // Nothing to choose: the same seen more closely.
-                childMap = SimdAffineMap.Compose(in childMap, in childNode.ChildMaps[0]);
-                childPath = childPath.Append(0, childDepth, childNode.ChildMapIndices[0], 1, _object.GradientKind);
-                childLevels = childNode.ChildLevelSteps[0] < 0 ? ~childNode.ChildLevelSteps[0] : childLevels - childNode.ChildLevelSteps[0];
-                childNode = _object.Hierarchy.NodeAt(childLevels);
-                childDepth++;
+                // An only child fills its parent, so that there is nothing to cull between the two.
+                instance = Descend(in context, in instance, 0);
             }
 
             if (footprint.NeedsDouble)
             {
-                footprint = ComputeFootprint(childMap.Apply(childNode.Centre), childMap.TransformHalfSize(childNode.HalfSize));
-                Visit(childNode, childLevels, in childMap, childDepth, childPath, in footprint);
+                VisitExact(in context, in instance);
             }
             else
             {
-                VisitVisible(childNode, childLevels, in childMap, childDepth, childPath, in footprint);
+                Visit(in context, in instance, in footprint);
             }
         }
 
-        _stackTop = first;
+        _footprints.Pop(start);
     }
 
-    /// <summary>The nearest first.</summary>
-    private static void SortFrontToBack(Span<float> keys, Span<int> order)
+    private static LodInstance Descend(in StripContext context, in LodInstance parent, int child)
     {
-        if (keys.Length > MaxInsertionSortCount)
-        {
-            for (var i = 0; i < order.Length; i++)
-            {
-                order[i] = i;
-            }
+        var node = parent.Node;
+        var childLevels = node.ChildLevelSteps[child].RemainingLevels(parent.RemainingLevels);
+        return new(
+            context.Hierarchy.NodeAt(childLevels),
+            childLevels,
+            SimdAffineMap.Compose(in parent.NodeToView, in node.ChildMaps[child]),
+            parent.Depth + 1,
+            parent.Path.Append(child, parent.Depth, node.ChildMapIndices[child], node.ChildMaps.Length, context.Gradient));
+    }
 
-            keys.Sort(order);
+    /// <summary>Appends the base mesh under a sub-fractal's proxy map to the output, unless closer instances hide it.</summary>
+    private void Emit(in StripContext context, in LodInstance instance, in Footprint footprint)
+    {
+        ref readonly var frame = ref context.Frame;
+        var output = context.Output;
+        var instanceToView = instance.NodeToView;
+        if (!instance.Node.IsProxyIdentity)
+        {
+            var proxyMap = instance.Node.ProxyMap;
+            instanceToView = SimdAffineMap.Compose(in instanceToView, in proxyMap);
+        }
+
+        if (frame.HasOcclusionCulling && footprint.IsBeyondNearPlane && context.CanOcclude
+            && !_rasterizer.Rasterize(in frame, context.Occluder, in instanceToView, context.WindingSign))
+        {
+            output.Statistics.ZeroCoverage++;
             return;
         }
 
-        for (var i = 0; i < keys.Length; i++)
+        output.IsNearClipped |= !footprint.IsBeyondNearPlane;
+        var viewToWorld = frame.ViewToWorld;
+        var instanceToWorld = SimdAffineMap.Compose(in viewToWorld, in instanceToView);
+        var instances = footprint.IsShared || !footprint.IsBeyondNearPlane ? output.SharedInstances : output.Instances;
+        instances.Add(in instanceToWorld, context.VertexOrigin, instance.Path.Hash);
+        if (context.Gradient != GradientKind.None)
         {
-            var (key, slot) = (keys[i], i);
-            for (; slot > 0 && keys[slot - 1] > key; slot--)
-            {
-                (keys[slot], order[slot]) = (keys[slot - 1], order[slot - 1]);
-            }
-
-            (keys[slot], order[slot]) = (key, i);
+            instances.SetGradientFactor(instance.Path.ColourPath.ComputeGradientFactor(context.Gradient, context.Hierarchy.LevelCount));
         }
-    }
-
-    /// <summary>The way to a sub-fractal.</summary>
-    /// <param name="Hash">What tells it apart from others.</param>
-    /// <param name="ColourPath">What its colour follows from; not kept where it has none of its own.</param>
-    private readonly record struct CullingPath(ulong Hash, ColourPath ColourPath)
-    {
-        /// <summary>One copy further.</summary>
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public CullingPath Append(int childIndex, int depth, int mapIndex, int childCount, GradientKind gradient) => new(
-            ((Hash ^ (ulong)(childIndex + 1)) * 0x9E3779B97F4A7C15UL) + (ulong)depth, gradient == GradientKind.None
-            ? ColourPath
-            : ColourPath.Append(mapIndex, childIndex, childCount));
     }
 }

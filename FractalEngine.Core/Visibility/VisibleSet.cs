@@ -1,38 +1,37 @@
-
 namespace FractalEngine.Core.Visibility;
 
-/// <summary>
-/// What is drawn of a scene's fractals in one picture. Made once and filled again for every picture: after the first ones nothing is
-/// allocated. The same view gives the same instances, in the same order, on any number of threads.
-/// </summary>
+/// <summary>The visible instances of a scene's fractals in one frame.</summary>
+/// <remarks>
+/// A set is created once and filled again for each frame: after the first frames it allocates nothing. The same view gives the same
+/// instances, in the same order, on any number of threads. A frame is culled in vertical strips, each independent of the others.
+/// </remarks>
 public sealed class VisibleSet
 {
-    // A number that does not depend on the machine, so that neither does the result.
+    // The number does not depend on the machine, so that the result does not either.
     private const int StripCount = 8;
-    // Steps are three times as long from the fifth on: what is far from fitting takes long to look at.
+
+    // Minimum sizes are steps of a geometric series, three times as long from the fifth on: frames far above the budget take long to cull.
     private const double CoarseningFactor = 1.5;
     private const int FineStepCount = 4;
 
     private readonly StripCuller[] _strips = new StripCuller[StripCount];
     private readonly InstanceRows _sharedInstances = new(hasPathHashes: false);
-    private readonly HashSet<(int, ulong)> _mergedKeys = [];
+    private readonly HashSet<(int Rank, ulong PathHash)> _mergedKeys = [];
     private readonly ParallelOptions _parallelOptions = new();
     private readonly Action<int> _cullStrip;
-    private int _coarseningStep;
-    private int[] _order = [];
-    private double[] _sortKeys = [];
-    private int[] _instanceEnds = [];
-    private int[] _sharedInstanceEnds = [];
-    private int[] _mergedEnds = [];
-    private bool[] _isNearClipped = [];
     private IReadOnlyList<CulledObject> _objects = [];
     private CullingSettings _settings = new();
     private CullingView _view;
+    private int[] _order = [];
+    private int[] _ranks = [];
+    private double[] _sortKeys = [];
+    private int[] _mergedEnds = [];
+    private int _coarseningStep;
     private int _instanceBudget;
-    private volatile bool _isOverBudget;
     private int _foundCount;
+    private volatile bool _isOverBudget;
 
-    /// <summary>An empty set.</summary>
+    /// <summary>Creates an empty set.</summary>
     public VisibleSet()
     {
         for (var i = 0; i < StripCount; i++)
@@ -43,29 +42,31 @@ public sealed class VisibleSet
         _cullStrip = CullStrip;
     }
 
-    /// <summary>Floats of one instance: the three rows of a 3×4 map from the drawn mesh's frame to world axes about the camera.</summary>
+    /// <summary>Number of floats of one instance.</summary>
+    /// <remarks>They are the rows of a 3×4 map from the drawn mesh's frame to world axes about the camera.</remarks>
     public static int FloatsPerInstance => InstanceRows.FloatsPerInstance;
 
-    /// <summary>What it took.</summary>
+    /// <summary>Number of chunks that the instances of each object come in.</summary>
+    public static int ChunkCount => StripCount + 1;
+
+    /// <summary>Statistics of the last frame.</summary>
     public CullingStatistics Statistics { get; private set; }
 
-    /// <summary>How many instances are drawn.</summary>
+    /// <summary>Number of visible instances of all objects.</summary>
     public int InstanceCount { get; private set; }
 
-    /// <summary>What counted as small, pixels: that of the settings, or more where the budget asked for it.</summary>
+    /// <summary>Minimum projected size in pixels: that of the settings, or more where the instance budget required it.</summary>
     public double MinProjectedSize { get; private set; }
 
-    /// <summary>Bytes of the instances' memory.</summary>
-    public long StorageBytes =>
-        _sharedInstances.StorageBytes + _strips.Sum(strip => strip.Instances.StorageBytes + strip.SharedInstances.StorageBytes);
-
-    /// <summary>Chooses what is drawn.</summary>
-    /// <param name="view">How the scene is looked at.</param>
-    /// <param name="objects">Of the scene.</param>
-    /// <param name="settings">What is left out.</param>
+    /// <summary>Finds the visible instances of a frame.</summary>
+    /// <param name="view">Camera and frame.</param>
+    /// <param name="objects">Objects of the scene.</param>
+    /// <param name="settings">Settings of culling.</param>
     public void Cull(in CullingView view, IReadOnlyList<CulledObject> objects, CullingSettings settings)
     {
-        (_view, _objects, _settings) = (view, objects, settings);
+        _view = view;
+        _objects = objects;
+        _settings = settings;
         // However coarse, each object is one instance, or one for each of its roots.
         var minInstanceCount = 0;
         for (var i = 0; i < objects.Count; i++)
@@ -76,7 +77,7 @@ public sealed class VisibleSet
         _instanceBudget = Math.Max(settings.InstanceBudget, minInstanceCount);
         _parallelOptions.MaxDegreeOfParallelism = Math.Max(1, settings.ThreadCount);
         SortObjects();
-        // Of a ladder of sizes the smallest that fits, looked for near the one of the picture before.
+        // The smallest step that fits is searched for near that of the frame before.
         var step = Math.Max(0, _coarseningStep - 1);
         var fits = TryCull(step);
         while (fits && step > 0 && TryCull(step - 1))
@@ -86,7 +87,7 @@ public sealed class VisibleSet
 
         if (fits && step > 0)
         {
-            // The smaller one did not fit, but is what there is now.
+            // The last attempt did not fit, and has overwritten the result of the one that did.
             fits = TryCull(step);
         }
 
@@ -98,54 +99,46 @@ public sealed class VisibleSet
         _coarseningStep = step;
     }
 
-    /// <summary>The number of parts that an object's instances come in.</summary>
-    public static int ChunkCount => StripCount + 1;
-
-    /// <summary>A part of an object's instances, [n × 12].</summary>
-    /// <param name="objectIndex">The object's place in the list.</param>
-    /// <param name="chunk">Less than <see cref="ChunkCount"/>.</param>
+    /// <summary>Instances of an object in one chunk, [n × 12].</summary>
+    /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
+    /// <param name="chunk">Index of the chunk, less than <see cref="ChunkCount"/>.</param>
     public ReadOnlySpan<float> Instances(int objectIndex, int chunk)
     {
-        var (start, end) = RangeOf(objectIndex, chunk);
-        return (chunk < StripCount
-            ? _strips[chunk].Instances
-            : _sharedInstances).Span[(start * InstanceRows.FloatsPerInstance)..(end * InstanceRows.FloatsPerInstance)];
+        var (start, count) = RangeOf(objectIndex, chunk);
+        return RowsOf(chunk).Span.Slice(start * InstanceRows.FloatsPerInstance, count * InstanceRows.FloatsPerInstance);
     }
 
-    /// <summary>Numbers between two colours, one an instance of <see cref="Instances"/>, of an object that has a gradient.</summary>
+    /// <summary>Gradient factors from 0 to 1, one for each of <see cref="Instances"/>, of an object with a gradient.</summary>
+    /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
+    /// <param name="chunk">Index of the chunk, less than <see cref="ChunkCount"/>.</param>
     public ReadOnlySpan<float> GradientFactors(int objectIndex, int chunk)
     {
-        var (start, end) = RangeOf(objectIndex, chunk);
-        // Where there are none, the list may be shorter than what comes before them.
-        return start == end ? [] : (chunk < StripCount ? _strips[chunk].Instances : _sharedInstances).GradientFactors[start..end];
+        var (start, count) = RangeOf(objectIndex, chunk);
+        // The factors may end before an empty range.
+        return count == 0 ? [] : RowsOf(chunk).GradientFactors.Slice(start, count);
     }
 
-    /// <summary>How many instances are drawn of an object.</summary>
+    /// <summary>Counts the visible instances of an object.</summary>
+    /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
     public int InstanceCountOf(int objectIndex)
     {
-        var count = 0;
+        var sum = 0;
         for (var chunk = 0; chunk < ChunkCount; chunk++)
         {
-            count += Instances(objectIndex, chunk).Length / InstanceRows.FloatsPerInstance;
+            sum += RangeOf(objectIndex, chunk).Count;
         }
 
-        return count;
+        return sum;
     }
 
-    private (int Start, int End) RangeOf(int objectIndex, int chunk)
-    {
-        var ends = chunk < StripCount ? _instanceEnds.AsSpan(chunk * _objects.Count, _objects.Count) : _mergedEnds;
-        var rank = Array.IndexOf(_order, objectIndex, 0, _objects.Count);
-        return (rank == 0 ? 0 : ends[rank - 1], ends[rank]);
-    }
-
-    /// <summary>True when the near plane cuts through an instance of an object: then the inner side of a solid may be seen.</summary>
+    /// <summary>Tells whether the near plane clips an instance of an object; the back faces of a solid may then be visible.</summary>
+    /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
     public bool IsNearClipped(int objectIndex)
     {
-        var rank = Array.IndexOf(_order, objectIndex, 0, _objects.Count);
-        for (var stripIndex = 0; stripIndex < StripCount; stripIndex++)
+        var rank = RankOf(objectIndex);
+        foreach (var strip in _strips)
         {
-            if (_isNearClipped[(stripIndex * _objects.Count) + rank])
+            if (strip.Output.HasNearClippedInstance(rank))
             {
                 return true;
             }
@@ -154,11 +147,28 @@ public sealed class VisibleSet
         return false;
     }
 
-    /// <summary>Chooses with so many steps of coarsening.</summary>
-    /// <returns>False when there is more than the budget.</returns>
+    private int RankOf(int objectIndex) => _ranks.AsSpan(0, _objects.Count)[objectIndex];
+
+    private InstanceRows RowsOf(int chunk) => chunk < StripCount ? _strips[chunk].Output.Instances : _sharedInstances;
+
+    private (int Start, int Count) RangeOf(int objectIndex, int chunk)
+    {
+        var rank = RankOf(objectIndex);
+        if (chunk < StripCount)
+        {
+            return _strips[chunk].Output.InstancesOf(rank);
+        }
+
+        var start = rank == 0 ? 0 : _mergedEnds[rank - 1];
+        return (start, _mergedEnds[rank] - start);
+    }
+
+    /// <summary>Culls all strips with a number of steps of coarsening.</summary>
+    /// <returns>False when there are more instances than the budget.</returns>
     private bool TryCull(int step)
     {
-        (_isOverBudget, _foundCount) = (false, 0);
+        _isOverBudget = false;
+        _foundCount = 0;
         MinProjectedSize = step == 0
             ? _settings.MinProjectedSize
             : Math.Max(_settings.MinProjectedSize, 1) * Math.Pow(CoarseningFactor, step + Math.Max(0, 2 * (step - FineStepCount)));
@@ -180,90 +190,88 @@ public sealed class VisibleSet
         }
 
         MergeSharedInstances();
+        SumStatistics();
         return InstanceCount <= _instanceBudget;
     }
 
-    /// <summary>Sorts the objects, the nearest first, so that they hide those behind.</summary>
+    /// <summary>Sorts the objects by the distance of their centres, so that close ones occlude those behind.</summary>
     private void SortObjects()
     {
         var count = _objects.Count;
         if (_order.Length < count)
         {
-            (_order, _sortKeys) = (new int[count], new double[count]);
-        }
-
-        if (_instanceEnds.Length < StripCount * count)
-        {
-            (_instanceEnds, _sharedInstanceEnds, _mergedEnds, _isNearClipped) =
-                (new int[StripCount * count], new int[StripCount * count], new int[count], new bool[StripCount * count]);
+            _order = new int[count];
+            _ranks = new int[count];
+            _sortKeys = new double[count];
+            _mergedEnds = new int[count];
         }
 
         for (var i = 0; i < count; i++)
         {
             var item = _objects[i];
             var box = item.Hierarchy.NodeAt(item.Hierarchy.LevelCount).Box;
-            (_order[i], _sortKeys[i]) = (i, box.IsEmpty ? 0 : ((item.ObjectToWorld * box.Centre) - _view.Position).LengthSquared());
+            _order[i] = i;
+            _sortKeys[i] = box.IsEmpty ? 0 : ((item.ObjectToWorld * box.Centre) - _view.Position).LengthSquared();
         }
 
         _sortKeys.AsSpan(0, count).Sort(_order.AsSpan(0, count));
+        for (var rank = 0; rank < count; rank++)
+        {
+            _ranks[_order[rank]] = rank;
+        }
     }
 
     private void CullStrip(int stripIndex)
     {
-        // One strip too many is enough to begin again.
+        // One strip that gives up is enough to try again with a larger minimum size.
         if (_isOverBudget)
         {
             return;
         }
 
-        var (strip, count) = (_strips[stripIndex], _objects.Count);
-        strip.BeginFrame(in _view, _settings, MinProjectedSize, _instanceBudget, stripIndex * _view.Width / StripCount,
-            (stripIndex + 1) * _view.Width / StripCount);
-        for (var rank = 0; rank < count; rank++)
-        {
-            var item = _objects[_order[rank]];
-            strip.CullObject(item);
-            _instanceEnds[(stripIndex * count) + rank] = strip.Instances.Count;
-            _sharedInstanceEnds[(stripIndex * count) + rank] = strip.SharedInstances.Count;
-            _isNearClipped[(stripIndex * count) + rank] = strip.IsNearClipped;
-        }
-
-        if (Interlocked.Add(ref _foundCount, strip.Instances.Count) > _instanceBudget || strip.IsOverBudget)
+        var left = stripIndex * _view.Width / StripCount;
+        var right = (stripIndex + 1) * _view.Width / StripCount;
+        var frame = new StripFrame(in _view, _settings, MinProjectedSize, _instanceBudget, left, right);
+        var strip = _strips[stripIndex];
+        strip.Cull(in frame, _objects, _order.AsSpan(0, _objects.Count));
+        if (Interlocked.Add(ref _foundCount, strip.Output.Instances.Count) > _instanceBudget || strip.Output.IsOverBudget)
         {
             _isOverBudget = true;
         }
     }
 
-    /// <summary>Puts together what several strips have found, each instance once.</summary>
+    /// <summary>Collects the instances that several strips may have found, each of them once.</summary>
     private void MergeSharedInstances()
     {
         _sharedInstances.Clear();
         _mergedKeys.Clear();
-        (Statistics, InstanceCount) = (default, 0);
-        var count = _objects.Count;
-        for (var rank = 0; rank < count; rank++)
+        for (var rank = 0; rank < _objects.Count; rank++)
         {
-            for (var stripIndex = 0; stripIndex < StripCount; stripIndex++)
+            foreach (var strip in _strips)
             {
-                var strip = _strips[stripIndex];
-                var start = rank == 0 ? 0 : _sharedInstanceEnds[(stripIndex * count) + rank - 1];
-                for (var i = start; i < _sharedInstanceEnds[(stripIndex * count) + rank]; i++)
+                var candidates = strip.Output.SharedInstances;
+                var (start, count) = strip.Output.SharedInstancesOf(rank);
+                for (var i = start; i < start + count; i++)
                 {
-                    if (_mergedKeys.Add((rank, strip.SharedInstances.PathHashes[i])))
+                    if (_mergedKeys.Add((rank, candidates.PathHashes[i])))
                     {
-                        _sharedInstances.Add(strip.SharedInstances, i);
+                        _sharedInstances.AddFrom(candidates, i);
                     }
                 }
             }
 
             _mergedEnds[rank] = _sharedInstances.Count;
         }
+    }
 
+    private void SumStatistics()
+    {
+        Statistics = default;
         InstanceCount = _sharedInstances.Count;
         foreach (var strip in _strips)
         {
-            Statistics += strip.Statistics;
-            InstanceCount += strip.Instances.Count;
+            Statistics += strip.Output.Statistics;
+            InstanceCount += strip.Output.Instances.Count;
         }
     }
 }

@@ -1,23 +1,23 @@
 namespace FractalEngine.Parsing.Assets;
 
 /// <summary>
-/// The folder within which a file may name others, so that a scene from somebody else reads nothing but what came with it: the
-/// file's own folder, or the nearest one above it that holds a file called <see cref="MarkerName"/>.
+/// Folder within which a file may refer to others: the file's own, or the closest ancestor that holds a file called
+/// <see cref="MarkerName"/>. So a scene from somebody else reads only what came with it.
 /// </summary>
 public sealed class AssetFolder
 {
-    /// <summary>Put into a folder, it lets all files below refer to each other.</summary>
+    /// <summary>Name of the marker file that lets all files in its folder and in subfolders refer to each other.</summary>
     public const string MarkerName = ".asset-root";
 
     private const int MaxLinks = 40;
 
     private AssetFolder(string path) => Path = path;
 
-    /// <summary>Full path, symbolic links followed.</summary>
+    /// <summary>Full path with all symbolic links resolved.</summary>
     public string Path { get; }
 
-    /// <summary>The folder of a file.</summary>
-    /// <param name="file">Full path.</param>
+    /// <summary>Finds the folder within which a file may refer to others.</summary>
+    /// <param name="file">Full path of the file.</param>
     public static AssetFolder ForFile(string file)
     {
         var ownFolder = System.IO.Path.GetDirectoryName(ResolveLinks(file, MaxLinks))!;
@@ -32,8 +32,8 @@ public sealed class AssetFolder
         return new(ownFolder);
     }
 
-    /// <summary>True when a file lies in the folder or below it, wherever links lead.</summary>
-    /// <param name="file">Full path.</param>
+    /// <summary>Returns whether a file lies in the folder or a subfolder once its symbolic links are resolved.</summary>
+    /// <param name="file">Full path of the file, which need not exist.</param>
     public bool Contains(string file)
     {
         var relative = System.IO.Path.GetRelativePath(Path, ResolveLinks(file, MaxLinks));
@@ -46,8 +46,8 @@ public sealed class AssetFolder
     {
         var fullPath = System.IO.Path.GetFullPath(path);
         var resolved = System.IO.Path.GetPathRoot(fullPath)!;
-        foreach (var segment in fullPath[resolved.Length..].Split(System.IO.Path.DirectorySeparatorChar,
-            StringSplitOptions.RemoveEmptyEntries))
+        var segments = fullPath[resolved.Length..].Split(System.IO.Path.DirectorySeparatorChar, StringSplitOptions.RemoveEmptyEntries);
+        foreach (var segment in segments)
         {
             resolved = System.IO.Path.Combine(resolved, segment);
             if (linksLeft > 0 && new FileInfo(resolved) is { LinkTarget: { } target })

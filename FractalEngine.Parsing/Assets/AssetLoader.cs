@@ -11,40 +11,57 @@ using FractalEngine.Parsing.Text;
 namespace FractalEngine.Parsing.Assets;
 
 /// <summary>
-/// Loads meshes, fractals and scenes with everything that they refer to. Each file is read once, however often it is named, unless the
-/// options say otherwise.
+/// Loads a mesh, fractal or scene with all files that it refers to. Each file is read once, however often it is named, unless the options
+/// say otherwise.
 /// </summary>
-/// <param name="options">How to load.</param>
-/// <param name="progress">Told how far each large file has come.</param>
-public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? progress = null)
+public sealed class AssetLoader
 {
-    private readonly Dictionary<string, (Mesh Mesh, ImmutableDictionary<string, Material> Materials, long Bytes)> _meshes = [];
+    private readonly string _path;
+    private readonly string _fullPath;
+    private readonly LoadOptions _options;
+    private readonly IProgress<LoadProgress>? _progress;
+    private readonly FileReferenceResolver _references;
+    private readonly MaterialLoader _materials;
+    private readonly Dictionary<string, MeshContents> _meshes = [];
     private readonly Dictionary<string, Model> _models = [];
     private readonly List<Diagnostic> _warnings = [];
     private readonly List<Diagnostic> _errors = [];
     private long _textBytes;
-    private FileReferenceResolver? _references;
-    private MaterialLoader? _materials;
 
-    /// <summary>Loads a file.</summary>
-    /// <param name="path">Ends in .obj, .fdo or .sdo.</param>
-    /// <param name="options">How to load; null for the usual way.</param>
-    /// <param name="progress">Told how far each large file has come.</param>
+    private AssetLoader(string path, LoadOptions? options, IProgress<LoadProgress>? progress)
+    {
+        _path = path;
+        _fullPath = Path.GetFullPath(path);
+        _options = options ?? new();
+        _progress = progress;
+        _references = new(AssetFolder.ForFile(_fullPath), _options.AllowOutsideFiles);
+        _materials = new(_references, _warnings);
+    }
+
+    private long StorageBytes => _textBytes + _materials.StorageBytes;
+
+    /// <summary>Loads a file and everything that it refers to.</summary>
+    /// <param name="path">Path that ends in .obj, .fdo or .sdo.</param>
+    /// <param name="options">Options for loading; null for the defaults.</param>
+    /// <param name="progress">Receives the progress of each large file.</param>
     /// <exception cref="SourceException">The file, or one that it refers to, can't be loaded: the first error.</exception>
     public static LoadedFile Load(string path, LoadOptions? options = null, IProgress<LoadProgress>? progress = null)
     {
-        var loader = new AssetLoader(options ?? new(), progress);
-        var file = loader.LoadFile(path);
+        var loader = new AssetLoader(path, options, progress);
+        var file = loader.LoadFile();
         return loader._errors.Count == 0 ? file : throw new SourceException(loader._errors[0]);
     }
 
-    /// <summary>Loads a file only to see what is wrong: every error of every file it refers to, then the warnings.</summary>
+    /// <summary>Loads a file only to find its faults.</summary>
+    /// <param name="path">Path that ends in .obj, .fdo or .sdo.</param>
+    /// <param name="options">Options for loading; null for the defaults.</param>
+    /// <returns>Errors of all files that it refers to, one per file, then the warnings.</returns>
     public static ImmutableArray<Diagnostic> Check(string path, LoadOptions? options = null)
     {
-        var loader = new AssetLoader(options ?? new());
+        var loader = new AssetLoader(path, options, null);
         try
         {
-            loader.LoadFile(path);
+            loader.LoadFile();
         }
         catch (SourceException exception)
         {
@@ -54,46 +71,38 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
         return [.. loader._errors, .. loader._warnings];
     }
 
-    private long StorageBytes => _textBytes + _materials!.StorageBytes;
-
-    private LoadedFile LoadFile(string path)
+    private LoadedFile LoadFile() => FileKinds.FromName(_path) switch
     {
-        var fullPath = Path.GetFullPath(path);
-        _references = new(AssetFolder.ForFile(fullPath), options.AllowOutsideFiles);
-        _materials = new(_references, _warnings);
-        return Path.GetExtension(path).ToUpperInvariant() switch
-        {
-            ".SDO" => LoadScene(fullPath, path),
-            ".FDO" => CreateSingleObjectFile(fullPath, FileKind.Fractal, LoadFractal(fullPath, path)),
-            ".OBJ" => CreateSingleObjectFile(fullPath, FileKind.Mesh, LoadMesh(fullPath, path)),
-            // What is missing is said to be missing first, whatever it is called.
-            _ when !File.Exists(fullPath) && !Directory.Exists(fullPath) => throw new SourceException(path, "file not found"),
-            _ => throw new SourceException(path, "the ending says nothing of the contents, expected .obj, .fdo or .sdo"),
-        };
+        FileKind.Scene => LoadScene(),
+        FileKind.Fractal => CreateSingleObjectFile(FileKind.Fractal, LoadFractal(_fullPath, _path)),
+        FileKind.Mesh => CreateSingleObjectFile(FileKind.Mesh, LoadMesh(_fullPath, _path)),
+        // A missing file is reported as missing first, whatever its name is.
+        _ when !Path.Exists(_fullPath) => throw new SourceException(_path, "file not found"),
+        _ => throw new SourceException(_path, "the ending says nothing of the contents, expected .obj, .fdo or .sdo"),
+    };
+
+    private LoadedFile CreateSingleObjectFile(FileKind kind, Model model)
+    {
+        var declared = new SceneObject(Path.GetFileName(_fullPath), Transformation.Identity) { Model = model };
+        return CreateLoadedFile(kind, LoadedScene.Of(new() { Objects = [declared] }), null);
     }
 
-    private LoadedFile CreateSingleObjectFile(string fullPath, FileKind kind, Model model)
-    {
-        var declared = new SceneObject(Path.GetFileName(fullPath), Transformation.Identity) { Model = model };
-        return CreateLoadedFile(fullPath, kind, LoadedScene.Of(new() { Objects = [declared] }), null);
-    }
+    private LoadedFile CreateLoadedFile(FileKind kind, LoadedScene scene, ParsedScene? parsedScene) =>
+        new(_fullPath, kind, scene, parsedScene, StorageBytes, _options.ShareModels ? [.. _warnings] : [.. _warnings.Distinct()]);
 
-    private LoadedFile CreateLoadedFile(string fullPath, FileKind kind, LoadedScene scene, SceneFile? sceneFile) =>
-        new(fullPath, kind, scene, sceneFile, StorageBytes, options.ShareModels ? [.. _warnings] : [.. _warnings.Distinct()]);
-
-    private LoadedFile LoadScene(string fullPath, string displayName)
+    private LoadedFile LoadScene()
     {
-        var file = SceneParser.Parse(ReadText(fullPath, displayName, ParsingLimits.DescriptionBytes));
+        var parsed = SceneParser.Parse(ReadText(_fullPath, _path, ParsingLimits.MaxDescriptionBytes));
         var objects = ImmutableArray.CreateBuilder<SceneObject>();
-        foreach (var (declared, offset) in file.Scene.Objects.Zip(file.FileNameOffsets))
+        foreach (var (declared, offset) in parsed.Scene.Objects.Zip(parsed.FileNameOffsets))
         {
             try
             {
-                objects.Add(declared with { Model = LoadReferenced(file.Source, offset, fullPath, declared.File!) });
+                objects.Add(declared with { Model = LoadReferenced(parsed.Source, offset, declared.File!) });
             }
             catch (SourceException exception)
             {
-                // Kept, so that a check finds what is wrong with the other files too; loading fails all the same.
+                // Loading goes on, so that a check finds the faults of the other files too.
                 if (!_errors.Contains(exception.Diagnostic))
                 {
                     _errors.Add(exception.Diagnostic);
@@ -101,83 +110,81 @@ public sealed class AssetLoader(LoadOptions options, IProgress<LoadProgress>? pr
             }
         }
 
-        return CreateLoadedFile(fullPath, FileKind.Scene, LoadedScene.Of(file.Scene with { Objects = objects.ToImmutable() }), file);
+        return CreateLoadedFile(FileKind.Scene, LoadedScene.Of(parsed.Scene with { Objects = objects.ToImmutable() }), parsed);
     }
 
-    private Model LoadReferenced(SourceText source, int offset, string referrer, string file)
+    private Model LoadReferenced(SourceText source, int offset, string file)
     {
-        var (fullPath, displayName) = _references!.Resolve(source, offset, referrer, file);
-        if (options.ShareModels && _models.TryGetValue(fullPath, out var cached))
+        var (fullPath, displayName) = _references.Resolve(source, offset, _fullPath, file);
+        if (_options.ShareModels && _models.TryGetValue(fullPath, out var cached))
         {
             return cached;
         }
 
-        return _models[fullPath] = file.EndsWith(".fdo", StringComparison.OrdinalIgnoreCase)
+        return _models[fullPath] = FileKinds.FromName(file) == FileKind.Fractal
             ? LoadFractal(fullPath, displayName)
             : LoadMesh(fullPath, displayName);
     }
 
     private MeshModel LoadMesh(string fullPath, string displayName)
     {
-        var (mesh, materials, bytes) = ReadMesh(fullPath, displayName);
-        return new(mesh) { SourcePath = fullPath, FileBytes = bytes, Materials = materials };
+        var contents = ReadMesh(fullPath, displayName);
+        return new(contents.Mesh) { SourcePath = fullPath, FileBytes = contents.ByteCount, Materials = contents.Materials };
     }
 
     private FractalModel LoadFractal(string fullPath, string displayName)
     {
-        var bytesBefore = StorageBytes;
-        var file = FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.DescriptionBytes));
-        var ownBytes = StorageBytes - bytesBefore;
-        var (baseFullPath, baseDisplayName) = _references!.Resolve(file.Source, file.BaseFileNameOffset, fullPath, file.BaseFile);
-        var description = ApplyOptions(file);
-        var (baseMesh, materials, baseBytes) = ReadMesh(baseFullPath, baseDisplayName);
-        var fractal = new Fractal(description, baseMesh) { BaseMeshPath = baseFullPath };
-        if (fractal.Bounds != BoundingBox.Empty && !fractal.Bounds.Size.IsFinite())
+        var parsed = FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.MaxDescriptionBytes));
+        var (basePath, baseDisplayName) = _references.Resolve(parsed.Source, parsed.BaseFileNameOffset, fullPath, parsed.BaseFile);
+        var description = ApplyOptions(parsed);
+        var contents = ReadMesh(basePath, baseDisplayName);
+        var fractal = new Fractal(description, contents.Mesh) { BaseMeshPath = basePath };
+        if (FractalCheck.FindBoundsFault(fractal) is { } fault)
         {
-            throw file.Source.Error(file.ResultOffset, fractal.Description.IsInfinite
-                ? "the infinite fractal has no bounds: its transformations don't shrink"
-                : "the fractal grows beyond the range of a double");
+            throw parsed.Source.Error(parsed.ResultOffset, fault);
         }
 
-        return new(fractal) { SourcePath = fullPath, FileBytes = ownBytes + baseBytes, Materials = materials };
+        var byteCount = parsed.Source.ByteCount + contents.ByteCount;
+        return new(fractal) { SourcePath = fullPath, FileBytes = byteCount, Materials = contents.Materials };
     }
 
-    /// <summary>What the file says, changed as the options ask.</summary>
-    private FractalDescription ApplyOptions(FractalFile file)
+    /// <summary>Returns the description in a file with the overrides of the options.</summary>
+    private FractalDescription ApplyOptions(ParsedFractal parsed)
     {
-        var description = file.Description with { Composition = options.Composition ?? file.Description.Composition };
-        if (options.Depth is { } depth && description.HasDepth)
+        var description = parsed.Description with { Composition = _options.Composition ?? parsed.Description.Composition };
+        if (_options.Depth is { } depth && description.HasDepth)
         {
             description = description.WithDepth(depth);
         }
 
-        return description is { IsInfinite: true, Composition: Composition.Componentwise }
-            ? throw file.Source.Error(file.ResultOffset,
-            "an infinite fractal can't be composed componentwise: its positions don't shrink; give it a depth")
-            : description;
+        return FractalCheck.IsComposable(description)
+            ? description
+            : throw parsed.Source.Error(parsed.ResultOffset, FractalCheck.NotComposableMessage);
     }
 
-    private (Mesh Mesh, ImmutableDictionary<string, Material> Materials, long Bytes) ReadMesh(string fullPath, string displayName)
+    private MeshContents ReadMesh(string fullPath, string displayName)
     {
-        if (options.ShareModels && _meshes.TryGetValue(fullPath, out var cached))
+        if (_options.ShareModels && _meshes.TryGetValue(fullPath, out var cached))
         {
             return cached;
         }
 
         var bytesBefore = StorageBytes;
-        var source = ReadText(fullPath, displayName, ParsingLimits.ObjBytes, acceptLatin1: true);
-        var file = ObjParser.Parse(source, progress is null ? null : new FileProgress(displayName, progress));
-        _warnings.AddRange(file.Warnings);
-        var materials = _materials!.Load(file, source, fullPath);
-        return _meshes[fullPath] = (file.Mesh, materials, StorageBytes - bytesBefore);
+        var source = ReadText(fullPath, displayName, ParsingLimits.MaxObjBytes, acceptLatin1: true);
+        var parsed = ObjParser.Parse(source, _progress is null ? null : new FileProgress(displayName, _progress));
+        _warnings.AddRange(parsed.Warnings);
+        var materials = _materials.Load(parsed, source, fullPath);
+        return _meshes[fullPath] = new(parsed.Mesh, materials, StorageBytes - bytesBefore);
     }
 
     private SourceText ReadText(string fullPath, string displayName, long maxBytes, bool acceptLatin1 = false)
     {
         var source = SourceText.Read(fullPath, displayName, maxBytes, acceptLatin1);
-        _textBytes += new FileInfo(fullPath) is { Exists: true } info ? info.Length : 0;
+        _textBytes += source.ByteCount;
         return source;
     }
+
+    private sealed record MeshContents(Mesh Mesh, ImmutableDictionary<string, Material> Materials, long ByteCount);
 
     private sealed class FileProgress(string file, IProgress<LoadProgress> progress) : IProgress<double>
     {

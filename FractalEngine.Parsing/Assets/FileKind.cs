@@ -1,14 +1,14 @@
 namespace FractalEngine.Parsing.Assets;
 
-/// <summary>What a file holds, told by its ending.</summary>
+/// <summary>Kind of a file, told by the ending of its name.</summary>
 public enum FileKind
 {
-    /// <summary><c>.obj</c></summary>
+    /// <summary>Wavefront mesh whose name ends in <c>.obj</c>.</summary>
     Mesh,
 
-    /// <summary><c>.fdo</c></summary>
+    /// <summary>Description of a fractal whose name ends in <c>.fdo</c>.</summary>
     Fractal,
 
-    /// <summary><c>.sdo</c></summary>
+    /// <summary>Description of a scene whose name ends in <c>.sdo</c>.</summary>
     Scene,
 }

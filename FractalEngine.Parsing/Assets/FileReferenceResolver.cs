@@ -2,21 +2,21 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Assets;
 
-/// <summary>Finds the files that others name, within the folder where they may lie.</summary>
-/// <param name="folder">Of the file that was opened.</param>
-/// <param name="allowOutsideFiles">Whether other folders are allowed too.</param>
+/// <summary>Resolves references from one file to another and enforces the asset folder.</summary>
+/// <param name="folder">Asset folder of the file that was opened.</param>
+/// <param name="allowOutsideFiles">Whether references may lead out of that folder.</param>
 internal sealed class FileReferenceResolver(AssetFolder folder, bool allowOutsideFiles)
 {
-    /// <summary>The full path of a file named in another one, and what messages call it.</summary>
-    /// <param name="source">The text that names it.</param>
-    /// <param name="offset">Where.</param>
-    /// <param name="referrer">The full path of that text's file.</param>
-    /// <param name="file">As named there.</param>
-    /// <exception cref="SourceException">It lies outside, or is not there.</exception>
-    public (string Full, string Name) Resolve(SourceText source, int offset, string referrer, string file)
+    /// <summary>Returns the full path of a file that another one refers to, and its name in messages.</summary>
+    /// <param name="source">Text that holds the reference.</param>
+    /// <param name="offset">Offset of the reference in that text.</param>
+    /// <param name="referrer">Full path of the file with that text.</param>
+    /// <param name="file">Name as written there, relative to the referrer's folder.</param>
+    /// <exception cref="SourceException">The file lies outside the asset folder or does not exist.</exception>
+    public (string FullPath, string DisplayName) Resolve(SourceText source, int offset, string referrer, string file)
     {
         var fullPath = FullPath(referrer, file);
-        if (!allowOutsideFiles && !folder.Contains(fullPath))
+        if (!IsAllowed(fullPath))
         {
             throw source.Error(offset, $"\"{file}\" lies outside the folder of the file that was opened: allow that with --allow-outside");
         }
@@ -28,12 +28,20 @@ internal sealed class FileReferenceResolver(AssetFolder folder, bool allowOutsid
                 : $"the file \"{file}\" is not found");
         }
 
-        return (fullPath, Path.IsPathRooted(source.FileName) ? fullPath : Path.GetRelativePath(Directory.GetCurrentDirectory(), fullPath));
+        var isRooted = Path.IsPathRooted(source.FileName);
+        return (fullPath, isRooted ? fullPath : Path.GetRelativePath(Directory.GetCurrentDirectory(), fullPath));
     }
 
-    /// <summary>Whether a file that may be named is there.</summary>
-    public bool Exists(string referrer, string file) =>
-        FullPath(referrer, file) is var fullPath && (allowOutsideFiles || folder.Contains(fullPath)) && File.Exists(fullPath);
+    /// <summary>Returns whether a file exists that the referrer may refer to.</summary>
+    /// <param name="referrer">Full path of the file with the reference.</param>
+    /// <param name="file">Name as written there, relative to the referrer's folder.</param>
+    public bool Exists(string referrer, string file)
+    {
+        var fullPath = FullPath(referrer, file);
+        return IsAllowed(fullPath) && File.Exists(fullPath);
+    }
+
+    private bool IsAllowed(string fullPath) => allowOutsideFiles || folder.Contains(fullPath);
 
     private static string FullPath(string referrer, string file) => Path.GetFullPath(Path.Combine(Path.GetDirectoryName(referrer)!, file));
 }

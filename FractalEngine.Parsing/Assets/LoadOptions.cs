@@ -2,20 +2,18 @@ using FractalEngine.Core.Fractals;
 
 namespace FractalEngine.Parsing.Assets;
 
-/// <summary>How files are loaded, where that differs from what they say themselves.</summary>
+/// <summary>Options for loading files, which override what the files state.</summary>
 public sealed record LoadOptions
 {
-    /// <summary>Whether files may name others outside their folder, see <see cref="AssetFolder"/>.</summary>
+    /// <summary>Whether files may refer to others outside their folder, see <see cref="AssetFolder"/>.</summary>
     public bool AllowOutsideFiles { get; init; }
 
-    /// <summary>The composition of all fractals; null for what each file says.</summary>
+    /// <summary>Composition of all fractals; null for what each file states.</summary>
     public Composition? Composition { get; init; }
 
-    /// <summary>The depth of all fractals that have one; null for what each file says.</summary>
+    /// <summary>Depth of all fractals that have one; null for what each file states.</summary>
     public int? Depth { get; init; }
 
-    /// <summary>
-    /// Whether meshes and fractals are read once however many objects name them; otherwise once for each, for comparison.
-    /// </summary>
+    /// <summary>Whether all objects of one file share its model. False loads the file once per object, for comparison.</summary>
     public bool ShareModels { get; init; } = true;
 }

@@ -1,6 +1,6 @@
 namespace FractalEngine.Parsing.Assets;
 
-/// <summary>How far the loading of a file has come.</summary>
-/// <param name="File">As messages name it.</param>
-/// <param name="Fraction">From 0 to 1, of this file.</param>
+/// <summary>Reports the progress of loading one file.</summary>
+/// <param name="File">Name of the file in messages.</param>
+/// <param name="Fraction">Part of this file that is read, from 0 to 1.</param>
 public readonly record struct LoadProgress(string File, double Fraction);

@@ -1,15 +1,14 @@
 namespace FractalEngine.Parsing.Assets;
 
 /// <summary>
-/// The names behind one <c>mtllib</c>. The format separates them by blanks, yet programs write names with blanks in them; so a name ends
-/// where
-/// <c>.mtl</c> stands before a blank. A backslash before a blank makes it a part of the name.
+/// Splits the names behind one <c>mtllib</c>. The format separates them by blanks, yet programs write names that contain blanks. So a
+/// name ends at a blank behind <c>.mtl</c>, and a backslash makes a blank part of the name.
 /// </summary>
 internal static class MaterialFileNames
 {
     private const string Extension = ".mtl";
 
-    /// <summary>The single names, in order.</summary>
+    /// <summary>Returns the single names in their order.</summary>
     public static IEnumerable<string> Split(string names)
     {
         var start = 0;

@@ -6,33 +6,33 @@ using FractalEngine.Parsing.Text;
 namespace FractalEngine.Parsing.Assets;
 
 /// <summary>
-/// Loads the materials of meshes and looks for their pictures. Each file is read once, however many meshes name it. Nothing is an error:
-/// what can't be had gives a warning, and the mesh is drawn without it.
+/// Loads the materials of meshes and finds their textures. Each file is read once, however many meshes refer to it.
 /// </summary>
-/// <param name="references">Says which files may be named.</param>
-/// <param name="warnings">Receives what is wrong.</param>
+/// <remarks>Material problems cause warnings only: the mesh is drawn without what is missing.</remarks>
+/// <param name="references">Resolves the names of files.</param>
+/// <param name="warnings">Receives the warnings.</param>
 internal sealed class MaterialLoader(FileReferenceResolver references, List<Diagnostic> warnings)
 {
-    // Beyond so many missing pictures, one more message tells nobody anything.
+    // Beyond so many missing textures, one more message helps nobody.
     private const int MaxTextureWarnings = 20;
 
-    private readonly Dictionary<string, MtlFile?> _materialFiles = [];
-    private readonly Dictionary<(MtlFile File, string Name), Material> _materials = [];
+    private readonly Dictionary<string, ParsedMtl?> _materialFiles = [];
+    private readonly Dictionary<(ParsedMtl File, string Name), Material> _materials = [];
 
-    // The pictures that were looked at, and whether they are fit.
+    // Whether each image file that was tested is usable.
     private readonly Dictionary<string, bool> _textureFiles = [];
     private readonly HashSet<(string Referrer, string File)> _reportedTextures = [];
     private long _totalPixels;
     private int _textureWarningCount;
 
-    /// <summary>The size of all files looked at, each once.</summary>
+    /// <summary>Total size of the files read so far, each counted once, in bytes.</summary>
     public long StorageBytes { get; private set; }
 
-    /// <summary>The materials that a mesh's groups name, as far as there are any.</summary>
-    /// <param name="mesh">Parsed.</param>
-    /// <param name="source">Its text.</param>
-    /// <param name="fullPath">The full path of its file.</param>
-    public ImmutableDictionary<string, Material> Load(ObjFile mesh, SourceText source, string fullPath)
+    /// <summary>Loads the materials that the groups of a mesh name; missing ones are not in the result.</summary>
+    /// <param name="mesh">Parsed mesh with names of material files.</param>
+    /// <param name="source">Text of the mesh.</param>
+    /// <param name="fullPath">Full path of the mesh's file.</param>
+    public ImmutableDictionary<string, Material> Load(ParsedObj mesh, SourceText source, string fullPath)
     {
         var names = mesh.Mesh.Groups.Select(group => group.Material).Where(name => name.Length > 0).Distinct().ToArray();
         if (names.Length == 0 || mesh.Mesh.MaterialLibraries.IsEmpty)
@@ -46,12 +46,12 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
         {
             if (libraries.FirstOrDefault(library => library.File.Materials.ContainsKey(name)) is { File: not null } library)
             {
-                materials.Add(name, ResolveMaterial(library.File, library.Full, name));
+                materials.Add(name, ResolveMaterial(library.File, library.FullPath, name));
             }
         }
 
         var unknownMaterials = names.Where(name => !materials.ContainsKey(name)).ToArray();
-        // Where a file is missing that has been said, and its materials are no further news.
+        // A missing file has its own warning; that its materials are missing too adds nothing.
         if (unknownMaterials.Length > 0 && isComplete)
         {
             var totalNote = unknownMaterials.Length == 1 ? "" : $" ({unknownMaterials.Length} such materials in all)";
@@ -62,16 +62,16 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
         return materials.ToImmutable();
     }
 
-    private List<(MtlFile File, string Full)> LoadLibraries(ObjFile mesh, SourceText source, string fullPath, out bool isComplete)
+    private List<(ParsedMtl File, string FullPath)> LoadLibraries(ParsedObj mesh, SourceText source, string fullPath, out bool isComplete)
     {
-        var libraries = new List<(MtlFile File, string Full)>();
+        var libraries = new List<(ParsedMtl File, string FullPath)>();
         Diagnostic? firstFault = null;
         var faultCount = 0;
         foreach (var (names, offset) in mesh.Mesh.MaterialLibraries.Zip(mesh.MaterialLibraryOffsets))
         {
             foreach (var name in references.Exists(fullPath, names) ? [names] : MaterialFileNames.Split(names))
             {
-                // A message costs a look through the whole text: one is enough.
+                // A message costs a search through the whole text: one is enough.
                 if (firstFault is not null && !references.Exists(fullPath, name))
                 {
                     faultCount++;
@@ -100,17 +100,16 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
 
         if (firstFault is not null)
         {
-            Warn(firstFault with { Message = faultCount == 1
-                ? firstFault.Message
-                : $"{firstFault.Message} ({faultCount} such files in all)" });
+            var totalNote = faultCount == 1 ? "" : $" ({faultCount} such files in all)";
+            Warn(firstFault with { Message = firstFault.Message + totalNote });
         }
 
         isComplete = faultCount == 0;
         return libraries;
     }
 
-    /// <summary>Null where the file is no text or too long; that is said once.</summary>
-    private MtlFile? ReadMaterialFile(string fullPath, string displayName)
+    /// <summary>Reads a material file once. Returns null, with one warning, if it is not text or too large.</summary>
+    private ParsedMtl? ReadMaterialFile(string fullPath, string displayName)
     {
         if (_materialFiles.TryGetValue(fullPath, out var cached))
         {
@@ -119,8 +118,9 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
 
         try
         {
-            var file = MtlParser.Parse(SourceText.Read(fullPath, displayName, ParsingLimits.MaterialBytes, acceptLatin1: true));
-            StorageBytes += new FileInfo(fullPath) is { Exists: true } info ? info.Length : 0;
+            var source = SourceText.Read(fullPath, displayName, ParsingLimits.MaxMaterialBytes, acceptLatin1: true);
+            var file = MtlParser.Parse(source);
+            StorageBytes += source.ByteCount;
             warnings.AddRange(file.Warnings);
             return _materialFiles[fullPath] = file;
         }
@@ -131,8 +131,8 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
         }
     }
 
-    /// <summary>A material with the full path of its picture, or without one that can't be had.</summary>
-    private Material ResolveMaterial(MtlFile file, string fullPath, string name)
+    /// <summary>Returns a material with the full path of its texture, or without a texture that can't be used.</summary>
+    private Material ResolveMaterial(ParsedMtl file, string fullPath, string name)
     {
         if (_materials.TryGetValue((file, name), out var cached))
         {
@@ -171,10 +171,10 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
         }
         catch (SourceException fault)
         {
-            // Said once of each file, however many materials name it.
+            // Reported once per file, however many materials refer to it.
             if (_reportedTextures.Add((source.FileName, file)) && ++_textureWarningCount <= MaxTextureWarnings)
             {
-                var suffix = _textureWarningCount < MaxTextureWarnings ? "" : "; further pictures that can't be had are not named";
+                var suffix = _textureWarningCount < MaxTextureWarnings ? "" : "; further unusable textures are not reported";
                 Warn(fault.Diagnostic with { Message = $"{fault.Diagnostic.Message}: drawn grey{suffix}" });
             }
 
@@ -186,36 +186,36 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
     {
         try
         {
-            // Pipes and devices say that they are empty, and opening one may wait for ever.
+            // Pipes and devices report a length of 0, and opening one may wait for ever.
             if (new FileInfo(fullPath).Length == 0)
             {
-                throw source.Error(offset, $"\"{file}\" is empty, expected a picture");
+                throw source.Error(offset, $"\"{file}\" is empty, expected an image");
             }
 
             using var stream = new FileStream(fullPath, FileMode.Open, FileAccess.Read, FileShare.Read);
-            if (stream.Length > ParsingLimits.ImageBytes)
+            if (stream.Length > ParsingLimits.MaxImageBytes)
             {
-                throw source.Error(offset, $"the picture \"{file}\" is larger than the limit of {ParsingLimits.ImageBytes} bytes",
+                throw source.Error(offset, $"the image \"{file}\" is larger than the limit of {ParsingLimits.MaxImageBytes} bytes",
                     isLimitExceeded: true);
             }
 
             var isTga = Path.GetExtension(fullPath).Equals(".tga", StringComparison.OrdinalIgnoreCase);
             if (ImageSizeReader.Read(stream, isTga) is not ( > 0 and var width, > 0 and var height))
             {
-                throw source.Error(offset, $"\"{file}\" is no PNG, JPEG, BMP or TGA picture");
+                throw source.Error(offset, $"\"{file}\" is not a PNG, JPEG, BMP or TGA image");
             }
 
-            if (Math.Max(width, height) > ParsingLimits.ImageSide)
+            if (Math.Max(width, height) > ParsingLimits.MaxImageSide)
             {
-                throw source.Error(
-                    offset, $"the picture \"{file}\" has {width}×{height} pixels, more than the limit of {ParsingLimits.ImageSide} a side",
+                throw source.Error(offset,
+                    $"the image \"{file}\" has {width}×{height} pixels, more than the limit of {ParsingLimits.MaxImageSide} per side",
                     isLimitExceeded: true);
             }
 
-            if (_totalPixels + (width * height) > ParsingLimits.TotalImagePixels)
+            if (_totalPixels + (width * height) > ParsingLimits.MaxTotalImagePixels)
             {
-                throw source.Error(
-                    offset, $"with \"{file}\" all pictures have more than the limit of {ParsingLimits.TotalImagePixels} pixels",
+                throw source.Error(offset,
+                    $"with \"{file}\" all images have more than the limit of {ParsingLimits.MaxTotalImagePixels} pixels",
                     isLimitExceeded: true);
             }
 
@@ -224,7 +224,7 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
         }
         catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
         {
-            throw source.Error(offset, $"the picture \"{file}\" can't be read: {exception.Message}");
+            throw source.Error(offset, $"the image \"{file}\" can't be read: {exception.Message}");
         }
     }
 

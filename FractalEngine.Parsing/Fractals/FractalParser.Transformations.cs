@@ -5,12 +5,12 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Fractals;
 
-/// <content>Transformation functions, and the sets that call them.</content>
+/// <content>Parses transformation functions and the sets that call them.</content>
 public sealed partial class FractalParser
 {
     private const int MaxParameters = 3;
 
-    /// <summary><c>t.a.b. (out, out, out)</c>; each output is a parameter, the number of a vector, or '#'.</summary>
+    /// <summary>Parses <c>t.a.b. (out, out, out)</c>; each output is a parameter, the number of a vector, or '#'.</summary>
     private bool ParseFunction(Cursor cursor, out Cursor rest)
     {
         if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
@@ -85,10 +85,12 @@ public sealed partial class FractalParser
             return true;
         }
 
-        return Fail(cursor, "a vector number") | Fail(cursor, "a parameter") | Fail(cursor, "'#'");
+        Fail(cursor, "a vector number");
+        Fail(cursor, "a parameter");
+        return Fail(cursor, "'#'");
     }
 
-    /// <summary>The number of a vector that is declared above.</summary>
+    /// <summary>Parses the number of a vector that is declared above.</summary>
     private bool ParseVectorNumber(Cursor cursor, out Vector vector, out Cursor rest)
     {
         vector = default;
@@ -97,13 +99,17 @@ public sealed partial class FractalParser
             return false;
         }
 
-        vector = number >= 1 && number <= _vectors.Count ? _vectors[number - 1]
-            : throw Error(cursor,
-            $"vector {TextBetween(cursor, rest)} of {_vectors.Count}: {(number == 0 ? "vectors are numbered from 1" : "it is not declared above")}");
+        if (number < 1 || number > _vectors.Count)
+        {
+            var fault = number == 0 ? "vectors are numbered from 1" : "it is not declared above";
+            throw Error(cursor, $"vector {TextBetween(cursor, rest)} of {_vectors.Count}: {fault}");
+        }
+
+        vector = _vectors[number - 1];
         return true;
     }
 
-    /// <summary><c>[#, t.1, u.6.10]</c></summary>
+    /// <summary>Parses a set of calls: <c>[#, t.1, u.6.10]</c>.</summary>
     private bool ParseSet(Cursor cursor, out TransformationSet set, out Cursor rest)
     {
         var transformations = ImmutableArray.CreateBuilder<Transformation>();
@@ -131,7 +137,7 @@ public sealed partial class FractalParser
         return ParseChar(rest, ']', out rest);
     }
 
-    /// <summary><c>#</c>, or a function and the numbers of its arguments: <c>t.4</c>, <c>u.6.10</c>, <c>r.</c></summary>
+    /// <summary>Parses <c>#</c>, or a function with the numbers of its arguments: <c>t.4</c>, <c>u.6.10</c>, <c>r.</c></summary>
     private bool ParseCall(Cursor cursor, out Transformation transformation, out Cursor rest)
     {
         transformation = Transformation.Identity;

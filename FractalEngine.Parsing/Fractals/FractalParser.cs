@@ -1,13 +1,14 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
+using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Fractals;
 
 /// <summary>
-/// Reads fractal files (paper §4.2.2): vectors, transformation functions, objects and recursives, and the one result
-/// marked by <c>&lt;$&gt;</c>. The grammar stands in docs/manual.md. The result is as small as the file: nothing is expanded.
+/// Reads fractal files (paper §4.2.2): vectors, transformation functions, objects and recursives, and the one result marked by
+/// <c>&lt;$&gt;</c>. The grammar is in docs/manual.md. Nothing is expanded, so the result is as small as the file.
 /// </summary>
 public sealed partial class FractalParser : Parser
 {
@@ -25,11 +26,11 @@ public sealed partial class FractalParser : Parser
     {
     }
 
-    /// <summary>Parses a whole file. The base mesh's file is not touched.</summary>
-    /// <exception cref="SourceException">The text is no fractal, or says something that makes no sense.</exception>
-    public static FractalFile Parse(SourceText source) => new FractalParser(source).ParseFile();
+    /// <summary>Parses a whole fractal file. The file of the base mesh is not read.</summary>
+    /// <exception cref="SourceException">The text is not a fractal, or has no valid meaning.</exception>
+    public static ParsedFractal Parse(SourceText source) => new FractalParser(source).ParseFile();
 
-    private FractalFile ParseFile()
+    private ParsedFractal ParseFile()
     {
         for (var cursor = Source.Start; !cursor.IsAtEnd;)
         {
@@ -41,16 +42,15 @@ public sealed partial class FractalParser : Parser
 
         if (_result is not { } result)
         {
-            throw Error(
-                _hasDeclaration ? new(Source.Text, Source.Text.TrimEnd().Length) : Source.Start,
-                _hasDeclaration ? "the fractal has no result: expected a declaration '<$>. object'" : "the fractal declares nothing");
+            throw _hasDeclaration
+                ? Source.Error(Source.Text.TrimEnd().Length, "the fractal has no result: expected a declaration '<$>. object'")
+                : Source.Error(0, "the fractal declares nothing");
         }
 
         var description = new FractalDescription(result.Object.Steps, _composition ?? Composition.Affine);
-        if (description is { IsInfinite: true, Composition: Composition.Componentwise })
+        if (!FractalCheck.IsComposable(description))
         {
-            throw Source.Error(result.Offset,
-                "an infinite fractal can't be composed componentwise: its positions don't shrink; give it a depth");
+            throw Source.Error(result.Offset, FractalCheck.NotComposableMessage);
         }
 
         return new(Source, description, result.Object.BaseFile, result.Object.BaseFileNameOffset, result.Offset);
@@ -59,14 +59,8 @@ public sealed partial class FractalParser : Parser
     private bool ParseLine(Cursor cursor, out Cursor rest)
     {
         ParseBlanks(cursor, out var start);
-        if (start.Current == '#')
-        {
-            rest = SkipLine(start);
-            return true;
-        }
-
-        rest = start;
-        return (IsAtEndOfLine(start) || ParseDeclaration(start, out rest)) && ParseEndOfLine(rest, out rest);
+        return ParseComment(start, out rest)
+            || ((IsAtEndOfLine(start) || ParseDeclaration(start, out rest)) && ParseEndOfLine(rest, out rest));
     }
 
     private bool ParseDeclaration(Cursor cursor, out Cursor rest)
@@ -80,7 +74,7 @@ public sealed partial class FractalParser : Parser
             || ParseObjectDeclaration(cursor, out rest);
     }
 
-    /// <summary><c>v x y z</c></summary>
+    /// <summary>Parses a vector: <c>v x y z</c>.</summary>
     private bool ParseVectorDeclaration(Cursor cursor, out Cursor rest)
     {
         if (!ParseWord(cursor, "v", out rest) || !ParseBlanks(rest, out var numbers) || numbers.Offset == rest.Offset
@@ -93,11 +87,11 @@ public sealed partial class FractalParser : Parser
         return true;
     }
 
-    /// <summary><c>composition affine|componentwise</c></summary>
+    /// <summary>Parses the choice <c>composition affine</c> or <c>composition componentwise</c>.</summary>
     private bool ParseComposition(Cursor cursor, out Cursor rest)
     {
         if (!ParseWord(cursor, "composition", out rest) || !ParseBlanks(rest, out var word) || word.Offset == rest.Offset
-            || !(ParseWord(word, "affine", out rest) || ParseWord(word, "componentwise", out rest)))
+            || !ParseCompositionName(word, out var composition, out rest))
         {
             return false;
         }
@@ -107,11 +101,23 @@ public sealed partial class FractalParser : Parser
             throw Error(cursor, "the composition is declared twice");
         }
 
-        _composition = word.Current == 'a' && word.Peek(1) == 'f' ? Composition.Affine : Composition.Componentwise;
+        _composition = composition;
         return true;
     }
 
-    /// <summary><c>&lt;$&gt;. object</c></summary>
+    private bool ParseCompositionName(Cursor cursor, out Composition composition, out Cursor rest)
+    {
+        composition = Composition.Affine;
+        if (ParseWord(cursor, "affine", out rest))
+        {
+            return true;
+        }
+
+        composition = Composition.Componentwise;
+        return ParseWord(cursor, "componentwise", out rest);
+    }
+
+    /// <summary>Parses the result of the file: <c>&lt;$&gt;. object</c>.</summary>
     private bool ParseResult(Cursor cursor, out Cursor rest)
     {
         rest = cursor;
@@ -127,7 +133,7 @@ public sealed partial class FractalParser : Parser
 
         if (_result is { } first)
         {
-            throw Error(cursor, $"the result '<$>' is declared twice, first in line {Source.Diagnose(first.Offset, "").Line}");
+            throw Error(cursor, $"the result '<$>' is declared twice, first in line {Source.LineOf(first.Offset)}");
         }
 
         RequireLevelLimit(value.Steps, cursor);
@@ -135,7 +141,7 @@ public sealed partial class FractalParser : Parser
         return true;
     }
 
-    /// <summary><c>z&lt;x&gt;. object</c>: the object must be built on x; what it adds to x is one round.</summary>
+    /// <summary>Parses <c>z&lt;x&gt;. object</c>. The object must be built on x; what it adds to x is one round.</summary>
     private bool ParseRecursive(Cursor cursor, out Cursor rest)
     {
         if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '<', out var baseStart)
@@ -168,7 +174,7 @@ public sealed partial class FractalParser : Parser
         return true;
     }
 
-    /// <summary><c>name. object</c></summary>
+    /// <summary>Parses a named object: <c>name. object</c>.</summary>
     private bool ParseObjectDeclaration(Cursor cursor, out Cursor rest)
     {
         if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
@@ -182,8 +188,8 @@ public sealed partial class FractalParser : Parser
     }
 
     /// <summary>
-    /// <c>"file.obj"</c>, <c>name</c> or <c>name depth</c>, with any number of sets <c>[transformations]</c> before it. A loop and not
-    /// a recursion, so that no file can exhaust the stack.
+    /// Parses <c>"file.obj"</c>, <c>name</c> or <c>name depth</c>, with any number of sets <c>[transformations]</c> before it. It is a
+    /// loop, not a recursion, so that no file can exhaust the stack.
     /// </summary>
     private bool ParseObject(Cursor cursor, out DeclaredObject value, out Cursor rest)
     {
@@ -217,7 +223,7 @@ public sealed partial class FractalParser : Parser
     {
         var success = ParseString(cursor, "the name of a .obj file in quotes", out var file, out rest);
         value = new(file, cursor.Offset, []);
-        return success && !file.EndsWith(".obj", StringComparison.OrdinalIgnoreCase)
+        return success && FileKinds.FromName(file) != FileKind.Mesh
             ? throw Error(cursor, "expected the name of a .obj file: the base of a fractal is a mesh")
             : success;
     }
@@ -230,7 +236,7 @@ public sealed partial class FractalParser : Parser
             return false;
         }
 
-        // The line may still turn out to be another kind of declaration, so names are looked up only once its syntax fits.
+        // The line may still be another kind of declaration, so names are resolved only once the syntax fits.
         ParseBlanks(rest, out var depthStart);
         if (IsAtEndOfLine(depthStart))
         {
@@ -248,11 +254,17 @@ public sealed partial class FractalParser : Parser
             return Fail(depthStart, "the end of the line");
         }
 
-        value = FindObject(cursor, name) is not DeclaredRecursive recursive
-            ? throw Error(depthStart, $"'{name}' is no recursive, so it has no depth")
-            : depth > FractalLimits.MaxDepth
-                ? throw Error(depthStart, $"the depth is more than the limit of {FractalLimits.MaxDepth}", isLimitExceeded: true)
-                : recursive.WithDepth(depth);
+        if (FindObject(cursor, name) is not DeclaredRecursive recursive)
+        {
+            throw Error(depthStart, $"'{name}' is no recursive, so it has no depth");
+        }
+
+        if (depth > FractalLimits.MaxDepth)
+        {
+            throw Error(depthStart, $"the depth is more than the limit of {FractalLimits.MaxDepth}", isLimitExceeded: true);
+        }
+
+        value = recursive.WithDepth(depth);
         return true;
     }
 
@@ -272,8 +284,8 @@ public sealed partial class FractalParser : Parser
     {
         if (steps.Length > FractalLimits.MaxSteps || steps.Any(step => step.NestingDepth > FractalLimits.MaxNesting))
         {
-            throw Error(
-                cursor, $"the object has more than the limit of {FractalLimits.MaxSteps} steps, or of {FractalLimits.MaxNesting} recursives inside each other", isLimitExceeded: true);
+            var limits = $"{FractalLimits.MaxSteps} steps, or of {FractalLimits.MaxNesting} recursives inside each other";
+            throw Error(cursor, $"the object has more than the limit of {limits}", isLimitExceeded: true);
         }
     }
 
@@ -281,8 +293,7 @@ public sealed partial class FractalParser : Parser
     {
         if (FractalSteps.LevelCount(steps) > FractalLimits.MaxLevels)
         {
-            throw Error(cursor, $"the fractal passes through more than the limit of {FractalLimits.MaxLevels} sets of transformations",
-                isLimitExceeded: true);
+            throw Error(cursor, $"the fractal has more than the limit of {FractalLimits.MaxLevels} levels", isLimitExceeded: true);
         }
     }
 

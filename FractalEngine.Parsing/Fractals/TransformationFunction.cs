@@ -4,20 +4,20 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Parsing.Fractals;
 
 /// <summary>
-/// A transformation function: vectors in, a transformation out. Each output is already resolved to a function of the
-/// arguments, so that calling it needs no names.
+/// Transformation function of a fractal file, from vectors to a transformation. Its outputs are resolved to functions of the arguments,
+/// so that a call needs no names.
 /// </summary>
-/// <param name="ParameterCount">0 to 3.</param>
-/// <param name="Position">From the arguments.</param>
-/// <param name="Rotation">From the arguments.</param>
-/// <param name="Scale">From the arguments.</param>
+/// <param name="ParameterCount">Number of parameters, 0 to 3.</param>
+/// <param name="Position">Returns the position for given arguments.</param>
+/// <param name="Rotation">Returns the rotation in degrees for given arguments.</param>
+/// <param name="Scale">Returns the scale for given arguments.</param>
 internal sealed record TransformationFunction(
     int ParameterCount,
     Func<ImmutableArray<Vector>, Vector> Position,
     Func<ImmutableArray<Vector>, Vector> Rotation,
     Func<ImmutableArray<Vector>, Vector> Scale)
 {
-    /// <summary>The transformation for the given arguments, one a parameter.</summary>
+    /// <summary>Returns the transformation for the given arguments, one per parameter.</summary>
     public Transformation Apply(ImmutableArray<Vector> arguments) =>
         new(Position(arguments), Rotation(arguments), Scale(arguments));
 }

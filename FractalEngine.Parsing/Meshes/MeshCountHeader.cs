@@ -1,23 +1,26 @@
 using System.Globalization;
 using System.Text;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Meshes;
 
-/// <summary>The comment <c># Mesh count: N</c> at the head of an OBJ file, which tells its number of faces (paper §4.1.1).</summary>
+/// <summary>Maintains the comment <c># Mesh count: N</c> at the head of an OBJ file: its number of faces (paper §4.1.1).</summary>
 public static class MeshCountHeader
 {
     private const string Prefix = "# Mesh count:";
 
     /// <summary>
-    /// Writes the comment into a file, or corrects the one that is there; everything else stays byte for byte. A file that is
-    /// right already is not touched.
+    /// Writes the comment into a file or corrects an existing one. All other bytes are kept. A file with the right comment is not
+    /// written.
     /// </summary>
-    /// <returns>True when the file was changed.</returns>
-    /// <exception cref="IOException">The file can't be written.</exception>
+    /// <param name="path">Path of an OBJ file in any encoding that extends ASCII.</param>
+    /// <param name="faceCount">Number of triangles to record.</param>
+    /// <returns>True if the file was changed.</returns>
+    /// <exception cref="IOException">The file can't be read or written.</exception>
     public static bool Update(string path, int faceCount)
     {
-        // Latin-1 maps bytes to characters and back one to one, whatever the file's encoding.
+        // Latin-1 maps bytes to characters one to one, whatever the encoding of the file.
         var text = Encoding.Latin1.GetString(File.ReadAllBytes(path));
         var updated = WithHeader(text, faceCount);
         if (updated == text)
@@ -29,26 +32,29 @@ public static class MeshCountHeader
         return true;
     }
 
+    /// <summary>Returns the comment for a number of triangles, without a line break.</summary>
+    internal static string Format(long faceCount) => string.Create(CultureInfo.InvariantCulture, $"{Prefix} {faceCount}");
+
     private static string WithHeader(string text, int faceCount)
     {
         const string byteOrderMark = "\u00EF\u00BB\u00BF";
-        var header = string.Create(CultureInfo.InvariantCulture, $"{Prefix} {faceCount}");
-        var lineBreak = text.Contains("\r\n", StringComparison.Ordinal) ? "\r\n" : "\n";
+        var header = Format(faceCount);
+        var lineBreak = SourceText.LineBreakOf(text);
         var position = text.StartsWith(byteOrderMark, StringComparison.Ordinal) ? byteOrderMark.Length : 0;
         while (position < text.Length && text[position] == '#')
         {
-            var end = text.AsSpan(position).IndexOfAny('\r', '\n') is >= 0 and var length ? position + length : text.Length;
+            var lineLength = text.AsSpan(position).IndexOfAny('\r', '\n');
+            var end = lineLength < 0 ? text.Length : position + lineLength;
             if (text.AsSpan(position).StartsWith(Prefix, StringComparison.OrdinalIgnoreCase))
             {
                 return text[..position] + header + text[end..];
             }
 
-            position = end < text.Length && text[end] == '\r' && end + 1 < text.Length && text[end + 1] == '\n'
-                ? end + 2
-                : Math.Min(end + 1, text.Length);
+            var isCrLf = text.AsSpan(end).StartsWith("\r\n", StringComparison.Ordinal);
+            position = isCrLf ? end + 2 : Math.Min(end + 1, text.Length);
         }
 
-        // The last comment of the head may be the end of the file, without a line break.
+        // The last comment at the head may end the file without a line break.
         var separator = position > 0 && text[position - 1] is not ('\n' or '\r' or '\u00BF') ? lineBreak : "";
         return text[..position] + separator + header + lineBreak + text[position..];
     }

@@ -4,7 +4,7 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Meshes;
 
-/// <content>The statement <c>map_Kd</c>: options, each with its arguments, then the name of a file.</content>
+/// <content>Parses the statement <c>map_Kd</c>: options, each with its arguments, then the name of an image file.</content>
 public sealed partial class MtlParser
 {
     private bool ParseTexture(Cursor statement, Cursor cursor)
@@ -21,8 +21,8 @@ public sealed partial class MtlParser
             ParseBlanks(rest, out rest);
         }
 
-        // Windows takes both slashes, all others take this one only.
-        var file = ReadName(rest, out _).Replace('\\', '/');
+        // Windows accepts both slashes, other systems only this one.
+        var file = ReadRestOfLine(rest, out _).Replace('\\', '/');
         if (file.Length == 0)
         {
             return Fail(rest, "a file name");
@@ -30,7 +30,7 @@ public sealed partial class MtlParser
 
         return UpdateMaterial(statement, material =>
         {
-            // Of materials with the same name the first stays, see Finish.
+            // The first of several materials with the same name wins, see CommitMaterial.
             if (!_materials.ContainsKey(material.Name))
             {
                 _textureNameOffsets[material.Name] = rest.Offset;
@@ -82,7 +82,7 @@ public sealed partial class MtlParser
     }
 
     /// <summary>
-    /// One to three numbers; those that are left out keep their usual value. A word that only begins with digits is a file's name.
+    /// Parses one to three numbers; omitted ones keep their default. A word that merely begins with digits is the name of a file.
     /// </summary>
     private bool ParseUpToThreeNumbers(Cursor cursor, Vector defaults, out Vector numbers, out Cursor rest)
     {
@@ -93,7 +93,11 @@ public sealed partial class MtlParser
         }
 
         var (_, y, z) = defaults;
-        _ = ParseOptionalNumber(rest, ref y, out rest) && ParseOptionalNumber(rest, ref z, out rest);
+        if (ParseOptionalNumber(rest, ref y, out rest))
+        {
+            ParseOptionalNumber(rest, ref z, out rest);
+        }
+
         numbers = new(x, y, z);
         return true;
     }

@@ -5,12 +5,14 @@ using FractalEngine.Parsing.Text;
 namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>
-/// Reads Wavefront material files: <c>newmtl</c>, <c>Kd</c>, <c>Ka</c>, <c>Ks</c>, <c>Ns</c>, <c>d</c>, <c>Tr</c>, <c>map_Kd</c>. Other
-/// statements are passed over; so are faulty ones, with one warning a file, since a surface of the wrong colour is better than none.
+/// Reads Wavefront material files: <c>newmtl</c>, <c>Kd</c>, <c>Ka</c>, <c>Ks</c>, <c>Ns</c>, <c>d</c>, <c>Tr</c>, <c>map_Kd</c>.
 /// </summary>
+/// <remarks>
+/// Other statements are ignored. Faulty ones are ignored with one warning per file: a surface of the wrong colour is better than none.
+/// </remarks>
 public sealed partial class MtlParser : Parser
 {
-    // Each fault costs a look through the text for its line; what has more of them is no material file.
+    // Each fault costs a search through the text for its line. A file with more of them is not a material file.
     private const int MaxFaults = 100;
 
     private readonly ImmutableDictionary<string, Material>.Builder _materials = ImmutableDictionary.CreateBuilder<string, Material>();
@@ -25,10 +27,10 @@ public sealed partial class MtlParser : Parser
     {
     }
 
-    /// <summary>Parses a whole file. Nothing in it is an error.</summary>
-    public static MtlFile Parse(SourceText source) => new MtlParser(source).ParseFile();
+    /// <summary>Parses a whole file. Faults in it give a warning, never an error.</summary>
+    public static ParsedMtl Parse(SourceText source) => new MtlParser(source).ParseFile();
 
-    private MtlFile ParseFile()
+    private ParsedMtl ParseFile()
     {
         for (var cursor = Source.Start; !cursor.IsAtEnd && _faultCount < MaxFaults; cursor = SkipLine(cursor))
         {
@@ -46,9 +48,8 @@ public sealed partial class MtlParser : Parser
         }
 
         CommitMaterial();
-        return new(Source, _materials.ToImmutable(), _textureNameOffsets.ToImmutable(), _firstFault is null
-            ? []
-            : [CreateWarning(_firstFault)]);
+        ImmutableArray<Diagnostic> warnings = _firstFault is null ? [] : [CreateWarning(_firstFault)];
+        return new(Source, _materials.ToImmutable(), _textureNameOffsets.ToImmutable(), warnings);
     }
 
     private void RecordFault(SourceException fault)
@@ -62,13 +63,13 @@ public sealed partial class MtlParser : Parser
         Severity = DiagnosticSeverity.Warning,
         Message = _faultCount switch
         {
-            1 => $"{fault.Message}: the statement is passed over",
-            MaxFaults => $"{fault.Message}: the statement is passed over (after {MaxFaults} such statements the rest of the file is, too)",
-            _ => $"{fault.Message}: the statement is passed over ({_faultCount} such statements in all)",
+            1 => $"{fault.Message}: the statement is ignored",
+            MaxFaults => $"{fault.Message}: the statement is ignored (after {MaxFaults} such statements the rest of the file is, too)",
+            _ => $"{fault.Message}: the statement is ignored ({_faultCount} such statements in all)",
         },
     };
 
-    /// <summary>What was declared first under a name stays.</summary>
+    /// <summary>Adds the current material to the result. The first of several materials with the same name wins.</summary>
     private void CommitMaterial()
     {
         if (_current is { } material)
@@ -81,7 +82,7 @@ public sealed partial class MtlParser : Parser
     private bool ParseLine(Cursor cursor)
     {
         ParseBlanks(cursor, out var start);
-        if (IsAtEndOfLine(start) || start.Current == '#' || !char.IsLetter(start.Current)
+        if (IsAtEndOfStatement(start) || !char.IsLetter(start.Current)
             || !ParseName(start, "a keyword", out var keyword, out var rest))
         {
             return true;
@@ -104,14 +105,15 @@ public sealed partial class MtlParser : Parser
 
     private bool ParseDeclaration(Cursor cursor)
     {
-        var name = ReadName(cursor, out _);
+        var name = ReadRestOfLine(cursor, out _);
         if (name.Length == 0)
         {
             return Fail(cursor, "a name");
         }
 
         CommitMaterial();
-        (_current, _hasOpacity) = (new(name), false);
+        _current = new(name);
+        _hasOpacity = false;
         return true;
     }
 
@@ -121,7 +123,7 @@ public sealed partial class MtlParser : Parser
         return true;
     }
 
-    /// <summary>Three components, or one for all three.</summary>
+    /// <summary>Parses three components of a colour, or one for all three.</summary>
     private bool ParseColour(Cursor statement, Cursor cursor, Func<Material, Colour, Material> update)
     {
         if (!ParseNumber(cursor, out var red, out var rest) || !ParseBlanks(rest, out rest))
@@ -143,7 +145,9 @@ public sealed partial class MtlParser : Parser
         ParseNumber(cursor, out var number, out var rest) && ParseEndOfStatement(rest)
         && UpdateMaterial(statement, material => update(material, number));
 
-    /// <summary><c>d</c> counts more than <c>Tr</c>, wherever they stand: programs disagree about what <c>Tr</c> means.</summary>
+    /// <summary>
+    /// Parses an opacity. <c>d</c> overrides <c>Tr</c> in any order, because programs disagree about the meaning of <c>Tr</c>.
+    /// </summary>
     private bool ParseOpacity(Cursor statement, Cursor cursor)
     {
         if (cursor.Rest.StartsWith("-halo", StringComparison.Ordinal))
@@ -158,27 +162,11 @@ public sealed partial class MtlParser : Parser
         });
     }
 
-    /// <summary>A surface that <c>Tr</c> alone calls wholly transparent is opaque: the programs that write this mean so.</summary>
+    /// <summary>Parses a transparency. <c>Tr 1</c> without <c>d</c> means opaque, as the programs that write it intend.</summary>
     private bool ParseTransparency(Cursor statement, Cursor cursor) => ParseScalar(statement, cursor, (material, number) =>
         _hasOpacity ? material : material with { Opacity = number >= 1 ? 1 : Math.Clamp(1 - number, 0, 1) });
 
-    /// <summary>All to the end of the line or to a comment, blanks at the ends taken off. Names may have blanks in them.</summary>
-    private static string ReadName(Cursor cursor, out Cursor rest)
-    {
-        rest = cursor;
-        while (!IsAtEndOfLine(rest) && !(rest.Current == '#' && rest.Offset > 0 && rest.Peek(-1) is ' ' or '\t'))
-        {
-            rest = rest.Advance(1);
-        }
-
-        return cursor.Rest[..(rest.Offset - cursor.Offset)].Trim().ToString();
-    }
-
     private static bool IsAtEndOfStatement(Cursor cursor) => IsAtEndOfLine(cursor) || cursor.Current == '#';
 
-    private bool ParseEndOfStatement(Cursor cursor)
-    {
-        ParseBlanks(cursor, out var rest);
-        return IsAtEndOfStatement(rest) || Fail(rest, "the end of the line");
-    }
+    private bool ParseEndOfStatement(Cursor cursor) => ParseCommentAndEndOfLine(cursor, out _);
 }

@@ -1,8 +1,11 @@
 namespace FractalEngine.Parsing.Meshes;
 
-/// <summary>One corner of a polygon: numbers from 0 of its position, texture coordinate and normal.</summary>
+/// <summary>One corner of a polygon as indices into the elements of the file.</summary>
+/// <param name="PositionIndex">Index of the position, from 0.</param>
+/// <param name="TextureCoordinateIndex">Index of the texture coordinate, from 0, or <see cref="None"/>.</param>
+/// <param name="NormalIndex">Index of the normal, from 0, or <see cref="None"/>.</param>
 internal readonly record struct ObjCorner(int PositionIndex, int TextureCoordinateIndex, int NormalIndex)
 {
-    /// <summary>The number of what a corner does not have.</summary>
+    /// <summary>Index of an element that the corner lacks.</summary>
     public const int None = -1;
 }

@@ -5,7 +5,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Parsing.Meshes;
 
-/// <summary>Collects the elements of an OBJ file into the flat arrays of a mesh; polygons become triangles on the way in.</summary>
+/// <summary>Collects the elements of an OBJ file into the flat arrays of a mesh, and triangulates polygons on the way.</summary>
 internal sealed class ObjMeshBuilder
 {
     private readonly List<double> _positions = [];
@@ -49,7 +49,7 @@ internal sealed class ObjMeshBuilder
         set => ChangeGroupState(_groupState with { Smoothing = value });
     }
 
-    /// <summary>Returns false where the file was named before, or has no name.</summary>
+    /// <summary>Adds a material file; returns false if its name is empty or was added before.</summary>
     public bool AddMaterialLibrary(string file)
     {
         if (file.Length == 0 || !_knownLibraries.Add(file))
@@ -107,7 +107,9 @@ internal sealed class ObjMeshBuilder
             mesh = mesh.WithNormals(ToImmutable(_normals), ToImmutable(_normalIndices));
         }
 
-        return mesh.WithGroups([.. _groups], [.. _materialLibraries]);
+        // A file that names no group has none.
+        var isUngrouped = _groups is [{ ObjectName: "", GroupName: "", Material: "", SmoothingGroup: 0 }];
+        return mesh.WithGroups(isUngrouped ? [] : [.. _groups], [.. _materialLibraries]);
     }
 
     private static ImmutableArray<T> ToImmutable<T>(List<T> list) => ImmutableCollectionsMarshal.AsImmutableArray(list.ToArray());
@@ -129,7 +131,9 @@ internal sealed class ObjMeshBuilder
         Add(_positionIndices, a.PositionIndex, b.PositionIndex, c.PositionIndex);
     }
 
-    /// <summary>The list stays empty until a face has such numbers; then the faces before it get none.</summary>
+    /// <summary>
+    /// Adds the indices of a triangle. The list stays empty until a face has any; earlier faces then get <see cref="ObjCorner.None"/>.
+    /// </summary>
     private void AddOptionalIndices(List<int> indices, int a, int b, int c)
     {
         if (indices.Count == 0)

@@ -7,12 +7,12 @@ namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>
 /// Reads Wavefront OBJ meshes (paper §4.1.1): vertices, texture coordinates, normals, polygons of any size, names,
-/// groups and materials. Lines and points are passed over, and so are unknown keywords, with one warning.
+/// groups and materials. Lines, points and unknown keywords are ignored, the latter with one warning.
 /// </summary>
-/// <remarks>Coordinates are taken as they stand: no axis is flipped. A scan of 100 MB takes about a second.</remarks>
+/// <remarks>Coordinates are used as written: no axis is flipped. Cost: about a second per 100 MB.</remarks>
 public sealed class ObjParser : Parser
 {
-    // Progress is reported at most once for so many characters.
+    // Characters between two reports of progress, at least.
     private const int ProgressInterval = 1 << 20;
 
     private readonly ObjMeshBuilder _builder = new();
@@ -30,11 +30,11 @@ public sealed class ObjParser : Parser
     {
     }
 
-    /// <summary>Parses a whole file.</summary>
-    /// <param name="source">Its text.</param>
-    /// <param name="progress">Told the fraction that is done, from 0 to 1.</param>
-    /// <exception cref="SourceException">The text is no OBJ file, or refers to elements that it does not have.</exception>
-    public static ObjFile Parse(SourceText source, IProgress<double>? progress = null) => new ObjParser(source).ParseFile(progress);
+    /// <summary>Parses a whole OBJ file.</summary>
+    /// <param name="source">Text of the file.</param>
+    /// <param name="progress">Receives the fraction that is done, from 0 to 1.</param>
+    /// <exception cref="SourceException">The text is not an OBJ file, or refers to elements that don't exist.</exception>
+    public static ParsedObj Parse(SourceText source, IProgress<double>? progress = null) => new ObjParser(source).ParseFile(progress);
 
     /// <inheritdoc/>
     /// <remarks>A backslash before a line break joins two lines.</remarks>
@@ -49,7 +49,7 @@ public sealed class ObjParser : Parser
         return true;
     }
 
-    private ObjFile ParseFile(IProgress<double>? progress)
+    private ParsedObj ParseFile(IProgress<double>? progress)
     {
         var nextReport = ProgressInterval;
         for (var cursor = Source.Start; !cursor.IsAtEnd;)
@@ -92,7 +92,7 @@ public sealed class ObjParser : Parser
         if (_firstInvalidIndex is var (cursor, message))
         {
             var totalNote = _invalidIndexCount == 1 ? "" : $" ({_invalidIndexCount} such corners in all)";
-            warnings.Add(Source.Diagnose(cursor.Offset, $"{message}: the corner goes without{totalNote}", DiagnosticSeverity.Warning));
+            warnings.Add(Source.Diagnose(cursor.Offset, $"{message}: the index is ignored{totalNote}", DiagnosticSeverity.Warning));
         }
 
         return warnings.ToImmutable();
@@ -132,7 +132,7 @@ public sealed class ObjParser : Parser
             "mtllib" => ParseMaterialLibrary(rest, out rest) && MarkDeclared(),
             "s" => ParseSmoothingGroup(rest, out rest) && MarkDeclared(),
             "l" or "p" => ParseRestOfLine(rest, out _, out rest) && MarkDeclared(),
-            // A keyword with nothing behind it stands here because the branches above want a blank.
+            // These keywords come here only without a blank behind them, since ParseLine handles all others.
             "v" or "vn" or "vt" => ParseComponents(rest, out _, out rest),
             "f" => ParseFace(start, out rest),
             _ => SkipUnknown(start, out rest),
@@ -181,7 +181,7 @@ public sealed class ObjParser : Parser
         return ParseRestOfLine(start, out _, out rest);
     }
 
-    /// <summary>x y z, then a weight or a colour or both, which are not used.</summary>
+    /// <summary>Parses x, y and z. A weight, a colour or both may follow and are ignored.</summary>
     private bool ParsePosition(Cursor cursor, out Cursor rest) =>
         ParseThreeNumbers(cursor, out var position, out rest) && AddPosition(position) && ParseOptionalNumbers(rest, out rest)
         && ParseCommentAndEndOfLine(rest, out rest);
@@ -203,7 +203,7 @@ public sealed class ObjParser : Parser
         return true;
     }
 
-    /// <summary>u, then v (0 if missing) and w, which is not used.</summary>
+    /// <summary>Parses u and an optional v, 0 by default. An optional w is ignored.</summary>
     private bool ParseTextureCoordinate(Cursor cursor, out Cursor rest)
     {
         ParseBlanks(cursor, out rest);
@@ -269,9 +269,9 @@ public sealed class ObjParser : Parser
             throw Error(start, $"a face needs at least three corners, this one has {_corners.Count}");
         }
 
-        if (_corners.Count > ParsingLimits.PolygonCorners)
+        if (_corners.Count > ParsingLimits.MaxPolygonCorners)
         {
-            throw Error(start, $"the polygon has {_corners.Count} corners, more than the limit of {ParsingLimits.PolygonCorners}",
+            throw Error(start, $"the polygon has {_corners.Count} corners, more than the limit of {ParsingLimits.MaxPolygonCorners}",
                 isLimitExceeded: true);
         }
 
@@ -279,10 +279,11 @@ public sealed class ObjParser : Parser
         return ParseCommentAndEndOfLine(rest, out rest);
     }
 
-    /// <summary><c>v</c>, <c>v/vt</c>, <c>v//vn</c> or <c>v/vt/vn</c>.</summary>
+    /// <summary>Parses one corner of a face: <c>v</c>, <c>v/vt</c>, <c>v//vn</c> or <c>v/vt/vn</c>.</summary>
     private bool ParseCorner(Cursor cursor, out ObjCorner corner, out Cursor rest)
     {
-        var (texture, normal) = (ObjCorner.None, ObjCorner.None);
+        var texture = ObjCorner.None;
+        var normal = ObjCorner.None;
         corner = default;
         if (!ParseIndex(cursor, "vertex", _builder.PositionCount, isRequired: true, out var position, out rest))
         {
@@ -309,7 +310,7 @@ public sealed class ObjParser : Parser
         return IsAtEndOfLine(rest) || rest.Current is ' ' or '\t' or '#' or '\\' || Fail(rest, "a blank");
     }
 
-    /// <summary>A number of an element from 1, or back from the last one as −1; the result counts from 0.</summary>
+    /// <summary>Parses the number of an element: from 1 upwards, or from −1 backwards. The resulting index counts from 0.</summary>
     private bool ParseIndex(Cursor cursor, string elementName, int count, bool isRequired, out int index, out Cursor rest)
     {
         var isRelative = cursor.Current == '-';
@@ -339,7 +340,7 @@ public sealed class ObjParser : Parser
             throw Error(cursor, message);
         }
 
-        // A face needs no normals or texture coordinates, and some programs write the numbers of ones that they left out.
+        // A face can do without normals or texture coordinates, and some programs write numbers of ones that they omit.
         _firstInvalidIndex ??= (cursor, message);
         _invalidIndexCount++;
         index = ObjCorner.None;
@@ -352,38 +353,18 @@ public sealed class ObjParser : Parser
         if (ParseInteger(rest, "a number or 'off'", out var number, out var next) || ParseWord(rest, "off", out next)
             || ParseWord(rest, "on", out next))
         {
-            _builder.SmoothingGroup = rest.Current == 'o' ? (rest.Peek(1) == 'n' ? 1 : 0) : number;
+            var isOn = rest.Current == 'o' && rest.Peek(1) == 'n';
+            _builder.SmoothingGroup = isOn ? 1 : number;
             return ParseCommentAndEndOfLine(next, out rest);
         }
 
         return false;
     }
 
-    /// <summary>All to the end of the line or to a comment, blanks at the ends taken off. Names may have blanks in them.</summary>
+    /// <summary>Parses a text that may contain blanks, up to the end of the line or to a comment.</summary>
     private bool ParseRestOfLine(Cursor cursor, out string text, out Cursor rest)
     {
-        ParseBlanks(cursor, out var start);
-        rest = start;
-        while (!IsAtEndOfLine(rest) && !(rest.Current == '#' && rest.Offset > 0 && rest.Peek(-1) is ' ' or '\t'))
-        {
-            ParseBlanks(rest, out var next);
-            rest = next.Offset > rest.Offset ? next : rest.Advance(1);
-        }
-
-        text = start.Rest[..(rest.Offset - start.Offset)].Trim().ToString();
+        text = ReadRestOfLine(cursor, out rest);
         return ParseCommentAndEndOfLine(rest, out rest);
-    }
-
-    /// <summary>A comment, if any, and the end of the line.</summary>
-    private bool ParseCommentAndEndOfLine(Cursor cursor, out Cursor rest)
-    {
-        ParseBlanks(cursor, out rest);
-        if (rest.Current == '#')
-        {
-            var length = rest.Rest.IndexOfAny('\n', '\r');
-            rest = rest.Advance(length < 0 ? rest.Rest.Length : length);
-        }
-
-        return ParseEndOfLine(rest, out rest);
     }
 }

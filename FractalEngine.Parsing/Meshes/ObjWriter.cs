@@ -1,4 +1,3 @@
-using System.Buffers.Text;
 using System.Collections.Immutable;
 using System.Globalization;
 using FractalEngine.Core.Fractals;
@@ -9,27 +8,25 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>
-/// Writes scenes as one flat OBJ mesh in world space: every instance of every fractal becomes faces of its own. Streamed, in
-/// memory proportional to the instances and not to the faces; numbers read back to the same bits.
+/// Writes scenes as one flat OBJ mesh in world space: every instance of every fractal becomes faces of its own.
 /// </summary>
+/// <remarks>
+/// The text is streamed; memory is proportional to the instances, not to the faces. <see cref="ObjMeshWriter"/> writes single meshes.
+/// </remarks>
 public sealed class ObjWriter
 {
-    private const int MaxNumberLength = 32;
-
-    private readonly Stream _stream;
-    private readonly byte[] _buffer = new byte[1 << 16];
-    private int _bufferedBytes;
+    private readonly ObjTextWriter _text;
     private long _positionCount;
     private long _textureCoordinateCount;
     private long _normalCount;
 
-    private ObjWriter(Stream stream) => _stream = stream;
+    private ObjWriter(Stream stream) => _text = new(stream);
 
-    /// <summary>Writes all objects of a scene.</summary>
-    /// <param name="scene">Whose fractals are finite.</param>
+    /// <summary>Writes all objects of a scene, each under its name.</summary>
+    /// <param name="scene">Scene whose fractals are finite.</param>
     /// <param name="stream">Receives UTF-8 text.</param>
-    /// <param name="maxFaces">The most faces written.</param>
-    /// <exception cref="FractalLimitException">The scene has more faces. Nothing was written then.</exception>
+    /// <param name="maxFaces">Largest number of faces that may be written.</param>
+    /// <exception cref="FractalLimitException">The scene has more faces. Nothing is written then.</exception>
     public static void Write(LoadedScene scene, Stream stream, long maxFaces)
     {
         var writer = new ObjWriter(stream);
@@ -41,28 +38,14 @@ public sealed class ObjWriter
                 string.Create(CultureInfo.InvariantCulture, $"the scene has {faceCount} faces, more than the limit of {maxFaces}"));
         }
 
-        writer.WriteText(string.Create(CultureInfo.InvariantCulture, $"# Mesh count: {faceCount}\n"));
+        writer._text.WriteText(MeshCountHeader.Format(faceCount) + "\n");
         foreach (var (placed, instances) in objects)
         {
-            writer.WriteText($"o {ObjectName(placed)}\n");
+            writer._text.WriteText($"o {ObjectName(placed)}\n");
             writer.WriteObject(placed.ObjectToWorld, placed.Model.Mesh, instances);
         }
 
-        writer.Flush();
-    }
-
-    /// <summary>Writes one mesh, with its groups where it has some.</summary>
-    /// <param name="mesh">Of any size.</param>
-    /// <param name="name">What the object is called in the file.</param>
-    /// <param name="stream">Receives UTF-8 text.</param>
-    public static void Write(Mesh mesh, string name, Stream stream)
-    {
-        var writer = new ObjWriter(stream);
-        writer.WriteText(string.Create(CultureInfo.InvariantCulture, $"# Mesh count: {mesh.FaceCount}\n"));
-        writer.WriteText($"o {name}\n");
-        writer.WriteTextureCoordinates(mesh);
-        writer.WriteInstance(AffineMap.Identity, mesh, firstTextureCoordinate: 0, writeGroups: true);
-        writer.Flush();
+        writer._text.Flush();
     }
 
     private static string ObjectName(PlacedModel placed) =>
@@ -81,59 +64,40 @@ public sealed class ObjWriter
         }
         catch (FractalLimitException exception)
         {
-            throw new FractalLimitException(
-                string.Create(CultureInfo.InvariantCulture,
-                $"{model.Name} has more faces than the limit of {maxFaces}: {exception.Message}"),
-                exception);
+            var message = string.Create(CultureInfo.InvariantCulture,
+                $"{model.Name} has more faces than the limit of {maxFaces}: {exception.Message}");
+            throw new FractalLimitException(message, exception);
         }
     }
 
     private void WriteObject(AffineMap placement, Mesh mesh, ImmutableArray<AffineMap> instances)
     {
         var firstTextureCoordinate = _textureCoordinateCount;
-        WriteTextureCoordinates(mesh);
+        _text.WriteTextureCoordinates(mesh.TextureCoordinates.AsSpan());
+        _textureCoordinateCount += mesh.TextureCoordinates.Length / 2;
         foreach (var instance in instances)
         {
             WriteInstance(placement * instance, mesh, firstTextureCoordinate);
         }
     }
 
-    private void WriteTextureCoordinates(Mesh mesh)
-    {
-        for (var i = 0; i < mesh.TextureCoordinates.Length; i += 2)
-        {
-            WriteText("vt");
-            WriteNumber(mesh.TextureCoordinates[i]);
-            WriteNumber(mesh.TextureCoordinates[i + 1]);
-            WriteText("\n");
-        }
-
-        _textureCoordinateCount += mesh.TextureCoordinates.Length / 2;
-    }
-
-    private void WriteInstance(AffineMap map, Mesh mesh, long firstTextureCoordinate, bool writeGroups = false)
+    private void WriteInstance(AffineMap map, Mesh mesh, long firstTextureCoordinate)
     {
         for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
         {
-            WriteVector("v", map * mesh.Vertex(vertex));
+            _text.WriteVector("v", map * mesh.Vertex(vertex));
         }
 
         var isMirrored = map.Linear.Determinant() < 0;
         WriteNormals(map.Linear, isMirrored, mesh);
-        var nextGroup = 0;
         for (var face = 0; face < mesh.FaceCount; face++)
         {
-            if (writeGroups && nextGroup < mesh.Groups.Length && mesh.Groups[nextGroup].FirstFace == face)
-            {
-                WriteText($"g {mesh.Groups[nextGroup++].GroupName}\n");
-            }
-
-            WriteText("f");
+            _text.WriteText("f");
             WriteCorner(mesh, 3 * face, firstTextureCoordinate);
-            // A mirror turns faces inside out; two corners exchanged turn them back.
+            // A mirror turns faces inside out; exchanging two corners turns them back.
             WriteCorner(mesh, (3 * face) + (isMirrored ? 2 : 1), firstTextureCoordinate);
             WriteCorner(mesh, (3 * face) + (isMirrored ? 1 : 2), firstTextureCoordinate);
-            WriteText("\n");
+            _text.WriteText("\n");
         }
 
         _positionCount += mesh.VertexCount;
@@ -142,81 +106,22 @@ public sealed class ObjWriter
 
     private void WriteNormals(Matrix linear, bool isMirrored, Mesh mesh)
     {
-        // Normals go with the inverse transpose, of which the cofactors are a multiple; its sign is that of the determinant.
+        // Normals are mapped by the inverse transpose. The cofactors are a multiple of it, with the sign of the determinant.
         var cofactors = (isMirrored ? -1 : 1) * linear.Cofactors();
         for (var i = 0; i < mesh.Normals.Length; i += 3)
         {
             var normal = cofactors * new Vector(mesh.Normals[i], mesh.Normals[i + 1], mesh.Normals[i + 2]);
-            WriteVector("vn", normal.MaxAbsComponent() is > 0 and < double.PositiveInfinity ? normal.UnitVector() : Vector.Zero);
+            _text.WriteVector("vn", normal.MaxAbsComponent() is > 0 and < double.PositiveInfinity ? normal.UnitVector() : Vector.Zero);
         }
     }
 
     private void WriteCorner(Mesh mesh, int corner, long firstTextureCoordinate)
     {
-        WriteInteger(' ', _positionCount + mesh.VertexIndices[corner] + 1);
-        var textureIndex = mesh.TextureIndices.Length > 0 ? mesh.TextureIndices[corner] : -1;
-        var normalIndex = mesh.NormalIndices.Length > 0 ? mesh.NormalIndices[corner] : -1;
-        if (textureIndex >= 0)
-        {
-            WriteInteger('/', firstTextureCoordinate + textureIndex + 1);
-        }
-
-        if (normalIndex >= 0)
-        {
-            WriteText(textureIndex >= 0 ? "" : "/");
-            WriteInteger('/', _normalCount + normalIndex + 1);
-        }
-    }
-
-    private void WriteVector(string keyword, Vector vector)
-    {
-        WriteText(keyword);
-        WriteNumber(vector.X);
-        WriteNumber(vector.Y);
-        WriteNumber(vector.Z);
-        WriteText("\n");
-    }
-
-    private void WriteNumber(double number)
-    {
-        EnsureBufferSpace();
-        _buffer[_bufferedBytes++] = (byte)' ';
-        Utf8Formatter.TryFormat(number, _buffer.AsSpan(_bufferedBytes), out var length);
-        _bufferedBytes += length;
-    }
-
-    private void WriteInteger(char prefix, long number)
-    {
-        EnsureBufferSpace();
-        _buffer[_bufferedBytes++] = (byte)prefix;
-        Utf8Formatter.TryFormat(number, _buffer.AsSpan(_bufferedBytes), out var length);
-        _bufferedBytes += length;
-    }
-
-    private void WriteText(string text)
-    {
-        if (text.Length > MaxNumberLength)
-        {
-            Flush();
-            _stream.Write(System.Text.Encoding.UTF8.GetBytes(text));
-            return;
-        }
-
-        EnsureBufferSpace();
-        _bufferedBytes += System.Text.Encoding.UTF8.GetBytes(text, _buffer.AsSpan(_bufferedBytes));
-    }
-
-    private void EnsureBufferSpace()
-    {
-        if (_buffer.Length - _bufferedBytes < 4 * MaxNumberLength)
-        {
-            Flush();
-        }
-    }
-
-    private void Flush()
-    {
-        _stream.Write(_buffer.AsSpan(0, _bufferedBytes));
-        _bufferedBytes = 0;
+        var textureIndex = mesh.TextureIndices.Length > 0 ? mesh.TextureIndices[corner] : ObjCorner.None;
+        var normalIndex = mesh.NormalIndices.Length > 0 ? mesh.NormalIndices[corner] : ObjCorner.None;
+        _text.WriteCorner(
+            _positionCount + mesh.VertexIndices[corner] + 1,
+            textureIndex == ObjCorner.None ? 0 : firstTextureCoordinate + textureIndex + 1,
+            normalIndex == ObjCorner.None ? 0 : _normalCount + normalIndex + 1);
     }
 }

@@ -4,7 +4,7 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Points;
 
-/// <summary>Reads lists of points: three numbers a line, blanks or commas between them; <c>#</c> starts a comment.</summary>
+/// <summary>Reads lists of points: three numbers per line, separated by blanks or commas. <c>#</c> starts a comment.</summary>
 public sealed class PointsParser : Parser
 {
     private PointsParser(SourceText source)
@@ -12,9 +12,9 @@ public sealed class PointsParser : Parser
     {
     }
 
-    /// <summary>Parses a whole file.</summary>
-    /// <returns>The points in order; there may be none.</returns>
-    /// <exception cref="SourceException">A line holds something else, or a number that is not finite.</exception>
+    /// <summary>Parses a whole file of points.</summary>
+    /// <returns>Points in the order of the file; there may be none.</returns>
+    /// <exception cref="SourceException">A line holds something else, or a number out of the range of a double.</exception>
     public static ImmutableArray<Vector> Parse(SourceText source) => new PointsParser(source).ParseFile();
 
     private ImmutableArray<Vector> ParseFile()
@@ -42,15 +42,8 @@ public sealed class PointsParser : Parser
             }
 
             points.Add(point);
-            ParseBlanks(rest, out rest);
         }
 
-        if (rest.Current == '#')
-        {
-            rest = SkipLine(rest);
-            return true;
-        }
-
-        return ParseEndOfLine(rest, out rest);
+        return ParseCommentAndEndOfLine(rest, out rest);
     }
 }

@@ -1,32 +1,32 @@
 namespace FractalEngine.Parsing.Scenes;
 
-/// <summary>What a line of a scene file declares.</summary>
+/// <summary>Kind of declaration on a line of a scene file.</summary>
 public enum SceneDeclarationKind
 {
-    /// <summary><c>c (x, y, z) (pitch, yaw, roll) fov</c></summary>
+    /// <summary>Declaration of the camera: <c>c (x, y, z) (pitch, yaw, roll) fov</c>.</summary>
     Camera,
 
-    /// <summary><c>projection perspective</c> or <c>projection orthographic [height]</c></summary>
+    /// <summary>Choice of the projection: <c>projection perspective</c> or <c>projection orthographic [height]</c>.</summary>
     Projection,
 
-    /// <summary><c>aspect width:height</c> or <c>aspect ratio</c></summary>
+    /// <summary>Aspect ratio of the frame: <c>aspect width:height</c> or <c>aspect ratio</c>.</summary>
     Aspect,
 
-    /// <summary><c>clip near far</c></summary>
+    /// <summary>Near and far clip plane: <c>clip near far</c>.</summary>
     Clip,
 
-    /// <summary><c>background (r, g, b)</c></summary>
+    /// <summary>Colour of the background: <c>background (r, g, b)</c>.</summary>
     Background,
 
-    /// <summary><c>light kind …</c></summary>
+    /// <summary>Declaration of one light: <c>light kind …</c>.</summary>
     Light,
 
-    /// <summary><c>gravity (x, y, z)</c></summary>
+    /// <summary>Acceleration of all bodies: <c>gravity (x, y, z)</c>.</summary>
     Gravity,
 
-    /// <summary><c>player (x, y, z) radius height</c></summary>
+    /// <summary>Declaration of the player: <c>player (x, y, z) radius height</c>.</summary>
     Player,
 
-    /// <summary><c>o "file" matrix …</c> or <c>p "file" matrix e …</c></summary>
+    /// <summary>Declaration of one object: <c>o "file" matrix …</c> or <c>p "file" matrix e …</c>.</summary>
     SceneObject,
 }

@@ -4,13 +4,13 @@ using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Parsing.Scenes;
 
-/// <summary>Writes the declarations of a scene, numbers in the shortest form that reads back to the same bits.</summary>
+/// <summary>Formats the declarations of a scene. Numbers have the shortest form that reads back to the same bits.</summary>
 internal static class SceneFormatter
 {
-    /// <summary>The kinds in the order in which a new scene file declares them.</summary>
+    /// <summary>Kinds of declarations in the order of a new scene file.</summary>
     public static IReadOnlyList<SceneDeclarationKind> Kinds { get; } = Enum.GetValues<SceneDeclarationKind>();
 
-    /// <summary>How many declarations of a kind a scene needs.</summary>
+    /// <summary>Returns the number of declarations of a kind that a scene needs.</summary>
     public static int DeclarationCount(Scene scene, SceneDeclarationKind kind) => kind switch
     {
         SceneDeclarationKind.Light => scene.Lights.Length,
@@ -18,7 +18,7 @@ internal static class SceneFormatter
         _ => Format(scene, kind, 0) is null ? 0 : 1,
     };
 
-    /// <summary>One declaration without its line break; null when the scene does not need it.</summary>
+    /// <summary>Formats one declaration without its line break; null if the scene does not need it.</summary>
     public static string? Format(Scene scene, SceneDeclarationKind kind, int index) => kind switch
     {
         SceneDeclarationKind.Camera => scene.Camera is { } camera
@@ -43,8 +43,8 @@ internal static class SceneFormatter
     {
         AmbientLight => $"light ambient {light.Colour} {FormatNumber(light.Intensity)}",
         DirectionalLight directional => $"light directional {directional.Direction} {light.Colour} {FormatNumber(light.Intensity)}",
-        SpotLight spot =>
-            $"light spot {spot.Position} {spot.Direction} {FormatNumber(spot.Angle)} {light.Colour} {FormatNumber(light.Intensity)} {FormatNumber(spot.Range)}",
+        SpotLight spot => $"light spot {spot.Position} {spot.Direction} {FormatNumber(spot.Angle)} "
+            + $"{light.Colour} {FormatNumber(light.Intensity)} {FormatNumber(spot.Range)}",
         PointLight point => $"light point {point.Position} {light.Colour} {FormatNumber(light.Intensity)} {FormatNumber(point.Range)}",
         _ => throw new ArgumentOutOfRangeException(nameof(light)),
     };
@@ -66,9 +66,7 @@ internal static class SceneFormatter
             body is { Restitution: var restitution } ? FormatNumber(restitution) : null,
             declared.Name is { } name ? $"name \"{name}\"" : null,
             declared.Colour is { } colour ? $"colour {colour}" : null,
-            declared.Gradient is { } gradient
-            ? $"gradient {(gradient.Kind == GradientKind.Level ? "level" : "path")} {gradient.EndColour}"
-            : null,
+            declared.Gradient is { } gradient ? Format(gradient) : null,
             body is { Velocity: var velocity } && !AreBitEqual(velocity, Vector.Zero) ? $"velocity {velocity}" : null,
             body is { Mass: not 1.0 and var mass } ? $"mass {FormatNumber(mass)}" : null,
             body is { Friction: var friction } && !AreBitEqual(friction, 0) ? $"friction {FormatNumber(friction)}" : null,
@@ -77,26 +75,32 @@ internal static class SceneFormatter
             body is { Collider: not ColliderKind.Exact and var collider } ? $"collider {SceneParser.GetColliderName(collider)}" : null);
     }
 
-    private static string? FormatShrinkage(double rate, double minimum) =>
-        (AreBitEqual(rate, 0), AreBitEqual(minimum, PhysicsObject.DefaultMinimumScale)) switch
+    private static string Format(Gradient gradient) =>
+        $"gradient {(gradient.Kind == GradientKind.Level ? "level" : "path")} {gradient.EndColour}";
+
+    private static string? FormatShrinkage(double rate, double minimum)
     {
-        (true, true) => null,
-        (false, true) => $"shrink {FormatNumber(rate)}",
-        (_, false) => $"shrink {FormatNumber(rate)} {FormatNumber(minimum)}",
-    };
+        if (!AreBitEqual(minimum, PhysicsObject.DefaultMinimumScale))
+        {
+            return $"shrink {FormatNumber(rate)} {FormatNumber(minimum)}";
+        }
+
+        return AreBitEqual(rate, 0) ? null : $"shrink {FormatNumber(rate)}";
+    }
 
     private static string Join(params string?[] parts) => string.Join(' ', parts.Where(part => part is not null));
 
-    private static string Format(Transformation placement) =>
-        (Format(placement.Position, Vector.Zero), Format(placement.Rotation, Vector.Zero), Format(placement.Scale, Vector.One)) switch
-        {
-            ("#", "#", "#") => "#",
-            var (position, rotation, scale) => $"({position}, {rotation}, {scale})",
-        };
+    private static string Format(Transformation placement)
+    {
+        var position = Format(placement.Position, Vector.Zero);
+        var rotation = Format(placement.Rotation, Vector.Zero);
+        var scale = Format(placement.Scale, Vector.One);
+        return position == "#" && rotation == "#" && scale == "#" ? "#" : $"({position}, {rotation}, {scale})";
+    }
 
     private static string Format(Vector vector, Vector defaultValue) => AreBitEqual(vector, defaultValue) ? "#" : vector.ToString();
 
-    /// <summary>Bit for bit: −0 is not 0 here.</summary>
+    /// <summary>Compares vectors bit for bit, so that −0 differs from 0.</summary>
     private static bool AreBitEqual(Vector v1, Vector v2) => v1.ToString() == v2.ToString();
 
     private static bool AreBitEqual(double number1, double number2) =>

@@ -1,8 +1,8 @@
 namespace FractalEngine.Parsing.Scenes;
 
-/// <summary>A line of a scene file as it stands there, and what it declares.</summary>
-/// <param name="Text">With its line break, if it has one.</param>
-/// <param name="Kind">Null for comments and empty lines.</param>
-/// <param name="Index">Which light or object of the scene it is, from 0; 0 for what a scene has only one of.</param>
-/// <param name="FileNameOffset">Where the name of an object's file stands in the text.</param>
+/// <summary>Line of a scene file in its original form, with what it declares.</summary>
+/// <param name="Text">Text of the line, with its line break if it has one.</param>
+/// <param name="Kind">Kind of the declaration; null for comments and empty lines.</param>
+/// <param name="Index">Index of the light or object in the scene, from 0; always 0 for other kinds.</param>
+/// <param name="FileNameOffset">Offset of the name of the object's file in the text of the whole file; 0 for other kinds.</param>
 public sealed record SceneLine(string Text, SceneDeclarationKind? Kind, int Index, int FileNameOffset);

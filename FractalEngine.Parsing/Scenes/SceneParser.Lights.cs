@@ -5,25 +5,41 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Scenes;
 
-/// <content>Lights.</content>
+/// <content>Parses the declarations of lights.</content>
 public sealed partial class SceneParser
 {
-    private bool ParseLight(Cursor cursor, out Cursor rest) =>
-        (ParseLightKind(cursor, "ambient", out rest)
-        && ParseColourAndIntensity(rest, out var ambientColour, out var ambientIntensity, out rest)
-            && AddLight(new AmbientLight(ambientColour, ambientIntensity)))
-        || (ParseLightKind(cursor, "directional", out rest) && ParseDirection(rest, out var direction, out rest)
-            && ParseColourAndIntensity(rest, out var colour, out var intensity, out rest)
-            && AddLight(new DirectionalLight(direction, colour, intensity)))
-        || (ParseLightKind(cursor, "point", out rest) && ParseVectorAndSeparator(rest, out var position, out rest)
-            && ParseColourIntensityAndRange(rest, out colour, out intensity, out var range, out rest)
-            && AddLight(new PointLight(position, colour, intensity, range)))
-        || (ParseLightKind(cursor, "spot", out rest) && ParseVectorAndSeparator(rest, out position, out rest)
-            && ParseDirection(rest, out direction, out rest) && ParseAngle(rest, out var angle, out rest)
-            && ParseColourIntensityAndRange(rest, out colour, out intensity, out range, out rest)
-            && AddLight(new SpotLight(position, direction, angle, colour, intensity, range)));
+    private bool ParseLight(Cursor cursor, out Cursor rest)
+    {
+        if (ParseKeyword(cursor, "ambient", out rest))
+        {
+            return ParseColourAndIntensity(rest, out var colour, out var intensity, out rest)
+                && AddLight(new AmbientLight(colour, intensity));
+        }
 
-    private bool ParseLightKind(Cursor cursor, string kind, out Cursor rest) => ParseKeyword(cursor, kind, out rest);
+        if (ParseKeyword(cursor, "directional", out rest))
+        {
+            return ParseDirection(rest, out var direction, out rest)
+                && ParseColourAndIntensity(rest, out var colour, out var intensity, out rest)
+                && AddLight(new DirectionalLight(direction, colour, intensity));
+        }
+
+        if (ParseKeyword(cursor, "point", out rest))
+        {
+            return ParseVectorAndSeparator(rest, out var position, out rest)
+                && ParseColourIntensityAndRange(rest, out var colour, out var intensity, out var range, out rest)
+                && AddLight(new PointLight(position, colour, intensity, range));
+        }
+
+        if (ParseKeyword(cursor, "spot", out rest))
+        {
+            return ParseVectorAndSeparator(rest, out var position, out rest)
+                && ParseDirection(rest, out var direction, out rest) && ParseAngle(rest, out var angle, out rest)
+                && ParseColourIntensityAndRange(rest, out var colour, out var intensity, out var range, out rest)
+                && AddLight(new SpotLight(position, direction, angle, colour, intensity, range));
+        }
+
+        return false;
+    }
 
     private bool AddLight(Light light)
     {
@@ -53,7 +69,7 @@ public sealed partial class SceneParser
         return true;
     }
 
-    /// <summary>A colour and an intensity, 1 where none is written.</summary>
+    /// <summary>Parses a colour and an optional intensity, 1 by default.</summary>
     private bool ParseColourAndIntensity(Cursor cursor, out Colour colour, out double intensity, out Cursor rest)
     {
         intensity = 1;
@@ -68,7 +84,8 @@ public sealed partial class SceneParser
 
     private bool ParseColourIntensityAndRange(Cursor cursor, out Colour colour, out double intensity, out double range, out Cursor rest)
     {
-        (intensity, range) = (0, 0);
+        intensity = 0;
+        range = 0;
         if (!ParseColour(cursor, out colour, out rest) || !ParseOptionalSeparator(rest, out rest)
             || !ParseIntensity(rest, out intensity, out rest) || !ParseSeparator(rest, out var rangeStart)
             || !ParseNumber(rangeStart, out range, out rest))

@@ -1,14 +1,18 @@
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Scenes;
 
-/// <content>Objects and what may stand behind them.</content>
+/// <content>Parses objects and the options that follow them.</content>
 public sealed partial class SceneParser
 {
+    // In the order of ColliderKind.
     private static readonly string[] ColliderNames = ["exact", "fractal", "hierarchy", "bounding-box", "simple"];
 
-    /// <summary>The name by which scene files and the command line call a collider.</summary>
+    private delegate bool OptionParser<T>(Cursor cursor, ref T declared, out Cursor rest);
+
+    /// <summary>Returns the name of a collider in scene files and on the command line.</summary>
     public static string GetColliderName(ColliderKind collider) => ColliderNames[(int)collider];
 
     private bool ParseObject(Cursor cursor, out Cursor rest)
@@ -18,12 +22,7 @@ public sealed partial class SceneParser
             return false;
         }
 
-        var declared = new SceneObject(file, placement);
-        while (ParseObjectOption(rest, ref declared, out rest))
-        {
-        }
-
-        _objects.Add(declared);
+        _objects.Add(ParseOptions(rest, new SceneObject(file, placement), ParseObjectOption, out rest));
         return true;
     }
 
@@ -36,16 +35,11 @@ public sealed partial class SceneParser
         }
 
         Require(restitution is >= 0 and <= 1, restitutionStart, "the coefficient of restitution must lie between 0 and 1");
-        SceneObject declared = new PhysicsObject(file, placement, restitution);
-        while (ParseObjectOption(rest, ref declared, out rest))
-        {
-        }
-
-        _objects.Add(declared);
+        _objects.Add(ParseOptions<SceneObject>(rest, new PhysicsObject(file, placement, restitution), ParseObjectOption, out rest));
         return true;
     }
 
-    /// <summary>A file name in quotes; its ending says what the file holds.</summary>
+    /// <summary>Parses a file name in quotes, whose ending tells what the file holds.</summary>
     private bool ParseFileName(Cursor cursor, out string file, out Cursor rest)
     {
         if (!ParseString(cursor, "a file name in quotes", out file, out rest))
@@ -53,56 +47,75 @@ public sealed partial class SceneParser
             return false;
         }
 
-        Require(
-            file.EndsWith(".obj", StringComparison.OrdinalIgnoreCase) || file.EndsWith(".fdo", StringComparison.OrdinalIgnoreCase),
-            cursor, "expected the name of a .obj or .fdo file");
+        Require(FileKinds.FromName(file) is FileKind.Mesh or FileKind.Fractal, cursor, "expected the name of a .obj or .fdo file");
         _fileNameOffset = cursor.Offset;
         return ParseOptionalSeparator(rest, out rest);
     }
 
-    /// <summary>One of the trailing parts of an object; false, and the cursor unmoved, when there is none.</summary>
-    private bool ParseObjectOption(Cursor cursor, ref SceneObject declared, out Cursor rest)
+    /// <summary>Parses all options that follow a declaration; there may be none.</summary>
+    /// <param name="cursor">Position behind the declaration.</param>
+    /// <param name="declared">The declaration without options.</param>
+    /// <param name="parseOption">Parses one option; fails without advancing if there is none.</param>
+    /// <param name="rest">Position behind the last option.</param>
+    /// <returns>The declaration with its options.</returns>
+    /// <exception cref="SourceException">An option has a faulty value.</exception>
+    private T ParseOptions<T>(Cursor cursor, T declared, OptionParser<T> parseOption, out Cursor rest)
     {
         rest = cursor;
-        if (!ParseBlankOrEndOfLine(cursor, out var start))
+        while (ParseBlankOrEndOfLine(rest, out var start))
         {
-            return false;
+            if (!parseOption(start, ref declared, out var next))
+            {
+                return next.Offset > start.Offset ? throw SyntaxError() : declared;
+            }
+
+            rest = next;
         }
 
-        var (success, next) = (false, start);
-        if (ParseKeyword(start, "name", out next))
-        {
-            success = ParseString(next, "a name in quotes", out var name, out next);
-            declared = declared with { Name = name };
-        }
-        else if (ParseKeyword(start, "colour", out next) || ParseKeyword(start, "color", out next))
-        {
-            success = ParseColour(next, out var colour, out next);
-            declared = declared with { Colour = colour };
-        }
-        else if (ParseKeyword(start, "gradient", out next))
-        {
-            success = ParseGradient(next, out var gradient, out next);
-            declared = declared with { Gradient = gradient };
-        }
-        else if (declared is PhysicsObject body)
-        {
-            success = ParseBodyOption(start, ref body, out next);
-            declared = body;
-        }
-
-        rest = success ? next : next.Offset > start.Offset ? throw SyntaxError() : cursor;
-        return success;
+        return declared;
     }
 
-    /// <summary>What stands before a trailing part: a blank, unless the line ends there.</summary>
+    private bool ParseObjectOption(Cursor cursor, ref SceneObject declared, out Cursor rest)
+    {
+        if (ParseKeyword(cursor, "name", out rest))
+        {
+            var success = ParseString(rest, "a name in quotes", out var name, out rest);
+            declared = declared with { Name = name };
+            return success;
+        }
+
+        if (ParseKeyword(cursor, "colour", out rest) || ParseKeyword(cursor, "color", out rest))
+        {
+            var success = ParseColour(rest, out var colour, out rest);
+            declared = declared with { Colour = colour };
+            return success;
+        }
+
+        if (ParseKeyword(cursor, "gradient", out rest))
+        {
+            var success = ParseGradient(rest, out var gradient, out rest);
+            declared = declared with { Gradient = gradient };
+            return success;
+        }
+
+        if (declared is PhysicsObject body)
+        {
+            var success = ParseBodyOption(cursor, ref body, out rest);
+            declared = body;
+            return success;
+        }
+
+        return false;
+    }
+
+    /// <summary>Parses the blank before an option, which may be missing at the end of the line.</summary>
     private bool ParseBlankOrEndOfLine(Cursor cursor, out Cursor rest) =>
         ParseBlanks(cursor, out rest) && (rest.Offset > cursor.Offset || IsAtEndOfLine(rest) || Fail(rest, "a blank"));
 
     private bool ParseGradient(Cursor cursor, out Gradient gradient, out Cursor rest)
     {
-        var kind = ParseKeyword(cursor, "level", out rest) ? GradientKind.Level : ParseKeyword(cursor, "path", out rest)
-            ? GradientKind.Path
+        var kind = ParseKeyword(cursor, "level", out rest) ? GradientKind.Level
+            : ParseKeyword(cursor, "path", out rest) ? GradientKind.Path
             : GradientKind.None;
         gradient = new(kind, default);
         if (kind == GradientKind.None)
@@ -168,16 +181,17 @@ public sealed partial class SceneParser
         return false;
     }
 
-    /// <summary>A rate, and the scale at which shrinking ends where one is written.</summary>
+    /// <summary>Parses a rate and an optional scale at which shrinking ends.</summary>
     private bool ParseShrinkage(Cursor cursor, ref PhysicsObject body, out Cursor rest)
     {
         var success = ParseNonNegative(cursor, "the rate of shrinking", out var rate, out rest);
         var minimum = PhysicsObject.DefaultMinimumScale;
-        // What is no number begins the next option.
+        // Anything but a number begins the next option.
         if (success && ParseSeparator(rest, out var minimumStart) && ParseNumber(minimumStart, out var statedMinimum, out var minimumEnd))
         {
             Require(statedMinimum is > 0 and <= 1, minimumStart, "the smallest scale must be more than 0 and no more than 1");
-            (minimum, rest) = (statedMinimum, minimumEnd);
+            minimum = statedMinimum;
+            rest = minimumEnd;
         }
 
         body = body with { Shrinkage = rate, MinimumScale = minimum };

@@ -3,7 +3,7 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Scenes;
 
-/// <content>The player and what may stand behind it.</content>
+/// <content>Parses the player and the options that follow it.</content>
 public sealed partial class SceneParser
 {
     private bool ParsePlayer(Cursor cursor, out Cursor rest)
@@ -17,50 +17,44 @@ public sealed partial class SceneParser
 
         Require(radius > 0 && height >= 2 * radius, radiusStart,
             "the player's radius must be positive, and the height at least twice as much");
-        var player = new Player(position, radius, height);
-        while (ParsePlayerOption(rest, ref player, out rest))
-        {
-        }
-
+        var player = ParseOptions(rest, new Player(position, radius, height), ParsePlayerOption, out rest);
         return UpdateScene(_scene with { Player = player });
     }
 
-    /// <summary>One of the trailing parts of the player; false, and the cursor unmoved, when there is none.</summary>
     private bool ParsePlayerOption(Cursor cursor, ref Player player, out Cursor rest)
     {
-        rest = cursor;
-        if (!ParseBlankOrEndOfLine(cursor, out var start))
+        if (ParseKeyword(cursor, "speed", out rest))
         {
-            return false;
+            var success = ParseNonNegative(rest, "the player's speed", out var speed, out rest);
+            player = player with { WalkingSpeedOverride = speed };
+            return success;
         }
 
-        var (success, next) = (false, start);
-        if (ParseKeyword(start, "speed", out next))
+        if (ParseKeyword(cursor, "jump", out rest))
         {
-            success = ParseNonNegative(next, "the player's speed", out var speed, out next);
-            player = player with { WalkingSpeedOverride = speed };
-        }
-        else if (ParseKeyword(start, "jump", out next))
-        {
-            success = ParseNonNegative(next, "the speed of a jump", out var jump, out next);
+            var success = ParseNonNegative(rest, "the speed of a jump", out var jump, out rest);
             player = player with { JumpSpeedOverride = jump };
+            return success;
         }
-        else if (ParseKeyword(start, "slope", out var valueStart))
+
+        if (ParseKeyword(cursor, "slope", out var valueStart))
         {
-            success = ParseNumber(valueStart, out var slope, out next);
+            var success = ParseNumber(valueStart, out var slope, out rest);
             Require(!success || slope is >= 0 and <= Player.MaxSlopeAngleLimit, valueStart,
                 "the player's slope must lie between 0 and 89 degrees");
             player = player with { MaxSlopeAngle = slope };
+            return success;
         }
-        else if (ParseKeyword(start, "step", out valueStart))
+
+        if (ParseKeyword(cursor, "step", out valueStart))
         {
-            success = ParseNumber(valueStart, out var step, out next);
+            var success = ParseNumber(valueStart, out var step, out rest);
             Require(!success || (step >= 0 && step < player.Height), valueStart,
                 "the player's step must not be negative, and less than the height");
             player = player with { StepHeightOverride = step };
+            return success;
         }
 
-        rest = success ? next : next.Offset > start.Offset ? throw SyntaxError() : cursor;
-        return success;
+        return false;
     }
 }

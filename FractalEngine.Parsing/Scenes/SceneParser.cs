@@ -5,7 +5,7 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Scenes;
 
-/// <summary>Reads scene files (paper §4.1.5). The grammar stands in docs/manual.md.</summary>
+/// <summary>Reads scene files (paper §4.1.5). Their grammar is in docs/manual.md.</summary>
 public sealed partial class SceneParser : SceneValueParser
 {
     private readonly Dictionary<SceneDeclarationKind, int> _declarationOffsets = [];
@@ -21,11 +21,11 @@ public sealed partial class SceneParser : SceneValueParser
 
     private delegate bool DeclarationParser(Cursor cursor, out Cursor rest);
 
-    /// <summary>Parses a whole file. The files that it names are not touched.</summary>
-    /// <exception cref="SourceException">The text is no scene, or says something that makes no sense.</exception>
-    public static SceneFile Parse(SourceText source) => new SceneParser(source).ParseFile();
+    /// <summary>Parses a whole scene file. The files that it names are not read.</summary>
+    /// <exception cref="SourceException">The text is not a scene, or has no valid meaning.</exception>
+    public static ParsedScene Parse(SourceText source) => new SceneParser(source).ParseFile();
 
-    private SceneFile ParseFile()
+    private ParsedScene ParseFile()
     {
         var lines = ImmutableArray.CreateBuilder<SceneLine>();
         for (var cursor = Source.Start; !cursor.IsAtEnd;)
@@ -36,13 +36,17 @@ public sealed partial class SceneParser : SceneValueParser
             }
 
             var text = Source.Text[cursor.Offset..rest.Offset];
-            lines.Add(new(text, kind, kind is { } declared ? IndexOfLast(declared) : 0, _fileNameOffset));
+            var index = kind is { } declared ? IndexOfLast(declared) : 0;
+            lines.Add(new(text, kind, index, kind is SceneDeclarationKind.SceneObject ? _fileNameOffset : 0));
             cursor = rest;
         }
 
-        return lines.Any(line => line.Kind is not null)
-            ? new(Source, _scene with { Lights = [.. _lights], Objects = [.. _objects] }, lines.ToImmutable())
-            : throw Error(Source.Start, "the scene declares nothing: it has no camera, object or light");
+        if (lines.All(line => line.Kind is null))
+        {
+            throw Error(Source.Start, "the scene declares nothing: it has no camera, object or light");
+        }
+
+        return new(Source, _scene with { Lights = [.. _lights], Objects = [.. _objects] }, lines.ToImmutable());
     }
 
     private int IndexOfLast(SceneDeclarationKind kind) => kind switch
@@ -56,20 +60,8 @@ public sealed partial class SceneParser : SceneValueParser
     {
         ParseBlanks(cursor, out var start);
         kind = null;
-        if (start.Current == '#')
-        {
-            rest = SkipLine(start);
-            return true;
-        }
-
-        return (IsAtEndOfLine(start) || ParseDeclaration(start, out kind, out start)) && ParseEndOfLine(start, out rest)
-            || Backtrack(start, out rest);
-    }
-
-    private static bool Backtrack(Cursor cursor, out Cursor rest)
-    {
-        rest = cursor;
-        return false;
+        return ParseComment(start, out rest)
+            || ((IsAtEndOfLine(start) || ParseDeclaration(start, out kind, out rest)) && ParseEndOfLine(rest, out rest));
     }
 
     private bool ParseDeclaration(Cursor cursor, out SceneDeclarationKind? kind, out Cursor rest) =>
@@ -84,10 +76,10 @@ public sealed partial class SceneParser : SceneValueParser
         || ParseDeclaration(cursor, "gravity", SceneDeclarationKind.Gravity, ParseGravity, out kind, out rest)
         || ParseDeclaration(cursor, "player", SceneDeclarationKind.Player, ParsePlayer, out kind, out rest);
 
-    /// <summary>A keyword and what follows it; what a scene has only one of may be declared once.</summary>
+    /// <summary>Parses a keyword and its values. All kinds but lights and objects may be declared only once.</summary>
     private bool ParseDeclaration(
-        Cursor cursor, string keyword, SceneDeclarationKind declared, DeclarationParser parse, out SceneDeclarationKind? kind,
-        out Cursor rest)
+        Cursor cursor, string keyword, SceneDeclarationKind declared, DeclarationParser parse,
+        out SceneDeclarationKind? kind, out Cursor rest)
     {
         kind = null;
         if (!ParseWord(cursor, keyword, out rest))
@@ -98,7 +90,7 @@ public sealed partial class SceneParser : SceneValueParser
         if (declared is not (SceneDeclarationKind.Light or SceneDeclarationKind.SceneObject)
             && !_declarationOffsets.TryAdd(declared, cursor.Offset))
         {
-            throw Error(cursor, $"'{keyword}' is declared twice, first in line {Source.Diagnose(_declarationOffsets[declared], "").Line}");
+            throw Error(cursor, $"'{keyword}' is declared twice, first in line {Source.LineOf(_declarationOffsets[declared])}");
         }
 
         ParseBlanks(rest, out rest);

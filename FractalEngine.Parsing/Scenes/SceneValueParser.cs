@@ -4,16 +4,16 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Scenes;
 
-/// <summary>The values that scene files write: vectors, matrices and colours, with '#' for "no transformation".</summary>
+/// <summary>Parses the values in scene files: vectors, matrices and colours, with '#' for "no transformation".</summary>
 public abstract class SceneValueParser : Parser
 {
-    /// <summary>A parser of one text.</summary>
+    /// <summary>Creates a parser for one text.</summary>
     protected SceneValueParser(SourceText source)
         : base(source)
     {
     }
 
-    /// <summary>(position, rotation, scale), each a vector or '#'; or '#' for no transformation at all.</summary>
+    /// <summary>Parses <c>(position, rotation, scale)</c>, each a vector or '#', or a single '#' for the identity.</summary>
     protected bool ParseMatrix(Cursor cursor, out Transformation placement, out Cursor rest)
     {
         placement = Transformation.Identity;
@@ -26,7 +26,8 @@ public abstract class SceneValueParser : Parser
         if (cursor.Current != '(')
         {
             rest = cursor;
-            return Fail(cursor, "'('") | Fail(cursor, "'#'");
+            Fail(cursor, "'('");
+            return Fail(cursor, "'#'");
         }
 
         ParseBlanks(cursor.Advance(1), out rest);
@@ -43,7 +44,7 @@ public abstract class SceneValueParser : Parser
         return true;
     }
 
-    /// <summary>A vector, or '#' for the neutral one.</summary>
+    /// <summary>Parses a vector, or '#' for the given default.</summary>
     protected bool ParseVectorOrDefault(Cursor cursor, Vector defaultValue, out Vector vector, out Cursor rest)
     {
         vector = defaultValue;
@@ -57,11 +58,11 @@ public abstract class SceneValueParser : Parser
         return ParseVector(cursor, out vector, out rest);
     }
 
-    /// <summary>A given word and the blanks behind it.</summary>
+    /// <summary>Parses a given word and the blanks behind it.</summary>
     protected bool ParseKeyword(Cursor cursor, string word, out Cursor rest) =>
         ParseWord(cursor, word, out rest) && ParseBlanks(rest, out rest);
 
-    /// <summary>Three components from 0 to 1.</summary>
+    /// <summary>Parses an sRGB colour: three components from 0 to 1.</summary>
     protected bool ParseColour(Cursor cursor, out Colour colour, out Cursor rest)
     {
         var success = ParseVector(cursor, out var vector, out rest);
@@ -72,18 +73,18 @@ public abstract class SceneValueParser : Parser
         return success;
     }
 
-    /// <summary>A vector and what separates it from the next part.</summary>
+    /// <summary>Parses a vector and an optional separator behind it.</summary>
     protected bool ParseVectorAndSeparator(Cursor cursor, out Vector vector, out Cursor rest) =>
         ParseVector(cursor, out vector, out rest) && ParseOptionalSeparator(rest, out rest);
 
-    /// <summary>Between parts that end in a bracket and begin with one, nothing need stand.</summary>
+    /// <summary>Parses an optional separator, for use between values of which one has parentheses. Always returns true.</summary>
     protected bool ParseOptionalSeparator(Cursor cursor, out Cursor rest)
     {
         ParseBlanks(cursor, out rest);
         return rest.Current != ',' || ParseBlanks(rest.Advance(1), out rest);
     }
 
-    /// <summary>Throws for what was parsed but makes no sense.</summary>
+    /// <summary>Throws an exception for a value that has no valid meaning, unless the condition holds.</summary>
     protected void Require(bool condition, Cursor cursor, string message)
     {
         if (!condition)

@@ -4,22 +4,22 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Parsing.Scenes;
 
 /// <summary>
-/// Writes scenes. Lines of the original file whose declarations are unchanged are kept as they stand, comments and layout too;
-/// changed ones are written anew in their place, new ones at the end.
+/// Writes scenes as text. Lines of an original file whose declarations are unchanged are kept, comments and layout included. Changed
+/// declarations replace their lines; new ones are added at the end.
 /// </summary>
 public static class SceneWriter
 {
-    /// <summary>The text of a scene without an original.</summary>
+    /// <summary>Returns the text of a scene that has no original file.</summary>
     public static string Write(Scene scene) => Write(scene, null);
 
-    /// <summary>The text of a scene that was loaded from a file, and may have been changed since.</summary>
-    /// <param name="scene">As it is now.</param>
-    /// <param name="original">As it was read; null for none.</param>
-    public static string Write(Scene scene, SceneFile? original)
+    /// <summary>Returns the text of a scene that was loaded from a file and may have been changed since.</summary>
+    /// <param name="scene">Current state of the scene.</param>
+    /// <param name="original">Original contents of the file; null for none.</param>
+    public static string Write(Scene scene, ParsedScene? original)
     {
         var text = new StringBuilder();
         var written = new HashSet<(SceneDeclarationKind, int)>();
-        var lineBreak = original?.Source.Text.Contains("\r\n", StringComparison.Ordinal) == true ? "\r\n" : "\n";
+        var lineBreak = original?.Source.LineBreak ?? "\n";
         foreach (var line in original?.Lines ?? [])
         {
             if (line.Kind is not { } kind)
@@ -29,9 +29,16 @@ public static class SceneWriter
             }
 
             written.Add((kind, line.Index));
-            var (originalText, currentText) =
-                (SceneFormatter.Format(original!.Scene, kind, line.Index), SceneFormatter.Format(scene, kind, line.Index));
-            text.Append(originalText == currentText ? line.Text : currentText is null ? "" : currentText + lineBreak);
+            var originalText = SceneFormatter.Format(original!.Scene, kind, line.Index);
+            var currentText = SceneFormatter.Format(scene, kind, line.Index);
+            if (originalText == currentText)
+            {
+                text.Append(line.Text);
+            }
+            else if (currentText is not null)
+            {
+                text.Append(currentText).Append(lineBreak);
+            }
         }
 
         foreach (var kind in SceneFormatter.Kinds)

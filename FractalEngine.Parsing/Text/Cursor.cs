@@ -1,25 +1,25 @@
 namespace FractalEngine.Parsing.Text;
 
-/// <summary>A place in a text. Immutable: parsing yields a new cursor, and a failed attempt leaves the old one as it was.</summary>
-/// <param name="Text">The whole text; never copied or cut.</param>
-/// <param name="Offset">Characters before the place, from 0 to the text's length.</param>
+/// <summary>Immutable position in a text. Parsing yields a new cursor; a failed attempt leaves the old one unchanged.</summary>
+/// <param name="Text">Whole text, never copied or cut.</param>
+/// <param name="Offset">Number of characters before the position, from 0 to the length of the text.</param>
 public readonly record struct Cursor(string Text, int Offset)
 {
-    /// <summary>What stands for the character behind the end.</summary>
+    /// <summary>Character reported at the end of the text and behind it.</summary>
     public const char EndOfText = '\0';
 
-    /// <summary>True behind the last character.</summary>
+    /// <summary>True when no character is left to read.</summary>
     public bool IsAtEnd => Offset >= Text.Length;
 
-    /// <summary>The next character, or <see cref="EndOfText"/>.</summary>
+    /// <summary>Next character of the text, or <see cref="EndOfText"/> at its end.</summary>
     public char Current => (uint)Offset < (uint)Text.Length ? Text[Offset] : EndOfText;
 
-    /// <summary>The text from here to its end.</summary>
+    /// <summary>Text from this position to its end.</summary>
     public ReadOnlySpan<char> Rest => Text.AsSpan(Offset);
 
-    /// <summary>The character <paramref name="distance"/> places on, or <see cref="EndOfText"/>.</summary>
+    /// <summary>Returns the character <paramref name="distance"/> positions ahead, or <see cref="EndOfText"/>.</summary>
     public char Peek(int distance) => (uint)(Offset + distance) < (uint)Text.Length ? Text[Offset + distance] : EndOfText;
 
-    /// <summary>The place <paramref name="distance"/> characters on.</summary>
+    /// <summary>Returns the position <paramref name="distance"/> characters ahead.</summary>
     public Cursor Advance(int distance) => new(Text, Offset + distance);
 }

@@ -3,30 +3,29 @@ using System.Globalization;
 namespace FractalEngine.Parsing.Text;
 
 /// <summary>
-/// Something to say about a place in a file. Written as one line that editors understand, followed by the source line and a
-/// caret where there is a source line.
+/// Error or warning about a position in a file. Its text is one line that editors understand, followed by the source line and
+/// a caret if the source line is known.
 /// </summary>
-/// <param name="File">As the user named it, or relative to that.</param>
-/// <param name="Line">From 1.</param>
-/// <param name="Column">In characters, from 1.</param>
-/// <param name="Severity">An error stops the loading of the file, a warning does not.</param>
-/// <param name="Message">One line, without a full stop.</param>
-/// <param name="SourceLine">The line at fault; null where there is none to show.</param>
+/// <param name="File">Name of the file as the user wrote it, or relative to that.</param>
+/// <param name="Line">Number of the line, from 1.</param>
+/// <param name="Column">Number of the character in its line, from 1.</param>
+/// <param name="Severity">An error prevents the file from loading, a warning does not.</param>
+/// <param name="Message">One line of text without a full stop.</param>
+/// <param name="SourceLine">The faulty line; null if there is none to show.</param>
 public sealed record Diagnostic(
     string File, int Line, int Column, DiagnosticSeverity Severity, string Message, string? SourceLine = null)
 {
-    // A file of one line of a million characters gives a message of one screen line all the same.
+    // Even a file with one line of a million characters must give a message that fits one line of a terminal.
     private const int MaxShownWidth = 100;
 
-    /// <summary>True when the file is well-formed but asks for more than a stated limit.</summary>
+    /// <summary>True when the file is well-formed but exceeds a stated limit.</summary>
     public bool IsLimitExceeded { get; init; }
 
-    /// <summary><c>file:line:column: error: message</c>, then the source line and a caret, indented by two blanks.</summary>
+    /// <summary>Returns <c>file:line:column: error: message</c>, then the source line and a caret, indented by two spaces.</summary>
     public override string ToString()
     {
-        var head = string.Create(
-            CultureInfo.InvariantCulture,
-            $"{File}:{Line}:{Column}: {(Severity == DiagnosticSeverity.Error ? "error" : "warning")}: {Message}");
+        var severity = Severity == DiagnosticSeverity.Error ? "error" : "warning";
+        var head = string.Create(CultureInfo.InvariantCulture, $"{File}:{Line}:{Column}: {severity}: {Message}");
         if (string.IsNullOrWhiteSpace(SourceLine))
         {
             return head;
@@ -35,7 +34,7 @@ public sealed record Diagnostic(
         var caret = Math.Min(Column - 1, SourceLine.Length);
         var start = caret < MaxShownWidth ? 0 : caret - (MaxShownWidth / 2);
         var shown = SourceLine[start..Math.Min(start + MaxShownWidth, SourceLine.Length)];
-        // Tabs stay tabs under the caret, so that both lines shift alike; other control characters would spoil the terminal.
+        // Tabs stay tabs in both lines, so that the caret keeps its place. Other control characters would spoil the terminal.
         var line = string.Concat(shown.Select(c => char.IsControl(c) && c != '\t' ? '?' : c));
         var padding = string.Concat(shown.Take(caret - start).Select(c => c == '\t' ? '\t' : ' '));
         return $"{head}\n  {line}\n  {padding}^";

@@ -1,11 +1,11 @@
 namespace FractalEngine.Parsing.Text;
 
-/// <summary>How bad it is.</summary>
+/// <summary>Severity of a diagnostic about a file.</summary>
 public enum DiagnosticSeverity
 {
-    /// <summary>Something was passed over.</summary>
+    /// <summary>Something in the file was ignored; loading goes on.</summary>
     Warning,
 
-    /// <summary>The file can't be loaded.</summary>
+    /// <summary>The file can't be loaded because of this.</summary>
     Error,
 }

@@ -3,15 +3,15 @@ using System.Globalization;
 namespace FractalEngine.Parsing.Text;
 
 /// <summary>
-/// Reads decimal numbers, invariant of any culture, rounded correctly: always the same bits as <see cref="double.Parse(string)"/>.
+/// Reads decimal numbers independently of the culture, correctly rounded: always the same bits as <see cref="double.Parse(string)"/>.
 /// </summary>
 /// <remarks>
-/// Numbers of up to 15 digits with small exponents, nearly all there are, need one exact multiplication or division
-/// (W. D. Clinger, "How to read floating point numbers accurately", 1990); others go to the framework.
+/// Nearly all numbers have a mantissa of at most 2⁵³ and a small exponent. These take one exact multiplication or division
+/// (W. D. Clinger, "How to read floating point numbers accurately", 1990). The framework reads all others.
 /// </remarks>
 public static class NumberReader
 {
-    // Powers of ten up to 10²² are exact in a double, and so are integers up to 2⁵³.
+    // A double represents powers of ten up to 10²² and integers up to 2⁵³ exactly.
     private const int MaxExactPower = 22;
     private const ulong MaxExactInteger = 1UL << 53;
     private const int MaxMantissaDigits = 18;
@@ -22,11 +22,11 @@ public static class NumberReader
         1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
     ];
 
-    /// <summary>Reads a number at the start of a text: sign, digits, point, digits, exponent.</summary>
-    /// <param name="text">May go on behind the number.</param>
-    /// <param name="value">The nearest double; infinite when out of range.</param>
-    /// <param name="length">The number of characters read.</param>
-    /// <returns>False when no number stands here; <c>nan</c> and <c>inf</c> are none.</returns>
+    /// <summary>Reads a number at the start of a text: sign, digits, point, digits and exponent.</summary>
+    /// <param name="text">Text that may continue behind the number.</param>
+    /// <param name="value">Closest double; infinite if the number is out of range.</param>
+    /// <param name="length">Number of characters read, 0 on failure.</param>
+    /// <returns>False if the text does not start with a number; <c>nan</c> and <c>inf</c> are not numbers.</returns>
     public static bool TryRead(ReadOnlySpan<char> text, out double value, out int length)
     {
         var position = text.Length > 0 && text[0] is '-' or '+' ? 1 : 0;
@@ -44,7 +44,8 @@ public static class NumberReader
             digitCount -= exponent;
         }
 
-        (value, length) = (0, 0);
+        value = 0;
+        length = 0;
         if (digitCount == 0)
         {
             return false;
@@ -68,12 +69,12 @@ public static class NumberReader
     {
         for (; position < text.Length && (uint)(text[position] - '0') <= 9; position++)
         {
-            // Overflow does no harm: mantissas of more digits are not used.
+            // Overflow is harmless: mantissas of more than 18 digits are not used.
             mantissa = unchecked((mantissa * 10) + (ulong)(text[position] - '0'));
         }
     }
 
-    /// <summary>Adds a written exponent; false when it has too many digits to be used here.</summary>
+    /// <summary>Adds a written exponent to the given one; false if it has too many digits for the fast path.</summary>
     private static bool TryReadExponent(ReadOnlySpan<char> text, ref int position, ref int exponent)
     {
         if (position >= text.Length || text[position] is not ('e' or 'E'))
@@ -87,7 +88,7 @@ public static class NumberReader
         ReadDigits(text, ref digitsEnd, ref magnitude);
         if (digitsEnd == digitsStart)
         {
-            // "2em" is the number 2 and something else.
+            // "2em" is the number 2 followed by something else.
             return true;
         }
 

@@ -3,29 +3,32 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Parsing.Text;
 
 /// <summary>
-/// The base of all parsers (paper §4.1.5): white space, characters, numbers, names, vectors. Every function takes a cursor and
-/// returns whether what it looks for stands there; if so it yields the value and the cursor behind it, if not the cursor
-/// stays good for another attempt. The farthest failure, and what was expected there, is kept for the error message.
+/// Base class of all parsers (paper §4.1.5): white space, characters, numbers, names and vectors. It keeps the furthest failure and
+/// what was expected there, for the error message.
 /// </summary>
+/// <remarks>
+/// Every <c>Parse…</c> method takes a cursor and returns whether the text there matches. On success it yields the value and the
+/// cursor behind it; on failure the caller's cursor remains valid for another attempt.
+/// </remarks>
 public abstract class Parser
 {
     private readonly List<string> _expected = [];
     private int _furthestFailure = -1;
 
-    /// <summary>A parser of one text.</summary>
+    /// <summary>Creates a parser for one text.</summary>
     protected Parser(SourceText source) => Source = source;
 
-    /// <summary>What is parsed.</summary>
+    /// <summary>Text that is being parsed.</summary>
     protected SourceText Source { get; }
 
-    /// <summary>An exception for what was parsed but makes no sense.</summary>
-    /// <param name="cursor">Where it stands.</param>
-    /// <param name="message">What is wrong with it.</param>
-    /// <param name="isLimitExceeded">True when it makes sense but goes beyond a stated limit.</param>
+    /// <summary>Creates an exception for text that is well-formed but has no valid meaning.</summary>
+    /// <param name="cursor">Position of the faulty text.</param>
+    /// <param name="message">One line of text without a full stop.</param>
+    /// <param name="isLimitExceeded">True when the text is valid but exceeds a stated limit.</param>
     protected SourceException Error(Cursor cursor, string message, bool isLimitExceeded = false) =>
         Source.Error(cursor.Offset, message, isLimitExceeded);
 
-    /// <summary>The exception for the farthest failure: what stands there, and what was expected instead.</summary>
+    /// <summary>Creates the exception for the furthest failure: what was found there, and what was expected instead.</summary>
     protected SourceException SyntaxError()
     {
         var failure = new Cursor(Source.Text, Math.Max(_furthestFailure, 0));
@@ -38,7 +41,7 @@ public abstract class Parser
         return Source.Error(failure.Offset, $"unexpected {Describe(failure)}{expected}");
     }
 
-    /// <summary>Notes that something else was expected, and fails.</summary>
+    /// <summary>Records what was expected at a position, for the error message. Always returns false.</summary>
     protected bool Fail(Cursor cursor, string expected)
     {
         if (cursor.Offset > _furthestFailure)
@@ -55,7 +58,7 @@ public abstract class Parser
         return false;
     }
 
-    /// <summary>Passes over blanks and tabs; always succeeds.</summary>
+    /// <summary>Skips blanks and tabs, of which there may be none. Always returns true.</summary>
     protected virtual bool ParseBlanks(Cursor cursor, out Cursor rest)
     {
         var offset = cursor.Offset;
@@ -69,7 +72,7 @@ public abstract class Parser
         return true;
     }
 
-    /// <summary>One given character.</summary>
+    /// <summary>Parses one given character.</summary>
     protected bool ParseChar(Cursor cursor, char character, out Cursor rest)
     {
         rest = cursor;
@@ -82,7 +85,7 @@ public abstract class Parser
         return true;
     }
 
-    /// <summary>A given word, not followed by a further letter, digit or underscore.</summary>
+    /// <summary>Parses a given word that no further letter, digit or underscore follows.</summary>
     protected bool ParseWord(Cursor cursor, string word, out Cursor rest)
     {
         rest = cursor;
@@ -95,10 +98,11 @@ public abstract class Parser
         return true;
     }
 
-    /// <summary>A name: a letter or underscore, then letters, digits and underscores.</summary>
+    /// <summary>Parses a name: a letter or underscore, then letters, digits and underscores.</summary>
     protected bool ParseName(Cursor cursor, string expected, out string name, out Cursor rest)
     {
-        (name, rest) = ("", cursor);
+        name = "";
+        rest = cursor;
         if (!char.IsLetter(cursor.Current) && cursor.Current != '_')
         {
             return Fail(cursor, expected);
@@ -110,12 +114,13 @@ public abstract class Parser
             length++;
         }
 
-        (name, rest) = (cursor.Rest[..length].ToString(), cursor.Advance(length));
+        name = cursor.Rest[..length].ToString();
+        rest = cursor.Advance(length);
         return true;
     }
 
-    /// <summary>A finite decimal number, the same in every culture.</summary>
-    /// <exception cref="SourceException">The number is beyond the range of a double.</exception>
+    /// <summary>Parses a finite decimal number, independently of the culture.</summary>
+    /// <exception cref="SourceException">The number is out of the range of a double.</exception>
     protected bool ParseNumber(Cursor cursor, out double number, out Cursor rest)
     {
         rest = cursor;
@@ -125,36 +130,41 @@ public abstract class Parser
         }
 
         rest = cursor.Advance(length);
-        return double.IsFinite(number) ? true
+        return double.IsFinite(number)
+            ? true
             : throw Error(cursor, $"the number {Truncate(cursor.Rest[..length])} is beyond the range of a double");
     }
 
-    /// <summary>A whole number without sign; saturates at <see cref="int.MaxValue"/>.</summary>
+    /// <summary>Parses an integer without a sign; larger ones saturate at <see cref="int.MaxValue"/>.</summary>
     protected bool ParseInteger(Cursor cursor, string expected, out int number, out Cursor rest)
     {
-        (number, rest) = (0, cursor);
+        number = 0;
+        rest = cursor;
         if (!char.IsAsciiDigit(cursor.Current))
         {
             return Fail(cursor, expected);
         }
 
-        var (length, value) = (0, 0L);
+        var length = 0;
+        var value = 0L;
         for (; char.IsAsciiDigit(cursor.Peek(length)); length++)
         {
             value = Math.Min((value * 10) + (cursor.Peek(length) - '0'), int.MaxValue);
         }
 
-        (number, rest) = ((int)value, cursor.Advance(length));
+        number = (int)value;
+        rest = cursor.Advance(length);
         return true;
     }
 
-    /// <summary>What stands between two places, for a message.</summary>
+    /// <summary>Returns the text between two positions, shortened for a message.</summary>
     protected static string TextBetween(Cursor start, Cursor end) => Truncate(start.Rest[..(end.Offset - start.Offset)]);
 
-    /// <summary>Text between double quotes, on one line.</summary>
+    /// <summary>Parses text between double quotes on one line; there are no escapes.</summary>
     protected bool ParseString(Cursor cursor, string expected, out string value, out Cursor rest)
     {
-        (value, rest) = ("", cursor);
+        value = "";
+        rest = cursor;
         if (cursor.Current != '"')
         {
             return Fail(cursor, expected);
@@ -166,11 +176,12 @@ public abstract class Parser
             return Fail(cursor.Advance(1 + (length < 0 ? cursor.Rest.Length - 1 : length)), "'\"'");
         }
 
-        (value, rest) = (cursor.Rest.Slice(1, length).ToString(), cursor.Advance(length + 2));
+        value = cursor.Rest.Slice(1, length).ToString();
+        rest = cursor.Advance(length + 2);
         return true;
     }
 
-    /// <summary>What stands between the parts of a list: blanks, a comma, or both.</summary>
+    /// <summary>Parses what separates the elements of a list: blanks, a comma, or both.</summary>
     protected bool ParseSeparator(Cursor cursor, out Cursor rest)
     {
         ParseBlanks(cursor, out rest);
@@ -182,7 +193,7 @@ public abstract class Parser
         return rest.Offset > cursor.Offset || Fail(cursor, "','");
     }
 
-    /// <summary>Three numbers with separators between them.</summary>
+    /// <summary>Parses three numbers with separators between them.</summary>
     protected bool ParseComponents(Cursor cursor, out Vector vector, out Cursor rest)
     {
         vector = default;
@@ -197,7 +208,7 @@ public abstract class Parser
         return false;
     }
 
-    /// <summary><c>(x, y, z)</c>.</summary>
+    /// <summary>Parses a vector in parentheses: <c>(x, y, z)</c>.</summary>
     protected bool ParseVector(Cursor cursor, out Vector vector, out Cursor rest)
     {
         vector = default;
@@ -206,7 +217,7 @@ public abstract class Parser
             && ParseBlanks(rest, out rest) && ParseChar(rest, ')', out rest);
     }
 
-    /// <summary>Blanks and the end of a line or of the text; the cursor then stands on the next line.</summary>
+    /// <summary>Parses blanks and the end of the line or of the text. The rest begins with the next line.</summary>
     protected bool ParseEndOfLine(Cursor cursor, out Cursor rest)
     {
         ParseBlanks(cursor, out rest);
@@ -219,7 +230,44 @@ public abstract class Parser
         return true;
     }
 
-    /// <summary>Passes over a line break of any system, if one stands here.</summary>
+    /// <summary>Parses a comment that begins with '#', if there is one, and the end of the line.</summary>
+    protected bool ParseCommentAndEndOfLine(Cursor cursor, out Cursor rest)
+    {
+        ParseBlanks(cursor, out rest);
+        return rest.Current == '#' ? ParseComment(rest, out rest) : ParseEndOfLine(rest, out rest);
+    }
+
+    /// <summary>Parses a comment from its '#' to the end of the line. The rest begins with the next line.</summary>
+    protected static bool ParseComment(Cursor cursor, out Cursor rest)
+    {
+        if (cursor.Current != '#')
+        {
+            rest = cursor;
+            return false;
+        }
+
+        rest = SkipLine(cursor);
+        return true;
+    }
+
+    /// <summary>
+    /// Reads all text up to the end of the line or up to a comment, without the blanks at either end. Names may contain blanks; a
+    /// '#' begins a comment only behind a blank.
+    /// </summary>
+    protected string ReadRestOfLine(Cursor cursor, out Cursor rest)
+    {
+        ParseBlanks(cursor, out var start);
+        rest = start;
+        while (!IsAtEndOfLine(rest) && !(rest.Current == '#' && rest.Offset > 0 && rest.Peek(-1) is ' ' or '\t'))
+        {
+            ParseBlanks(rest, out var next);
+            rest = next.Offset > rest.Offset ? next : rest.Advance(1);
+        }
+
+        return start.Rest[..(rest.Offset - start.Offset)].Trim().ToString();
+    }
+
+    /// <summary>Skips one line break of any system, if there is one.</summary>
     private static Cursor SkipLineBreak(Cursor cursor) => cursor.Advance(cursor.Current switch
     {
         '\r' when cursor.Peek(1) == '\n' => 2,
@@ -227,17 +275,17 @@ public abstract class Parser
         _ => 0,
     });
 
-    /// <summary>True before a line break and behind the last character.</summary>
+    /// <summary>Returns whether a line break or the end of the text follows.</summary>
     protected static bool IsAtEndOfLine(Cursor cursor) => cursor.IsAtEnd || cursor.Current is '\n' or '\r';
 
-    /// <summary>The start of the next line.</summary>
+    /// <summary>Returns the start of the next line, or the end of the text.</summary>
     protected static Cursor SkipLine(Cursor cursor)
     {
         var length = cursor.Rest.IndexOfAny('\n', '\r');
         return length < 0 ? cursor.Advance(cursor.Rest.Length) : SkipLineBreak(cursor.Advance(length));
     }
 
-    /// <summary>What stands at a place, for a message: a word, a character, or the end.</summary>
+    /// <summary>Describes the text at a position for a message: a word, a character or the end.</summary>
     protected static string Describe(Cursor cursor)
     {
         if (cursor.IsAtEnd)
@@ -256,8 +304,13 @@ public abstract class Parser
             length++;
         }
 
-        return char.IsControl(cursor.Current) ? $"character U+{(int)cursor.Current:X4}"
-            : char.IsHighSurrogate(cursor.Current) ? $"'{cursor.Text.AsSpan(cursor.Offset, Math.Min(2, cursor.Rest.Length))}'"
+        if (char.IsControl(cursor.Current))
+        {
+            return $"character U+{(int)cursor.Current:X4}";
+        }
+
+        return char.IsHighSurrogate(cursor.Current)
+            ? $"'{cursor.Text.AsSpan(cursor.Offset, Math.Min(2, cursor.Rest.Length))}'"
             : $"'{Truncate(cursor.Rest[..Math.Max(length, 1)])}'";
     }
 

@@ -2,36 +2,46 @@ using System.Text;
 
 namespace FractalEngine.Parsing.Text;
 
-/// <summary>The text of a file together with the name that messages call it by.</summary>
+/// <summary>Text of a file together with the name that messages use for it.</summary>
 public sealed class SourceText
 {
     private static readonly UTF8Encoding StrictUtf8 = new(encoderShouldEmitUTF8Identifier: false, throwOnInvalidBytes: true);
 
-    /// <summary>A text that need not come from a file.</summary>
-    public SourceText(string fileName, string text) => (FileName, Text) = (fileName, text);
-
-    /// <summary>What messages call the file.</summary>
-    public string FileName { get; }
-
-    /// <summary>The characters, without a byte order mark.</summary>
-    public string Text { get; }
-
-    /// <summary>The place before the first character.</summary>
-    public Cursor Start => new(Text, 0);
-
-    /// <summary>Reads a file of UTF-8 text.</summary>
-    /// <param name="path">Where the file is.</param>
-    /// <param name="fileName">What messages call it.</param>
-    /// <param name="maxBytes">Longer files are refused before anything is read.</param>
-    /// <param name="acceptLatin1">Whether bytes that are no UTF-8 are read as Latin-1, as old exporters wrote their comments.</param>
-    /// <exception cref="SourceException">The file is missing, unreadable, too long, or no text of that encoding.</exception>
-    public static SourceText Read(string path, string fileName, long maxBytes, bool acceptLatin1 = false)
+    /// <summary>Wraps a text that need not come from a file.</summary>
+    /// <param name="fileName">Name of the file in messages.</param>
+    /// <param name="text">Characters without a byte order mark.</param>
+    public SourceText(string fileName, string text)
     {
-        var bytes = ReadBytes(path, fileName, maxBytes);
-        return Decode(bytes, fileName, acceptLatin1);
+        FileName = fileName;
+        Text = text;
     }
 
-    /// <summary>Decodes the bytes of a file; see <see cref="Read"/>.</summary>
+    /// <summary>Name of the file in messages.</summary>
+    public string FileName { get; }
+
+    /// <summary>Characters of the text, without a byte order mark.</summary>
+    public string Text { get; }
+
+    /// <summary>Size of the file that was read or decoded, in bytes; 0 for a text that comes from no file.</summary>
+    public long ByteCount { get; private init; }
+
+    /// <summary>Line break of the text: CR LF if it occurs anywhere, else LF.</summary>
+    public string LineBreak => LineBreakOf(Text);
+
+    /// <summary>Position before the first character.</summary>
+    public Cursor Start => new(Text, 0);
+
+    /// <summary>Reads a file that holds UTF-8 text.</summary>
+    /// <param name="path">Path of the file, absolute or relative to the current directory.</param>
+    /// <param name="fileName">Name of the file in messages.</param>
+    /// <param name="maxBytes">Size limit; larger files are refused before anything is read.</param>
+    /// <param name="acceptLatin1">Whether text that is not UTF-8 is read as Latin-1, which old exporters wrote in comments.</param>
+    /// <exception cref="SourceException">The file is missing, unreadable, too large or not text of that encoding.</exception>
+    public static SourceText Read(string path, string fileName, long maxBytes, bool acceptLatin1 = false) =>
+        Decode(ReadBytes(path, fileName, maxBytes), fileName, acceptLatin1);
+
+    /// <summary>Decodes the bytes of a text file, with the rules of <see cref="Read"/>.</summary>
+    /// <exception cref="SourceException">The bytes are not text of that encoding.</exception>
     public static SourceText Decode(ReadOnlySpan<byte> bytes, string fileName, bool acceptLatin1 = false)
     {
         if (bytes.StartsWith((ReadOnlySpan<byte>)[0xFF, 0xFE]) || bytes.StartsWith((ReadOnlySpan<byte>)[0xFE, 0xFF]))
@@ -39,12 +49,13 @@ public sealed class SourceText
             throw new SourceException(fileName, "the file is UTF-16 text, expected UTF-8: save it in that encoding");
         }
 
+        var byteCount = bytes.Length;
         if (bytes.StartsWith((ReadOnlySpan<byte>)[0xEF, 0xBB, 0xBF]))
         {
             bytes = bytes[3..];
         }
 
-        // No text has NUL bytes; UTF-16 without a byte order mark and all binary formats do.
+        // Text has no NUL bytes; UTF-16 without a byte order mark and all binary formats do.
         if (bytes.IndexOf((byte)0) is >= 0 and var position)
         {
             throw BinaryFileError(bytes, position, fileName, "the file is binary (it has a NUL byte), expected UTF-8 text");
@@ -52,11 +63,11 @@ public sealed class SourceText
 
         try
         {
-            return new(fileName, StrictUtf8.GetString(bytes));
+            return new(fileName, StrictUtf8.GetString(bytes)) { ByteCount = byteCount };
         }
         catch (DecoderFallbackException) when (acceptLatin1)
         {
-            return new(fileName, Encoding.Latin1.GetString(bytes));
+            return new(fileName, Encoding.Latin1.GetString(bytes)) { ByteCount = byteCount };
         }
         catch (DecoderFallbackException exception)
         {
@@ -64,33 +75,47 @@ public sealed class SourceText
         }
     }
 
-    /// <summary>A diagnostic for a place in this text.</summary>
+    /// <summary>Returns the line break that a text uses: CR LF if it occurs anywhere, else LF.</summary>
+    internal static string LineBreakOf(string text) => text.Contains("\r\n", StringComparison.Ordinal) ? "\r\n" : "\n";
+
+    /// <summary>Creates a diagnostic for a position in this text.</summary>
+    /// <param name="offset">Characters before the position; positions behind the end count as the end.</param>
+    /// <param name="message">One line of text without a full stop.</param>
+    /// <param name="severity">Severity of the diagnostic.</param>
+    /// <remarks>Searches the text for the line: O(offset).</remarks>
     public Diagnostic Diagnose(int offset, string message, DiagnosticSeverity severity = DiagnosticSeverity.Error)
     {
         offset = Math.Min(offset, Text.Length);
-        var (line, lineStart) = (1, 0);
+        var line = FindLine(offset, out var lineStart);
+        var length = Text.AsSpan(lineStart).IndexOfAny('\n', '\r');
+        var sourceLine = length < 0 ? Text[lineStart..] : Text.Substring(lineStart, length);
+        return new(FileName, line, 1 + offset - lineStart, severity, message, sourceLine);
+    }
+
+    /// <summary>Returns the number, from 1, of the line that holds a position. Cost O(offset).</summary>
+    /// <param name="offset">Characters before the position; positions behind the end count as the end.</param>
+    public int LineOf(int offset) => FindLine(Math.Min(offset, Text.Length), out _);
+
+    /// <summary>Creates an exception for a position in this text.</summary>
+    public SourceException Error(int offset, string message, bool isLimitExceeded = false) =>
+        new(Diagnose(offset, message) with { IsLimitExceeded = isLimitExceeded });
+
+    private int FindLine(int offset, out int lineStart)
+    {
+        var line = 1;
+        lineStart = 0;
         for (var i = 0; i < offset; i++)
         {
             // A line ends with \n, \r\n or, on old systems, \r alone.
             if (Text[i] == '\n' || (Text[i] == '\r' && !(i + 1 < Text.Length && Text[i + 1] == '\n')))
             {
-                (line, lineStart) = (line + 1, i + 1);
+                line++;
+                lineStart = i + 1;
             }
         }
 
-        var length = Text.AsSpan(lineStart).IndexOfAny('\n', '\r');
-        return new(
-            FileName,
-            line,
-            1 + offset - lineStart,
-            severity,
-            message,
-            length < 0 ? Text[lineStart..] : Text.Substring(lineStart, length));
+        return line;
     }
-
-    /// <summary>An exception for a place in this text.</summary>
-    public SourceException Error(int offset, string message, bool isLimitExceeded = false) =>
-        new(Diagnose(offset, message) with { IsLimitExceeded = isLimitExceeded });
 
     private static byte[] ReadBytes(string path, string fileName, long maxBytes)
     {
@@ -122,16 +147,16 @@ public sealed class SourceText
         {
             throw new SourceException(fileName, "file not found");
         }
-        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException or NotSupportedException
-        or ArgumentException)
+        catch (Exception exception)
+            when (exception is IOException or UnauthorizedAccessException or NotSupportedException or ArgumentException)
         {
             throw new SourceException(fileName, $"the file can't be read: {exception.Message}");
         }
     }
 
     /// <summary>
-    /// Pipes say that they are empty, and opening one for reading waits for a writer, perhaps for ever. Opening it for both does not wait,
-    /// and does an empty file no harm.
+    /// Tells pipes and devices from empty files: both report a length of 0. Opening a pipe for reading waits for a writer, perhaps
+    /// for ever; opening it for reading and writing does not wait and leaves an empty file unchanged.
     /// </summary>
     private static bool IsPipe(string path)
     {
@@ -142,7 +167,7 @@ public sealed class SourceText
         }
         catch (UnauthorizedAccessException)
         {
-            // A file that may only be read; opening it says more.
+            // The file is read-only; opening it for reading gives the precise error.
             return false;
         }
     }

@@ -1,16 +1,17 @@
 namespace FractalEngine.Render.Gl;
 
-/// <summary>Files that are part of the assembly.</summary>
+/// <summary>Opens files that are embedded in the assembly.</summary>
 internal static class EmbeddedResource
 {
-    /// <summary>Opens a file.</summary>
-    /// <param name="name">Folder and name: <c>Shaders/mesh.vert</c>.</param>
-    /// <exception cref="FileNotFoundException">There is no such file in the assembly.</exception>
+    /// <summary>Opens an embedded file.</summary>
+    /// <param name="name">Folder and name, such as <c>Shaders/mesh.vert</c>.</param>
+    /// <exception cref="FileNotFoundException">The assembly has no such file.</exception>
     public static Stream Open(string name) =>
         typeof(EmbeddedResource).Assembly.GetManifestResourceStream(name)
-        ?? throw new FileNotFoundException($"the assembly holds no file {name}", name);
+        ?? throw new FileNotFoundException($"the assembly has no embedded file {name}", name);
 
-    /// <summary>Reads a whole text file.</summary>
+    /// <summary>Reads a whole embedded text file.</summary>
+    /// <exception cref="FileNotFoundException">The assembly has no such file.</exception>
     public static string ReadText(string name)
     {
         using var reader = new StreamReader(Open(name));

@@ -2,25 +2,28 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Gl;
 
-/// <summary>An off-screen picture: sRGB colour of 8 bits and, where asked for, depth of 32 bits; multisampled or not.</summary>
+/// <summary>
+/// An off-screen framebuffer with 8-bit sRGB colour and optionally a 32-bit depth buffer, multisampled or not.
+/// </summary>
 internal sealed class Framebuffer : GlObject
 {
     private readonly int _name;
     private readonly int _colour;
     private readonly int _depth;
 
-    /// <summary>Allocates a picture.</summary>
-    /// <param name="resources">Of the current context.</param>
-    /// <param name="label">For messages.</param>
-    /// <param name="width">Pixels, at least 1.</param>
-    /// <param name="height">Pixels, at least 1.</param>
-    /// <param name="samples">Samples a pixel; 0 for a plain picture.</param>
+    /// <summary>Allocates a framebuffer and its attachments.</summary>
+    /// <param name="resources">Resources of the current context.</param>
+    /// <param name="label">Name of the framebuffer, for messages.</param>
+    /// <param name="width">Width in pixels, at least 1.</param>
+    /// <param name="height">Height in pixels, at least 1.</param>
+    /// <param name="samples">Number of samples a pixel; 0 without multisampling.</param>
     /// <param name="hasDepth">Whether there is a depth buffer.</param>
-    /// <exception cref="GlException">The size or the memory is beyond the driver.</exception>
+    /// <exception cref="GlException">Size or memory exceed the driver's limits.</exception>
     public Framebuffer(GlResources resources, string label, int width, int height, int samples, bool hasDepth)
         : base(resources, label)
     {
-        (Width, Height) = (width, height);
+        Width = width;
+        Height = height;
         _name = GL.GenFramebuffer();
         _colour = CreateRenderbuffer(RenderbufferStorage.Srgb8Alpha8, samples);
         _depth = hasDepth ? CreateRenderbuffer(RenderbufferStorage.DepthComponent32f, samples) : 0;
@@ -39,38 +42,39 @@ internal sealed class Framebuffer : GlObject
         }
     }
 
-    /// <summary>Pixels.</summary>
+    /// <summary>Width of the framebuffer in pixels.</summary>
     public int Width { get; }
 
-    /// <summary>Pixels.</summary>
+    /// <summary>Height of the framebuffer in pixels.</summary>
     public int Height { get; }
 
-    /// <summary>Draws go here from now on, into all of it.</summary>
+    /// <summary>Makes this the current framebuffer, with a viewport that covers it.</summary>
     public void Bind()
     {
         GL.BindFramebuffer(FramebufferTarget.Framebuffer, _name);
         GL.Viewport(0, 0, Width, Height);
     }
 
-    /// <summary>Averages the samples into another picture of the same size, in linear light.</summary>
+    /// <summary>Averages the samples into another framebuffer of the same size, in linear light.</summary>
     public void ResolveTo(Framebuffer target)
     {
-        // With this state on, drivers decode before averaging (GL 4.4, §18.3.1); a plain copy is not changed by it.
+        // With this state on, drivers decode before averaging (GL 4.4, §18.3.1). It leaves plain copies unchanged.
         GL.Enable(EnableCap.FramebufferSrgb);
         BlitTo(target._name, target.Width, target.Height);
     }
 
-    /// <summary>Copies the picture, byte for byte, to the window's own framebuffer.</summary>
-    /// <param name="width">The window's width in pixels.</param>
-    /// <param name="height">The window's height in pixels.</param>
+    /// <summary>Copies the pixels unchanged to the window's own framebuffer.</summary>
+    /// <param name="width">Width of the window in pixels.</param>
+    /// <param name="height">Height of the window in pixels.</param>
     public void CopyToWindow(int width, int height)
     {
         GL.Disable(EnableCap.FramebufferSrgb);
         BlitTo(0, width, height);
     }
 
-    /// <summary>Reads the colours back, bottom row first.</summary>
-    /// <param name="pixels">RGBA, [height × width × 4].</param>
+    /// <summary>Reads the colours back, with the bottom row first.</summary>
+    /// <param name="pixels">Receives RGBA bytes, [height × width × 4].</param>
+    /// <exception cref="GlException">The driver reports an error.</exception>
     public void ReadPixels(Span<byte> pixels)
     {
         GL.Disable(EnableCap.FramebufferSrgb);
@@ -106,11 +110,13 @@ internal sealed class Framebuffer : GlObject
         return name;
     }
 
+    /// <summary>Copies the common part of two framebuffers, aligned at the upper left corner.</summary>
     private void BlitTo(int target, int width, int height)
     {
         GL.BindFramebuffer(FramebufferTarget.ReadFramebuffer, _name);
         GL.BindFramebuffer(FramebufferTarget.DrawFramebuffer, target);
-        var (commonWidth, commonHeight) = (Math.Min(width, Width), Math.Min(height, Height));
+        var commonWidth = Math.Min(width, Width);
+        var commonHeight = Math.Min(height, Height);
         GL.BlitFramebuffer(
             0, Height - commonHeight, commonWidth, Height,
             0, height - commonHeight, commonWidth, height,

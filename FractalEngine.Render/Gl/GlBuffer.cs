@@ -2,16 +2,23 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Gl;
 
-/// <summary>A buffer object.</summary>
+/// <summary>A GL buffer object with one binding target.</summary>
 internal sealed class GlBuffer : GlObject
 {
     private readonly BufferTarget _target;
     private readonly int _name;
     private nint _size;
 
-    /// <summary>An empty buffer.</summary>
+    /// <summary>Creates an empty buffer.</summary>
+    /// <param name="resources">Resources of the current context.</param>
+    /// <param name="label">Name of the buffer, for messages.</param>
+    /// <param name="target">Target that the buffer is bound to.</param>
     public GlBuffer(GlResources resources, string label, BufferTarget target)
-        : base(resources, label) => (_target, _name) = (target, GL.GenBuffer());
+        : base(resources, label)
+    {
+        _target = target;
+        _name = GL.GenBuffer();
+    }
 
     /// <summary>Binds the buffer to its target.</summary>
     public void Bind() => GL.BindBuffer(_target, _name);
@@ -19,9 +26,9 @@ internal sealed class GlBuffer : GlObject
     /// <summary>Binds a uniform buffer to a binding point.</summary>
     public void BindTo(int bindingPoint) => Resources.State.BindUniformBuffer(bindingPoint, _name);
 
-    /// <summary>Replaces the contents; storage is allocated only when the size changes.</summary>
-    /// <param name="data">Plain data.</param>
-    /// <param name="usage">How often it changes.</param>
+    /// <summary>Replaces the contents. Storage is allocated only when the size changes.</summary>
+    /// <param name="data">New contents.</param>
+    /// <param name="usage">Hint to the driver on how often the contents change.</param>
     /// <exception cref="GlException">The memory does not suffice.</exception>
     public void Upload<T>(ReadOnlySpan<T> data, BufferUsageHint usage)
         where T : unmanaged
@@ -46,13 +53,13 @@ internal sealed class GlBuffer : GlObject
         }
     }
 
-    /// <summary>Makes room for new contents; a driver that still draws the old ones keeps them. Half more than is needed is kept.</summary>
-    /// <param name="bytes">That will be written.</param>
+    /// <summary>Makes room for new contents. A driver that still draws the old ones keeps them until it is done.</summary>
+    /// <param name="bytes">Bytes that will be written. Where the storage is replaced, it becomes half larger than this.</param>
     /// <exception cref="GlException">The memory does not suffice.</exception>
     public void Discard(int bytes)
     {
         Bind();
-        // Neither grown at every picture, nor kept large: to discard a large buffer takes time.
+        // Growing for each frame would be slow, and so is discarding a buffer that is far too large.
         if (bytes > _size || bytes < _size / 4)
         {
             _size = bytes + (bytes / 2);
@@ -62,10 +69,10 @@ internal sealed class GlBuffer : GlObject
         Resources.ThrowOnError($"{this} of {_size} bytes");
     }
 
-    /// <summary>Writes a part.</summary>
-    /// <param name="data">Floats.</param>
-    /// <param name="offset">Bytes before it.</param>
-    /// <returns>Its length in bytes.</returns>
+    /// <summary>Overwrites a part of the contents.</summary>
+    /// <param name="data">Floats to write.</param>
+    /// <param name="offset">Position of the first float, bytes from the start of the buffer.</param>
+    /// <returns>Number of bytes that were written.</returns>
     public int Write(ReadOnlySpan<float> data, int offset)
     {
         Bind();

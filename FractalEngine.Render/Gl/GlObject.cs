@@ -1,29 +1,33 @@
 namespace FractalEngine.Render.Gl;
 
 /// <summary>
-/// Something that GL allocated and that exactly one owner disposes. There is no finalizer: it would run on a thread
-/// without a context. What is forgotten is reported by name when the context ends.
+/// Base class of GL objects. Exactly one owner disposes each of them. There is no finalizer, since it would run on a thread without a
+/// context; an object that was not disposed is reported by name when the context ends.
 /// </summary>
 internal abstract class GlObject : IDisposable
 {
     private bool _isDisposed;
 
-    /// <summary>Registers an object.</summary>
-    /// <param name="resources">Of the current context.</param>
-    /// <param name="label">What it is for, for messages.</param>
+    /// <summary>Registers the object with its context.</summary>
+    /// <param name="resources">Resources of the current context.</param>
+    /// <param name="label">Purpose of the object, for messages.</param>
+    /// <exception cref="InvalidOperationException">This is not the context's thread.</exception>
     protected GlObject(GlResources resources, string label)
     {
-        (Resources, Label) = (resources, label);
+        Resources = resources;
+        Label = label;
         resources.Add(this);
     }
 
-    /// <summary>What the object is for.</summary>
+    /// <summary>Purpose of the object, for messages.</summary>
     public string Label { get; }
 
-    /// <summary>The registry of the context that the object belongs to.</summary>
+    /// <summary>Resources of the context that the object belongs to.</summary>
     protected GlResources Resources { get; }
 
-    /// <summary>Deletes the object, at once on the GL thread, else when that thread next draws. Harmless when repeated.</summary>
+    /// <summary>
+    /// Deletes the object at once on the context's thread, otherwise when that thread next draws. Harmless when repeated.
+    /// </summary>
     public void Dispose()
     {
         if (!_isDisposed)
@@ -33,11 +37,11 @@ internal abstract class GlObject : IDisposable
         }
     }
 
-    /// <summary>Kind and label.</summary>
+    /// <summary>Returns the kind and the label of the object.</summary>
     public sealed override string ToString() => $"{GetType().Name} '{Label}'";
 
     internal void DeleteNow() => Delete();
 
-    /// <summary>Calls the fitting glDelete. Runs once, on the GL thread.</summary>
+    /// <summary>Calls the matching glDelete function. Runs once, on the context's thread.</summary>
     protected abstract void Delete();
 }

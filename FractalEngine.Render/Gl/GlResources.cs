@@ -3,8 +3,8 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Gl;
 
 /// <summary>
-/// The GL objects of one context: who lives, and what waits for deletion. GL calls are made on the context's thread only; an object
-/// that is disposed elsewhere waits here until that thread comes by.
+/// Registers the GL objects of one context, alive and pending deletion. GL is called only on the context's thread; an object that is
+/// disposed on another thread waits here until the context's thread next draws.
 /// </summary>
 internal sealed class GlResources
 {
@@ -13,16 +13,16 @@ internal sealed class GlResources
     private readonly List<GlObject> _pendingDeletion = [];
     private readonly int _threadId = Environment.CurrentManagedThreadId;
 
-    /// <summary>What is bound.</summary>
+    /// <summary>Bindings of the context.</summary>
     public GlState State { get; } = new();
 
-    /// <summary>Uploads of what changes from picture to picture: made, and not needed.</summary>
+    /// <summary>Counts the uploads of data that changes between frames, and skips redundant ones.</summary>
     public RedundancyFilter UploadFilter { get; } = new();
 
     /// <summary>True on the thread that may call GL.</summary>
     public bool IsGlThread => Environment.CurrentManagedThreadId == _threadId;
 
-    /// <summary>The labels of all objects that are not disposed, sorted.</summary>
+    /// <summary>Kinds and labels of all objects that are not disposed, sorted.</summary>
     public IReadOnlyList<string> LiveObjects
     {
         get
@@ -34,7 +34,7 @@ internal sealed class GlResources
         }
     }
 
-    /// <summary>Deletes what was disposed on other threads. Costs a lock when there is nothing.</summary>
+    /// <summary>Deletes the objects that were disposed on other threads. Costs a lock when there are none.</summary>
     public void DeletePending()
     {
         RequireGlThread();
@@ -49,8 +49,7 @@ internal sealed class GlResources
         }
     }
 
-    /// <summary>Deletes everything, and names what its owners should have disposed.</summary>
-    /// <returns>The labels of the leaked objects.</returns>
+    /// <summary>Deletes all objects, and returns the labels of those that their owners did not dispose.</summary>
     public IReadOnlyList<string> DeleteAll()
     {
         DeletePending();
@@ -64,7 +63,7 @@ internal sealed class GlResources
     }
 
     /// <summary>Turns GL's error flag into an exception.</summary>
-    /// <param name="operation">What was being done, for the message.</param>
+    /// <param name="operation">Operation in progress, for the message.</param>
     /// <exception cref="GlException">GL reports an error.</exception>
     public void ThrowOnError(string operation)
     {

@@ -2,10 +2,10 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Gl;
 
-/// <summary>The GL calls that the two assemblies named OpenTK spell differently.</summary>
+/// <summary>Wraps the GL calls that the two assemblies named OpenTK declare differently.</summary>
 internal static class GlShim
 {
-    /// <summary>Draws triangles as lines or filled.</summary>
+    /// <summary>Draws triangles as edges, or filled.</summary>
     public static void SetWireframe(bool wireframe)
     {
         var mode = wireframe ? PolygonMode.Line : PolygonMode.Fill;
@@ -16,13 +16,14 @@ internal static class GlShim
 #endif
     }
 
-    /// <summary>Leaves out the triangles of one side: of the front, or of the back.</summary>
-    public static void SetCulledFace(bool front)
+    /// <summary>Selects the face that is culled while <see cref="EnableCap.CullFace"/> is enabled.</summary>
+    /// <param name="face">Front or back face.</param>
+    public static void SetCulledFace(CullFace face)
     {
 #if OPENTK_DEBIAN
-        GL.CullFace(front ? CullFaceMode.Front : CullFaceMode.Back);
+        GL.CullFace(face == CullFace.Front ? CullFaceMode.Front : CullFaceMode.Back);
 #else
-        GL.CullFace(front ? TriangleFace.Front : TriangleFace.Back);
+        GL.CullFace(face == CullFace.Front ? TriangleFace.Front : TriangleFace.Back);
 #endif
     }
 }

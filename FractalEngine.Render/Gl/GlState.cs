@@ -3,24 +3,24 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Gl;
 
 /// <summary>
-/// What is bound in one context. Programs, vertex arrays, textures, uniform buffers and the side that is left out are set here and nowhere
-/// else, so that what is bound already is not bound again.
+/// Tracks the bindings of one context. Programs, vertex arrays, textures, uniform buffers and the culled face are set only through this
+/// class, so that a binding that is in effect is not made again.
 /// </summary>
 internal sealed class GlState
 {
-    /// <summary>Binding points of uniform buffers.</summary>
+    /// <summary>Number of binding points for uniform buffers.</summary>
     public const int UniformBindingCount = 2;
 
-    // No object has this name: the next binding is made.
+    // No GL object has this name, and no face this value, so that the next call always takes effect.
     private const int Unknown = -1;
 
     private readonly int[] _uniformBuffers = [.. Enumerable.Repeat(Unknown, UniformBindingCount)];
     private int _program = Unknown;
     private int _vertexArray = Unknown;
     private int _texture = Unknown;
-    private (bool IsKnown, bool? Front) _culledFace;
+    private CullFace _culledFace = (CullFace)Unknown;
 
-    /// <summary>Made and not needed: bindings, and uniforms of programs.</summary>
+    /// <summary>Counts bindings and program uniforms, and skips redundant ones.</summary>
     public RedundancyFilter Filter { get; } = new();
 
     /// <summary>Makes a program current.</summary>
@@ -41,7 +41,7 @@ internal sealed class GlState
         }
     }
 
-    /// <summary>Binds a texture of two dimensions to the first texture unit.</summary>
+    /// <summary>Binds a two-dimensional texture to the first texture unit.</summary>
     public void BindTexture(int name)
     {
         if (Filter.Update(ref _texture, name))
@@ -51,9 +51,9 @@ internal sealed class GlState
         }
     }
 
-    /// <summary>Binds a uniform buffer.</summary>
-    /// <param name="bindingPoint">Below <see cref="UniformBindingCount"/>.</param>
-    /// <param name="name">Of the buffer.</param>
+    /// <summary>Binds a uniform buffer to a binding point.</summary>
+    /// <param name="bindingPoint">Index below <see cref="UniformBindingCount"/>.</param>
+    /// <param name="name">Name of the buffer.</param>
     public void BindUniformBuffer(int bindingPoint, int name)
     {
         if (Filter.Update(ref _uniformBuffers[bindingPoint], name))
@@ -62,48 +62,47 @@ internal sealed class GlState
         }
     }
 
-    /// <summary>Chooses which side of triangles is not drawn.</summary>
-    /// <param name="culledFace">True for the front, false for the back; null to draw both.</param>
-    public void Cull(bool? culledFace)
+    /// <summary>Selects the face of triangles that is not drawn.</summary>
+    public void Cull(CullFace face)
     {
-        if (!Filter.Update(ref _culledFace, (true, culledFace)))
+        if (!Filter.Update(ref _culledFace, face))
         {
             return;
         }
 
-        if (culledFace is { } isFront)
-        {
-            GL.Enable(EnableCap.CullFace);
-            GlShim.SetCulledFace(isFront);
-        }
-        else
+        if (face == CullFace.None)
         {
             GL.Disable(EnableCap.CullFace);
         }
+        else
+        {
+            GL.Enable(EnableCap.CullFace);
+            GlShim.SetCulledFace(face);
+        }
     }
 
-    /// <summary>Deletes a program. Its name may come again, for another one.</summary>
+    /// <summary>Deletes a program. GL may give its name to a new program.</summary>
     public void DeleteProgram(int name)
     {
         GL.DeleteProgram(name);
         Invalidate(ref _program, name);
     }
 
-    /// <summary>Deletes a vertex array.</summary>
+    /// <summary>Deletes a vertex array and forgets its binding.</summary>
     public void DeleteVertexArray(int name)
     {
         GL.DeleteVertexArray(name);
         Invalidate(ref _vertexArray, name);
     }
 
-    /// <summary>Deletes a texture.</summary>
+    /// <summary>Deletes a texture and forgets its binding.</summary>
     public void DeleteTexture(int name)
     {
         GL.DeleteTexture(name);
         Invalidate(ref _texture, name);
     }
 
-    /// <summary>Deletes a buffer of any kind.</summary>
+    /// <summary>Deletes a buffer of any kind and forgets its bindings.</summary>
     public void DeleteBuffer(int name)
     {
         GL.DeleteBuffer(name);

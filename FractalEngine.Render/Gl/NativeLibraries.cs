@@ -5,12 +5,12 @@ using System.Runtime.InteropServices;
 namespace FractalEngine.Render.Gl;
 
 /// <summary>
-/// Finds native libraries. Debian's OpenTK names them as on Windows and relies on Mono's <c>dllmap</c>, which .NET does not read;
-/// our own imports say <c>SDL2</c> and <c>SDL2_image</c> on every system.
+/// Finds native libraries under the names of each system. Debian's OpenTK uses the Windows names and relies on Mono's <c>dllmap</c>, which
+/// .NET does not read. The engine's own imports are named <c>SDL2</c> and <c>SDL2_image</c> on every system.
 /// </summary>
 internal static class NativeLibraries
 {
-    // Must run before the first import of either assembly: no other moment is early enough for every program that uses this one.
+    // A module initialiser runs before the first import of either assembly, in every program that uses this one.
 #pragma warning disable CA2255
     [ModuleInitializer]
 #pragma warning restore CA2255
@@ -22,7 +22,7 @@ internal static class NativeLibraries
 #endif
     }
 
-    /// <summary>The names under which a library may be installed; empty when the loader's own search is right.</summary>
+    /// <summary>Returns the file names of an imported library; none where the loader's own search finds it.</summary>
     internal static IReadOnlyList<string> Candidates(string name) =>
         OperatingSystem.IsLinux() ? LinuxNames(name)
         : OperatingSystem.IsMacOS() ? MacNames(name)
@@ -62,7 +62,7 @@ internal static class NativeLibraries
             }
         }
 
-        // The loader searches by its own rules and raises DllNotFoundException where it finds nothing.
+        // The loader then searches by its own rules, and throws DllNotFoundException if it finds nothing.
         return IntPtr.Zero;
     }
 }

@@ -1,24 +1,21 @@
 namespace FractalEngine.Render.Gl;
 
-/// <summary>Tells whether something that is about to be done would change anything, and counts both cases.</summary>
+/// <summary>Decides whether an operation would change anything, and counts those that are performed and skipped.</summary>
 internal sealed class RedundancyFilter
 {
-    /// <summary>Whether what would change nothing is not done. Where false everything is, for comparison.</summary>
+    private long _performed;
+    private long _skipped;
+
+    /// <summary>True to skip redundant operations; false to perform all of them, for comparison.</summary>
     public bool IsEnabled { get; set; } = true;
 
-    /// <summary>How often it was done so far.</summary>
-    public long Performed { get; private set; }
+    /// <summary>Number of operations so far: performed, and skipped.</summary>
+    public RedundancyCounts Counts => new(_performed, _skipped);
 
-    /// <summary>How often it was not needed, and not done.</summary>
-    public long Skipped { get; private set; }
-
-    /// <summary>Both, so far.</summary>
-    public RedundancyCounts Counts => new(Performed, Skipped);
-
-    /// <summary>Compares with the last value and keeps the new one.</summary>
-    /// <param name="current">What holds now; the new value afterwards.</param>
-    /// <param name="value">What shall hold.</param>
-    /// <returns>True when it must be done.</returns>
+    /// <summary>Compares a value with the current one, and stores it.</summary>
+    /// <param name="current">Value in effect; the new value afterwards.</param>
+    /// <param name="value">Value that is to be in effect.</param>
+    /// <returns>True when the operation must be performed.</returns>
     public bool Update<T>(ref T current, T value)
     {
         var mustPerform = ShouldPerform(EqualityComparer<T>.Default.Equals(current, value));
@@ -26,19 +23,19 @@ internal sealed class RedundancyFilter
         return mustPerform;
     }
 
-    /// <summary>Counts something whose caller has compared.</summary>
-    /// <param name="isRedundant">Whether it would change nothing.</param>
-    /// <param name="count">How many such things go together.</param>
-    /// <returns>True when it must be done.</returns>
+    /// <summary>Counts an operation that the caller has compared itself.</summary>
+    /// <param name="isRedundant">Whether the operation would change nothing.</param>
+    /// <param name="count">Number of operations that go together.</param>
+    /// <returns>True when the operation must be performed.</returns>
     public bool ShouldPerform(bool isRedundant, int count = 1)
     {
         if (isRedundant && IsEnabled)
         {
-            Skipped += count;
+            _skipped += count;
             return false;
         }
 
-        Performed += count;
+        _performed += count;
         return true;
     }
 }

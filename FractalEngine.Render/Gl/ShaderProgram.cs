@@ -2,16 +2,16 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Gl;
 
-/// <summary>A vertex and a fragment shader, linked.</summary>
+/// <summary>A linked program of a vertex shader and a fragment shader.</summary>
 internal sealed class ShaderProgram : GlObject
 {
     private readonly int _name;
 
     /// <summary>Compiles and links sources.</summary>
-    /// <param name="resources">Of the current context.</param>
-    /// <param name="vertex">File name, for messages, and text of the vertex shader.</param>
-    /// <param name="fragment">The same of the fragment shader.</param>
-    /// <exception cref="GlException">The driver refuses one; the message names the stage and the file and has the driver's log.</exception>
+    /// <param name="resources">Resources of the current context.</param>
+    /// <param name="vertex">File name, for messages, and source text of the vertex shader.</param>
+    /// <param name="fragment">File name and source text of the fragment shader.</param>
+    /// <exception cref="GlException">The driver refuses a shader. The message has the stage, the file and the driver's log.</exception>
     public ShaderProgram(GlResources resources, (string File, string Text) vertex, (string File, string Text) fragment)
         : base(resources, $"{vertex.File} + {fragment.File}")
     {
@@ -28,16 +28,17 @@ internal sealed class ShaderProgram : GlObject
     }
 
     /// <summary>Builds the embedded files <c>Shaders/name.vert</c> and <c>Shaders/name.frag</c>.</summary>
-    /// <param name="resources">Of the current context.</param>
-    /// <param name="name">Of both files.</param>
-    /// <param name="symbols">Defined in both.</param>
+    /// <param name="resources">Resources of the current context.</param>
+    /// <param name="name">Common name of both files.</param>
+    /// <param name="symbols">Symbols that are defined in both.</param>
+    /// <exception cref="GlException">The driver refuses a shader.</exception>
     public static ShaderProgram Load(GlResources resources, string name, params IReadOnlyList<string> symbols) =>
         new(resources, Read($"{name}.vert", symbols), Read($"{name}.frag", symbols));
 
     /// <summary>Makes this the current program.</summary>
     public void Use() => Resources.State.UseProgram(_name);
 
-    /// <summary>The location of a uniform; −1 where the compiler left it out, which GL ignores.</summary>
+    /// <summary>Returns the location of a uniform; −1 where the compiler removed it, which GL ignores.</summary>
     public int UniformLocation(string name) => GL.GetUniformLocation(_name, name);
 
     /// <summary>Connects a uniform block to a binding point.</summary>
@@ -60,7 +61,8 @@ internal sealed class ShaderProgram : GlObject
 
     private void Build((string File, string Text) vertex, (string File, string Text) fragment)
     {
-        var (vertexShader, fragmentShader) = (0, 0);
+        var vertexShader = 0;
+        var fragmentShader = 0;
         try
         {
             vertexShader = Compile(ShaderType.VertexShader, vertex);
@@ -68,15 +70,15 @@ internal sealed class ShaderProgram : GlObject
             GL.AttachShader(_name, vertexShader);
             GL.AttachShader(_name, fragmentShader);
             GL.LinkProgram(_name);
-            GL.GetProgram(_name, GetProgramParameterName.LinkStatus, out var linked);
-            if (linked == 0)
+            GL.GetProgram(_name, GetProgramParameterName.LinkStatus, out var isLinked);
+            if (isLinked == 0)
             {
                 throw new GlException($"{Label} does not link:\n{GL.GetProgramInfoLog(_name).Trim()}");
             }
         }
         finally
         {
-            // A deleted shader lives on until its program goes; 0 is ignored.
+            // An attached shader lives until its program is deleted; GL ignores 0.
             GL.DeleteShader(vertexShader);
             GL.DeleteShader(fragmentShader);
         }
@@ -87,8 +89,8 @@ internal sealed class ShaderProgram : GlObject
         var shader = GL.CreateShader(stage);
         GL.ShaderSource(shader, source.Text);
         GL.CompileShader(shader);
-        GL.GetShader(shader, ShaderParameter.CompileStatus, out var compiled);
-        if (compiled != 0)
+        GL.GetShader(shader, ShaderParameter.CompileStatus, out var isCompiled);
+        if (isCompiled != 0)
         {
             return shader;
         }

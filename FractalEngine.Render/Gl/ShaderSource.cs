@@ -4,16 +4,16 @@ using System.Text;
 namespace FractalEngine.Render.Gl;
 
 /// <summary>
-/// The text of an embedded shader. GLSL has neither files to include nor a compiler's command line: a line <c>#include "name"</c> is
-/// replaced by that file, and symbols are defined behind the line with the version.
+/// Reads embedded shaders. GLSL has neither include files nor a command line, so a line <c>#include "name"</c> is replaced by that file,
+/// and symbols are defined after the version line.
 /// </summary>
 internal static class ShaderSource
 {
     private const string IncludeDirective = "#include \"";
 
-    /// <summary>Reads <c>Shaders/file</c>.</summary>
-    /// <param name="file">Its first line gives the version.</param>
-    /// <param name="symbols">What <c>#ifdef</c> finds.</param>
+    /// <summary>Reads the file <c>Shaders/file</c>.</summary>
+    /// <param name="file">Name of the file, whose first line gives the version.</param>
+    /// <param name="symbols">Symbols that are defined for <c>#ifdef</c>.</param>
     public static string Read(string file, IReadOnlyList<string> symbols)
     {
         var text = new StringBuilder();
@@ -42,6 +42,6 @@ internal static class ShaderSource
         return text.ToString();
     }
 
-    /// <summary>Lets the driver's messages count lines as the file does.</summary>
+    /// <summary>Makes the driver's messages count lines as the file does.</summary>
     private static void AppendLineDirective(StringBuilder text, int line) => text.Append(CultureInfo.InvariantCulture, $"#line {line}\n");
 }

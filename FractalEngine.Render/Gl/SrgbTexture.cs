@@ -4,15 +4,15 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Gl;
 
 /// <summary>
-/// A picture for surfaces: sRGB, which GL decodes before it filters; with mipmaps, so that what is far away does not flicker.
+/// A texture for surfaces in sRGB, which GL decodes before it filters, with mipmaps so that distant surfaces do not flicker.
 /// </summary>
 internal sealed class SrgbTexture : GlObject
 {
     private readonly int _name;
     private bool? _isClamped;
 
-    /// <summary>Uploads a picture. Its top row becomes the first one: texture coordinates run downwards then.</summary>
-    /// <exception cref="GlException">The picture is beyond the driver, or the memory does not suffice.</exception>
+    /// <summary>Uploads an image. Its top row becomes the texture's first, so that texture coordinates run downwards.</summary>
+    /// <exception cref="GlException">The image exceeds the driver's limits, or the memory does not suffice.</exception>
     public SrgbTexture(GlResources resources, string label, PixelImage image)
         : base(resources, label)
     {
@@ -28,8 +28,8 @@ internal sealed class SrgbTexture : GlObject
         }
     }
 
-    /// <summary>Binds it to the first texture unit.</summary>
-    /// <param name="isClamped">Whether it goes on beyond its edges with their colours; otherwise it repeats.</param>
+    /// <summary>Binds the texture to the first texture unit.</summary>
+    /// <param name="isClamped">True to continue the colours of its edges beyond them, false to repeat the texture.</param>
     public void Bind(bool isClamped)
     {
         Resources.State.BindTexture(_name);
@@ -53,19 +53,9 @@ internal sealed class SrgbTexture : GlObject
         }
 
         Resources.State.BindTexture(_name);
-        GL.PixelStore(PixelStoreParameter.UnpackAlignment, 1);
-        unsafe
-        {
-            fixed (byte* start = image.Pixels)
-            {
-                GL.TexImage2D(
-                    TextureTarget.Texture2D, 0, PixelInternalFormat.Srgb8Alpha8, image.Width, image.Height, 0,
-                    PixelFormat.Rgba, PixelType.UnsignedByte, (IntPtr)start);
-            }
-        }
-
-        GL.TexParameter(TextureTarget.Texture2D, TextureParameterName.TextureMinFilter, (int)TextureMinFilter.LinearMipmapLinear);
-        GL.TexParameter(TextureTarget.Texture2D, TextureParameterName.TextureMagFilter, (int)TextureMagFilter.Linear);
+        TextureUpload.Upload(
+            PixelInternalFormat.Srgb8Alpha8, PixelFormat.Rgba, image.Width, image.Height, image.Pixels,
+            TextureMinFilter.LinearMipmapLinear, TextureMagFilter.Linear);
         GL.GenerateMipmap(GenerateMipmapTarget.Texture2D);
         Resources.ThrowOnError($"{this} of {image.Width}×{image.Height} pixels");
     }

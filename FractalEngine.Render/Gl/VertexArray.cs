@@ -2,28 +2,28 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Gl;
 
-/// <summary>A vertex array object: which buffers feed which attributes.</summary>
+/// <summary>A vertex array object, which connects buffers to vertex attributes.</summary>
 internal sealed class VertexArray : GlObject
 {
     private readonly int _name;
 
-    /// <summary>Without attributes.</summary>
+    /// <summary>Creates a vertex array without attributes.</summary>
     public VertexArray(GlResources resources, string label)
         : base(resources, label) => _name = GL.GenVertexArray();
 
     /// <summary>Makes this the current vertex array.</summary>
     public void Bind() => Resources.State.BindVertexArray(_name);
 
-    /// <summary>Leaves no vertex array bound, so that later index buffers do not land in this one.</summary>
+    /// <summary>Leaves no vertex array bound, so that an index buffer bound later does not become part of this one.</summary>
     public void Unbind() => Resources.State.BindVertexArray(0);
 
-    /// <summary>Feeds an attribute of floats from a buffer.</summary>
-    /// <param name="source">Interleaved floats.</param>
-    /// <param name="location">The attribute's location in the shader.</param>
-    /// <param name="components">1 to 4.</param>
+    /// <summary>Connects an attribute of floats to a buffer.</summary>
+    /// <param name="source">Buffer of interleaved floats.</param>
+    /// <param name="location">Location of the attribute in the shader.</param>
+    /// <param name="components">Number of components, 1 to 4.</param>
     /// <param name="stride">Floats from one element to the next.</param>
     /// <param name="offset">Floats before the first component.</param>
-    /// <param name="divisor">0: one element a vertex; 1: one an instance.</param>
+    /// <param name="divisor">0 for one element a vertex, 1 for one an instance.</param>
     public void Attribute(GlBuffer source, int location, int components, int stride, int offset, int divisor = 0)
     {
         Bind();
@@ -32,6 +32,20 @@ internal sealed class VertexArray : GlObject
         GL.VertexAttribPointer(
             location, components, VertexAttribPointerType.Float, false, stride * sizeof(float), (IntPtr)(offset * sizeof(float)));
         GL.VertexAttribDivisor(location, divisor);
+    }
+
+    /// <summary>Draws indexed triangles of several instances in one call; nothing where there are no indices or no instances.</summary>
+    /// <param name="firstIndex">Position of the first index in the index buffer.</param>
+    /// <param name="indexCount">Number of indices, three a triangle.</param>
+    /// <param name="instanceCount">Number of instances.</param>
+    public void DrawTriangles(int firstIndex, int indexCount, int instanceCount)
+    {
+        if (indexCount > 0 && instanceCount > 0)
+        {
+            Bind();
+            GL.DrawElementsInstanced(
+                PrimitiveType.Triangles, indexCount, DrawElementsType.UnsignedInt, (nint)firstIndex * sizeof(uint), instanceCount);
+        }
     }
 
     /// <inheritdoc/>

@@ -16,7 +16,7 @@ public static class ImageFile
     /// <param name="path">Relative to the working directory, or absolute; its directory must exist.</param>
     /// <exception cref="ArgumentException">The image has no pixels, or not as many as its sides say.</exception>
     /// <exception cref="IOException">The file can't be written.</exception>
-    public static void SavePng(PixelImage image, string path)
+    public static void SavePng(this PixelImage image, string path)
     {
         var temporaryPath = $"{path}.{Guid.NewGuid():N}.tmp";
         try

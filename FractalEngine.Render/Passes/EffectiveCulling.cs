@@ -2,12 +2,12 @@ using FractalEngine.Core.Visibility;
 
 namespace FractalEngine.Render.Passes;
 
-/// <summary>What is left out of a picture, as far as its other settings allow it. The same settings give the same object.</summary>
+/// <summary>Adapts culling settings to the other render settings. Equal settings give the same object, so that caches stay valid.</summary>
 internal sealed class EffectiveCulling
 {
-    private (CullingSettings Source, CullingSettings Detail)? _lastResolved;
+    private (CullingSettings Source, CullingSettings Resolved)? _lastResolved;
 
-    /// <summary>Adapts the detail of settings; null where every instance is drawn.</summary>
+    /// <summary>Returns the culling settings of a frame; null where every instance is drawn.</summary>
     public CullingSettings? Resolve(RenderSettings settings)
     {
         if (settings.Culling is not { } culling)
@@ -15,14 +15,16 @@ internal sealed class EffectiveCulling
             return null;
         }
 
-        // Through a wireframe one sees what is behind.
-        var (hasSamples, occlusionCulling) = (settings.Samples > 1, culling.OcclusionCulling && !settings.Wireframe);
-        if (_lastResolved is not { } last || last.Source != culling || last.Detail.IsMultisampled != hasSamples
-            || last.Detail.OcclusionCulling != occlusionCulling)
+        var isMultisampled = settings.Samples > 1;
+        // A wireframe hides nothing behind it.
+        var occlusionCulling = culling.OcclusionCulling && !settings.Wireframe;
+        if (_lastResolved is not { } last || last.Source != culling || last.Resolved.IsMultisampled != isMultisampled
+            || last.Resolved.OcclusionCulling != occlusionCulling)
         {
-            _lastResolved = (culling, culling with { IsMultisampled = hasSamples, OcclusionCulling = occlusionCulling });
+            last = (culling, culling with { IsMultisampled = isMultisampled, OcclusionCulling = occlusionCulling });
+            _lastResolved = last;
         }
 
-        return _lastResolved.Value.Detail;
+        return last.Resolved;
     }
 }

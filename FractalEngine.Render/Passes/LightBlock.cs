@@ -11,7 +11,7 @@ namespace FractalEngine.Render.Passes;
 /// <summary>The lights of a scene in a uniform buffer, laid out as <c>LightBlock</c> in lighting.glsl (std140).</summary>
 internal sealed class LightBlock : IDisposable
 {
-    /// <summary>The most lights with a direction or a place; ambient ones are added up and don't count.</summary>
+    /// <summary>Maximum number of directional, point and spot lights. Ambient lights are added up and don't count.</summary>
     public const int MaxLights = 16;
 
     private const int HeaderFloats = 12;
@@ -24,40 +24,42 @@ internal sealed class LightBlock : IDisposable
     private readonly float[] _data = new float[HeaderFloats + (MaxLights * FloatsPerLight)];
     private (Vector, double)? _lastKey;
 
-    /// <summary>For the lights of a scene, or the default ones where it has none.</summary>
-    /// <param name="resources">Of the current context.</param>
-    /// <param name="lights">As the scene declares them.</param>
-    /// <param name="bounds">Of the scene: the default lights stand around it.</param>
+    /// <summary>Creates the buffer for the lights of a scene, or for the default ones where it declares none.</summary>
+    /// <param name="resources">Resources of the current context.</param>
+    /// <param name="lights">Lights in the order of the scene.</param>
+    /// <param name="bounds">Bounds of the scene, which place the default lights.</param>
     public LightBlock(GlResources resources, ImmutableArray<Light> lights, BoundingBox bounds)
     {
         _uploadFilter = resources.UploadFilter;
         _usesDefaultLights = lights.IsEmpty;
-        _lights = [.. (_usesDefaultLights ? DefaultLights(bounds) : lights).Where(light => light is not AmbientLight).Take(MaxLights)];
+        var usedLights = _usesDefaultLights ? DefaultLights(bounds) : lights;
+        _lights = [.. usedLights.Where(light => light is not AmbientLight).Take(MaxLights)];
         _buffer = new(resources, "lights", BufferTarget.UniformBuffer);
         WriteAmbient(lights);
         MemoryMarshal.Cast<float, int>(_data.AsSpan(8))[0] = _lights.Length;
     }
 
     /// <summary>
-    /// A warm key light from the upper left and a weak cool one from the right, so that the three sides of a cube differ. The key light
-    /// stands near enough for its falling off to show: a large even face then does not look like paper.
+    /// Returns a warm key light from the upper left and a weak cool one from the right, so that three sides of a cube differ.
     /// </summary>
+    /// <param name="bounds">Bounds of the scene, world space.</param>
+    /// <remarks>The key light is near enough for its falloff to show, so that a large flat face does not look like paper.</remarks>
     public static ImmutableArray<Light> DefaultLights(BoundingBox bounds)
     {
         var key = new Vector(-0.42, 0.80, -0.62).UnitVector();
-        var distance = 1.8 * (bounds.Diagonal is > 0 and < double.PositiveInfinity and var diagonal ? diagonal : 1);
-        // At a tenth of the range, where the scene's middle is, it has its full intensity.
+        var distance = 1.8 * bounds.FiniteDiagonalOr(1);
         return
         [
+            // At a tenth of its range, which is the scene's centre, it has its full intensity.
             new PointLight(bounds.Centre + (distance * key), new(1, 0.975, 0.93), 0.80, 10 * distance),
             new DirectionalLight(new(-0.85, -0.2, 0.35), new(0.86, 0.89, 1), 0.24),
         ];
     }
 
-    /// <summary>Binds the block; uploads it only at first and, where a light has a place, when the camera has moved.</summary>
-    /// <param name="bindingPoint">As the program connects it.</param>
-    /// <param name="cameraPosition">World space: places are written relative to it.</param>
-    /// <param name="unitsPerSceneUnit">1, or more where what is drawn is told in a smaller unit.</param>
+    /// <summary>Binds the block, uploading it at first and, where a light has a position, when the camera has moved.</summary>
+    /// <param name="bindingPoint">Binding point of the program's block.</param>
+    /// <param name="cameraPosition">Position of the camera in world space. Light positions are written relative to it.</param>
+    /// <param name="unitsPerSceneUnit">1, or more where the frame is drawn in a smaller unit.</param>
     public void Bind(int bindingPoint, Vector cameraPosition, double unitsPerSceneUnit)
     {
         var isRedundant = _lastKey is { } last
@@ -66,7 +68,8 @@ internal sealed class LightBlock : IDisposable
         {
             for (var i = 0; i < _lights.Length; i++)
             {
-                Write(_lights[i], cameraPosition, unitsPerSceneUnit, _data.AsSpan(HeaderFloats + (i * FloatsPerLight), FloatsPerLight));
+                var target = _data.AsSpan(HeaderFloats + (i * FloatsPerLight), FloatsPerLight);
+                WriteLight(_lights[i], cameraPosition, unitsPerSceneUnit, target);
             }
 
             _buffer.Upload<float>(_data, BufferUsageHint.DynamicDraw);
@@ -79,23 +82,23 @@ internal sealed class LightBlock : IDisposable
     /// <inheritdoc/>
     public void Dispose() => _buffer.Dispose();
 
-    private static void Write(Light light, Vector cameraPosition, double unitsPerSceneUnit, Span<float> target)
+    private static void WriteLight(Light light, Vector cameraPosition, double unitsPerSceneUnit, Span<float> target)
     {
         var (red, green, blue) = light.Colour.ToLinear();
-        Write(light.Intensity * new Vector(red, green, blue), KindOf(light), target);
+        WriteVector(light.Intensity * new Vector(red, green, blue), KindOf(light), target);
         if (light is PointLight point)
         {
-            Write(unitsPerSceneUnit * (point.Position - cameraPosition), unitsPerSceneUnit * point.Range, target[4..]);
+            WriteVector(unitsPerSceneUnit * (point.Position - cameraPosition), unitsPerSceneUnit * point.Range, target[4..]);
         }
         else if (light is DirectionalLight directional)
         {
-            Write(-directional.Direction.UnitVector(), 0, target[4..]);
+            WriteVector(-directional.Direction.UnitVector(), 0, target[4..]);
         }
 
         if (light is SpotLight spot)
         {
             var halfAngle = 0.5 * spot.Angle * Math.PI / 180;
-            Write(spot.Direction.UnitVector(), Math.Cos(0.9 * halfAngle), target[8..]);
+            WriteVector(spot.Direction.UnitVector(), Math.Cos(0.9 * halfAngle), target[8..]);
             target[12] = (float)Math.Cos(halfAngle);
         }
     }
@@ -108,12 +111,12 @@ internal sealed class LightBlock : IDisposable
         _ => throw new ArgumentException($"a light of an unknown kind: {light}", nameof(light)),
     };
 
-    private static void Write(Vector v, double w, Span<float> target) =>
+    private static void WriteVector(Vector v, double w, Span<float> target) =>
         (target[0], target[1], target[2], target[3]) = ((float)v.X, (float)v.Y, (float)v.Z, (float)w);
 
     private void WriteAmbient(ImmutableArray<Light> lights)
     {
-        // Declared ambient light is the same from everywhere; the default one is that of a sky over dry ground.
+        // Declared ambient light is the same from all directions. The default one is that of a sky over dry ground.
         var sum = Vector.Zero;
         foreach (var light in lights.OfType<AmbientLight>())
         {
@@ -121,7 +124,7 @@ internal sealed class LightBlock : IDisposable
             sum += light.Intensity * new Vector(red, green, blue);
         }
 
-        Write(_usesDefaultLights ? new(0.23, 0.245, 0.28) : sum, 0, _data);
-        Write(_usesDefaultLights ? new(0.11, 0.10, 0.095) : sum, 0, _data.AsSpan(4));
+        WriteVector(_usesDefaultLights ? new(0.23, 0.245, 0.28) : sum, 0, _data);
+        WriteVector(_usesDefaultLights ? new(0.11, 0.10, 0.095) : sum, 0, _data.AsSpan(4));
     }
 }

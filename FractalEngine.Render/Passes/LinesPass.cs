@@ -7,12 +7,12 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
 
-/// <summary>The ground grid on y = 0 and the three axes, where they are asked for.</summary>
+/// <summary>Draws the ground grid on y = 0, the three axes, and line segments over the scene.</summary>
 internal sealed class LinesPass : IDisposable
 {
     private const int FloatsPerVertex = 7;
 
-    // Lines to each side of the middle; every tenth is stronger.
+    // Grid lines on each side of the centre; every tenth is stronger.
     private const int GridLinesPerSide = 20;
 
     private readonly RedundancyFilter _uploadFilter;
@@ -22,9 +22,9 @@ internal sealed class LinesPass : IDisposable
     private readonly GlBuffer _vertices;
     private readonly VertexArray _vertexArray;
     private readonly List<float> _data = [];
-    private (bool Grid, bool Axes, double Spacing, Vector Middle)? _lastKey;
+    private (bool Grid, bool Axes, double Spacing, Vector Centre)? _lastKey;
 
-    /// <summary>Builds the program.</summary>
+    /// <summary>Builds the program and an empty vertex buffer.</summary>
     public LinesPass(RenderContext context)
     {
         _uploadFilter = context.Resources.UploadFilter;
@@ -38,7 +38,7 @@ internal sealed class LinesPass : IDisposable
         _vertexArray.Unbind();
     }
 
-    /// <summary>What the lines reach beyond the scene, for planes that hold both.</summary>
+    /// <summary>Returns the bounds of a scene together with the grid and the axes, where the settings ask for them.</summary>
     public static BoundingBox BoundsIncludingLines(BoundingBox sceneBounds, RenderSettings settings)
     {
         if (!settings.Grid && !settings.Axes)
@@ -48,18 +48,17 @@ internal sealed class LinesPass : IDisposable
 
         var (spacing, gridCentre) = GridLayout(sceneBounds);
         var gridHalfSize = GridLinesPerSide * spacing;
-        return BoundingBox.Union(sceneBounds,
-            new(gridCentre - new Vector(gridHalfSize, 0, gridHalfSize), gridCentre + new Vector(gridHalfSize, 0, gridHalfSize)))
+        var gridCorner = new Vector(gridHalfSize, 0, gridHalfSize);
+        return BoundingBox.Union(sceneBounds, new(gridCentre - gridCorner, gridCentre + gridCorner))
             .Including(gridHalfSize * Vector.I).Including(gridHalfSize * Vector.J).Including(gridHalfSize * Vector.K)
             .Including(Vector.Zero);
     }
 
-    /// <summary>Draws what the settings ask for over the scene's depths.</summary>
-    /// <param name="view">Camera and projection.</param>
-    /// <param name="aspect">Width divided by height of the viewport.</param>
-    /// <param name="sceneBounds">Bounds of the scene: they decide the spacing.</param>
-    /// <param name="settings">Which lines.</param>
-    public void Draw(View view, double aspect, BoundingBox sceneBounds, RenderSettings settings)
+    /// <summary>Draws the grid and the axes that the settings ask for, hidden by nearer surfaces.</summary>
+    /// <param name="frame">View of the frame.</param>
+    /// <param name="sceneBounds">Bounds of the scene, which decide the spacing.</param>
+    /// <param name="settings">Settings that switch grid and axes on.</param>
+    public void DrawGridAndAxes(in FrameView frame, BoundingBox sceneBounds, RenderSettings settings)
     {
         if (!settings.Grid && !settings.Axes)
         {
@@ -72,33 +71,32 @@ internal sealed class LinesPass : IDisposable
             BuildVertices(settings, spacing, gridCentre);
         }
 
-        Draw(view, aspect, BoundsIncludingLines(sceneBounds, settings), gridCentre - view.Camera.Position);
+        DrawVertices(in frame, gridCentre - frame.View.Camera.Position);
     }
 
-    /// <summary>Draws some lines in front of everything.</summary>
-    /// <param name="view">Camera and projection.</param>
-    /// <param name="aspect">Width divided by height of the viewport.</param>
-    /// <param name="bounds">Of everything there is.</param>
-    /// <param name="segments">The lines.</param>
-    public void Draw(View view, double aspect, BoundingBox bounds, IReadOnlyList<LineSegment> segments)
+    /// <summary>Draws line segments in front of all surfaces.</summary>
+    /// <param name="frame">View of the frame.</param>
+    /// <param name="segments">Lines to draw; none draws nothing.</param>
+    public void DrawSegments(in FrameView frame, IReadOnlyList<LineSegment> segments)
     {
         if (segments.Count == 0)
         {
             return;
         }
 
-        // In the buffer of the grid, which is built again when it is asked for next.
+        // The grid's buffer is reused, and built again when the grid is drawn next.
         _lastKey = null;
         _data.Clear();
+        var cameraPosition = frame.View.Camera.Position;
         foreach (var (from, to, colour) in segments)
         {
-            Add(from - view.Camera.Position, to - view.Camera.Position, colour, 1, 1);
+            AddLine(from - cameraPosition, to - cameraPosition, colour, 1, 1);
         }
 
         _vertices.Upload<float>(CollectionsMarshal.AsSpan(_data), BufferUsageHint.StreamDraw);
-        // They lead through what they tell of.
+        // The segments lead through the objects that they measure.
         GL.Disable(EnableCap.DepthTest);
-        Draw(view, aspect, bounds, Vector.Zero);
+        DrawVertices(in frame, Vector.Zero);
         GL.Enable(EnableCap.DepthTest);
     }
 
@@ -110,10 +108,10 @@ internal sealed class LinesPass : IDisposable
         _program.Dispose();
     }
 
-    private void Draw(View view, double aspect, BoundingBox bounds, Vector offset)
+    private void DrawVertices(in FrameView frame, Vector offset)
     {
         _program.Use();
-        _viewUniforms.Set(view, aspect, bounds);
+        _viewUniforms.Set(in frame);
         GL.Uniform3(_offsetLocation, (float)offset.X, (float)offset.Y, (float)offset.Z);
         GL.Enable(EnableCap.Blend);
         GL.BlendFuncSeparate(
@@ -125,15 +123,18 @@ internal sealed class LinesPass : IDisposable
         GL.Disable(EnableCap.Blend);
     }
 
-    /// <summary>A power of ten as spacing, so that the grid reaches beyond the scene, and a grid point near its middle.</summary>
-    private static (double Spacing, Vector Middle) GridLayout(BoundingBox sceneBounds)
+    /// <summary>Returns a power of ten as spacing, so that the grid exceeds the scene, and a grid point near its centre.</summary>
+    private static (double Spacing, Vector Centre) GridLayout(BoundingBox sceneBounds)
     {
-        var size = sceneBounds.Diagonal is > 0 and < double.PositiveInfinity and var diagonal ? diagonal : 10;
+        var size = sceneBounds.FiniteDiagonalOr(10);
         var spacing = Math.Pow(10, Math.Ceiling(Math.Log10(size / GridLinesPerSide)));
-        var centre = sceneBounds.Centre.IsFinite() ? sceneBounds.Centre : Vector.Zero;
-        return (spacing,
-            new(10 * spacing * Math.Round(centre.X / (10 * spacing)), 0, 10 * spacing * Math.Round(centre.Z / (10 * spacing))));
+        var sceneCentre = sceneBounds.Centre.IsFinite() ? sceneBounds.Centre : Vector.Zero;
+        return (spacing, new(RoundToTenth(sceneCentre.X, spacing), 0, RoundToTenth(sceneCentre.Z, spacing)));
     }
+
+    /// <summary>Rounds a coordinate to the closest stronger grid line.</summary>
+    private static double RoundToTenth(double coordinate, double spacing) =>
+        10 * spacing * Math.Round(coordinate / (10 * spacing));
 
     private void BuildVertices(RenderSettings settings, double spacing, Vector gridCentre)
     {
@@ -146,37 +147,38 @@ internal sealed class LinesPass : IDisposable
         if (settings.Axes)
         {
             var length = GridLinesPerSide * spacing;
-            Add(-gridCentre, (length * Vector.I) - gridCentre, new(0.92, 0.30, 0.30), 1, 1);
-            Add(-gridCentre, (length * Vector.J) - gridCentre, new(0.45, 0.80, 0.35), 1, 1);
-            Add(-gridCentre, (length * Vector.K) - gridCentre, new(0.35, 0.55, 0.95), 1, 1);
+            AddLine(-gridCentre, (length * Vector.I) - gridCentre, new(0.92, 0.30, 0.30), 1, 1);
+            AddLine(-gridCentre, (length * Vector.J) - gridCentre, new(0.45, 0.80, 0.35), 1, 1);
+            AddLine(-gridCentre, (length * Vector.K) - gridCentre, new(0.35, 0.55, 0.95), 1, 1);
         }
 
         _vertices.Upload<float>(CollectionsMarshal.AsSpan(_data), BufferUsageHint.StaticDraw);
     }
 
-    /// <summary>Lines that fade out towards the edge, in two halves each.</summary>
+    /// <summary>Adds grid lines that fade out towards the edge, each in two halves.</summary>
     private void AddGrid(double spacing)
     {
         var grey = new Colour(0.72, 0.76, 0.82);
+        var end = GridLinesPerSide * spacing;
         for (var i = -GridLinesPerSide; i <= GridLinesPerSide; i++)
         {
             var opacity = (i % 10 == 0 ? 0.42 : 0.16) * (1 - (Math.Abs(i) / (GridLinesPerSide + 1.0)));
-            var (coordinate, end) = (i * spacing, GridLinesPerSide * spacing);
+            var coordinate = i * spacing;
             foreach (var side in (ReadOnlySpan<double>)[-end, end])
             {
-                Add(new(coordinate, 0, 0), new(coordinate, 0, side), grey, opacity, 0);
-                Add(new(0, 0, coordinate), new(side, 0, coordinate), grey, opacity, 0);
+                AddLine(new(coordinate, 0, 0), new(coordinate, 0, side), grey, opacity, 0);
+                AddLine(new(0, 0, coordinate), new(side, 0, coordinate), grey, opacity, 0);
             }
         }
     }
 
-    private void Add(Vector from, Vector to, Colour colour, double opacityFrom, double opacityTo)
+    private void AddLine(Vector from, Vector to, Colour colour, double opacityFrom, double opacityTo)
     {
-        Add(from, colour, opacityFrom);
-        Add(to, colour, opacityTo);
+        AddVertex(from, colour, opacityFrom);
+        AddVertex(to, colour, opacityTo);
     }
 
-    private void Add(Vector point, Colour colour, double opacity)
+    private void AddVertex(Vector point, Colour colour, double opacity)
     {
         var (red, green, blue) = colour.ToLinear();
         _data.AddRange([(float)point.X, (float)point.Y, (float)point.Z, (float)red, (float)green, (float)blue, (float)opacity]);

@@ -1,27 +1,26 @@
 namespace FractalEngine.Render.Passes;
 
 /// <summary>
-/// What the shader of surfaces has to do beyond light on one colour. Each combination is a program of its own, so that nobody pays for what
-/// is not there.
+/// Features of the surface shader. Each combination is a program of its own, so that no vertex or pixel pays for a feature it lacks.
 /// </summary>
 [Flags]
 internal enum MeshFeatures
 {
-    /// <summary>Light at the vertices, one colour.</summary>
+    /// <summary>One colour, lit at the vertices.</summary>
     None = 0,
 
-    /// <summary>Light at every pixel.</summary>
+    /// <summary>Lighting at every pixel.</summary>
     PerPixel = 1,
 
-    /// <summary>A picture.</summary>
+    /// <summary>A texture on the surface.</summary>
     Textured = 2,
 
-    /// <summary>A highlight.</summary>
+    /// <summary>Specular highlights on the surface.</summary>
     Glossy = 4,
 
-    /// <summary>Instances lead to world axes about the camera: the object's own map is in them.</summary>
+    /// <summary>Instances map to world axes about the camera, with the object's own map included.</summary>
     CameraRelative = 8,
 
-    /// <summary>Only fronts are drawn, so that backs need no light.</summary>
+    /// <summary>Back faces are culled and need no lighting.</summary>
     FrontFacesOnly = 16,
 }

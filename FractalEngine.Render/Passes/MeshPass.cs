@@ -6,67 +6,65 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
 
-/// <summary>Draws lit, instanced triangles: chooses the program that a material needs, and says how it looks.</summary>
+/// <summary>Selects the program that a material needs, and sets its uniforms, to draw lit, instanced triangles.</summary>
 internal sealed class MeshPass(RenderContext context) : IDisposable
 {
-    /// <summary>Where the programs expect the object's block.</summary>
+    /// <summary>Binding point of the uniform block <c>ObjectBlock</c>.</summary>
     public const int ObjectBinding = 0;
 
-    /// <summary>Where the programs expect the lights.</summary>
+    /// <summary>Binding point of the uniform block <c>LightBlock</c>.</summary>
     public const int LightBinding = 1;
 
+    private const int FeatureCombinations = 32;
     private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);
 
-    // By features; each is built when it is needed first.
-    private readonly MeshProgram?[] _programs = new MeshProgram?[32];
+    // Indexed by features. Each program is built when it is first needed.
+    private readonly MeshProgram?[] _programs = new MeshProgram?[FeatureCombinations];
 
-    // The frame for which each has the view.
-    private readonly long[] _lastFrameOfProgram = new long[32];
+    // Number of the frame whose view each program has.
+    private readonly long[] _lastFrameOfProgram = new long[FeatureCombinations];
     private long _frameNumber;
-    private (View View, double Aspect, BoundingBox Bounds, bool Wireframe, Shading Shading)? _frameState;
+    private (FrameView Frame, bool Wireframe, Shading Shading)? _frameState;
 
-    /// <summary>Begins a frame.</summary>
-    /// <param name="view">Camera and projection.</param>
-    /// <param name="aspect">Width divided by height of the viewport.</param>
-    /// <param name="bounds">Of everything there is.</param>
-    /// <param name="wireframe">Light grey lines instead of lit surfaces.</param>
-    /// <param name="shading">Where the lights act.</param>
-    public void Begin(View view, double aspect, BoundingBox bounds, bool wireframe, Shading shading)
+    /// <summary>Begins drawing the meshes of a frame.</summary>
+    /// <param name="frame">View of the frame.</param>
+    /// <param name="wireframe">Whether light grey edges are drawn instead of lit surfaces.</param>
+    /// <param name="shading">Points of a surface at which lighting is computed.</param>
+    public void Begin(in FrameView frame, bool wireframe, Shading shading)
     {
-        _frameState = (view, aspect, bounds, wireframe, shading);
+        _frameState = (frame, wireframe, shading);
         _frameNumber++;
         GlShim.SetWireframe(wireframe);
     }
 
-    /// <summary>Makes the program for a material current, and brings its uniforms up to date.</summary>
+    /// <summary>Makes the program for a material current, and sets its uniforms.</summary>
     /// <param name="material">Null for the object's own colour.</param>
-    /// <param name="tint">Multiplies the material's colour, sRGB.</param>
+    /// <param name="tint">Colour that multiplies the material's own, sRGB.</param>
     /// <param name="instanceFeatures">
-    /// <see cref="MeshFeatures.CameraRelative"/> and <see cref="MeshFeatures.FrontFacesOnly"/>, where they hold.
+    /// Those of <see cref="MeshFeatures.CameraRelative"/> and <see cref="MeshFeatures.FrontFacesOnly"/> that apply.
     /// </param>
     /// <exception cref="InvalidOperationException">No frame was begun.</exception>
     /// <exception cref="GlException">The driver refuses the program.</exception>
     public void UseMaterial(DrawableMaterial? material, Colour tint, MeshFeatures instanceFeatures)
     {
-        var (view, aspect, bounds, wireframe, shading) = _frameState ?? throw new InvalidOperationException("no frame was begun");
+        var (frame, wireframe, shading) = _frameState ?? throw new InvalidOperationException("no frame was begun");
         var features = instanceFeatures | (wireframe ? MeshFeatures.None : FeaturesOf(material, shading));
         var program = _programs[(int)features] ??= new(context, features);
         program.Use();
         if (context.Resources.State.Filter.Update(ref _lastFrameOfProgram[(int)features], _frameNumber))
         {
-            program.View.Set(view, aspect, bounds);
+            program.View.Set(in frame);
             program.SetWireframe(wireframe, WireframeColour);
         }
 
-        // The object's own colour is not tinted: objects of different tints then share what is set.
+        // The object's own colour is not tinted: objects with different tints then share the uniforms.
         program.SetMaterial(material, material is null ? Colour.White : tint);
     }
 
-    /// <summary>Chooses which side of the triangles is not drawn.</summary>
-    /// <param name="culledFace">True for the front, false for the back; null to draw both.</param>
-    public void Cull(bool? culledFace) => context.Resources.State.Cull(culledFace);
+    /// <summary>Selects the face of triangles that is not drawn.</summary>
+    public void Cull(CullFace face) => context.Resources.State.Cull(face);
 
-    /// <summary>From here on what is drawn mixes with what is there, and hides nothing. Colours come multiplied by their opacity.</summary>
+    /// <summary>Blends what follows with the frame, without writing depth. Colours must be multiplied by their opacity.</summary>
     public static void BeginTransparent()
     {
         GL.Enable(EnableCap.Blend);
@@ -74,17 +72,17 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
         GL.DepthMask(false);
     }
 
-    /// <summary>From here on what is drawn hides what lies behind.</summary>
+    /// <summary>Ends blending and writes depth again.</summary>
     public static void EndTransparent()
     {
         GL.DepthMask(true);
         GL.Disable(EnableCap.Blend);
     }
 
-    /// <summary>Leaves filled triangles with both sides for whoever draws next.</summary>
+    /// <summary>Restores filled triangles with both faces for the next pass.</summary>
     public void End()
     {
-        Cull(null);
+        Cull(CullFace.None);
         GlShim.SetWireframe(false);
     }
 

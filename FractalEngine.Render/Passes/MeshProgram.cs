@@ -6,44 +6,48 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
 
-/// <summary>One combination of <see cref="MeshFeatures"/> as a program, with its uniforms.</summary>
+/// <summary>The program for one combination of <see cref="MeshFeatures"/>, with its uniforms.</summary>
 internal sealed class MeshProgram : IDisposable
 {
+    // Each feature with the symbol that switches it on in mesh.vert and mesh.frag.
+    private static readonly (MeshFeatures Feature, string Symbol)[] Symbols =
+    [
+        (MeshFeatures.PerPixel, "PER_PIXEL"),
+        (MeshFeatures.Textured, "TEXTURED"),
+        (MeshFeatures.Glossy, "GLOSSY"),
+        (MeshFeatures.CameraRelative, "CAMERA_RELATIVE"),
+        (MeshFeatures.FrontFacesOnly, "FRONT_FACES_ONLY"),
+    ];
+
     private readonly RedundancyFilter _filter;
     private readonly ShaderProgram _program;
     private readonly int _flatColourLocation;
     private readonly MaterialUniforms _materialUniforms;
     private bool? _lastWireframe;
 
-    /// <summary>Compiles and links it.</summary>
+    /// <summary>Compiles and links the program.</summary>
+    /// <exception cref="GlException">The driver refuses the program.</exception>
     public MeshProgram(RenderContext context, MeshFeatures features)
     {
         _filter = context.Resources.State.Filter;
-        string[] symbols =
-        [
-            .. features.HasFlag(MeshFeatures.PerPixel) ? ["PER_PIXEL"] : Array.Empty<string>(),
-            .. features.HasFlag(MeshFeatures.Textured) ? ["TEXTURED"] : Array.Empty<string>(),
-            .. features.HasFlag(MeshFeatures.Glossy) ? ["GLOSSY"] : Array.Empty<string>(),
-            .. features.HasFlag(MeshFeatures.CameraRelative) ? ["IN_WORLD"] : Array.Empty<string>(),
-            .. features.HasFlag(MeshFeatures.FrontFacesOnly) ? ["FRONT_ONLY"] : Array.Empty<string>(),
-        ];
+        string[] symbols = [.. Symbols.Where(entry => features.HasFlag(entry.Feature)).Select(entry => entry.Symbol)];
         _program = ShaderProgram.Load(context.Resources, "mesh", symbols);
         _program.BindBlock("ObjectBlock", MeshPass.ObjectBinding);
         _program.BindBlock("LightBlock", MeshPass.LightBinding);
         View = new(_program, _filter, context.HasReversedDepth);
         _flatColourLocation = _program.UniformLocation("flatColour");
         _program.Use();
-        GL.Uniform1(_program.UniformLocation("picture"), 0);
+        GL.Uniform1(_program.UniformLocation("surfaceTexture"), 0);
         _materialUniforms = new(_program, _filter);
     }
 
-    /// <summary>The camera as this program sees it.</summary>
+    /// <summary>The camera uniforms of this program.</summary>
     public ViewUniforms View { get; }
 
-    /// <summary>Makes it current.</summary>
+    /// <summary>Makes this the current program.</summary>
     public void Use() => _program.Use();
 
-    /// <summary>Sets the colour of lines, or that there are none. The program must be in use.</summary>
+    /// <summary>Sets the colour of wireframe edges, or lit surfaces. The program must be in use.</summary>
     public void SetWireframe(bool wireframe, Colour colour)
     {
         if (_filter.Update(ref _lastWireframe, wireframe))
@@ -53,9 +57,9 @@ internal sealed class MeshProgram : IDisposable
         }
     }
 
-    /// <summary>Sets the material. The program must be in use.</summary>
+    /// <summary>Sets the material of the next draw calls. The program must be in use.</summary>
     /// <param name="material">Null for the object's own colour.</param>
-    /// <param name="tint">Multiplies the material's colours, sRGB.</param>
+    /// <param name="tint">Colour that multiplies the material's own, sRGB.</param>
     public void SetMaterial(DrawableMaterial? material, Colour tint) => _materialUniforms.Set(material?.Material, tint);
 
     /// <inheritdoc/>

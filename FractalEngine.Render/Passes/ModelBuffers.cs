@@ -20,11 +20,12 @@ internal sealed class ModelBuffers : IDisposable
     private readonly int _indexCount;
     private readonly int _instanceCount;
 
-    /// <summary>Uploads a model.</summary>
-    /// <exception cref="GlException">The memory does not suffice.</exception>
+    /// <summary>Uploads the buffers of a model.</summary>
+    /// <exception cref="GlException">The GPU's memory does not suffice.</exception>
     public ModelBuffers(GlResources resources, DrawableModel model)
     {
-        (_indexCount, _instanceCount) = (model.Indices.Length, model.InstanceCount);
+        _indexCount = model.Indices.Length;
+        _instanceCount = model.InstanceCount;
         _vertexArray = new(resources, model.Name);
         _vertices = new(resources, $"vertices of {model.Name}", BufferTarget.ArrayBuffer);
         _indices = new(resources, $"indices of {model.Name}", BufferTarget.ElementArrayBuffer);
@@ -45,20 +46,11 @@ internal sealed class ModelBuffers : IDisposable
         }
     }
 
-    /// <summary>The whole mesh.</summary>
+    /// <summary>A batch of all triangles, without a material.</summary>
     public DrawableBatch WholeMesh => new(0, _indexCount, null);
 
-    /// <summary>Draws the triangles of one material of all instances in one call.</summary>
-    public void Draw(DrawableBatch batch)
-    {
-        if (_instanceCount > 0 && batch.IndexCount > 0)
-        {
-            _vertexArray.Bind();
-            GL.DrawElementsInstanced(
-                PrimitiveType.Triangles, batch.IndexCount, DrawElementsType.UnsignedInt, (nint)batch.FirstIndex * sizeof(uint),
-                _instanceCount);
-        }
-    }
+    /// <summary>Draws one batch of all instances in one call.</summary>
+    public void Draw(DrawableBatch batch) => _vertexArray.DrawTriangles(batch.FirstIndex, batch.IndexCount, _instanceCount);
 
     /// <inheritdoc/>
     public void Dispose()
@@ -70,7 +62,9 @@ internal sealed class ModelBuffers : IDisposable
         _textureCoordinates?.Dispose();
     }
 
-    /// <summary>Lets another vertex array show the same mesh with instances of its own.</summary>
+    /// <summary>Attaches the mesh to another vertex array, with instances of its own.</summary>
+    /// <param name="vertexArray">Vertex array that receives the attributes.</param>
+    /// <param name="instances">Rows of 3×4 maps, [instances × 12].</param>
     public void Attach(VertexArray vertexArray, GlBuffer instances)
     {
         vertexArray.Bind();

@@ -5,7 +5,7 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
 
-/// <summary>Draws panels of text over a picture, all of them in one call. Laid out and uploaded again only when they differ.</summary>
+/// <summary>Draws all panels of text over a frame in one call. They are laid out and uploaded again only when they differ.</summary>
 internal sealed class OverlayPass : IDisposable
 {
     private readonly GlResources _resources;
@@ -25,8 +25,8 @@ internal sealed class OverlayPass : IDisposable
     {
         _resources = resources;
         _program = ShaderProgram.Load(resources, "overlay");
-        _frameSizeLocation = _program.UniformLocation("pictureSize");
-        _cellSizeLocation = _program.UniformLocation("cell");
+        _frameSizeLocation = _program.UniformLocation("frameSize");
+        _cellSizeLocation = _program.UniformLocation("cellSize");
         _program.Use();
         GL.Uniform1(_program.UniformLocation("glyphs"), 0);
         GL.Uniform1(_program.UniformLocation("columns"), GlyphSheet.Columns);
@@ -39,9 +39,9 @@ internal sealed class OverlayPass : IDisposable
     }
 
     /// <summary>Draws panels into the bound framebuffer.</summary>
-    /// <param name="panels">None draws nothing.</param>
-    /// <param name="width">Of the framebuffer, pixels.</param>
-    /// <param name="height">Of the framebuffer, pixels.</param>
+    /// <param name="panels">Panels to draw; none draws nothing.</param>
+    /// <param name="width">Width of the framebuffer in pixels.</param>
+    /// <param name="height">Height of the framebuffer in pixels.</param>
     public void Draw(IReadOnlyList<OverlayPanel> panels, int width, int height)
     {
         if (panels.Count == 0)
@@ -52,7 +52,7 @@ internal sealed class OverlayPass : IDisposable
         Update(panels, width, height);
         _program.Use();
         _glyphTexture!.Bind();
-        // Blended as the eye compares: text blended in linear light looks too thin on dark ground.
+        // Blended in sRGB as the eye compares: text that is blended in linear light looks too thin on a dark ground.
         GL.Disable(EnableCap.FramebufferSrgb);
         GL.Enable(EnableCap.Blend);
         GL.BlendFuncSeparate(
@@ -78,21 +78,26 @@ internal sealed class OverlayPass : IDisposable
             return;
         }
 
-        var layout = OverlayLayout.Of(_atlas, panels, width, height);
-        var sheet = _atlas.Sheets[layout.SheetIndex];
+        var layout = OverlayLayout.Create(_atlas, panels, width, height);
         _program.Use();
         GL.Uniform2(_frameSizeLocation, (float)width, height);
         if (_sheetIndex != layout.SheetIndex)
         {
-            _glyphTexture?.Dispose();
-            _glyphTexture = new(_resources, "glyphs", GlyphSheet.Columns * sheet.CellWidth, sheet.Rows * sheet.CellHeight,
-                sheet.ToTexels());
-            _sheetIndex = layout.SheetIndex;
-            GL.Uniform2(_cellSizeLocation, sheet.CellWidth, sheet.CellHeight);
+            UseSheet(layout.SheetIndex);
         }
 
         _quadCount = layout.Quads.Count;
         _quadBuffer.Upload<OverlayQuad>(CollectionsMarshal.AsSpan(layout.Quads), BufferUsageHint.DynamicDraw);
         _lastKey = ([.. panels], width, height);
+    }
+
+    private void UseSheet(int index)
+    {
+        var sheet = _atlas.Sheets[index];
+        _glyphTexture?.Dispose();
+        _glyphTexture = new(
+            _resources, "glyphs", GlyphSheet.Columns * sheet.CellWidth, sheet.Rows * sheet.CellHeight, sheet.ToTexels());
+        _sheetIndex = index;
+        GL.Uniform2(_cellSizeLocation, sheet.CellWidth, sheet.CellHeight);
     }
 }

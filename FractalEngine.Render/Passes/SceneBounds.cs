@@ -5,40 +5,53 @@ using FractalEngine.Render.Preparation;
 namespace FractalEngine.Render.Passes;
 
 /// <summary>
-/// The box that a scene's planes are made for. What moves all the time changes it in coarse steps only, since other planes mean that
-/// everything is chosen again; and what falls out of the scene does not take the planes with it.
+/// Computes the bounds that clip planes are derived from. Moving bodies change them only in coarse steps, since other planes discard the
+/// culled instances, and a body that falls out of the scene does not move the far plane with it.
 /// </summary>
 internal static class SceneBounds
 {
-    // Of the scene's size: bodies within this of it are drawn wherever they are.
+    // All three are fractions of the scene's size. Dynamic objects within this distance are always between the planes.
     private const double DynamicMargin = 0.5;
 
-    // Of the scene's size: balls farther out do not matter, and places of others are rounded to this.
+    // Spheres farther out are ignored. Corners of the others' boxes are rounded to the grid.
     private const double SphereLimit = 2;
     private const double SphereGrid = 0.25;
 
-    /// <summary>World space.</summary>
-    /// <param name="scene">As it was loaded.</param>
-    /// <param name="objectBounds">Of its objects, where they are now.</param>
-    /// <param name="spheres">Beside them.</param>
+    /// <summary>Computes the bounds in world space.</summary>
+    /// <param name="scene">Scene as it was loaded.</param>
+    /// <param name="objectBounds">Current bounds of its objects.</param>
+    /// <param name="spheres">Spheres beside the objects.</param>
     public static BoundingBox Compute(DrawableScene scene, ReadOnlySpan<BoundingBox> objectBounds, IReadOnlyList<SphereInstance> spheres)
     {
-        var (bounds, hasDynamicObjects) = (BoundingBox.Empty, false);
+        var bounds = BoundingBox.Empty;
+        var hasDynamicObjects = false;
         for (var i = 0; i < objectBounds.Length; i++)
         {
-            hasDynamicObjects |= scene.Objects[i].IsDynamic;
-            bounds = scene.Objects[i].IsDynamic ? bounds : BoundingBox.Union(bounds, objectBounds[i]);
+            if (scene.Objects[i].IsDynamic)
+            {
+                hasDynamicObjects = true;
+            }
+            else
+            {
+                bounds = BoundingBox.Union(bounds, objectBounds[i]);
+            }
         }
 
         var sceneBounds = scene.Source.Bounds;
-        bounds = hasDynamicObjects ? BoundingBox.Union(bounds, Enlarge(sceneBounds, DynamicMargin)) : bounds;
-        var (sphereLimits, grid) = (Enlarge(sceneBounds, SphereLimit), SphereGrid * sceneBounds.Diagonal);
+        if (hasDynamicObjects)
+        {
+            bounds = BoundingBox.Union(bounds, Enlarge(sceneBounds, DynamicMargin));
+        }
+
+        var sphereLimits = Enlarge(sceneBounds, SphereLimit);
+        var grid = SphereGrid * sceneBounds.Diagonal;
         foreach (var (centre, radius) in spheres)
         {
-            var extent = radius * Vector.One;
-            bounds = sphereLimits.DistanceSquared(centre) > 0 || !(grid > 0)
-                ? bounds
-                : BoundingBox.Union(bounds, new(RoundDown(centre - extent, grid), -RoundDown(-centre - extent, grid)));
+            if (grid > 0 && !(sphereLimits.DistanceSquared(centre) > 0))
+            {
+                var extent = radius * Vector.One;
+                bounds = BoundingBox.Union(bounds, new(RoundDown(centre - extent, grid), -RoundDown(-centre - extent, grid)));
+            }
         }
 
         return bounds;

@@ -7,14 +7,16 @@ using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Render.Passes;
 
-/// <summary>
-/// Chooses the instances of a scene's objects that a picture needs, and keeps them on the GPU until the picture needs others.
-/// </summary>
+/// <summary>Culls the instances of a scene's objects, and keeps the visible ones on the GPU until a frame needs others.</summary>
 internal sealed class SceneCuller : IDisposable
 {
     private readonly RedundancyFilter _uploadFilter;
     private readonly DrawableScene _scene;
+
+    // By object; null where all instances are drawn.
     private readonly VisibleInstances?[] _visibleInstances;
+
+    // By object; its index among the culled ones.
     private readonly int[] _culledIndices;
     private readonly CulledObject[] _culledObjects;
     private VisibleSet _visible = new();
@@ -23,40 +25,42 @@ internal sealed class SceneCuller : IDisposable
     private (CullingView View, CullingSettings Settings, DeepZoom? Zoom)? _speculativeKey;
     private (CullingView View, CullingSettings Settings, DeepZoom? Zoom)? _lastKey;
 
-    /// <summary>For the objects of a scene that have levels to choose from, and don't move all the time.</summary>
+    /// <summary>Creates empty instance buffers for the objects that have a level-of-detail hierarchy and are not dynamic.</summary>
     public SceneCuller(GlResources resources, DrawableScene scene, IReadOnlyDictionary<DrawableModel, ModelBuffers> models)
     {
-        (_uploadFilter, _scene) = (resources.UploadFilter, scene);
+        _uploadFilter = resources.UploadFilter;
+        _scene = scene;
         _visibleInstances = new VisibleInstances?[scene.Objects.Length];
         _culledIndices = new int[scene.Objects.Length];
-        var objects = new List<CulledObject>();
+        var culledObjects = new List<CulledObject>();
         for (var i = 0; i < scene.Objects.Length; i++)
         {
-            var model = scene.Objects[i].Model;
-            _culledIndices[i] = objects.Count;
-            if (model.LodHierarchy is { } hierarchy && !scene.Objects[i].IsDynamic)
+            var item = scene.Objects[i];
+            var model = item.Model;
+            _culledIndices[i] = culledObjects.Count;
+            if (model.LodHierarchy is { } hierarchy && !item.IsDynamic)
             {
-                _visibleInstances[i] = new(resources, scene.Objects[i].Name, models[model], scene.Objects[i].Gradient is not null);
-                objects.Add(new(hierarchy, scene.Objects[i].Map, model.MeshOrigin, model.MeshWindingSign, !model.HasTransparentBatches)
+                _visibleInstances[i] = new(resources, item.Name, models[model], item.Gradient is not null);
+                culledObjects.Add(new(hierarchy, item.Map, model.MeshOrigin, model.MeshWindingSign, !model.HasTransparentBatches)
                 {
-                    GradientKind = scene.Objects[i].Gradient?.Kind ?? GradientKind.None,
+                    GradientKind = item.Gradient?.Kind ?? GradientKind.None,
                 });
             }
         }
 
-        _culledObjects = [.. objects];
+        _culledObjects = [.. culledObjects];
     }
 
-    /// <summary>What the last choice took.</summary>
+    /// <summary>Counts of the last culling pass.</summary>
     public CullingStatistics Statistics => _visible.Statistics;
 
-    /// <summary>How many instances were chosen.</summary>
+    /// <summary>Number of visible instances of all objects.</summary>
     public int InstanceCount => _visible.InstanceCount;
 
-    /// <summary>What counted as small, pixels.</summary>
+    /// <summary>Size in pixels below which a sub-fractal was drawn as one instance.</summary>
     public double MinProjectedSize => _visible.MinProjectedSize;
 
-    /// <summary>Triangles of the chosen instances.</summary>
+    /// <summary>Number of triangles of the visible instances.</summary>
     public long TriangleCount
     {
         get
@@ -64,39 +68,45 @@ internal sealed class SceneCuller : IDisposable
             var count = 0L;
             for (var i = 0; i < _visibleInstances.Length; i++)
             {
-                count += _visibleInstances[i] is null ? 0 : _visible.InstanceCountOf(_culledIndices[i])
-                    * (long)(_scene.Objects[i].Model.Indices.Length / 3);
+                if (_visibleInstances[i] is not null)
+                {
+                    var trianglesPerInstance = _scene.Objects[i].Model.Indices.Length / 3;
+                    count += _visible.InstanceCountOf(_culledIndices[i]) * (long)trianglesPerInstance;
+                }
             }
 
             return count;
         }
     }
 
-    /// <summary>Bytes of instances that were moved to the GPU so far.</summary>
+    /// <summary>Bytes of instances that were uploaded to the GPU so far.</summary>
     public long UploadedBytes => _visibleInstances.Sum(instances => instances?.UploadedBytes ?? 0);
 
-    /// <summary>How long the last picture waited for its choice.</summary>
+    /// <summary>Time that the drawing thread waited for the last culling pass.</summary>
     public TimeSpan CullWaitTime { get; private set; }
 
-    /// <summary>How often a choice was made.</summary>
+    /// <summary>Number of culling passes so far.</summary>
     public int CullCount { get; private set; }
 
-    /// <summary>True for an object whose instances are chosen.</summary>
+    /// <summary>Returns true for an object whose visible instances are selected here; all instances of others are drawn.</summary>
     public bool SelectsInstances(int index) => _visibleInstances[index] is not null;
 
-    /// <summary>Moves an object.</summary>
+    /// <summary>Moves an object of the scene.</summary>
+    /// <param name="index">Index of the object in the scene, from 0.</param>
+    /// <param name="map">Map from the model's frame to world space.</param>
     public void Move(int index, AffineMap map)
     {
         if (SelectsInstances(index))
         {
             DiscardSpeculativeCull();
-            _culledObjects[_culledIndices[index]] = _culledObjects[_culledIndices[index]] with { ObjectToWorld = map };
+            ref var culledObject = ref _culledObjects[_culledIndices[index]];
+            culledObject = culledObject with { ObjectToWorld = map };
             _lastKey = null;
         }
     }
 
-    /// <summary>Chooses and uploads anew, if anything has changed that could change the choice.</summary>
-    public void Update(in CullingView view, CullingSettings settings, DeepZoom? zoom)
+    /// <summary>Culls and uploads the visible instances, unless nothing has changed since the last pass.</summary>
+    public void Cull(in CullingView view, CullingSettings settings, DeepZoom? zoom)
     {
         if (_culledObjects.Length == 0 || !_uploadFilter.ShouldPerform(_lastKey == (view, settings, zoom), _culledObjects.Length))
         {
@@ -107,8 +117,7 @@ internal sealed class SceneCuller : IDisposable
         var watch = Stopwatch.StartNew();
         if (_speculativeKey == (view, settings, zoom))
         {
-            _speculativeTask!.GetAwaiter().GetResult();
-            (_visible, _speculative, _speculativeTask, _speculativeKey) = (_speculative, _visible, null, null);
+            TakeSpeculativeCull();
         }
         else
         {
@@ -126,7 +135,7 @@ internal sealed class SceneCuller : IDisposable
         _lastKey = (view, settings, zoom);
     }
 
-    /// <summary>Begins to choose, on other threads, for a picture that is likely to be asked for next.</summary>
+    /// <summary>Starts culling on other threads for a frame that will probably be drawn next.</summary>
     public void StartSpeculativeCull(CullingView view, CullingSettings settings, DeepZoom? zoom)
     {
         if (_culledObjects.Length == 0 || _lastKey == (view, settings, zoom) || _speculativeKey == (view, settings, zoom))
@@ -136,31 +145,16 @@ internal sealed class SceneCuller : IDisposable
 
         DiscardSpeculativeCull();
         _speculativeKey = (view, settings, zoom);
-        var (target, objects) = (_speculative, CulledObjectsOf(zoom));
+        var target = _speculative;
+        var objects = CulledObjectsOf(zoom);
         _speculativeTask = Task.Run(() => target.Cull(in view, objects, settings));
     }
 
-    /// <summary>Draws the triangles of one material of an object's instances.</summary>
+    /// <summary>Draws one batch of an object's visible instances.</summary>
     public void Draw(int index, DrawableBatch batch) => _visibleInstances[index]!.Draw(batch);
 
-    /// <summary>The sign of <see cref="DrawableModel.WindingSign"/> where only one side of an object's triangles can be seen.</summary>
+    /// <summary>Returns the model's <see cref="DrawableModel.WindingSign"/>, or 0 where the near plane cuts an instance.</summary>
     public int WindingSign(int index) => _visible.IsNearClipped(_culledIndices[index]) ? 0 : _scene.Objects[index].Model.WindingSign;
-
-    /// <summary>How a view looks at a picture of some size.</summary>
-    public static CullingView ToCullingView(View view, int width, int height, double aspect, (double Near, double Far) clipPlanes)
-    {
-        var isPerspective = view.Projection == Projection.Perspective;
-        return new(
-            view.Camera.Position,
-            view.Camera.LocalAxes,
-            isPerspective,
-            isPerspective ? view.Camera.HalfHeightAtUnitDepth : 0.5 * view.OrthographicHeight,
-            width,
-            height,
-            aspect,
-            clipPlanes.Near,
-            clipPlanes.Far);
-    }
 
     /// <inheritdoc/>
     public void Dispose()
@@ -172,14 +166,24 @@ internal sealed class SceneCuller : IDisposable
         }
     }
 
-    /// <summary>The objects, of which only one is drawn where the camera is deep in it.</summary>
+    /// <summary>Returns the objects to cull. In a deep zoom, only the object that the camera is inside has anything to draw.</summary>
     private CulledObject[] CulledObjectsOf(DeepZoom? zoom) => zoom is null ? _culledObjects
         : [.. _culledObjects.Select((item, index) => item with { Roots = index == _culledIndices[zoom.ObjectIndex] ? zoom.Roots : [] })];
 
-    /// <summary>Waits for a choice that nobody asks for any more: its memory, and the objects, can then change.</summary>
+    /// <summary>Waits for the speculative pass and makes its result the visible set.</summary>
+    private void TakeSpeculativeCull()
+    {
+        _speculativeTask!.GetAwaiter().GetResult();
+        (_visible, _speculative) = (_speculative, _visible);
+        _speculativeTask = null;
+        _speculativeKey = null;
+    }
+
+    /// <summary>Waits for the speculative pass and drops its result, so that its memory and the objects can change.</summary>
     private void DiscardSpeculativeCull()
     {
         _speculativeTask?.GetAwaiter().GetResult();
-        (_speculativeTask, _speculativeKey) = (null, null);
+        _speculativeTask = null;
+        _speculativeKey = null;
     }
 }

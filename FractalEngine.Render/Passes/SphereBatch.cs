@@ -9,7 +9,7 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
 
-/// <summary>Balls that are no objects of the scene, in one draw call. Their places are uploaded anew for each picture.</summary>
+/// <summary>Draws the spheres beside a scene's objects in one call. Their positions are uploaded anew for each frame.</summary>
 internal sealed class SphereBatch : IDisposable
 {
     private const int FaceCount = 1280;
@@ -20,39 +20,38 @@ internal sealed class SphereBatch : IDisposable
     private readonly ObjectBlock _objectBlock;
     private readonly List<float> _rows = [];
 
-    /// <summary>Uploads a sphere.</summary>
+    /// <summary>Uploads the mesh of a unit sphere.</summary>
+    /// <exception cref="GlException">The GPU's memory does not suffice.</exception>
     public SphereBatch(GlResources resources)
     {
-        var scene =
-            new LoadedScene(new Scene(),
-            [new(new SceneObject("ball", Transformation.Identity),
-            new MeshModel(MeshGenerators.Create("icosphere", 0, FaceCount)) { SourcePath = "ball" })]);
+        var model = new MeshModel(MeshGenerators.Create("icosphere", 0, FaceCount)) { SourcePath = "sphere" };
+        var scene = new LoadedScene(new Scene(), [new(new SceneObject("sphere", Transformation.Identity), model)]);
         _modelBuffers = new(resources, DrawableScene.Prepare(scene, new() { Culling = null }).Models[0]);
-        _instances = new(resources, "balls", BufferTarget.ArrayBuffer);
-        _vertexArray = new(resources, "balls");
+        _instances = new(resources, "spheres", BufferTarget.ArrayBuffer);
+        _vertexArray = new(resources, "spheres");
         _modelBuffers.Attach(_vertexArray, _instances);
-        _objectBlock = new(resources, "balls");
+        _objectBlock = new(resources, "spheres");
     }
 
-    /// <summary>The program for them must be in use when this is drawn.</summary>
-    /// <param name="spheres">All.</param>
-    /// <param name="cameraPosition">World space.</param>
-    /// <param name="colour">sRGB.</param>
+    /// <summary>Draws spheres with the program in use, which must be <see cref="MeshFeatures.CameraRelative"/>.</summary>
+    /// <param name="spheres">Spheres to draw.</param>
+    /// <param name="cameraPosition">Position of the camera in world space.</param>
+    /// <param name="colour">Colour of all spheres, sRGB.</param>
     public void Draw(IReadOnlyList<SphereInstance> spheres, Vector cameraPosition, Colour colour)
     {
-        _rows.Clear();
-        foreach (var (centre, radius) in spheres)
+        CollectionsMarshal.SetCount(_rows, spheres.Count * DrawableModel.FloatsPerInstance);
+        var rows = CollectionsMarshal.AsSpan(_rows);
+        for (var i = 0; i < spheres.Count; i++)
         {
-            var (r, (x, y, z)) = ((float)radius, centre - cameraPosition);
-            _rows.AddRange([r, 0, 0, (float)x, 0, r, 0, (float)y, 0, 0, r, (float)z]);
+            var (centre, radius) = spheres[i];
+            var linear = Matrix.Diagonal(radius * Vector.One);
+            InstanceRow.Write(linear, centre - cameraPosition, rows[(i * DrawableModel.FloatsPerInstance)..]);
         }
 
-        _instances.Discard(_rows.Count * sizeof(float));
-        _instances.Write(CollectionsMarshal.AsSpan(_rows), 0);
+        _instances.Discard(rows.Length * sizeof(float));
+        _instances.Write(rows, 0);
         _objectBlock.Bind(MeshPass.ObjectBinding, AffineMap.Translate(cameraPosition), colour, colour, cameraPosition);
-        _vertexArray.Bind();
-        GL.DrawElementsInstanced(PrimitiveType.Triangles, _modelBuffers.WholeMesh.IndexCount, DrawElementsType.UnsignedInt, IntPtr.Zero,
-            spheres.Count);
+        _vertexArray.DrawTriangles(0, _modelBuffers.WholeMesh.IndexCount, spheres.Count);
     }
 
     /// <inheritdoc/>

@@ -3,14 +3,14 @@ using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Render.Passes;
 
-/// <summary>The pictures of a scene on the GPU, each once.</summary>
+/// <summary>Holds the textures of a scene on the GPU, each once.</summary>
 internal sealed class TextureSet : IDisposable
 {
     private readonly Dictionary<DrawableTexture, SrgbTexture> _textures = new(ReferenceEqualityComparer.Instance);
 
-    /// <summary>Uploads the pictures that are not there yet.</summary>
+    /// <summary>Uploads the textures that are not on the GPU yet.</summary>
     /// <exception cref="GlException">
-    /// One is beyond the driver, or the memory does not suffice. Those before it stay until all are disposed.
+    /// A texture exceeds the driver's limits, or the memory does not suffice. Those before it stay until disposal.
     /// </exception>
     public void Upload(GlResources resources, IEnumerable<DrawableTexture> textures)
     {
@@ -20,7 +20,7 @@ internal sealed class TextureSet : IDisposable
         }
     }
 
-    /// <summary>Binds the picture of a material, if it has one.</summary>
+    /// <summary>Binds the texture of a material, if it has one.</summary>
     public void Bind(DrawableMaterial? material)
     {
         if (material?.Texture is { } texture)

@@ -1,4 +1,3 @@
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Gl;
@@ -6,7 +5,7 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
 
-/// <summary>The camera as a shader sees it. Each uniform is set when it has changed, not per frame.</summary>
+/// <summary>Sets the camera uniforms of a program, each only when it has changed.</summary>
 internal sealed class ViewUniforms(ShaderProgram program, RedundancyFilter filter, bool hasReversedDepth)
 {
     private readonly int _cameraAxesLocation = program.UniformLocation("cameraAxes");
@@ -17,39 +16,44 @@ internal sealed class ViewUniforms(ShaderProgram program, RedundancyFilter filte
     private (double X, double Y) _lastScale;
     private (double ZByDepth, double Z, double WByDepth, double W) _lastDepth;
 
-    /// <summary>Sets what differs from the last call. The program must be in use.</summary>
-    /// <param name="view">Camera and projection.</param>
-    /// <param name="aspect">Width divided by height of the viewport.</param>
-    /// <param name="bounds">Of everything there is, for planes that the view leaves open.</param>
-    public void Set(View view, double aspect, BoundingBox bounds)
+    /// <summary>Sets the uniforms that differ from the last call. The program must be in use.</summary>
+    public void Set(in FrameView frame)
     {
+        var view = frame.View;
         if (filter.Update(ref _lastAxes, view.Camera.LocalAxesInverse))
         {
             SetAxes(view.Camera.LocalAxesInverse);
         }
 
-        var isPerspective = view.Projection == Projection.Perspective;
-        var halfHeight = isPerspective ? view.Camera.HalfHeightAtUnitDepth : 0.5 * view.OrthographicHeight;
-        var scale = (1 / (halfHeight * aspect), 1 / halfHeight);
-        if (filter.Update(ref _lastScale, scale))
+        var halfHeight = view.HalfHeight;
+        if (filter.Update(ref _lastScale, (1 / (halfHeight * frame.Aspect), 1 / halfHeight)))
         {
-            GL.Uniform2(_viewScaleLocation, (float)scale.Item1, (float)scale.Item2);
+            GL.Uniform2(_viewScaleLocation, (float)_lastScale.X, (float)_lastScale.Y);
         }
 
-        // Depth n goes to −1 and depth f to 1, or, reversed, n to 1 and f to 0: before the division by w = depth in perspective, directly
-        // otherwise.
-        var (near, far) = view.ClipPlanes(bounds);
-        var depth = hasReversedDepth
-            ? isPerspective
-            ? (-near / (far - near), far * near / (far - near), 1.0, 0.0)
-            : (-1 / (far - near), far / (far - near), 0.0, 1.0)
-            : isPerspective
-            ? ((far + near) / (far - near), -2 * far * near / (far - near), 1.0, 0.0)
-            : (2 / (far - near), -(far + near) / (far - near), 0.0, 1.0);
-        if (filter.Update(ref _lastDepth, depth))
+        if (filter.Update(ref _lastDepth, DepthScale(frame.Near, frame.Far, view.Projection == Projection.Perspective)))
         {
-            GL.Uniform4(_depthScaleLocation, (float)depth.Item1, (float)depth.Item2, (float)depth.Item3, (float)depth.Item4);
+            GL.Uniform4(
+                _depthScaleLocation, (float)_lastDepth.ZByDepth, (float)_lastDepth.Z, (float)_lastDepth.WByDepth, (float)_lastDepth.W);
         }
+    }
+
+    /// <summary>
+    /// Returns the coefficients of z = ZByDepth·depth + Z and w = WByDepth·depth + W. The near plane n and the far plane f map to z/w = −1
+    /// and 1, or with reversed depth to 1 and 0.
+    /// </summary>
+    private (double ZByDepth, double Z, double WByDepth, double W) DepthScale(double near, double far, bool isPerspective)
+    {
+        if (isPerspective)
+        {
+            return hasReversedDepth
+                ? (-near / (far - near), far * near / (far - near), 1, 0)
+                : ((far + near) / (far - near), -2 * far * near / (far - near), 1, 0);
+        }
+
+        return hasReversedDepth
+            ? (-1 / (far - near), far / (far - near), 0, 1)
+            : (2 / (far - near), -(far + near) / (far - near), 0, 1);
     }
 
     private void SetAxes(Matrix axes)

@@ -5,9 +5,7 @@ using OpenTK.Graphics.OpenGL4;
 
 namespace FractalEngine.Render.Passes;
 
-/// <summary>
-/// The instances of one object that were chosen for a picture, on the GPU: a vertex array of their own over the buffers of the model.
-/// </summary>
+/// <summary>Holds the visible instances of one object on the GPU, in a vertex array of their own over the model's buffers.</summary>
 internal sealed class VisibleInstances : IDisposable
 {
     private const int TintLocation = 5;
@@ -17,11 +15,15 @@ internal sealed class VisibleInstances : IDisposable
     private readonly VertexArray _vertexArray;
     private int _instanceCount;
 
-    /// <summary>None yet.</summary>
+    /// <summary>Creates empty buffers for visible instances.</summary>
+    /// <param name="resources">Resources of the current context.</param>
+    /// <param name="name">Name of the object, for messages.</param>
+    /// <param name="model">Buffers of the object's model.</param>
+    /// <param name="hasTints">Whether the object has a gradient, so that each instance has a position in it.</param>
     public VisibleInstances(GlResources resources, string name, ModelBuffers model, bool hasTints)
     {
-        _instances = new(resources, $"chosen instances of {name}", BufferTarget.ArrayBuffer);
-        _vertexArray = new(resources, $"chosen instances of {name}");
+        _instances = new(resources, $"visible instances of {name}", BufferTarget.ArrayBuffer);
+        _vertexArray = new(resources, $"visible instances of {name}");
         model.Attach(_vertexArray, _instances);
         if (hasTints)
         {
@@ -31,12 +33,12 @@ internal sealed class VisibleInstances : IDisposable
         }
     }
 
-    /// <summary>Bytes that uploads have moved so far.</summary>
+    /// <summary>Bytes that were uploaded so far.</summary>
     public long UploadedBytes { get; private set; }
 
-    /// <summary>Replaces them.</summary>
-    /// <param name="visible">What was chosen.</param>
-    /// <param name="objectIndex">The object's place there.</param>
+    /// <summary>Replaces the instances on the GPU.</summary>
+    /// <param name="visible">Visible instances of all objects.</param>
+    /// <param name="objectIndex">Index of the object in that set.</param>
     public void Upload(VisibleSet visible, int objectIndex)
     {
         _instanceCount = visible.InstanceCountOf(objectIndex);
@@ -63,17 +65,8 @@ internal sealed class VisibleInstances : IDisposable
         UploadedBytes += offset;
     }
 
-    /// <summary>Draws the triangles of one material of all instances in one call.</summary>
-    public void Draw(DrawableBatch batch)
-    {
-        if (_instanceCount > 0 && batch.IndexCount > 0)
-        {
-            _vertexArray.Bind();
-            GL.DrawElementsInstanced(
-                PrimitiveType.Triangles, batch.IndexCount, DrawElementsType.UnsignedInt, (nint)batch.FirstIndex * sizeof(uint),
-                _instanceCount);
-        }
-    }
+    /// <summary>Draws one batch of all instances in one call.</summary>
+    public void Draw(DrawableBatch batch) => _vertexArray.DrawTriangles(batch.FirstIndex, batch.IndexCount, _instanceCount);
 
     /// <inheritdoc/>
     public void Dispose()

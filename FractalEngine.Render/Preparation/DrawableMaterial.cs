@@ -2,11 +2,11 @@ using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Render.Preparation;
 
-/// <summary>A material with its picture.</summary>
-/// <param name="Material">What the file says.</param>
-/// <param name="Texture">Null where it has none.</param>
+/// <summary>A material with its decoded texture.</summary>
+/// <param name="Material">Material as the file declares it.</param>
+/// <param name="Texture">Decoded texture; null where the material has none.</param>
 public sealed record DrawableMaterial(Material Material, DrawableTexture? Texture)
 {
-    /// <summary>Whether what lies behind shows through: such surfaces are drawn last, and blended.</summary>
+    /// <summary>True where the surface behind shows through. Such surfaces are drawn last, and blended.</summary>
     public bool IsTransparent => Material.Opacity < 1 || Texture is { IsTransparent: true };
 }

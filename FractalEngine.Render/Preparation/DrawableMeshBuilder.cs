@@ -4,104 +4,133 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Render.Preparation;
 
 /// <summary>
-/// Turns a mesh into interleaved vertices and indices. GL has one number for position and normal together, so a position with
-/// several normals or places in a picture becomes several vertices; vertices that no face uses are left out.
+/// Turns a mesh into interleaved vertices and indices. GL has one index for position, normal and texture coordinates together, so that a
+/// position with several normals becomes several vertices. Vertices that no face uses are omitted.
 /// </summary>
-internal static class DrawableMeshBuilder
+internal sealed class DrawableMeshBuilder
 {
-    /// <summary>Builds the arrays.</summary>
-    /// <param name="mesh">Normals are taken from it where it has them, else generated.</param>
-    /// <param name="origin">The point of the mesh's frame that positions are written relative to.</param>
-    /// <param name="creaseAngle">For generated normals, degrees.</param>
-    /// <param name="batches">Which faces, their order, and whether texture coordinates are needed.</param>
+    private readonly Mesh _mesh;
+    private readonly Vector _origin;
+    private readonly bool _hasTextures;
+
+    // The file's own normals where they are complete, else generated ones.
+    private readonly Mesh _meshWithNormals;
+    private readonly List<float> _vertices;
+    private readonly List<float> _textureCoordinates = [];
+
+    // Few vertices share a position: each position has a linked list of them, from its first vertex on; −1 ends it.
+    private readonly int[] _firstVertexOfPosition;
+    private readonly List<(VertexKey Key, int Next)> _builtVertices;
+
+    private DrawableMeshBuilder(Mesh mesh, Vector origin, double creaseAngle, bool hasTextures)
+    {
+        _mesh = mesh;
+        _origin = origin;
+        _hasTextures = hasTextures;
+        var hasAllNormals = mesh.NormalIndices.Length > 0 && !mesh.NormalIndices.AsSpan().Contains(-1);
+        _meshWithNormals = hasAllNormals ? mesh : NormalGenerator.Generate(mesh, creaseAngle);
+        _vertices = new(mesh.VertexCount * DrawableModel.FloatsPerVertex);
+        _builtVertices = new(mesh.VertexCount);
+        _firstVertexOfPosition = new int[mesh.VertexCount];
+        Array.Fill(_firstVertexOfPosition, -1);
+    }
+
+    /// <summary>Builds the arrays of a mesh.</summary>
+    /// <param name="mesh">Mesh, whose own normals are used where it has them; others are generated.</param>
+    /// <param name="origin">Point of the mesh's frame that positions are written relative to.</param>
+    /// <param name="creaseAngle">Crease angle of generated normals, degrees.</param>
+    /// <param name="batches">Selection and order of the faces, and whether texture coordinates are needed.</param>
+    /// <returns>
+    /// Position and unit normal [vertices × 6], (u, v) [vertices × 2] or nothing, and vertex indices [triangles × 3].
+    /// </returns>
     public static (float[] Vertices, float[] TextureCoordinates, uint[] Indices) Build(
         Mesh mesh, Vector origin, double creaseAngle, FaceBatches batches)
     {
-        var fileNormalIndices = mesh.NormalIndices.Length == 0 ? [] : mesh.NormalIndices.AsSpan();
-        var meshWithNormals = fileNormalIndices.Length > 0 && !fileNormalIndices.Contains(-1)
-            ? mesh
-            : NormalGenerator.Generate(mesh, creaseAngle);
-        var vertices = new List<float>(mesh.VertexCount * DrawableModel.FloatsPerVertex);
-        var (textureCoordinates, hasTextures) = (new List<float>(), batches.HasTextures);
-        var indices = new uint[3 * batches.FaceCount];
-        var nextIndex = 0;
-        // The vertices made of one position are few: a list through this array, searched from its first.
-        var firstVertexOfPosition = new int[mesh.VertexCount];
-        Array.Fill(firstVertexOfPosition, -1);
-        var builtVertices = new List<((Vector Normal, (double U, double V) Texture) Key, int Next)>(mesh.VertexCount);
-        for (var drawIndex = 0; drawIndex < indices.Length / 3; drawIndex++)
+        var builder = new DrawableMeshBuilder(mesh, origin, creaseAngle, batches.HasTextures);
+        var faceCount = batches.FaceCount;
+        var indices = new uint[3 * faceCount];
+        for (var drawIndex = 0; drawIndex < faceCount; drawIndex++)
         {
-            var face = batches.FaceAt(drawIndex);
-            var (a, b, c) = mesh.Face(face);
-            var faceNormal = Vector.Cross(b - a, c - a);
-            for (var corner = 3 * face; corner < (3 * face) + 3; corner++)
-            {
-                var normal = fileNormalIndices.Length > 0 && fileNormalIndices[corner] >= 0
-                    ? OrientedNormal(mesh, fileNormalIndices[corner], faceNormal)
-                    : NormalAt(meshWithNormals, meshWithNormals.NormalIndices[corner]);
-                var texture = hasTextures ? TextureCoordinatesAt(mesh, corner) : default;
-                ref var first = ref firstVertexOfPosition[mesh.VertexIndices[corner]];
-                var vertex = FindVertex(builtVertices, first, (normal, texture));
-                if (vertex < 0)
-                {
-                    vertex = builtVertices.Count;
-                    builtVertices.Add(((normal, texture), first));
-                    first = vertex;
-                    Write(vertices, mesh.Vertex(mesh.VertexIndices[corner]) - origin);
-                    Write(vertices, normal);
-                    if (hasTextures)
-                    {
-                        textureCoordinates.Add((float)texture.U);
-                        textureCoordinates.Add((float)texture.V);
-                    }
-                }
+            builder.AddFace(batches.FaceAt(drawIndex), indices.AsSpan(3 * drawIndex, 3));
+        }
 
-                indices[nextIndex++] = (uint)vertex;
+        return ([.. builder._vertices], [.. builder._textureCoordinates], indices);
+    }
+
+    private void AddFace(int face, Span<uint> indices)
+    {
+        var (a, b, c) = _mesh.Face(face);
+        var faceNormal = Vector.Cross(b - a, c - a);
+        for (var i = 0; i < 3; i++)
+        {
+            var corner = (3 * face) + i;
+            var textureCoordinates = _hasTextures ? TextureCoordinatesAt(corner) : default;
+            indices[i] = (uint)FindOrAddVertex(_mesh.VertexIndices[corner], new(NormalAt(corner, faceNormal), textureCoordinates));
+        }
+    }
+
+    private int FindOrAddVertex(int position, VertexKey key)
+    {
+        ref var first = ref _firstVertexOfPosition[position];
+        for (var vertex = first; vertex >= 0; vertex = _builtVertices[vertex].Next)
+        {
+            if (_builtVertices[vertex].Key == key)
+            {
+                return vertex;
             }
         }
 
-        return ([.. vertices], [.. textureCoordinates], indices);
-    }
-
-    private static (double U, double V) TextureCoordinatesAt(Mesh mesh, int corner) =>
-        mesh.TextureIndices.Length > 0 && mesh.TextureIndices[corner] is >= 0 and var index
-            ? (mesh.TextureCoordinates[2 * index], mesh.TextureCoordinates[(2 * index) + 1])
-            : default;
-
-    private static int FindVertex(
-        List<((Vector Normal, (double U, double V) Texture) Key, int Next)> builtVertices, int first,
-        (Vector Normal, (double U, double V) Texture) key)
-    {
-        var vertex = first;
-        while (vertex >= 0 && builtVertices[vertex].Key != key)
+        _builtVertices.Add((key, first));
+        first = _builtVertices.Count - 1;
+        Write(_mesh.Vertex(position) - _origin);
+        Write(key.Normal);
+        if (_hasTextures)
         {
-            vertex = builtVertices[vertex].Next;
+            _textureCoordinates.Add((float)key.TextureCoordinates.U);
+            _textureCoordinates.Add((float)key.TextureCoordinates.V);
         }
 
-        return vertex;
+        return first;
     }
 
+    private (double U, double V) TextureCoordinatesAt(int corner) =>
+        _mesh.TextureIndices.Length > 0 && _mesh.TextureIndices[corner] is >= 0 and var index
+            ? (_mesh.TextureCoordinates[2 * index], _mesh.TextureCoordinates[(2 * index) + 1])
+            : default;
+
     /// <summary>
-    /// A normal of the file as a unit vector. Some files hold normals that oppose the winding; which side of a face is lit follows
-    /// the winding, so they are turned round.
+    /// Returns the unit normal of a corner. Some files have normals that oppose the winding. Since the winding decides which side of a face
+    /// is lit, these are negated.
     /// </summary>
-    private static Vector OrientedNormal(Mesh mesh, int index, Vector faceNormal)
+    private Vector NormalAt(int corner, Vector faceNormal)
     {
-        var normal = NormalAt(mesh, index);
+        if (_mesh.NormalIndices.Length == 0 || _mesh.NormalIndices[corner] < 0)
+        {
+            return UnitNormal(_meshWithNormals, _meshWithNormals.NormalIndices[corner]);
+        }
+
+        var normal = UnitNormal(_mesh, _mesh.NormalIndices[corner]);
         return Vector.Dot(normal, faceNormal) < 0 ? -normal : normal;
     }
 
-    private static Vector NormalAt(Mesh mesh, int index) => index < 0 ? Vector.Zero
-        : new Vector(mesh.Normals[3 * index], mesh.Normals[(3 * index) + 1], mesh.Normals[(3 * index) + 2]) switch
-        {
-            var normal when normal.IsFinite() && normal != Vector.Zero => normal.UnitVector(),
-            _ => Vector.Zero,
-        };
-
-    private static void Write(List<float> target, Vector v)
+    private static Vector UnitNormal(Mesh mesh, int index)
     {
-        target.Add((float)v.X);
-        target.Add((float)v.Y);
-        target.Add((float)v.Z);
+        if (index < 0)
+        {
+            return Vector.Zero;
+        }
+
+        var normal = new Vector(mesh.Normals[3 * index], mesh.Normals[(3 * index) + 1], mesh.Normals[(3 * index) + 2]);
+        return normal.IsFinite() && normal != Vector.Zero ? normal.UnitVector() : Vector.Zero;
     }
+
+    private void Write(Vector v)
+    {
+        _vertices.Add((float)v.X);
+        _vertices.Add((float)v.Y);
+        _vertices.Add((float)v.Z);
+    }
+
+    /// <summary>Attributes by which vertices of one position differ.</summary>
+    private readonly record struct VertexKey(Vector Normal, (double U, double V) TextureCoordinates);
 }

@@ -4,38 +4,43 @@ using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Render.Preparation;
 
-/// <summary>The faces of a model sorted by material: a batch for each, in the order in which the materials appear.</summary>
+/// <summary>The faces of a model sorted into one batch for each material, in the order in which the materials first occur.</summary>
 internal sealed class FaceBatches
 {
+    // Null where the order is that of the mesh.
     private readonly int[]? _faceOrder;
 
-    private FaceBatches(ImmutableArray<DrawableBatch> batches, int[]? faceOrder, int degenerateTriangleCount) =>
-        (Batches, _faceOrder, DegenerateTriangleCount) = (batches, faceOrder, degenerateTriangleCount);
+    private FaceBatches(ImmutableArray<DrawableBatch> batches, int[]? faceOrder, int degenerateTriangleCount)
+    {
+        Batches = batches;
+        _faceOrder = faceOrder;
+        DegenerateTriangleCount = degenerateTriangleCount;
+    }
 
-    /// <summary>How many faces are drawn.</summary>
+    /// <summary>Number of faces that are drawn.</summary>
     public int FaceCount => Batches.Sum(static batch => batch.IndexCount) / 3;
 
-    /// <summary>How many are not, since they have no area.</summary>
+    /// <summary>Number of faces that are not drawn since they have no area.</summary>
     public int DegenerateTriangleCount { get; }
 
-    /// <summary>One for each material; none is empty.</summary>
+    /// <summary>One batch for each material that occurs; none is empty.</summary>
     public ImmutableArray<DrawableBatch> Batches { get; }
 
-    /// <summary>Whether any face shows a picture.</summary>
+    /// <summary>True where any face has a texture.</summary>
     public bool HasTextures => Batches.Any(static batch => batch.Material is { Texture: not null });
 
-    /// <summary>The face that is drawn at a place.</summary>
-    /// <param name="drawIndex">From 0.</param>
+    /// <summary>Returns the index in the mesh of the face at a position in drawing order.</summary>
+    /// <param name="drawIndex">Position in drawing order, from 0.</param>
     public int FaceAt(int drawIndex) => _faceOrder is null ? drawIndex : _faceOrder[drawIndex];
 
-    /// <summary>All faces in one batch, without a material.</summary>
-    public static FaceBatches Of(Mesh mesh) => new([new(0, mesh.VertexIndices.Length, null)], null, 0);
+    /// <summary>Creates one batch of all faces, without a material.</summary>
+    public static FaceBatches SingleBatch(Mesh mesh) => new([new(0, mesh.VertexIndices.Length, null)], null, 0);
 
-    /// <summary>Sorts the faces; those of one material keep their order.</summary>
-    /// <param name="model">With its materials.</param>
-    /// <param name="textures">Has or decodes their pictures.</param>
-    /// <param name="removeDegenerate">Whether faces without area are left out.</param>
-    public static FaceBatches Of(Model model, TextureCache textures, bool removeDegenerate)
+    /// <summary>Sorts the faces of a model by material. Faces of one material keep their order.</summary>
+    /// <param name="model">Model with its mesh and materials.</param>
+    /// <param name="textures">Cache that decodes the textures.</param>
+    /// <param name="removeDegenerate">Whether faces without area are removed.</param>
+    public static FaceBatches ByMaterial(Model model, TextureCache textures, bool removeDegenerate)
     {
         var mesh = model.Mesh;
         bool[] isDegenerate = removeDegenerate
@@ -45,10 +50,11 @@ internal sealed class FaceBatches
         var hasMaterials = !model.Materials.IsEmpty && !mesh.Groups.IsEmpty;
         if (!hasMaterials && degenerateCount == 0)
         {
-            return Of(mesh);
+            return SingleBatch(mesh);
         }
 
         var (materials, materialOfFace) = hasMaterials ? AssignMaterials(model, textures, isDegenerate) : ([null], new int[mesh.FaceCount]);
+        // A counting sort: the first position of each material, then the faces in order.
         var starts = new int[materials.Count + 1];
         for (var face = 0; face < materialOfFace.Length; face++)
         {
@@ -90,13 +96,13 @@ internal sealed class FaceBatches
         return DegenerateTriangle.Test(a, b, c);
     }
 
-    /// <summary>The materials that occur, and for each face that is not empty the number of its own among them.</summary>
-    private static (List<DrawableMaterial?> Materials, int[] MaterialOfFace) AssignMaterials(Model model, TextureCache textures,
-        bool[] isDegenerate)
+    /// <summary>Returns the materials that occur, and for each face with area the index of its own among them.</summary>
+    private static (List<DrawableMaterial?> Materials, int[] MaterialOfFace) AssignMaterials(
+        Model model, TextureCache textures, bool[] isDegenerate)
     {
         var mesh = model.Mesh;
         var materials = new List<DrawableMaterial?>();
-        var materialIndices = new Dictionary<(string? Name, bool HasPicture), int>();
+        var materialIndices = new Dictionary<(string? Name, bool HasTexture), int>();
         var materialOfFace = new int[mesh.FaceCount];
         foreach (var group in mesh.Groups)
         {
@@ -108,11 +114,12 @@ internal sealed class FaceBatches
                     continue;
                 }
 
-                // A face without texture coordinates has no place in a picture.
+                // A face without texture coordinates is drawn without the texture.
                 var hasTexture = fileMaterial is { Texture: not null } && HasTextureCoordinates(mesh, face);
                 if (!materialIndices.TryGetValue((fileMaterial?.Name, hasTexture), out var materialIndex))
                 {
-                    materialIndices[(fileMaterial?.Name, hasTexture)] = materialIndex = materials.Count;
+                    materialIndex = materials.Count;
+                    materialIndices.Add((fileMaterial?.Name, hasTexture), materialIndex);
                     materials.Add(fileMaterial is null
                         ? null
                         : textures.GetMaterial(hasTexture ? fileMaterial : fileMaterial with { Texture = null }));

@@ -4,24 +4,24 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Render.Preparation;
 
-/// <summary>The instances of a fractal that a budget allows to draw, and what was left out.</summary>
-/// <param name="Maps">From the base mesh's frame to the fractal's; none twice.</param>
-/// <param name="Notice">A sentence for the user when the fractal is drawn at a smaller depth than it has; else null.</param>
+/// <summary>The instances of a fractal that a budget allows, with a notice about those that it does not.</summary>
+/// <param name="Maps">Maps from the base mesh's frame to the fractal's, each once.</param>
+/// <param name="Notice">A sentence for the user if the fractal is drawn at a smaller depth than its own; otherwise null.</param>
 internal sealed record FractalInstances(ImmutableArray<AffineMap> Maps, string? Notice)
 {
     /// <summary>Expands a fractal as deep as the settings allow.</summary>
-    /// <param name="name">The file's name, for the notice.</param>
-    /// <param name="fractal">Any fractal, infinite ones too.</param>
-    /// <param name="settings">Instance and triangle budget.</param>
+    /// <param name="name">Name of the file, for the notice.</param>
+    /// <param name="fractal">Fractal of any depth, also infinite.</param>
+    /// <param name="settings">Settings with the instance and triangle budgets.</param>
     public static FractalInstances Expand(string name, Fractal fractal, RenderSettings settings)
     {
-        var faces = fractal.BaseMesh.FaceCount;
-        if (faces == 0)
+        var faceCount = fractal.BaseMesh.FaceCount;
+        if (faceCount == 0)
         {
             return new([], null);
         }
 
-        var budget = Math.Clamp(settings.TriangleBudget / faces, 1, Math.Max(1, settings.InstanceBudget));
+        var budget = Math.Clamp(settings.TriangleBudget / faceCount, 1, Math.Max(1, settings.InstanceBudget));
         if (TryExpandComponentwise(fractal, budget) is { } componentwiseMaps)
         {
             return new(componentwiseMaps, null);
@@ -34,8 +34,8 @@ internal sealed record FractalInstances(ImmutableArray<AffineMap> Maps, string? 
     }
 
     /// <summary>
-    /// Componentwise sums are far fewer than the chains that <see cref="Fractal.WithMaxInstances"/> counts, so the whole fractal is tried
-    /// first.
+    /// Expands a whole fractal of componentwise sums; null for others and where there are too many. The sums are far fewer than the chains
+    /// that <see cref="Fractal.WithMaxInstances"/> counts.
     /// </summary>
     private static ImmutableArray<AffineMap>? TryExpandComponentwise(Fractal fractal, long budget)
     {
@@ -50,25 +50,30 @@ internal sealed record FractalInstances(ImmutableArray<AffineMap> Maps, string? 
         }
         catch (FractalLimitException)
         {
-            // The limit is the answer: the caller draws less and says so.
+            // Exceeding the budget is a normal result: the caller then draws a smaller depth, with a notice.
             return null;
         }
     }
 
-    private static string FormatNotice(string name, Fractal fractal, Fractal truncated, long budget) =>
-        $"{name}: {DecimalText.FormatApproximately(fractal.InstanceCount)} instances are more than the budget of {DecimalText.FormatApproximately(budget)}: drawn at {FormatDepth(fractal, truncated)}";
+    private static string FormatNotice(string name, Fractal fractal, Fractal truncated, long budget)
+    {
+        var instances = DecimalText.FormatApproximately(fractal.InstanceCount);
+        var limit = DecimalText.FormatApproximately(budget);
+        return $"{name}: {instances} instances are more than the budget of {limit}: drawn at {FormatDepth(fractal, truncated)}";
+    }
 
-    /// <summary>In rounds where one repetition was cut short, else in levels.</summary>
+    /// <summary>Describes the drawn depth: in rounds where exactly one repetition was truncated, otherwise in levels.</summary>
     private static string FormatDepth(Fractal fractal, Fractal truncated)
     {
-        var (fullSteps, truncatedSteps) = (fractal.Description.Steps, truncated.Description.Steps);
+        var fullSteps = fractal.Description.Steps;
+        var truncatedSteps = truncated.Description.Steps;
         if (fullSteps.Length == truncatedSteps.Length)
         {
-            var changedSteps = Enumerable.Range(0, fullSteps.Length).Where(i => !ReferenceEquals(fullSteps[i], truncatedSteps[i]))
-                .ToArray();
-            if (changedSteps is [var changedStep]
-                && (fullSteps[changedStep], truncatedSteps[changedStep]) is (Repetition { Count: var fullCount },
-                Repetition { Count: var truncatedCount }))
+            int[] changedSteps =
+                [.. Enumerable.Range(0, fullSteps.Length).Where(i => !ReferenceEquals(fullSteps[i], truncatedSteps[i]))];
+            if (changedSteps is [var step]
+                && fullSteps[step] is Repetition { Count: var fullCount }
+                && truncatedSteps[step] is Repetition { Count: var truncatedCount })
             {
                 return $"depth {DecimalText.FormatApproximately(truncatedCount)} of {DecimalText.FormatApproximately(fullCount)}";
             }

@@ -2,11 +2,11 @@ using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Render.Preparation;
 
-/// <summary>The colours of objects whose scene names none: of similar lightness, told apart by hue.</summary>
+/// <summary>Default colours of objects, of similar lightness and different hue.</summary>
 public static class ObjectPalette
 {
-    /// <summary>The colour of an object.</summary>
-    /// <param name="index">Its place in the scene, from 0; the colours repeat after eight.</param>
+    /// <summary>Returns the default colour of an object.</summary>
+    /// <param name="index">Index of the object in the scene, from 0. The colours repeat after eight.</param>
     public static Colour ColourOf(int index) => (index & 7) switch
     {
         0 => new(0.91, 0.79, 0.60), // sand

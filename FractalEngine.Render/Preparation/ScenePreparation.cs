@@ -4,9 +4,8 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Render.Preparation;
 
 /// <summary>
-/// Prepares the models of a scene: all at once, or each when one of its objects is first in sight. Until then a box stands for it, and
-/// neither its normals are generated nor its pictures decoded, and nothing of it is on the GPU. Each file is prepared once, however many
-/// objects show it.
+/// Prepares the models of a scene: all at once, or each when one of its objects first comes into view. Until then a placeholder box is
+/// shown, no normals are generated and no textures decoded. Each file is prepared once, however many objects show it.
 /// </summary>
 public sealed class ScenePreparation
 {
@@ -17,41 +16,46 @@ public sealed class ScenePreparation
     private readonly Model[] _models;
     private readonly DrawableModel?[] _prepared;
 
-    /// <summary>With nothing prepared yet.</summary>
-    /// <param name="scene">With its files loaded.</param>
-    /// <param name="settings">Budgets and crease angle.</param>
+    /// <summary>Creates the scene with placeholders for all models.</summary>
+    /// <param name="scene">Scene with its files loaded.</param>
+    /// <param name="settings">Settings with the budgets and the crease angle.</param>
     public ScenePreparation(LoadedScene scene, RenderSettings settings)
     {
-        (_scene, _settings, _models) = (scene, settings, [.. scene.Models]);
-        (_textures, _prepared, Scene) = (new(_notices, settings.ShareTextures), new DrawableModel?[_models.Length],
-            DrawableScene.CreateWithPlaceholders(scene));
+        _scene = scene;
+        _settings = settings;
+        _models = [.. scene.Models];
+        _textures = new(_notices, settings.ShareTextures);
+        _prepared = new DrawableModel?[_models.Length];
+        Scene = DrawableScene.CreateWithPlaceholders(scene);
     }
 
-    /// <summary>As far as it is prepared.</summary>
+    /// <summary>Scene as far as it is prepared.</summary>
     public DrawableScene Scene { get; private set; }
 
-    /// <summary>True when nothing is left to prepare.</summary>
+    /// <summary>True once all models are prepared.</summary>
     public bool IsComplete => Array.TrueForAll(_prepared, static model => model is not null);
 
-    /// <summary>Prepares all models that are not yet.</summary>
-    /// <param name="progress">Told of each model before and after it is prepared, on this thread.</param>
-    /// <param name="cancellation">Looked at between models.</param>
+    /// <summary>Prepares all models that are not prepared yet.</summary>
+    /// <param name="progress">Receives a report before and after each model, on this thread; null for none.</param>
+    /// <param name="cancellation">Cancels between two models.</param>
     /// <exception cref="OperationCanceledException">Preparation was cancelled.</exception>
     public void PrepareAll(IProgress<PreparationProgress>? progress, CancellationToken cancellation) =>
         Prepare(static _ => true, progress, cancellation);
 
-    /// <summary>Prepares the models of objects that are in sight and not prepared yet.</summary>
+    /// <summary>Prepares the models of visible objects that are not prepared yet.</summary>
     /// <param name="view">Camera and projection.</param>
-    /// <param name="aspect">Width divided by height of the picture.</param>
-    /// <param name="progress">Told of each model before and after it is prepared, on this thread.</param>
-    /// <param name="cancellation">Looked at between models.</param>
+    /// <param name="aspect">Width divided by height of the frame.</param>
+    /// <param name="progress">Receives a report before and after each model, on this thread; null for none.</param>
+    /// <param name="cancellation">Cancels between two models.</param>
+    /// <returns>True when any model was prepared.</returns>
     /// <exception cref="OperationCanceledException">Preparation was cancelled.</exception>
-    /// <returns>True when there was any.</returns>
-    public bool PrepareVisible(View view, double aspect, IProgress<PreparationProgress>? progress = null,
-        CancellationToken cancellation = default) =>
+    public bool PrepareVisible(
+        View view, double aspect, IProgress<PreparationProgress>? progress = null, CancellationToken cancellation = default) =>
         Prepare(model => IsVisible(model, view, aspect), progress, cancellation);
 
-    /// <summary>True when an object is in sight whose model is not prepared yet.</summary>
+    /// <summary>Returns true when the model of a visible object is not prepared yet.</summary>
+    /// <param name="view">Camera and projection.</param>
+    /// <param name="aspect">Width divided by height of the frame.</param>
     public bool HasUnpreparedVisibleModels(View view, double aspect)
     {
         for (var i = 0; i < _models.Length; i++)
@@ -88,8 +92,9 @@ public sealed class ScenePreparation
             var name = _models[index].Name;
             progress?.Report(new(name, (double)completed / selectedIndices.Length));
             var placeholder = Scene.Models[index];
-            var prepared = DrawableScene.PrepareModel(_models[index], _settings, _textures, _notices);
-            (_prepared[index], Scene) = (prepared, Scene.WithModel(placeholder, prepared, [.. _textures.Textures], _notices.ToImmutable()));
+            var prepared = ModelPreparation.Prepare(_models[index], _settings, _textures, _notices);
+            _prepared[index] = prepared;
+            Scene = Scene.WithModel(placeholder, prepared, [.. _textures.Textures], _notices.ToImmutable());
             progress?.Report(new(name, (completed + 1.0) / selectedIndices.Length));
         }
 

@@ -1,5 +1,5 @@
-// The lights of a scene, and what of them arrives at a place.
-const int maximumLights = 16;
+// The lights of a scene, and the light that reaches a point of a surface.
+const int maxLights = 16; // LightBlock.MaxLights
 
 struct Light
 {
@@ -14,17 +14,17 @@ layout(std140) uniform LightBlock
     vec4 skyColour;      // ambient light from above
     vec4 groundColour;   // ambient light from below
     ivec4 lightCount;
-    Light lights[maximumLights];
+    Light lights[maxLights];
 };
 
-// A normal may be tiny: its square could underflow. Zero stays zero, never NaN.
+// The unit vector of a vector so short that its square could underflow. Zero stays zero, never NaN.
 vec3 direction(vec3 v)
 {
-    float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
-    return largest > 0.0 ? normalize(v / largest) : vec3(0.0);
+    float maxAbsComponent = max(abs(v.x), max(abs(v.y), abs(v.z)));
+    return maxAbsComponent > 0.0 ? normalize(v / maxAbsComponent) : vec3(0.0);
 }
 
-// How much of a light with a place arrives: as the square of the distance, 1 at a tenth of the range, 0 from the range on.
+// Attenuation of a light with a position: as the inverse square of the distance, 1 at a tenth of the range, 0 from the range on.
 float falloff(float distance, float range)
 {
     float d = max(distance / range, 1e-4);
@@ -32,14 +32,14 @@ float falloff(float distance, float range)
     return 0.01 / (d * d) * window * window / (0.9999 * 0.9999);
 }
 
-// The light that arrives at a place, on a surface square to it, and the direction that it comes from.
-vec3 arriving(Light light, vec3 place, out vec3 toLight)
+// The light that reaches a surface point which faces the light, and the direction towards the light.
+vec3 incomingLight(Light light, vec3 surfacePosition, out vec3 toLight)
 {
     toLight = light.position.xyz;
     float strength = 1.0;
     if (light.colour.w > 0.5)
     {
-        vec3 difference = toLight - place;
+        vec3 difference = toLight - surfacePosition;
         float distance = length(difference);
         toLight = difference / max(distance, 1e-30);
         strength = falloff(distance, light.position.w);
@@ -59,8 +59,8 @@ float highlight(vec3 n, vec3 toLight, vec3 toEye, float exponent)
     return pow(max(dot(n, direction(toLight + toEye)), 0.0), exponent);
 }
 
-// From a place towards the eye. The view is orthographic where depth does not divide.
-vec3 towardsEye(vec3 place, vec3 forward, vec4 depthScale)
+// The direction from a surface point towards the eye. The projection is orthographic where w does not depend on depth.
+vec3 towardsEye(vec3 surfacePosition, vec3 forward, vec4 depthScale)
 {
-    return depthScale.z != 0.0 ? direction(-place) : -forward;
+    return depthScale.z != 0.0 ? direction(-surfacePosition) : -forward;
 }

@@ -1,6 +1,6 @@
-// What a surface looks like.
+// The material of a surface.
 uniform vec4 material[4];
-// 0: colour, linear light; opacity
-// 1: how much of a light the highlight returns; exponent
-// 2: how much of the ambient light acts; 1 where the material's colour counts, 0 where the object's own does
+// 0: diffuse colour, linear light; opacity
+// 1: specular colour; exponent
+// 2: how much of the ambient light is reflected; 1 to use the material's diffuse colour, 0 to use the object's own
 // 3: scale and offset of texture coordinates

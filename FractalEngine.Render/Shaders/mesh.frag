@@ -1,6 +1,6 @@
 #version 330 core
-// The colour of the side that is seen. A front face is wound clockwise on the screen: the world is left-handed.
-// PER_PIXEL, TEXTURED, GLOSSY and FRONT_ONLY are defined where they apply.
+// The colour of the visible face. Front faces are wound clockwise on the screen, since the world is left-handed.
+// PER_PIXEL, TEXTURED, GLOSSY and FRONT_FACES_ONLY are defined where they apply.
 
 #include "material.glsl"
 #ifdef PER_PIXEL
@@ -9,7 +9,7 @@
 uniform vec3 cameraAxes[3]; // right, up and forward: the rows of the inverse axes
 uniform vec4 depthScale;    // z = x*depth + y, w = z*depth + w
 
-in vec3 pixelPlace;
+in vec3 pixelPosition;
 in vec3 pixelNormal;
 in vec3 pixelColour;
 #else
@@ -17,7 +17,7 @@ in vec3 frontColour;
 #ifdef GLOSSY
 in vec3 frontHighlight;
 #endif
-#ifndef FRONT_ONLY
+#ifndef FRONT_FACES_ONLY
 in vec3 backColour;
 #ifdef GLOSSY
 in vec3 backHighlight;
@@ -25,9 +25,9 @@ in vec3 backHighlight;
 #endif
 #endif
 #ifdef TEXTURED
-in vec2 picturePosition;
+in vec2 pixelTextureCoordinates;
 
-uniform sampler2D picture;
+uniform sampler2D surfaceTexture;
 #endif
 
 out vec4 fragment;          // multiplied by its opacity
@@ -41,18 +41,18 @@ void main()
     for (int i = 0; i < lightCount.x; i++)
     {
         vec3 toLight;
-        vec3 arrived = arriving(lights[i], pixelPlace, toLight);
+        vec3 incoming = incomingLight(lights[i], pixelPosition, toLight);
         float cosine = dot(n, toLight);
-        light += max(cosine, 0.0) * arrived;
+        light += max(cosine, 0.0) * incoming;
 #ifdef GLOSSY
-        vec3 toEye = towardsEye(pixelPlace, cameraAxes[2], depthScale);
-        highlights += max(sign(cosine), 0.0) * highlight(n, toLight, toEye, material[1].w) * arrived * material[1].rgb;
+        vec3 toEye = towardsEye(pixelPosition, cameraAxes[2], depthScale);
+        highlights += max(sign(cosine), 0.0) * highlight(n, toLight, toEye, material[1].w) * incoming * material[1].rgb;
 #endif
     }
 
     vec3 colour = pixelColour * light;
 #else
-#ifdef FRONT_ONLY
+#ifdef FRONT_FACES_ONLY
     vec3 colour = frontColour;
 #ifdef GLOSSY
     highlights = frontHighlight;
@@ -67,8 +67,8 @@ void main()
 
     float opacity = material[0].w;
 #ifdef TEXTURED
-    // A hole in the picture is a hole in the surface, its highlight included; clear glass has one all the same.
-    vec4 texel = texture(picture, picturePosition);
+    // A hole in the texture is a hole in the surface and has no highlight. Clear glass, by its opacity, keeps its highlight.
+    vec4 texel = texture(surfaceTexture, pixelTextureCoordinates);
     colour *= texel.rgb;
     opacity *= texel.a;
     highlights *= texel.a;

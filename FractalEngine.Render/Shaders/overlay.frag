@@ -4,10 +4,10 @@
 flat in vec4 colour;
 flat in vec2 glyphAndRadius;
 flat in vec2 size;
-in vec2 place;
+in vec2 localPosition;
 
 uniform sampler2D glyphs; // cells of the font, columns side by side
-uniform ivec2 cell;       // pixels
+uniform ivec2 cellSize;   // pixels
 uniform int columns;
 
 out vec4 fragment;
@@ -18,14 +18,15 @@ void main()
     if (glyphAndRadius.x >= 0.0)
     {
         int glyph = int(glyphAndRadius.x + 0.5);
-        ivec2 corner = ivec2(glyph % columns, glyph / columns) * cell;
-        coverage = texelFetch(glyphs, corner + clamp(ivec2(place), ivec2(0), cell - 1), 0).r;
+        ivec2 corner = ivec2(glyph % columns, glyph / columns) * cellSize;
+        coverage = texelFetch(glyphs, corner + clamp(ivec2(localPosition), ivec2(0), cellSize - 1), 0).r;
     }
     else
     {
+        // How far outside the rectangle that the corners' centres span.
         float radius = glyphAndRadius.y;
-        vec2 beyond = max(abs(place - 0.5 * size) - 0.5 * size + radius, 0.0);
-        coverage = clamp(radius + 0.5 - length(beyond), 0.0, 1.0);
+        vec2 outside = max(abs(localPosition - 0.5 * size) - 0.5 * size + radius, 0.0);
+        coverage = clamp(radius + 0.5 - length(outside), 0.0, 1.0);
     }
 
     fragment = vec4(colour.rgb, colour.a * coverage);

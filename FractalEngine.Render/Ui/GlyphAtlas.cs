@@ -3,17 +3,22 @@ using FractalEngine.Render.Gl;
 
 namespace FractalEngine.Render.Ui;
 
-/// <summary>The glyphs of a monospaced font, baked at several sizes. The file's layout is told in eng/bake-glyphs.py.</summary>
+/// <summary>The glyphs of a monospaced font, baked at several sizes. The file format is described in eng/bake-glyphs.py.</summary>
 internal sealed class GlyphAtlas
 {
+    // Sorted; the index of a character is that of its glyph.
     private readonly char[] _characters;
 
-    private GlyphAtlas(char[] characters, GlyphSheet[] sheets) => (_characters, Sheets) = (characters, sheets);
+    private GlyphAtlas(char[] characters, GlyphSheet[] sheets)
+    {
+        _characters = characters;
+        Sheets = sheets;
+    }
 
-    /// <summary>One for each size, smallest first.</summary>
+    /// <summary>Sheets of all glyphs at each size, the smallest first.</summary>
     public IReadOnlyList<GlyphSheet> Sheets { get; }
 
-    /// <summary>Reads the atlas that is part of the assembly.</summary>
+    /// <summary>Reads the atlas that is embedded in the assembly.</summary>
     /// <exception cref="InvalidDataException">The file is not such an atlas.</exception>
     public static GlyphAtlas Load()
     {
@@ -35,15 +40,19 @@ internal sealed class GlyphAtlas
         var sheets = new GlyphSheet[reader.ReadUInt16()];
         for (var i = 0; i < sheets.Length; i++)
         {
-            var (width, height, baseline) = (reader.ReadUInt16(), reader.ReadUInt16(), reader.ReadUInt16());
+            var width = reader.ReadUInt16();
+            var height = reader.ReadUInt16();
+            var baseline = reader.ReadUInt16();
             sheets[i] = new(width, height, baseline, reader.ReadBytes(characters.Length * width * height));
         }
 
         return new(characters, sheets);
     }
 
-    /// <summary>The number of a character's glyph; that of the question mark where the font here has none.</summary>
-    public int GlyphOf(char character) => Array.BinarySearch(_characters, character) is >= 0 and var found
-        ? found
-        : Array.BinarySearch(_characters, '?');
+    /// <summary>Returns the index of a character's glyph; that of the question mark for a character without one.</summary>
+    public int GlyphOf(char character)
+    {
+        var index = Array.BinarySearch(_characters, character);
+        return index >= 0 ? index : Array.BinarySearch(_characters, '?');
+    }
 }

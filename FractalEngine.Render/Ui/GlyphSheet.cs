@@ -1,22 +1,24 @@
 namespace FractalEngine.Render.Ui;
 
-/// <summary>All glyphs at one size, each in a cell of the same width and height.</summary>
-/// <param name="CellWidth">Pixels; also the advance.</param>
-/// <param name="CellHeight">Pixels; also the line height.</param>
-/// <param name="Baseline">Pixels from the cell's top.</param>
-/// <param name="Coverage">One cell under the other, [glyphs × height × width].</param>
+/// <summary>All glyphs of a font at one size, in cells of the same width and height.</summary>
+/// <param name="CellWidth">Width of a cell in pixels, which is also the advance.</param>
+/// <param name="CellHeight">Height of a cell in pixels, which is also the line height.</param>
+/// <param name="Baseline">Pixels from the top of a cell to the baseline.</param>
+/// <param name="Coverage">Opacity of each pixel, cell after cell, [glyphs × height × width].</param>
 internal sealed record GlyphSheet(int CellWidth, int CellHeight, int Baseline, byte[] Coverage)
 {
-    /// <summary>Cells side by side in <see cref="ToTexels"/>.</summary>
+    /// <summary>Number of cells side by side in <see cref="ToTexels"/>.</summary>
     public const int Columns = 16;
 
-    /// <summary>Rows of cells in <see cref="ToTexels"/>.</summary>
+    /// <summary>Number of rows of cells in <see cref="ToTexels"/>.</summary>
     public int Rows => ((Coverage.Length / (CellWidth * CellHeight)) + Columns - 1) / Columns;
 
-    /// <summary>The cells in rows of <see cref="Columns"/>, as a texture that no driver finds too tall.</summary>
+    /// <summary>Arranges the cells in rows of <see cref="Columns"/>, so that no driver finds the texture too tall.</summary>
+    /// <returns>One byte a texel, [rows × cell height × columns × cell width].</returns>
     public byte[] ToTexels()
     {
-        var (stride, cellSize) = (Columns * CellWidth, CellWidth * CellHeight);
+        var stride = Columns * CellWidth;
+        var cellSize = CellWidth * CellHeight;
         var texels = new byte[stride * Rows * CellHeight];
         for (var glyph = 0; glyph < Coverage.Length / cellSize; glyph++)
         {

@@ -1,23 +1,23 @@
 namespace FractalEngine.Render.Ui;
 
-/// <summary>Where in the picture a panel stands. Panels with the same anchor are stacked.</summary>
+/// <summary>Positions of panels in a frame. Panels with the same anchor are stacked.</summary>
 public enum OverlayAnchor
 {
-    /// <summary>In the upper left corner.</summary>
+    /// <summary>The upper left corner of the frame.</summary>
     TopLeft,
 
-    /// <summary>In the upper right corner.</summary>
+    /// <summary>The upper right corner of the frame.</summary>
     TopRight,
 
-    /// <summary>In the lower left corner.</summary>
+    /// <summary>The lower left corner of the frame.</summary>
     BottomLeft,
 
-    /// <summary>In the lower right corner.</summary>
+    /// <summary>The lower right corner of the frame.</summary>
     BottomRight,
 
-    /// <summary>In the middle of the lower edge.</summary>
+    /// <summary>The middle of the lower edge.</summary>
     Bottom,
 
-    /// <summary>In the middle.</summary>
+    /// <summary>The centre of the frame.</summary>
     Centre,
 }

@@ -1,9 +1,9 @@
 namespace FractalEngine.Render.Ui;
 
-/// <summary>Turns panels into rectangles in whole pixels: font size, wrapping, columns, stacking.</summary>
+/// <summary>Lays panels out as rectangles in whole pixels: font size, wrapping, columns and stacking.</summary>
 internal sealed class OverlayLayout
 {
-    // At 720 rows of pixels the text is 16 pixels high; it grows with the picture.
+    // Lines of text that fit a frame: in 720 rows of pixels the text is 16 pixels high, and it grows with the frame.
     private const double TextRows = 45;
     private const double TextColumns = 78;
 
@@ -15,13 +15,17 @@ internal sealed class OverlayLayout
     private readonly (int Width, int Height) _frameSize;
     private readonly Dictionary<OverlayAnchor, int> _stackedHeights = [];
 
-    private OverlayLayout(GlyphAtlas atlas, int sheet, int width, int height) =>
-        (_atlas, SheetIndex, _frameSize) = (atlas, sheet, (width, height));
+    private OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width, int height)
+    {
+        _atlas = atlas;
+        SheetIndex = sheetIndex;
+        _frameSize = (width, height);
+    }
 
-    /// <summary>The number of the sheet that the glyphs are taken from.</summary>
+    /// <summary>Index of the sheet that the glyphs are taken from.</summary>
     public int SheetIndex { get; }
 
-    /// <summary>In drawing order.</summary>
+    /// <summary>Rectangles in drawing order.</summary>
     public List<OverlayQuad> Quads { get; } = [];
 
     private GlyphSheet Sheet => _atlas.Sheets[SheetIndex];
@@ -30,12 +34,12 @@ internal sealed class OverlayLayout
 
     private int Padding => Sheet.CellWidth;
 
-    /// <summary>Lays panels out.</summary>
-    /// <param name="atlas">The font.</param>
-    /// <param name="panels">In the order in which they stack: away from their corner.</param>
-    /// <param name="width">Of the picture, pixels.</param>
-    /// <param name="height">Of the picture, pixels.</param>
-    public static OverlayLayout Of(GlyphAtlas atlas, IReadOnlyList<OverlayPanel> panels, int width, int height)
+    /// <summary>Lays panels out at the preferred font size, or at a smaller one where they do not fit.</summary>
+    /// <param name="atlas">Glyphs of the font.</param>
+    /// <param name="panels">Panels in the order in which they are stacked, away from their anchor.</param>
+    /// <param name="width">Width of the frame in pixels.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
+    public static OverlayLayout Create(GlyphAtlas atlas, IReadOnlyList<OverlayPanel> panels, int width, int height)
     {
         for (var sheet = PreferredSheet(atlas, width, height); ; sheet--)
         {
@@ -46,7 +50,7 @@ internal sealed class OverlayLayout
                 fits &= layout.AddPanel(panel);
             }
 
-            // What does not fit at the smallest size either is cut off by the picture's edge.
+            // A panel that does not even fit at the smallest size is cut off by the edge of the frame.
             if (fits || sheet == 0)
             {
                 return layout;
@@ -77,7 +81,8 @@ internal sealed class OverlayLayout
         _ => (0.93f, 0.94f, 0.96f, 1),
     };
 
-    /// <returns>False when the panel is larger than the picture.</returns>
+    /// <summary>Adds the rectangles of a panel.</summary>
+    /// <returns>False when the panel does not fit the frame.</returns>
     private bool AddPanel(OverlayPanel panel)
     {
         var (cellWidth, lineHeight) = (Sheet.CellWidth, Sheet.CellHeight);
@@ -92,7 +97,8 @@ internal sealed class OverlayLayout
 
         var (x, y) = AllocatePosition(panel.Anchor, width, height);
         Quads.Add(new(x, y, width, height, PanelColour, -1, 0.4f * lineHeight));
-        var (left, top) = (x + Padding, y + (Padding * 3 / 4));
+        var left = x + Padding;
+        var top = y + (Padding * 3 / 4);
         if (panel.Title is not null)
         {
             AddText(panel.Title, left, top, OverlayTone.Accent);
@@ -124,7 +130,7 @@ internal sealed class OverlayLayout
         }
     }
 
-    /// <summary>The upper left corner of the next panel at an anchor.</summary>
+    /// <summary>Returns the upper left corner of the next panel at an anchor, and reserves its place in the stack.</summary>
     private (int X, int Y) AllocatePosition(OverlayAnchor anchor, int width, int height)
     {
         var stackedHeight = _stackedHeights.GetValueOrDefault(anchor, Margin);
@@ -144,7 +150,7 @@ internal sealed class OverlayLayout
         return (x, y);
     }
 
-    /// <summary>Breaks lines of one column at blanks so that they fit the picture; a longer word is broken anywhere.</summary>
+    /// <summary>Breaks lines of one column at blanks so that they fit the frame. A word that is too long is broken anywhere.</summary>
     private List<OverlayLine> Wrap(IReadOnlyList<OverlayLine> lines)
     {
         var columns = Math.Max(8, (_frameSize.Width - (2 * Margin) - (2 * Padding)) / Sheet.CellWidth);

@@ -2,28 +2,28 @@ using System.Collections.Immutable;
 
 namespace FractalEngine.Render.Ui;
 
-/// <summary>Text on a translucent panel over the picture.</summary>
-/// <param name="Anchor">Where it stands.</param>
-/// <param name="Lines">From the top.</param>
+/// <summary>Text on a translucent panel over a frame.</summary>
+/// <param name="Anchor">Position of the panel in the frame.</param>
+/// <param name="Lines">Lines from the top.</param>
 public sealed record OverlayPanel(OverlayAnchor Anchor, ImmutableArray<OverlayLine> Lines)
 {
-    /// <summary>A heading above the lines, or null.</summary>
+    /// <summary>Heading above the lines; null for none.</summary>
     public string? Title { get; init; }
 
-    /// <summary>How far something has come, from 0 to 1: a bar below the lines. Null for none.</summary>
+    /// <summary>Completed fraction from 0 to 1, shown as a bar below the lines; null for no bar.</summary>
     public double? Progress { get; init; }
 
-    /// <summary>A panel of plain lines.</summary>
+    /// <summary>Creates a panel of plain lines.</summary>
     public static OverlayPanel OfText(OverlayAnchor anchor, params ReadOnlySpan<string> lines) =>
         new(anchor, [.. lines.ToArray().Select(line => new OverlayLine(line))]);
 
-    /// <summary>A panel of rows with two columns, such as keys and what they do.</summary>
+    /// <summary>Creates a panel of rows with two columns, such as keys and their effects.</summary>
     public static OverlayPanel OfTable(OverlayAnchor anchor, string title, IEnumerable<(string First, string Second)> rows) =>
         new(anchor, [.. rows.Select(row => new OverlayLine(row.First, row.Second))]) { Title = title };
 
-    /// <summary>A panel with a label and a bar, in the middle.</summary>
-    /// <param name="label">What is going on.</param>
-    /// <param name="fraction">From 0 to 1.</param>
+    /// <summary>Creates a panel with a label and a progress bar in the centre.</summary>
+    /// <param name="label">Description of the work in progress.</param>
+    /// <param name="fraction">Completed fraction, from 0 to 1.</param>
     public static OverlayPanel OfProgress(string label, double fraction) =>
         new(OverlayAnchor.Centre, [new OverlayLine(label)]) { Progress = fraction };
 

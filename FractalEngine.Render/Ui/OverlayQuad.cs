@@ -3,19 +3,19 @@ using System.Runtime.InteropServices;
 namespace FractalEngine.Render.Ui;
 
 /// <summary>
-/// A rectangle of the overlay: a glyph, or a plain one with round corners. The layout is that of overlay.vert's attributes.
+/// A rectangle of the overlay: a glyph, or a plain one with round corners. Its layout is that of the attributes in overlay.vert.
 /// </summary>
-/// <param name="X">Pixels from the left.</param>
-/// <param name="Y">Pixels from the top.</param>
-/// <param name="Width">Pixels.</param>
-/// <param name="Height">Pixels.</param>
-/// <param name="Colour">sRGB and opacity.</param>
-/// <param name="Glyph">The glyph's number, or −1 for a plain rectangle.</param>
-/// <param name="CornerRadius">Of the corners of a plain rectangle, pixels.</param>
+/// <param name="X">Left edge, pixels from the left of the frame.</param>
+/// <param name="Y">Top edge, pixels from the top of the frame.</param>
+/// <param name="Width">Width in pixels.</param>
+/// <param name="Height">Height in pixels.</param>
+/// <param name="Colour">Colour in sRGB, and opacity.</param>
+/// <param name="Glyph">Index of the glyph; −1 for a plain rectangle.</param>
+/// <param name="CornerRadius">Radius of a plain rectangle's corners, pixels.</param>
 [StructLayout(LayoutKind.Sequential)]
 internal readonly record struct OverlayQuad(
     float X, float Y, float Width, float Height, (float Red, float Green, float Blue, float Alpha) Colour, float Glyph, float CornerRadius)
 {
-    /// <summary>Floats of one quad.</summary>
+    /// <summary>Number of floats of one quad.</summary>
     public const int FloatsPerQuad = 10;
 }

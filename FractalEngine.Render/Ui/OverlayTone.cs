@@ -1,17 +1,17 @@
 namespace FractalEngine.Render.Ui;
 
-/// <summary>What a text is, which decides its colour.</summary>
+/// <summary>Importance of a text, which decides its colour.</summary>
 public enum OverlayTone
 {
-    /// <summary>What there is to say.</summary>
+    /// <summary>Ordinary text of a panel.</summary>
     Normal,
 
-    /// <summary>Less important.</summary>
+    /// <summary>Text of less importance.</summary>
     Dim,
 
-    /// <summary>Headings and keys.</summary>
+    /// <summary>Headings, and keys in a table.</summary>
     Accent,
 
-    /// <summary>Something that the user should notice.</summary>
+    /// <summary>Text that the user should notice.</summary>
     Warning,
 }

@@ -2,25 +2,29 @@ using OpenTK.Windowing.GraphicsLibraryFramework;
 
 namespace FractalEngine.Render.Windowing;
 
-/// <summary>From GLFW's keys to ours.</summary>
+/// <summary>Translates GLFW's keys and modifiers.</summary>
 internal static class GlfwKeys
 {
     /// <summary>
-    /// By what the key's cap says where that is a character of ours, so that other layouts than the American one work; else by
-    /// the key's place, after which GLFW names keys.
+    /// Translates a key by the character on its cap where that has a name in <see cref="Key"/>, otherwise by its position, after which GLFW
+    /// names keys.
     /// </summary>
-    public static Key KeyOf(Keys key, int scanCode) =>
-        key is > Keys.Unknown and < Keys.Escape && GLFW.GetKeyName(key, scanCode) is [var character]
-            ? KeyOf(character) is var named and not Key.Unknown ? named : KeyOfScanCode(key)
-            : KeyOfScanCode(key);
+    public static Key KeyOf(Keys key, int scanCode)
+    {
+        var isCharacterKey = key is > Keys.Unknown and < Keys.Escape;
+        var named = isCharacterKey && GLFW.GetKeyName(key, scanCode) is [var character]
+            ? KeyCharacters.KeyOf(char.ToLowerInvariant(character))
+            : Key.Unknown;
+        return named != Key.Unknown ? named : KeyAtPosition(key);
+    }
 
-    /// <summary>GLFW's modifiers as ours.</summary>
+    /// <summary>Translates a set of modifier keys.</summary>
     public static KeyModifiers ModifiersOf(OpenTK.Windowing.GraphicsLibraryFramework.KeyModifiers modifiers) =>
         (modifiers.HasFlag(OpenTK.Windowing.GraphicsLibraryFramework.KeyModifiers.Shift) ? KeyModifiers.Shift : 0)
         | (modifiers.HasFlag(OpenTK.Windowing.GraphicsLibraryFramework.KeyModifiers.Control) ? KeyModifiers.Control : 0)
         | (modifiers.HasFlag(OpenTK.Windowing.GraphicsLibraryFramework.KeyModifiers.Alt) ? KeyModifiers.Alt : 0);
 
-    /// <summary>What a modifier key modifies; nothing for any other key.</summary>
+    /// <summary>Returns the modifier that a key is itself; none for any other key.</summary>
     public static KeyModifiers ModifierOf(Key key) => key switch
     {
         Key.LeftShift or Key.RightShift => KeyModifiers.Shift,
@@ -29,21 +33,7 @@ internal static class GlfwKeys
         _ => KeyModifiers.None,
     };
 
-    private static Key KeyOf(char character) => char.ToLowerInvariant(character) switch
-    {
-        >= 'a' and <= 'z' and var letter => Key.A + (letter - 'a'),
-        >= '0' and <= '9' and var digit => Key.Digit0 + (digit - '0'),
-        '+' or '=' => Key.Plus,
-        '-' => Key.Minus,
-        ',' => Key.Comma,
-        '.' => Key.Period,
-        '/' => Key.Slash,
-        '[' => Key.LeftBracket,
-        ']' => Key.RightBracket,
-        _ => Key.Unknown,
-    };
-
-    private static Key KeyOfScanCode(Keys key) => key switch
+    private static Key KeyAtPosition(Keys key) => key switch
     {
         >= Keys.A and <= Keys.Z => Key.A + (key - Keys.A),
         >= Keys.D0 and <= Keys.D9 => Key.Digit0 + (key - Keys.D0),

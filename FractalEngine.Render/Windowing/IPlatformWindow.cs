@@ -1,37 +1,37 @@
 namespace FractalEngine.Render.Windowing;
 
 /// <summary>
-/// A window with a GL context, as each of the two assemblies named OpenTK provides it. <c>PlatformWindow</c> implements it twice;
-/// the build takes one. All members but <see cref="Wake"/> belong to the thread that made the window.
+/// A window with a GL context. <c>PlatformWindow</c> implements it for each of the two assemblies named OpenTK, and the build takes one of
+/// the two. All members except <see cref="Wake"/> belong to the thread that opened the window.
 /// </summary>
 internal interface IPlatformWindow : IDisposable
 {
-    /// <summary>The framebuffer's width in pixels; 0 while minimised on some systems.</summary>
+    /// <summary>Width of the framebuffer in pixels; 0 while the window is minimised on some systems.</summary>
     int Width { get; }
 
-    /// <summary>The framebuffer's height in pixels.</summary>
+    /// <summary>Height of the framebuffer in pixels.</summary>
     int Height { get; }
 
-    /// <summary>Shown in the title bar.</summary>
+    /// <summary>Text in the title bar.</summary>
     string Title { get; set; }
 
-    /// <summary>Hides the pointer and lets it move without end.</summary>
+    /// <summary>Hides the pointer and lets it move without limits.</summary>
     bool RelativeMouse { get; set; }
 
     /// <summary>
-    /// Lets depths in the window's context end at 0 and 1 rather than −1 and 1 (glClipControl). The context must be current.
+    /// Makes the clip planes of the window's context 0 and 1 rather than −1 and 1 (glClipControl). The context must be current.
     /// </summary>
     void UseZeroToOneDepth();
 
-    /// <summary>Makes the window's context the thread's current one.</summary>
+    /// <summary>Makes the window's context the current one of the thread.</summary>
     void MakeCurrent();
 
-    /// <summary>Shows what was drawn into the window's framebuffer.</summary>
+    /// <summary>Presents the window's framebuffer on the screen.</summary>
     void SwapBuffers();
 
-    /// <summary>Sleeps until something happens, then appends everything that did.</summary>
-    /// <param name="timeout">How long to sleep at most; zero only polls, negative sleeps without end.</param>
-    /// <param name="events">Is appended to.</param>
+    /// <summary>Sleeps until an event arrives, then appends all events that have arrived.</summary>
+    /// <param name="timeout">Longest time to sleep; zero only polls, a negative time sleeps without limit.</param>
+    /// <param name="events">List that the events are appended to.</param>
     void WaitEvents(TimeSpan timeout, List<WindowEvent> events);
 
     /// <summary>Ends the sleep of <see cref="WaitEvents"/>, from any thread.</summary>

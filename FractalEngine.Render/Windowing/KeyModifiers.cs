@@ -1,18 +1,18 @@
 namespace FractalEngine.Render.Windowing;
 
-/// <summary>The modifier keys that are held.</summary>
+/// <summary>Modifier keys that are held during an event.</summary>
 [Flags]
 public enum KeyModifiers
 {
-    /// <summary>None.</summary>
+    /// <summary>No modifier key is held.</summary>
     None = 0,
 
-    /// <summary>Either shift key.</summary>
+    /// <summary>A shift key is held, left or right.</summary>
     Shift = 1,
 
-    /// <summary>Either control key.</summary>
+    /// <summary>A control key is held, left or right.</summary>
     Control = 2,
 
-    /// <summary>Either alt key.</summary>
+    /// <summary>An alt key is held, left or right.</summary>
     Alt = 4,
 }

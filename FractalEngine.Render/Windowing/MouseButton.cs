@@ -1,17 +1,17 @@
 namespace FractalEngine.Render.Windowing;
 
-/// <summary>The buttons of a mouse.</summary>
+/// <summary>Buttons of a mouse that the engine distinguishes.</summary>
 public enum MouseButton
 {
-    /// <summary>The main button.</summary>
+    /// <summary>The main button of the mouse.</summary>
     Left,
 
-    /// <summary>The wheel as a button.</summary>
+    /// <summary>The middle button, usually the wheel.</summary>
     Middle,
 
-    /// <summary>The second button.</summary>
+    /// <summary>The secondary button of the mouse.</summary>
     Right,
 
-    /// <summary>Any further one.</summary>
+    /// <summary>Any further button of the mouse.</summary>
     Other,
 }

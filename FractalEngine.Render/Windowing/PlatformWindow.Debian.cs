@@ -17,9 +17,10 @@ internal sealed class PlatformWindow : IPlatformWindow
 
     private PlatformWindow(NativeWindow window, GraphicsContext context)
     {
-        (_window, _context) = (window, context);
+        _window = window;
+        _context = context;
         _id = SdlWindow.GetWindowId(window.WindowInfo.Handle);
-        // OpenTK would destroy the window at once; whether it closes is the program's decision.
+        // OpenTK would destroy the window at once, but the program decides whether it closes.
         window.Closing += (_, closing) => closing.Cancel = true;
         _self = GCHandle.Alloc(this);
         unsafe
@@ -78,25 +79,26 @@ internal sealed class PlatformWindow : IPlatformWindow
 
     public unsafe void UseZeroToOneDepth()
     {
-        // OpenTK 1.1 ends at OpenGL 4.4 and does not know this one.
+        // OpenTK 1.1 ends at OpenGL 4.4 and does not declare this function of 4.5.
         const uint lowerLeft = 0x8CA1;
         const uint zeroToOne = 0x935F;
-        ((delegate* unmanaged[Stdcall]<uint, uint, void>)((IGraphicsContextInternal)_context).GetAddress("glClipControl"))(lowerLeft,
-            zeroToOne);
+        var address = ((IGraphicsContextInternal)_context).GetAddress("glClipControl");
+        var clipControl = (delegate* unmanaged[Stdcall]<uint, uint, void>)address;
+        clipControl(lowerLeft, zeroToOne);
     }
 
     public void SwapBuffers() => _context.SwapBuffers();
 
     public void WaitEvents(TimeSpan timeout, List<WindowEvent> events)
     {
-        // Events were perhaps dispatched by another call that pumps, such as a change of the title.
+        // Another call that pumps, such as a change of the title, may have dispatched events already.
         if (_pending.Count == 0)
         {
             Sleep(timeout);
         }
 
         _window.ProcessEvents();
-        // Whatever OpenTK leaves in the queue would end every further sleep at once; the watch has seen it all.
+        // Events that OpenTK leaves in the queue would end every further sleep at once. The watch has seen them all.
         SdlWindow.FlushEvents(0, 0xFFFF);
         events.AddRange(_pending);
         _pending.Clear();
@@ -123,7 +125,7 @@ internal sealed class PlatformWindow : IPlatformWindow
         _window.Dispose();
     }
 
-    /// <summary>SDL shows every event here first, on the thread that queues it: that of <see cref="Wake"/>'s caller, or ours.</summary>
+    /// <summary>Receives every event on the thread that queues it: the window's, or the one that calls <see cref="Wake"/>.</summary>
     [UnmanagedCallersOnly(CallConvs = [typeof(CallConvCdecl)])]
     private static unsafe int Watch(IntPtr data, SdlEvent* item)
     {
@@ -141,12 +143,12 @@ internal sealed class PlatformWindow : IPlatformWindow
         var milliseconds = timeout < TimeSpan.Zero ? -1 : (int)Math.Min(Math.Ceiling(timeout.TotalMilliseconds), int.MaxValue);
         if (milliseconds != 0)
         {
-            // 0 says that the time is over: nothing has happened, which is no error.
+            // Returns 0 after a timeout, which is no error.
             _ = SdlWindow.WaitEventTimeout(IntPtr.Zero, milliseconds);
         }
     }
 
-    /// <summary>Asks SDL before OpenTK does: OpenTK fails in a static constructor, with lines of its own on standard error.</summary>
+    /// <summary>Initialises SDL before OpenTK does, which would fail in a static constructor and write to standard error.</summary>
     private static void RequireDisplay()
     {
         try

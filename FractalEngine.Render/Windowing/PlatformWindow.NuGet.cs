@@ -6,7 +6,7 @@ using OpenTK.Windowing.GraphicsLibraryFramework;
 
 namespace FractalEngine.Render.Windowing;
 
-/// <summary>A window of OpenTK 4.9.4, over GLFW.</summary>
+/// <summary>A window of OpenTK 4.9.4 from NuGet, over GLFW.</summary>
 internal sealed class PlatformWindow : IPlatformWindow
 {
     private readonly NativeWindow _window;
@@ -16,7 +16,7 @@ internal sealed class PlatformWindow : IPlatformWindow
     private PlatformWindow(NativeWindow window)
     {
         _window = window;
-        // Whether the window closes is the program's decision.
+        // The program decides whether the window closes.
         window.Closing += closing =>
         {
             closing.Cancel = true;
@@ -51,20 +51,28 @@ internal sealed class PlatformWindow : IPlatformWindow
         set => _window.CursorState = value ? CursorState.Grabbed : CursorState.Normal;
     }
 
-    /// <summary>Pixels of the framebuffer for one unit of GLFW's coordinates: 2 on many screens of macOS.</summary>
-    private Vector2 PixelScale => (_window.ClientSize, _window.FramebufferSize) switch
+    /// <summary>Framebuffer pixels per screen point, which is GLFW's unit: 2 on many screens of macOS.</summary>
+    private Vector2 PixelsPerPoint
     {
-        ({ X: > 0, Y: > 0 } client, var pixels) => new((float)pixels.X / client.X, (float)pixels.Y / client.Y),
-        _ => Vector2.One,
-    };
+        get
+        {
+            var points = _window.ClientSize;
+            var pixels = _window.FramebufferSize;
+            return points is { X: > 0, Y: > 0 } ? new((float)pixels.X / points.X, (float)pixels.Y / points.Y) : Vector2.One;
+        }
+    }
 
     /// <summary>Opens a window with an OpenGL 3.3 context.</summary>
-    /// <exception cref="GraphicsUnavailableException">There is no display, or no OpenGL 3.3.</exception>
+    /// <exception cref="GraphicsUnavailableException">
+    /// There is no display, no OpenGL 3.3 or no GLFW, or this is not the main thread on macOS.
+    /// </exception>
     public static PlatformWindow Open(string title, int width, int height, bool isVisible)
     {
-        RequireDisplay();
         try
         {
+            InitialiseGlfw();
+            // On Windows and X11 the size is in pixels: text would be half as large as elsewhere on a screen at 200 %.
+            GLFW.WindowHint(WindowHintBool.ScaleToMonitor, isVisible);
             var window = new NativeWindow(new NativeWindowSettings
             {
                 Title = title,
@@ -75,7 +83,7 @@ internal sealed class PlatformWindow : IPlatformWindow
                 Profile = ContextProfile.Core,
                 Flags = ContextFlags.ForwardCompatible,
                 Vsync = isVisible ? VSyncMode.On : VSyncMode.Off,
-                // Everything is drawn into a framebuffer of our own: the window's buffer only receives a copy.
+                // Frames are drawn into a framebuffer of our own, and the window's only receives a copy.
                 DepthBits = 0,
                 StencilBits = 0,
             });
@@ -85,7 +93,11 @@ internal sealed class PlatformWindow : IPlatformWindow
         {
             throw new GraphicsUnavailableException($"no OpenGL 3.3 on this display: {exception.Message}", exception);
         }
-        catch (DllNotFoundException exception)
+        catch (GLFWException exception)
+        {
+            throw new GraphicsUnavailableException($"no window can be opened here: {exception.Message}", exception);
+        }
+        catch (Exception exception) when (exception is DllNotFoundException or TypeInitializationException)
         {
             throw new GraphicsUnavailableException("GLFW is not installed (Debian: libglfw3)", exception);
         }
@@ -111,7 +123,7 @@ internal sealed class PlatformWindow : IPlatformWindow
             GLFW.WaitEventsTimeout(timeout.TotalSeconds);
         }
 
-        // Takes what is left and rethrows what handlers threw; waits itself only when the caller sets no limit.
+        // Dispatches the remaining events and rethrows exceptions of handlers. Waits itself only if the caller sets no limit.
         NativeWindow.ProcessWindowEvents(waitForEvents: timeout < TimeSpan.Zero && _pending.Count == 0);
         events.AddRange(_pending);
         _pending.Clear();
@@ -122,26 +134,22 @@ internal sealed class PlatformWindow : IPlatformWindow
     public void Dispose() => _window.Dispose();
 
     /// <summary>
-    /// Asks GLFW before OpenTK does: OpenTK's own error handler throws through native frames, which ends the process on Linux.
+    /// Initialises GLFW before OpenTK opens a window: OpenTK's own error handler throws through native frames, which ends the process on
+    /// Linux.
     /// </summary>
-    private static void RequireDisplay()
+    private static void InitialiseGlfw()
     {
-        try
+        // Windows belong to the main thread on macOS. Elsewhere any one thread will do, such as a test runner's.
+        GLFWProvider.CheckForMainThread = OperatingSystem.IsMacOS();
+        // Failures are queried where they occur. Other errors, such as a window manager that refuses a position, have no effect.
+        GLFWProvider.SetErrorCallback(static (_, _) => { });
+        // Throws on another thread than the main one, before GLFW itself is called: macOS would end the process.
+        GLFWProvider.EnsureInitialized();
+        // OpenTK ignores whether that succeeded.
+        if (!GLFW.Init())
         {
-            // On macOS windows belong to the main thread; elsewhere any one thread will do, such as a test runner's.
-            GLFWProvider.CheckForMainThread = OperatingSystem.IsMacOS();
-            // Errors that matter are asked for where they arise; others (a window manager that refuses a position) change nothing.
-            GLFWProvider.SetErrorCallback(static (_, _) => { });
-            if (!GLFW.Init())
-            {
-                _ = GLFW.GetError(out var description);
-                throw new GraphicsUnavailableException(
-                    $"no display to draw on: {description} (without a screen, run under xvfb-run)");
-            }
-        }
-        catch (Exception exception) when (exception is DllNotFoundException or TypeInitializationException)
-        {
-            throw new GraphicsUnavailableException("GLFW is not installed (Debian: libglfw3)", exception);
+            _ = GLFW.GetError(out var description);
+            throw new GraphicsUnavailableException($"no display to draw on: {description} (without a screen, run under xvfb-run)");
         }
     }
 
@@ -157,25 +165,26 @@ internal sealed class PlatformWindow : IPlatformWindow
     private void AddKey(KeyboardKeyEventArgs pressed, bool isDown)
     {
         var key = GlfwKeys.KeyOf(pressed.Key, pressed.ScanCode);
-        // On X11 the state is that before the stroke: a modifier key's own stroke is not in it yet.
-        var own = GlfwKeys.ModifierOf(key);
-        _modifiers = (GlfwKeys.ModifiersOf(pressed.Modifiers) & ~own) | (isDown ? own : KeyModifiers.None);
+        // On X11 the state is that before the stroke, without the effect of a modifier key itself.
+        var ownModifier = GlfwKeys.ModifierOf(key);
+        _modifiers = (GlfwKeys.ModifiersOf(pressed.Modifiers) & ~ownModifier) | (isDown ? ownModifier : KeyModifiers.None);
         _pending.Add(isDown ? new KeyPressed(key, _modifiers, pressed.IsRepeat) : new KeyReleased(key, _modifiers));
     }
 
     private void AddMove(MouseMoveEventArgs move)
     {
-        var scale = PixelScale;
-        _pending.Add(new MouseMoved(scale.X * move.X, scale.Y * move.Y, scale.X * move.DeltaX, scale.Y * move.DeltaY));
+        var position = move.Position * PixelsPerPoint;
+        _pending.Add(new MouseMoved(position.X, position.Y, move.DeltaX, move.DeltaY));
     }
 
-    private void AddButton(MouseButtonEventArgs button, bool isDown)
+    private void AddButton(MouseButtonEventArgs pressed, bool isDown)
     {
-        var (position, which, modifiers) =
-            (_window.MousePosition * PixelScale, ButtonOf(button.Button), GlfwKeys.ModifiersOf(button.Modifiers));
+        var button = ButtonOf(pressed.Button);
+        var position = _window.MousePosition * PixelsPerPoint;
+        var modifiers = GlfwKeys.ModifiersOf(pressed.Modifiers);
         _pending.Add(isDown
-            ? new MousePressed(which, position.X, position.Y, modifiers)
-            : new MouseReleased(which, position.X, position.Y, modifiers));
+            ? new MousePressed(button, position.X, position.Y, modifiers)
+            : new MouseReleased(button, position.X, position.Y, modifiers));
     }
 
     private static MouseButton ButtonOf(OpenTK.Windowing.GraphicsLibraryFramework.MouseButton button) => button switch

@@ -5,25 +5,30 @@ using OpenTK.Graphics.OpenGL4;
 namespace FractalEngine.Render.Windowing;
 
 /// <summary>
-/// An OpenGL context and everything that lives in it. Renderers are made for a context and used on its thread; dispose
-/// them first, the context last.
+/// An OpenGL context with the GL objects that belong to it. Renderers are created for a context and used on its thread. Dispose them
+/// first, the context last.
 /// </summary>
 public abstract class RenderContext : IDisposable
 {
+    private static readonly Version MinVersion = new(3, 3);
+
     private readonly Action<string> _reportLeak;
     private bool _isDisposed;
 
     private protected RenderContext(IPlatformWindow window, Action<string>? reportLeak)
     {
-        (Window, _reportLeak) = (window, reportLeak ?? Console.Error.WriteLine);
+        Window = window;
+        _reportLeak = reportLeak ?? Console.Error.WriteLine;
         Resources = new();
         GL.GetInteger(GetPName.MajorVersion, out int major);
         GL.GetInteger(GetPName.MinorVersion, out int minor);
-        GL.GetInteger(GetPName.MaxRenderbufferSize, out int size);
-        GL.GetInteger(GetPName.MaxSamples, out int samples);
-        (Version, MaxFrameSize, MaxSampleCount) = (new(major, minor), size, samples);
+        GL.GetInteger(GetPName.MaxRenderbufferSize, out int maxFrameSize);
+        GL.GetInteger(GetPName.MaxSamples, out int maxSampleCount);
+        Version = new(major, minor);
+        MaxFrameSize = maxFrameSize;
+        MaxSampleCount = maxSampleCount;
         DriverName = string.Create(CultureInfo.InvariantCulture, $"OpenGL {major}.{minor}, {GL.GetString(StringName.Renderer)}");
-        if (Version < new Version(3, 3))
+        if (Version < MinVersion)
         {
             window.Dispose();
             throw new GraphicsUnavailableException($"OpenGL 3.3 is needed, but this system offers {DriverName}");
@@ -36,38 +41,31 @@ public abstract class RenderContext : IDisposable
         }
     }
 
-    /// <summary>What the driver implements: at least 3.3.</summary>
+    /// <summary>OpenGL version of the driver, at least 3.3.</summary>
     public Version Version { get; }
 
-    /// <summary>Version and renderer as the driver names them, for the user's eyes.</summary>
+    /// <summary>Version and renderer as the driver names them, for messages to the user.</summary>
     public string DriverName { get; }
 
-    /// <summary>The largest width and height of a picture, pixels.</summary>
+    /// <summary>Maximum width and height of a frame in pixels.</summary>
     public int MaxFrameSize { get; }
 
-    /// <summary>The most samples a pixel.</summary>
+    /// <summary>Maximum number of samples a pixel.</summary>
     public int MaxSampleCount { get; }
 
-    /// <summary>The labels of the GL objects that are not disposed, sorted.</summary>
-    public IReadOnlyList<string> LiveObjects => Resources.LiveObjects;
-
     /// <summary>
-    /// True where depths run from 1 at the near plane to 0 at the far one: single precision, which is finest about 0, then tells apart
-    /// depths that differ by about 1e-7 of themselves, however far the planes are apart.
+    /// True where depths run from 1 at the near plane to 0 at the far one. Single precision is finest near 0, and then separates depths
+    /// that differ by about 1e-7 of themselves, however far apart the planes are.
     /// </summary>
     internal bool HasReversedDepth { get; }
 
+    /// <summary>GL objects and bindings of the context.</summary>
     internal GlResources Resources { get; }
 
     private protected IPlatformWindow Window { get; }
 
-    private static bool HasExtension(string name)
-    {
-        GL.GetInteger(GetPName.NumExtensions, out int count);
-        return Enumerable.Range(0, count).Any(i => GL.GetString(StringNameIndexed.Extensions, i) == name);
-    }
-
-    /// <summary>Makes this the thread's current context, and deletes what was disposed on other threads meanwhile.</summary>
+    /// <summary>Makes this the thread's current context, and deletes GL objects that were disposed on other threads.</summary>
+    /// <exception cref="InvalidOperationException">This is not the thread that created the context.</exception>
     public void MakeCurrent()
     {
         ObjectDisposedException.ThrowIf(_isDisposed, this);
@@ -76,11 +74,7 @@ public abstract class RenderContext : IDisposable
         Resources.DeletePending();
     }
 
-    /// <summary>Takes over which GL calls are left out.</summary>
-    internal void ApplySettings(RenderSettings settings) =>
-        (Resources.State.Filter.IsEnabled, Resources.UploadFilter.IsEnabled) = (settings.FilterRedundantState, settings.ReuseBuffers);
-
-    /// <summary>Reports what is still alive by name, deletes it and ends the context. Harmless when repeated.</summary>
+    /// <summary>Reports GL objects that are still alive by name, deletes them and ends the context. Harmless when repeated.</summary>
     public void Dispose()
     {
         if (_isDisposed)
@@ -97,5 +91,18 @@ public abstract class RenderContext : IDisposable
 
         Window.Dispose();
         GC.SuppressFinalize(this);
+    }
+
+    /// <summary>Switches the filters for redundant GL calls on or off.</summary>
+    internal void ApplySettings(RenderSettings settings)
+    {
+        Resources.State.Filter.IsEnabled = settings.FilterRedundantState;
+        Resources.UploadFilter.IsEnabled = settings.ReuseBuffers;
+    }
+
+    private static bool HasExtension(string name)
+    {
+        GL.GetInteger(GetPName.NumExtensions, out int count);
+        return Enumerable.Range(0, count).Any(i => GL.GetString(StringNameIndexed.Extensions, i) == name);
     }
 }

@@ -1,34 +1,34 @@
 namespace FractalEngine.Render.Windowing;
 
 /// <summary>
-/// A window to draw into. It draws nothing by itself and never polls: the program waits for events and draws when the picture
-/// has changed. Everything but <see cref="Wake"/> belongs to the thread that opened it.
+/// A window to present frames in. It draws nothing by itself and never polls: the program waits for events, and draws when the frame has
+/// changed. All members except <see cref="Wake"/> belong to the thread that opened the window.
 /// </summary>
 public sealed class RenderWindow : RenderContext
 {
     private readonly List<WindowEvent> _events = [];
 
     /// <summary>Opens a window and makes its context current.</summary>
-    /// <param name="title">Shown in the title bar.</param>
-    /// <param name="width">Of the contents, pixels at the system's scale.</param>
-    /// <param name="height">Of the contents.</param>
-    /// <param name="reportLeak">Receives a line for each object that outlives the window; standard error when null.</param>
+    /// <param name="title">Text in the title bar.</param>
+    /// <param name="width">Width of the contents, in pixels of a screen at 100 %. The system scales it up on denser screens.</param>
+    /// <param name="height">Height of the contents, in the same unit.</param>
+    /// <param name="reportLeak">Receives a line for each GL object that outlives the window; standard error when null.</param>
     /// <exception cref="GraphicsUnavailableException">There is no display, or no OpenGL 3.3.</exception>
     public RenderWindow(string title, int width, int height, Action<string>? reportLeak = null)
         : base(PlatformWindow.Open(title, width, height, isVisible: true), reportLeak)
     {
     }
 
-    /// <summary>The width of the picture in pixels; 0 while the window is minimised on some systems.</summary>
+    /// <summary>Width of the framebuffer in pixels; 0 while the window is minimised on some systems.</summary>
     public int Width => Window.Width;
 
-    /// <summary>The height of the picture in pixels.</summary>
+    /// <summary>Height of the framebuffer in pixels; 0 while the window is minimised on some systems.</summary>
     public int Height => Window.Height;
 
-    /// <summary>Width divided by height; never 0.</summary>
+    /// <summary>Width divided by height of the framebuffer, never 0.</summary>
     public double Aspect => (double)Math.Max(1, Width) / Math.Max(1, Height);
 
-    /// <summary>Shown in the title bar.</summary>
+    /// <summary>Text in the title bar.</summary>
     public string Title
     {
         get => Window.Title;
@@ -41,18 +41,18 @@ public sealed class RenderWindow : RenderContext
         }
     }
 
-    /// <summary>Hides the pointer and lets it move without end: for looking around with the mouse.</summary>
+    /// <summary>Hides the pointer and lets it move without limits, to look around with the mouse.</summary>
     public bool RelativeMouse
     {
         get => Window.RelativeMouse;
         set => Window.RelativeMouse = value;
     }
 
-    /// <summary>Sleeps until something happens or <see cref="Wake"/> is called, and returns all that has happened.</summary>
+    /// <summary>Sleeps until an event arrives or <see cref="Wake"/> is called, and returns all events that have arrived.</summary>
     /// <param name="timeout">
-    /// How long to sleep at most: <see cref="TimeSpan.Zero"/> only looks, <see cref="Timeout.InfiniteTimeSpan"/> never gives up.
+    /// Longest time to sleep: <see cref="TimeSpan.Zero"/> only polls, <see cref="Timeout.InfiniteTimeSpan"/> sleeps without limit.
     /// </param>
-    /// <returns>In order; empty after a timeout or a wake-up. The list is reused by the next call.</returns>
+    /// <returns>Events in their order; none after a timeout or a wake-up. The next call reuses the list.</returns>
     public IReadOnlyList<WindowEvent> WaitEvents(TimeSpan timeout)
     {
         Resources.RequireGlThread();
@@ -61,9 +61,9 @@ public sealed class RenderWindow : RenderContext
         return _events;
     }
 
-    /// <summary>Ends the sleep of <see cref="WaitEvents"/>. The only member that other threads may call.</summary>
+    /// <summary>Ends the sleep of <see cref="WaitEvents"/>. Other threads may call only this member.</summary>
     public void Wake() => Window.Wake();
 
-    /// <summary>Shows what was drawn into the window's own framebuffer.</summary>
+    /// <summary>Presents the window's own framebuffer on the screen.</summary>
     internal void SwapBuffers() => Window.SwapBuffers();
 }

@@ -2,7 +2,7 @@ using System.Runtime.InteropServices;
 
 namespace FractalEngine.Render.Windowing;
 
-/// <summary>SDL's union of events: the fields that are read here, at their offsets in bytes (SDL_events.h, SDL 2.0.18 and later).</summary>
+/// <summary>SDL's event union, with the fields that are read here at their offsets in bytes (SDL_events.h, SDL 2.0.18 and later).</summary>
 [StructLayout(LayoutKind.Explicit, Size = 128)]
 internal struct SdlEvent
 {
@@ -35,7 +35,7 @@ internal struct SdlEvent
     [FieldOffset(24)] public uint WheelDirection;
     [FieldOffset(32)] public float PreciseWheelY;
 
-    // SDL_DropEvent: the window's number stands elsewhere than in the others
+    // SDL_DropEvent: its window id is at another offset than in the other events
     [FieldOffset(8)] public IntPtr DroppedFile;
     [FieldOffset(16)] public uint DropWindowId;
 }

@@ -2,46 +2,52 @@ using System.Runtime.InteropServices;
 
 namespace FractalEngine.Render.Windowing;
 
-/// <summary>From SDL's events to ours. Numbers are those of SDL_events.h, SDL_video.h, SDL_keycode.h and SDL_scancode.h.</summary>
+/// <summary>Translates SDL's events. Numbers are those of SDL_events.h, SDL_video.h, SDL_keycode.h and SDL_scancode.h.</summary>
 internal static class SdlEventTranslator
 {
+    // Types of events.
+    private const uint WindowChange = 0x200;
+    private const uint KeyDown = 0x300;
+    private const uint KeyUp = 0x301;
+    private const uint MouseMotion = 0x400;
+    private const uint MouseButtonDown = 0x401;
+    private const uint MouseButtonUp = 0x402;
+    private const uint MouseWheel = 0x403;
+    private const uint DropFile = 0x1000;
+
+    // Direction of a wheel that counts towards the user.
+    private const uint FlippedWheel = 1;
+
+    // Marks key codes that are scan codes of the layout.
     private const int ScanCodeMask = 1 << 30;
 
-    /// <summary>Our word for an event, or null for one that concerns nobody or another window.</summary>
+    /// <summary>Translates an event; null for one that has no counterpart or concerns another window.</summary>
     public static WindowEvent? Translate(in SdlEvent item, uint windowId) => item.Type switch
     {
-        0x1000 when item.DropWindowId == windowId || item.DropWindowId == 0 => TranslateDrop(item.DroppedFile),
+        DropFile when item.DropWindowId == windowId || item.DropWindowId == 0 => TranslateDrop(item.DroppedFile),
         _ when item.WindowId != windowId => null,
-        0x200 => TranslateWindow(item),
-        0x300 => new KeyPressed(KeyOf(item.KeyCode, item.ScanCode), ModifiersOf(item.Modifiers), item.IsRepeat != 0),
-        0x301 => new KeyReleased(KeyOf(item.KeyCode, item.ScanCode), ModifiersOf(item.Modifiers)),
-        0x400 => new MouseMoved(item.MotionX, item.MotionY, item.MotionDeltaX, item.MotionDeltaY),
-        0x401 => new MousePressed(ButtonOf(item.Button), item.ButtonX, item.ButtonY, ModifiersOf(SdlWindow.GetModState())),
-        0x402 => new MouseReleased(ButtonOf(item.Button), item.ButtonX, item.ButtonY, ModifiersOf(SdlWindow.GetModState())),
-        0x403 => new WheelTurned(
-            (item.WheelDirection == 1 ? -1 : 1) * item.PreciseWheelY, ModifiersOf(SdlWindow.GetModState())),
+        WindowChange => TranslateWindow(item),
+        KeyDown => new KeyPressed(KeyOf(item.KeyCode, item.ScanCode), ModifiersOf(item.Modifiers), item.IsRepeat != 0),
+        KeyUp => new KeyReleased(KeyOf(item.KeyCode, item.ScanCode), ModifiersOf(item.Modifiers)),
+        MouseMotion => new MouseMoved(item.MotionX, item.MotionY, item.MotionDeltaX, item.MotionDeltaY),
+        MouseButtonDown => new MousePressed(ButtonOf(item.Button), item.ButtonX, item.ButtonY, CurrentModifiers),
+        MouseButtonUp => new MouseReleased(ButtonOf(item.Button), item.ButtonX, item.ButtonY, CurrentModifiers),
+        MouseWheel => new WheelTurned((item.WheelDirection == FlippedWheel ? -1 : 1) * item.PreciseWheelY, CurrentModifiers),
         _ => null,
     };
 
     /// <summary>
-    /// By what the key's cap says where that is a character of ours, so that other layouts than the American one work; else by
-    /// the key's place.
+    /// Translates a key by the character on its cap where that has a name in <see cref="Key"/>, otherwise by its position.
     /// </summary>
-    public static Key KeyOf(int keyCode, int scanCode) => keyCode switch
+    public static Key KeyOf(int keyCode, int scanCode)
     {
-        >= 'a' and <= 'z' => Key.A + (keyCode - 'a'),
-        >= '0' and <= '9' => Key.Digit0 + (keyCode - '0'),
-        '+' or '=' => Key.Plus,
-        '-' => Key.Minus,
-        ',' => Key.Comma,
-        '.' => Key.Period,
-        '/' => Key.Slash,
-        '[' => Key.LeftBracket,
-        ']' => Key.RightBracket,
-        // Keys without a character carry the scan code of their layout (arrows, F keys, the keypad).
-        _ when (keyCode & ScanCodeMask) != 0 => KeyOfScanCode(keyCode & ~ScanCodeMask),
-        _ => KeyOfScanCode(scanCode),
-    };
+        var key = KeyCharacters.KeyOf(keyCode);
+        // Keys without a character (arrows, F keys, the keypad) carry the scan code of their layout.
+        return key != Key.Unknown ? key
+            : KeyOfScanCode((keyCode & ScanCodeMask) != 0 ? keyCode & ~ScanCodeMask : scanCode);
+    }
+
+    private static KeyModifiers CurrentModifiers => ModifiersOf(SdlWindow.GetModState());
 
     private static Key KeyOfScanCode(int scanCode) => scanCode switch
     {
@@ -87,8 +93,8 @@ internal static class SdlEventTranslator
 
     private static WindowEvent? TranslateWindow(in SdlEvent item) => item.WindowAction switch
     {
-        1 or 9 => new VisibilityChanged(true),
-        2 or 7 => new VisibilityChanged(false),
+        1 or 9 => new VisibilityChanged(true), // shown, restored
+        2 or 7 => new VisibilityChanged(false), // hidden, minimised
         3 => new WindowExposed(),
         6 => new WindowResized(item.Data1, item.Data2),
         13 => new FocusLost(),

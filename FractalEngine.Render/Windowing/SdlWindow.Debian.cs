@@ -2,7 +2,7 @@ using System.Runtime.InteropServices;
 
 namespace FractalEngine.Render.Windowing;
 
-/// <summary>The few functions of SDL 2 that OpenTK 1.1 does not show: waiting, waking, raw events, the relative mouse.</summary>
+/// <summary>Imports functions of SDL 2 that OpenTK 1.1 does not offer: waiting, waking, raw events, the relative mouse.</summary>
 internal static unsafe partial class SdlWindow
 {
     public const uint InitVideo = 0x20;
@@ -20,9 +20,6 @@ internal static unsafe partial class SdlWindow
 
     [LibraryImport(Library, EntryPoint = "SDL_WaitEventTimeout")]
     public static partial int WaitEventTimeout(IntPtr noEvent, int milliseconds);
-
-    [LibraryImport(Library, EntryPoint = "SDL_PumpEvents")]
-    public static partial void PumpEvents();
 
     [LibraryImport(Library, EntryPoint = "SDL_FlushEvents")]
     public static partial void FlushEvents(uint first, uint last);
@@ -45,6 +42,6 @@ internal static unsafe partial class SdlWindow
     [LibraryImport(Library, EntryPoint = "SDL_SetRelativeMouseMode")]
     public static partial int SetRelativeMouseMode(int enabled);
 
-    /// <summary>The last error, in SDL's words.</summary>
+    /// <summary>Returns the last error of this thread, in SDL's words.</summary>
     public static string ErrorText() => Marshal.PtrToStringUTF8(GetError()) is { Length: > 0 } text ? text : "no reason given";
 }

@@ -2,6 +2,7 @@ using FractalEngine.App;
 
 namespace FractalEngine.Tests.App;
 
+/// <summary>Tests the quoting of body names in comma-separated values.</summary>
 public class BodyCsvWriterTests
 {
     [Theory]
@@ -13,5 +14,5 @@ public class BodyCsvWriterTests
     [InlineData("the \"big\" one", "\"the \"\"big\"\" one\"")]
     [InlineData("two\nlines", "\"two\nlines\"")]
     [InlineData("two\rlines", "\"two\rlines\"")]
-    public void Quote_IsOnlyUsedWhereAFieldNeedsIt(string text, string expected) => Assert.Equal(expected, BodyCsvWriter.Quote(text));
+    public void Quote_OfAnyText_IsOnlyUsedWhereNeeded(string text, string expected) => Assert.Equal(expected, BodyCsvWriter.Quote(text));
 }

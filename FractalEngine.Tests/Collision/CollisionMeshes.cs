@@ -39,7 +39,7 @@ internal static class CollisionMeshes
 
     /// <summary>Null where there are no files beside the checkout.</summary>
     public static Mesh? LoadScan(string file) => SharedModels.Folder is { } folder
-        ? ObjParser.Parse(SourceText.Read(Path.Combine(folder, file), file, ParsingLimits.ObjBytes, acceptLatin1: true)).Mesh
+        ? ObjParser.Parse(SourceText.Read(Path.Combine(folder, file), file, ParsingLimits.MaxObjBytes, acceptLatin1: true)).Mesh
         : null;
 
     public static Mesh TriangleSoup(int seed, int faces, double size) => new Random(seed) switch

@@ -4,7 +4,6 @@ using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Generation;
-using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Collision;

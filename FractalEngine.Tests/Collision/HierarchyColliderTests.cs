@@ -182,23 +182,24 @@ public class HierarchyColliderTests
         var mesh = CollisionMeshes.All[name]();
         var layout = TriangleBvhBuilder.Build(mesh, mesh.Bounds.Centre, 1 / Math.Max(1e-100, mesh.Bounds.Diagonal), threads: 2);
         var faces = new List<int>();
-        Assert.InRange(Visit(0), 1, 40);
+        Assert.InRange(HeightOf(BvhChild.Root), 1, 40);
         Assert.Equal(Enumerable.Range(0, mesh.FaceCount), faces.Order());
 
-        int Visit(int node) => layout.Children.Slice(8 * node, 8).Where(child => child != BvhLayout.NoChild).Max(child =>
+        int HeightOf(BvhChild child)
         {
-            if (child >= 0)
+            if (child.IsNode)
             {
-                return 1 + Visit(child);
+                var children = layout.Children.Slice(BvhLayout.BranchingFactor * child.NodeIndex, BvhLayout.BranchingFactor);
+                return 1 + children.Where(grandchild => grandchild != BvhChild.None).Max(HeightOf);
             }
 
-            for (var i = 0; i <= (~child % 4); i++)
+            for (var i = 0; i < child.TriangleCount; i++)
             {
-                faces.Add(layout.Leaves[~child / 4].FaceIndices[i]);
+                faces.Add(layout.Leaves[child.LeafIndex].FaceIndices[i]);
             }
 
-            return 1;
-        });
+            return 0;
+        }
     }
 
     private static void Compare(Mesh mesh, int queries)

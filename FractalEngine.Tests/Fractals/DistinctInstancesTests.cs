@@ -1,7 +1,9 @@
+using System.Numerics;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
+using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Tests.Fractals;
 
@@ -23,20 +25,17 @@ public class DistinctInstancesTests
 
     [Fact]
     public void Count_OfTheInfinite_IsUnknown() =>
-        Assert.Null(
-            DistinctInstances.Count(Samples.Repeated(null, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(5, 0, 0, 0.5))));
+        Assert.Null(DistinctInstances.Count(
+            Samples.Repeated(null, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(5, 0, 0, 0.5))));
 
     [Fact]
     public void Count_OfInstancesSideBySide_IsProvedAtAnyDepth()
     {
         var cube = new Mesh([0, 0, 0, 1, 1, 1, 0, 1, 0], [0, 1, 2]);
-        var fractal =
-            new Fractal(
-                Samples.Repeated(100,
-                [.. Enumerable.Range(0, 8)
-                .Select(i => Samples.MoveAndScale((i & 1) / 2.0, (i / 2 & 1) / 2.0, i / 4 / 2.0, 0.25))]).Description, cube);
+        var maps = Enumerable.Range(0, 8).Select(i => Samples.MoveAndScale((i & 1) / 2.0, (i / 2 & 1) / 2.0, i / 4 / 2.0, 0.25));
+        var fractal = new Fractal(Samples.Repeated(100, [.. maps]).Description, cube);
         Assert.True(DistinctInstances.AreProvedDistinct(fractal));
-        Assert.Equal(System.Numerics.BigInteger.Pow(8, 100), DistinctInstances.Count(fractal));
+        Assert.Equal(BigInteger.Pow(8, 100), DistinctInstances.Count(fractal));
     }
 
     [Fact]
@@ -56,11 +55,13 @@ public class DistinctInstancesTests
     public void AreProvedDistinct_OfRandomQuarterTurns_IsNeverWrong() => Seeded.Run(500, random =>
     {
         var set = Enumerable.Range(0, random.Next(1, 5)).Select(_ => new Transformation(
-            new(random.Next(-2, 3), random.Next(-2, 3), random.Next(-2, 3)), new(90 * random.Next(4), 90 * random.Next(4), 0),
+            new(random.Next(-2, 3), random.Next(-2, 3), random.Next(-2, 3)),
+            new(90 * random.Next(4), 90 * random.Next(4), 0),
             (random.Next(2) == 0 ? 0.5 : -0.5) * Vector.One));
         var fractal = Samples.Repeated(random.Next(1, 4), [.. set]);
         var expected = NaiveFractal.Distinct(NaiveFractal.Chains(fractal.Description), 1e-9).Count;
-        Assert.True(!DistinctInstances.AreProvedDistinct(fractal) || fractal.InstanceCount == expected,
+        Assert.True(
+            !DistinctInstances.AreProvedDistinct(fractal) || fractal.InstanceCount == expected,
             $"{fractal.InstanceCount} chains, {expected} distinct");
     });
 
@@ -69,6 +70,7 @@ public class DistinctInstancesTests
 
     [Fact]
     public void Count_OfAMillionIdentities_IsOneOrUnknown() =>
-        Assert.Contains(DistinctInstances.Count(Samples.Repeated(1_000_000, Transformation.Identity, Transformation.Identity)),
-        new System.Numerics.BigInteger?[] { 1, null });
+        Assert.Contains(
+            DistinctInstances.Count(Samples.Repeated(1_000_000, Transformation.Identity, Transformation.Identity)),
+            new BigInteger?[] { 1, null });
 }

@@ -12,15 +12,24 @@ namespace FractalEngine.Tests.Fractals;
 
 public class FractalAddressTests
 {
-    // As FractalAddress states it: a sub-fractal is left beyond so many diagonals of its box.
+    // A sub-fractal is left beyond this number of diagonals of its box, as FractalAddress states.
     private const double MaxDistanceInDiagonals = 1.5;
 
     private static readonly AffineMap SamplePlacement = new Transformation(new(3, -2, 1), new(20, 30, 40), new(2, 1.5, -1)).ToAffineMap();
 
-    /// <summary>Infinite fractals of one set, a copy of each, and from where its fixed point is approached.</summary>
+    /// <summary>Infinite fractals of one set, and the index of a map whose fixed point is approached.</summary>
     public static TheoryData<string, int> Dives =>
-        new() { { "menger", 0 }, { "menger", 7 }, { "sierpinski", 0 }, { "sierpinski", 3 }, { "tree", 1 }, { "tree", 3 }, { "turned", 0 },
-        { "skewed", 0 } };
+        new()
+        {
+            { "menger", 0 },
+            { "menger", 7 },
+            { "sierpinski", 0 },
+            { "sierpinski", 3 },
+            { "tree", 1 },
+            { "tree", 3 },
+            { "turned", 0 },
+            { "skewed", 0 },
+        };
 
     [Theory]
     [MemberData(nameof(Dives))]
@@ -28,7 +37,7 @@ public class FractalAddressTests
     {
         foreach (var placement in (AffineMap[])[AffineMap.Identity, SamplePlacement])
         {
-            // Skewed maps stop where double precision does.
+            // The dive into skewed maps ends where double precision does.
             foreach (var depth in name == "skewed" ? (int[])[5] : [5, 100, 10_000])
             {
                 CheckDive(name, mapIndex, placement, depth, 1e-9);
@@ -50,7 +59,7 @@ public class FractalAddressTests
     {
         var dive = CreateDive("menger", 0, AffineMap.Identity);
         dive.GoToDepth(depth);
-        // A sum of so many numbers of the same kind, each rounded.
+        // The tolerance is that of a sum of equal numbers, each rounded.
         Near.Equal(-dive.Address.Depth * Math.Log(3), dive.Address.LogUnit, 1e-12 * depth * Math.Log(3));
         Near.Equal(1, Math.Abs(dive.Address.FrameToCamera.Linear.Determinant()), 1e-9);
     }
@@ -90,21 +99,17 @@ public class FractalAddressTests
     public void WorldPosition_NotDeep_IsThatOfTheCamera(string name)
     {
         var hierarchy = LodHierarchy.Build(name == "menger-4" ? CullingViews.Menger(4) : CreateInfinite(name));
-        var size = (SamplePlacement * hierarchy.NodeAt(hierarchy.LevelCount).Box.Centre).Length()
-            + hierarchy.NodeAt(hierarchy.LevelCount).Box.Transform(SamplePlacement).Diagonal;
+        var box = hierarchy.NodeAt(hierarchy.LevelCount).Box;
+        var size = (SamplePlacement * box.Centre).Length() + box.Transform(SamplePlacement).Diagonal;
         Seeded.Run(100, random =>
         {
-            var position = SamplePlacement
-                * (hierarchy.NodeAt(hierarchy.LevelCount).Box.Centre + random.Vector(hierarchy.NodeAt(hierarchy.LevelCount).Box.Diagonal));
+            var position = SamplePlacement * (box.Centre + random.Vector(box.Diagonal));
             var address = new FractalAddress(hierarchy, SamplePlacement, position);
             address.Move(Vector.Zero);
             Near.Equal(position, address.WorldPosition(SamplePlacement), 1e-12 * size);
             for (var i = 0; i < 10; i++)
             {
-                var step = 0.5
-                    * (address.FrameToCamera
-                        * (hierarchy.NodeAt(hierarchy.LevelCount).Box.Centre
-                            + random.Vector(hierarchy.NodeAt(hierarchy.LevelCount).Box.Diagonal)));
+                var step = 0.5 * (address.FrameToCamera * (box.Centre + random.Vector(box.Diagonal)));
                 position += Math.Exp(address.LogUnit) * step;
                 address.Move(step);
                 Near.Equal(position, address.WorldPosition(SamplePlacement), 1e-12 * size);
@@ -115,7 +120,7 @@ public class FractalAddressTests
     [Fact]
     public void WorldPosition_InAFractalThatHardlyShrinks_IsThatOfTheCamera()
     {
-        // After 300 levels a 10,000th of the size: as a double tells it, that is a long way.
+        // After 300 levels sub-fractals have a 10,000th of the size, which is still far within double precision.
         var map = Samples.MoveAndScale(0.03, 0, 0, 0.97);
         var hierarchy = LodHierarchy.Build(Samples.Repeated(null, map, Samples.MoveAndScale(3, 0, 0, 0.1)));
         var address = new FractalAddress(hierarchy, AffineMap.Identity, new(5, 5, 5));
@@ -132,12 +137,24 @@ public class FractalAddressTests
         Assert.True(address.Depth > 200, $"only {address.Depth} levels");
     }
 
-    public static TheoryData<string, int> Finite =>
-        new() { { "appendix-b", 2 }, { "menger", 3 }, { "sierpinski", 4 }, { "tetrahedron", 5 }, { "tree", 5 }, { "tree-leaves", 5 },
-        { "romanesco", 2 }, { "fern", 1 }, { "snowflake", -1 }, { "shell", -1 } };
+    /// <summary>Fractals of the assets with finite depths; −1 keeps the depth of the file.</summary>
+    public static TheoryData<string, int> FiniteFractals =>
+        new()
+        {
+            { "appendix-b", 2 },
+            { "menger", 3 },
+            { "sierpinski", 4 },
+            { "tetrahedron", 5 },
+            { "tree", 5 },
+            { "tree-leaves", 5 },
+            { "romanesco", 2 },
+            { "fern", 1 },
+            { "snowflake", -1 },
+            { "shell", -1 },
+        };
 
     [Theory]
-    [MemberData(nameof(Finite))]
+    [MemberData(nameof(FiniteFractals))]
     public void CollectRoots_OfAllAncestors_AreTheWholeFractal(string name, int depth)
     {
         var fractal = depth < 0 ? AssetFractals.Load(name) : AssetFractals.Load(name, depth);
@@ -156,10 +173,10 @@ public class FractalAddressTests
     {
         var dive = CreateDive("menger", 0, AffineMap.Identity);
         dive.GoToDepth(12);
-        for (var ancestors = 0; ancestors <= 15; ancestors++)
+        for (var maxAncestors = 0; maxAncestors <= 15; maxAncestors++)
         {
-            var roots = dive.Address.CollectRoots(ancestors);
-            Assert.Equal(1 + (19 * Math.Min(ancestors, dive.Address.Depth)), roots.Length);
+            var roots = dive.Address.CollectRoots(maxAncestors);
+            Assert.Equal(1 + (19 * Math.Min(maxAncestors, dive.Address.Depth)), roots.Length);
             Assert.Contains(roots, root => root.FrameToCamera == dive.Address.FrameToCamera);
             Assert.All(roots, root => Assert.True(root.FrameToCamera.IsFinite()));
         }
@@ -192,9 +209,11 @@ public class FractalAddressTests
     public void ClosestSurfaceDistance_NotDeep_IsThatOfExactSearch(string name)
     {
         var fractal = CreateInfinite(name);
-        var (hierarchy, collider) = (LodHierarchy.Build(fractal), new ExactFractalCollider(fractal));
-        var (box, context) = (hierarchy.NodeAt(hierarchy.LevelCount).Box, new QueryContext());
-        var worst = new List<string>();
+        var hierarchy = LodHierarchy.Build(fractal);
+        var box = hierarchy.NodeAt(hierarchy.LevelCount).Box;
+        var collider = new ExactFractalCollider(fractal);
+        var context = new QueryContext();
+        var failures = new List<string>();
         Seeded.Run(300, random =>
         {
             var position = box.Centre + (random.Next(2) == 0 ? 1 : 0.6) * box.Size.Stretch(random.Vector());
@@ -204,21 +223,21 @@ public class FractalAddressTests
                 var exact = (closest.Point - position).Length();
                 var address = new FractalAddress(hierarchy, AffineMap.Identity, position);
                 address.Move(Vector.Zero);
-                var (unit, size) = (Math.Exp(address.LogUnit), NodeOf(hierarchy, address).Box.Transform(address.FrameToCamera).Diagonal);
+                var unit = Math.Exp(address.LogUnit);
+                var minimum = 1e-3 * unit * NodeOf(hierarchy, address).Box.Transform(address.FrameToCamera).Diagonal;
                 var found = unit * address.ClosestSurfaceDistance();
-                // To a tenth, and never less than a thousandth of what is around.
-                if (!(found >= 0.85 * exact && found <= Math.Max(1.15 * exact, 1.01e-3 * unit * size)))
+                // The distance is right to a tenth, and never less than a thousandth of the sub-fractal's size.
+                if (!(found >= 0.85 * exact && found <= Math.Max(1.15 * exact, 1.01 * minimum)))
                 {
-                    worst.Add(
-                        FormatInvariant(
-                            $"at {position}, depth {address.Depth}: {found} for {exact}, a thousandth of what is around {1e-3 * unit * size}"));
+                    failures.Add(FormatInvariant(
+                        $"at {position}, depth {address.Depth}: {found} for {exact}, with a minimum of {minimum}"));
                 }
 
-                // Nearer to the surface.
+                // The next query is closer to the surface.
                 position += 0.7 * (closest.Point - position);
             }
         });
-        Assert.True(worst.Count == 0, $"{worst.Count} of 1200: {string.Join("\n", worst.Take(5))}");
+        Assert.True(failures.Count == 0, $"{failures.Count} of 1200: {string.Join("\n", failures.Take(5))}");
     }
 
     [Fact]
@@ -265,17 +284,18 @@ public class FractalAddressTests
     {
         var fractal = CreateInfinite(name);
         var hierarchy = LodHierarchy.Build(fractal);
+        var root = hierarchy.NodeAt(hierarchy.LevelCount);
         var depths = new List<int>();
-        for (var mapIndex = 0; mapIndex < hierarchy.NodeAt(hierarchy.LevelCount).ChildMaps.Length; mapIndex++)
+        for (var child = 0; child < root.ChildMaps.Length; child++)
         {
-            if (hierarchy.NodeAt(ChildLevels(hierarchy, hierarchy.LevelCount, mapIndex)).ChildMaps.Length == 0
-                || hierarchy.NodeAt(hierarchy.LevelCount).ChildLevelSteps[mapIndex] != 1)
+            if (hierarchy.NodeAt(ChildLevels(hierarchy, hierarchy.LevelCount, child)).ChildMaps.Length == 0
+                || root.ChildLevelSteps[child] != LevelStep.Down(1))
             {
                 continue;
             }
 
             var address = new FractalAddress(hierarchy, SamplePlacement, SamplePlacement * new Vector(3, 4, 5));
-            var map = hierarchy.NodeAt(hierarchy.LevelCount).ChildMaps[mapIndex].ToAffineMap();
+            var map = root.ChildMaps[child].ToAffineMap();
             var target = SamplePlacement * ((Matrix.Identity + (-1 * map.Linear)).Inverse() * map.Translation);
             for (var i = 0; i < 300; i++)
             {
@@ -290,17 +310,17 @@ public class FractalAddressTests
     }
 
     [Fact]
-    public void Memory_AtDepth_IsSomeBytesALevel()
+    public void StorageBytes_AtDepth_AreSomeBytesALevel()
     {
-        const int depth = 50_000;
+        const int Depth = 50_000;
         var dive = CreateDive("menger", 0, AffineMap.Identity);
-        while (dive.Address.Depth < depth)
+        while (dive.Address.Depth < Depth)
         {
             dive.Address.Move(0.5 * dive.LocateTarget(Vector.Zero));
         }
 
-        // 16 bytes, and at most twice the room.
-        Assert.InRange(dive.Address.StorageBytes, 16 * depth, (32 * depth) + 1000);
+        // 16 bytes a level, and capacity for at most twice as many.
+        Assert.InRange(dive.Address.StorageBytes, 16 * Depth, (32 * Depth) + 1000);
     }
 
     [Fact]
@@ -329,44 +349,52 @@ public class FractalAddressTests
         Near.Equal(0, (dive.Address.WorldPosition(placement) - dive.Start).Length() / dive.Start.Length(), 1e-9);
     }
 
-    /// <summary>Infinite fractals of one set.</summary>
+    /// <summary>Creates an infinite fractal of one set.</summary>
     internal static Fractal CreateInfinite(string name) => name switch
     {
         "menger" => CullingViews.Menger(null),
-        "sierpinski" =>
-            Samples.Repeated(null,
-            [.. from corner in (Vector[])[Vector.Zero, Vector.I, Vector.J, Vector.K] select Samples.MoveAndScale(corner.X, 0.5 * corner.Y,
-            1.5 * corner.Z, 0.5)]),
-        "turned" =>
-            Samples.Repeated(null, new(new(-1, 0, 0), new(10, 20, 30), 0.45 * Vector.One),
-            new(new(1, 0, 0), new(50, 0, 70), new(0.5, 0.5, -0.5)), new(new(0, 1.5, 0), Vector.Zero, 0.4 * Vector.One)),
+        "sierpinski" => Samples.Repeated(
+            null,
+            Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(1, 0, 0, 0.5), Samples.MoveAndScale(0, 0.5, 0, 0.5),
+            Samples.MoveAndScale(0, 0, 1.5, 0.5)),
+        "turned" => Samples.Repeated(
+            null,
+            new(new(-1, 0, 0), new(10, 20, 30), 0.45 * Vector.One),
+            new(new(1, 0, 0), new(50, 0, 70), new(0.5, 0.5, -0.5)),
+            new(new(0, 1.5, 0), Vector.Zero, 0.4 * Vector.One)),
         // Cubes that do not touch.
-        "apart" =>
-            new(new(
-            [new Repetition(
-                [new TransformationSet(
-                    [.. from x in (int[])[-1, 1] from y in (int[])[-1, 1] from z in (int[])[-1, 1] select Samples.MoveAndScale(0.8 * x,
-                    0.8 * y, 0.8 * z, 0.2)])], null)]), CullingViews.Cube),
-        "skewed" =>
-            Samples.Repeated(null, new(new(-1, 0, 0), new(0, 0, 30), new(0.5, 0.35, 0.45)),
-            new(new(1, 0, 0), new(50, 0, 70), new(0.5, 0.4, 0.5)), new(new(0, 1, 0), Vector.Zero, new(0.4, 0.4, 0.35))),
-        "thin" =>
-            Samples.Repeated(null, new(new(-1, 0, 0), Vector.Zero, new(0.5, 0.5, 0.001)),
+        "apart" => new(Samples.Repeated(null, CornerMaps(0.8, 0.2)).Description, CullingViews.Cube),
+        "skewed" => Samples.Repeated(
+            null,
+            new(new(-1, 0, 0), new(0, 0, 30), new(0.5, 0.35, 0.45)),
+            new(new(1, 0, 0), new(50, 0, 70), new(0.5, 0.4, 0.5)),
+            new(new(0, 1, 0), Vector.Zero, new(0.4, 0.4, 0.35))),
+        "thin" => Samples.Repeated(
+            null,
+            new(new(-1, 0, 0), Vector.Zero, new(0.5, 0.5, 0.001)),
             new(new(1, 0, 0), Vector.Zero, new(0.1, 0.5, 0.5))),
         _ => AssetFractals.Load(name, null),
     };
 
-    internal static FractalDive CreateDive(string name, int mapIndex, AffineMap placement) =>
-        new(LodHierarchy.Build(CreateInfinite(name)), mapIndex, placement, name switch
+    internal static FractalDive CreateDive(string name, int mapIndex, AffineMap placement)
     {
-        "menger" => mapIndex == 0 ? -Vector.One : new(-1, 1, 0.8),
-        _ => new(-1, -0.7, -0.9),
-    });
+        var direction = name != "menger" ? new(-1, -0.7, -0.9) : mapIndex == 0 ? -Vector.One : new Vector(-1, 1, 0.8);
+        return new(LodHierarchy.Build(CreateInfinite(name)), mapIndex, placement, direction);
+    }
+
+    private static Transformation[] CornerMaps(double offset, double scale) =>
+    [
+        .. from x in (double[])[-offset, offset]
+           from y in (double[])[-offset, offset]
+           from z in (double[])[-offset, offset]
+           select Samples.MoveAndScale(x, y, z, scale),
+    ];
 
     private static void CheckDive(string name, int mapIndex, AffineMap placement, int depth, double tolerance)
     {
         var dive = CreateDive(name, mapIndex, placement);
-        var (frameToCamera, size) = (dive.Address.FrameToCamera, dive.Start.Length() + placement.Linear.MaxAbsEntry());
+        var frameToCamera = dive.Address.FrameToCamera;
+        var size = dive.Start.Length() + placement.Linear.MaxAbsEntry();
         Assert.Equal((0, 0.0), (dive.Address.Depth, dive.Address.LogUnit));
         dive.GoToDepth(depth);
         AssertFinite(dive.Address);
@@ -389,12 +417,11 @@ public class FractalAddressTests
         var position = placement * (top.Box.Centre + top.Box.Size.Stretch(random.Vector()));
         var address = new FractalAddress(hierarchy, placement, position);
         address.Move(Vector.Zero);
-        // Deeper: to a corner of some sub-fractal, several times.
+        // The camera moves deeper five times, to a point of the sub-fractal's box.
         for (var i = 0; i < 5; i++)
         {
-            var step = 0.9
-                * (address.FrameToCamera
-                    * (NodeOf(hierarchy, address).Box.Centre + (0.5 * NodeOf(hierarchy, address).Box.Size.Stretch(random.Vector()))));
+            var box = NodeOf(hierarchy, address).Box;
+            var step = 0.9 * (address.FrameToCamera * (box.Centre + (0.5 * box.Size.Stretch(random.Vector()))));
             position += Math.Exp(address.LogUnit) * step;
             address.Move(step);
         }
@@ -403,12 +430,13 @@ public class FractalAddressTests
         var found = new List<AffineMap>();
         foreach (var root in address.CollectRoots(int.MaxValue))
         {
-            AddInstances(found, hierarchy, root.RemainingLevels,
-                new(unit * root.FrameToCamera.Linear, unit * root.FrameToCamera.Translation));
+            var rootToCamera = new AffineMap(unit * root.FrameToCamera.Linear, unit * root.FrameToCamera.Translation);
+            AddInstances(found, hierarchy, root.RemainingLevels, rootToCamera);
         }
 
-        // Of the table: of what overlaps beyond the end of a repetition, it has some twice (docs/colliders.md).
-        var (expected, objectToCamera) = (new List<AffineMap>(), AffineMap.Translate(-position) * placement);
+        // The hierarchy itself may repeat instances that overlap beyond the end of a repetition (docs/colliders.md).
+        var expected = new List<AffineMap>();
+        var objectToCamera = AffineMap.Translate(-position) * placement;
         AddInstances(expected, hierarchy, hierarchy.LevelCount, objectToCamera);
         CullingViews.AssertEachVisibleOnce([.. expected], found);
         var distinct = FractalGenerator.Expand(fractal, 2_000_000).Select(instance => objectToCamera * instance).ToArray();
@@ -430,30 +458,31 @@ public class FractalAddressTests
 
         for (var child = 0; child < node.ChildMaps.Length; child++)
         {
-            AddInstances(found, hierarchy, node.ChildLevelSteps[child] < 0
-                ? ~node.ChildLevelSteps[child]
-                : levels - node.ChildLevelSteps[child], map * node.ChildMaps[child].ToAffineMap());
+            var childLevels = node.ChildLevelSteps[child].RemainingLevels(levels);
+            AddInstances(found, hierarchy, childLevels, map * node.ChildMaps[child].ToAffineMap());
         }
     }
 
-    /// <summary>Goes into sub-fractals and out of them; wherever it is not deep, its place is compared with the sum of the steps.</summary>
+    /// <summary>Walks into sub-fractals and out again, and compares shallow positions with the sum of the steps.</summary>
     private static void CheckRandomWalk(Random random, LodHierarchy hierarchy, int steps)
     {
-        var (position, size) =
-            (SamplePlacement * new Vector(2, 1, -2), hierarchy.NodeAt(hierarchy.LevelCount).Box.Transform(SamplePlacement).Diagonal);
+        var position = SamplePlacement * new Vector(2, 1, -2);
+        var size = hierarchy.NodeAt(hierarchy.LevelCount).Box.Transform(SamplePlacement).Diagonal;
         var address = new FractalAddress(hierarchy, SamplePlacement, position);
         address.Move(Vector.Zero);
-        var (maxDepth, compared, isGoingIn) = (0, 0, true);
+        var maxDepth = 0;
+        var comparedCount = 0;
+        var isGoingIn = true;
         for (var i = 0; i < steps; i++)
         {
             var node = NodeOf(hierarchy, address);
-            // In for some levels, then out again.
+            // The camera goes in for some levels, then out again.
             isGoingIn = isGoingIn ? address.Depth < 30 && random.Next(200) > 0 : address.Depth == 0 || random.Next(500) == 0;
+            // Outwards it moves away from the sub-fractal, to some side.
             var step = isGoingIn
                 ? random.Between(0.1, 0.6) * (address.FrameToCamera * (node.Box.Centre + (0.5 * node.Box.Size.Stretch(random.Vector()))))
-                // Away from what is near, to some side.
                 : random.Between(0.2, 2) * node.Box.Transform(address.FrameToCamera).Diagonal
-                * ((0.7 * random.Direction()) - (address.FrameToCamera * node.Box.Centre).UnitVector());
+                    * ((0.7 * random.Direction()) - (address.FrameToCamera * node.Box.Centre).UnitVector());
             position += Math.Exp(address.LogUnit) * step;
             address.Move(step);
             AssertFinite(address);
@@ -465,19 +494,20 @@ public class FractalAddressTests
             maxDepth = Math.Max(maxDepth, address.Depth);
             if (address.Depth <= 6)
             {
-                compared++;
+                comparedCount++;
                 Near.Equal(position, address.WorldPosition(SamplePlacement), 1e-9 * size);
             }
 
             if (position.Length() > 20 * size)
             {
                 var back = Math.Exp(-address.LogUnit) * -position;
-                position = position + (Math.Exp(address.LogUnit) * back);
+                position += Math.Exp(address.LogUnit) * back;
                 address.Move(back);
             }
         }
 
-        Assert.True(maxDepth >= 6 && compared >= steps / 100, FormatInvariant($"deepest {maxDepth}, compared {compared} times"));
+        Assert.True(
+            maxDepth >= 6 && comparedCount >= steps / 100, FormatInvariant($"depth at most {maxDepth}, compared {comparedCount} times"));
     }
 
     private static void MoveRandomly(Random random, FractalAddress address, int steps)
@@ -500,7 +530,7 @@ public class FractalAddressTests
     }
 
     private static long ChildLevels(LodHierarchy hierarchy, long levels, int mapIndex) =>
-        hierarchy.NodeAt(levels).ChildLevelSteps[mapIndex] switch { < 0 and var down => ~down, var down => levels - down };
+        hierarchy.NodeAt(levels).ChildLevelSteps[mapIndex].RemainingLevels(levels);
 
     private static void AssertFinite(FractalAddress address) => Assert.True(
         address.FrameToCamera.IsFinite() && double.IsFinite(address.LogUnit) && address.FrameToCamera.Linear.Determinant() != 0,

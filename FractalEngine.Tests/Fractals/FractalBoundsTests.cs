@@ -11,7 +11,7 @@ public class FractalBoundsTests
 {
     public static TheoryData<Composition> Compositions { get; } = [Composition.Affine, Composition.Componentwise];
 
-    /// <summary>Each set alone turns or stretches, and only a round of them shrinks: bounds set by set would grow without end.</summary>
+    /// <summary>Each set alone rotates or stretches, and only a round of them shrinks: bounds set by set would grow without end.</summary>
     [Theory]
     [InlineData(20)]
     [InlineData(60)]
@@ -19,7 +19,7 @@ public class FractalBoundsTests
     [InlineData(1_000_000)]
     public void Bounds_OfRoundsThatShrinkOnlyAsAWhole_AreThoseOfTheirLimit(int depth)
     {
-        // At depth 9, of 4⁹ tiles, by its vertices: what is below is smaller than 0.55⁹ of the land's height, 1.4.
+        // The vertices at depth 9, of 4⁹ tiles: deeper levels add less than 0.55⁹ of the terrain's height, 1.4.
         var expanded = FractalGenerator.Flatten(AssetFractals.Load("terrain", 9), 10_000_000).Bounds;
         var bounds = AssetFractals.Load("terrain", depth).Bounds;
         var rest = 1.4 * Math.Pow(0.55, 9);
@@ -31,7 +31,7 @@ public class FractalBoundsTests
     [Fact]
     public void LevelBounds_OfRoundsOfManyMaps_DoNotMultiplyThemOut() => Seeded.Run(1, random =>
     {
-        // Nine million products of 96 bytes.
+        // Multiplied out they would be nine million products of 96 bytes.
         var set = new TransformationSet([.. Enumerable.Range(0, 3000).Select(_ => random.Transformation())]);
         var fractal = new Fractal(new([new Repetition([set, set], 3)]), Samples.Triangle);
         var before = GC.GetAllocatedBytesForCurrentThread();
@@ -78,7 +78,7 @@ public class FractalBoundsTests
     [Fact]
     public void Bounds_OfAnInfiniteSierpinski_AreTheWholeTetrahedrons()
     {
-        // Copies of half the size in the corners: the limit has the same corners as the base.
+        // Child instances of half the size in the corners: the limit has the same corners as the base mesh.
         var mesh = new Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], [0, 1, 2, 0, 1, 3]);
         var infinite = new Fractal(Samples.Repeated(
             null, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(0.5, 0, 0, 0.5), Samples.MoveAndScale(0, 0.5, 0, 0.5),
@@ -89,7 +89,7 @@ public class FractalBoundsTests
     [Fact]
     public void Bounds_OfTheInfinite_AreTheLimitOfFiniteDepths() => Seeded.Run(50, random =>
     {
-        // Factors up to 0.7, so at depth 60 nothing is left that could be seen: 0.7⁶⁰ is 5e-10.
+        // Factors are at most 0.7, so that levels beyond 60 are below the tolerance: 0.7⁶⁰ is 5e-10.
         var maps = Enumerable.Range(0, 3).Select(_ => random.Transformation()).ToArray();
         AssertNear(Samples.Repeated(60, maps).Bounds, Samples.Repeated(null, maps).Bounds, 1e-8);
     });
@@ -99,34 +99,22 @@ public class FractalBoundsTests
     [InlineData(1_000_000)]
     public void Bounds_AtAnyDepth_TakeNoLongerThanTwoSeconds(int depth)
     {
-        var start = Stopwatch.StartNew();
-        Assert.True(
-            Samples.Repeated(depth, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(3, 0, 0, 0.5)).Bounds.Maximum.IsFinite());
-        Assert.True(start.ElapsedMilliseconds < 2000, $"{start.ElapsedMilliseconds} ms");
+        var watch = Stopwatch.StartNew();
+        var fractal = Samples.Repeated(depth, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(3, 0, 0, 0.5));
+        Assert.True(fractal.Bounds.Maximum.IsFinite());
+        Assert.True(watch.ElapsedMilliseconds < 2000, $"{watch.ElapsedMilliseconds} ms");
     }
 
     [Fact]
     public void Bounds_OfAppendixBAtFullDepth_HoldThoseOfDepthTwo()
     {
-        // The identity is among its maps, so deeper ones hold all instances of the shallower.
+        // The identity is among the maps, so that each depth has all instances of the depths before.
         AssertContains(Samples.AppendixBAt(6).Bounds, Samples.AppendixBAt(2).Bounds);
     }
 
     [Fact]
     public void Bounds_OfAnEmptyMesh_AreEmpty() =>
         Assert.True(new Fractal(Samples.Repeated(3, Samples.Move(1, 0, 0)).Description, Mesh.Empty).Bounds.IsEmpty);
-
-    private static BoundingBox BruteForce(Fractal fractal) =>
-        NaiveFractal.Box(NaiveFractal.Chains(fractal.Description)
-        .SelectMany(map => NaiveFractal.Vertices(fractal.BaseMesh).Select(v => NaiveFractal.Apply(map, v))));
-
-    private static void AssertContains(BoundingBox outer, BoundingBox inner) => AssertNear(outer, BoundingBox.Union(outer, inner), 1e-9);
-
-    private static void AssertNear(BoundingBox expected, BoundingBox actual, double relativeTolerance)
-    {
-        Near.Equal(expected.Minimum, actual.Minimum, relativeTolerance * expected.Diagonal);
-        Near.Equal(expected.Maximum, actual.Maximum, relativeTolerance * expected.Diagonal);
-    }
 
     [Fact]
     public void Bounds_OfMapsBeyondADouble_AreNotFiniteAndNotWrong()
@@ -138,9 +126,22 @@ public class FractalBoundsTests
     [Fact]
     public void Bounds_OfAFractalThatGrowsAlmostToADoublesLimit_AreThoseOfItsCorners()
     {
-        // Along x the farthest corner of depth n is 1 + 2·(that of depth n − 1), and it starts at 2.
+        // Along x the farthest corner at depth n is 1 + 2·(that at depth n − 1), and it starts at 2.
         var expected = Enumerable.Range(0, 600).Aggregate(2.0, (x, _) => 1 + (2 * x));
-        Near.Equal(1,
-            Samples.Repeated(600, Samples.MoveAndScale(1, 0, 0, 2), Samples.MoveAndScale(-1, 0, 0, 2)).Bounds.Maximum.X / expected, 1e-9);
+        var bounds = Samples.Repeated(600, Samples.MoveAndScale(1, 0, 0, 2), Samples.MoveAndScale(-1, 0, 0, 2)).Bounds;
+        Near.Equal(1, bounds.Maximum.X / expected, 1e-9);
+    }
+
+    private static BoundingBox BruteForce(Fractal fractal) => NaiveFractal.Box(
+        from map in NaiveFractal.Chains(fractal.Description)
+        from vertex in NaiveFractal.Vertices(fractal.BaseMesh)
+        select NaiveFractal.Apply(map, vertex));
+
+    private static void AssertContains(BoundingBox outer, BoundingBox inner) => AssertNear(outer, BoundingBox.Union(outer, inner), 1e-9);
+
+    private static void AssertNear(BoundingBox expected, BoundingBox actual, double relativeTolerance)
+    {
+        Near.Equal(expected.Minimum, actual.Minimum, relativeTolerance * expected.Diagonal);
+        Near.Equal(expected.Maximum, actual.Maximum, relativeTolerance * expected.Diagonal);
     }
 }

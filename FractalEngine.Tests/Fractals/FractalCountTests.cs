@@ -28,12 +28,12 @@ public class FractalCountTests
     [Fact]
     public void InstanceCount_OfAGoogol_IsExactAndImmediate()
     {
-        var start = Stopwatch.StartNew();
+        var watch = Stopwatch.StartNew();
         var fractal = Samples.Repeated(100, TranslationsInARow(10));
         Assert.Equal(BigInteger.Pow(10, 100), fractal.InstanceCount);
         Assert.Equal(4 * BigInteger.Pow(10, 100), fractal.FaceCount);
         Assert.Equal(100, fractal.LevelCount);
-        Assert.True(start.ElapsedMilliseconds < 1000, $"{start.ElapsedMilliseconds} ms");
+        Assert.True(watch.ElapsedMilliseconds < 1000, $"{watch.ElapsedMilliseconds} ms");
     }
 
     [Fact]
@@ -62,15 +62,17 @@ public class FractalCountTests
         var fractal = RandomFractals.Create(random);
         var levels = NaiveFractal.Levels(fractal.Description.Steps).ToList();
         Assert.Equal(levels.Count, fractal.LevelCount);
-        Assert.Equal(levels, Enumerable.Range(0, levels.Count)
-            .Select(level => (IReadOnlyList<Transformation>)fractal.LevelAt(level).Transformations));
+        var found = Enumerable.Range(0, levels.Count)
+            .Select(level => (IReadOnlyList<Transformation>)fractal.LevelAt(level).Transformations);
+        Assert.Equal(levels, found);
         Assert.Throws<ArgumentOutOfRangeException>(() => fractal.LevelAt(levels.Count));
     });
 
     [Fact]
     public void LevelAt_InTheMiddleOfAMillionLevels_IsImmediate()
     {
-        TransformationSet one = new([.. TranslationsInARow(2)]), other = new([.. TranslationsInARow(3)]);
+        var one = new TransformationSet([.. TranslationsInARow(2)]);
+        var other = new TransformationSet([.. TranslationsInARow(3)]);
         var fractal = new Fractal(new([new Repetition([one, other], 500_000)]), Samples.Triangle);
         Assert.Same(one, fractal.LevelAt(777_776));
         Assert.Same(other, fractal.LevelAt(777_777));

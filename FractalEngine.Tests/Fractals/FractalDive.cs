@@ -4,22 +4,23 @@ using FractalEngine.Core.Visibility;
 
 namespace FractalEngine.Tests.Fractals;
 
-/// <summary>A camera that goes towards the fixed point of one of a fractal's maps, by way of an address.</summary>
+/// <summary>A camera that approaches the fixed point of one of a fractal's maps, with its <see cref="FractalAddress"/>.</summary>
 internal sealed class FractalDive
 {
     private readonly LodHierarchy _hierarchy;
     private readonly int _mapIndex;
     private int _matchingLevels;
 
-    /// <summary>From a distance, in sizes of the fractal.</summary>
-    /// <param name="hierarchy">Of a fractal with one set.</param>
-    /// <param name="mapIndex">The copy whose fixed point is looked for.</param>
-    /// <param name="placement">Of the fractal.</param>
-    /// <param name="direction">From the fixed point to the camera, in the fractal's frame.</param>
-    /// <param name="distance">Of the box's diagonal.</param>
+    /// <summary>Places the camera at a distance from the fixed point.</summary>
+    /// <param name="hierarchy">Hierarchy of a fractal with one set.</param>
+    /// <param name="mapIndex">Index of the child instance whose fixed point is approached.</param>
+    /// <param name="placement">Map from the fractal's frame to world space.</param>
+    /// <param name="direction">Direction from the fixed point to the camera, in the fractal's frame.</param>
+    /// <param name="distance">Distance in diagonals of the fractal's box.</param>
     public FractalDive(LodHierarchy hierarchy, int mapIndex, AffineMap placement, Vector direction, double distance = 3)
     {
-        (_hierarchy, _mapIndex) = (hierarchy, mapIndex);
+        _hierarchy = hierarchy;
+        _mapIndex = mapIndex;
         var top = hierarchy.NodeAt(hierarchy.LevelCount);
         var map = top.ChildMaps[mapIndex].ToAffineMap();
         FixedPoint = (Matrix.Identity + (-1 * map.Linear)).Inverse() * map.Translation;
@@ -28,21 +29,19 @@ internal sealed class FractalDive
         Address.Move(Vector.Zero);
     }
 
-    /// <summary>In the fractal's frame.</summary>
+    /// <summary>Fixed point of the map, in the fractal's frame.</summary>
     public Vector FixedPoint { get; }
 
-    /// <summary>World space.</summary>
+    /// <summary>First position of the camera, world space.</summary>
     public Vector Start { get; }
 
+    /// <summary>Address of the camera.</summary>
     public FractalAddress Address { get; }
 
-    /// <summary>Steps that were taken, with the unit that each was told in.</summary>
+    /// <summary>Steps of the camera, with the unit that each was in.</summary>
     public List<(Vector Step, double LogUnit)> Steps { get; } = [];
 
-    /// <summary>
-    /// The same point of the fractal at whatever level, about the camera and in the present unit: where the fixed point, moved by an offset
-    /// in the frame, lies.
-    /// </summary>
+    /// <summary>Locates the fixed point, moved by an offset in the present frame, relative to the camera and in the present unit.</summary>
     public Vector LocateTarget(Vector offset)
     {
         _matchingLevels = Math.Min(_matchingLevels, Address.Path.Count);
@@ -51,7 +50,7 @@ internal sealed class FractalDive
             _matchingLevels++;
         }
 
-        // Of a fractal with one set each sub-fractal is like the whole.
+        // In a fractal with one set each sub-fractal is like the whole.
         var point = FixedPoint + offset;
         for (var i = _matchingLevels; i < Address.Path.Count; i++)
         {
@@ -61,13 +60,14 @@ internal sealed class FractalDive
         return Address.FrameToCamera * point;
     }
 
+    /// <summary>Moves the camera, and records the step.</summary>
     public void Move(Vector step)
     {
         Steps.Add((step, Address.LogUnit));
         Address.Move(step);
     }
 
-    /// <summary>Goes on, each time by a part of the way that is left, until it is as deep as asked for.</summary>
+    /// <summary>Approaches the fixed point by a fraction of the remaining distance each time, until the address has a depth.</summary>
     public void GoToDepth(int depth, double fraction = 0.5)
     {
         for (var moves = 0; Address.Depth < depth; moves++)
@@ -77,10 +77,8 @@ internal sealed class FractalDive
         }
     }
 
-    /// <summary>
-    /// Moves to an exact place relative to the fixed point, in the frame of the sub-fractal where that is; such places are kept when
-    /// nothing is entered or left.
-    /// </summary>
+    /// <summary>Moves to an exact position relative to the fixed point, in the frame of the sub-fractal there.</summary>
+    /// <remarks>The position is kept as long as no sub-fractal is entered or left.</remarks>
     public void ConvergeTo(Vector offset)
     {
         for (var i = 0; i < 20; i++)
@@ -89,7 +87,7 @@ internal sealed class FractalDive
         }
     }
 
-    /// <summary>Back to the start.</summary>
+    /// <summary>Moves back to the start, by the recorded steps in reverse.</summary>
     public void ReturnToStart()
     {
         for (var i = Steps.Count - 1; i >= 0; i--)

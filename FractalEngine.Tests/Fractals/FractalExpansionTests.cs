@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using System.Diagnostics;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
@@ -7,7 +8,7 @@ namespace FractalEngine.Tests.Fractals;
 
 public class FractalExpansionTests
 {
-    // Chains of up to eight maps with entries up to 10.
+    // The rounding of chains of up to eight maps with entries up to 10.
     private const double Tolerance = 1e-12;
     private const long Budget = 1_000_000;
 
@@ -18,19 +19,17 @@ public class FractalExpansionTests
     public void Expand_OfAnyFractal_IsEveryChainOnce(Composition composition) => Seeded.Run(200, random =>
     {
         var fractal = RandomFractals.Create(random, composition);
-        NaiveFractal.AssertSameMaps(NaiveFractal.Distinct(NaiveFractal.Chains(fractal.Description), Tolerance),
-            FractalGenerator.Expand(fractal, Budget),
-            Tolerance);
+        var expected = NaiveFractal.Distinct(NaiveFractal.Chains(fractal.Description), Tolerance);
+        NaiveFractal.AssertSameMaps(expected, FractalGenerator.Expand(fractal, Budget), Tolerance);
     });
 
     [Fact]
     public void Expand_OfTwoSetsInABody_AppliesTheOuterAfterTheInner()
     {
-        // y sits above x in the body: S = {y·x}. Moving by 10 after doubling differs from doubling after moving by 10.
-        var description =
-            Samples.ParseFractal(
-                "v 10 0 0\nv 2 2 2\nm.p. (p, #, #)\ns.q. (#, #, q)\na. \"b.obj\"\nx. [s.2] a\ny. [m.1] x\nz<a>. y\n<$>. z 1").Description;
-        var map = Assert.Single(FractalGenerator.Expand(new(description, Samples.Triangle), Budget));
+        // y is the parent of x in the body: S = {y·x}. Moving by 10 after doubling differs from doubling after moving by 10.
+        const string Text =
+            "v 10 0 0\nv 2 2 2\nm.p. (p, #, #)\ns.q. (#, #, q)\na. \"b.obj\"\nx. [s.2] a\ny. [m.1] x\nz<a>. y\n<$>. z 1";
+        var map = Assert.Single(FractalGenerator.Expand(new(Samples.ParseFractal(Text).Description, Samples.Triangle), Budget));
         Assert.Equal(new(12, 0, 0), map * Vector.I);
     }
 
@@ -38,17 +37,17 @@ public class FractalExpansionTests
     public void Expand_OfARecursive_AppliesTheBaseObjectsSetsFirst()
     {
         // Sⁿ after A: the base is doubled once, then moved n times.
-        var description =
-            Samples.ParseFractal(
-                "v 10 0 0\nv 2 2 2\nm.p. (p, #, #)\ns.q. (#, #, q)\na. [s.2] \"b.obj\"\nz<a>. [m.1] a\n<$>. z 3").Description;
-        Assert.Equal(new(32, 0, 0), Assert.Single(FractalGenerator.Expand(new(description, Samples.Triangle), Budget)) * Vector.I);
+        const string Text = "v 10 0 0\nv 2 2 2\nm.p. (p, #, #)\ns.q. (#, #, q)\na. [s.2] \"b.obj\"\nz<a>. [m.1] a\n<$>. z 3";
+        var map = Assert.Single(FractalGenerator.Expand(new(Samples.ParseFractal(Text).Description, Samples.Triangle), Budget));
+        Assert.Equal(new(32, 0, 0), map * Vector.I);
     }
 
     [Fact]
     public void Expand_AtDepthZero_IsTheBaseObject()
     {
         var description = Samples.ParseFractal("v 10 0 0\nm.p. (p, #, #)\na. [#, m.1] \"b.obj\"\nz<a>. [m.1, m.1] a\n<$>. z 0").Description;
-        Assert.Equal([AffineMap.Identity, AffineMap.Translate(new(10, 0, 0))],
+        Assert.Equal(
+            [AffineMap.Identity, AffineMap.Translate(new(10, 0, 0))],
             FractalGenerator.Expand(new(description, Samples.Triangle), Budget).ToArray());
     }
 
@@ -56,7 +55,7 @@ public class FractalExpansionTests
     [InlineData(1, 25)]
     [InlineData(2, 585)]
     [InlineData(3, 13_641)]
-    public void Expand_OfAppendixB_LeavesRepeatedInstancesOut(int depth, int distinct)
+    public void Expand_OfAppendixB_OmitsRepeatedInstances(int depth, int distinct)
     {
         var maps = FractalGenerator.Expand(Samples.AppendixBAt(depth), Budget);
         Assert.Equal(distinct, maps.Length);
@@ -78,33 +77,39 @@ public class FractalExpansionTests
     {
         var fractal = RandomFractals.Create(random, composition);
         var shuffled = new Fractal(fractal.Description with { Steps = Shuffle(random, fractal.Description.Steps) }, fractal.BaseMesh);
-        NaiveFractal.AssertSameMaps([.. FractalGenerator.Expand(fractal, Budget).Select(NaiveFractal.Rows)],
-            FractalGenerator.Expand(shuffled, Budget),
-            Tolerance);
+        double[][][] expected = [.. FractalGenerator.Expand(fractal, Budget).Select(NaiveFractal.Rows)];
+        NaiveFractal.AssertSameMaps(expected, FractalGenerator.Expand(shuffled, Budget), Tolerance);
     });
 
     [Fact]
-    public void Expand_OfASetThatRepeatsAMap_HasItOnce() =>
-        Assert.Equal(2,
-        FractalGenerator.Expand(Samples.Repeated(1, Samples.Move(1, 0, 0), Samples.Move(2, 0, 0), Samples.Move(1, 0, 0)), Budget).Length);
+    public void Expand_OfASetThatRepeatsAMap_HasItOnce()
+    {
+        var fractal = Samples.Repeated(1, Samples.Move(1, 0, 0), Samples.Move(2, 0, 0), Samples.Move(1, 0, 0));
+        Assert.Equal(2, FractalGenerator.Expand(fractal, Budget).Length);
+    }
 
     [Fact]
-    public void Expand_OfMapsThatAreAlmostEqual_KeepsBoth() =>
-        Assert.Equal(2, FractalGenerator.Expand(Samples.Repeated(1, Samples.Move(1, 0, 0), Samples.Move(1 + 1e-12, 0, 0)), Budget).Length);
+    public void Expand_OfMapsThatAreAlmostEqual_KeepsBoth()
+    {
+        var fractal = Samples.Repeated(1, Samples.Move(1, 0, 0), Samples.Move(1 + 1e-12, 0, 0));
+        Assert.Equal(2, FractalGenerator.Expand(fractal, Budget).Length);
+    }
 
     [Fact]
-    public void Expand_OfSumsInDifferentOrder_CountsThemAsEqual() =>
-        // 0.1 + 0.2 + 0.3 has two values in floating point, depending on the order: 3 maps to the 3rd give 10 sums, some of them equal.
-        Assert.Equal(7,
-        FractalGenerator.Expand(Samples.Repeated(3, Samples.Move(0.1, 0, 0), Samples.Move(0.2, 0, 0), Samples.Move(0.3, 0, 0)),
-        Budget).Length);
+    public void Expand_OfSumsInDifferentOrder_CountsThemAsEqual()
+    {
+        // 0.1 + 0.2 + 0.3 has two values in floating point, depending on the order: three rounds of three maps give 10 sums, some equal.
+        var fractal = Samples.Repeated(3, Samples.Move(0.1, 0, 0), Samples.Move(0.2, 0, 0), Samples.Move(0.3, 0, 0));
+        Assert.Equal(7, FractalGenerator.Expand(fractal, Budget).Length);
+    }
 
     [Fact]
-    public void Expand_OfTinyInstancesFarFromEachOther_KeepsAll() =>
-        // At depth 20 instances are a millionth of the size.
-        Assert.Equal(1 << 20,
-        FractalGenerator.Expand(Samples.Repeated(20, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(0.5, 0, 0, 0.5)),
-        1 << 20).Length);
+    public void Expand_OfTinyInstancesFarFromEachOther_KeepsAll()
+    {
+        // At depth 20 instances are a millionth of the base mesh's size.
+        var fractal = Samples.Repeated(20, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(0.5, 0, 0, 0.5));
+        Assert.Equal(1 << 20, FractalGenerator.Expand(fractal, 1 << 20).Length);
+    }
 
     [Fact]
     public void Expand_BeyondTheBudget_NamesTheLimit()
@@ -118,44 +123,49 @@ public class FractalExpansionTests
 
     [Theory]
     [MemberData(nameof(Compositions))]
-    public void Expand_OfTheInfinite_IsRefused(Composition composition) =>
-        Assert.Throws<FractalLimitException>(() => FractalGenerator.Expand(
-        new(Samples.Repeated(null, Samples.MoveAndScale(1, 0, 0, 0.5), Transformation.Identity).Description with { Composition =
-        composition }, Samples.Triangle), Budget));
+    public void Expand_OfTheInfinite_IsRefused(Composition composition)
+    {
+        var description = Samples.Repeated(null, Samples.MoveAndScale(1, 0, 0, 0.5), Transformation.Identity).Description;
+        var fractal = new Fractal(description with { Composition = composition }, Samples.Triangle);
+        Assert.Throws<FractalLimitException>(() => FractalGenerator.Expand(fractal, Budget));
+    }
 
     [Fact]
     public void Expand_OfAGoogol_IsRefusedAtOnce()
     {
-        var start = System.Diagnostics.Stopwatch.StartNew();
+        var watch = Stopwatch.StartNew();
         var fractal = Samples.Repeated(100, [.. Enumerable.Range(0, 10).Select(i => Samples.MoveAndScale(i, 0, 0, 0.5))]);
         Assert.Throws<FractalLimitException>(() => FractalGenerator.Expand(fractal, Budget));
-        Assert.True(start.ElapsedMilliseconds < 1000, $"{start.ElapsedMilliseconds} ms");
+        Assert.True(watch.ElapsedMilliseconds < 1000, $"{watch.ElapsedMilliseconds} ms");
     }
 
     [Fact]
-    public void Expand_ComponentwiseWithFewSums_EnumeratesOnlyThose() =>
-        // Of 3¹⁰⁰ chains only (102 choose 2) differ: how often each of three maps occurs.
-        Assert.Equal(5151, FractalGenerator.Expand(
-            new(Samples.Repeated(100, Samples.Move(1, 0, 0), Samples.Move(0, 1, 0), Samples.Move(0, 0, 1)).Description with { Composition =
-            Composition.Componentwise }, Samples.Triangle), 6000).Length);
+    public void Expand_ComponentwiseWithFewSums_EnumeratesOnlyThose()
+    {
+        // Of 3¹⁰⁰ chains only (102 choose 2) differ: by how often each of the three maps occurs.
+        var description = Samples.Repeated(100, Samples.Move(1, 0, 0), Samples.Move(0, 1, 0), Samples.Move(0, 0, 1)).Description;
+        var fractal = new Fractal(description with { Composition = Composition.Componentwise }, Samples.Triangle);
+        Assert.Equal(5151, FractalGenerator.Expand(fractal, 6000).Length);
+    }
 
     [Fact]
     public void ExpandComponentwise_IsEachSumOnceAndWithinTheBudget()
     {
         var fractal = Samples.AppendixBAt(6, Composition.Componentwise);
         Assert.Equal(19_600, FractalGenerator.ExpandComponentwise(fractal, 19_600).Distinct().Count());
-        Assert.Contains("19599", Assert.Throws<FractalLimitException>(() => FractalGenerator.ExpandComponentwise(fractal, 19_599)).Message,
-            StringComparison.Ordinal);
+        var error = Assert.Throws<FractalLimitException>(() => FractalGenerator.ExpandComponentwise(fractal, 19_599));
+        Assert.Contains("19599", error.Message, StringComparison.Ordinal);
     }
 
     [Fact]
     public void WithPlacement_MovesEveryInstance() => Seeded.Run(50, random =>
     {
-        var (fractal, placement) = (RandomFractals.Create(random), random.Transformation());
-        NaiveFractal.AssertSameMaps(
-            [.. FractalGenerator.Expand(fractal, Budget)
-            .Select(map => NaiveFractal.Compose(NaiveFractal.MapOf(placement), NaiveFractal.Rows(map)))],
-            FractalGenerator.Expand(new(fractal.Description.WithPlacement(placement), fractal.BaseMesh), Budget), Tolerance);
+        var fractal = RandomFractals.Create(random);
+        var placement = random.Transformation();
+        var expected = FractalGenerator.Expand(fractal, Budget)
+            .Select(map => NaiveFractal.Compose(NaiveFractal.MapOf(placement), NaiveFractal.Rows(map)));
+        var placed = new Fractal(fractal.Description.WithPlacement(placement), fractal.BaseMesh);
+        NaiveFractal.AssertSameMaps([.. expected], FractalGenerator.Expand(placed, Budget), Tolerance);
     });
 
     [Fact]
@@ -163,7 +173,7 @@ public class FractalExpansionTests
         Assert.Equal(["ac", "ad", "bc", "bd"], FractalGenerator.ConcatenatePair<string>(["a", "b"], ["c", "d"], (x, y) => x + y));
 
     // Different maps of Appendix B at depth 3 (factors 0.001 × 0.125) differ by far more than 1e-7, equal ones by far less. The factor
-    // is crooked, so that no entry lies between two whole numbers, where rounding would part equal ones.
+    // is no round number, so that no entry lies half-way between two whole numbers, where rounding would separate equal ones.
     private static string Key(double[][] map) =>
         string.Join(' ', map.SelectMany(row => row).Select(entry => (long)Math.Round(entry * 12_345_678.9)));
 

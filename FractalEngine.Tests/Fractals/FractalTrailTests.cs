@@ -9,11 +9,12 @@ public class FractalTrailTests
     private static readonly Transformation First = Samples.MoveAndScale(0.2, 0, 0, 0.5);
     private static readonly Fractal Infinite = Samples.Repeated(null, First, Samples.MoveAndScale(30, 0, 0, 0.5));
 
-    /// <summary>Figure 9: the rows of a queue of three, from no transformation to four.</summary>
+    /// <summary>The rows of the paper's Figure 9: a queue of three, from no transformation to four.</summary>
     [Fact]
     public void Update_DeeperAndDeeper_FillsTheQueueAsInFigure9()
     {
-        var (m, t) = (AffineMap.Translate(new(1, 2, 3)), First.ToAffineMap());
+        var m = AffineMap.Translate(new(1, 2, 3));
+        var t = First.ToAffineMap();
         AffineMap[] chain = [m, m * t, m * t * t, m * t * t * t, m * t * t * t * t];
         AffineMap[][] rows =
         [
@@ -27,7 +28,7 @@ public class FractalTrailTests
         {
             var fractal = depth == 0 ? Samples.Repeated(0, First) : Infinite.WithDepth(depth);
             var trail = new FractalTrail(fractal, 3);
-            // The position of the deepest one is within all radii: only the depth ends the way.
+            // The position of the deepest matrix is within all radii: only the depth ends the search.
             Assert.Equal(rows[depth][0], trail.Update(m, chain[depth].Translation));
             Assert.Equal(depth, trail.Depth);
             Assert.Equal(rows[depth], trail.Queue);

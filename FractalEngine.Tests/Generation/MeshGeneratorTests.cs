@@ -65,7 +65,8 @@ public sealed class MeshGeneratorTests
     [MemberData(nameof(Names))]
     public void Create_WithTheSameSeed_GivesTheSameBits(string name)
     {
-        var (first, second) = (MeshGenerators.Create(name, 5, 12_000), MeshGenerators.Create(name, 5, 12_000));
+        var first = MeshGenerators.Create(name, 5, 12_000);
+        var second = MeshGenerators.Create(name, 5, 12_000);
         Assert.Equal(Bits(first), Bits(second));
         Assert.True(first.VertexIndices.AsSpan().SequenceEqual(second.VertexIndices.AsSpan()));
         Assert.True(first.NormalIndices.AsSpan().SequenceEqual(second.NormalIndices.AsSpan()));
@@ -102,7 +103,7 @@ public sealed class MeshGeneratorTests
         for (var face = 0; face < mesh.FaceCount; face++)
         {
             var (a, b, c) = mesh.Face(face);
-            // Meshes are a few units large, and their smallest details a tenth of a millimetre: 1e-8 in area.
+            // Meshes are a few units large, and their smallest details a tenth of a millimetre, 1e-8 in area.
             Assert.True(Vector.Cross(b - a, c - a).Length() > 1e-11, $"face {face} of {name}: {a} {b} {c}");
         }
     }
@@ -130,9 +131,10 @@ public sealed class MeshGeneratorTests
     [Fact]
     public void SpaceshipInterior_FacesTheCorridor()
     {
-        // From the middle of the section nearly all of the area is seen from its front; only the backs of what stands out are not.
+        // From the centre of the section nearly all of the area shows its front; only the far sides of raised fittings do not.
         var mesh = MeshGenerators.Create("spaceship-interior", 0, 40_000);
-        var (front, all) = (0.0, 0.0);
+        var front = 0.0;
+        var all = 0.0;
         for (var face = 0; face < mesh.FaceCount; face++)
         {
             var (a, b, c) = mesh.Face(face);
@@ -150,7 +152,7 @@ public sealed class MeshGeneratorTests
     {
         var mesh = MeshGenerators.Create(name, 9, 9_000);
         using var stream = new MemoryStream();
-        ObjWriter.Write(mesh, name, stream);
+        ObjMeshWriter.Write(mesh, stream, name);
         var text = System.Text.Encoding.UTF8.GetString(stream.ToArray());
         Assert.StartsWith($"# Mesh count: {mesh.FaceCount}\n", text, StringComparison.Ordinal);
         var read = ObjParser.Parse(new SourceText(name, text)).Mesh;
@@ -158,8 +160,9 @@ public sealed class MeshGeneratorTests
         Assert.True(mesh.VertexIndices.AsSpan().SequenceEqual(read.VertexIndices.AsSpan()));
         Assert.True(mesh.TextureIndices.AsSpan().SequenceEqual(read.TextureIndices.AsSpan()));
         Assert.True(mesh.NormalIndices.AsSpan().SequenceEqual(read.NormalIndices.AsSpan()));
-        Assert.Equal(mesh.Groups.Select(group => group.GroupName), read.Groups.Select(group => group.GroupName)
-            .Where(group => group.Length > 0));
+        Assert.Equal(
+            mesh.Groups.Select(group => group.GroupName),
+            read.Groups.Select(group => group.GroupName).Where(groupName => groupName.Length > 0));
     }
 
     private static long[] Bits(Mesh mesh) => [.. mesh.Positions.Select(BitConverter.DoubleToInt64Bits)];

@@ -26,7 +26,7 @@ public class BoundingBoxTests
         Assert.Equal(new(new(-1, 0, 0), new(1, 1, 5)), BoundingBox.Union(Unit, new(new(-1, 0, 2), new(0, 1, 5))));
 
     [Fact]
-    public void CentreSizeAndDiagonal_AreThose()
+    public void CentreSizeAndDiagonal_OfAnyBox_FollowFromItsCorners()
     {
         var box = new BoundingBox(new(-1, 0, 2), new(1, 3, 8));
         Assert.Equal((new(0, 1.5, 5), new(2, 3, 6), 7), (box.Centre, box.Size, box.Diagonal));
@@ -41,8 +41,9 @@ public class BoundingBoxTests
     {
         var map = random.Transformation().ToAffineMap();
         var corners = Enumerable.Range(0, 8).Select(i => map * new Vector(i & 1, (i >> 1) & 1, i >> 2));
-        var (expected, actual) = (NaiveFractal.Box(corners), Unit.Transform(map));
-        // Coordinates up to 4.
+        var expected = NaiveFractal.Box(corners);
+        var actual = Unit.Transform(map);
+        // The rounding of coordinates up to 4.
         Near.Equal(expected.Minimum, actual.Minimum, 1e-14);
         Near.Equal(expected.Maximum, actual.Maximum, 1e-14);
     });

@@ -15,13 +15,13 @@ public sealed class ClosedSurfaceTests
     }
 
     [Fact]
-    public void IsSolid_EachFaceWithVerticesOfItsOwn_IsTrueByPosition()
+    public void IsSolid_EachFaceWithVerticesOfItsOwn_IsTrue()
     {
         var cube = RenderScenes.Cube(1);
-        var loose = new Mesh(
+        var unwelded = new Mesh(
             [.. cube.VertexIndices.SelectMany(vertex => new[] { cube.Vertex(vertex).X, cube.Vertex(vertex).Y, cube.Vertex(vertex).Z })],
             [.. Enumerable.Range(0, 36)]);
-        Assert.True(ClosedSurface.IsSolid(loose));
+        Assert.True(ClosedSurface.IsSolid(unwelded));
     }
 
     [Fact]
@@ -36,13 +36,13 @@ public sealed class ClosedSurfaceTests
     }
 
     [Fact]
-    public void IsSolid_OneOfTwoPartsInsideOut_IsFalse()
+    public void IsSolid_OneOfTwoComponentsInsideOut_IsFalse()
     {
         var cube = RenderScenes.Cube(1);
         var small = RenderScenes.Cube(0.5).Transform(vertex => new Vector(5, 0, 0) - vertex);
-        Assert.False(
-            ClosedSurface.IsSolid(
-                new([.. cube.Positions, .. small.Positions],
-                [.. cube.VertexIndices, .. small.VertexIndices.Select(vertex => vertex + 8)])));
+        var mesh = new Mesh(
+            [.. cube.Positions, .. small.Positions],
+            [.. cube.VertexIndices, .. small.VertexIndices.Select(vertex => vertex + 8)]);
+        Assert.False(ClosedSurface.IsSolid(mesh));
     }
 }

@@ -25,20 +25,20 @@ public class MeshTests
     [InlineData(-1)]
     [InlineData(1)]
     [InlineData(int.MaxValue)]
-    public void Mesh_WithAVertexNumberOutOfRange_IsRefused(int number) =>
-        Assert.Throws<ArgumentException>(() => new Mesh([1, 2, 3], [0, 0, number]));
+    public void Mesh_WithAVertexIndexOutOfRange_IsRefused(int index) =>
+        Assert.Throws<ArgumentException>(() => new Mesh([1, 2, 3], [0, 0, index]));
 
     [Theory]
     [InlineData(-2)]
     [InlineData(1)]
-    public void WithTextureCoordinates_OutOfRange_IsRefused(int number) =>
-        Assert.Throws<ArgumentException>(() => Samples.Triangle.WithTextureCoordinates([0, 0], [0, 0, number]));
+    public void WithTextureCoordinates_IndexOutOfRange_IsRefused(int index) =>
+        Assert.Throws<ArgumentException>(() => Samples.Triangle.WithTextureCoordinates([0, 0], [0, 0, index]));
 
     [Theory]
     [InlineData(-2)]
     [InlineData(1)]
-    public void WithNormals_OutOfRange_IsRefused(int number) =>
-        Assert.Throws<ArgumentException>(() => Samples.Triangle.WithNormals([0, 0, 1], [0, 0, number]));
+    public void WithNormals_IndexOutOfRange_IsRefused(int index) =>
+        Assert.Throws<ArgumentException>(() => Samples.Triangle.WithNormals([0, 0, 1], [0, 0, index]));
 
     [Fact]
     public void WithNormals_OfAnotherNumberOfFaces_IsRefused() =>
@@ -49,7 +49,7 @@ public class MeshTests
         new BoundingBox(new(-5, 0, 0), new(1, 1, 9)), new Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0, -5, 0, 9], [0, 1, 2]).Bounds);
 
     [Fact]
-    public void Empty_HasNothingAndAnEmptyBox()
+    public void Empty_HasNoVerticesAndAnEmptyBox()
     {
         Assert.Equal((0, 0), (Mesh.Empty.VertexCount, Mesh.Empty.FaceCount));
         Assert.True(Mesh.Empty.Bounds.IsEmpty);
@@ -65,7 +65,7 @@ public class MeshTests
     {
         var map = random.Transformation().ToAffineMap();
         var expected = NaiveFractal.Vertices(Samples.Tetrahedron).Max(v => ((map * v) - map.Translation).Length());
-        // Positions up to 3 are added and taken away again.
+        // The rounding of translations that are added and subtracted again.
         Near.Equal(expected, Samples.Tetrahedron.Radius(map), 1e-14);
     });
 

@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
@@ -49,23 +50,28 @@ public class PolygonTriangulatorTests
     public void Triangulate_ARandomStar_CoversItAndNothingElse() => Seeded.Run(300, random =>
     {
         var count = random.Next(3, 40);
-        var angles = Enumerable.Range(0, count).Select(i => (i + random.Between(0.05, 0.95)) * 2 * Math.PI / count);
-        AssertCovered(random,
-            [.. angles.Select(angle => random.Between(0.2, 3) switch { var r => (r * Math.Cos(angle), r * Math.Sin(angle)) })],
-            random.Next(2) == 0);
+        var polygon = new (double X, double Y)[count];
+        for (var i = 0; i < count; i++)
+        {
+            var angle = (i + random.Between(0.05, 0.95)) * 2 * Math.PI / count;
+            var radius = random.Between(0.2, 3);
+            polygon[i] = (radius * Math.Cos(angle), radius * Math.Sin(angle));
+        }
+
+        AssertCovered(random, polygon, random.Next(2) == 0);
     });
 
     [Fact]
     public void Triangulate_ARandomBand_CoversItAndNothingElse() => Seeded.Run(100, random =>
     {
-        // A zigzag road of constant height: concave, and not a star.
-        var middle = Enumerable.Range(0, random.Next(2, 20)).Select(i => (X: (double)i, Y: random.Between(-5, 5))).ToArray();
-        AssertCovered(random, [.. middle.Select(p => (p.X, p.Y)), .. middle.Reverse().Select(p => (p.X, p.Y + 0.5))], random.Next(2) == 0);
+        // A zigzag band of constant height: concave, and not a star.
+        var lower = Enumerable.Range(0, random.Next(2, 20)).Select(i => (X: (double)i, Y: random.Between(-5, 5))).ToArray();
+        AssertCovered(random, [.. lower, .. lower.Reverse().Select(p => (p.X, p.Y + 0.5))], random.Next(2) == 0);
     });
 
     [Theory]
     [MemberData(nameof(Degenerate))]
-    public void Triangulate_AnImproperPolygon_GivesTwoTrianglesLessThanCornersOverThem(string name, double[] coordinates)
+    public void Triangulate_ADegeneratePolygon_GivesTwoTrianglesLessThanCornersOverThem(string name, double[] coordinates)
     {
         Assert.NotNull(name);
         var triangles = Triangulate([.. ToPoints(coordinates).Select(p => new Vector(p.X, p.Y, 0))]);
@@ -83,12 +89,12 @@ public class PolygonTriangulatorTests
     [Fact]
     public void Triangulate_ALargeCircle_TakesNoLongerThanASecond()
     {
-        var circle = Enumerable.Range(0, 20_000).Select(i => i * 2 * Math.PI / 20_000).Select(a => new Vector(Math.Cos(a), Math.Sin(a), 0))
-            .ToArray();
-        var start = System.Diagnostics.Stopwatch.StartNew();
+        var angles = Enumerable.Range(0, 20_000).Select(i => i * 2 * Math.PI / 20_000);
+        var circle = angles.Select(angle => new Vector(Math.Cos(angle), Math.Sin(angle), 0)).ToArray();
+        var watch = Stopwatch.StartNew();
         Assert.Equal(19_998, Triangulate(circle).Count);
-        // It takes milliseconds; the limit leaves room for a busy machine.
-        Assert.True(start.ElapsedMilliseconds < 2000, $"{start.ElapsedMilliseconds} ms");
+        // It takes milliseconds; the limit allows for a busy machine.
+        Assert.True(watch.ElapsedMilliseconds < 2000, $"{watch.ElapsedMilliseconds} ms");
     }
 
     [Fact]
@@ -100,17 +106,18 @@ public class PolygonTriangulatorTests
         Assert.Equal(7, triangles[0]);
     }
 
-    private static void AssertCovered(Random random, (double X, double Y)[] flat, bool clockwise)
+    private static void AssertCovered(Random random, (double X, double Y)[] corners, bool isReversed)
     {
-        (double X, double Y)[] polygon = clockwise ? [.. flat.Reverse()] : flat;
-        var (axes, origin) = (random.Degrees().LocalAxesFromDegrees(), random.Vector(10));
+        (double X, double Y)[] polygon = isReversed ? [.. corners.Reverse()] : corners;
+        var axes = random.Degrees().LocalAxesFromDegrees();
+        var origin = random.Vector(10);
         var triangles = Triangulate([.. polygon.Select(p => origin + (axes * new Vector(p.X, p.Y, 0)))]);
         Assert.Equal(polygon.Length - 2, triangles.Count);
         var area = Enumerable.Range(0, polygon.Length).Sum(i => Cross(polygon[i], polygon[(i + 1) % polygon.Length])) / 2;
-        var pieces = triangles.Select(t => (Area: Area(polygon, t), Centre: Centre(polygon, t))).ToList();
-        // Areas up to a hundred, some dozens of roundings.
-        Near.Equal(area, pieces.Sum(triangle => triangle.Area), 1e-12);
-        Assert.All(pieces, triangle =>
+        var measured = triangles.Select(t => (Area: Area(polygon, t), Centre: Centre(polygon, t))).ToList();
+        // The rounding of some dozens of areas up to a hundred.
+        Near.Equal(area, measured.Sum(triangle => triangle.Area), 1e-12);
+        Assert.All(measured, triangle =>
         {
             Assert.True(triangle.Area * Math.Sign(area) >= -1e-12, "a triangle is wound against the polygon");
             // A triangle without area, which collinear corners need, may have its centre on the border.
@@ -139,5 +146,5 @@ public class PolygonTriangulatorTests
     private static bool IsInside((double X, double Y)[] polygon, (double X, double Y) p) => Enumerable.Range(0, polygon.Length)
         .Select(i => (A: polygon[i], B: polygon[(i + 1) % polygon.Length]))
         .Count(edge => edge.A.Y > p.Y != edge.B.Y > p.Y
-        && p.X < edge.A.X + ((p.Y - edge.A.Y) / (edge.B.Y - edge.A.Y) * (edge.B.X - edge.A.X))) % 2 == 1;
+            && p.X < edge.A.X + ((p.Y - edge.A.Y) / (edge.B.Y - edge.A.Y) * (edge.B.X - edge.A.X))) % 2 == 1;
 }

@@ -6,7 +6,7 @@ namespace FractalEngine.Tests.Maths;
 
 public class AffineMapTests
 {
-    // Chains of two maps with entries up to some tens.
+    // The rounding of chains of two maps with entries up to some tens.
     private const double Tolerance = 1e-13;
 
     [Fact]
@@ -28,7 +28,8 @@ public class AffineMapTests
     [Fact]
     public void Inverse_OfATransformation_UndoesIt() => Seeded.Run(200, random =>
     {
-        var (map, point) = (random.Transformation().ToAffineMap(), random.Vector(5));
+        var map = random.Transformation().ToAffineMap();
+        var point = random.Vector(5);
         Near.Equal(point, map.Inverse() * (map * point), Tolerance);
         Near.Equal(AffineMap.Identity, map * map.Inverse(), Tolerance);
     });
@@ -39,35 +40,39 @@ public class AffineMapTests
     [Fact]
     public void Rotate_AboutAPivot_IsThePapersFormula() => Seeded.Run(100, random =>
     {
-        var (rotation, pivot, point) = (random.Degrees(), random.Vector(5), random.Vector(5));
+        var rotation = random.Degrees();
+        var pivot = random.Vector(5);
+        var point = random.Vector(5);
         Near.Equal(pivot + (rotation.LocalAxesFromDegrees() * (point - pivot)), AffineMap.Rotate(rotation, pivot) * point, Tolerance);
     });
 
     [Fact]
     public void Scale_AboutAPivot_IsThePapersFormula() => Seeded.Run(100, random =>
     {
-        var (scale, pivot, point) = (random.Vector(3), random.Vector(5), random.Vector(5));
+        var scale = random.Vector(3);
+        var pivot = random.Vector(5);
+        var point = random.Vector(5);
         Near.Equal(pivot + (point - pivot).Stretch(scale), AffineMap.Scale(scale, pivot) * point, Tolerance);
     });
 
     [Fact]
     public void RotateAndScale_AboutAPivot_KeepThePivot()
     {
-        Vector pivot = new(1, 2, 3);
+        var pivot = new Vector(1, 2, 3);
         Assert.Equal(pivot, AffineMap.Rotate(new(90, 180, 270), pivot) * pivot);
         Assert.Equal(pivot, AffineMap.Scale(new(2, -4, 8), pivot) * pivot);
     }
 
     [Fact]
     public void Rotate_ByAQuarterAboutAPivot_IsExact() =>
-        // Pitch sends up to −z·s: by rows [1 0 0; 0 c s; 0 −s c], so (0, 1, 0) goes to (0, 0, −1).
+        // Pitch has the rows [1 0 0; 0 c s; 0 −s c], so that it maps (0, 1, 0) to (0, 0, −1).
         Assert.Equal(new(1, 1, 0), AffineMap.Rotate(new(90, 0, 0), new(1, 1, 1)) * new Vector(1, 2, 1));
 
     [Fact]
     public void ChainOfScaleAndRotation_Shears()
     {
-        var map = AffineMap.Rotate(new(0, 0, 45), Vector.Zero) * AffineMap.Scale(new(4, 1, 1), Vector.Zero)
-            * AffineMap.Rotate(new(0, 0, 45), Vector.Zero);
+        var rotation = AffineMap.Rotate(new(0, 0, 45), Vector.Zero);
+        var map = rotation * AffineMap.Scale(new(4, 1, 1), Vector.Zero) * rotation;
         Assert.True(Math.Abs(Vector.Dot(map * Vector.I, map * Vector.J)) > 1, "the axes stay perpendicular");
     }
 

@@ -5,11 +5,11 @@ namespace FractalEngine.Tests.Maths;
 
 public class EulerAngleTests
 {
-    // Angles of a few roundings each, through two matrix products.
+    // The rounding of the angles and of two matrix products.
     private const double Tolerance = 1e-14;
 
     [Fact]
-    public void EulerAngles_OfAnyRotation_GiveItBack() => Seeded.Run(2000, random =>
+    public void EulerAngles_OfAnyRotation_ReproduceIt() => Seeded.Run(2000, random =>
     {
         var axes = random.Vector(4).LocalAxes();
         Near.Equal(axes, axes.EulerAngles().LocalAxes(), Tolerance);
@@ -26,7 +26,7 @@ public class EulerAngleTests
     [Theory]
     [InlineData(1)]
     [InlineData(-1)]
-    public void EulerAngles_InGimbalLock_GiveTheRotationBackWithPitchZero(int sign) => Seeded.Run(200, random =>
+    public void EulerAngles_InGimbalLock_ReproduceTheRotationWithPitchZero(int sign) => Seeded.Run(200, random =>
     {
         var axes = new Vector(random.Between(-180, 180), sign * 90, random.Between(-180, 180)).LocalAxesFromDegrees();
         var angles = axes.EulerAngles();
@@ -46,20 +46,20 @@ public class EulerAngleTests
     [InlineData(1e-5)]
     [InlineData(1e-4)]
     [InlineData(1e-3)]
-    public void EulerAngles_NearGimbalLock_GiveTheRotationBack(double distance) => Seeded.Run(500, random =>
+    public void EulerAngles_NearGimbalLock_ReproduceTheRotation(double distance) => Seeded.Run(500, random =>
     {
         var yaw = (random.Next(2) == 0 ? 1 : -1) * ((Math.PI / 2) + (random.Next(2) == 0 ? distance : -distance));
         var axes = new Vector(random.Between(-3, 3), yaw, random.Between(-3, 3)).LocalAxes();
-        // Closer than that the lock may be taken as complete: a picture of a scene moves by 1e-12 of its size then.
+        // Closer than 1e-13 the lock may count as complete, which moves the image of a scene by less than 1e-12 of its size.
         Near.Equal(axes, axes.EulerAngles().LocalAxes(), 1e-12);
     });
 
     [Fact]
-    public void EulerAngles_OfQuarterTurns_GiveThemBack()
+    public void EulerAngles_OfQuarterTurns_ReproduceThem()
     {
-        for (var turn = 0; turn < 64; turn++)
+        for (var i = 0; i < 64; i++)
         {
-            var axes = new Vector(turn % 4 * 90, turn / 4 % 4 * 90, turn / 16 * 90).LocalAxesFromDegrees();
+            var axes = new Vector(i % 4 * 90, i / 4 % 4 * 90, i / 16 * 90).LocalAxesFromDegrees();
             Near.Equal(axes, axes.EulerAngles().LocalAxes(), Tolerance);
         }
     }

@@ -7,15 +7,16 @@ public class MatrixInverseTests
 {
     [Fact]
     public void Inverse_OfAKnownMatrix_IsExact() => Assert.Equal(
-        Matrix.FromRows(new(0, 1, 0), new(0, 0, 0.5), new(0.25, 0, 0)), Matrix.FromRows(new(0, 0, 4), new(1, 0, 0), new(0, 2, 0))
-        .Inverse());
+        Matrix.FromRows(new(0, 1, 0), new(0, 0, 0.5), new(0.25, 0, 0)),
+        Matrix.FromRows(new(0, 0, 4), new(1, 0, 0), new(0, 2, 0)).Inverse());
 
     [Theory]
     [InlineData(1, 1e-14)]
     [InlineData(1e3, 1e-12)]
     public void Inverse_OfAGivenCondition_UndoesTheMatrix(double condition, double tolerance) => Seeded.Run(200, random =>
     {
-        var (left, right) = (random.Orthogonal(), random.Orthogonal());
+        var left = random.Orthogonal();
+        var right = random.Orthogonal();
         var matrix = left * Matrix.Diagonal(new(1, 1 / Math.Sqrt(condition), 1 / condition)) * right;
         var expected = right.Transpose() * Matrix.Diagonal(new(1, Math.Sqrt(condition), condition)) * left.Transpose();
         // Rounding the entries of the matrix alone changes its inverse by condition × 1e-16 of itself.
@@ -46,7 +47,7 @@ public class MatrixInverseTests
     public void Inverse_OfTheInverse_IsTheMatrix() => Seeded.Run(200, random =>
     {
         var map = random.Transformation().ToAffineMap();
-        // Scales from 0.3 to 0.7 have a condition below 3.
+        // Scales from 0.3 to 0.7 have a condition number below 3.
         Near.Equal(map, map.Inverse().Inverse(), 1e-13);
     });
 
@@ -54,7 +55,7 @@ public class MatrixInverseTests
     [InlineData(0, 0, 0)]
     [InlineData(1, 1, 0)]
     [InlineData(0, 1e150, 1)]
-    public void Inverse_OfAFlatScale_SaysSingular(double x, double y, double z)
+    public void Inverse_OfAFlatScale_Throws(double x, double y, double z)
     {
         var matrix = Matrix.Diagonal(new(x, y, z));
         var error = Assert.Throws<SingularMatrixException>(() => matrix.Inverse());
@@ -63,23 +64,24 @@ public class MatrixInverseTests
     }
 
     [Fact]
-    public void Inverse_OfParallelColumns_SaysSingular() =>
+    public void Inverse_OfParallelColumns_Throws() =>
         Assert.Throws<SingularMatrixException>(() => new Matrix(new(1, 2, 3), new(2, 4, 6), new(0, 0, 1)).Inverse());
 
     [Theory]
     [InlineData(double.NaN)]
     [InlineData(double.PositiveInfinity)]
-    public void Inverse_OfEntriesThatAreNoNumbers_SaysSingular(double entry) =>
+    public void Inverse_OfEntriesThatAreNotFinite_Throws(double entry) =>
         Assert.Throws<SingularMatrixException>(() => Matrix.Diagonal(new(1, entry, 1)).Inverse());
 
     [Fact]
-    public void Inverse_OfASingularMap_SaysSingular() => Assert.Throws<SingularMatrixException>(
+    public void Inverse_OfASingularMap_Throws() => Assert.Throws<SingularMatrixException>(
         () => new Transformation(Vector.One, Vector.Zero, new(1, 0, 1)).ToAffineMap().Inverse());
 
     [Fact]
     public void Inverse_OfConditionTenToTheTwelve_IsOffByNoMoreThanThatTimesAnUlp() => Seeded.Run(200, random =>
     {
-        var (left, right) = (random.Orthogonal(), random.Orthogonal());
+        var left = random.Orthogonal();
+        var right = random.Orthogonal();
         var matrix = left * Matrix.Diagonal(new(1, 1e-6, 1e-12)) * right;
         var expected = right.Transpose() * Matrix.Diagonal(new(1, 1e6, 1e12)) * left.Transpose();
         // Rounding the entries of the matrix alone changes its inverse by 1e12 × 1e-16 of itself; a hundred times that is allowed.
@@ -89,7 +91,7 @@ public class MatrixInverseTests
     [Fact]
     public void Inverse_OfTheMostUnevenScaleThatFilesMayHave_IsTheReciprocalScale()
     {
-        // Each factor lies within the limits that files are held to, and so does each reciprocal.
+        // Each factor lies within the limits of files, and so does each reciprocal.
         var inverse = Matrix.Diagonal(new(1e100, 1e-100, 1e-100)).Inverse();
         Near.Equal(Vector.One, new Vector(1e100 * inverse.V1.X, 1e-100 * inverse.V2.Y, 1e-100 * inverse.V3.Z), 1e-15);
     }

@@ -33,7 +33,7 @@ public class MatrixRotationTests
     public void LocalAxes_OfAnyAngles_AreARotation() => Seeded.Run(200, random =>
     {
         var axes = random.Vector(10).LocalAxes();
-        // Two products of entries up to 1.
+        // The rounding of two products of entries up to 1.
         Near.Equal(Matrix.Identity, axes.Transpose() * axes, 2e-15);
         Near.Equal(1, axes.Determinant(), 2e-15);
     });
@@ -74,7 +74,7 @@ public class MatrixRotationTests
         {
             var axis = random.Direction();
             var rotation = Matrix.Rotation(axis, random.Between(-7, 7));
-            // A dozen roundings of numbers up to 1.
+            // The rounding of a dozen numbers up to 1.
             Near.Equal(axis, rotation * axis, 2e-15);
             Near.Equal(1, rotation.Determinant(), 4e-15);
         });

@@ -44,9 +44,9 @@ public class MatrixTests
     [Fact]
     public void Determinant_OfAProduct_IsTheProductOfDeterminants() => Seeded.Run(200, random =>
     {
-        var (m1, m2) =
-            (new Matrix(random.Vector(), random.Vector(), random.Vector()), new Matrix(random.Vector(), random.Vector(), random.Vector()));
-        // Entries up to 3: some dozens of roundings of numbers up to 27.
+        var m1 = new Matrix(random.Vector(), random.Vector(), random.Vector());
+        var m2 = new Matrix(random.Vector(), random.Vector(), random.Vector());
+        // The rounding of some dozens of numbers up to 27.
         Near.Equal(m1.Determinant() * m2.Determinant(), (m1 * m2).Determinant(), 1e-13);
     });
 
@@ -69,10 +69,37 @@ public class MatrixTests
         var drifted = rotation + (1e-6 * new Matrix(random.Vector(), random.Vector(), random.Vector()));
         var repaired = drifted.Orthonormalized();
         Near.Equal(Matrix.Identity, repaired.Transpose() * repaired, 1e-15 * 4);
-        // It moves no farther than a few times the drift.
+        // It differs from the rotation by no more than a few times the drift.
         Near.Equal(rotation, repaired, 1e-5);
         Near.Equal(drifted.V3.UnitVector(), repaired.V3, 1e-15);
     });
+
+    [Fact]
+    public void KeepsBoxesAxisAligned_OfScalesMirrorsAndQuarterTurns_IsTrue()
+    {
+        Assert.True(Matrix.Diagonal(new(2, -3, 0.5)).KeepsBoxesAxisAligned());
+        Assert.True(Matrix.Diagonal(new(1, 1, 0)).KeepsBoxesAxisAligned());
+        Assert.True(new Vector(90, 180, 270).LocalAxesFromDegrees().KeepsBoxesAxisAligned());
+        Assert.False(new Vector(0, 0, 45).LocalAxesFromDegrees().KeepsBoxesAxisAligned());
+        Assert.False(Sample.KeepsBoxesAxisAligned());
+    }
+
+    [Fact]
+    public void KeepsBoxesAxisAligned_WithTwoColumnsAlongOneAxis_IsTrueAndTheMatrixIsNoPermutation()
+    {
+        var matrix = new Matrix(Vector.I, 2 * Vector.I, Vector.K);
+        Assert.True(matrix.KeepsBoxesAxisAligned());
+        Assert.False(matrix.IsScaledAxisPermutation());
+    }
+
+    [Fact]
+    public void IsScaledAxisPermutation_OfInvertibleOnes_IsTrue()
+    {
+        Assert.True(Matrix.Diagonal(new(2, -3, 0.5)).IsScaledAxisPermutation());
+        Assert.True(new Matrix(-Vector.J, 3 * Vector.K, Vector.I).IsScaledAxisPermutation());
+        Assert.False(Matrix.Diagonal(new(1, 1, 0)).IsScaledAxisPermutation());
+        Assert.False(new Vector(0, 0, 45).LocalAxesFromDegrees().IsScaledAxisPermutation());
+    }
 
     [Theory]
     [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]

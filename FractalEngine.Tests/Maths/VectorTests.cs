@@ -13,8 +13,8 @@ public class VectorTests
 
     [Fact]
     public void Addition_AnyVectors_IsCommutativeAndUndoneBySubtraction() =>
-        Laws.CheckForAll(Laws.Vectors.Two(), pair => pair.Item1 + pair.Item2 == pair.Item2 + pair.Item1
-        && pair.Item1 + pair.Item2 - pair.Item2 == pair.Item1);
+        Laws.CheckForAll(Laws.Vectors.Two(), pair =>
+            pair.Item1 + pair.Item2 == pair.Item2 + pair.Item1 && pair.Item1 + pair.Item2 - pair.Item2 == pair.Item1);
 
     [Fact]
     public void Negation_AnyVector_IsTheDifferenceFromZero() => Laws.CheckForAll(Laws.Vectors, v => -v == Vector.Zero - v);
@@ -59,7 +59,7 @@ public class VectorTests
     public void UnitVector_OfAnySize_HasLengthOneAndTheSameDirection(double size) => Seeded.Run(100, random =>
     {
         var direction = random.Direction();
-        // A handful of roundings of numbers up to 1.
+        // The rounding of a handful of numbers up to 1.
         Near.Equal(direction, (size * direction).UnitVector(), 1e-15);
         Near.Equal(1, (size * direction).UnitVector().Length(), 1e-15);
     });

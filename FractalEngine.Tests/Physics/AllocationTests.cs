@@ -38,27 +38,62 @@ public class AllocationTests
         CheckSteps(world);
     }
 
+    [Fact]
+    public void Step_OfVaryingLengths_AllocatesNothing()
+    {
+        var world = new PhysicsWorld(new PhysicsSettings { SleepSpeed = 0 });
+        world.AddStatic(AssetFractals.Load("menger", 3));
+        world.AddStatic(PhysicsMeshes.FloorMesh(), Samples.Move(0, -0.6, 0));
+        AddBodies(world, 0.04);
+        CheckSteps(world, step => world.Step((1 + (step % 7)) / 240.0));
+    }
+
+    [Fact]
+    public void Step_WithAWalkingCharacter_AllocatesNothing()
+    {
+        var world = new PhysicsWorld();
+        world.AddStatic(AssetFractals.Load("menger", 3));
+        world.AddStatic(PhysicsMeshes.FloorMesh(), Samples.Move(0, -0.6, 0));
+        AddBodies(world, 0.04);
+        var character = world.AddCharacter(new(new(0.2, 1, 0.1), 0.04, 0.2));
+        character.IsActive = true;
+        CheckSteps(world, step =>
+        {
+            character.MoveInput = new(Math.Cos(0.01 * step), 0, Math.Sin(0.01 * step));
+            if (step % 40 == 0)
+            {
+                character.Jump();
+            }
+
+            world.Step();
+        });
+    }
+
     private static void AddBodies(PhysicsWorld world, double radius)
     {
         var random = new Random(1);
-        world.AddRange(Enumerable.Range(0, 25)
-            .Select(i => new BodyDescription(new Vector((i % 5 * 0.2) - 0.4, 0.6, (i / 5 % 5 * 0.2) - 0.4) + random.Vector(0.01), radius)
+        world.AddRange(Enumerable.Range(0, 25).Select(i =>
         {
-            Restitution = i % 3 * 0.4, Friction = i % 2 * 0.3, Damping = i % 4 * 0.05, Shrinkage = i % 7 == 0 ? 0.01 : 0,
+            var position = new Vector((i % 5 * 0.2) - 0.4, 0.6, (i / 5 % 5 * 0.2) - 0.4) + random.Vector(0.01);
+            return new BodyDescription(position, radius)
+            {
+                Restitution = i % 3 * 0.4, Friction = i % 2 * 0.3, Damping = i % 4 * 0.05, Shrinkage = i % 7 == 0 ? 0.01 : 0,
+            };
         }));
     }
 
-    private static void CheckSteps(PhysicsWorld world)
+    private static void CheckSteps(PhysicsWorld world, Action<int>? makeStep = null)
     {
-        // Long enough for the runtime to have compiled everything as well as it ever does, and for lists to be as long as they get.
-        _ = RunAndCountAwake(world, 300);
+        makeStep ??= _ => world.Step();
+        // Until the runtime has compiled everything to its last tier, and lists have reached their final lengths.
+        _ = RunAndCountAwake(world, 300, makeStep);
         var before = GC.GetAllocatedBytesForCurrentThread();
-        var awake = RunAndCountAwake(world, 1000);
+        var awake = RunAndCountAwake(world, 1000, makeStep);
         Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
         Assert.True(awake > 50, "all sleep");
     }
 
-    private static int RunAndCountAwake(PhysicsWorld world, int steps)
+    private static int RunAndCountAwake(PhysicsWorld world, int steps, Action<int> makeStep)
     {
         var awake = 0;
         for (var step = 0; step < steps; step++)
@@ -68,7 +103,7 @@ public class AllocationTests
                 world.SetVelocity(world.Bodies[step / 60], new(0.3, 3, 0.2));
             }
 
-            world.Step();
+            makeStep(step);
             awake += world.Bodies[step % world.Bodies.Count].IsAsleep ? 0 : 1;
         }
 

@@ -3,25 +3,29 @@ using FractalEngine.Core.Physics;
 
 namespace FractalEngine.Tests.Physics;
 
-/// <summary>Numbers that no body and no world can have are refused, by name.</summary>
+/// <summary>Bodies, settings and times that no world can have are refused, with a message that names them.</summary>
 public class BodyInputTests
 {
-    private static readonly BodyDescription ValidBody = new(Vector.Zero, 1) { Name = "ball 7" };
+    private static readonly BodyDescription ValidBody = new(Vector.Zero, 1) { Name = "seventh" };
 
     public static TheoryData<double> NonFiniteNumbers => [double.NaN, double.PositiveInfinity, double.NegativeInfinity];
 
     [Theory]
     [MemberData(nameof(NonFiniteNumbers))]
-    public void Add_WithAnUnrealNumber_NamesTheBody(double number)
+    public void Add_WithANumberThatIsNotFinite_NamesTheBody(double number)
     {
         BodyDescription[] wrong =
         [
-            ValidBody with { Position = new(0, number, 0) }, ValidBody with { Velocity = new(0, 0, number) },
+            ValidBody with { Position = new(0, number, 0) },
+            ValidBody with { Velocity = new(0, 0, number) },
             ValidBody with { Radius = number },
             ValidBody with { Mass = number },
-            ValidBody with { Restitution = number }, ValidBody with { Friction = number }, ValidBody with { Damping = number },
+            ValidBody with { Restitution = number },
+            ValidBody with { Friction = number },
+            ValidBody with { Damping = number },
             ValidBody with { Shrinkage = number },
-            ValidBody with { MinimumScale = number }, ValidBody with { LinearPart = new(Vector.I, new(number, 0, 0), Vector.K) },
+            ValidBody with { MinimumScale = number },
+            ValidBody with { LinearPart = new(Vector.I, new(number, 0, 0), Vector.K) },
         ];
         CheckRefused(wrong);
     }
@@ -29,16 +33,15 @@ public class BodyInputTests
     [Fact]
     public void Add_OutOfRange_NamesTheBody() => CheckRefused(
     [
-        ValidBody with { Radius = 0 }, ValidBody with { Radius = -1 }, ValidBody with { Mass = 0 }, ValidBody with { Mass = -1 },
+        ValidBody with { Radius = 0 }, ValidBody with { Radius = -1 },
+        ValidBody with { Mass = 0 }, ValidBody with { Mass = -1 },
         ValidBody with { Restitution = -0.1 }, ValidBody with { Restitution = 1.1 },
         ValidBody with { Friction = -0.1 }, ValidBody with { Damping = -0.1 }, ValidBody with { Shrinkage = -0.1 },
-        ValidBody with { MinimumScale = 0 },
-        ValidBody with { MinimumScale = -0.5 },
-        ValidBody with { MinimumScale = 1.5 },
+        ValidBody with { MinimumScale = 0 }, ValidBody with { MinimumScale = -0.5 }, ValidBody with { MinimumScale = 1.5 },
     ]);
 
     [Fact]
-    public void AddRange_WithOneThatIsWrong_AddsNone()
+    public void AddRange_WithOneInvalidBody_AddsNone()
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 0.01);
         Assert.Throws<ArgumentException>(
@@ -52,7 +55,7 @@ public class BodyInputTests
 
     [Theory]
     [MemberData(nameof(NonFiniteNumbers))]
-    public void SetVelocity_ToAnUnrealNumber_NamesTheBodyAndChangesNothing(double number)
+    public void SetVelocity_ToAVectorThatIsNotFinite_NamesTheBodyAndChangesNothing(double number)
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 0.01);
         var body = world.Add(ValidBody);
@@ -60,42 +63,35 @@ public class BodyInputTests
         {
             var exception = Assert.Throws<ArgumentException>(() => set(new(1, number, 2)));
             Assert.Equal((Vector.Zero, Vector.Zero), (body.Velocity, body.Force));
-            Assert.Contains("ball 7", exception.Message, StringComparison.Ordinal);
+            Assert.Contains("body seventh", exception.Message, StringComparison.Ordinal);
         }
     }
 
     [Fact]
-    public void Settings_ThatMakeNoSense_AreRefused()
+    public void Settings_OutOfRange_AreRefused()
     {
         PhysicsSettings[] wrong =
         [
             .. new[] { 0, -1, double.NaN, double.PositiveInfinity, double.NegativeInfinity }.Select(
                 step => new PhysicsSettings { TimeStep = step }),
-            .. new[] { -1, double.NaN }.SelectMany(
-                number => new[] { new PhysicsSettings { RestitutionThreshold = number }, new() { SleepSpeed = number },
-                new() { TimeBeforeSleep = number } }),
+            .. new[] { -1, double.NaN }.SelectMany(number => new PhysicsSettings[]
+            {
+                new() { RestitutionThreshold = number }, new() { SleepSpeed = number }, new() { TimeBeforeSleep = number },
+            }),
             new() { MaxStepsPerAdvance = 0 }, new() { MaxStepsPerAdvance = -1 },
         ];
-        Assert.All(wrong, settings => Assert.Throws<ArgumentException>(() => TestWorlds.Create(TestWorlds.Gravity, settings)));
+        Assert.All(wrong, settings => Assert.Throws<ArgumentException>(() => new PhysicsWorld(settings)));
     }
 
     [Theory]
     [MemberData(nameof(NonFiniteNumbers))]
-    public void Advance_ByAnUnrealTime_DoesNotHarm(double seconds)
+    public void Advance_ByATimeThatIsNotFinite_IsRefusedAndDoesNoHarm(double seconds)
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 0.01);
         var body = world.Add(ValidBody);
-        try
-        {
-            world.Advance(seconds);
-        }
-        catch (ArgumentException)
-        {
-            // Refusing is as good as making at most so many steps.
-        }
-
+        Assert.Throws<ArgumentException>(() => world.Advance(seconds));
         world.Advance(0.011);
-        Assert.InRange(world.StepCount, 1, 2 * world.Settings.MaxStepsPerAdvance);
+        Assert.Equal(1, world.StepCount);
         Assert.True(body.Position.IsFinite() && world.InterpolationAlpha is >= 0 and <= 1);
     }
 
@@ -104,15 +100,17 @@ public class BodyInputTests
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 1);
         world.Add(ValidBody with { Velocity = new(1.7e308, 0, 0) });
-        Assert.Contains("ball 7", Assert.Throws<InvalidOperationException>(() => world.Run(3)).Message, StringComparison.Ordinal);
+        Assert.Contains("body seventh", Assert.Throws<InvalidOperationException>(() => world.Run(3)).Message, StringComparison.Ordinal);
     }
 
     private static void CheckRefused(BodyDescription[] wrong)
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 0.01);
-        Assert.All(wrong,
-            description => Assert.Contains("ball 7", Assert.Throws<ArgumentException>(() => world.Add(description)).Message,
-            StringComparison.Ordinal));
+        Assert.All(wrong, description =>
+        {
+            var exception = Assert.Throws<ArgumentException>(() => world.Add(description));
+            Assert.Contains("body seventh", exception.Message, StringComparison.Ordinal);
+        });
         Assert.Empty(world.Bodies);
     }
 }

@@ -5,12 +5,13 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;
 
-/// <summary>Where several surfaces are touched at once.</summary>
+/// <summary>Bodies that touch several surfaces at once.</summary>
 public class CornerTests
 {
+    // Of the radius.
     private const double MaxOverlap = 1e-6;
 
-    // Some grooves lead away downwards: in the 30 s of the longest run no body comes so far.
+    // Scene units. Some grooves lead away downwards, but in the 30 s of the longest run no body comes so far.
     private const double FarEdge = 20_000;
 
     [Fact]
@@ -30,9 +31,8 @@ public class CornerTests
             {
                 var world = TestWorlds.Create(TestWorlds.Gravity, random.Between(0.002, 0.03), placed);
                 var size = placed.Bounds.Diagonal;
-                world.Add(
-                    new(placed.Bounds.Centre + new Vector(random.Between(-0.2, 0.2) * size, 0.7 * size, random.Between(-0.2, 0.2) * size),
-                    random.Between(0.01, 0.1) * size)
+                var offset = new Vector(random.Between(-0.2, 0.2) * size, 0.7 * size, random.Between(-0.2, 0.2) * size);
+                world.Add(new(placed.Bounds.Centre + offset, random.Between(0.01, 0.1) * size)
                 {
                     Restitution = random.Next(2) * random.NextDouble(), Friction = random.Next(2) * random.NextDouble(),
                     Velocity = random.Vector(3),
@@ -42,21 +42,20 @@ public class CornerTests
         }
     }
 
-    /// <summary>A ball that just fits between two walls falls through; one that doesn't is held at the top.</summary>
     [Fact]
     public void Slit_AsWideAsTheSphere_LetsItFall()
     {
-        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(PhysicsMeshes.FromTriangles(
-            PhysicsMeshes.PlaneTriangle(new(-0.5, 0, 0), Vector.I), PhysicsMeshes.PlaneTriangle(new(0.5, 0, 0), -Vector.I))));
+        var walls = PhysicsMeshes.FromTriangles(
+            PhysicsMeshes.PlaneTriangle(new(-0.5, 0, 0), Vector.I), PhysicsMeshes.PlaneTriangle(new(0.5, 0, 0), -Vector.I));
+        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(walls));
         var body = world.Add(new(Vector.Zero, 0.5));
         world.Run(60, () => Assert.InRange(Math.Abs(body.Position.X), 0, MaxOverlap));
-        // ½·9.8.
+        // A free fall of one second: ½·9.8.
         Near.Equal(-4.9, body.Position.Y, 1e-6);
     }
 
     /// <summary>
-    /// The moment of an impact lies between two neighbouring numbers here, of which the later is even: halving the time between them never
-    /// ends.
+    /// The moment of this impact lies between two neighbouring doubles, the later one even: halving the time between them never ends.
     /// </summary>
     [Fact]
     public void Step_WithoutATimeInBetween_Ends()
@@ -67,13 +66,10 @@ public class CornerTests
             new(-0.7585652770047524, 0.5649615159364958, 0.32464935859083366),
             new(-0.02770280104002601, 0.5215446756759484, -0.8527741237212856),
         ];
-        var world =
-            TestWorlds.Create(TestWorlds.Gravity, 0.045447124385289764,
-            TestWorlds.Place(
-                PhysicsMeshes.FromTriangles([.. normals.Select(normal => PhysicsMeshes.PlaneTriangle(Vector.Zero, normal, 1000))])));
-        world.Add(
-            new(new(0, 0.7219706945285043, 0),
-            0.08265429241889093) { Velocity = new(0.9551074220589868, 9.029697821955057, 5.162879012135267) });
+        var corner = PhysicsMeshes.FromTriangles([.. normals.Select(normal => PhysicsMeshes.PlaneTriangle(Vector.Zero, normal, 1000))]);
+        var world = TestWorlds.Create(TestWorlds.Gravity, 0.045447124385289764, TestWorlds.Place(corner));
+        var velocity = new Vector(0.9551074220589868, 9.029697821955057, 5.162879012135267);
+        world.AddSphere(new(0, 0.7219706945285043, 0), 0.08265429241889093, velocity: velocity);
         var run = new Thread(() => world.Run(300)) { IsBackground = true };
         run.Start();
         // 300 steps of one body take some milliseconds.
@@ -82,15 +78,13 @@ public class CornerTests
 
     private static void CheckCorner(int cases, int steps) => Seeded.Run(cases, random =>
     {
-        // Normals that all look up at least a little, in three directions around.
+        // Three normals that all point up at least a little, spread around the vertical.
         var rotationAngle = random.Between(0, 2 * Math.PI);
         Vector[] normals = [.. Enumerable.Range(0, 3).Select(i => rotationAngle + ((i + random.Between(-0.35, 0.35)) * 2 * Math.PI / 3))
             .Select(angle => new Vector(Math.Cos(angle), random.Between(0.05, 2), Math.Sin(angle)).UnitVector())];
         var radius = Math.Pow(10, random.Between(-1.5, 0));
-        var world =
-            TestWorlds.Create(TestWorlds.Gravity, Math.Pow(10, random.Between(-3, -1)),
-            TestWorlds.Place(
-                PhysicsMeshes.FromTriangles([.. normals.Select(normal => PhysicsMeshes.PlaneTriangle(Vector.Zero, normal, FarEdge))])));
+        var corner = PhysicsMeshes.FromTriangles([.. normals.Select(normal => PhysicsMeshes.PlaneTriangle(Vector.Zero, normal, FarEdge))]);
+        var world = TestWorlds.Create(TestWorlds.Gravity, Math.Pow(10, random.Between(-3, -1)), TestWorlds.Place(corner));
         var start = random.Between(3, 30) * radius * Vector.J;
         var lowest = normals.Min(normal => Vector.Dot(start, normal));
         // Clear of all of them at first.
@@ -112,7 +106,7 @@ public class CornerTests
         });
     });
 
-    /// <summary>Without anything that drives it, a world never has more energy than before.</summary>
+    /// <summary>Checks that a world which nothing drives never gains energy.</summary>
     private static void CheckEnergy(PhysicsWorld world, int steps, double size, Action? afterEach = null)
     {
         var body = world.Bodies[0];
@@ -120,9 +114,10 @@ public class CornerTests
         world.Run(steps, () =>
         {
             var after = world.Energy();
-            // Lifted by the rounding of a contact, at most: 1e-6 of the radius is what may overlap.
+            // The rounding of a contact lifts a body by the allowed overlap at most.
+            var tolerance = (1e-9 * (Math.Abs(before) + (9.8 * size))) + (9.8 * MaxOverlap * body.Radius);
             Assert.True(
-                after <= before + (1e-9 * (Math.Abs(before) + (9.8 * size))) + (9.8 * MaxOverlap * body.Radius),
+                after <= before + tolerance,
                 $"{body.Description}, step {world.Settings.TimeStep:R}, after {world.StepCount}: energy {after:R}, {before:R} before");
             before = Math.Min(before, after);
             afterEach?.Invoke();

@@ -1,23 +1,25 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;
 
-/// <summary>The same steps give the same bits.</summary>
+/// <summary>The same steps give the same bits, whatever else runs.</summary>
 public class DeterminismTests
 {
     [Fact]
     public void StateHash_OfTheSameWorld_IsTheSameOnAllThreads()
     {
-        var expected = Hashes(World());
+        var expected = HashesWhileRunning(CreateWorld());
         var hashes = new string[6][];
-        // Others at the same time, each a little further on than the next.
+        // Each thread first steps another world, for a different number of steps.
         Parallel.For(0, hashes.Length, i =>
         {
-            var other = World();
+            var other = CreateWorld();
             other.Run(10 * i);
-            hashes[i] = Hashes(World());
+            hashes[i] = HashesWhileRunning(CreateWorld());
         });
         Assert.All(hashes, other => Assert.Equal(expected, other));
         Assert.Equal(expected.Length, expected.Distinct().Count());
@@ -26,21 +28,21 @@ public class DeterminismTests
     [Fact]
     public void StateHash_AfterReset_IsThatOfTheFirstRun()
     {
-        var world = SceneWorld();
+        var world = CreateSceneWorld();
         var start = world.StateHash;
-        var expected = Hashes(world);
-        world.Add(new(new(0.1, 0.8, 0.1), 0.05) { Velocity = new(1, 2, 3) });
+        var expected = HashesWhileRunning(world);
+        world.AddSphere(new(0.1, 0.8, 0.1), 0.05, velocity: new(1, 2, 3));
         world.SetForce(world.Bodies[0], new(1, 2, 3));
         world.Run(50);
         world.Reset();
         Assert.Equal((start, 0L, 0.0, 6), (world.StateHash, world.StepCount, world.Time, world.Bodies.Count));
-        Assert.Equal(expected, Hashes(world));
+        Assert.Equal(expected, HashesWhileRunning(world));
     }
 
     [Fact]
-    public void StateHash_OfAnotherPlace_Differs()
+    public void StateHash_OfAnotherVelocity_Differs()
     {
-        var (world, other) = (World(), World());
+        var (world, other) = (CreateWorld(), CreateWorld());
         other.SetVelocity(other.Bodies[0], other.Bodies[0].Velocity + new Vector(0, 1e-15, 0));
         Assert.NotEqual(world.StateHash, other.StateHash);
     }
@@ -48,8 +50,8 @@ public class DeterminismTests
     [Fact]
     public void Advance_InAnyPortions_MakesTheSameSteps()
     {
-        var (world, other) = (World(), World());
-        // Binary fractions, so that no time is lost to rounding: 1/64 a step.
+        var (world, other) = (CreateWorld(), CreateWorld());
+        // Steps of 1/64 s, a binary fraction, so that rounding loses no time.
         for (var i = 0; i < 200; i++)
         {
             world.Advance(1 / 64.0);
@@ -63,13 +65,13 @@ public class DeterminismTests
     [Fact]
     public void Advance_ByALongTime_MakesNoMoreStepsThanAllowed()
     {
-        var world = World();
+        var world = CreateWorld();
         Assert.Equal(world.Settings.MaxStepsPerAdvance, world.Advance(1000));
         Assert.Equal(0, world.Advance(-1));
         Assert.Equal(world.Settings.MaxStepsPerAdvance, world.StepCount);
     }
 
-    private static string[] Hashes(PhysicsWorld world)
+    private static string[] HashesWhileRunning(PhysicsWorld world)
     {
         var hashes = new string[30];
         for (var i = 0; i < hashes.Length; i++)
@@ -81,25 +83,34 @@ public class DeterminismTests
         return hashes;
     }
 
-    private static PhysicsWorld World()
+    private static PhysicsWorld CreateWorld()
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 64.0, TestWorlds.Place(AssetFractals.Load("menger", 2)));
         var random = new Random(7);
-        world.AddRange(Enumerable.Range(0, 12)
-            .Select(i => new BodyDescription(new((i % 4 * 0.25) - 0.4, 0.7 + (0.1 * random.NextDouble()), (i / 4 * 0.3) - 0.3), 0.08)
+        for (var i = 0; i < 12; i++)
         {
-            Velocity = new(random.NextDouble(), 0, random.NextDouble()), Restitution = random.NextDouble(), Friction = i % 2 * 0.4,
-            Damping = i % 3 * 0.1,
-        }));
+            world.Add(new(new((i % 4 * 0.25) - 0.4, 0.7 + (0.1 * random.NextDouble()), (i / 4 * 0.3) - 0.3), 0.08)
+            {
+                Velocity = new(random.NextDouble(), 0, random.NextDouble()),
+                Restitution = random.NextDouble(),
+                Friction = i % 2 * 0.4,
+                Damping = i % 3 * 0.1,
+            });
+        }
+
         return world;
     }
 
-    /// <summary>The same bodies as objects of the scene.</summary>
-    private static PhysicsWorld SceneWorld() => TestWorlds.Create(TestWorlds.Gravity, 1 / 64.0, [
-        TestWorlds.Place(AssetFractals.Load("menger", 2)),
-        .. Enumerable.Range(0, 6).Select(i => new Core.Scenes.PlacedModel(
-            new Core.Scenes.PhysicsObject("cube.obj", Support.Samples.MoveAndScale((i * 0.15) - 0.4, 0.8, 0.01 * i, 0.1),
-            0.7) { Velocity = new(0.3, 0, 0.2 * i) },
-            new Core.Scenes.MeshModel(PhysicsMeshes.Cube))),
-    ]);
+    /// <summary>A world whose bodies are objects of the scene.</summary>
+    private static PhysicsWorld CreateSceneWorld()
+    {
+        var cube = new MeshModel(PhysicsMeshes.Cube);
+        var bodies = Enumerable.Range(0, 6).Select(i => new PhysicsObject(cube, 0.7)
+        {
+            Placement = Samples.MoveAndScale((i * 0.15) - 0.4, 0.8, 0.01 * i, 0.1), Velocity = new(0.3, 0, 0.2 * i),
+        });
+        return new(
+            new Scene { Objects = [new SceneObject(AssetFractals.Load("menger", 2)), .. bodies] },
+            new PhysicsSettings { TimeStep = 1 / 64.0 });
+    }
 }

@@ -3,10 +3,10 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;
 
-/// <summary>Flight and bounce against the formulas of school physics.</summary>
+/// <summary>Free flight and bounces against their formulas.</summary>
 public class FlightTests
 {
-    // A double's last place, for each of the additions that a step makes.
+    // One rounding of a double for each of the additions that a step makes.
     private const double Rounding = 4 * 2.3e-16;
 
     public static TheoryData<double> Steps => [1e-5, 1e-4, 1e-3, 1 / 240.0, 1 / 60.0, 0.1];
@@ -15,7 +15,9 @@ public class FlightTests
     [MemberData(nameof(Steps))]
     public void FreeFlight_AtAnyStep_IsTheParabola(double step) => Seeded.Run(5, random =>
     {
-        var (gravity, start, velocity) = (random.Vector(10), random.Vector(3), random.Vector(20));
+        var gravity = random.Vector(10);
+        var start = random.Vector(3);
+        var velocity = random.Vector(20);
         var world = TestWorlds.Create(gravity, step);
         var body = world.Add(new(start, 0.1) { Velocity = velocity });
         var steps = Math.Min(2000, (int)(20 / step));
@@ -32,41 +34,45 @@ public class FlightTests
     [Fact]
     public void FreeFlight_PastSurfaces_IsTheParabola() => Seeded.Run(20, random =>
     {
-        var world =
-            TestWorlds.Create(TestWorlds.Gravity, random.Between(1e-3, 0.05),
-            TestWorlds.Place(PhysicsMeshes.Cube, Samples.Move(0, -1e5, 0)),
+        var world = TestWorlds.Create(
+            TestWorlds.Gravity, random.Between(1e-3, 0.05), TestWorlds.Place(PhysicsMeshes.Cube, Samples.Move(0, -1e5, 0)),
             TestWorlds.Place(PhysicsMeshes.Cube, Samples.Move(-5, 0, 0)));
         var velocity = new Vector(random.Between(1, 20), random.Between(-5, 20), random.Between(-5, 5));
         var body = world.Add(new(Vector.Zero, 0.1) { Velocity = velocity });
-        world.Run(200,
-            () => Near.Equal((world.Time * velocity) + (0.5 * world.Time * world.Time * TestWorlds.Gravity), body.Position,
-            Rounding * world.StepCount * 1000));
+        world.Run(200, () =>
+        {
+            var expected = (world.Time * velocity) + (0.5 * world.Time * world.Time * TestWorlds.Gravity);
+            Near.Equal(expected, body.Position, Rounding * world.StepCount * 1000);
+        });
     });
 
     [Theory]
     [MemberData(nameof(Steps))]
     public void Bounce_OnAFloor_RisesByTheSquareOfRestitution(double step) => Seeded.Run(step < 1e-4 ? 4 : 40, random =>
     {
-        var (restitution, height, radius) = (random.Between(0.2, 1), random.Between(0.1, 2), Math.Pow(10, random.Between(-2, 0)));
+        const double Gravity = 9.8;
+        var restitution = random.Between(0.2, 1);
+        var height = random.Between(0.1, 2);
+        var radius = Math.Pow(10, random.Between(-2, 0));
         var world = TestWorlds.Create(TestWorlds.Gravity, step, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         var body = world.Add(new(new(0.3, radius + height, -0.2), radius) { Restitution = restitution });
-        var (rises, gravity) = (height, 9.8);
-        for (var (steps, fallen) = (0, 0.0); steps * step < 2 && Math.Sqrt(8 * rises * restitution * restitution / gravity) > 2 * step;
-            steps++)
+        var expectedTop = height;
+        var lastImpact = 0.0;
+        // Until a flight takes less than two steps.
+        for (var steps = 1; steps * step < 2 && Math.Sqrt(8 * expectedTop * restitution * restitution / Gravity) > 2 * step; steps++)
         {
             world.Step();
-            // Seconds until the ball comes down again: fall, then flights up and down.
-            var time = (steps + 1) * step;
-            var contact = fallen + Math.Sqrt(2 * rises / gravity) * (fallen == 0 ? 1 : 2);
-            if (time > contact)
+            // First a fall, then flights up and down.
+            var nextImpact = lastImpact + (Math.Sqrt(2 * expectedTop / Gravity) * (lastImpact == 0 ? 1 : 2));
+            if (steps * step > nextImpact)
             {
-                (fallen, rises) = (contact, rises * restitution * restitution);
+                lastImpact = nextImpact;
+                expectedTop *= restitution * restitution;
             }
 
-            // From speed and height the top follows, wherever in the flight the step ends. Impacts are found to 1e-10 of the radius, and
-            // the promise is 1 %.
-            var top = body.Position.Y - radius + (body.Velocity.Y * body.Velocity.Y / (2 * gravity));
-            Near.Equal(rises, top, 1e-6 * height);
+            // Speed and height give the top, wherever in the flight the step ends. Impacts are found to 1e-10 of the radius.
+            var top = body.Position.Y - radius + (body.Velocity.Y * body.Velocity.Y / (2 * Gravity));
+            Near.Equal(expectedTop, top, 1e-6 * height);
         }
     });
 
@@ -74,15 +80,15 @@ public class FlightTests
     public void Bounce_AtAnAngle_KeepsTheSpeedAlongTheSurface() => Seeded.Run(200, random =>
     {
         var normal = random.Direction();
-        var (restitution, radius) = (random.NextDouble(), random.Between(0.01, 0.5));
-        var world =
-            TestWorlds.Create(Vector.Zero, random.Between(0.001, 0.1),
-            TestWorlds.Place(PhysicsMeshes.FromTriangles(PhysicsMeshes.PlaneTriangle(Vector.Zero, normal))));
+        var restitution = random.NextDouble();
+        var radius = random.Between(0.01, 0.5);
+        var plane = PhysicsMeshes.FromTriangles(PhysicsMeshes.PlaneTriangle(Vector.Zero, normal));
+        var world = TestWorlds.Create(Vector.Zero, random.Between(0.001, 0.1), TestWorlds.Place(plane));
         var velocity = random.Vector(10);
         velocity -= (Vector.Dot(velocity, normal) + random.Between(1, 10)) * normal;
-        var body = world.Add(new((radius + 0.5) * normal, radius) { Velocity = velocity, Restitution = restitution });
+        var body = world.AddSphere((radius + 0.5) * normal, radius, restitution, velocity);
         world.Run((int)(0.5 / world.Settings.TimeStep) + 2);
-        // 10 m/s, 1e-10 of the radius in the direction of the normal.
+        // At 10 units per second, with an impact found to 1e-10 of the radius.
         Near.Equal(velocity - ((1 + restitution) * Vector.Dot(velocity, normal) * normal), body.Velocity, 1e-8);
     });
 }

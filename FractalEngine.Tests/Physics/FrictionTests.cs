@@ -4,7 +4,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;
 
-/// <summary>Friction, damping and forces against their formulas.</summary>
+/// <summary>Checks friction, damping and forces against their formulas.</summary>
 public class FrictionTests
 {
     [Fact]
@@ -27,8 +27,7 @@ public class FrictionTests
         var body = CreateOnSlope(random, angle, friction, out var world, out var down);
         var acceleration = 9.8 * (Math.Sin(angle) - (friction * Math.Cos(angle)));
         world.Run(100);
-        // It begins with nothing known of the slope and falls a touch, 1e-9 of the radius at most, before friction acts: that takes
-        // √(2e-9/9.8) seconds.
+        // It begins without a contact, and falls by the touch tolerance before friction acts: 1e-9 of the radius in √(2e-9/9.8) seconds.
         const double Late = 1.5e-5;
         Near.Equal(world.Time * acceleration * down, body.Velocity, 9.8 * Late);
         Near.Equal(body.Description.Position + (0.5 * world.Time * world.Time * acceleration * down), body.Position,
@@ -38,9 +37,10 @@ public class FrictionTests
     [Fact]
     public void Sliding_WithFriction_StopsAfterTheBrakingDistance() => Seeded.Run(40, random =>
     {
-        var (speed, friction) = (random.Between(0.5, 5), random.Between(0.1, 1));
+        var speed = random.Between(0.5, 5);
+        var friction = random.Between(0.1, 1);
         var world = TestWorlds.Create(TestWorlds.Gravity, random.Between(0.002, 0.05), TestWorlds.Place(PhysicsMeshes.FloorMesh()));
-        var body = world.Add(new(new(0, 0.5, 0), 0.5) { Velocity = new(speed, 0, 0), Friction = friction });
+        var body = world.AddSphere(new(0, 0.5, 0), 0.5, velocity: new(speed, 0, 0), friction: friction);
         var time = speed / (friction * 9.8);
         world.Run((int)(time / world.Settings.TimeStep) + 60);
         Assert.Equal(Vector.Zero, body.Velocity);
@@ -50,12 +50,14 @@ public class FrictionTests
     [Fact]
     public void Bounce_WithFriction_TakesFrictionTimesTheImpulse() => Seeded.Run(100, random =>
     {
-        var (friction, restitution, along, into) = (random.Between(0, 0.5), random.NextDouble(), random.Between(0, 10),
-            random.Between(1, 5));
+        var friction = random.Between(0, 0.5);
+        var restitution = random.NextDouble();
+        var along = random.Between(0, 10);
+        var into = random.Between(1, 5);
         var world = TestWorlds.Create(Vector.Zero, 0.01, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
-        var body = world.Add(new(new(0, 1, 0), 0.5) { Velocity = new(along, -into, 0), Friction = friction, Restitution = restitution });
+        var body = world.AddSphere(new(0, 1, 0), 0.5, restitution, new(along, -into, 0), friction: friction);
         world.Run(60);
-        // Coulomb: at most what stops it. 1e-10 of the radius in the direction of the normal.
+        // Coulomb's friction stops the body at most. The impact is found to 1e-10 of the radius.
         Near.Equal(new(Math.Max(0, along - (friction * (1 + restitution) * into)), restitution * into, 0), body.Velocity, 1e-8);
     });
 
@@ -64,12 +66,13 @@ public class FrictionTests
     [InlineData(0.1)]
     public void Damping_WithoutForces_IsExponential(double step) => Seeded.Run(20, random =>
     {
-        var (rate, velocity) = (random.Between(0.01, 5), random.Vector(10));
+        var rate = random.Between(0.01, 5);
+        var velocity = random.Vector(10);
         var world = TestWorlds.Create(Vector.Zero, step);
         var body = world.Add(new(Vector.Zero, 0.5) { Velocity = velocity, Damping = rate });
-        // A rounding a step.
+        // One rounding in each step.
         world.Run(300, () => Near.Equal(Math.Exp(-rate * world.Time) * velocity, body.Velocity, 1e-12));
-        // From v to v·exp(−ct): between the way at the faster and at the slower speed of each step.
+        // Speed falls from v to v·exp(−ct) within each step: the distance lies between those at either speed.
         var distance = (1 - Math.Exp(-rate * world.Time)) / rate * velocity.Length();
         Assert.InRange(body.Position.Length(), distance * Math.Exp(-rate * step), distance * Math.Exp(rate * step));
     });
@@ -81,21 +84,23 @@ public class FrictionTests
         var world = TestWorlds.Create(TestWorlds.Gravity, Step);
         var body = world.Add(new(Vector.Zero, 0.5) { Damping = Rate });
         world.Run(10_000);
-        // g/c; the order of damping and falling within a step leaves c·step of it.
+        // The terminal speed is g/c; the order of damping and falling within a step leaves a fraction c·step of it.
         Near.Equal(new(0, -9.8 / Rate, 0), body.Velocity, 9.8 / Rate * Rate * Step);
     }
 
     [Fact]
     public void Force_OnABody_AcceleratesByForceOverMass() => Seeded.Run(50, random =>
     {
-        var (gravity, force, mass, velocity) = (random.Vector(10), random.Vector(20), Math.Pow(10, random.Between(-1, 2)),
-            random.Vector(5));
+        var gravity = random.Vector(10);
+        var force = random.Vector(20);
+        var mass = Math.Pow(10, random.Between(-1, 2));
+        var velocity = random.Vector(5);
         var world = TestWorlds.Create(gravity, random.Between(0.001, 0.1));
         var body = world.Add(new(Vector.Zero, 0.5) { Mass = mass, Velocity = velocity });
         world.SetForce(body, force);
         world.Run(50);
         var time = world.Time;
-        // A rounding a step.
+        // One rounding in each step.
         Near.Equal(velocity + (time * (gravity + (force / mass))), body.Velocity, 1e-10);
         Near.Equal((time * velocity) + (0.5 * time * time * (gravity + (force / mass))), body.Position, 1e-9);
         world.SetForce(body, Vector.Zero);
@@ -109,7 +114,7 @@ public class FrictionTests
     {
         foreach (var (force, isMoving) in new[] { (0.99 * 0.4 * 3 * 9.8, false), (1.01 * 0.4 * 3 * 9.8, true) })
         {
-            // A body so slow would fall asleep.
+            // Without sleep, into which a body so slow would fall.
             var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings { TimeStep = 0.01, SleepSpeed = 0 },
                 TestWorlds.Place(PhysicsMeshes.FloorMesh()));
             var body = world.Add(new(new(0, 0.5, 0), 0.5) { Mass = 3, Friction = 0.4 });
@@ -123,11 +128,12 @@ public class FrictionTests
 
     private static Body CreateOnSlope(Random random, double angle, double friction, out PhysicsWorld world, out Vector down)
     {
-        var (heading, radius) = (random.Between(0, 2 * Math.PI), random.Between(0.1, 1));
+        var heading = random.Between(0, 2 * Math.PI);
+        var radius = random.Between(0.1, 1);
         var normal = new Vector(Math.Sin(angle) * Math.Cos(heading), Math.Cos(angle), Math.Sin(angle) * Math.Sin(heading));
         down = new(Math.Cos(angle) * Math.Cos(heading), -Math.Sin(angle), Math.Cos(angle) * Math.Sin(heading));
-        world = TestWorlds.Create(TestWorlds.Gravity, random.Between(0.002, 0.02),
-            TestWorlds.Place(PhysicsMeshes.FromTriangles(PhysicsMeshes.PlaneTriangle(Vector.Zero, normal))));
+        var slope = PhysicsMeshes.FromTriangles(PhysicsMeshes.PlaneTriangle(Vector.Zero, normal));
+        world = TestWorlds.Create(TestWorlds.Gravity, random.Between(0.002, 0.02), TestWorlds.Place(slope));
         return world.Add(new(radius * normal, radius) { Friction = friction, Mass = random.Between(0.1, 10) });
     }
 }

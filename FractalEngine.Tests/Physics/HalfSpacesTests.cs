@@ -4,15 +4,18 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;
 
+/// <summary>Projections onto intersections of half-spaces, against Dykstra's slow algorithm and by hand.</summary>
 public sealed class HalfSpacesTests
 {
     [Fact]
-    public void TryProject_OfRandomPlanes_IsWhatAlternatingProjectionConvergesTo() => Seeded.Run(2000, random =>
+    public void TryProject_OntoRandomHalfSpaces_IsWhatDykstraConvergesTo() => Seeded.Run(2000, random =>
     {
-        // All planes leave a ball about some point free, so that there is an answer.
-        var (planes, interior) = (new HalfSpaces(), RandomVector(random));
+        // All half-spaces contain one point, so that their intersection is not empty.
+        var planes = new HalfSpaces();
+        var interior = RandomVector(random);
         var count = random.Next(1, HalfSpaces.Capacity + 1);
-        var (normals, offsets) = (new Vector[count], new double[count]);
+        var normals = new Vector[count];
+        var offsets = new double[count];
         for (var i = 0; i < count; i++)
         {
             normals[i] = RandomVector(random).UnitVector();
@@ -27,8 +30,7 @@ public sealed class HalfSpacesTests
             Assert.True(Vector.Dot(normals[i], closest) >= offsets[i] - 1e-12);
         }
 
-        // Dykstra's projections converge to it, slowly where planes meet at sharp angles: by as much as they still violate one, they may be
-        // nearer.
+        // Dykstra's projections converge to it, slowly where planes meet at sharp angles. What they still violate may bring them closer.
         var other = ProjectByDykstra(target, normals, offsets);
         var violation = Enumerable.Range(0, count).Max(i => Math.Max(0, offsets[i] - Vector.Dot(normals[i], other)));
         Assert.True((closest - target).Length() <= (other - target).Length() + 1e-6 + (100 * violation),
@@ -36,7 +38,7 @@ public sealed class HalfSpacesTests
     });
 
     [Fact]
-    public void TryProject_OfPlanesThatExcludeEachOther_IsFalse()
+    public void TryProject_OntoHalfSpacesThatExcludeEachOther_IsFalse()
     {
         var planes = new HalfSpaces();
         planes.Add(Vector.I, 1);
@@ -46,7 +48,7 @@ public sealed class HalfSpacesTests
     }
 
     [Fact]
-    public void TryProject_InACornerOfThree_IsTheCorner()
+    public void TryProject_BelowACornerOfThree_IsTheCorner()
     {
         var planes = new HalfSpaces();
         planes.Add(Vector.I, 1);
@@ -58,13 +60,15 @@ public sealed class HalfSpacesTests
 
     private static Vector ProjectByDykstra(Vector target, Vector[] normals, double[] offsets)
     {
-        var (point, corrections) = (target, new Vector[normals.Length]);
+        var point = target;
+        var corrections = new Vector[normals.Length];
         for (var round = 0; round < 4000; round++)
         {
             var i = round % normals.Length;
             var shifted = point + corrections[i];
             var missing = Math.Max(0, offsets[i] - Vector.Dot(normals[i], shifted));
-            (point, corrections[i]) = (shifted + (missing * normals[i]), -missing * normals[i]);
+            point = shifted + (missing * normals[i]);
+            corrections[i] = -missing * normals[i];
         }
 
         return point;

@@ -4,20 +4,21 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;
 
-/// <summary>Balls among balls.</summary>
+/// <summary>Many spheres that meet each other.</summary>
 public class ManyBodiesTests
 {
+    // Of the smaller radius.
     private const double MaxOverlap = 1e-6;
 
     [Fact]
-    public void Poured_IntoABox_NeitherOverlapNorLeaveAndSleep() => CheckPoured(60, 900, 1);
+    public void Spheres_PouredIntoABox_NeitherOverlapNorLeaveAndSleep() => CheckPoured(60, 900, 1);
 
     [Theory]
     [InlineData(1)]
     [InlineData(2)]
     [InlineData(3)]
     [Trait("Category", "Soak")]
-    public void Poured_ManyIntoABox_NeitherOverlapNorLeaveAndSleep(int seed) => CheckPoured(200, 9000, seed);
+    public void Spheres_PouredInNumbersIntoABox_NeitherOverlapNorLeaveAndSleep(int seed) => CheckPoured(200, 9000, seed);
 
     [Fact]
     public void Cloud_WithoutGravity_KeepsItsMomentum() => Seeded.Run(3, random =>
@@ -26,13 +27,18 @@ public class ManyBodiesTests
         for (var i = 0; i < 64; i++)
         {
             var position = new Vector(i % 4, i / 4 % 4, i / 16) - (1.5 * Vector.One);
-            // Towards the middle, so that they meet.
-            world.Add(
-                new(position, random.Between(0.1, 0.45)) { Mass = random.Between(0.1, 10), Velocity = (-1 * position) + random.Vector(0.5),
-                Restitution = random.NextDouble(), Friction = random.Next(2) * 0.3 });
+            world.Add(new(position, random.Between(0.1, 0.45))
+            {
+                Mass = random.Between(0.1, 10),
+                // Towards the centre, so that they meet.
+                Velocity = (-1 * position) + random.Vector(0.5),
+                Restitution = random.NextDouble(),
+                Friction = random.Next(2) * 0.3,
+            });
         }
 
-        var (momentum, energy) = (world.Momentum(), world.Energy());
+        var momentum = world.Momentum();
+        var energy = world.Energy();
         world.Run(200, () =>
         {
             // Masses and speeds of some units, hundreds of impacts.
@@ -41,8 +47,8 @@ public class ManyBodiesTests
             energy = world.Energy();
             CheckNoOverlap(world);
         });
-        Assert.True(energy < 0.99 * (0.5 * world.Bodies.Sum(body => body.Description.Mass * body.Description.Velocity.LengthSquared())),
-            "nothing met");
+        var initialEnergy = 0.5 * world.Bodies.Sum(body => body.Description.Mass * body.Description.Velocity.LengthSquared());
+        Assert.True(energy < 0.99 * initialEnergy, "nothing met");
     });
 
     [Fact]
@@ -51,9 +57,11 @@ public class ManyBodiesTests
         var world = TestWorlds.Create(Vector.Zero, 1 / 120.0, TestWorlds.Place(PhysicsMeshes.Scale(PhysicsMeshes.InwardCube, 6)));
         for (var i = 0; i < 27; i++)
         {
-            world.Add(
-                new(1.5 * (new Vector(i % 3, i / 3 % 3, i / 9) - Vector.One), random.Between(0.2, 0.6)) { Mass = random.Between(0.1, 10),
-                Velocity = random.Vector(3), Restitution = 1 });
+            var position = 1.5 * (new Vector(i % 3, i / 3 % 3, i / 9) - Vector.One);
+            world.Add(new(position, random.Between(0.2, 0.6))
+            {
+                Mass = random.Between(0.1, 10), Velocity = random.Vector(3), Restitution = 1,
+            });
         }
 
         var energy = world.Energy();
@@ -68,17 +76,17 @@ public class ManyBodiesTests
     {
         const double Half = 3;
         var random = new Random(seed);
-        var world =
-            TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0,
-            TestWorlds.Place(PhysicsMeshes.FlipWinding(PhysicsMeshes.Cube.Transform(v => (2 * Half * v).Stretch(new(1, 4, 1))))));
-        // One 50 times as large as the smallest.
-        world.Add(new(new(0.2, -8, 0.1), 2) { Mass = 50, Friction = 0.5 });
-        world.AddRange(Enumerable.Range(0, count - 1).Select(i => new BodyDescription(
-            new Vector(-2.5 + (i % 6), -5 + (1.1 * (i / 36)), -2.5 + (i / 6 % 6)) + random.Vector(0.04), i == 0
-            ? 0.04
-            : 0.04 * Math.Pow(11, random.NextDouble()))
+        var box = PhysicsMeshes.FlipWinding(PhysicsMeshes.Cube.Transform(v => (2 * Half * v).Stretch(new(1, 4, 1))));
+        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(box));
+        // One is 50 times as large as the smallest.
+        world.AddSphere(new(0.2, -8, 0.1), 2, mass: 50, friction: 0.5);
+        world.AddRange(Enumerable.Range(0, count - 1).Select(i =>
         {
-            Mass = random.Between(0.1, 5), Friction = 0.5, Restitution = random.Between(0, 0.5),
+            var position = new Vector(-2.5 + (i % 6), -5 + (1.1 * (i / 36)), -2.5 + (i / 6 % 6)) + random.Vector(0.04);
+            return new BodyDescription(position, i == 0 ? 0.04 : 0.04 * Math.Pow(11, random.NextDouble()))
+            {
+                Mass = random.Between(0.1, 5), Friction = 0.5, Restitution = random.Between(0, 0.5),
+            };
         }));
         world.Run(steps, () =>
         {
@@ -94,8 +102,9 @@ public class ManyBodiesTests
             CheckNoOverlap(world);
         });
         var awake = world.Bodies.Where(body => !body.IsAsleep).ToArray();
-        Assert.True(awake.Length == 0,
-            $"{awake.Length} of {count} are awake, such as {awake.FirstOrDefault()?.Name} of radius {awake.FirstOrDefault()?.Radius:R} at {awake.FirstOrDefault()?.Position}, {awake.FirstOrDefault()?.Velocity}");
+        var example = awake.FirstOrDefault();
+        var state = $"of radius {example?.Radius:R} at {example?.Position}, {example?.Velocity}";
+        Assert.True(awake.Length == 0, $"{awake.Length} of {count} are awake, such as {example?.Name} {state}");
     }
 
     private static void CheckNoOverlap(PhysicsWorld world)
@@ -104,12 +113,13 @@ public class ManyBodiesTests
         {
             for (var j = 0; j < i; j++)
             {
-                var (body, other) = (world.Bodies[i], world.Bodies[j]);
+                var body = world.Bodies[i];
+                var other = world.Bodies[j];
                 var gap = (body.Position - other.Position).Length() - body.Radius - other.Radius;
                 if (gap < -MaxOverlap * Math.Min(body.Radius, other.Radius))
                 {
-                    Assert.Fail(
-                        $"{body.Name} and {other.Name} overlap by {-gap:R} after {world.StepCount} steps: radii {body.Radius:R} and {other.Radius:R}");
+                    var radii = $"radii {body.Radius:R} and {other.Radius:R}";
+                    Assert.Fail($"{body.Name} and {other.Name} overlap by {-gap:R} after {world.StepCount} steps: {radii}");
                 }
             }
         }

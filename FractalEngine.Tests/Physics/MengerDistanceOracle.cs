@@ -2,7 +2,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Tests.Physics;
 
-/// <summary>The infinite Menger sponge of side 1 about the origin by its definition: 20 of 27 cubes, and so on.</summary>
+/// <summary>Distances from the infinite Menger sponge of side 1 about the origin, by its definition: 20 of 27 cubes, and so on.</summary>
 internal static class MengerDistanceOracle
 {
     private static readonly Vector[] ChildOffsets =
@@ -15,18 +15,16 @@ internal static class MengerDistanceOracle
     ];
 
     /// <summary>
-    /// Right to 1e-9, and not above the truth: the distance of the nearest cube so small that nothing hangs on where the sponge is in it.
+    /// Lower bound on the distance, exact to 1e-9: that of the closest cube which is too small to matter where the sponge is in it.
     /// </summary>
     public static double Distance(Vector position)
     {
         var queue = new PriorityQueue<(Vector Centre, double Size), double>();
-        for (var (centre, size, bound) = (Vector.Zero, 1.0, 0.0); ;)
+        var centre = Vector.Zero;
+        var size = 1.0;
+        var bound = 0.0;
+        while (size >= 1e-9 && bound <= 1e9 * size)
         {
-            if (size < 1e-9 || bound > 1e9 * size)
-            {
-                return bound;
-            }
-
             foreach (var offset in ChildOffsets)
             {
                 var child = centre + (size * offset);
@@ -37,5 +35,7 @@ internal static class MengerDistanceOracle
             _ = queue.TryDequeue(out var next, out bound);
             (centre, size) = next;
         }
+
+        return bound;
     }
 }

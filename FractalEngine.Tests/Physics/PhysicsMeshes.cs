@@ -1,16 +1,17 @@
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;
 
-/// <summary>Things for bodies to run into.</summary>
+/// <summary>Makes meshes for bodies to collide with.</summary>
 internal static class PhysicsMeshes
 {
-    /// <summary>Side 1 about the origin, faces outwards.</summary>
+    /// <summary>A cube of side 1 about the origin, faces outwards.</summary>
     public static Mesh Cube { get; } = Samples.ParseObj(SampleFiles.Cube).Mesh;
 
-    /// <summary>The same as a room: faces inwards.</summary>
+    /// <summary>The same cube as a room, faces inwards.</summary>
     public static Mesh InwardCube { get; } = FlipWinding(Cube);
 
     public static Mesh FlipWinding(Mesh mesh) => new(mesh.Positions, [.. mesh.VertexIndices.Chunk(3).SelectMany(face => face.Reverse())]);
@@ -23,7 +24,7 @@ internal static class PhysicsMeshes
 
     public static (Vector A, Vector B, Vector C)[] TrianglesOf(Mesh mesh) => [.. Enumerable.Range(0, mesh.FaceCount).Select(mesh.Face)];
 
-    /// <summary>One large face through a point, the point well within it; its winding gives the normal.</summary>
+    /// <summary>Makes one large face with a point well inside it, wound about a normal.</summary>
     public static (Vector A, Vector B, Vector C) PlaneTriangle(Vector point, Vector normal, double size = 100)
     {
         var side = Vector.Cross(normal, Math.Abs(normal.X) < 0.9 * normal.Length() ? Vector.I : Vector.J).UnitVector();
@@ -31,6 +32,15 @@ internal static class PhysicsMeshes
         return (point + (size * side), point + (size * ((-0.5 * side) + (0.8 * other))), point + (size * ((-0.6 * side) - (0.9 * other))));
     }
 
-    /// <summary>At y = 0, upwards.</summary>
+    /// <summary>Makes one large face at y = 0 that faces upwards.</summary>
     public static Mesh FloorMesh(double size = 100) => FromTriangles(PlaneTriangle(Vector.Zero, Vector.J, size));
+
+    /// <summary>Makes the sponge of side 1 about the origin: 20 of 27 cubes, and so on.</summary>
+    public static Fractal CreateSponge(int? depth) => Fractal.Of(Shapes.Cube()).Repeat(
+        [.. from x in new[] { -1, 0, 1 }
+            from y in new[] { -1, 0, 1 }
+            from z in new[] { -1, 0, 1 }
+            where (x * x) + (y * y) + (z * z) > 1
+            select Transformation.At(new Vector(x, y, z) / 3, 1 / 3.0)],
+        depth);
 }

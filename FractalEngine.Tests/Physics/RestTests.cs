@@ -1,3 +1,4 @@
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
@@ -6,10 +7,10 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;
 
-/// <summary>What rests does not creep, costs nothing asleep, and is not forgotten there.</summary>
+/// <summary>Bodies at rest do not creep, cost nothing while asleep, and wake when they must.</summary>
 public class RestTests
 {
-    // Places of rest are kept to this, scene units; the scenes measure about 1.
+    // Scene units, in scenes of size 1 or so.
     private const double MaxDrift = 1e-9;
 
     private const int Steps = 20_000;
@@ -17,8 +18,8 @@ public class RestTests
 
     public static TheoryData<string, double> RestCases => new()
     {
-        { "menger 2", 0 }, { "menger 3", 0 }, { "infinite menger", 0 }, { "menger 2", 0.5 }, { "groove", 0 }, { "groove", 0.3 },
-        { "corner", 0 }, { "floor", 0 },
+        { "menger 2", 0 }, { "menger 3", 0 }, { "infinite menger", 0 }, { "menger 2", 0.5 },
+        { "groove", 0 }, { "groove", 0.3 }, { "corner", 0 }, { "floor", 0 },
     };
 
     [Theory]
@@ -42,15 +43,13 @@ public class RestTests
     [Fact]
     public void Rest_InAGroove_IsWhereBothSidesAreARadiusAway() => Seeded.Run(50, random =>
     {
-        var (n1, n2) = (TiltedNormal(-random.Between(20, 80)), TiltedNormal(random.Between(20, 80)));
+        var n1 = TiltedNormal(-random.Between(20, 80));
+        var n2 = TiltedNormal(random.Between(20, 80));
         var radius = random.Between(0.05, 0.5);
-        var world =
-            TestWorlds.Create(TestWorlds.Gravity, random.Between(0.001, 0.03),
-            TestWorlds.Place(
-                PhysicsMeshes.FromTriangles(PhysicsMeshes.PlaneTriangle(Vector.Zero, n1), PhysicsMeshes.PlaneTriangle(Vector.Zero, n2))));
-        var body = world.Add(new(new(0, 1 + (3 * radius), 0), radius));
+        var world = TestWorlds.Create(TestWorlds.Gravity, random.Between(0.001, 0.03), TestWorlds.Place(CreateValley(n1, n2)));
+        var body = world.AddSphere(new(0, 1 + (3 * radius), 0), radius);
         world.Run((int)(4 / world.Settings.TimeStep));
-        // c·n1 = c·n2 = r, in the plane z = 0.
+        // The centre c satisfies c·n1 = c·n2 = r, in the plane z = 0.
         var determinant = (n1.X * n2.Y) - (n1.Y * n2.X);
         Near.Equal(new(radius * (n2.Y - n1.Y) / determinant, radius * (n1.X - n2.X) / determinant, 0), body.Position, 1e-6 * radius);
         Near.Equal(Vector.Zero, body.Velocity, 1e-9);
@@ -64,7 +63,7 @@ public class RestTests
             .Select(i => new BodyDescription(new((i % 3 * 0.33) - 0.33, 0.8, (i / 3 * 0.33) - 0.33), 0.1) { Friction = 0.5 }));
         world.Add(new(new(0, 1.2, 0), 0.2));
         world.Run(600);
-        // The one that is as wide as the hole in the middle has fallen through or rests; whoever rests sleeps.
+        // The widest one has fallen through the middle hole or rests; all that rest are asleep.
         var asleep = world.Bodies.Where(body => body.IsAsleep).ToArray();
         Assert.True(asleep.Length >= 8, $"{asleep.Length} of {world.Bodies.Count} sleep");
         world.Step();
@@ -89,7 +88,7 @@ public class RestTests
         world.Add(new(body.Position + new Vector(-3, 0, 0), 0.5) { Velocity = new(4, 0, 0), Restitution = 1 });
         world.Run(60);
         Assert.False(body.IsAsleep);
-        // Equal masses, the lesser restitution of both is 0: they go on together.
+        // Equal masses, and a smaller restitution of 0: they go on together.
         Near.Equal(new(2, 0, 0), body.Velocity, 1e-9);
     }
 
@@ -112,7 +111,6 @@ public class RestTests
         Near.Equal(new(2, 0, 0), body.Velocity, 1e-9);
     }
 
-    /// <summary>A tower asleep; the lowest is shot away.</summary>
     [Theory]
     [InlineData(2)]
     [InlineData(3)]
@@ -131,7 +129,7 @@ public class RestTests
         world.Run(30);
         for (var i = 1; i < height; i++)
         {
-            // In half a second: ½·9.8·0.5² = 1.2; whoever is lower is on the floor.
+            // In half a second it falls by ½·9.8·0.5² = 1.2, or to the floor.
             Assert.InRange(world.Bodies[i].Position.Y, 0.5 - 1e-6, i - 0.2);
         }
     }
@@ -154,7 +152,7 @@ public class RestTests
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         body = world.Add(new(new(0, 0.5, 0), 0.5) { Mass = 2 });
-        // Another, of the same mass as what it is hit with.
+        // Of the mass of the body that hits it.
         body = world.Add(new(new(0, 0.6, 10), 0.5));
         world.Run(240);
         Assert.True(body.IsAsleep);
@@ -163,6 +161,10 @@ public class RestTests
 
     private static Vector TiltedNormal(double degrees) => new(Math.Sin(degrees * Math.PI / 180), Math.Cos(degrees * Math.PI / 180), 0);
 
+    /// <summary>Large planes through the origin.</summary>
+    private static Mesh CreateValley(params Vector[] normals) =>
+        PhysicsMeshes.FromTriangles([.. normals.Select(normal => PhysicsMeshes.PlaneTriangle(Vector.Zero, normal))]);
+
     private static void CheckRest(string name, double friction, double? sleepSpeed, int steps)
     {
         PlacedModel[] objects = name switch
@@ -170,20 +172,15 @@ public class RestTests
             "menger 2" => [TestWorlds.Place(AssetFractals.Load("menger", 2))],
             "menger 3" => [TestWorlds.Place(AssetFractals.Load("menger", 3))],
             "infinite menger" => [TestWorlds.Place(AssetFractals.Load("infinite-menger"))],
-            "groove" =>
-                [TestWorlds.Place(
-                    PhysicsMeshes.FromTriangles(PhysicsMeshes.PlaneTriangle(Vector.Zero, TiltedNormal(-35)),
-                    PhysicsMeshes.PlaneTriangle(Vector.Zero, TiltedNormal(50))))],
-            "corner" => [TestWorlds.Place(PhysicsMeshes.FromTriangles(
-                PhysicsMeshes.PlaneTriangle(Vector.Zero, new(1, 1, 0.2)), PhysicsMeshes.PlaneTriangle(Vector.Zero, new(-0.5, 1, 1)),
-                PhysicsMeshes.PlaneTriangle(Vector.Zero, new(-0.3, 1, -1.2))))],
+            "groove" => [TestWorlds.Place(CreateValley(TiltedNormal(-35), TiltedNormal(50)))],
+            "corner" => [TestWorlds.Place(CreateValley(new(1, 1, 0.2), new(-0.5, 1, 1), new(-0.3, 1, -1.2)))],
             _ => [TestWorlds.Place(PhysicsMeshes.FloorMesh())],
         };
         var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings { SleepSpeed = sleepSpeed }, objects);
         // Wider than the sponge's hole of 1/3, so that it rests on the rim.
         var body = world.Add(new(name == "corner" ? new(0.1, 1, 0.1) : new(0.02, 0.9, 0.01), 0.2) { Friction = friction });
         var stepsToRest = 0;
-        // Frictionless, it slides to and fro until impacts have taken its energy.
+        // Without friction it slides back and forth until impacts have taken its energy.
         for (; stepsToRest < 20_000 && (body.Velocity != Vector.Zero || stepsToRest < 300); stepsToRest++)
         {
             world.Step();

@@ -3,18 +3,20 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;
 
-/// <summary>Bodies that grow smaller (paper §5.5).</summary>
+/// <summary>Bodies that shrink as they move (paper §5.5).</summary>
 public class ShrinkageTests
 {
     [Fact]
     public void Radius_OfAShrinkingBody_FallsLinearlyToItsMinimum() => Seeded.Run(20, random =>
     {
-        var (radius, rate, minimumScale) = (random.Between(0.1, 2), random.Between(0.05, 2), random.Between(0.05, 0.9));
+        var radius = random.Between(0.1, 2);
+        var rate = random.Between(0.05, 2);
+        var minimumScale = random.Between(0.05, 0.9);
         var world = TestWorlds.Create(TestWorlds.Gravity, random.Between(0.005, 0.1), TestWorlds.Place(PhysicsMeshes.FloorMesh()));
         var body = world.Add(new(new(0, 5, 0), radius) { Shrinkage = rate, MinimumScale = minimumScale, Restitution = 0.5 });
         world.Run((int)(2 / world.Settings.TimeStep), () =>
         {
-            // Hundreds of subtractions.
+            // Hundreds of subtractions, each rounded.
             Near.Equal(radius * Math.Max(minimumScale, 1 - (rate * world.Time)), body.Radius, 1e-12);
             Assert.True(body.Position.Y >= body.Radius * (1 - 1e-6));
         });
@@ -27,22 +29,24 @@ public class ShrinkageTests
         var body = world.Add(new(new(0, 1, 0), 1) { Shrinkage = 0.1, MinimumScale = 0.2 });
         world.Run(700, () =>
         {
-            // It falls by 0.1/60 a step, from rest: within ½·9.8/60² = 0.0014 a step, so it is a step or two behind.
+            // Its radius falls by 0.1/60 in a step, and from rest it falls by ½·9.8/60² = 0.0014 in one: it is a step or two behind.
             Assert.InRange(body.Position.Y - body.Radius, -1e-6, 3 * 0.1 / 60);
         });
         Assert.True(body.IsAsleep);
         Near.Equal(0.2, body.Position.Y, 1e-6);
     }
 
-    /// <summary>A funnel with a hole of radius 0.5 at y = 0, walls at 45°.</summary>
+    /// <summary>The funnel has a hole of radius 0.5 at y = 0, and walls at 45°.</summary>
     [Fact]
     public void ShrinkingBody_InAFunnel_FallsThroughWhenItFits()
     {
         const int Sides = 24;
         var faces = Enumerable.Range(0, Sides).SelectMany(i =>
         {
-            var (a, b) = (RingVertex(0.5, 0, i), RingVertex(0.5, 0, i + 1));
-            var (c, d) = (RingVertex(3, 2.5, i), RingVertex(3, 2.5, i + 1));
+            var a = RingVertex(0.5, 0, i);
+            var b = RingVertex(0.5, 0, i + 1);
+            var c = RingVertex(3, 2.5, i);
+            var d = RingVertex(3, 2.5, i + 1);
             return new[] { (a, b, c), (b, d, c) };
         }).ToArray();
         var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 120.0, TestWorlds.Place(PhysicsMeshes.FromTriangles(faces)));
@@ -54,7 +58,7 @@ public class ShrinkageTests
             Assert.True(oracle.Distance(body.Position) >= body.Radius * (1 - 1e-6), $"overlaps at {body.Position}, radius {body.Radius:R}");
         }
 
-        // The sides of the hole are as near as 0.5·cos(π/24) = 0.496; from there it takes less than a second to fall.
+        // The sides of the hole are as close as 0.5·cos(π/24) = 0.496, and from there the fall takes less than a second.
         Assert.InRange(body.Radius, 0.496 - 0.05, 0.5);
         Assert.InRange(body.Position.Y, -2, -1);
     }
@@ -78,12 +82,13 @@ public class ShrinkageTests
         var axes = random.Orthogonal();
         var body = world.Add(new(random.Vector(), 0.5) { Velocity = random.Vector(5), Shrinkage = 0.3, LinearPart = axes });
         world.Run(random.Next(1, 30));
-        var (position, scale) = (body.Position, body.Scale);
+        var position = body.Position;
+        var scale = body.Scale;
         Near.Equal(position, body.InterpolatedMap(1).Translation, 1e-14 * 10);
         world.Step();
         foreach (var alpha in new[] { 0, 0.25, 0.7, 1 })
         {
-            // A few operations on numbers of some units.
+            // A few roundings of numbers below ten.
             Near.Equal(((1 - alpha) * position) + (alpha * body.Position), body.InterpolatedMap(alpha).Translation, 1e-13);
             Near.Equal((((1 - alpha) * scale) + (alpha * body.Scale)) * axes, body.InterpolatedMap(alpha).Linear, 1e-13);
         }

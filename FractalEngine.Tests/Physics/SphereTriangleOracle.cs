@@ -3,26 +3,29 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Tests.Physics;
 
-/// <summary>Balls and triangles by school geometry, every face each time. It shares nothing with the engine's colliders.</summary>
+/// <summary>
+/// Distances and impacts of spheres on triangles by plain geometry, face by face. It shares nothing with the engine's colliders.
+/// </summary>
 internal sealed class SphereTriangleOracle((Vector A, Vector B, Vector C)[] faces)
 {
     public SphereTriangleOracle(Mesh mesh) : this(PhysicsMeshes.TrianglesOf(mesh))
     {
     }
 
+    /// <summary>Finds the distance of a position from the closest face.</summary>
     public double Distance(Vector position)
     {
         var closest = double.PositiveInfinity;
         foreach (var (a, b, c) in faces)
         {
-            closest = Math.Min(closest, Distance(position, a, b, c));
+            closest = Math.Min(closest, DistanceToTriangle(position, a, b, c));
         }
 
         return closest;
     }
 
     /// <summary>
-    /// When a ball on a straight way first touches a face, and where; null where it never does. It must overlap none at first.
+    /// Finds when and where a sphere on a straight path first touches a face; null where it never does. At first it must overlap none.
     /// </summary>
     public (double Time, Vector Point)? FindFirstHit(Vector start, Vector velocity, double radius)
     {
@@ -49,16 +52,16 @@ internal sealed class SphereTriangleOracle((Vector A, Vector B, Vector C)[] face
         }
     }
 
-    private static double Distance(Vector position, Vector a, Vector b, Vector c)
+    private static double DistanceToTriangle(Vector position, Vector a, Vector b, Vector c)
     {
         var normal = Vector.Cross(b - a, c - a).UnitVector();
         var height = Vector.Dot(position - a, normal);
         return IsInside(position, a, b, c, normal)
             ? Math.Abs(height)
-            : Math.Min(Distance(position, a, b), Math.Min(Distance(position, b, c), Distance(position, c, a)));
+            : Math.Min(DistanceToEdge(position, a, b), Math.Min(DistanceToEdge(position, b, c), DistanceToEdge(position, c, a)));
     }
 
-    private static double Distance(Vector position, Vector a, Vector b)
+    private static double DistanceToEdge(Vector position, Vector a, Vector b)
     {
         var along = Vector.Dot(position - a, b - a) / (b - a).LengthSquared();
         return (position - a - (Math.Clamp(along, 0, 1) * (b - a))).Length();
@@ -81,8 +84,9 @@ internal sealed class SphereTriangleOracle((Vector A, Vector B, Vector C)[] face
     private static (double Time, Vector Point)? HitEdge(Vector start, Vector velocity, double radius, Vector a, Vector b)
     {
         var axis = (b - a).UnitVector();
-        var (from, across) = (start - a - (Vector.Dot(start - a, axis) * axis), velocity - (Vector.Dot(velocity, axis) * axis));
-        if (FirstRoot(from, across, radius) is not { } time)
+        var startAcross = start - a - (Vector.Dot(start - a, axis) * axis);
+        var velocityAcross = velocity - (Vector.Dot(velocity, axis) * axis);
+        if (FirstRoot(startAcross, velocityAcross, radius) is not { } time)
         {
             return null;
         }
@@ -94,11 +98,14 @@ internal sealed class SphereTriangleOracle((Vector A, Vector B, Vector C)[] face
     private static (double Time, Vector Point)? HitVertex(Vector start, Vector velocity, double radius, Vector vertex) =>
         FirstRoot(start - vertex, velocity, radius) is { } time ? (time, vertex) : null;
 
-    /// <summary>The first t at which |from + t·velocity| = radius.</summary>
+    /// <summary>Finds the first t at which |from + t·velocity| = radius; null where the sphere passes.</summary>
     private static double? FirstRoot(Vector from, Vector velocity, double radius)
     {
-        var (square, half, rest) = (velocity.LengthSquared(), Vector.Dot(from, velocity), from.LengthSquared() - (radius * radius));
-        var discriminant = (half * half) - (square * rest);
-        return half < 0 && discriminant >= 0 ? rest / (-half + Math.Sqrt(discriminant)) : null;
+        // The coefficients of a·t² + 2·b·t + c = 0.
+        var a = velocity.LengthSquared();
+        var b = Vector.Dot(from, velocity);
+        var c = from.LengthSquared() - (radius * radius);
+        var discriminant = (b * b) - (a * c);
+        return b < 0 && discriminant >= 0 ? c / (-b + Math.Sqrt(discriminant)) : null;
     }
 }

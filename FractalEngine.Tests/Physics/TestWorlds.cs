@@ -6,22 +6,22 @@ using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Tests.Physics;
 
-/// <summary>Worlds to let bodies loose in, and what is conserved there.</summary>
+/// <summary>Makes worlds of static objects for bodies to move in, and measures what these conserve.</summary>
 internal static class TestWorlds
 {
-    public static readonly Vector Gravity = new(0, -9.8, 0);
+    public static readonly Vector Gravity = Scene.DefaultGravity;
 
     public static PhysicsWorld Create(Vector gravity, PhysicsSettings settings, params PlacedModel[] objects) =>
-        new(new(new Scene { Gravity = gravity }, [.. objects]), settings);
+        new(new LoadedScene(new() { Gravity = gravity }, [.. objects]), settings);
 
     public static PhysicsWorld Create(Vector gravity, double step, params PlacedModel[] objects) =>
         Create(gravity, new PhysicsSettings { TimeStep = step }, objects);
 
     public static PlacedModel Place(Mesh mesh, Transformation? placement = null) =>
-        new(new("mesh.obj", placement ?? Transformation.Identity), new MeshModel(mesh) { SourcePath = "/mesh.obj" });
+        new(new SceneObject(mesh) { Placement = placement ?? Transformation.Identity });
 
     public static PlacedModel Place(Fractal fractal, Transformation? placement = null) =>
-        new(new("fractal.fdo", placement ?? Transformation.Identity), new FractalModel(fractal) { SourcePath = "/fractal.fdo" });
+        new(new SceneObject(fractal) { Placement = placement ?? Transformation.Identity });
 
     public static void Run(this PhysicsWorld world, int steps, Action? afterEach = null)
     {
@@ -32,7 +32,7 @@ internal static class TestWorlds
         }
     }
 
-    /// <summary>Of motion and height, joules.</summary>
+    /// <summary>Kinetic and potential energy of all bodies, joules.</summary>
     public static double Energy(this PhysicsWorld world) =>
         world.Bodies.Sum(body => body.Description.Mass
             * ((0.5 * body.Velocity.LengthSquared()) - Vector.Dot(world.Gravity, body.Position)));

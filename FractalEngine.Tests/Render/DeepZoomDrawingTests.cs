@@ -16,7 +16,7 @@ using static System.FormattableString;
 namespace FractalEngine.Tests.Render;
 
 /// <summary>
-/// Pictures from deep in a fractal, beside those that world space still can tell, and beside each other at different depths.
+/// Frames from deep inside a fractal, compared with ordinary ones where doubles still suffice, and with each other at different depths.
 /// </summary>
 [Collection(GlTests.Name)]
 public sealed class DeepZoomDrawingTests
@@ -27,8 +27,11 @@ public sealed class DeepZoomDrawingTests
 
     private static readonly RenderSettings Settings = new() { Samples = 0 };
     private static readonly Light[] Directions =
-        [new AmbientLight(Colour.White, 0.1), new DirectionalLight(new(0.3, -0.5, 0.9), Colour.White, 0.9),
-        new DirectionalLight(new(0.9, 0.4, 0.2), new(0.4, 0.6, 1), 0.5)];
+    [
+        new AmbientLight(Colour.White, 0.1),
+        new DirectionalLight(new(0.3, -0.5, 0.9), Colour.White, 0.9),
+        new DirectionalLight(new(0.9, 0.4, 0.2), new(0.4, 0.6, 1), 0.5),
+    ];
 
     [SkippableTheory]
     [InlineData("menger", 0)]
@@ -39,7 +42,7 @@ public sealed class DeepZoomDrawingTests
         foreach (var placement in (Transformation[])[Transformation.Identity, new(new(1, -2, 0.5), new(20, 30, 40), new(2, 2, -2))])
         {
             var map = placement.ToAffineMap();
-            // A light with a place, too.
+            // One of the lights has a position.
             var light = new PointLight(map * new Vector(-2, -1.5, -3), new(1, 0.9, 0.8), 1, 30);
             using var stage = new Stage(name, placement, [.. Directions, light]);
             var dive = new FractalDive(stage.Hierarchy, mapIndex, map, Direction(name));
@@ -47,18 +50,17 @@ public sealed class DeepZoomDrawingTests
             {
                 dive.GoToDepth(depth, 0.2);
                 var camera = stage.CreateCamera(dive);
-                var (near, far) = (0.01 * dive.LocateTarget(Vector.Zero).Length(), 100.0);
+                var near = 0.01 * dive.LocateTarget(Vector.Zero).Length();
+                const double Far = 100;
                 var unit = Math.Exp(dive.Address.LogUnit);
-                var ordinary = stage.Draw(new(camera, Projection.Perspective) { Clip = (near * unit, far) });
-                var zoomed =
-                    stage.Draw(
-                        new(camera, Projection.Perspective) { Clip = (near, far / unit), DeepZoom = stage.CreateDeepZoom(dive.Address) });
+                var ordinary = stage.Draw(new(camera, Projection.Perspective) { FixedClipPlanes = (near * unit, Far) });
+                var zoomed = stage.DrawZoomed(camera, (near, Far / unit), dive.Address);
                 var ratio = ImageComparison.PeakSignalToNoiseRatio(zoomed, ordinary);
                 var (_, share) = RenderScenes.Difference(zoomed, ordinary);
-                Assert.True(ratio >= ImageComparison.MinSameDecibels
-                    || share < 0.01,
+                Assert.True(
+                    ratio >= ImageComparison.MinSameDecibels || share < 0.01,
                     Invariant($"{name}, {placement}, depth {dive.Address.Depth}: {ratio:F1} dB, {share:P2} of the pixels"));
-                Assert.True(RenderScenes.CountDifferent(zoomed, (0, 0, 0, 255)) > 50, "there is nothing to see");
+                Assert.True(RenderScenes.CountDifferent(zoomed, (0, 0, 0, 255)) > 50, "nothing is visible");
             }
         }
     }
@@ -75,7 +77,7 @@ public sealed class DeepZoomDrawingTests
             var first = DrawAtLevel(stage, dive, depth);
             var next = DrawAtLevel(stage, dive, depth + 1);
             Assert.Equal(depth + 1, dive.Address.Depth);
-            Assert.True(RenderScenes.CountDifferent(first, (0, 0, 0, 255)) > 500, "there is nothing to see");
+            Assert.True(RenderScenes.CountDifferent(first, (0, 0, 0, 255)) > 500, "nothing is visible");
             Assert.Equal(first.Pixels, next.Pixels);
         }
     }
@@ -83,7 +85,7 @@ public sealed class DeepZoomDrawingTests
     [SkippableFact]
     public void Frame_OfACameraThatHardlyMoves_DoesNotJitter()
     {
-        // World space still tells places at depth 8; there the same steps are drawn for comparison.
+        // At depth 8 doubles still suffice, and the same steps are drawn in the ordinary way for comparison.
         using var stage = new Stage("menger", Transformation.Identity, [RenderScenes.FullLight]);
         var shallow = new FractalDive(stage.Hierarchy, 0, AffineMap.Identity, Direction("menger"));
         var deep = new FractalDive(stage.Hierarchy, 0, AffineMap.Identity, Direction("menger"));
@@ -92,18 +94,25 @@ public sealed class DeepZoomDrawingTests
         var settings = Settings with { Samples = 4 };
         var camera = stage.CreateCamera(shallow);
         var distance = deep.LocateTarget(Vector.Zero).Length();
-        // A hundredth of a pixel at the distance of the corner.
+        // The step is a hundredth of a pixel at the distance of the corner.
         var step = 0.01 * distance * 2 * camera.HalfHeightAtUnitDepth / (Height / 2) * camera.LocalAxes.V1;
-        var (centroids, expected) = (new List<double>(), new List<double>());
+        var centroids = new List<double>();
+        var expected = new List<double>();
         for (var i = 0; i < 12; i++)
         {
             var unit = Math.Exp(shallow.Address.LogUnit);
-            var view = new View(camera with { Position = shallow.Address.WorldPosition(AffineMap.Identity) }, Projection.Perspective);
-            expected.Add(
-                RenderScenes.Centroid(stage.Draw(view with { Clip = (0.01 * distance * unit, 100) }, settings, Width / 2, Height / 2)).X);
-            centroids.Add(RenderScenes.Centroid(stage.Draw(
-                view with { Camera = camera with { Position = deep.Address.WorldPosition(AffineMap.Identity) },
-                Clip = (0.01 * distance, 100 / unit), DeepZoom = stage.CreateDeepZoom(deep.Address) }, settings, Width / 2, Height / 2)).X);
+            var ordinary = new View(camera with { Position = shallow.Address.WorldPosition(AffineMap.Identity) }, Projection.Perspective)
+            {
+                FixedClipPlanes = (0.01 * distance * unit, 100),
+            };
+            var zoomed = ordinary with
+            {
+                Camera = camera with { Position = deep.Address.WorldPosition(AffineMap.Identity) },
+                FixedClipPlanes = (0.01 * distance, 100 / unit),
+                DeepZoom = Stage.CreateDeepZoom(deep.Address),
+            };
+            expected.Add(RenderScenes.Centroid(stage.Draw(ordinary, settings, Width / 2, Height / 2)).X);
+            centroids.Add(RenderScenes.Centroid(stage.Draw(zoomed, settings, Width / 2, Height / 2)).X);
             shallow.Move(step);
             deep.Move(step);
         }
@@ -119,16 +128,18 @@ public sealed class DeepZoomDrawingTests
     [SkippableFact]
     public void Light_WithAPosition_ShinesTheSameAtAnyDepth()
     {
-        using var stage =
-            new Stage("menger", Transformation.Identity,
-            [new PointLight(new(-2, -1.5, -4), Colour.White, 1, 40),
-            new SpotLight(new(-5, -4, -3), new(4, 3, 2), 60, new(1, 0.5, 0.2), 1, 80)]);
+        Light[] lights =
+        [
+            new PointLight(new(-2, -1.5, -4), Colour.White, 1, 40),
+            new SpotLight(new(-5, -4, -3), new(4, 3, 2), 60, new(1, 0.5, 0.2), 1, 80),
+        ];
+        using var stage = new Stage("menger", Transformation.Identity, lights);
         var dive = new FractalDive(stage.Hierarchy, 0, AffineMap.Identity, Direction("menger"));
         PixelImage? last = null;
         foreach (var depth in (int[])[10, 11, 12, 13, 14, 50, 700, 2000])
         {
             var image = DrawAtLevel(stage, dive, depth);
-            Assert.True(RenderScenes.CountDifferent(image, (0, 0, 0, 255)) > 500, "there is nothing to see");
+            Assert.True(RenderScenes.CountDifferent(image, (0, 0, 0, 255)) > 500, "nothing is visible");
             if (last is not null)
             {
                 // At depth 10 the light is 59,049 times as far away as the corner: its direction differs by 1e-4.
@@ -143,37 +154,33 @@ public sealed class DeepZoomDrawingTests
     [SkippableTheory]
     [InlineData(0.8)]
     [InlineData(0.9)]
-    public void Frame_DeepInWhatHardlyShrinks_IsTheOrdinaryOne(double scale)
+    public void Frame_DeepInAFractalThatHardlyShrinks_IsTheOrdinaryOne(double scale)
     {
-        // After 50 levels of 0.8 what world space tells has ten digits left: nothing but what is left out further out can make a
-        // difference.
-        var placement = Transformation.Identity;
-        var fractal = new Fractal(
-            new(
-            [new Repetition(
-                [new TransformationSet(
-                    [Samples.MoveAndScale(0, 0, 0, scale), Samples.MoveAndScale(3, 0.5, 4, 0.1), Samples.MoveAndScale(-2, 1, 3, 0.1)])],
-                    null)]), CullingViews.Cube);
-        using var stage = new Stage(fractal, placement, Directions);
+        // After 50 levels of 0.8, positions in world space have ten digits left. Only ancestors beyond the limit could make a difference.
+        var set = new TransformationSet(
+            [Samples.MoveAndScale(0, 0, 0, scale), Samples.MoveAndScale(3, 0.5, 4, 0.1), Samples.MoveAndScale(-2, 1, 3, 0.1)]);
+        var fractal = new Fractal(new([new Repetition([set], null)]), CullingViews.Cube);
+        using var stage = new Stage(fractal, Transformation.Identity, Directions);
         var hierarchy = stage.Hierarchy;
         var camera = new Camera(new(0, 0, -5), Vector.Zero, 60);
-        var controls = new CameraControls(hierarchy.NodeAt(hierarchy.LevelCount).Box, camera, Projection.Perspective, null,
-            new(0, hierarchy, AffineMap.Identity));
-        for (var i = 0; i < 400 && controls.Depth < 50; i++)
+        var flyingCamera = new FlyingCamera(
+            hierarchy.NodeAt(hierarchy.LevelCount).Box, camera, Projection.Perspective, null, new(0, hierarchy, AffineMap.Identity));
+        var controls = new CameraControls(flyingCamera);
+        for (var i = 0; i < 400 && flyingCamera.Depth < 50; i++)
         {
             controls.Handle(new WheelTurned(1, KeyModifiers.None), (double)Width / Height);
         }
 
-        Assert.True(controls.Depth >= 35, Invariant($"only {controls.Depth} levels"));
-        // About turned: what one comes from.
+        Assert.True(flyingCamera.Depth >= 35, Invariant($"only {flyingCamera.Depth} levels"));
+        // Forwards, and back to where the camera came from.
         foreach (var yaw in (double[])[0, 180])
         {
-            var looking = controls.Camera with { Rotation = new(0, yaw * Math.PI / 180, 0) };
-            var zoomed = controls.WithDeepZoom(new(looking, Projection.Perspective));
+            var looking = flyingCamera.Camera with { Rotation = new(0, yaw * Math.PI / 180, 0) };
+            var zoomed = flyingCamera.WithDeepZoom(new(looking, Projection.Perspective));
             var unit = Math.Exp(zoomed.DeepZoom!.LogUnit);
-            var ordinary = stage.Draw(new(looking, Projection.Perspective) { Clip = (zoomed.Clip!.Value.Near * unit, 100) });
-            var ratio = ImageComparison.PeakSignalToNoiseRatio(stage.Draw(zoomed), ordinary);
-            Assert.True(ratio >= ImageComparison.MinSameDecibels, Invariant($"depth {controls.Depth}, turned by {yaw}: {ratio:F1} dB"));
+            var near = zoomed.FixedClipPlanes!.Value.Near * unit;
+            var ordinary = stage.Draw(new(looking, Projection.Perspective) { FixedClipPlanes = (near, 100) });
+            ImageComparison.AssertSame(ordinary, stage.Draw(zoomed), Invariant($"depth {flyingCamera.Depth}, rotated by {yaw}°"));
         }
     }
 
@@ -187,22 +194,18 @@ public sealed class DeepZoomDrawingTests
             dive.GoToDepth(2, 0.2);
             var camera = stage.CreateCamera(dive);
             var unit = Math.Exp(dive.Address.LogUnit);
-            var ordinary = stage.Draw(new(camera, Projection.Perspective) { Clip = (0.01 * unit, 100) });
-            var zoomed =
-                stage.Draw(
-                    new(camera, Projection.Perspective) { Clip = (0.01, 100 / unit), DeepZoom = stage.CreateDeepZoom(dive.Address) });
-            var ratio = ImageComparison.PeakSignalToNoiseRatio(zoomed, ordinary);
-            Assert.True(ratio >= ImageComparison.MinSameDecibels, Invariant($"by {kind}: {ratio:F1} dB"));
+            var ordinary = stage.Draw(new(camera, Projection.Perspective) { FixedClipPlanes = (0.01 * unit, 100) });
+            ImageComparison.AssertSame(ordinary, stage.DrawZoomed(camera, (0.01, 100 / unit), dive.Address), $"by {kind}");
         }
     }
 
     private static PixelImage DrawAtLevel(Stage stage, FractalDive dive, int depth)
     {
         dive.GoToDepth(depth, 0.2);
-        // A place that is in no copy's reach and within the sub-fractal's own: the same at each level.
+        // A position that belongs to the frame of the sub-fractal, not to that of one of its children: the same at each level.
         dive.ConvergeTo(1.5 * Direction(stage.Name));
         var camera = stage.CreateCamera(dive);
-        return stage.Draw(new(camera, Projection.Perspective) { Clip = (0.02, 1e12), DeepZoom = stage.CreateDeepZoom(dive.Address) });
+        return stage.DrawZoomed(camera, (0.02, 1e12), dive.Address);
     }
 
     private static Vector Direction(string name) => name switch
@@ -211,7 +214,7 @@ public sealed class DeepZoomDrawingTests
         _ => new Vector(-1, -0.7, -0.9).UnitVector(),
     };
 
-    /// <summary>One fractal on black, and what draws it.</summary>
+    /// <summary>One fractal on black, with its renderers.</summary>
     private sealed class Stage : IDisposable
     {
         private readonly OffscreenContext _context;
@@ -223,10 +226,14 @@ public sealed class DeepZoomDrawingTests
 
         public Stage(Fractal fractal, Transformation placement, Light[] lights, Gradient? gradient = null)
         {
+            var declaration = new SceneObject("a.fdo", placement)
+            {
+                Colour = gradient is null ? Colour.White : new(1, 0, 0),
+                Gradient = gradient,
+            };
             var scene = new LoadedScene(
                 new() { Background = Colour.Black, Lights = [.. lights] },
-                [new(new SceneObject("a.fdo", placement) { Colour = gradient is null ? Colour.White : new(1, 0, 0), Gradient = gradient },
-                new FractalModel(fractal) { SourcePath = "a.fdo" })]);
+                [new(declaration, new FractalModel(fractal) { SourcePath = "a.fdo" })]);
             var drawable = DrawableScene.Prepare(scene, Settings);
             Hierarchy = drawable.Objects[0].Model.LodHierarchy!;
             _context = GlTests.OpenContext();
@@ -241,7 +248,7 @@ public sealed class DeepZoomDrawingTests
 
         private AffineMap Placement { get; }
 
-        /// <summary>Looks at the fixed point from where the dive is.</summary>
+        /// <summary>Creates a camera at the position of a dive that looks at the fixed point.</summary>
         public Camera CreateCamera(FractalDive dive) =>
             new(dive.Address.WorldPosition(Placement), CameraFraming.LookRotation(dive.LocateTarget(Vector.Zero)), 50);
 
@@ -252,6 +259,10 @@ public sealed class DeepZoomDrawingTests
             return _frame.Capture();
         }
 
+        /// <summary>Draws with the camera's position relative to a sub-fractal.</summary>
+        public PixelImage DrawZoomed(Camera camera, (double Near, double Far) clipPlanes, FractalAddress address) =>
+            Draw(new(camera, Projection.Perspective) { FixedClipPlanes = clipPlanes, DeepZoom = CreateDeepZoom(address) });
+
         public void Dispose()
         {
             _frame.Dispose();
@@ -259,6 +270,7 @@ public sealed class DeepZoomDrawingTests
             _context.Dispose();
         }
 
-        public DeepZoom CreateDeepZoom(FractalAddress address) => new(0, address.CollectRoots(MaxAncestors), address.LogUnit);
+        public static DeepZoom CreateDeepZoom(FractalAddress address) =>
+            new(0, address.CollectRoots(MaxAncestors), address.LogUnit);
     }
 }

@@ -25,7 +25,7 @@ public sealed class DrawingTests
         var instanced = RenderScenes.Draw(RenderScenes.Scene(new Scene(), (fractal, placement, null)), view, 400, 300);
         var meshed = RenderScenes.Draw(RenderScenes.Scene(new Scene(), (RenderScenes.Model(flat), placement, null)), view, 400, 300);
 
-        // Products of floats are rounded otherwise than those of doubles: samples on edges may fall to the other side.
+        // Products of floats round differently from those of doubles, so that samples on edges may fall to the other side.
         var (mean, share) = RenderScenes.Difference(instanced, meshed);
         Assert.True(mean < 0.05 && share < 0.002, $"mean difference {mean}, share of different pixels {share}");
     }
@@ -36,26 +36,28 @@ public sealed class DrawingTests
     public void Solid_WithBackFaceCulling_LooksTheSame(double mirror)
     {
         var solid = RenderScenes.Menger(2);
-        // The same with a face inside the cubes that nobody sees: no longer a closed surface, so both sides are drawn.
+        // The same with an invisible face inside the cubes: no longer a closed surface, so both faces are drawn.
         var cube = RenderScenes.Cube(1);
         var open = new FractalModel(new Fractal(
             solid.Fractal.Description,
-            new Mesh([.. cube.Positions, 0, 0, 0, 0.1, 0, 0, 0, 0.1, 0], [.. cube.VertexIndices, 8, 9, 10]))) { SourcePath = "open.fdo" };
+            new Mesh([.. cube.Positions, 0, 0, 0, 0.1, 0, 0, 0, 0.1, 0], [.. cube.VertexIndices, 8, 9, 10])))
+        {
+            SourcePath = "open.fdo",
+        };
         var placement = Transformation.Identity with { Scale = new(mirror, 1, 1) };
         var view = new View(ObliqueCamera, Projection.Perspective);
-        var (solidScene, openScene) = (
-            RenderScenes.Scene(new Scene(), (solid, placement, null)), RenderScenes.Scene(new Scene(), (open, placement, null)));
+        var solidScene = RenderScenes.Scene(new Scene(), (solid, placement, null));
+        var openScene = RenderScenes.Scene(new Scene(), (open, placement, null));
         Assert.Equal(1, DrawableScene.Prepare(solidScene, new()).Models[0].WindingSign);
         Assert.Equal(0, DrawableScene.Prepare(openScene, new()).Models[0].WindingSign);
-        // Where cubes touch, faces of both lie at the same depth along edges, and the first one drawn wins a sample.
+        // Where cubes touch, faces of both have the same depth along edges, and the first one drawn wins a sample.
         var (mean, share) = RenderScenes.Difference(
             RenderScenes.Draw(openScene, view, 400, 300), RenderScenes.Draw(solidScene, view, 400, 300));
         Assert.True(mean < 0.01 && share < 0.0005, $"mean difference {mean}, share of different pixels {share}");
 
-        // From within a cube its inner sides are seen, whatever it is made of.
+        // From inside a cube its inner sides are visible in both scenes.
         var inside = new View(Camera.Default with { Position = new(0.9, 0.9, 0.9) }, Projection.Perspective);
-        Assert.Equal(
-            RenderScenes.Draw(openScene, inside).Pixels, RenderScenes.Draw(solidScene, inside).Pixels);
+        Assert.Equal(RenderScenes.Draw(openScene, inside).Pixels, RenderScenes.Draw(solidScene, inside).Pixels);
     }
 
     [SkippableTheory]
@@ -63,9 +65,10 @@ public sealed class DrawingTests
     [InlineData(true)]
     public void Depth_NearerObject_HidesTheFartherInEitherOrder(bool nearFirst)
     {
-        var near = (RenderScenes.Model(RenderScenes.Square(0.5), "near.obj"), RenderScenes.TranslatedTo(0, 0, -1),
-            (Colour?)new Colour(1, 0, 0));
-        var far = (RenderScenes.Model(RenderScenes.Square(2), "far.obj"), RenderScenes.TranslatedTo(0, 0, 1), (Colour?)new Colour(0, 0, 1));
+        (Model, Transformation, Colour?) near =
+            (RenderScenes.Model(RenderScenes.Square(0.5), "near.obj"), RenderScenes.TranslatedTo(0, 0, -1), new Colour(1, 0, 0));
+        (Model, Transformation, Colour?) far =
+            (RenderScenes.Model(RenderScenes.Square(2), "far.obj"), RenderScenes.TranslatedTo(0, 0, 1), new Colour(0, 0, 1));
         var settings = new Scene { Lights = [RenderScenes.FullLight], Background = Colour.Black };
         var scene = nearFirst ? RenderScenes.Scene(settings, near, far) : RenderScenes.Scene(settings, far, near);
         var image = RenderScenes.Draw(scene, RenderScenes.FrontView);
@@ -81,9 +84,9 @@ public sealed class DrawingTests
     [InlineData(Projection.Orthographic, 1, 4.5, 0)]
     [InlineData(Projection.Orthographic, 5.5, 9, 0)]
     [InlineData(Projection.Orthographic, 4.5, 5.5, 1)]
-    public void Clip_ObjectAtDepthFive_IsDrawnBetweenThePlanesOnly(Projection projection, double near, double far, int drawn)
+    public void ClipPlanes_ObjectAtDepthFive_IsDrawnBetweenThemOnly(Projection projection, double near, double far, int drawn)
     {
-        var view = new View(Camera.Default, projection) { Clip = (near, far) };
+        var view = new View(Camera.Default, projection) { FixedClipPlanes = (near, far) };
         var image = RenderScenes.Draw(RenderScenes.WhiteOnBlack(RenderScenes.Square(1), Transformation.Identity), view);
         Assert.Equal(drawn, Math.Sign(RenderScenes.CountDifferent(image, (0, 0, 0, 255))));
     }
@@ -102,30 +105,27 @@ public sealed class DrawingTests
             RenderScenes.Scene(
                 new Scene(), (RenderScenes.Model(RenderScenes.Sphere(16)), Transformation.Identity with { Scale = new(x, y, z) }, null)),
             view);
-        var fractal = new FractalModel(new Fractal(
-            new([new TransformationSet([Transformation.Identity with { Scale = new(x, y, z) }])]), RenderScenes.Sphere(16))) { SourcePath =
-            "mirror.fdo" };
+        var set = new TransformationSet([Transformation.Identity with { Scale = new(x, y, z) }]);
+        var fractal = new FractalModel(new(new([set]), RenderScenes.Sphere(16))) { SourcePath = "mirror.fdo" };
         var instance = RenderScenes.Draw(RenderScenes.Scene(new Scene(), (fractal, Transformation.Identity, null)), view);
 
-        // The diagonals of the faces lie the other way round, which moves silhouettes and interpolated colours a little.
+        // The diagonals of the faces are mirrored, which changes silhouettes and interpolated colours a little.
         Assert.True(RenderScenes.Difference(unmirrored, mirrored) is { Mean: < 0.3, Share: < 0.01 });
         Assert.True(RenderScenes.Difference(unmirrored, instance) is { Mean: < 0.3, Share: < 0.01 });
     }
 
     [SkippableFact]
-    public void Scale_WithZeros_DrawsWhatIsLeftWithoutInvalidColours()
+    public void Scale_WithZeros_DrawsTheFlattenedMeshWithoutInvalidColours()
     {
         var scene = RenderScenes.Scene(
             new Scene { Background = Colour.Black },
             (RenderScenes.Model(RenderScenes.Sphere(12)), Transformation.Identity with { Scale = new(1, 1, 0) }, Colour.White));
         var image = RenderScenes.Draw(scene, RenderScenes.FrontView);
-        // The disc looks at the camera and at the key light: bright throughout, no dark speck.
+        // The disc faces the camera and the key light: it is bright throughout, without dark specks.
         Assert.True(image[100, 75].Red > 100 && image[85, 75].Red > 100 && image[100, 60].Red > 100);
 
-        var gone = RenderScenes.Draw(
-            scene with { Objects =
-            [new(new SceneObject("x.obj", Transformation.Identity with { Scale = Vector.Zero }), scene.Objects[0].Model)] },
-            RenderScenes.FrontView);
+        var point = new SceneObject("x.obj", Transformation.Identity with { Scale = Vector.Zero });
+        var gone = RenderScenes.Draw(scene with { Objects = [new(point, scene.Objects[0].Model)] }, RenderScenes.FrontView);
         Assert.Equal(0, RenderScenes.CountDifferent(gone, (0, 0, 0, 255)));
     }
 
@@ -171,9 +171,8 @@ public sealed class DrawingTests
         var empty = RenderScenes.Scene(new Scene { Background = Colour.Black });
         var view = new View(ObliqueCamera, Projection.Perspective);
         Assert.Equal(0, RenderScenes.CountDifferent(RenderScenes.Draw(empty, view), (0, 0, 0, 255)));
-        Assert.InRange(
-            RenderScenes.CountDifferent(RenderScenes.Draw(empty, view, settings: new() { Grid = true, Axes = true }), (0, 0, 0, 255)), 200,
-            30_000);
+        var lines = RenderScenes.Draw(empty, view, settings: new() { Grid = true, Axes = true });
+        Assert.InRange(RenderScenes.CountDifferent(lines, (0, 0, 0, 255)), 200, 30_000);
     }
 
     [SkippableFact]
@@ -225,10 +224,10 @@ public sealed class DrawingTests
         using var frame = new FrameRenderer(context);
         var error = Assert.Throws<GlException>(() => frame.Draw(null, RenderScenes.FrontView, 1_000_000, 10, new()));
         Assert.Equal(
-            $"a picture of 1000000×10 pixels cannot be drawn: this driver allows 1 to {context.MaxFrameSize} pixels a side", error.Message);
+            $"a frame of 1000000×10 pixels cannot be drawn: this driver allows 1 to {context.MaxFrameSize} pixels a side", error.Message);
     }
 
-    /// <summary>The fractal as <c>export</c> writes it, read again.</summary>
+    /// <summary>Writes a fractal as <c>export</c> does, and parses the result.</summary>
     private static Mesh ExportAndParse(FractalModel fractal)
     {
         using var stream = new MemoryStream();

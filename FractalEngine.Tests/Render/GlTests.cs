@@ -2,13 +2,13 @@ using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.Tests.Render;
 
-/// <summary>Tests that draw, one after the other: windows and contexts belong to one thread at a time.</summary>
+/// <summary>The collection of tests that draw. They run one after the other, since a context belongs to one thread at a time.</summary>
 [CollectionDefinition(Name, DisableParallelization = true)]
 public sealed class GlTests
 {
     public const string Name = "GL";
 
-    /// <summary>A context, or a skipped test where there is no display. Anything that leaks fails the test.</summary>
+    /// <summary>Opens a context, or skips the test where there is no display. A leaked GL object fails the test.</summary>
     public static OffscreenContext OpenContext()
     {
         try

@@ -1,4 +1,3 @@
-using System.Globalization;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
@@ -8,17 +7,18 @@ using FractalEngine.Core.Visibility;
 using FractalEngine.Render;
 using FractalEngine.Tests.Support;
 using FractalEngine.Tests.Visibility;
+using static System.FormattableString;
 
 namespace FractalEngine.Tests.Render;
 
-/// <summary>Instances that differ in colour: in light from everywhere each has a mixture of both colours, in linear light.</summary>
+/// <summary>Colours of instances with a gradient: in light from everywhere, mixtures of both colours in linear light.</summary>
 [Collection(GlTests.Name)]
 public sealed class GradientTests
 {
     private static readonly Colour FirstColour = new(1, 0, 0);
     private static readonly Colour SecondColour = new(0, 0.2, 1);
 
-    // Of linear light: half a step of 8 bits, and interpolation.
+    // In linear light: half a step of 8 bits, and interpolation.
     private const double Tolerance = 0.01;
 
     [SkippableTheory]
@@ -35,9 +35,7 @@ public sealed class GradientTests
     [SkippableFact]
     public void Level_OfSetsWithoutTheIdentity_IsTheSameForAll()
     {
-        var fractal =
-            CreateFractal(new Repetition([new TransformationSet([Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)])],
-            2));
+        var fractal = CreateFractal(new Repetition([TwoHalves], 2));
         CheckColours(fractal, GradientKind.Level, false, (new(-3, 0, 0), 1), (new(-1, 0, 0), 1), (new(1, 0, 0), 1), (new(3, 0, 0), 1));
     }
 
@@ -45,49 +43,46 @@ public sealed class GradientTests
     public void Level_WhereASetHasOneMap_CountsIt()
     {
         // GradientKind.Level: how many maps other than the identity lead to an instance. Here always two, of two levels.
-        var fractal = CreateFractal(new TransformationSet([Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)]),
-            new TransformationSet([Samples.MoveAndScale(0, 1, 0, 0.5)]));
+        var fractal = CreateFractal(TwoHalves, new TransformationSet([Samples.MoveAndScale(0, 1, 0, 0.5)]));
         CheckColours(fractal, GradientKind.Level, false, (new(-2, 0.5, 0), 1), (new(2, 0.5, 0), 1));
     }
 
     [SkippableFact]
     public void Path_OfTwoLevels_IsAHalfOfTheFirstAndAQuarterOfTheSecond()
     {
-        var fractal =
-            CreateFractal(new Repetition(
-                [new TransformationSet(
-                    [Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(0, 2, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)])], 2));
-        // Places 0, 1/2 and 1 in the set.
-        CheckColours(fractal, GradientKind.Path, true, (new(-3, 0, 0), 0), (new(-2, 1, 0), 0.125), (new(-1, 0, 0), 0.25),
-            (new(0, 3, 0), 0.375),
-            (new(1, 2, 0), 0.5), (new(3, 0, 0), 0.75));
+        var set = new TransformationSet(
+            [Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(0, 2, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)]);
+        var fractal = CreateFractal(new Repetition([set], 2));
+        // Positions 0, 1/2 and 1 in the set.
+        CheckColours(
+            fractal, GradientKind.Path, true,
+            (new(-3, 0, 0), 0), (new(-2, 1, 0), 0.125), (new(-1, 0, 0), 0.25),
+            (new(0, 3, 0), 0.375), (new(1, 2, 0), 0.5), (new(3, 0, 0), 0.75));
     }
 
     [SkippableFact]
     public void NoGradient_HasTheColourOfTheObject()
     {
-        var fractal =
-            CreateFractal(new Repetition([new TransformationSet([Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)])],
-            2));
+        var fractal = CreateFractal(new Repetition([TwoHalves], 2));
         CheckColours(fractal, GradientKind.None, false, (new(-3, 0, 0), 0), (new(3, 0, 0), 0));
     }
 
     [SkippableFact]
     public void Gradient_BesideFractalsWithout_IsDrawn()
     {
-        // In any order of distance, and where nothing of the one with the gradient is in the picture, or in some strips of it.
-        var fractal =
-            CreateFractal(new Repetition([new TransformationSet([Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)])],
-            2));
+        // In any order of distance, and where the fractal with the gradient is outside the frame, or in only some strips of it.
+        var fractal = CreateFractal(new Repetition([TwoHalves], 2));
         var model = new FractalModel(fractal) { SourcePath = "a.fdo" };
         foreach (var position in (Vector[])[new(5, 0, 2), new(5, 0, -2), new(0, 0, -100), new(0, 0, 5)])
         {
-            var scene = new LoadedScene(new() { Background = Colour.Black, Lights = [RenderScenes.FullLight] },
-            [
-                new(new SceneObject("a.fdo", Transformation.Identity) { Colour = new(0, 1, 0) }, model),
-                new(new SceneObject("a.fdo", RenderScenes.TranslatedTo(position.X, position.Y, position.Z)) { Colour = FirstColour,
-                Gradient = new(GradientKind.Level, SecondColour) }, model),
-            ]);
+            var plain = new SceneObject("a.fdo", Transformation.Identity) { Colour = new(0, 1, 0) };
+            var graded = new SceneObject("a.fdo", RenderScenes.TranslatedTo(position.X, position.Y, position.Z))
+            {
+                Colour = FirstColour,
+                Gradient = new(GradientKind.Level, SecondColour),
+            };
+            var scene = new LoadedScene(
+                new() { Background = Colour.Black, Lights = [RenderScenes.FullLight] }, [new(plain, model), new(graded, model)]);
             var view = new View(new(new(0, 0, -14), Vector.Zero, 60), Projection.Perspective);
             var image = RenderScenes.Draw(scene, view, 400, 300, new() { Samples = 0 });
             AssertColour(image, view, new(-3, 0, 0), new(0, 1, 0), 0, "without");
@@ -101,18 +96,21 @@ public sealed class GradientTests
     [Fact]
     public void GradientFactors_OfWhatSpansStrips_AreThoseOfTheSameInstances()
     {
-        // The same instances in a picture of many strips and, turned by a quarter, in others; a small and a large picture.
+        // The same instances from three positions, in frames of different widths, so that they fall into different strips.
         var fractal = CullingViews.Menger(2);
         foreach (var kind in (GradientKind[])[GradientKind.Level, GradientKind.Path])
         {
             var item = CullingViews.CreateObject(fractal) with { GradientKind = kind };
-            var factors = new Dictionary<string, float>();
-            foreach (var (from, width) in from eye in (Vector[])[new(0, 0, -4), new(-3, 2, -2.5),
-                new(0.1, 0.2, 0.05)] from width in (int[])[4, 40, 400] select (eye, width))
+            var factors = new Dictionary<(double X, double Y, double Z), float>();
+            foreach (var (from, width) in
+                from eye in (Vector[])[new(0, 0, -4), new(-3, 2, -2.5), new(0.1, 0.2, 0.05)]
+                from width in (int[])[4, 40, 400]
+                select (eye, width))
             {
                 var set = new VisibleSet();
                 set.Cull(CullingViews.CreateView(from, new(0.1, 0.1, 0.1), width: width, height: width), [item], CullingViews.NoCulling);
-                var (count, distinct) = (0, new HashSet<string>());
+                var count = 0;
+                var distinct = new HashSet<(double X, double Y, double Z)>();
                 for (var chunk = 0; chunk < VisibleSet.ChunkCount; chunk++)
                 {
                     var rows = set.Instances(0, chunk);
@@ -121,12 +119,11 @@ public sealed class GradientTests
                     for (var i = 0; i < found.Length; i++)
                     {
                         var row = rows[(i * VisibleSet.FloatsPerInstance)..];
-                        // The place in steps of the smallest cube.
-                        var gridPosition =
-                            Invariant(
-                                $"{Math.Round(9 * (row[3] + from.X)) + 0.0} {Math.Round(9 * (row[7] + from.Y)) + 0.0} {Math.Round(9 * (row[11] + from.Z)) + 0.0}");
+                        // The position in steps of the smallest cube.
+                        var gridPosition = (
+                            Math.Round(9 * (row[3] + from.X)), Math.Round(9 * (row[7] + from.Y)), Math.Round(9 * (row[11] + from.Z)));
                         Assert.True(factors.TryAdd(gridPosition, found[i]) || factors[gridPosition] == found[i],
-                            $"{kind}, {width} columns, {gridPosition}: {found[i]} and {factors[gridPosition]}");
+                            Invariant($"{kind}, {width} columns, {gridPosition}: {found[i]} and {factors[gridPosition]}"));
                         distinct.Add(gridPosition);
                         count++;
                     }
@@ -143,15 +140,18 @@ public sealed class GradientTests
 
     private static Fractal CreateFractal(params ReadOnlySpan<FractalStep> steps) => new(new([.. steps]), RenderScenes.Square(0.5));
 
-    /// <summary>Draws it from before, and looks at the middles of instances.</summary>
-    private static void CheckColours(Fractal fractal, GradientKind kind, bool hasSamples,
-        params ReadOnlySpan<(Vector Place, double Tint)> expected)
+    /// <summary>Draws a fractal from the front, and compares the colours at the centres of instances.</summary>
+    private static void CheckColours(
+        Fractal fractal, GradientKind kind, bool hasSamples, params ReadOnlySpan<(Vector Position, double Factor)> expected)
     {
+        var declaration = new SceneObject("a.fdo", Transformation.Identity)
+        {
+            Colour = FirstColour,
+            Gradient = kind == GradientKind.None ? null : new(kind, SecondColour),
+        };
         var scene = new LoadedScene(
             new() { Background = Colour.Black, Lights = [RenderScenes.FullLight] },
-            [new(new SceneObject("a.fdo", Transformation.Identity) { Colour = FirstColour, Gradient = kind == GradientKind.None
-            ? null
-            : new(kind, SecondColour) }, new FractalModel(fractal) { SourcePath = "a.fdo" })]);
+            [new(declaration, new FractalModel(fractal) { SourcePath = "a.fdo" })]);
         var view = new View(new(new(0, 0.5, -8), Vector.Zero, 60), Projection.Perspective);
         var image = RenderScenes.Draw(scene, view, 800, 600, new() { Samples = hasSamples ? 4 : 0 });
         foreach (var (position, factor) in expected)
@@ -165,12 +165,13 @@ public sealed class GradientTests
         var (x, y, _) = view.Project(position, image.Width, image.Height)!.Value;
         var pixel = image[(int)x, (int)y];
         var found = new Colour(pixel.Red / 255.0, pixel.Green / 255.0, pixel.Blue / 255.0).ToLinear();
-        var ((red1, green1, blue1), (red2, green2, blue2)) = (firstColour.ToLinear(), SecondColour.ToLinear());
-        Vector Of(double factorOf) =>
-            new(red1 + (factorOf * (red2 - red1)), green1 + (factorOf * (green2 - green1)), blue1 + (factorOf * (blue2 - blue1)));
-        var difference = (Of(factor) - new Vector(found.Red, found.Green, found.Blue)).MaxAbsComponent();
-        Assert.True(difference < Tolerance, Invariant($"{description}: {found}, expected {Of(factor)}"));
+        var (red1, green1, blue1) = firstColour.ToLinear();
+        var (red2, green2, blue2) = SecondColour.ToLinear();
+        var mixture = new Vector(
+            red1 + (factor * (red2 - red1)), green1 + (factor * (green2 - green1)), blue1 + (factor * (blue2 - blue1)));
+        var difference = (mixture - new Vector(found.Red, found.Green, found.Blue)).MaxAbsComponent();
+        Assert.True(difference < Tolerance, Invariant($"{description}: {found}, expected {mixture}"));
     }
 
-    private static string Invariant(FormattableString text) => text.ToString(CultureInfo.InvariantCulture);
+    private static TransformationSet TwoHalves => new([Samples.MoveAndScale(-2, 0, 0, 0.5), Samples.MoveAndScale(2, 0, 0, 0.5)]);
 }

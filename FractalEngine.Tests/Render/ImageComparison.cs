@@ -1,17 +1,18 @@
 using FractalEngine.Core.Images;
+using static System.FormattableString;
 
 namespace FractalEngine.Tests.Render;
 
-/// <summary>How far pictures are from each other, in the values that files hold (sRGB).</summary>
+/// <summary>Measures of the difference between two images, in the values that files hold (sRGB).</summary>
 internal static class ImageComparison
 {
     /// <summary>
-    /// Decibels from which pictures count as the same: a picture of every instance of a fractal is itself 24 to 40 dB from the truth, so
-    /// that differences of 40 dB and more are not seen beside that.
+    /// Decibels from which images count as the same. An image of every instance of a fractal is itself 24 to 40 dB from the supersampled
+    /// reference, which hides differences of 40 dB and more.
     /// </summary>
     public const double MinSameDecibels = 40;
 
-    /// <summary>Peak signal-to-noise ratio in decibels: 20·log₁₀(255 / root of the mean square); infinite for equal pictures.</summary>
+    /// <summary>Peak signal-to-noise ratio in decibels: 20·log₁₀(255 / root of the mean square); infinite for equal images.</summary>
     public static double PeakSignalToNoiseRatio(PixelImage image1, PixelImage image2)
     {
         Assert.Equal((image1.Width, image1.Height), (image2.Width, image2.Height));
@@ -25,13 +26,22 @@ internal static class ImageComparison
         return 20 * Math.Log10(255 / Math.Sqrt(sum / (0.75 * image1.Pixels.Length)));
     }
 
-    /// <summary>A smaller picture: averages of squares of pixels in linear light.</summary>
+    /// <summary>Fails unless two images are the same up to <see cref="MinSameDecibels"/>.</summary>
+    public static void AssertSame(PixelImage expected, PixelImage found, string description)
+    {
+        var ratio = PeakSignalToNoiseRatio(found, expected);
+        Assert.True(ratio >= MinSameDecibels, Invariant($"{description}: {ratio:F1} dB"));
+    }
+
+    /// <summary>Returns a smaller image, by averages of squares of pixels in linear light.</summary>
     public static PixelImage Downsample(PixelImage image, int factor)
     {
         var linear = Enumerable.Range(0, 256).Select(i => i <= 10 ? i / 255.0 / 12.92 : Math.Pow(((i / 255.0) + 0.055) / 1.055, 2.4))
             .ToArray();
-        var (width, height) = (image.Width / factor, image.Height / factor);
-        var (pixels, source) = (new byte[4 * width * height], image.Pixels);
+        var width = image.Width / factor;
+        var height = image.Height / factor;
+        var pixels = new byte[4 * width * height];
+        var source = image.Pixels;
         Parallel.For(0, height, y =>
         {
             for (var i = 0; i < 4 * width; i++)
@@ -54,11 +64,12 @@ internal static class ImageComparison
     }
 
     /// <summary>
-    /// The share of pixels that are not black in one picture and black, with all around them up to two pixels away, in another.
+    /// Returns the fraction of the lit pixels of one image that have no lit pixel of another within two pixels in each direction.
     /// </summary>
     public static double FractionWithoutNeighbour(PixelImage image1, PixelImage image2)
     {
-        var (count, far) = (0, 0);
+        var count = 0;
+        var isolated = 0;
         for (var y = 0; y < image1.Height; y++)
         {
             for (var x = 0; x < image1.Width; x++)
@@ -66,12 +77,12 @@ internal static class ImageComparison
                 if (image1[x, y].Green > 0)
                 {
                     count++;
-                    far += HasLitNeighbour(image2, x, y) ? 0 : 1;
+                    isolated += HasLitNeighbour(image2, x, y) ? 0 : 1;
                 }
             }
         }
 
-        return (double)far / count;
+        return (double)isolated / count;
     }
 
     private static bool HasLitNeighbour(PixelImage image, int x, int y)

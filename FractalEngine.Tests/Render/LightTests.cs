@@ -4,7 +4,7 @@ using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Tests.Render;
 
-/// <summary>A white square before the camera, lit by one light; its middle pixel has the colour that the light's formula gives.</summary>
+/// <summary>Colours of a white square under one light, compared with the light's formula.</summary>
 [Collection(GlTests.Name)]
 public sealed class LightTests
 {
@@ -36,7 +36,7 @@ public sealed class LightTests
     [InlineData(2.0, 0.25)]
     public void Point_AtADistance_FallsWithItsSquare(double distance, double factor)
     {
-        // At a tenth of the range the light has its full intensity; its smooth end takes 0.3 % at two tenths.
+        // At a tenth of the range the light has its full intensity. At two tenths the smooth end takes 0.3 % of it.
         var light = new PointLight(new(0, 0, -distance), Colour.White, 0.8, 10);
         AssertLinear(0.8 * factor, RedOfLitSquare(light), 0.006);
     }
@@ -58,11 +58,9 @@ public sealed class LightTests
     [SkippableFact]
     public void Lights_OfSeveralColours_AddUpInLinearLight()
     {
-        var scene = new Scene
-        {
-            Lights = [new AmbientLight(new(1, 0, 0), 0.2), new DirectionalLight(Vector.K, new(0, 1, 0), 0.3),
-            new DirectionalLight(Vector.K, new(0, 1, 0), 0.2)],
-        };
+        var green1 = new DirectionalLight(Vector.K, new(0, 1, 0), 0.3);
+        var green2 = new DirectionalLight(Vector.K, new(0, 1, 0), 0.2);
+        var scene = new Scene { Lights = [new AmbientLight(new(1, 0, 0), 0.2), green1, green2] };
         var (red, green, blue, _) = CentrePixel(scene, Camera.Default);
         AssertLinear(0.2, red);
         AssertLinear(0.5, green);
@@ -73,12 +71,12 @@ public sealed class LightTests
         CentrePixel(new Scene { Lights = [light] }, camera ?? Camera.Default).Red;
 
     private static (byte Red, byte Green, byte Blue, byte Alpha) CentrePixel(Scene scene, Camera camera) => RenderScenes.Draw(
-        // Small, so that the light's angle and distance hardly change over it.
+        // The square is small, so that the light's angle and distance hardly vary over it.
         RenderScenes.Scene(scene with { Background = Colour.Black },
         (RenderScenes.Model(RenderScenes.Square(0.01)), Transformation.Identity, Colour.White)),
         new(camera with { FieldOfView = 1 }, Projection.Perspective), 40, 30)[20, 15];
 
-    /// <summary>Within half a step of 8 bits and the difference that a light makes over the square.</summary>
+    /// <summary>Allows half a step of 8 bits, and the variation of the light over the square.</summary>
     private static void AssertLinear(double expected, byte found, double tolerance = 0.005) =>
         Assert.InRange(new Colour(found / 255.0, 0, 0).ToLinear().Red, expected - tolerance, expected + tolerance);
 }

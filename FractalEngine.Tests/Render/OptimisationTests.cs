@@ -5,11 +5,10 @@ using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Tests.Collision;
 using FractalEngine.Tests.Support;
-using static System.FormattableString;
 
 namespace FractalEngine.Tests.Render;
 
-/// <summary>What is left out: each switched off alone gives the same picture, and the counters tell what it saved.</summary>
+/// <summary>Optimisations: each disabled alone gives the same image, and the counters show how much it saves.</summary>
 [Collection(GlTests.Name)]
 public sealed class OptimisationTests : IDisposable
 {
@@ -40,19 +39,19 @@ public sealed class OptimisationTests : IDisposable
 
         """;
 
-    // A square, a face on a line, one with two equal corners.
+    // A square, a triangle of collinear corners, one with two equal corners.
     private const string Square = "v -1 -1 0\nv 1 -1 0\nv -1 1 0\nv 1 1 0\nv 0 0 0\nf 1 3 2\nf 1 5 4\nf 2 2 3\nf 2 3 4\n";
 
     private static readonly Dictionary<string, Func<RenderSettings, RenderSettings>> DisableOptimisation = new()
     {
-        ["backs"] = settings => settings with { BackFaceCulling = false },
-        ["outside"] = settings => settings with { Culling = settings.Culling! with { FrustumCulling = false } },
-        ["hidden"] = settings => settings with { Culling = settings.Culling! with { OcclusionCulling = false } },
-        ["empty-faces"] = settings => settings with { RemoveDegenerateTriangles = false },
-        ["state"] = settings => settings with { FilterRedundantState = false },
-        ["buffers"] = settings => settings with { ReuseBuffers = false },
-        ["sharing"] = settings => settings with { ShareTextures = false },
-        ["sight"] = settings => settings with { LazyLoading = false },
+        ["backface-culling"] = settings => settings with { BackFaceCulling = false },
+        ["frustum-culling"] = settings => settings with { Culling = settings.Culling! with { FrustumCulling = false } },
+        ["occlusion-culling"] = settings => settings with { Culling = settings.Culling! with { OcclusionCulling = false } },
+        ["degenerate-removal"] = settings => settings with { RemoveDegenerateTriangles = false },
+        ["state-filtering"] = settings => settings with { FilterRedundantState = false },
+        ["buffer-reuse"] = settings => settings with { ReuseBuffers = false },
+        ["mesh-sharing"] = settings => settings with { ShareTextures = false },
+        ["lazy-loading"] = settings => settings with { LazyLoading = false },
     };
 
     private static string Textured => Path.Combine(AssetFractals.Folder, "..", "scenes", "textured.sdo");
@@ -72,12 +71,9 @@ public sealed class OptimisationTests : IDisposable
             foreach (var samples in (int[])[0, 4])
             {
                 var settings = new RenderSettings { Samples = samples };
-                var (with, without) =
-                    (Draw(path, new(), settings).Picture,
-                    Draw(path, new() { ShareModels = optimisation != "sharing" }, DisableOptimisation[optimisation](settings)).Picture);
-                Assert.True(ImageComparison.PeakSignalToNoiseRatio(without, with) >= ImageComparison.MinSameDecibels,
-                    Invariant(
-                        $"{Path.GetFileName(path)}, {samples} samples: {ImageComparison.PeakSignalToNoiseRatio(without, with):F1} dB"));
+                var with = Draw(path, new(), settings).Image;
+                var without = DrawWithout(path, optimisation, settings).Image;
+                ImageComparison.AssertSame(with, without, $"{Path.GetFileName(path)}, {samples} samples");
             }
         }
     }
@@ -87,24 +83,21 @@ public sealed class OptimisationTests : IDisposable
     {
         var path = WriteSmallScene();
         var settings = new RenderSettings();
-        OptimisationStatistics Of(string? optimisation = null) =>
-            Draw(path, new() { ShareModels = optimisation != "sharing" }, optimisation is null
-            ? settings
-            : DisableOptimisation[optimisation](settings)).Statistics.Optimisations;
-        var all = Of();
-        // Three squares and a cube in sight, a cube and a row of cubes behind the camera; cubes have the only picture.
+        OptimisationStatistics Without(string optimisation) => DrawWithout(path, optimisation, settings).Statistics.Optimisations;
+        var all = Draw(path, new(), settings).Statistics.Optimisations;
+        // Three squares and a cube in view, a cube and a row of cubes behind the camera. Only the cubes have a texture.
         Assert.Equal((6, 3, 1, 1), (all.ObjectCount, all.ModelCount, all.PlaceholderCount, all.TextureCount));
-        Assert.Equal((2, 0), (all.DegenerateTriangleCount, Of("empty-faces").DegenerateTriangleCount));
-        Assert.Equal((6, 2), (Of("sharing").ModelCount, Of("sharing").PlaceholderCount));
-        Assert.Equal(0, Of("sight").PlaceholderCount);
+        Assert.Equal((2, 0), (all.DegenerateTriangleCount, Without("degenerate-removal").DegenerateTriangleCount));
+        Assert.Equal((6, 2), (Without("mesh-sharing").ModelCount, Without("mesh-sharing").PlaceholderCount));
+        Assert.Equal(0, Without("lazy-loading").PlaceholderCount);
         Assert.True(all.BackFaceCulledCount > 0);
-        Assert.Equal(0, Of("backs").BackFaceCulledCount);
-        // The last picture is like the one before: all its buffers are kept, or none.
+        Assert.Equal(0, Without("backface-culling").BackFaceCulledCount);
+        // The last frame is like the one before: all its buffers are reused, or none.
         Assert.Equal(0, all.Uploads.Performed);
-        Assert.Equal(all.Uploads.Skipped, Of("buffers").Uploads.Performed);
-        Assert.Equal(0, Of("state").StateChanges.Skipped);
-        // What is skipped as one, such as the camera of a program, may be several changes.
-        Assert.True(Of("state").StateChanges.Performed >= all.StateChanges.Performed + all.StateChanges.Skipped);
+        Assert.Equal(all.Uploads.Skipped, Without("buffer-reuse").Uploads.Performed);
+        Assert.Equal(0, Without("state-filtering").StateChanges.Skipped);
+        // A change that is skipped as one, such as the camera of a program, may consist of several.
+        Assert.True(Without("state-filtering").StateChanges.Performed >= all.StateChanges.Performed + all.StateChanges.Skipped);
         Assert.True(all.StateChanges.Skipped > 0);
     }
 
@@ -113,15 +106,19 @@ public sealed class OptimisationTests : IDisposable
     {
         var path = WriteSmallScene();
         var settings = new RenderSettings();
-        var (all, outside, hidden) = (Draw(path, new(), settings), Draw(path, new(), DisableOptimisation["outside"](settings)),
-            Draw(path, new(), DisableOptimisation["hidden"](settings)));
-        Assert.True(all.Statistics.Culling.OutsideFrustum > 0);
-        Assert.Equal(0, outside.Statistics.Culling.OutsideFrustum);
-        Assert.Equal(0, hidden.Statistics.Culling.Occluded);
+        Assert.True(Draw(path, new(), settings).Statistics.Culling.OutsideFrustum > 0);
+        Assert.Equal(0, DrawWithout(path, "frustum-culling", settings).Statistics.Culling.OutsideFrustum);
+        Assert.Equal(0, DrawWithout(path, "occlusion-culling", settings).Statistics.Culling.Occluded);
     }
 
-    /// <summary>As the window does: what is in sight is prepared, unless all is. Drawn twice, so that something can be kept.</summary>
-    private static (PixelImage Picture, FrameStatistics Statistics) Draw(string path, LoadOptions options, RenderSettings settings)
+    private static (PixelImage Image, FrameStatistics Statistics) DrawWithout(
+        string path, string optimisation, RenderSettings settings) =>
+        Draw(path, new() { ShareModels = optimisation != "mesh-sharing" }, DisableOptimisation[optimisation](settings));
+
+    /// <summary>
+    /// Draws as the window does, with visible models prepared, or all of them. Draws twice, so that there are buffers to reuse.
+    /// </summary>
+    private static (PixelImage Image, FrameStatistics Statistics) Draw(string path, LoadOptions options, RenderSettings settings)
     {
         var scene = AssetLoader.Load(path, options).Scene;
         var view = View.Of(scene, (double)Width / Height);

@@ -9,8 +9,8 @@ public sealed class ProjectionTests
     private const int Width = 320;
     private const int Height = 240;
 
-    // The picture of a cube of 6 pixels is centred on that of its middle up to the perspective within the cube (below 0.05 pixels) and the
-    // sampling at 4 points a pixel (below 0.15).
+    // A cube of 6 pixels is drawn with its centroid where its centre projects to, up to the perspective within the cube (below 0.05 pixels)
+    // and the sampling at 4 points a pixel (below 0.15).
     private const double Tolerance = 0.25;
 
     public static TheoryData<double, double, double, double, double, double, double> Views => new()
@@ -70,7 +70,7 @@ public sealed class ProjectionTests
             RenderScenes.WhiteOnBlack(RenderScenes.Sphere(12), new(translation, Vector.Zero, Vector.One)),
             new(Camera.Default with { Position = Camera.Default.Position + translation }, Projection.Perspective));
 
-        // A float has steps of 4 units out there; doubles have steps of 1e-8, which are no pixels.
+        // Floats have steps of 4 units at that distance. Doubles have steps of 1e-8, far below a pixel.
         Assert.True(RenderScenes.Difference(near, far).Share < 0.001);
     }
 

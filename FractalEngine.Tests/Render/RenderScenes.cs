@@ -9,10 +9,10 @@ using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Tests.Render;
 
-/// <summary>Small scenes to draw, and ways to look at the pictures.</summary>
+/// <summary>Small scenes to draw, and measures of their images.</summary>
 internal static class RenderScenes
 {
-    /// <summary>Light from everywhere at full strength: what is drawn has exactly its own colour.</summary>
+    /// <summary>Light from everywhere at full strength, in which surfaces have exactly their own colour.</summary>
     public static readonly Light FullLight = new AmbientLight(Colour.White, 1);
 
     public static Mesh Cube(double half) => new(
@@ -22,14 +22,15 @@ internal static class RenderScenes
         ],
         [0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 4, 2, 4, 6, 2, 1, 3, 5, 3, 7, 5, 2, 6, 3, 3, 6, 7, 0, 1, 4, 1, 5, 4]);
 
-    /// <summary>A square in the plane z = 0 whose front looks towards −z.</summary>
+    /// <summary>A square in the plane z = 0 whose front face points towards −z.</summary>
     public static Mesh Square(double half) => new(
         [-half, -half, 0, half, -half, 0, -half, half, 0, half, half, 0], [0, 2, 1, 1, 2, 3]);
 
-    /// <summary>A ball of radius 1 about the origin; its poles lie on the y axis.</summary>
+    /// <summary>A sphere of radius 1 about the origin, with its poles on the y axis.</summary>
     public static Mesh Sphere(int rings)
     {
-        var (positions, faces) = (ImmutableArray.CreateBuilder<double>(), ImmutableArray.CreateBuilder<int>());
+        var positions = ImmutableArray.CreateBuilder<double>();
+        var faces = ImmutableArray.CreateBuilder<int>();
         for (var i = 0; i <= rings; i++)
         {
             for (var j = 0; j < 2 * rings; j++)
@@ -62,7 +63,7 @@ internal static class RenderScenes
         new(scene, [.. objects.ToArray().Select(item =>
             new PlacedModel(new SceneObject(item.Model.Name, item.Placement) { Colour = item.Colour }, item.Model))]);
 
-    /// <summary>A white thing in full light on black.</summary>
+    /// <summary>A white mesh in full light on a black background.</summary>
     public static LoadedScene WhiteOnBlack(Mesh mesh, Transformation placement) => Scene(
         new Scene { Background = Colour.Black, Lights = [FullLight] }, (Model(mesh), placement, Colour.White));
 
@@ -76,10 +77,10 @@ internal static class RenderScenes
         return frame.Capture();
     }
 
-    /// <summary>From five units before the origin.</summary>
+    /// <summary>A perspective view from five units before the origin.</summary>
     public static View FrontView => new(Camera.Default, Projection.Perspective);
 
-    /// <summary>How many pixels differ from a colour.</summary>
+    /// <summary>Counts the pixels that differ from a colour.</summary>
     public static int CountDifferent(PixelImage image, (byte, byte, byte, byte) colour)
     {
         var count = 0;
@@ -94,7 +95,7 @@ internal static class RenderScenes
         return count;
     }
 
-    /// <summary>The centre of what is drawn on black, weighted with linear light, in pixels from the upper left corner.</summary>
+    /// <summary>Returns the centroid of an image on black, weighted by linear light, in pixels from the upper left corner.</summary>
     public static (double X, double Y) Centroid(PixelImage image)
     {
         var (sum, sumX, sumY) = (0.0, 0.0, 0.0);
@@ -103,7 +104,9 @@ internal static class RenderScenes
             for (var x = 0; x < image.Width; x++)
             {
                 var light = new Colour(image[x, y].Green / 255.0, 0, 0).ToLinear().Red;
-                (sum, sumX, sumY) = (sum + light, sumX + (light * (x + 0.5)), sumY + (light * (y + 0.5)));
+                sum += light;
+                sumX += light * (x + 0.5);
+                sumY += light * (y + 0.5);
             }
         }
 
@@ -111,19 +114,21 @@ internal static class RenderScenes
     }
 
     /// <summary>
-    /// The mean absolute difference of all components, and the share of pixels with a component that differs by more than 8.
+    /// Returns the mean absolute difference of all components, and the share of pixels with a component that differs by more than 8.
     /// </summary>
     public static (double Mean, double Share) Difference(PixelImage image1, PixelImage image2)
     {
         Assert.Equal((image1.Width, image1.Height), (image2.Width, image2.Height));
-        var (sum, different) = (0L, 0);
+        var sum = 0L;
+        var different = 0;
         for (var i = 0; i < image1.Pixels.Length; i += 4)
         {
             var maxDifference = 0;
             for (var j = i; j < i + 4; j++)
             {
                 var difference = Math.Abs(image1.Pixels[j] - image2.Pixels[j]);
-                (sum, maxDifference) = (sum + difference, Math.Max(maxDifference, difference));
+                sum += difference;
+                maxDifference = Math.Max(maxDifference, difference);
             }
 
             different += maxDifference > 8 ? 1 : 0;

@@ -2,6 +2,7 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
+using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Render;
 
@@ -10,11 +11,11 @@ public sealed class ViewTests
     private static readonly BoundingBox UnitBox = new(-Vector.One, Vector.One);
 
     [Fact]
-    public void Project_PointOnTheAxis_IsTheMiddleOfTheFrame() =>
+    public void Project_PointOnTheAxis_IsTheCentreOfTheFrame() =>
         Assert.Equal((160.0, 120.0, 5.0), RenderScenes.FrontView.Project(Vector.Zero, 320, 240));
 
     [Fact]
-    public void Project_PointBehindThePerspectiveCamera_IsNowhere() =>
+    public void Project_PointBehindThePerspectiveCamera_IsNull() =>
         Assert.Null(RenderScenes.FrontView.Project(new(0, 0, -6), 320, 240));
 
     [Fact]
@@ -42,9 +43,9 @@ public sealed class ViewTests
     }
 
     [Fact]
-    public void ClipPlanes_OfTheScene_AreTaken()
+    public void ClipPlanes_Fixed_AreTaken()
     {
-        var view = RenderScenes.FrontView with { Clip = (2, 3) };
+        var view = RenderScenes.FrontView with { FixedClipPlanes = (2, 3) };
         Assert.Equal((2.0, 3.0), view.ClipPlanes(UnitBox));
     }
 
@@ -64,7 +65,7 @@ public sealed class ViewTests
     }
 
     [Fact]
-    public void Of_OrthographicScene_ShowsWhatPerspectiveShowsAtItsMiddle()
+    public void Of_OrthographicScene_HasTheHeightOfPerspectiveAtItsCentre()
     {
         var scene = RenderScenes.Scene(
             new Scene { Projection = Projection.Orthographic, Camera = Camera.Default },
@@ -85,7 +86,27 @@ public sealed class ViewTests
     [InlineData(1.0, 300, 100, 100, 0, 100, 100)]
     [InlineData(2.0, 100, 100, 0, 25, 100, 50)]
     [InlineData(1e9, 100, 100, 0, 49, 100, 1)]
-    public void Viewport_FixedAspect_IsTheLargestMiddlePart(double aspect, int width, int height, int x, int y, int shownWidth,
-    int shownHeight) =>
-        Assert.Equal((x, y, shownWidth, shownHeight), (RenderScenes.FrontView with { Aspect = aspect }).Viewport(width, height));
+    public void Viewport_FixedAspect_IsTheLargestCentredPart(
+        double aspect, int width, int height, int x, int y, int viewportWidth, int viewportHeight) =>
+        Assert.Equal((x, y, viewportWidth, viewportHeight), (RenderScenes.FrontView with { Aspect = aspect }).Viewport(width, height));
+
+    [Theory]
+    [InlineData(Projection.Perspective)]
+    [InlineData(Projection.Orthographic)]
+    public void MayIntersectFrustum_BoxThatReachesIntoTheFrame_IsTrue(Projection projection) => Seeded.Run(300, random =>
+    {
+        var view = new View(new(random.Vector(3), random.Vector(3), 20 + (100 * random.NextDouble())), projection)
+        {
+            OrthographicHeight = 1 + (5 * random.NextDouble()),
+        };
+        var box = BoundingBox.Empty.Including(random.Vector(8)).Including(random.Vector(8));
+        for (var i = 0; i < 20; i++)
+        {
+            var point = box.Minimum + box.Size.Stretch(new(random.NextDouble(), random.NextDouble(), random.NextDouble()));
+            if (view.Project(point, 300, 200) is var (x, y, depth) && depth > 0 && x is > 0 and < 300 && y is > 0 and < 200)
+            {
+                Assert.True(view.MayIntersectFrustum(box, 1.5), $"{point} of {box}");
+            }
+        }
+    });
 }

@@ -103,7 +103,8 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
             var camera = new Camera(
                 dive.Address.WorldPosition(AffineMap.Identity), CameraFraming.LookRotation(dive.LocateTarget(Vector.Zero)), 50);
             var zoom = new DeepZoom(0, dive.Address.CollectRoots(MaxAncestors), dive.Address.LogUnit);
-            frame.Draw(renderer, new(camera, Projection.Perspective) { Clip = (0.02, 1e12), DeepZoom = zoom }, Width, Height, Settings);
+            var view = new View(camera, Projection.Perspective) { FixedClipPlanes = (0.02, 1e12), DeepZoom = zoom };
+            frame.Draw(renderer, view, Width, Height, Settings);
             context.Resources.ThrowOnError("drawing");
             return frame.Capture();
         }

@@ -178,9 +178,9 @@ public class NumberStabilityTests(ITestOutputHelper output)
     private static string Written(double[] numbers)
     {
         using var stream = new MemoryStream();
-        ObjWriter.Write(MeshOf(numbers), "mesh", stream);
+        ObjMeshWriter.Write(MeshOf(numbers), stream, "mesh");
         using var table = new StringWriter { NewLine = "\n" };
-        var world = new PhysicsWorld(new(new Scene(), []), new());
+        var world = new PhysicsWorld();
         world.Add(new(new(numbers[0], numbers[1], numbers[2]), 1) { Velocity = new(numbers[3] % 1e6, 0.5, -1.25) });
         new BodyCsvWriter(table).WriteStep(world);
         return string.Join('\n', Encoding.UTF8.GetString(stream.ToArray()), SceneWriter.Write(SceneOf(numbers)), table,
@@ -191,7 +191,7 @@ public class NumberStabilityTests(ITestOutputHelper output)
     private static string ReadBack(double[] numbers)
     {
         using var stream = new MemoryStream();
-        ObjWriter.Write(MeshOf(numbers), "mesh", stream);
+        ObjMeshWriter.Write(MeshOf(numbers), stream, "mesh");
         var mesh = ObjParser.Parse(new SourceText("a.obj", Encoding.UTF8.GetString(stream.ToArray()))).Mesh;
         var scene = SceneParser.Parse(new("a.sdo", SceneWriter.Write(SceneOf(numbers)))).Scene;
         var lines = numbers.Chunk(3).Select(point => new Vector(point[0], point[1], point[2]).ToString().Trim('(', ')'));

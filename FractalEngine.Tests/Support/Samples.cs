@@ -59,13 +59,13 @@ internal static class Samples
     /// <summary>A single triangle, which is much faster than the tetrahedron, though symmetries map it to itself.</summary>
     public static Mesh Triangle { get; } = new([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 2]);
 
-    public static FractalFile ParseFractal(string text) => FractalParser.Parse(new("test.fdo", text));
+    public static ParsedFractal ParseFractal(string text) => FractalParser.Parse(new("test.fdo", text));
 
     /// <summary>Parses a text as from a file: a byte order mark is none of its characters.</summary>
-    public static FractalFile ParseFractalBytes(string text) =>
+    public static ParsedFractal ParseFractalBytes(string text) =>
         FractalParser.Parse(SourceText.Decode(Encoding.UTF8.GetBytes(text), "test.fdo"));
 
-    public static ObjFile ParseObj(string text) => ObjParser.Parse(new SourceText("test.obj", text));
+    public static ParsedObj ParseObj(string text) => ObjParser.Parse(new SourceText("test.obj", text));
 
     public static Fractal AppendixBAt(int depth, Composition composition = Composition.Affine) =>
         new(ParseFractal(AppendixB).Description.WithDepth(depth) with { Composition = composition }, Triangle);

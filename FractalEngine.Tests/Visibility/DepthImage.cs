@@ -5,52 +5,57 @@ using FractalEngine.Core.Visibility;
 namespace FractalEngine.Tests.Visibility;
 
 /// <summary>
-/// The nearest surface at the middle of each pixel, in double precision: every face of every instance, cut at the near and the far plane.
+/// The depth of the closest surface at each sample of a frame, in double precision: the oracle of culling.
 /// </summary>
+/// <remarks>Every face of every instance is rasterized, clipped at the near plane and hidden beyond the far plane.</remarks>
 internal sealed class DepthImage
 {
     private readonly CullingView _view;
-    private readonly bool _hasSamples;
-    private readonly double[] _depth;
-    private readonly double[] _projected = new double[3 * 4];
+    private readonly bool _isMultisampled;
+    private readonly double[] _depths;
 
-    /// <summary>Without any surface.</summary>
-    /// <param name="view">How it is looked at.</param>
-    /// <param name="hasSamples">
-    /// True for four samples a pixel, where graphics hardware has them: the picture then has twice the size.
+    /// <summary>Creates an image without any surface.</summary>
+    /// <param name="view">Camera and frame.</param>
+    /// <param name="isMultisampled">
+    /// True for four samples a pixel, where graphics hardware has them: the image then has twice the size.
     /// </param>
-    public DepthImage(CullingView view, bool hasSamples = false)
+    public DepthImage(CullingView view, bool isMultisampled = false)
     {
-        view = hasSamples ? view with { Width = 2 * view.Width, Height = 2 * view.Height } : view;
-        _hasSamples = hasSamples;
-        (_view, _depth, ClosestInstance) = (view, new double[view.Width * view.Height], new int[view.Width * view.Height]);
-        Array.Fill(_depth, double.PositiveInfinity);
-        Array.Fill(ClosestInstance, -1);
+        _view = isMultisampled ? view with { Width = 2 * view.Width, Height = 2 * view.Height } : view;
+        _isMultisampled = isMultisampled;
+        _depths = new double[_view.Width * _view.Height];
+        ClosestInstances = new int[_view.Width * _view.Height];
+        Array.Fill(_depths, double.PositiveInfinity);
+        Array.Fill(ClosestInstances, -1);
     }
 
-    /// <summary>Which instance is nearest, −1 for none, [height × width].</summary>
-    public int[] ClosestInstance { get; }
+    /// <summary>Number of the closest instance at each sample, −1 for none, [height × width].</summary>
+    public int[] ClosestInstances { get; }
 
-    /// <summary>Of the nearest; infinite where there is none.</summary>
-    public ReadOnlySpan<double> Depth => _depth;
+    /// <summary>Depth of the closest surface at each sample, infinite for none, [height × width].</summary>
+    public ReadOnlySpan<double> Depths => _depths;
 
-    /// <summary>Draws a mesh; the map leads to world axes about the camera.</summary>
+    /// <summary>Draws an instance of a mesh.</summary>
+    /// <param name="mesh">Mesh of the instance.</param>
+    /// <param name="map">Map from the mesh's frame to world axes about the camera.</param>
+    /// <param name="number">Number of the instance.</param>
     public void Draw(Mesh mesh, AffineMap map, int number)
     {
-        var inverse = _view.Axes.Inverse();
-        var corners = new Vector[mesh.VertexCount];
-        for (var i = 0; i < corners.Length; i++)
+        var worldToView = _view.Axes.Inverse();
+        var vertices = new Vector[mesh.VertexCount];
+        for (var i = 0; i < vertices.Length; i++)
         {
-            corners[i] = inverse * (map * mesh.Vertex(i));
+            vertices[i] = worldToView * (map * mesh.Vertex(i));
         }
 
-        for (var i = 0; i < mesh.VertexIndices.Length; i += 3)
+        var indices = mesh.VertexIndices;
+        for (var i = 0; i < indices.Length; i += 3)
         {
-            ClipToNearPlane(corners[mesh.VertexIndices[i]], corners[mesh.VertexIndices[i + 1]], corners[mesh.VertexIndices[i + 2]], number);
+            DrawClipped(vertices[indices[i]], vertices[indices[i + 1]], vertices[indices[i + 2]], number);
         }
     }
 
-    /// <summary>Where a point in view space appears: pixels from the upper left.</summary>
+    /// <summary>Projects a point in view space to pixels from the upper left corner.</summary>
     public static (double X, double Y) Project(in CullingView view, Vector point)
     {
         var perspectiveScale = view.IsPerspective ? 1 / point.Z : 1;
@@ -58,14 +63,15 @@ internal sealed class DepthImage
             (0.5 * view.Height) - (view.PixelsPerUnitY * point.Y * perspectiveScale));
     }
 
-    private void ClipToNearPlane(Vector a, Vector b, Vector c, int number)
+    private void DrawClipped(Vector a, Vector b, Vector c, int number)
     {
-        // At the near plane: none, one or two triangles are left.
+        // Clipping at the near plane leaves no, one or two triangles.
         Vector[] corners = [a, b, c];
         var clipped = new List<Vector>(4);
         for (var i = 0; i < 3; i++)
         {
-            var (from, to) = (corners[i], corners[(i + 1) % 3]);
+            var from = corners[i];
+            var to = corners[(i + 1) % 3];
             if (from.Z >= _view.Near)
             {
                 clipped.Add(from);
@@ -87,12 +93,9 @@ internal sealed class DepthImage
 
     private void Rasterize(Vector a, Vector b, Vector c, int number)
     {
-        StoreProjected(a, 0);
-        StoreProjected(b, 1);
-        StoreProjected(c, 2);
-        var (ax, ay, an) = (_projected[0], _projected[1], _projected[2]);
-        var (bx, by, bn) = (_projected[3], _projected[4], _projected[5]);
-        var (cx, cy, cn) = (_projected[6], _projected[7], _projected[8]);
+        var (ax, ay, an) = ProjectWithDepth(a);
+        var (bx, by, bn) = ProjectWithDepth(b);
+        var (cx, cy, cn) = ProjectWithDepth(c);
         var area = ((bx - ax) * (cy - ay)) - ((by - ay) * (cx - ax));
         if (area == 0)
         {
@@ -108,9 +111,11 @@ internal sealed class DepthImage
             for (var x = left; x <= right; x++)
             {
                 // The standard pattern, y downwards: (3, 7), (7, 5), (1, 3), (5, 1) eighths of a pixel.
-                var (offsetX, offsetY) = !_hasSamples ? (0.5, 0.5) : (y % 2 == 0 ? 0.25 : 0.75, x % 2 == 0 ? 0.75 : 0.25);
+                var offsetX = !_isMultisampled ? 0.5 : y % 2 == 0 ? 0.25 : 0.75;
+                var offsetY = !_isMultisampled ? 0.5 : x % 2 == 0 ? 0.75 : 0.25;
                 var (px, py) = (x + offsetX - ax, y + offsetY - ay);
-                var (weightB, weightC) = (((px * (cy - ay)) - (py * (cx - ax))) / area, ((py * (bx - ax)) - (px * (by - ay))) / area);
+                var weightB = ((px * (cy - ay)) - (py * (cx - ax))) / area;
+                var weightC = ((py * (bx - ax)) - (px * (by - ay))) / area;
                 if (weightB < 0 || weightC < 0 || weightB + weightC > 1)
                 {
                     continue;
@@ -119,18 +124,19 @@ internal sealed class DepthImage
                 var inverseDepth = an + (weightB * (bn - an)) + (weightC * (cn - an));
                 var depth = _view.IsPerspective ? 1 / inverseDepth : -inverseDepth;
                 var index = (y * _view.Width) + x;
-                if (depth < _depth[index] && depth <= _view.Far)
+                if (depth < _depths[index] && depth <= _view.Far)
                 {
-                    (_depth[index], ClosestInstance[index]) = (depth, number);
+                    _depths[index] = depth;
+                    ClosestInstances[index] = number;
                 }
             }
         }
     }
 
-    private void StoreProjected(Vector point, int index)
+    /// <summary>Projects a point to pixels and an inverse depth, which is linear on the screen.</summary>
+    private (double X, double Y, double InverseDepth) ProjectWithDepth(Vector point)
     {
         var (x, y) = Project(in _view, point);
-        (_projected[3 * index], _projected[(3 * index) + 1], _projected[(3 * index) + 2]) =
-            (x, y, _view.IsPerspective ? 1 / point.Z : -point.Z);
+        return (x, y, _view.IsPerspective ? 1 / point.Z : -point.Z);
     }
 }

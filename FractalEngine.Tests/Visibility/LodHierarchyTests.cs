@@ -11,13 +11,26 @@ namespace FractalEngine.Tests.Visibility;
 
 public class LodHierarchyTests
 {
-    /// <summary>Every fractal of the assets at a depth of at most some thousand instances.</summary>
+    /// <summary>All fractals of the assets, at depths of at most some thousand instances; −1 keeps the depth of the file.</summary>
     public static TheoryData<string, int> Assets => new()
     {
-        { "appendix-b", 2 }, { "appendix-b-structure", 2 }, { "diamond", 1 }, { "fern", 1 }, { "googol", 3 }, { "infinite-menger", 2 },
-        { "menger", 2 }, { "menger-3", 2 },
-        { "menger-4", 2 }, { "romanesco", 1 }, { "shell", -1 }, { "sierpinski", 3 }, { "snowflake", -1 }, { "terrain", 4 },
-        { "tetrahedron", 3 }, { "tree", 3 }, { "tree-leaves", 3 },
+        { "appendix-b", 2 },
+        { "appendix-b-structure", 2 },
+        { "diamond", 1 },
+        { "fern", 1 },
+        { "googol", 3 },
+        { "infinite-menger", 2 },
+        { "menger", 2 },
+        { "menger-3", 2 },
+        { "menger-4", 2 },
+        { "romanesco", 1 },
+        { "shell", -1 },
+        { "sierpinski", 3 },
+        { "snowflake", -1 },
+        { "terrain", 4 },
+        { "tetrahedron", 3 },
+        { "tree", 3 },
+        { "tree-leaves", 3 },
     };
 
     [Theory]
@@ -35,15 +48,17 @@ public class LodHierarchyTests
     [Fact]
     [Trait("Category", "Soak")]
     public void Build_OfManyRandomFractals_HasTheirInstancesInTheirBoxes() =>
-        Seeded.Run(600,
-        random => Check(RandomFractals.Create(random, random.Next(3) == 0 ? Composition.Componentwise : Composition.Affine)));
+        Seeded.Run(600, random =>
+            Check(RandomFractals.Create(random, random.Next(3) == 0 ? Composition.Componentwise : Composition.Affine)));
 
     [Fact]
     public void Build_OfRepetitionsInRepetitions_HasTheirInstancesInTheirBoxes() => Seeded.Run(30, random =>
     {
-        TransformationSet Set() =>
-            new([.. Enumerable.Range(0, random.Next(1, 3))
-            .Select(_ => random.Next(3) == 0 ? Transformation.Identity : random.Transformation())]);
+        TransformationSet Set() => new(
+        [
+            .. Enumerable.Range(0, random.Next(1, 3))
+                .Select(_ => random.Next(3) == 0 ? Transformation.Identity : random.Transformation()),
+        ]);
         var inner = new Repetition([Set(), Set()], random.Next(0, 3));
         var middle = new Repetition([Set(), inner], random.Next(1, 3));
         Check(new(new([Set(), new Repetition([middle, Set()], random.Next(1, 3))]), Samples.Tetrahedron));
@@ -53,10 +68,13 @@ public class LodHierarchyTests
     public void Build_OfManyIdentitiesAndSums_HasEachComponentwiseInstanceOnce()
     {
         // Sums commute, so that most chains are equal to others.
-        var set =
-            new TransformationSet(
-                [Transformation.Identity, Samples.Move(1, 0, 0), Samples.Move(0, 1, 0),
-                new(new(0, 0, 1), new(10, 20, 30), 0.9 * Vector.One)]);
+        var set = new TransformationSet(
+        [
+            Transformation.Identity,
+            Samples.Move(1, 0, 0),
+            Samples.Move(0, 1, 0),
+            new(new(0, 0, 1), new(10, 20, 30), 0.9 * Vector.One),
+        ]);
         Check(new(new([new Repetition([set], 9)], Composition.Componentwise), Samples.Tetrahedron));
     }
 
@@ -68,7 +86,7 @@ public class LodHierarchyTests
     [InlineData(1000)]
     public void InstanceBvh_OfInstancesAtOnePosition_HasThemAll(int count)
     {
-        // Nothing tells their places apart.
+        // All centres are equal, so that no split separates them.
         var maps = Enumerable.Range(1, count).Select(i => new AffineMap(i * Matrix.Identity, Vector.Zero)).ToArray();
         var bvh = new InstanceBvh(new(-Vector.One, Vector.One), maps);
         var nodes = bvh.Nodes;
@@ -94,17 +112,16 @@ public class LodHierarchyTests
             Assert.Empty(Expand(hierarchy));
         }
 
-        Assert.True(LodHierarchy.Build(Mesh.Empty) is var mesh && mesh.NodeAt(mesh.LevelCount).IsEmpty);
+        var hierarchyOfMesh = LodHierarchy.Build(Mesh.Empty);
+        Assert.True(hierarchyOfMesh.NodeAt(hierarchyOfMesh.LevelCount).IsEmpty);
     }
 
     [Fact]
     public void Build_OfOnePoint_ContainsIt()
     {
         var point = new Mesh([1, 2, 3], [0, 0, 0]);
-        var hierarchy =
-            LodHierarchy.Build(
-                new Fractal(Samples.Repeated(4, Samples.MoveAndScale(1, 0, 0, 0.5), Samples.MoveAndScale(0, 1, 0, -0.5)).Description,
-                point));
+        var description = Samples.Repeated(4, Samples.MoveAndScale(1, 0, 0, 0.5), Samples.MoveAndScale(0, 1, 0, -0.5)).Description;
+        var hierarchy = LodHierarchy.Build(new Fractal(description, point));
         Assert.Equal(16, Expand(hierarchy).Count);
         Assert.True(hierarchy.NodeAt(hierarchy.LevelCount).Box.Size.IsFinite());
     }
@@ -129,7 +146,7 @@ public class LodHierarchyTests
         }
         catch (SingularMatrixException)
         {
-            // As the documentation of DetailTable.Of says.
+            // The documentation of LodHierarchy.Build allows this.
         }
     }
 
@@ -139,23 +156,23 @@ public class LodHierarchyTests
         var expected = FractalGenerator.Expand(fractal, 1_000_000);
         var size = expected.Length == 0 ? 1 : expected.Max(map => Math.Max(map.Translation.MaxAbsComponent(), map.Linear.MaxAbsEntry()));
         var found = Expand(hierarchy);
-        // The same products in another order.
+        // The tolerance is that of the same products in another order.
         var counts = CullingViews.CountMatches([.. expected], found, 1e-11 * size, 1e-11 * size);
         Assert.True(counts.All(count => count > 0), $"{counts.Count(count => count == 0)} of {expected.Length} instances are missing");
-        // What equal chains give in general is undecidable; identities of one repetition are promised to give nothing twice.
+        // Whether chains are equal is undecidable in general, but identities of one repetition must not repeat instances.
         if (!RepeatsIdentities(fractal.Description))
         {
-            Assert.True(expected.Length == found.Count,
-                $"{found.Count} instances for {expected.Length} distinct ones of {fractal.InstanceCount}");
+            Assert.True(
+                expected.Length == found.Count, $"{found.Count} instances for {expected.Length} distinct ones of {fractal.InstanceCount}");
         }
-        var visited = new HashSet<long>();
-        CheckBoxes(hierarchy, hierarchy.LevelCount, visited);
+
+        CheckBoxes(hierarchy, hierarchy.LevelCount, []);
     }
 
-    /// <summary>True where a set with the identity comes again after its repetition has ended, as in repetitions of repetitions.</summary>
+    /// <summary>Tells whether a set with the identity occurs again after the end of its repetition, as in nested repetitions.</summary>
     private static bool RepeatsIdentities(FractalDescription description) => description.Composition == Composition.Affine
-        && description.Steps.OfType<Repetition>()
-        .Any(repetition => repetition.NestingDepth > 1 && NaiveFractal.Levels([repetition]).Any(level => level.Any(map => map.IsIdentity)));
+        && description.Steps.OfType<Repetition>().Any(repetition =>
+            repetition.NestingDepth > 1 && NaiveFractal.Levels([repetition]).Any(level => level.Any(map => map.IsIdentity)));
 
     private static List<AffineMap> Expand(LodHierarchy hierarchy)
     {
@@ -183,10 +200,9 @@ public class LodHierarchyTests
         }
     }
 
-    private static long ChildLevels(LodNode node, int child, long levels) =>
-        node.ChildLevelSteps[child] < 0 ? ~node.ChildLevelSteps[child] : levels - node.ChildLevelSteps[child];
+    private static long ChildLevels(LodNode node, int child, long levels) => node.ChildLevelSteps[child].RemainingLevels(levels);
 
-    /// <summary>Each state's box holds all vertices of what it is expanded to, and its children's boxes those of the children.</summary>
+    /// <summary>Checks that each node's box holds all vertices of its instances, and the boxes of its children those of theirs.</summary>
     private static void CheckBoxes(LodHierarchy hierarchy, long levels, HashSet<long> visited)
     {
         var node = hierarchy.NodeAt(levels);
@@ -195,10 +211,10 @@ public class LodHierarchyTests
             return;
         }
 
-        var everything = new List<AffineMap>();
-        Expand(hierarchy.NodeAt, levels, AffineMap.Identity, everything);
+        var instances = new List<AffineMap>();
+        Expand(hierarchy.NodeAt, levels, AffineMap.Identity, instances);
         var rounding = 1e-12 * (node.Box.Diagonal + node.Box.Centre.MaxAbsComponent());
-        AssertContained(hierarchy.Mesh, everything, node.Box, rounding, $"with {levels} levels left");
+        AssertContained(hierarchy.Mesh, instances, node.Box, rounding, $"with {levels} levels left");
         Near.Equal(node.Box.Centre, SimdAffineMap.ToVector(node.Centre), rounding);
         Near.Equal(0.5 * node.Box.Size, SimdAffineMap.ToVector(node.HalfSize), rounding);
         for (var i = 0; i < node.ChildMaps.Length; i++)
@@ -207,12 +223,12 @@ public class LodHierarchyTests
             var childLevels = ChildLevels(node, i, levels);
             Expand(hierarchy.NodeAt, childLevels, node.ChildMaps[i].ToAffineMap(), child);
             var start = (i / LodNode.Lanes * LodNode.Lanes * LodNode.BoxRows) + (i % LodNode.Lanes);
-            Vector Row(int row) =>
-                new(node.ChildBoxes[start + (row * 8)], node.ChildBoxes[start + ((row + 1) * 8)],
-                node.ChildBoxes[start + ((row + 2) * 8)]);
-            var centre = node.Box.Centre + Row(0);
-            // Documented to hold the copies as they are, in single precision: no tolerance but that of the sums here.
-            AssertContained(hierarchy.Mesh, child, new(centre - Row(3), centre + Row(3)), rounding, $"copy {i} with {levels} levels left");
+            double Number(int row) => node.ChildBoxes[start + (row * LodNode.Lanes)];
+            var centre = node.Box.Centre + new Vector(Number(0), Number(1), Number(2));
+            var halfSize = new Vector(Number(3), Number(4), Number(5));
+            // Boxes in single precision are documented to hold the children: the only tolerance is that of the sums here.
+            var box = new BoundingBox(centre - halfSize, centre + halfSize);
+            AssertContained(hierarchy.Mesh, child, box, rounding, $"child {i} with {levels} levels left");
             CheckBoxes(hierarchy, childLevels, visited);
         }
 

@@ -16,8 +16,8 @@ public class OcclusionBufferTests
     [Fact]
     [Trait("Category", "Soak")]
     public void IsOccluded_OfManyRandomTriangles_IsTheResultOfEveryPixel() =>
-        Seeded.Run(2_000,
-        random => Compare(random, random.Next(3) == 0 ? ThinTriangle : RandomTriangle(random, random.Next(4)), random.Next(1, 40)));
+        Seeded.Run(2_000, random =>
+            Compare(random, random.Next(3) == 0 ? ThinTriangle : RandomTriangle(random, random.Next(4)), random.Next(1, 40)));
 
     [Theory]
     [InlineData(0, 1, 1)]
@@ -49,7 +49,7 @@ public class OcclusionBufferTests
     {
         var buffer = new OcclusionBuffer();
         buffer.Clear(8, 24, 16);
-        // Within a pixel beside its middle; degenerate; outside on each side; on the border to the next strip.
+        // Within a pixel beside its centre; degenerate; outside on each side; on the border to the next strip.
         Assert.False(buffer.RasterizeTriangle(10.6f, 4.6f, 1, 10.9f, 4.6f, 1, 10.6f, 4.9f, 1));
         Assert.False(buffer.RasterizeTriangle(10, 4, 1, 20, 14, 1, 15, 9, 1));
         Assert.False(buffer.RasterizeTriangle(0, 4, 1, 7, 4, 1, 0, 14, 1));
@@ -64,119 +64,142 @@ public class OcclusionBufferTests
     {
         var buffer = new OcclusionBuffer();
         buffer.Clear(0, 20, 20);
-        foreach (var bad in (float[])[float.NaN, float.PositiveInfinity, float.NegativeInfinity])
+        foreach (var coordinate in (float[])[float.NaN, float.PositiveInfinity, float.NegativeInfinity])
         {
-            Assert.False(buffer.RasterizeTriangle(bad, 0, 1, 20, 0, 1, 0, 20, 1));
-            Assert.False(buffer.RasterizeTriangle(0, bad, 1, 20, 0, 1, 0, 20, 1));
+            Assert.False(buffer.RasterizeTriangle(coordinate, 0, 1, 20, 0, 1, 0, 20, 1));
+            Assert.False(buffer.RasterizeTriangle(0, coordinate, 1, 20, 0, 1, 0, 20, 1));
         }
 
         Assert.False(buffer.RasterizeTriangle(0, 0, float.NaN, 20, 0, float.NaN, 0, 20, float.NaN));
         Assert.False(buffer.IsOccluded(0, 0, 0, 0, float.MinValue));
     }
 
-    private delegate (float X, float Y, float Nearness)[] TriangleSource(Random random, int width, int height);
+    private delegate (float X, float Y, float InverseDepth)[] TriangleSource(Random random, int width, int height);
 
     private static TriangleSource RandomTriangle(Random random, int kind)
     {
-        // Tiny, of the size of tiles, of the picture, and far beyond it.
+        // Tiny, of the size of tiles, of the size of the frame, and far beyond it.
         var size = kind switch { 0 => 1.5, 1 => 12, 2 => 100, _ => 3000 };
         return (_, width, height) =>
         {
-            var (x, y) = (random.Between(-5, width + 5), random.Between(-5, height + 5));
+            var x = random.Between(-5, width + 5);
+            var y = random.Between(-5, height + 5);
             var corners = new (float, float, float)[3];
             for (var i = 0; i < 3; i++)
             {
-                corners[i] = (SnapToSubpixel(x + random.Between(-size, size)), SnapToSubpixel(y + random.Between(-size, size)),
-                    (float)random.Between(0.1, 1));
+                var cornerX = SnapToSubpixel(x + random.Between(-size, size));
+                var cornerY = SnapToSubpixel(y + random.Between(-size, size));
+                corners[i] = (cornerX, cornerY, RandomInverseDepth(random));
             }
 
             return corners;
         };
     }
 
-    /// <summary>Two corners nearly on the line between others, as faces seen from the edge are, often through middles of pixels.</summary>
-    private static (float X, float Y, float Nearness)[] ThinTriangle(Random random, int width, int height)
+    /// <summary>Creates a triangle whose corners are nearly on one line, often through pixel centres, as of a face seen edge-on.</summary>
+    private static (float X, float Y, float InverseDepth)[] ThinTriangle(Random random, int width, int height)
     {
-        var (x1, y1) = (random.Next(-200, width + 200) + 0.5, random.Next(-200, height + 200) + 0.5);
+        var x1 = random.Next(-200, width + 200) + 0.5;
+        var y1 = random.Next(-200, height + 200) + 0.5;
         var (x2, y2) = random.Next(3) switch
         {
             0 => (x1 + random.Between(-900, 900), y1),
             1 => (x1, y1 + random.Between(-900, 900)),
             _ => (random.Next(-200, width + 200) + 0.5, random.Next(-200, height + 200) + 0.5),
         };
-        var (share, step) = (random.NextDouble(), random.Next(1, 4) / 256.0);
+        var share = random.NextDouble();
+        var step = random.Next(1, 4) / 256.0;
+        var x3 = x1 + (share * (x2 - x1)) + (random.Next(-1, 2) * step);
+        var y3 = y1 + (share * (y2 - y1)) + (random.Next(-1, 2) * step);
         return
         [
-            (SnapToSubpixel(x1), SnapToSubpixel(y1), (float)random.Between(0.1, 1)),
-            (SnapToSubpixel(x2), SnapToSubpixel(y2), (float)random.Between(0.1, 1)),
-            (SnapToSubpixel(x1 + (share * (x2 - x1)) + (random.Next(-1, 2) * step)),
-            SnapToSubpixel(y1 + (share * (y2 - y1)) + (random.Next(-1, 2) * step)), (float)random.Between(0.1, 1)),
+            (SnapToSubpixel(x1), SnapToSubpixel(y1), RandomInverseDepth(random)),
+            (SnapToSubpixel(x2), SnapToSubpixel(y2), RandomInverseDepth(random)),
+            (SnapToSubpixel(x3), SnapToSubpixel(y3), RandomInverseDepth(random)),
         ];
     }
 
+    private static float RandomInverseDepth(Random random) => (float)random.Between(0.1, 1);
+
     private static float SnapToSubpixel(double coordinate) => (float)(Math.Round(256 * coordinate) / 256);
 
-    private static void Compare(Random random, TriangleSource source, int triangles)
+    /// <summary>Rasterizes random triangles, and compares the buffer with the oracle after each of them.</summary>
+    private static void Compare(Random random, TriangleSource source, int triangleCount)
     {
-        var (left, width, height) = (random.Next(0, 40), random.Next(1, 70), random.Next(1, 70));
-        var (right, oracle) = (left + width, new Oracle(left, left + width, height));
+        var left = random.Next(0, 40);
+        var right = left + random.Next(1, 70);
+        var height = random.Next(1, 70);
+        var oracle = new Oracle(left, right, height);
         var buffer = new OcclusionBuffer();
         if (random.Next(2) == 0)
         {
-            // Memory of another picture is used again.
+            // The memory of another frame is used again.
             buffer.Clear(0, random.Next(1, 150), random.Next(1, 100));
             buffer.RasterizeTriangle(-1000, -1000, 9, 3000, -1000, 9, -1000, 3000, 9);
         }
 
         buffer.Clear(left, right, height);
-        for (var i = 0; i < triangles; i++)
+        for (var i = 0; i < triangleCount; i++)
         {
             var corners = source(random, right, height);
             var ((ax, ay, an), (bx, by, bn), (cx, cy, cn)) = (corners[0], corners[1], corners[2]);
-            var covers = buffer.RasterizeTriangle(ax, ay, an, bx, by, bn, cx, cy, cn);
+            var isVisible = buffer.RasterizeTriangle(ax, ay, an, bx, by, bn, cx, cy, cn);
             var (certainly, possibly) = oracle.RasterizeTriangle(corners);
-            Assert.True(covers || !certainly, $"triangle {string.Join(" ", corners)} is said to be nowhere the nearest");
-            Assert.True(!covers || possibly, $"triangle {string.Join(" ", corners)} is said to be the nearest somewhere");
+            Assert.True(isVisible || !certainly, $"triangle {string.Join(" ", corners)} is said to be the closest nowhere");
+            Assert.True(!isVisible || possibly, $"triangle {string.Join(" ", corners)} is said to be the closest somewhere");
             for (var query = 0; query < 6; query++)
             {
-                var (x1, x2, y1, y2) = (random.Next(left, right), random.Next(left, right), random.Next(0, height), random.Next(0, height));
-                (x1, x2, y1, y2) = query < 3 ? (x1, x1, y1, y1) : (Math.Min(x1, x2), Math.Max(x1, x2), Math.Min(y1, y2), Math.Max(y1, y2));
-                var (min, max) = oracle.FarthestRange(x1, y1, x2, y2);
-                var inverseDepth = query % 2 == 0 || !double.IsFinite(min)
-                    ? (float)random.Between(0.1, 1)
-                    : (float)(min * random.Between(0.98, 1.02));
-                var isHidden = buffer.IsOccluded(x1, y1, x2, y2, inverseDepth);
-                Assert.True(!isHidden
-                    || max >= inverseDepth,
-                    FormattableString.Invariant(
-                        $"({x1}, {y1}) to ({x2}, {y2}) of columns {left} to {right} is said to be hidden at {inverseDepth}; a pixel there has {max}"));
-                Assert.True(isHidden
-                    || min < inverseDepth,
-                    FormattableString.Invariant(
-                        $"({x1}, {y1}) to ({x2}, {y2}) of columns {left} to {right} is said not to be hidden at {inverseDepth}; all pixels have {min}"));
+                CompareRectangle(random, buffer, oracle, query);
             }
         }
     }
 
-    /// <summary>
-    /// The same in double precision: at each pixel the least and the most that it can hold, given that single precision rounds.
-    /// </summary>
+    private static void CompareRectangle(Random random, OcclusionBuffer buffer, Oracle oracle, int query)
+    {
+        var x1 = random.Next(buffer.Left, buffer.Right);
+        var x2 = random.Next(buffer.Left, buffer.Right);
+        var y1 = random.Next(0, buffer.Height);
+        var y2 = random.Next(0, buffer.Height);
+        var isPixel = query < 3;
+        var left = isPixel ? x1 : Math.Min(x1, x2);
+        var right = isPixel ? x1 : Math.Max(x1, x2);
+        var top = isPixel ? y1 : Math.Min(y1, y2);
+        var bottom = isPixel ? y1 : Math.Max(y1, y2);
+        var (min, max) = oracle.MinInverseDepthRange(left, top, right, bottom);
+        var inverseDepth = query % 2 == 0 || !double.IsFinite(min)
+            ? RandomInverseDepth(random)
+            : (float)(min * random.Between(0.98, 1.02));
+        var isOccluded = buffer.IsOccluded(left, top, right, bottom, inverseDepth);
+        var rectangle = $"({left}, {top}) to ({right}, {bottom}) of columns {buffer.Left} to {buffer.Right}";
+        Assert.True(
+            !isOccluded || max >= inverseDepth,
+            FormattableString.Invariant($"{rectangle} is said to be occluded at {inverseDepth}; a pixel there has {max}"));
+        Assert.True(
+            isOccluded || min < inverseDepth,
+            FormattableString.Invariant($"{rectangle} is said not to be occluded at {inverseDepth}; all pixels have {min}"));
+    }
+
+    /// <summary>An occlusion buffer in double precision, with bounds of each pixel's inverse depth in single precision.</summary>
     private sealed class Oracle(int left, int right, int height)
     {
-        // Middles of pixels closer to an edge than this (pixels) may fall to either side; of nearness, in parts of its range on the
-        // triangle.
+        // Pixel centres closer to an edge than this, in pixels, may fall to either side.
         private const double EdgeTolerance = 1e-3;
+
+        // Rounding of inverse depths, relative to their range on the triangle.
         private const double RoundingTolerance = 2e-3;
 
         private readonly double[] _minInverseDepth = [.. Enumerable.Repeat(double.NegativeInfinity, (right - left) * height)];
         private readonly double[] _maxInverseDepth = [.. Enumerable.Repeat(double.NegativeInfinity, (right - left) * height)];
 
-        /// <summary>Whether the triangle certainly, and whether it possibly is the nearest at some pixel.</summary>
-        public (bool Certainly, bool Possibly) RasterizeTriangle((float X, float Y, float Nearness)[] corners)
+        /// <summary>Rasterizes a triangle into both bounds.</summary>
+        /// <returns>Whether the triangle certainly is the closest at some pixel, and whether it possibly is.</returns>
+        public (bool Certainly, bool Possibly) RasterizeTriangle((float X, float Y, float InverseDepth)[] corners)
         {
-            var (certainly, possibly) = (false, false);
-            double range = corners.Max(corner => corner.Nearness) - corners.Min(corner => corner.Nearness);
-            // On a thin triangle nearness changes much within the width that an edge may move.
+            var certainly = false;
+            var possibly = false;
+            var maxInverseDepth = corners.Max(corner => corner.InverseDepth);
+            double range = maxInverseDepth - corners.Min(corner => corner.InverseDepth);
+            // On a thin triangle the inverse depth changes much within the width that an edge may move.
             var change = (RoundingTolerance * range) + (EdgeTolerance * Slope(corners)) + 1e-6;
             for (var y = 0; y < height; y++)
             {
@@ -189,8 +212,8 @@ public class OcclusionBufferTests
                     }
 
                     var index = (y * (right - left)) + x - left;
-                    var (low, high) =
-                        (inverseDepth - change, Math.Min(inverseDepth + change, corners.Max(corner => corner.Nearness) + 1e-6));
+                    var low = inverseDepth - change;
+                    var high = Math.Min(inverseDepth + change, maxInverseDepth + 1e-6);
                     possibly |= high >= _minInverseDepth[index];
                     if (distance > EdgeTolerance)
                     {
@@ -205,31 +228,36 @@ public class OcclusionBufferTests
             return (certainly, possibly);
         }
 
-        /// <summary>Bounds of the farthest pixel's nearness in a rectangle.</summary>
-        public (double Least, double Most) FarthestRange(int x1, int y1, int x2, int y2)
+        /// <summary>Computes bounds of the smallest inverse depth in a rectangle.</summary>
+        public (double Min, double Max) MinInverseDepthRange(int x1, int y1, int x2, int y2)
         {
-            var (min, max) = (double.PositiveInfinity, double.PositiveInfinity);
+            var min = double.PositiveInfinity;
+            var max = double.PositiveInfinity;
             for (var y = y1; y <= y2; y++)
             {
                 for (var x = x1; x <= x2; x++)
                 {
                     var index = (y * (right - left)) + x - left;
-                    (min, max) = (Math.Min(min, _minInverseDepth[index]), Math.Min(max, _maxInverseDepth[index]));
+                    min = Math.Min(min, _minInverseDepth[index]);
+                    max = Math.Min(max, _maxInverseDepth[index]);
                 }
             }
 
             return (min, max);
         }
 
-        /// <summary>The change of nearness per pixel.</summary>
-        private static double Slope((float X, float Y, float Nearness)[] corners)
+        /// <summary>Computes the change of the inverse depth per pixel.</summary>
+        private static double Slope((float X, float Y, float InverseDepth)[] corners)
         {
-            var here = Interpolate(corners, 0, 0).Nearness;
-            return Length(Interpolate(corners, 1, 0).Nearness - here, Interpolate(corners, 0, 1).Nearness - here);
+            var origin = Interpolate(corners, 0, 0).InverseDepth;
+            return Length(Interpolate(corners, 1, 0).InverseDepth - origin, Interpolate(corners, 0, 1).InverseDepth - origin);
         }
 
-        /// <summary>How far within the triangle a place is (negative outside), and the nearness there of the triangle's plane.</summary>
-        private static (double Distance, double Nearness) Interpolate((float X, float Y, float Nearness)[] corners, double x, double y)
+        /// <summary>
+        /// Computes the distance of a point from the triangle's border, negative outside, and the inverse depth of the triangle's plane.
+        /// </summary>
+        private static (double Distance, double InverseDepth) Interpolate(
+            (float X, float Y, float InverseDepth)[] corners, double x, double y)
         {
             var ((ax, ay, an), (bx, by, bn), (cx, cy, cn)) = (corners[0], corners[1], corners[2]);
             var area = (((double)bx - ax) * ((double)cy - ay)) - (((double)by - ay) * ((double)cx - ax));

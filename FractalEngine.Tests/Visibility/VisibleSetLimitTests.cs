@@ -9,7 +9,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Visibility;
 
-/// <summary>Fractals that are hard to choose from: deep, degenerate, huge, tiny, or hardly shrinking.</summary>
+/// <summary>Culling of fractals at the limits: deep, degenerate, huge, tiny, or hardly shrinking.</summary>
 [Collection(TimedTests.Name)]
 public class VisibleSetLimitTests
 {
@@ -39,11 +39,11 @@ public class VisibleSetLimitTests
             Assert.DoesNotContain(CullingViews.RawInstances(set, 1), number => !float.IsFinite(number));
         }
 
-        // What is smaller than a pixel is drawn alike; its bounds differ in the last places.
+        // Sub-fractals smaller than a pixel become proxies at any depth; their bounds differ in the last places.
         Assert.True(counts.Min() > 0.98 * counts.Max(), string.Join(", ", counts));
     }
 
-    /// <summary>Sets that hardly shrink; several maps multiply what is to be looked at.</summary>
+    /// <summary>Maps that hardly shrink; several of them multiply the nodes to visit.</summary>
     [Theory]
     [InlineData(0.99, 1, 300)]
     [InlineData(0.99, 1, 1_000_000)]
@@ -71,7 +71,7 @@ public class VisibleSetLimitTests
         }
         catch (FractalLimitException)
         {
-            // Its bounds don't settle: as documented.
+            // Its bounds don't converge, as documented.
             return;
         }
 
@@ -84,11 +84,11 @@ public class VisibleSetLimitTests
     [Fact]
     public void Cull_OfALongChainOfSingleMaps_Ends()
     {
-        // A million levels of one map each: nothing to choose, and no stack to fill.
+        // A million levels of one map each: nothing to cull, and no deep recursion.
         foreach (var depth in (int?[])[1000, 100_000, null])
         {
-            var item =
-                CullingViews.CreateObject(Samples.Repeated(depth, new Transformation(new(0.1, 0, 0), new(0, 1, 0), 0.98 * Vector.One)));
+            var fractal = Samples.Repeated(depth, new Transformation(new(0.1, 0, 0), new(0, 1, 0), 0.98 * Vector.One));
+            var item = CullingViews.CreateObject(fractal);
             var view = CullingViews.CreateView(new(0, 0, -10), Vector.Zero, near: 1e-3);
             RunOnSmallStack(() => CullTimed(item, view, DefaultSettings, 2));
         }
@@ -118,7 +118,7 @@ public class VisibleSetLimitTests
                     var view = CullingViews.CreateViewOfBox(new(-Vector.One, Vector.One), direction, isPerspective, 400, 300);
                     var set = CullTimed(CullingViews.CreateObject(fractal), view, DefaultSettings, 2);
                     Assert.True(mesh.FaceCount == 0 ? set.InstanceCount == 0 : set.InstanceCount <= 8000);
-                    Assert.True(set.InstanceCount > 0 || mesh.FaceCount < 12, $"{mesh.FaceCount} faces: nothing was chosen");
+                    Assert.True(set.InstanceCount > 0 || mesh.FaceCount < 12, $"{mesh.FaceCount} faces: nothing is visible");
                 }
             }
         }
@@ -133,42 +133,46 @@ public class VisibleSetLimitTests
     [InlineData(1e30)]
     public void Cull_OfASceneOfAnotherSize_SelectsTheSame(double size)
     {
-        // Powers of two change no digit; the sizes here are near them.
+        // Scaling by a power of two changes no digit, so the size is rounded to the next one.
         size = Math.Pow(2, Math.Round(Math.Log2(size)));
-        var fractal = CullingViews.Menger(4);
-        var (hierarchy, sizes) = (LodHierarchy.Build(fractal), (double[])[1, size]);
+        var hierarchy = LodHierarchy.Build(CullingViews.Menger(4));
+        VisibleSet CullScaled(double factor, bool isPerspective)
+        {
+            var view = CullingViews.CreateView(
+                factor * new Vector(1.3, 0.9, -2.4), Vector.Zero, isPerspective, 400, 300, 0.3 * factor, 10 * factor,
+                isPerspective ? 0.5 : 1.2 * factor);
+            var set = new VisibleSet();
+            set.Cull(in view, [new(hierarchy, new(factor * Matrix.Identity, Vector.Zero), Vector.Zero, 1)], DefaultSettings);
+            return set;
+        }
+
         foreach (var isPerspective in (bool[])[true, false])
         {
-            var sets = sizes.Select(factor =>
-            {
-                var view = CullingViews.CreateView(factor * new Vector(1.3, 0.9, -2.4), Vector.Zero, isPerspective, 400, 300, 0.3 * factor,
-                    10 * factor, isPerspective ? 0.5 : 1.2 * factor);
-                var set = new VisibleSet();
-                set.Cull(in view, [new(hierarchy, new(factor * Matrix.Identity, Vector.Zero), Vector.Zero, 1)], DefaultSettings);
-                return set;
-            }).ToArray();
-            Assert.DoesNotContain(CullingViews.RawInstances(sets[1], 1), number => !float.IsFinite(number));
-            Assert.Equal(sets[0].InstanceCount, sets[1].InstanceCount);
-            Assert.Equal(CullingViews.RawInstances(sets[0], 1).Select(number => (float)(number * size)),
-                CullingViews.RawInstances(sets[1], 1));
+            var expected = CullScaled(1, isPerspective);
+            var set = CullScaled(size, isPerspective);
+            var instances = CullingViews.RawInstances(set, 1);
+            Assert.DoesNotContain(instances, number => !float.IsFinite(number));
+            Assert.Equal(expected.InstanceCount, set.InstanceCount);
+            Assert.Equal(CullingViews.RawInstances(expected, 1).Select(number => (float)(number * size)), instances);
         }
     }
 
     [Fact]
     public void Cull_FarFromTheOrigin_SelectsTheSame()
     {
-        // A million units away; the camera goes along. Rounding of the places moves edges over middles of pixels.
-        var fractal = CullingViews.Menger(3);
-        var hierarchy = LodHierarchy.Build(fractal);
-        var counts = ((Vector[])[Vector.Zero, new(1e6, -1e6, 1e6)]).Select(position =>
+        // Object and camera are a million units away. Rounding of positions moves edges over pixel centres.
+        var hierarchy = LodHierarchy.Build(CullingViews.Menger(3));
+        var view = CullingViews.CreateView(new(1.3, 0.9, -2.4), Vector.Zero, true, 400, 300);
+        int CountAt(Vector position)
         {
             var set = new VisibleSet();
-            var view = CullingViews.CreateView(position + new Vector(1.3, 0.9, -2.4), position, true, 400,
-                300) with { Axes = CullingViews.CreateView(new(1.3, 0.9, -2.4), Vector.Zero).Axes };
-            set.Cull(in view, [new(hierarchy, AffineMap.Translate(position), Vector.Zero, 1)], DefaultSettings);
+            var movedView = view with { Position = position + view.Position };
+            set.Cull(in movedView, [new(hierarchy, AffineMap.Translate(position), Vector.Zero, 1)], DefaultSettings);
             return set.InstanceCount;
-        }).ToArray();
-        Assert.InRange(counts[1], 0.99 * counts[0], 1.01 * counts[0]);
+        }
+
+        var expected = CountAt(Vector.Zero);
+        Assert.InRange(CountAt(new(1e6, -1e6, 1e6)), 0.99 * expected, 1.01 * expected);
     }
 
     [Fact]
@@ -191,16 +195,17 @@ public class VisibleSetLimitTests
             return;
         }
 
-        var set = CullTimed(new(hierarchy, random.Transformation(0.5, 2).ToAffineMap(), Vector.Zero, 0),
-            CullingViews.RandomView(random, box, 400, 300),
-            DefaultSettings with { InstanceBudget = 50_000, IsMultisampled = random.Next(2) == 0 }, 5);
+        var item = new CulledObject(hierarchy, random.Transformation(0.5, 2).ToAffineMap(), Vector.Zero, 0);
+        var view = CullingViews.RandomView(random, box, 400, 300);
+        var settings = DefaultSettings with { InstanceBudget = 50_000, IsMultisampled = random.Next(2) == 0 };
+        var set = CullTimed(item, view, settings, 5);
         Assert.InRange(set.InstanceCount, 0, 50_000);
     });
 
     [Fact]
     public void Cull_CloseToAFixedPoint_StaysQuick()
     {
-        // Twelve levels down at the corner of the sponge, with the near plane as near.
+        // The camera approaches a corner of the sponge by twelve levels, and the near plane with it.
         var item = CullingViews.CreateObject(CullingViews.Menger(null), AffineMap.Identity, 1);
         for (var distance = 1.0; distance > 1e-6; distance /= 10)
         {
@@ -211,7 +216,7 @@ public class VisibleSetLimitTests
         }
     }
 
-    /// <summary>On a stack of the size that threads of a pool have.</summary>
+    /// <summary>Runs an action on a stack of the size that pool threads have.</summary>
     private static void RunOnSmallStack(Action action)
     {
         Exception? failure = null;
@@ -226,7 +231,8 @@ public class VisibleSetLimitTests
         var set = new VisibleSet();
         var watch = Stopwatch.StartNew();
         set.Cull(in view, [item], settings);
-        Assert.True(watch.Elapsed.TotalSeconds < seconds,
+        Assert.True(
+            watch.Elapsed.TotalSeconds < seconds,
             $"took {watch.Elapsed}: {set.InstanceCount} instances, {set.Statistics}, {set.MinProjectedSize} pixels");
         Assert.DoesNotContain(CullingViews.RawInstances(set, 1), number => !float.IsFinite(number));
         return set;

@@ -4,31 +4,48 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Bvh;
 
-/// <summary>Four vectors side by side, with the operators of <see cref="Vector"/> in the same order, so that they round alike.</summary>
+/// <summary>
+/// Four vectors as a structure of arrays. The operators are those of <see cref="Vector"/> in the same order, so that they round alike.
+/// </summary>
+/// <param name="X">The x components.</param>
+/// <param name="Y">The y components.</param>
+/// <param name="Z">The z components.</param>
 internal readonly record struct VectorX4(Vector256<double> X, Vector256<double> Y, Vector256<double> Z)
 {
-    /// <summary>Four times the origin.</summary>
+    /// <summary>Number of vectors, one for each lane.</summary>
+    public const int Count = 4;
+
+    /// <summary>Four vectors of zero length.</summary>
     public static VectorX4 Zero => default;
 
-    /// <summary>The same vector four times.</summary>
+    /// <summary>Rounds a number of elements up to a multiple of <see cref="Count"/>.</summary>
+    public static int PaddedCount(int count) => (count + Count - 1) / Count * Count;
+
+    /// <summary>Copies one vector to all four lanes.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static VectorX4 Broadcast(Vector vector) =>
         new(Vector256.Create(vector.X), Vector256.Create(vector.Y), Vector256.Create(vector.Z));
 
-    /// <summary>The same vector, x, y, z, 0, four times.</summary>
+    /// <summary>Copies one vector to all four lanes.</summary>
+    /// <param name="vector">x, y, z and any fourth lane.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static VectorX4 Broadcast(Vector256<double> vector) =>
         new(Vector256.Create(vector[0]), Vector256.Create(vector[1]), Vector256.Create(vector[2]));
 
-    /// <summary>One of the four.</summary>
+    /// <summary>The vector in one lane.</summary>
+    /// <param name="i">Lane, from 0 to 3.</param>
     public Vector this[int i] => new(X[i], Y[i], Z[i]);
 
-    /// <summary>Four vertices of an array of coordinates, [vertices × 3].</summary>
+    /// <summary>Gathers four vertices of a mesh.</summary>
+    /// <param name="positions">Vertex coordinates, [vertices × 3].</param>
+    /// <param name="vertices">Vertex indices.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static VectorX4 Gather(ReadOnlySpan<double> positions, Vector128<int> vertices)
     {
-        ReadOnlySpan<double> v0 = positions.Slice(3 * vertices[0], 3), v1 = positions.Slice(3 * vertices[1], 3);
-        ReadOnlySpan<double> v2 = positions.Slice(3 * vertices[2], 3), v3 = positions.Slice(3 * vertices[3], 3);
+        var v0 = positions.Slice(3 * vertices[0], 3);
+        var v1 = positions.Slice(3 * vertices[1], 3);
+        var v2 = positions.Slice(3 * vertices[2], 3);
+        var v3 = positions.Slice(3 * vertices[3], 3);
         return new(
             Vector256.Create(v0[0], v1[0], v2[0], v3[0]),
             Vector256.Create(v0[1], v1[1], v2[1], v3[1]),
@@ -53,7 +70,7 @@ internal readonly record struct VectorX4(Vector256<double> X, Vector256<double> 
         (v1.Z * v2.X) - (v1.X * v2.Z),
         (v1.X * v2.Y) - (v1.Y * v2.X));
 
-    /// <summary>The images under a map, rounded as by <see cref="AffineMap"/>.</summary>
+    /// <summary>Transforms the vectors as points, rounded as by <see cref="AffineMap"/>.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public VectorX4 Transform(ref readonly AffineMap map) =>
         ((X * Broadcast(map.Linear.V1)) + (Y * Broadcast(map.Linear.V2)) + (Z * Broadcast(map.Linear.V3))) + Broadcast(map.Translation);
@@ -61,28 +78,31 @@ internal readonly record struct VectorX4(Vector256<double> X, Vector256<double> 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Vector256<double> LengthSquared() => Dot(this, this);
 
-    /// <summary>All components' absolute values.</summary>
+    /// <summary>Takes the absolute value of each component.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public VectorX4 Absolute() => new(Vector256.Abs(X), Vector256.Abs(Y), Vector256.Abs(Z));
 
-    /// <summary>Four vectors from three rows of an array.</summary>
+    /// <summary>Loads four vectors from an array of three rows: all x, then all y, then all z.</summary>
+    /// <param name="rows">The first element of the array.</param>
+    /// <param name="first">Index of the first vector.</param>
+    /// <param name="rowLength">Number of elements in a row.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static VectorX4 Load(ref double rows, int first, int rowLength) => new(
         Vector256.LoadUnsafe(ref rows, (nuint)first),
         Vector256.LoadUnsafe(ref rows, (nuint)(first + rowLength)),
         Vector256.LoadUnsafe(ref rows, (nuint)(first + (2 * rowLength))));
 
-    /// <summary>The larger of all components; what it makes of a NaN depends on the machine.</summary>
+    /// <summary>Takes the larger of each component; the result for a NaN depends on the processor.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static VectorX4 MaxNative(VectorX4 v1, VectorX4 v2) =>
         new(Vector256.MaxNative(v1.X, v2.X), Vector256.MaxNative(v1.Y, v2.Y), Vector256.MaxNative(v1.Z, v2.Z));
 
-    /// <summary>The larger of all components; a NaN in the first is kept.</summary>
+    /// <summary>Takes the larger of each component; a NaN is kept.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static VectorX4 Max(VectorX4 v1, VectorX4 v2) =>
         new(Vector256.Max(v1.X, v2.X), Vector256.Max(v1.Y, v2.Y), Vector256.Max(v1.Z, v2.Z));
 
-    /// <summary>The first vector where the mask is set, else the second.</summary>
+    /// <summary>Selects the first vector in lanes where the mask is set, else the second.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static VectorX4 ConditionalSelect(Vector256<double> mask, VectorX4 v1, VectorX4 v2) => new(
         Vector256.ConditionalSelect(mask, v1.X, v2.X),

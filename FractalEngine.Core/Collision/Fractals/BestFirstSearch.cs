@@ -5,29 +5,32 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>
-/// Search that always goes on with the nearest copy of all, wherever it is. A search into the depth is faster on most fractals, but where
-/// levels hardly shrink it goes down thousands of them, perhaps once for each copy on its way back; this one then begins again, with what
-/// was found as its limit.
-/// </summary>
+/// <summary>Searches a fractal best first: it always visits the child with the lowest bound of all that were found.</summary>
+/// <remarks>
+/// A depth-first search is faster on most fractals. But where levels hardly shrink it descends thousands of them, perhaps once for each
+/// child on its way back. This search then begins again, limited by what was found.
+/// </remarks>
+/// <param name="table">The sub-fractals.</param>
+/// <param name="bvh">The hierarchy of the base mesh.</param>
 internal sealed class BestFirstSearch(SubFractalTable table, TriangleBvh bvh)
 {
-    // What more sub-fractals there are is looked at depth first, so that memory stays within about 30 MB.
+    // Beyond so many nodes children are visited depth first, so that memory stays within about 30 MB.
     private const int MaxNodes = 100_000;
 
-    /// <summary>Looks at the whole fractal.</summary>
-    /// <param name="position">In the frame of the query.</param>
+    /// <summary>Searches the whole fractal.</summary>
+    /// <param name="position">Position of the query in the query's frame.</param>
     /// <param name="map">From the fractal's frame to that of the query.</param>
-    /// <param name="search">What is found so far.</param>
+    /// <param name="search">The state of the search.</param>
     public void Run(Vector position, in AffineMap map, ref FractalSearchState search)
     {
-        var (simdPosition, expandedChildren) = (SimdAffineMap.ToVector256(position), search.ExpandedChildren);
+        var simdPosition = SimdAffineMap.ToVector256(position);
+        var expandedChildren = search.ExpandedChildren;
         expandedChildren.Clear();
         Expand(new(table.Root, table.Levels, new(map), new(map.Inverse()), -1, 0, 0), simdPosition, expandedChildren, ref search);
         while (expandedChildren.TryTake(out var expandedChild))
         {
             var cutoffSquared = search.CutoffSquared / search.BoundFactor;
-            if (expandedChild.Bound < cutoffSquared)
+            if (expandedChild.BoundSquared < cutoffSquared)
             {
                 Visit(in expandedChild, simdPosition, cutoffSquared, expandedChildren, ref search);
             }
@@ -36,7 +39,8 @@ internal sealed class BestFirstSearch(SubFractalTable table, TriangleBvh bvh)
         }
     }
 
-    private void Visit(in ExpandedChild expandedChild, Vector256<double> position, double cutoffSquared, ExpandedChildren expandedChildren,
+    private void Visit(
+        in ExpandedChild expandedChild, Vector256<double> position, double cutoffSquared, ExpandedChildren expandedChildren,
         ref FractalSearchState search)
     {
         ref readonly var parent = ref expandedChildren.Node(expandedChild.ParentNode);
@@ -54,12 +58,12 @@ internal sealed class BestFirstSearch(SubFractalTable table, TriangleBvh bvh)
         {
             search.BoundTests++;
             var bound = node.LowerBoundSquared(position, cutoffSquared);
-            if (bound > expandedChild.Bound)
+            if (bound > expandedChild.BoundSquared)
             {
                 if (bound < cutoffSquared)
                 {
-                    expandedChildren.Add(expandedChild with { Bound = bound, IsRefined = true },
-                        expandedChild.Key + (bound - expandedChild.Bound));
+                    var key = expandedChild.Key + (bound - expandedChild.BoundSquared);
+                    expandedChildren.Enqueue(expandedChild with { BoundSquared = bound, Key = key, IsRefined = true });
                 }
 
                 return;
@@ -78,19 +82,19 @@ internal sealed class BestFirstSearch(SubFractalTable table, TriangleBvh bvh)
         }
     }
 
-    private static void Expand(in SearchNode node, Vector256<double> position, ExpandedChildren expandedChildren,
-        ref FractalSearchState search)
+    private static void Expand(
+        in SearchNode node, Vector256<double> position, ExpandedChildren expandedChildren, ref FractalSearchState search)
     {
         var subFractal = node.SubFractal;
         ChildQueue queue = new(search.ScratchSlice(0, ChildQueue.ValuesPerChild * subFractal.PaddedCount));
         TransformedBoxDistance.FillQueue(queue, subFractal, position, in node.Map);
         search.BoundTests += subFractal.Children.Length;
-        var parent = expandedChildren.Add(in node, MaxNodes);
+        var parent = expandedChildren.AddNode(in node, MaxNodes);
         for (var i = 0; i < subFractal.Children.Length; i++)
         {
             if (!search.Excludes(queue.BoundOf(i)))
             {
-                expandedChildren.Add(new(queue.BoundOf(i), queue.KeyOf(i), parent, i, IsRefined: false), queue.KeyOf(i));
+                expandedChildren.Enqueue(new(queue.BoundOf(i), queue.KeyOf(i), parent, i, IsRefined: false));
             }
         }
 
@@ -98,13 +102,10 @@ internal sealed class BestFirstSearch(SubFractalTable table, TriangleBvh bvh)
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private void TestTriangles(in SearchNode node, Vector256<double> position, ExpandedChildren expandedChildren,
-    ref FractalSearchState search)
+    private void TestTriangles(
+        in SearchNode node, Vector256<double> position, ExpandedChildren expandedChildren, ref FractalSearchState search)
     {
-        var (closestDistanceSquared, closestFace) = (search.ClosestDistanceSquared, -1);
-        bvh.FindClosestTransformed(SimdAffineMap.ToVector(position), node.Map.ToAffineMap(), ref closestDistanceSquared, ref closestFace,
-            search.BoundFactor, ref search.FaceTests, ref search.BoundTests);
-        if (closestFace < 0)
+        if (!AffineFrame.TryFindTriangle(bvh, position, in node.Map, ref search, out var closest))
         {
             return;
         }
@@ -115,6 +116,6 @@ internal sealed class BestFirstSearch(SubFractalTable table, TriangleBvh bvh)
             search.RecordChild(expandedChildren.Node(index).Depth - 1, expandedChildren.Node(index).ChildIndex);
         }
 
-        search.UpdateClosest(closestDistanceSquared, closestFace, node.Depth);
+        search.UpdateClosest(closest.DistanceSquared, closest.FaceIndex, node.Depth);
     }
 }

@@ -4,94 +4,95 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>What is known of where a sub-fractal is, in its own frame, while a table is built.</summary>
-/// <param name="Box">Holds it.</param>
-/// <param name="Hull">Holds it, if widened by the margin; null where there is none or where it would be no better than the box.</param>
-/// <param name="Margin">Scene units.</param>
+/// <summary>Bounds of a sub-fractal in its own frame, while a <see cref="SubFractalTable"/> is built.</summary>
+/// <param name="Box">Contains the sub-fractal.</param>
+/// <param name="Hull">
+/// Contains the sub-fractal if widened by the margin; null where there is none, or where it would be no better than the box.
+/// </param>
+/// <param name="Margin">How far the sub-fractal may reach out of the hull, in scene units.</param>
 internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double Margin)
 {
-    // Of the largest coordinate: more than what mapping a point adds by rounding.
-    private const double Rounding = 2e-15;
+    // An upper bound of the rounding error of a mapped point, as a part of the largest coordinate.
+    private const double MappedPointError = 2e-15;
 
-    // More corners bound closer and take longer; this many leave about a hundredth of the size.
+    // More corners bound more tightly and take longer; this many leave about a hundredth of the size.
     private const int MaxHullVertices = 48;
 
-    private const double MaxSize = 1e100;
+    // Beyond this, squares of coordinates leave the range of a double, and with them the hull.
+    private const double MaxHullSize = 1e100;
 
-    /// <summary>Of nothing.</summary>
+    /// <summary>The volume that contains no point.</summary>
     public static BoundingVolume Empty { get; } = new(BoundingBox.Empty, null, 0);
 
-    /// <summary>Of a mesh.</summary>
-    public static BoundingVolume Of(Mesh mesh)
-    {
-        if (mesh.FaceCount == 0)
-        {
-            return Empty;
-        }
+    /// <summary>Computes the bounds of a mesh.</summary>
+    public static BoundingVolume FromMesh(Mesh mesh) => mesh.FaceCount == 0
+        ? Empty
+        : FromVertices(mesh.Bounds, [.. mesh.VertexIndices.Distinct().Select(mesh.Vertex)], 0);
 
-        return Create(mesh.Bounds, [.. mesh.VertexIndices.Distinct().Select(mesh.Vertex)], 0);
-    }
-
-    /// <summary>Of several parts.</summary>
-    /// <param name="box">Holds all.</param>
-    /// <param name="vertices">What the parts' hulls have as corners; null where one has none.</param>
-    /// <param name="margin">How far the parts reach out of their hulls.</param>
-    public static BoundingVolume Create(BoundingBox box, Vector[]? vertices, double margin)
+    /// <summary>Computes the bounds of the union of several volumes.</summary>
+    /// <param name="box">Contains all volumes.</param>
+    /// <param name="vertices">The corners of all their hulls; null where one of them has no hull.</param>
+    /// <param name="margin">The largest margin of the hulls.</param>
+    public static BoundingVolume FromVertices(BoundingBox box, Vector[]? vertices, double margin)
     {
-        // Beyond this, squares of coordinates leave the range of a double, and with them the hull.
-        if (vertices is null || vertices.Length == 0 || !(box.Diagonal < MaxSize) || !(RoundingMargin(box) < MaxSize))
+        if (vertices is null || vertices.Length == 0 || !(box.Diagonal < MaxHullSize) || !(RoundingMargin(box) < MaxHullSize))
         {
             return new(box, null, 0);
         }
 
         var hull = ConvexHull.Build(vertices, MaxHullVertices);
-        return new BoundingVolume(box, hull, margin + hull.MaxOutsideDistance + RoundingMargin(box)).Tightened();
+        return new BoundingVolume(box, hull, margin + hull.MaxOutsideDistance + RoundingMargin(box)).WithTightBox();
     }
 
-    /// <summary>Of one part's image.</summary>
-    /// <param name="child">In its own frame.</param>
-    /// <param name="map">Of the frame.</param>
-    /// <param name="operatorNormBound">The most by which the map lengthens.</param>
-    public static BoundingVolume Create(BoundingVolume child, AffineMap map, double operatorNormBound) =>
-        child.TransformedBox(map, operatorNormBound) switch
+    /// <summary>Computes the bounds of this volume's image under a map.</summary>
+    /// <param name="map">From the frame of this volume to that of the image.</param>
+    /// <param name="operatorNormBound">Upper bound of the factor by which the map lengthens vectors.</param>
+    public BoundingVolume Transform(AffineMap map, double operatorNormBound)
     {
-        var box when child.Hull is null => new(box, null, 0),
-        var box => new BoundingVolume(box, child.Hull.Transform(map), (child.Margin * operatorNormBound) + RoundingMargin(box)).Tightened(),
-    };
+        var box = TransformedBox(map, operatorNormBound);
+        return Hull is null
+            ? new(box, null, 0)
+            : new BoundingVolume(box, Hull.Transform(map), (Margin * operatorNormBound) + RoundingMargin(box)).WithTightBox();
+    }
 
-    /// <summary>The outline's image under a map: a box around it.</summary>
-    /// <param name="map">Of the frame.</param>
-    /// <param name="operatorNormBound">The most by which the map lengthens.</param>
+    /// <summary>Computes a box around this volume's image under a map.</summary>
+    /// <param name="map">From the frame of this volume to that of the image.</param>
+    /// <param name="operatorNormBound">Upper bound of the factor by which the map lengthens vectors.</param>
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     public BoundingBox TransformedBox(AffineMap map, double operatorNormBound)
     {
-        var image = Box.Transform(map);
+        var transformedBox = Box.Transform(map);
         if (Hull is null)
         {
-            return image;
+            return transformedBox;
         }
 
-        var box = BoundingBox.Empty;
+        var hullBox = BoundingBox.Empty;
         foreach (var vertex in Hull.Vertices)
         {
-            box = box.Including(map * vertex);
+            hullBox = hullBox.Including(map * vertex);
         }
 
-        return Intersection(image, Inflate(box, (Margin * operatorNormBound) + RoundingMargin(image)));
+        return Intersection(transformedBox, Inflate(hullBox, (Margin * operatorNormBound) + RoundingMargin(transformedBox)));
     }
 
-    /// <summary>A box grown to all sides.</summary>
+    /// <summary>Computes a box that is larger by a margin on all sides.</summary>
     public static BoundingBox Inflate(BoundingBox box, double margin) =>
         new(box.Minimum - (margin * Vector.One), box.Maximum + (margin * Vector.One));
 
-    private static double RoundingMargin(BoundingBox box) =>
-        Rounding * Math.Max(box.Minimum.MaxAbsComponent(), box.Maximum.MaxAbsComponent());
+    /// <summary>Computes the largest absolute coordinate of a box; infinite for the empty box.</summary>
+    public static double MaxAbsCoordinate(BoundingBox box) =>
+        Math.Max(box.Minimum.MaxAbsComponent(), box.Maximum.MaxAbsComponent());
 
-    /// <summary>With a box that is no larger than that of the hull.</summary>
-    private BoundingVolume Tightened() =>
-        this with { Box =
-        Intersection(Box, Inflate(Hull!.Vertices.Aggregate(BoundingBox.Empty, (sum, vertex) => sum.Including(vertex)), Margin)) };
+    private static double RoundingMargin(BoundingBox box) => MappedPointError * MaxAbsCoordinate(box);
 
     private static BoundingBox Intersection(BoundingBox box1, BoundingBox box2) =>
         new(Vector.Max(box1.Minimum, box2.Minimum), Vector.Min(box1.Maximum, box2.Maximum));
+
+    /// <summary>The same volume with a box that is no larger than that of the hull.</summary>
+    private BoundingVolume WithTightBox()
+    {
+        var hullBox = Hull!.Vertices.Aggregate(BoundingBox.Empty, (box, vertex) => box.Including(vertex));
+        return this with { Box = Intersection(Box, Inflate(hullBox, Margin)) };
+    }
 }

@@ -1,80 +1,63 @@
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// A copy that a sub-fractal makes of one further down, by one map after another. Shared by all sub-fractals that make it alike.
+/// An instance of a sub-fractal inside another one, reached by one map after another. All sub-fractals with the same child share it.
 /// </summary>
 internal sealed class ChildInstance
 {
     private readonly SimdAffineMap _simdMap;
     private readonly SimdAffineMap _inverseSimdMap;
 
-    /// <summary>By steps, at least one.</summary>
+    /// <summary>Composes an instance from edges.</summary>
+    /// <param name="edges">At least one edge, the outermost first.</param>
     public ChildInstance(ChildEdge[] edges)
     {
         Edges = edges;
-        var (map, inverse) = (AffineMap.Identity, AffineMap.Identity);
-        (ScaleSquared, OperatorNormBound) = (1, 1);
+        var map = AffineMap.Identity;
+        var inverse = AffineMap.Identity;
+        ScaleSquared = 1;
+        OperatorNormBound = 1;
         foreach (var (set, mapIndex, levelStep) in edges)
         {
             map *= set.Maps[mapIndex];
             inverse = set.Inverses[mapIndex] * inverse;
             ScaleSquared *= set.ScalesSquared[mapIndex];
             OperatorNormBound *= set.OperatorNormBounds[mapIndex];
-            // Levels that are left say so, whatever was above; else levels that it goes down add up.
-            LevelStep = levelStep < 0 ? levelStep : LevelStep < 0 ? ~(~LevelStep - levelStep) : LevelStep + levelStep;
+            LevelStep = LevelStep.Then(levelStep);
         }
 
-        (_simdMap, _inverseSimdMap) = (new(map), new(inverse));
+        _simdMap = new(map);
+        _inverseSimdMap = new(inverse);
     }
 
-    /// <summary>The maps, the outermost first.</summary>
+    /// <summary>The edges, the outermost first.</summary>
     public ChildEdge[] Edges { get; }
 
-    /// <summary>From the copy's frame to that of the level.</summary>
+    /// <summary>The map from the child's frame to that of the parent.</summary>
     public AffineMap Map => _simdMap.ToAffineMap();
 
-    /// <summary>The same.</summary>
+    /// <summary>The map from the child's frame to that of the parent, for kernels.</summary>
     public ref readonly SimdAffineMap SimdMap => ref _simdMap;
 
-    /// <summary>Back.</summary>
+    /// <summary>The map from the parent's frame to that of the child, for kernels.</summary>
     public ref readonly SimdAffineMap InverseSimdMap => ref _inverseSimdMap;
 
-    /// <summary>Square of the factor by which the map lengthens, where it is a similarity.</summary>
+    /// <summary>Square of the factor by which the map lengthens vectors; meaningful for similarities only.</summary>
     public double ScaleSquared { get; }
 
-    /// <summary>The most by which the map lengthens.</summary>
+    /// <summary>Upper bound of the factor by which the map lengthens vectors.</summary>
     public double OperatorNormBound { get; }
 
-    /// <summary>As in <see cref="ChildEdge"/>.</summary>
-    public long LevelStep { get; }
+    /// <summary>Leads from the remaining levels of the parent to those of the child.</summary>
+    public LevelStep LevelStep { get; }
 
-    /// <summary>The levels left in the copy, for a sub-fractal that has so many.</summary>
-    public long RemainingLevels(long parentLevels) => LevelStep < 0 ? ~LevelStep : parentLevels - LevelStep;
-
-    /// <summary>Bytes of the numbers.</summary>
+    /// <summary>Number of bytes of the maps and edges.</summary>
     public long StorageBytes => (35 * sizeof(double)) + (24 * Edges.Length) + 40;
-}
 
-/// <summary>One map of a <see cref="ChildInstance"/>.</summary>
-/// <param name="Set">Whose map it is.</param>
-/// <param name="MapIndex">Of the map in the set.</param>
-/// <param name="LevelStep">
-/// How many levels it goes down: 1, and 1 more for each level that is passed over by its identity. Where a whole repetition is
-/// passed over, the number of levels that are left below it, as its bitwise complement.
-/// </param>
-internal readonly record struct ChildEdge(MapSet Set, int MapIndex, long LevelStep)
-{
-    /// <summary>The map.</summary>
-    public AffineMap Map => Set.Maps[MapIndex];
-
-    /// <summary>The most by which the map lengthens.</summary>
-    public double OperatorNormBound => Set.OperatorNormBounds[MapIndex];
-
-    /// <summary>A copy of what is below a repetition, as it stands.</summary>
-    public static ChildEdge SkipTo(long remainingLevels) => new(MapSet.Identity, 0, ~remainingLevels);
-
-    /// <summary>The levels left below it, for a level that has so many.</summary>
-    public long RemainingLevels(long parentLevels) => LevelStep < 0 ? ~LevelStep : parentLevels - LevelStep;
+    /// <summary>Computes the remaining levels of the child.</summary>
+    /// <param name="parentLevels">Remaining levels of the parent.</param>
+    public long RemainingLevels(long parentLevels) => LevelStep.RemainingLevels(parentLevels);
 }

@@ -1,37 +1,43 @@
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>Says which copies sub-fractals are made of, so that no instance is reached in two ways, and makes each copy once.</summary>
+/// <summary>
+/// Determines the children of sub-fractals, such that no instance of the base mesh is reached by two paths. Equal children are built once.
+/// </summary>
 internal sealed class ChildInstanceBuilder
 {
+    // Levels are skipped by their identities until a level has so many edges.
     private const int MaxEdges = 256;
 
-    // A sub-fractal is opened over several levels at once, as long as its copies are no more than these: to look at some
-    // more boxes, four at a time, costs less than to go down one level after another.
+    // A sub-fractal is expanded over several levels at once while its children are no more than this: to test some more boxes, four at a
+    // time, costs less than to descend one level after another.
     private const int MaxChildren = 32;
+
+    // The limit for expansions that give all children the same number of remaining levels.
     private const int MaxChildrenForSameLevel = 48;
 
-
-    /// <summary>Copies are of sub-fractals at most so many rounds further down.</summary>
+    /// <summary>Maximum number of rounds of a repetition between a sub-fractal and its children.</summary>
     public const int MaxExpandedLevels = 16;
 
     private readonly Dictionary<ChildEdge[], ChildInstance> _instances = new(new EdgeSequenceComparer());
 
     /// <summary>
-    /// The steps of a level: its own maps, then, where its identity lets it be passed over, those that the next levels of the same
-    /// repetition add, and last what is below the repetition, if all of it can be passed over.
+    /// Lists the edges of a level. First come its own maps; then, where its identity lets it be skipped, the maps that the next levels of
+    /// the same repetition add; last the level below the repetition, if all of it can be skipped.
     /// </summary>
-    /// <param name="level">Levels left.</param>
-    /// <param name="levelsBelowRepetition">The levels below the repetition that the level belongs to.</param>
-    /// <param name="period">After so many levels their sets are the same again.</param>
-    /// <param name="set">The level's.</param>
-    /// <param name="setAt">The sets of the levels below.</param>
+    /// <param name="level">Remaining levels of the parent.</param>
+    /// <param name="levelsBelowRepetition">Remaining levels below the repetition that the level belongs to.</param>
+    /// <param name="period">Number of levels after which the sets of the repetition recur.</param>
+    /// <param name="set">The set of the level.</param>
+    /// <param name="setAt">Gives the set of a lower level by its remaining levels.</param>
     public static ChildEdge[] EdgesAt(long level, long levelsBelowRepetition, int period, MapSet set, Func<long, MapSet> setAt)
     {
         var edges = new List<ChildEdge>();
         var offeredMaps = new HashSet<AffineMap>();
-        for (var (currentSet, levelsDown) = (set, 1L); ; levelsDown++)
+        var currentSet = set;
+        for (var levelsDown = 1L; ; levelsDown++)
         {
             AddEdges(edges, offeredMaps, currentSet, levelsDown);
             if (currentSet.IdentityIndex < 0)
@@ -39,7 +45,7 @@ internal sealed class ChildInstanceBuilder
                 return [.. edges];
             }
 
-            // All sets of the repetition have been seen, and all have the identity.
+            // All sets of the repetition were visited, and all have the identity.
             if (level - levelsDown == levelsBelowRepetition || levelsDown == period)
             {
                 return [.. edges, ChildEdge.SkipTo(levelsBelowRepetition)];
@@ -47,59 +53,64 @@ internal sealed class ChildInstanceBuilder
 
             if (edges.Count > MaxEdges)
             {
-                // Short lists matter more than the last duplicate: the rest is left to the next level, as it stands.
-                return [.. edges, new(MapSet.Identity, 0, levelsDown)];
+                // Short lists matter more than the last duplicate: the next level lists the rest.
+                return [.. edges, new(MapSet.Identity, 0, LevelStep.Down(levelsDown))];
             }
 
             currentSet = setAt(level - levelsDown);
         }
     }
 
-    /// <summary>The copies of a level: its steps, followed by the steps of what they lead to, as long as they are few.</summary>
-    /// <param name="level">Levels left.</param>
-    /// <param name="edges">Of the level.</param>
-    /// <param name="edgesAt">Of the levels below; none of the base.</param>
+    /// <summary>Builds the children of a level: its edges, expanded by the edges of the levels they lead to while these are few.</summary>
+    /// <param name="level">Remaining levels of the parent.</param>
+    /// <param name="edges">The edges of the level.</param>
+    /// <param name="edgesAt">Gives the edges of a lower level by its remaining levels; it is not asked for those of the base.</param>
     public ChildInstance[] ExpandChildren(long level, ChildEdge[] edges, Func<long, ChildEdge[]> edgesAt)
     {
-        List<(ChildEdge[] Steps, long Below)> chains = [.. edges.Select(edge => ((ChildEdge[])[edge], edge.RemainingLevels(level)))];
-        var (best, bestHasSameLevel) = (chains, HaveSameLevel(chains));
+        List<EdgeChain> chains = [.. edges.Select(edge => new EdgeChain([edge], edge.RemainingLevels(level)))];
+        var best = chains;
+        var bestHasSameLevel = HaveSameLevel(chains);
         for (var expandedLevels = 1; expandedLevels < MaxExpandedLevels; expandedLevels++)
         {
-            // The largest first, so that all come to be of the same level, and few levels are ever looked at.
-            var highestLevel = chains.Select(chain => chain.Below).DefaultIfEmpty().Max();
-            var nextEdges = highestLevel == 0 ? [] : edgesAt(highestLevel);
-            if (highestLevel == 0 || chains.Sum(chain => chain.Below == highestLevel ? nextEdges.Length : 1) > MaxChildrenForSameLevel)
+            // The highest level is expanded first, so that all chains come to end at the same level and few levels are ever visited.
+            var highestLevel = chains.Select(chain => chain.RemainingLevels).DefaultIfEmpty().Max();
+            if (highestLevel == 0)
             {
                 break;
             }
 
-            chains = [.. chains.SelectMany(chain => chain.Below < highestLevel
-                ? [chain]
-                : nextEdges.Select(edge => ((ChildEdge[])[.. chain.Steps, edge], edge.RemainingLevels(highestLevel))))];
+            var nextEdges = edgesAt(highestLevel);
+            if (chains.Sum(chain => chain.RemainingLevels == highestLevel ? nextEdges.Length : 1) > MaxChildrenForSameLevel)
+            {
+                break;
+            }
+
+            chains = [.. chains.SelectMany(chain => chain.RemainingLevels < highestLevel ? [chain] : nextEdges.Select(chain.Append))];
             var haveSameLevel = HaveSameLevel(chains);
             if (chains.Count <= MaxChildren ? haveSameLevel || !bestHasSameLevel : haveSameLevel && !bestHasSameLevel)
             {
-                (best, bestHasSameLevel) = (chains, haveSameLevel);
+                best = chains;
+                bestHasSameLevel = haveSameLevel;
             }
         }
 
-        return [.. best.Select(chain => GetOrCreate(chain.Steps))];
+        return [.. best.Select(chain => GetOrCreate(chain.Edges))];
     }
 
-    /// <summary>True when all that is not the base is of the same level.</summary>
-    private static bool HaveSameLevel(List<(ChildEdge[] Steps, long Below)> chains) =>
-        chains.Where(chain => chain.Below > 0).Select(chain => chain.Below).Distinct().Count() <= 1;
+    /// <summary>True when all chains that don't lead to the base end at the same level.</summary>
+    private static bool HaveSameLevel(List<EdgeChain> chains) =>
+        chains.Where(chain => chain.RemainingLevels > 0).Select(chain => chain.RemainingLevels).Distinct().Count() <= 1;
 
     private static void AddEdges(List<ChildEdge> edges, HashSet<AffineMap> offeredMaps, MapSet set, long levelsDown)
     {
         var mapsOfThisLevel = new HashSet<AffineMap>();
         for (var i = 0; i < set.Maps.Length; i++)
         {
-            // What a level above offers is found there, provided that this level could be passed over instead.
+            // A map that a level above offers is found there, provided that this level could be skipped instead.
             var isNew = offeredMaps.Add(set.Maps[i]) || set.IdentityIndex < 0;
             if (set.Maps[i] != AffineMap.Identity && mapsOfThisLevel.Add(set.Maps[i]) && isNew)
             {
-                edges.Add(new(set, i, levelsDown));
+                edges.Add(new(set, i, LevelStep.Down(levelsDown)));
             }
         }
     }
@@ -108,10 +119,17 @@ internal sealed class ChildInstanceBuilder
     {
         if (!_instances.TryGetValue(edges, out var instance))
         {
-            _instances[edges] = instance = new(edges);
+            instance = new(edges);
+            _instances[edges] = instance;
         }
 
         return instance;
+    }
+
+    /// <summary>Edges one after another, and the remaining levels of the sub-fractal that they lead to.</summary>
+    private sealed record EdgeChain(ChildEdge[] Edges, long RemainingLevels)
+    {
+        public EdgeChain Append(ChildEdge edge) => new([.. Edges, edge], edge.RemainingLevels(RemainingLevels));
     }
 
     private sealed class EdgeSequenceComparer : IEqualityComparer<ChildEdge[]>

@@ -1,44 +1,50 @@
+using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
+using FractalEngine.Core.Collision.Bvh;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// The copies of a sub-fractal in the order in which they are looked at: for each a lower bound of its squared distance, and a key, which
-/// is the bound, or orders copies whose bound is 0. Bounds are first rough, and refined only for copies whose turn it is.
+/// Orders the children of a sub-fractal by their distances. Each child has a lower bound of its squared distance, and a key that is the
+/// bound or orders children whose bound is 0. Bounds are first rough, and refined only for children whose turn it is.
 /// </summary>
-/// <param name="values">[3 × padded]: bounds, keys, and 1 for what is refined.</param>
+/// <param name="values">Memory of the queue, [3 × padded children]: bounds, keys, and 1 for refined bounds.</param>
 internal readonly ref struct ChildQueue(Span<double> values)
 {
-    /// <summary>Numbers for each copy.</summary>
+    /// <summary>Number of values for each child.</summary>
     public const int ValuesPerChild = 3;
 
-    // Copies around the position have no distance; they are looked at in the order of their centres. For copies apart from it that only
-    // decides between equal bounds: far away, small copies differ by so little.
+    // Children around the position have no distance, and are ordered by their centres.
     private const double CentreWeight = 1e-4;
+
+    // For children apart from the position, centres only decide between equal bounds: far away, small children differ by so little.
     private const double SeparatedFactor = 1e-8;
 
     private readonly Span<double> _values = values;
     private readonly int _paddedCount = values.Length / ValuesPerChild;
 
-    /// <summary>Sets the rough bounds of four copies.</summary>
-    /// <param name="bounds">Squared distances.</param>
-    /// <param name="centreDistances">Squared distances of their centres.</param>
-    /// <param name="firstChild">The number of the first.</param>
+    /// <summary>Sets the rough bounds of four children.</summary>
+    /// <param name="bounds">Lower bounds of the squared distances.</param>
+    /// <param name="centreDistances">Squared distances of the children's centres.</param>
+    /// <param name="firstChild">Index of the first of the four.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void SetBounds(Vector256<double> bounds, Vector256<double> centreDistances, int firstChild)
     {
         ref var values = ref MemoryMarshal.GetReference(_values);
         bounds.StoreUnsafe(ref values, (nuint)firstChild);
         var weights = Vector256.ConditionalSelect(
-            Vector256.GreaterThan(bounds, Vector256<double>.Zero), Vector256.Create(CentreWeight * SeparatedFactor),
+            Vector256.GreaterThan(bounds, Vector256<double>.Zero),
+            Vector256.Create(CentreWeight * SeparatedFactor),
             Vector256.Create(CentreWeight));
         (bounds + (weights * centreDistances)).StoreUnsafe(ref values, (nuint)(_paddedCount + firstChild));
         Vector256<double>.Zero.StoreUnsafe(ref values, (nuint)((2 * _paddedCount) + firstChild));
     }
 
-    /// <summary>Raises the bounds of four copies.</summary>
+    /// <summary>Raises the bounds of four children, where they are larger than before.</summary>
+    /// <param name="newBounds">Lower bounds of the squared distances.</param>
+    /// <param name="firstChild">Index of the first of the four.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void RaiseBounds(Vector256<double> newBounds, int firstChild)
     {
@@ -47,23 +53,23 @@ internal readonly ref struct ChildQueue(Span<double> values)
         var bounds = Vector256.MaxNative(previousBounds, newBounds);
         bounds.StoreUnsafe(ref values, (nuint)firstChild);
         var keys = Vector256.LoadUnsafe(ref values, (nuint)(_paddedCount + firstChild));
-        // What was around the position and is no longer has the weight of what is apart. NaN where there is no copy; that is never
-        // compared.
-        var wasSeparated = Vector256.GreaterThan(previousBounds, Vector256<double>.Zero) | Vector256.Equals(bounds, previousBounds);
-        keys *= Vector256.ConditionalSelect(wasSeparated, Vector256<double>.One, Vector256.Create(SeparatedFactor));
+        // A child that proves to be apart from the position gets the weight of separated ones. Padding gives NaN, which is never compared.
+        var keepsWeight = Vector256.GreaterThan(previousBounds, Vector256<double>.Zero) | Vector256.Equals(bounds, previousBounds);
+        keys *= Vector256.ConditionalSelect(keepsWeight, Vector256<double>.One, Vector256.Create(SeparatedFactor));
         (keys + (bounds - previousBounds)).StoreUnsafe(ref values, (nuint)(_paddedCount + firstChild));
     }
 
-    /// <summary>The copy with the smallest key of those whose bound is below a limit.</summary>
-    /// <param name="cutoffSquared">Exclusive.</param>
-    /// <param name="child">Its number.</param>
+    /// <summary>Finds the child with the smallest key of those whose bound is below a limit.</summary>
+    /// <param name="cutoffSquared">The limit, exclusive.</param>
+    /// <param name="child">Index of the child; −1 for none.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public bool TryPeek(double cutoffSquared, out int child)
     {
         ref var values = ref MemoryMarshal.GetReference(_values);
-        var (cutoffs, infinity) = (Vector256.Create(cutoffSquared), Vector256.Create(double.PositiveInfinity));
+        var cutoffs = Vector256.Create(cutoffSquared);
+        var infinity = Vector256.Create(double.PositiveInfinity);
         var smallestKey = infinity;
-        for (var i = 0; i < _paddedCount; i += SubFractal.Lanes)
+        for (var i = 0; i < _paddedCount; i += VectorX4.Count)
         {
             var isBelow = Vector256.LessThan(Vector256.LoadUnsafe(ref values, (nuint)i), cutoffs);
             var key = Vector256.ConditionalSelect(isBelow, Vector256.LoadUnsafe(ref values, (nuint)(_paddedCount + i)), infinity);
@@ -79,34 +85,36 @@ internal readonly ref struct ChildQueue(Span<double> values)
         }
 
         smallestKey = Vector256.Create(pair[0]);
-        for (var i = 0; ; i += SubFractal.Lanes)
+        for (var i = 0; ; i += VectorX4.Count)
         {
             var isSmallest = Vector256.Equals(Vector256.LoadUnsafe(ref values, (nuint)(_paddedCount + i)), smallestKey)
                 & Vector256.LessThan(Vector256.LoadUnsafe(ref values, (nuint)i), cutoffs);
             var bits = isSmallest.ExtractMostSignificantBits();
             if (bits != 0)
             {
-                child = i + System.Numerics.BitOperations.TrailingZeroCount(bits);
+                child = i + BitOperations.TrailingZeroCount(bits);
                 return true;
             }
         }
     }
 
-    /// <summary>The bound of a copy so far.</summary>
+    /// <summary>The present lower bound of a child's squared distance.</summary>
     public double BoundOf(int child) => _values[child];
 
-    /// <summary>The key of a copy so far.</summary>
+    /// <summary>The present key of a child.</summary>
     public double KeyOf(int child) => _values[_paddedCount + child];
 
-    /// <summary>Whether the copy has the best bound there is.</summary>
+    /// <summary>Tells whether a child has the best bound there is.</summary>
     public bool IsRefined(int child) => _values[(2 * _paddedCount) + child] != 0;
 
-    /// <summary>Takes a copy out.</summary>
+    /// <summary>Removes a child from the queue.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Remove(int child) => _values[_paddedCount + child] = double.PositiveInfinity;
 
-    /// <summary>Gives a copy the best bound there is.</summary>
-    /// <returns>False when its bound has not grown, so that it is still the next one.</returns>
+    /// <summary>Gives a child the best bound there is.</summary>
+    /// <param name="child">Index of the child.</param>
+    /// <param name="bound">Lower bound of its squared distance; ignored if it is smaller than before.</param>
+    /// <returns>False when the bound has not grown, so that the child is still the next one.</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public bool Refine(int child, double bound)
     {

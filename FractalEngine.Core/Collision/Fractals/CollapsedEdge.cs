@@ -3,30 +3,37 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>One of the parts that a sub-fractal is the union of: the image of another one.</summary>
-/// <param name="Map">From the frame of the part to that of the whole.</param>
-/// <param name="OperatorNormBound">The most by which the map lengthens.</param>
-/// <param name="RemainingLevels">The levels left in the part.</param>
+/// <summary>A chain of edges collapsed into one: the sub-fractal that they lead to is one part of the parent.</summary>
+/// <param name="Map">The map from the frame of the part to that of the parent.</param>
+/// <param name="OperatorNormBound">Upper bound of the factor by which the map lengthens vectors.</param>
+/// <param name="RemainingLevels">Remaining levels of the part.</param>
 internal readonly record struct CollapsedEdge(AffineMap Map, double OperatorNormBound, long RemainingLevels)
 {
-    private const double Rounding = 1e-14;
+    // An upper bound of the relative error that a norm has after a chain of products.
+    private const double NormError = 1e-14;
+
     private const int MaxCollapsedEdges = 64;
 
-    /// <summary>Where a step leads.</summary>
-    /// <param name="edge">From a level.</param>
-    /// <param name="parentLevels">The level.</param>
-    /// <param name="edgesAt">
-    /// Of the levels below. Those that are a single step are gone through: a shear and a turn may each lengthen what together they shorten.
-    /// </param>
+    /// <summary>Follows an edge, and goes on through levels that have a single edge.</summary>
+    /// <param name="edge">The first edge.</param>
+    /// <param name="parentLevels">Remaining levels of the parent.</param>
+    /// <param name="edgesAt">Gives the edges of a level by its remaining levels.</param>
+    /// <remarks>A shear and a rotation may each lengthen what they shorten together, so that their product has the better bounds.</remarks>
     public static CollapsedEdge Collapse(ChildEdge edge, long parentLevels, Func<long, ChildEdge[]> edgesAt)
     {
-        var (map, remainingLevels) = (edge.Map, edge.RemainingLevels(parentLevels));
-        for (var collapsedCount = 0; collapsedCount < MaxCollapsedEdges && remainingLevels > 0 && edgesAt(remainingLevels) is [var only];
-            collapsedCount++)
+        var map = edge.Map;
+        var remainingLevels = edge.RemainingLevels(parentLevels);
+        for (var collapsedCount = 0; collapsedCount < MaxCollapsedEdges && remainingLevels > 0; collapsedCount++)
         {
-            (map, remainingLevels) = (map * only.Map, only.RemainingLevels(remainingLevels));
+            if (edgesAt(remainingLevels) is not [var only])
+            {
+                break;
+            }
+
+            map *= only.Map;
+            remainingLevels = only.RemainingLevels(remainingLevels);
         }
 
-        return new(map, BoundingSphere.OperatorNormBound(map.Linear) * (1 + Rounding), remainingLevels);
+        return new(map, BoundingSphere.OperatorNormBound(map.Linear) * (1 + NormError), remainingLevels);
     }
 }

@@ -3,10 +3,12 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <content>Of points that do not lie in one plane.</content>
+/// <content>The algorithm for points that do not lie in one plane.</content>
 internal sealed partial class ConvexHull
 {
-    /// <summary>The work on a set of points that is not flat.</summary>
+    /// <summary>Builds the hull of a set of points that is not flat.</summary>
+    /// <param name="points">The points.</param>
+    /// <param name="tolerance">Points no higher above a facet than this count as on it, in scene units.</param>
     private sealed class QuickHull(Vector[] points, double tolerance)
     {
         private readonly int[] _nextPoint = new int[points.Length];
@@ -14,6 +16,12 @@ internal sealed partial class ConvexHull
         private readonly List<int> _vertices = [];
         private double _maxOutsideDistance;
 
+        /// <summary>Builds the hull from an initial tetrahedron.</summary>
+        /// <param name="i0">Index of its first corner.</param>
+        /// <param name="i1">Index of its second corner.</param>
+        /// <param name="i2">Index of its third corner.</param>
+        /// <param name="i3">Index of its fourth corner.</param>
+        /// <param name="maxVertices">Maximum number of corners of the hull.</param>
         public ConvexHull Build(int i0, int i1, int i2, int i3, int maxVertices)
         {
             if (Vector.Dot(TriangleKernel.UnitNormal(points[i0], points[i1], points[i2]), points[i3] - points[i0]) > 0)
@@ -49,31 +57,33 @@ internal sealed partial class ConvexHull
         }
 
         [MethodImpl(MethodImplOptions.AggressiveOptimization)]
-        private void AddVertex(int apex)
+        private void AddVertex(int apexIndex)
         {
-            var removed = new List<Facet>();
-            var edges = new HashSet<(int, int)>();
+            var apex = points[apexIndex];
+            var visible = new List<Facet>();
+            var visibleEdges = new HashSet<(int, int)>();
             foreach (var facet in _facets)
             {
-                if (Vector.Dot(facet.Normal, points[apex]) - facet.Offset > tolerance)
+                if (Vector.Dot(facet.Normal, apex) - facet.Offset > tolerance)
                 {
-                    removed.Add(facet);
-                    edges.UnionWith([(facet.A, facet.B), (facet.B, facet.C), (facet.C, facet.A)]);
+                    visible.Add(facet);
+                    visibleEdges.UnionWith([(facet.A, facet.B), (facet.B, facet.C), (facet.C, facet.A)]);
                 }
             }
 
-            _facets.RemoveAll(removed.Contains);
+            _facets.RemoveAll(visible.Contains);
             var firstNew = _facets.Count;
-            foreach (var (start, end) in edges)
+            foreach (var (start, end) in visibleEdges)
             {
-                if (!edges.Contains((end, start)))
+                // An edge of the horizon belongs to one visible facet.
+                if (!visibleEdges.Contains((end, start)))
                 {
-                    _facets.Add(CreateFacet(start, end, apex));
+                    _facets.Add(CreateFacet(start, end, apexIndex));
                 }
             }
 
-            _vertices.Add(apex);
-            foreach (var facet in removed)
+            _vertices.Add(apexIndex);
+            foreach (var facet in visible)
             {
                 for (int point = facet.FirstPoint, next; point >= 0; point = next)
                 {
@@ -89,7 +99,7 @@ internal sealed partial class ConvexHull
             return new(a, b, c, normal, Vector.Dot(normal, points[a]));
         }
 
-        /// <summary>Gives a point to the facet that it is farthest above, if it is above any.</summary>
+        /// <summary>Assigns a point to the facet that it is farthest above, if it is above any.</summary>
         [MethodImpl(MethodImplOptions.AggressiveOptimization)]
         private void AssignToFacet(int point, int firstFacet)
         {
@@ -98,7 +108,11 @@ internal sealed partial class ConvexHull
             for (var i = firstFacet; i < _facets.Count; i++)
             {
                 var height = Vector.Dot(_facets[i].Normal, points[point]) - _facets[i].Offset;
-                (highest, maxHeight) = height > maxHeight ? (_facets[i], height) : (highest, maxHeight);
+                if (height > maxHeight)
+                {
+                    highest = _facets[i];
+                    maxHeight = height;
+                }
             }
 
             if (highest is null || point == highest.A || point == highest.B || point == highest.C)
@@ -116,14 +130,17 @@ internal sealed partial class ConvexHull
             highest.FirstPoint = point;
             if (maxHeight > highest.FarthestHeight)
             {
-                (highest.FarthestPoint, highest.FarthestHeight) = (point, maxHeight);
+                highest.FarthestPoint = point;
+                highest.FarthestHeight = maxHeight;
             }
         }
 
+        /// <summary>Records the distance of a point that stays outside the hull.</summary>
         private void TrackOutsidePoint(int point, Facet facet) => _maxOutsideDistance = Math.Max(
             _maxOutsideDistance,
             Math.Sqrt(TriangleKernel.ClosestPoint(points[point], points[facet.A], points[facet.B], points[facet.C]).DistanceSquared));
 
+        /// <summary>Joins facets of the same plane, and orders the planes by descending area.</summary>
         [MethodImpl(MethodImplOptions.AggressiveOptimization)]
         private IEnumerable<HullPlane> MergePlanes()
         {
@@ -144,8 +161,9 @@ internal sealed partial class ConvexHull
                 else
                 {
                     // Of parallel facets the larger one has the better normal.
-                    var (plane, larger) = (planes[match], planes[match].Area >= area);
-                    planes[match] = new(larger ? plane.Normal : facet.Normal, Math.Max(plane.Offset, facet.Offset), plane.Area + area);
+                    var plane = planes[match];
+                    var normal = plane.Area >= area ? plane.Normal : facet.Normal;
+                    planes[match] = new(normal, Math.Max(plane.Offset, facet.Offset), plane.Area + area);
                 }
             }
 
@@ -153,6 +171,7 @@ internal sealed partial class ConvexHull
         }
     }
 
+    /// <summary>A triangle of the hull with the points above it, which form a linked list.</summary>
     private sealed class Facet(int a, int b, int c, Vector normal, double offset)
     {
         public int A { get; } = a;
@@ -165,7 +184,7 @@ internal sealed partial class ConvexHull
 
         public double Offset { get; } = offset;
 
-        /// <summary>The first point above it; the others follow.</summary>
+        /// <summary>Index of the first point above the facet; −1 for none.</summary>
         public int FirstPoint { get; set; } = -1;
 
         public int FarthestPoint { get; set; } = -1;

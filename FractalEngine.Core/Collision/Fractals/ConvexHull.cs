@@ -6,38 +6,47 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// The convex hull of some points, or, where it has too many corners, that of the most important ones. Flat sets, segments and
-/// single points have hulls as well.
+/// The convex hull of some points, or of the most important ones where it has too many corners. Flat sets, segments and single points
+/// have hulls as well.
 /// </summary>
 /// <remarks>
 /// Quickhull (Barber, Dobkin and Huhdanpaa 1996): begin with a tetrahedron, then add the point farthest above some facet, and replace
-/// the facets that it sees by those between it and their horizon.
+/// the facets that are visible from it by those between it and their horizon.
 /// </remarks>
 internal sealed partial class ConvexHull
 {
-    // Of the size of the set. Nearer points count as on a facet, and facets that differ by less are one plane.
+    // As a part of the set's size: closer points count as on a facet.
     private const double CoplanarTolerance = 1e-12;
+
+    // Facets whose normals differ by less in every component share a plane.
     private const double SamePlaneTolerance = 1e-9;
 
     private readonly ImmutableArray<(Vector A, Vector B, Vector C)> _facets;
 
     private ConvexHull(
-        ImmutableArray<Vector> vertices, ImmutableArray<HullPlane> planes, double maxOutsideDistance,
-        ImmutableArray<(Vector A, Vector B, Vector C)> facets) =>
-        (Vertices, Planes, MaxOutsideDistance, _facets) = (vertices, planes, maxOutsideDistance, facets);
+        ImmutableArray<Vector> vertices,
+        ImmutableArray<HullPlane> planes,
+        double maxOutsideDistance,
+        ImmutableArray<(Vector A, Vector B, Vector C)> facets)
+    {
+        Vertices = vertices;
+        Planes = planes;
+        MaxOutsideDistance = maxOutsideDistance;
+        _facets = facets;
+    }
 
-    /// <summary>Its corners, some of the points.</summary>
+    /// <summary>The corners, which are some of the points.</summary>
     public ImmutableArray<Vector> Vertices { get; }
 
-    /// <summary>The planes of its facets, by falling area: all of the hull lies below each. None for a segment or a point.</summary>
+    /// <summary>The planes of the facets by descending area; the hull lies below each. None for a segment or a point.</summary>
     public ImmutableArray<HullPlane> Planes { get; }
 
-    /// <summary>How far out of the hull of <see cref="Vertices"/> points may lie.</summary>
+    /// <summary>Upper bound of the distance of the points from the hull of <see cref="Vertices"/>.</summary>
     public double MaxOutsideDistance { get; }
 
-    /// <summary>The hull of some points.</summary>
-    /// <param name="points">Finite; at least one.</param>
-    /// <param name="maxVertices">At least 4. Beyond, points near the hull are left outside.</param>
+    /// <summary>Builds the hull of some points.</summary>
+    /// <param name="points">At least one point, all of them finite.</param>
+    /// <param name="maxVertices">Maximum number of corners, at least 4. Beyond it, points near the hull are left outside.</param>
     public static ConvexHull Build(ReadOnlySpan<Vector> points, int maxVertices)
     {
         var box = BoundingBox.Empty;
@@ -68,25 +77,31 @@ internal sealed partial class ConvexHull
     }
 
     /// <summary>
-    /// The hull's image under a map, which is the hull of the images. Misses as much as this times the factor by which the map lengthens.
+    /// Computes the hull's image under a map, which is the hull of the images. The points lie outside it by up to
+    /// <see cref="MaxOutsideDistance"/> times the factor by which the map lengthens vectors.
     /// </summary>
     public ConvexHull Transform(AffineMap map)
     {
-        // Normals go with the cofactors; a mirror turns them inside out.
-        var (normals, orientation) = (map.Linear.Cofactors(), map.Linear.Determinant() < 0 ? -1 : 1);
+        // Normals transform by the cofactors; a mirror turns them inside out.
+        var normalMatrix = map.Linear.Cofactors();
+        var orientation = map.Linear.Determinant() < 0 ? -1 : 1;
+        var planes = Planes.Select(plane => plane with
+        {
+            Normal = orientation * (normalMatrix * plane.Normal).UnitVector(),
+            Offset = double.NegativeInfinity,
+        });
         return new ConvexHull(
             [.. Vertices.Select(vertex => map * vertex)],
-            [.. Planes.Select(
-                plane => plane with { Normal = orientation * (normals * plane.Normal).UnitVector(), Offset = double.NegativeInfinity })],
+            [.. planes],
             0,
             [.. _facets.Select(facet => (map * facet.A, map * facet.B, map * facet.C))]).WithConservativeOffsets();
     }
 
-    /// <summary>Cubic scene units; 0 where it is flat.</summary>
+    /// <summary>Computes the volume in cubic scene units; 0 where the hull is flat.</summary>
     public double Volume() =>
         Math.Abs(_facets.Sum(facet => Vector.Dot(facet.A - Vertices[0], Vector.Cross(facet.B - Vertices[0], facet.C - Vertices[0])))) / 6;
 
-    /// <summary>The largest product of a direction with a corner.</summary>
+    /// <summary>Computes the support of the hull: the largest product of a direction with a corner.</summary>
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     public double Support(Vector direction)
     {
@@ -99,7 +114,7 @@ internal sealed partial class ConvexHull
         return maxProduct;
     }
 
-    /// <summary>At most this far is a point from the hull: 0 inside.</summary>
+    /// <summary>Computes an upper bound of a point's distance from the solid hull; 0 inside.</summary>
     public double DistanceUpperBound(Vector point)
     {
         if (Planes.Length > 0 && Planes.All(plane => Vector.Dot(plane.Normal, point) <= plane.Offset))
@@ -116,6 +131,7 @@ internal sealed partial class ConvexHull
         return Math.Sqrt(distanceSquared);
     }
 
+    /// <summary>Finds the farthest two of the points with the smallest and largest coordinates.</summary>
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private static (int First, int Second) FindFarthestPair(ReadOnlySpan<Vector> points)
     {
@@ -130,30 +146,40 @@ internal sealed partial class ConvexHull
             }
         }
 
-        var (first, second, maxDistanceSquared) = (0, 0, 0.0);
+        var first = 0;
+        var second = 0;
+        var maxDistanceSquared = 0.0;
         foreach (var i in extremes)
         {
             foreach (var j in extremes)
             {
                 var distanceSquared = (points[i] - points[j]).LengthSquared();
-                (first, second, maxDistanceSquared) = distanceSquared > maxDistanceSquared
-                    ? (i, j, distanceSquared)
-                    : (first, second, maxDistanceSquared);
+                if (distanceSquared > maxDistanceSquared)
+                {
+                    first = i;
+                    second = j;
+                    maxDistanceSquared = distanceSquared;
+                }
             }
         }
 
         return (first, second);
     }
 
-    private static int FindFarthest(ReadOnlySpan<Vector> points, Vector origin, Func<Vector, Vector, double> measure,
-        out double maxDistance)
+    /// <summary>Finds the first point with the largest measure.</summary>
+    private static int FindFarthest(
+        ReadOnlySpan<Vector> points, Vector origin, Func<Vector, Vector, double> measure, out double maxDistance)
     {
         var farthest = 0;
         maxDistance = 0;
         for (var i = 0; i < points.Length; i++)
         {
             var distance = measure(points[i], origin);
-            (farthest, maxDistance) = distance > maxDistance ? (i, distance) : (farthest, maxDistance);
+            if (distance > maxDistance)
+            {
+                farthest = i;
+                maxDistance = distance;
+            }
         }
 
         return farthest;
@@ -161,10 +187,41 @@ internal sealed partial class ConvexHull
 
     private static double Component(Vector v, int axis) => axis switch { 0 => v.X, 1 => v.Y, _ => v.Z };
 
-    /// <summary>The hull of points of one plane, by their extremes in evenly spread directions.</summary>
+    /// <summary>Builds the hull of points of one plane from the farthest points in evenly spread directions.</summary>
+    /// <param name="points">The points.</param>
+    /// <param name="along">A direction of length 1 in the plane.</param>
+    /// <param name="normal">Normal of the plane, of length 1.</param>
+    /// <param name="height">Largest distance of a point from the plane.</param>
+    /// <param name="maxVertices">Number of directions.</param>
     private static ConvexHull BuildFlatHull(ReadOnlySpan<Vector> points, Vector along, Vector normal, double height, int maxVertices)
     {
-        var across = Vector.Cross(normal, along);
+        var vertices = FindFlatHullVertices(points, along, Vector.Cross(normal, along), maxVertices);
+        var maxOutsideDistance = height;
+        var planeOffset = Vector.Dot(normal, points[0]);
+        var planes = new List<HullPlane> { new(normal, planeOffset, 1), new(-normal, -planeOffset, 1) };
+        for (var i = 0; i < vertices.Count; i++)
+        {
+            var start = vertices[i];
+            var end = vertices[(i + 1) % vertices.Count];
+            var outwards = Vector.Cross(end - start, normal).UnitVector();
+            planes.Add(new(outwards, Vector.Dot(outwards, start), 0));
+            foreach (var point in points)
+            {
+                if (Vector.Dot(outwards, point - start) > 0)
+                {
+                    var distance = Math.Sqrt(TriangleKernel.ClosestPoint(point, start, end, end).DistanceSquared);
+                    maxOutsideDistance = Math.Max(maxOutsideDistance, distance);
+                }
+            }
+        }
+
+        var facets = Enumerable.Range(1, Math.Max(1, vertices.Count - 2))
+            .Select(i => (vertices[0], vertices[i % vertices.Count], vertices[(i + 1) % vertices.Count]));
+        return new ConvexHull([.. vertices], [.. planes], maxOutsideDistance, [.. facets]).WithConservativeOffsets();
+    }
+
+    private static List<Vector> FindFlatHullVertices(ReadOnlySpan<Vector> points, Vector along, Vector across, int maxVertices)
+    {
         var vertices = new List<Vector>();
         for (var i = 0; i < maxVertices; i++)
         {
@@ -175,7 +232,11 @@ internal sealed partial class ConvexHull
             foreach (var point in points)
             {
                 var projection = Vector.Dot(direction, point);
-                (vertex, maxProjection) = projection > maxProjection ? (point, projection) : (vertex, maxProjection);
+                if (projection > maxProjection)
+                {
+                    vertex = point;
+                    maxProjection = projection;
+                }
             }
 
             if (vertices.Count == 0 || (vertices[^1] != vertex && vertices[0] != vertex))
@@ -184,39 +245,13 @@ internal sealed partial class ConvexHull
             }
         }
 
-        var maxOutsideDistance = height;
-        var planes = new List<HullPlane>();
-        for (var i = 0; i < vertices.Count; i++)
-        {
-            var (start, end) = (vertices[i], vertices[(i + 1) % vertices.Count]);
-            var outwards = Vector.Cross(end - start, normal).UnitVector();
-            planes.Add(new(outwards, Vector.Dot(outwards, start), 0));
-            foreach (var point in points)
-            {
-                if (Vector.Dot(outwards, point - start) > 0)
-                {
-                    maxOutsideDistance =
-                        Math.Max(maxOutsideDistance, Math.Sqrt(TriangleKernel.ClosestPoint(point, start, end, end).DistanceSquared));
-                }
-            }
-        }
-
-        var planeOffset = Vector.Dot(normal, points[0]);
-        var hull = new ConvexHull([.. vertices], [new(normal, planeOffset, 1), new(-normal, -planeOffset, 1), .. planes],
-            maxOutsideDistance,
-            [.. Enumerable.Range(1, Math.Max(1, vertices.Count - 2))
-            .Select(i => (vertices[0], vertices[i % vertices.Count], vertices[(i + 1) % vertices.Count]))]);
-        return hull.WithConservativeOffsets();
+        return vertices;
     }
 
-    /// <summary>The same hull, with no corner above its planes by rounding.</summary>
-    private ConvexHull WithConservativeOffsets() =>
-        new(Vertices, [.. Planes.Select(plane => plane with { Offset = Math.Max(plane.Offset, Support(plane.Normal)) })],
-        MaxOutsideDistance, _facets);
+    /// <summary>The same hull with planes raised so that rounding puts no corner above them.</summary>
+    private ConvexHull WithConservativeOffsets() => new(
+        Vertices,
+        [.. Planes.Select(plane => plane with { Offset = Math.Max(plane.Offset, Support(plane.Normal)) })],
+        MaxOutsideDistance,
+        _facets);
 }
-
-/// <summary>A plane that a hull lies below: normal · point ≤ offset.</summary>
-/// <param name="Normal">Of length 1.</param>
-/// <param name="Offset">From the origin, along the normal.</param>
-/// <param name="Area">Twice the area of the hull's facets in it.</param>
-internal readonly record struct HullPlane(Vector Normal, double Offset, double Area);

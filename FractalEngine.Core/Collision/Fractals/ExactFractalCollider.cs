@@ -5,33 +5,33 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// Exact search on fractals of any depth, by branch and bound over their levels: each sub-fractal is bounded by a box that provably holds
-/// it, the nearest is looked at first, and what can't be nearer than the best so far is left out. Memory and time follow the levels, not
-/// the faces; why the bounds hold stands in docs/colliders.md.
+/// Finds the closest point of a fractal of any depth, exactly, by branch and bound over its levels. Each sub-fractal is bounded by a box
+/// that provably contains it. The closest is visited first, and sub-fractals that can't be closer than the best so far are culled.
 /// </summary>
 /// <remarks>
-/// Sub-fractals smaller than <see cref="RelativePrecision"/> of the whole are answered by the base mesh in their place: that is the last
-/// place of a coordinate. Infinite fractals end there too.
+/// Memory and time follow the levels, not the faces. Why the bounds hold is explained in docs/colliders.md. Sub-fractals smaller than
+/// <see cref="RelativePrecision"/> of the whole are replaced by the base mesh: that is the last place of a coordinate. Infinite fractals
+/// end there too.
 /// </remarks>
 public sealed class ExactFractalCollider : Collider
 {
-    /// <summary>The part of a fractal's size below which no further level is looked at.</summary>
+    /// <summary>The part of a fractal's size below which no further level is visited.</summary>
     public const double RelativePrecision = 1e-15;
 
     private readonly Fractal _fractal;
     private readonly SubFractalTable _table;
     private readonly TriangleBvh _baseBvh;
-    private readonly SimilaritySearch _similaritySearch;
-    private readonly AffineSearch _affineSearch;
+    private readonly DepthFirstSearch<SimilarityFrame> _similaritySearch;
+    private readonly DepthFirstSearch<AffineFrame> _affineSearch;
     private readonly BestFirstSearch _bestFirstSearch;
 
     /// <summary>Prepares a fractal in affine composition for queries.</summary>
     /// <exception cref="FractalLimitException">
-    /// The bounds of some level are beyond a double, or don't settle; the message names it.
+    /// The bounds of some level overflow a double, or don't converge; the message names the level.
     /// </exception>
     /// <exception cref="ArgumentException">The fractal is composed componentwise.</exception>
     /// <exception cref="SingularMatrixException">
-    /// A map flattens what it maps, as a scale of 0 does; fractal files with one are refused.
+    /// A map has no inverse, as with a scale of 0. The parser refuses fractal files with such a map.
     /// </exception>
     /// <remarks>Cost: microseconds to milliseconds, whatever the depth.</remarks>
     public ExactFractalCollider(Fractal fractal)
@@ -41,8 +41,12 @@ public sealed class ExactFractalCollider : Collider
             throw new ArgumentException("expected affine composition: componentwise sums have no levels to search", nameof(fractal));
         }
 
-        (_fractal, _table, _baseBvh) = (fractal, SubFractalTable.Build(fractal), new(fractal.BaseMesh));
-        (_similaritySearch, _affineSearch, _bestFirstSearch) = (new(_table, _baseBvh), new(_table, _baseBvh), new(_table, _baseBvh));
+        _fractal = fractal;
+        _table = SubFractalTable.Build(fractal);
+        _baseBvh = new(fractal.BaseMesh);
+        _similaritySearch = new(_table, _baseBvh);
+        _affineSearch = new(_table, _baseBvh);
+        _bestFirstSearch = new(_table, _baseBvh);
     }
 
     /// <inheritdoc/>
@@ -57,14 +61,22 @@ public sealed class ExactFractalCollider : Collider
     /// <inheritdoc/>
     internal override bool FindClosestTransformed(Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest) =>
-        FindClosestCore(position, map, isSimilarity: false, maxDistance, epsilon, context, out closest);
+        FindClosestInImage(position, in map, isSimilarity: false, maxDistance, epsilon, context, out closest);
 
     /// <inheritdoc/>
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest) =>
-        FindClosestCore(position, AffineMap.Identity, _table.HasOnlySimilarities, maxDistance, epsilon, context, out closest);
+        FindClosestInImage(position, AffineMap.Identity, _table.HasOnlySimilarities, maxDistance, epsilon, context, out closest);
 
-    private bool FindClosestCore(
+    /// <summary>Finds the closest point of the fractal's image under a map.</summary>
+    /// <param name="position">In the frame of the image.</param>
+    /// <param name="map">From the fractal's frame to that of the image.</param>
+    /// <param name="isSimilarity">True when the map is the identity and all maps of the fractal are similarities.</param>
+    /// <param name="maxDistance">Search radius in the frame of the image.</param>
+    /// <param name="epsilon">Relative error that the caller allows.</param>
+    /// <param name="context">Receives the cost and the instance.</param>
+    /// <param name="closest">The closest point in the frame of the image, if there is one.</param>
+    private bool FindClosestInImage(
         Vector position, in AffineMap map, bool isSimilarity, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
@@ -76,25 +88,12 @@ public sealed class ExactFractalCollider : Collider
         }
 
         var box = isSimilarity ? _table.Root.Box : _table.Root.Box.Transform(map);
-        var magnitude = Math.Max(position.MaxAbsComponent(), Math.Max(box.Minimum.MaxAbsComponent(), box.Maximum.MaxAbsComponent()));
+        var magnitude = Math.Max(position.MaxAbsComponent(), BoundingVolume.MaxAbsCoordinate(box));
         var search = new FractalSearchState(maxDistance, epsilon, magnitude, context);
         search.BoundTests++;
         if (!search.Excludes(box.DistanceSquared(position)))
         {
-            if (isSimilarity)
-            {
-                _similaritySearch.Run(position, ref search);
-            }
-            else
-            {
-                _affineSearch.Run(position, map, ref search);
-            }
-
-            if (search.HasExceededBudget)
-            {
-                search.ResetBudget();
-                _bestFirstSearch.Run(position, in map, ref search);
-            }
+            SearchLevels(position, in map, isSimilarity, ref search);
         }
 
         context.FaceTests += search.FaceTests;
@@ -102,18 +101,40 @@ public sealed class ExactFractalCollider : Collider
         if (search.ClosestFace < 0)
         {
             return NeedsExactRetry(maxDistance, epsilon)
-                && FindClosestCore(position, in map, isSimilarity, maxDistance, 0, context, out closest);
+                && FindClosestInImage(position, in map, isSimilarity, maxDistance, 0, context, out closest);
         }
 
-        closest = ClosestPointFactory.Create(_fractal.BaseMesh, search.ClosestFace, map * ResolveInstance(search.ClosestPath, context),
-            position);
+        var instance = map * ResolveInstance(search.ClosestPath, context);
+        closest = ClosestPointFactory.OnInstance(_fractal.BaseMesh, search.ClosestFace, instance, position);
         return closest.Distance <= maxDistance;
     }
 
-    /// <summary>Goes the way to the nearest face once more: the map of its instance, and its number at each level.</summary>
+    private void SearchLevels(Vector position, in AffineMap map, bool isSimilarity, ref FractalSearchState search)
+    {
+        var minRadiusSquared = RelativePrecision * RelativePrecision * _table.RadiusSquared;
+        if (isSimilarity)
+        {
+            search.MinRadiusSquared = minRadiusSquared;
+            _similaritySearch.Run(new(position), ref search);
+        }
+        else
+        {
+            search.MinRadiusSquared = minRadiusSquared * new SimdAffineMap(map).FrobeniusNormSquared();
+            _affineSearch.Run(new(position, in map), ref search);
+        }
+
+        if (search.HasExceededBudget)
+        {
+            search.ResetBudget();
+            _bestFirstSearch.Run(position, in map, ref search);
+        }
+    }
+
+    /// <summary>Follows the path to the closest triangle: composes its instance's map, and records the map index of each level.</summary>
     private AffineMap ResolveInstance(ReadOnlySpan<int> path, QueryContext context)
     {
-        var (map, remainingLevels) = (AffineMap.Identity, _table.Levels);
+        var map = AffineMap.Identity;
+        var remainingLevels = _table.Levels;
         foreach (var childIndex in path)
         {
             var child = _table.At(remainingLevels).Children[childIndex];
@@ -128,7 +149,7 @@ public sealed class ExactFractalCollider : Collider
                     return map;
                 }
 
-                // Levels that are passed over take their identity.
+                // Levels that are skipped take their identity.
                 for (var level = remainingLevels; level > (isIdentity ? childLevels : childLevels + 1); level--)
                 {
                     context.AppendToPath(_table.MapSetAt(level)!.IdentityIndex);

@@ -1,8 +1,7 @@
-
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// The copies that a <see cref="BestFirstSearch"/> has yet to look at, and the sub-fractals that make them; kept for the next search.
+/// The children that a <see cref="BestFirstSearch"/> has yet to visit, and the nodes they belong to. The memory is kept for the next search.
 /// </summary>
 internal sealed class ExpandedChildren
 {
@@ -13,19 +12,24 @@ internal sealed class ExpandedChildren
     private int _nodeCount;
     private bool _isFull;
 
+    /// <summary>Removes all nodes and children.</summary>
     public void Clear()
     {
         _queue.Clear();
         _stack.Clear();
         _freeIndices.Clear();
-        (_nodeCount, _isFull) = (0, false);
+        _nodeCount = 0;
+        _isFull = false;
     }
 
-    /// <summary>A sub-fractal.</summary>
+    /// <summary>The node with an index, valid until the next node is added.</summary>
     public ref readonly SearchNode Node(int index) => ref _nodes[index];
 
-    /// <summary>Keeps a sub-fractal until it is released as often as it was used.</summary>
-    public int Add(in SearchNode node, int maxNodes)
+    /// <summary>Adds a node, which is kept until it is released as often as it was referred to.</summary>
+    /// <param name="node">The node.</param>
+    /// <param name="maxNodes">From so many nodes on, children are taken in reverse order instead of by key.</param>
+    /// <returns>The index of the node, which the caller releases.</returns>
+    public int AddNode(in SearchNode node, int maxNodes)
     {
         if (!_freeIndices.TryPop(out var index))
         {
@@ -47,7 +51,7 @@ internal sealed class ExpandedChildren
         return index;
     }
 
-    /// <summary>Gives a sub-fractal back.</summary>
+    /// <summary>Gives up one reference to a node, and frees it and its ancestors when there are no others.</summary>
     public void Release(int index)
     {
         while (index >= 0 && --_nodes[index].ReferenceCount == 0)
@@ -57,8 +61,8 @@ internal sealed class ExpandedChildren
         }
     }
 
-    /// <summary>Keeps a copy of a sub-fractal.</summary>
-    public void Add(ExpandedChild child, double key)
+    /// <summary>Adds a child, which refers to its parent node.</summary>
+    public void Enqueue(ExpandedChild child)
     {
         _nodes[child.ParentNode].ReferenceCount++;
         if (_isFull)
@@ -67,18 +71,10 @@ internal sealed class ExpandedChildren
         }
         else
         {
-            _queue.Enqueue(child with { Key = key }, key);
+            _queue.Enqueue(child, child.Key);
         }
     }
 
-    /// <summary>The next copy; the caller releases its parent.</summary>
+    /// <summary>Takes the next child; the caller releases its parent node.</summary>
     public bool TryTake(out ExpandedChild child) => _stack.TryPop(out child) || _queue.TryDequeue(out child, out _);
 }
-
-/// <summary>A copy still to be looked at.</summary>
-/// <param name="Bound">No face of it is nearer: squared, in the frame of the query.</param>
-/// <param name="Key">It is looked at in this order.</param>
-/// <param name="ParentNode">The sub-fractal that makes it.</param>
-/// <param name="ChildIndex">Its number there.</param>
-/// <param name="IsRefined">Whether it is the best bound there is.</param>
-internal readonly record struct ExpandedChild(double Bound, double Key, int ParentNode, int ChildIndex, bool IsRefined);

@@ -1,78 +1,89 @@
-
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>A search on the levels of a fractal as it goes on: what it has found so far, what that excludes, and its costs.</summary>
+/// <summary>The state of a search on the levels of a fractal: the closest triangle so far, what that excludes, and the cost.</summary>
 internal ref struct FractalSearchState
 {
-    // Each copy takes a frame of the stack, about 1 KB. What needs more than either is left to BestFirstSearch.
+    // Each child instance takes a frame of the stack, about 1 KB. Searches that need more of either are left to BestFirstSearch.
     private const int MaxStackDepth = 128;
     private const int MaxBoundTests = 50_000;
 
-    /// <summary>Chains of more copies end here.</summary>
+    // An upper bound of the rounding error of coordinates along a chain of maps, as a part of the largest of them.
+    private const double ChainError = 4e-15;
+
+    /// <summary>Maximum number of child instances on a path; longer ones end there.</summary>
     public const int MaxDepth = 20_000;
 
-    // More than what coordinates round by along a chain of maps, as a part of the largest of them.
-    private const double Rounding = 4e-15;
-
     private readonly QueryContext _context;
+    private readonly double _tolerance;
     private Span<int> _path;
     private Span<int> _closestPath;
-    private readonly double _tolerance;
     private Span<double> _scratch;
 
-    /// <summary>Begins a search.</summary>
-    /// <param name="maxDistance">Nothing farther away is looked for.</param>
-    /// <param name="epsilon">Answers may be farther than the nearest by 1 + ε.</param>
-    /// <param name="magnitude">Of coordinates.</param>
-    /// <param name="context">Lends memory.</param>
+    /// <summary>Begins a search without a result.</summary>
+    /// <param name="maxDistance">Search radius in the frame of the query.</param>
+    /// <param name="epsilon">Relative error that the caller allows.</param>
+    /// <param name="magnitude">Largest absolute coordinate of the fractal and the position.</param>
+    /// <param name="context">Lends its buffers.</param>
     public FractalSearchState(double maxDistance, double epsilon, double magnitude, QueryContext context)
     {
         _context = context;
         _path = context.PathBuffer(MaxStackDepth);
         _closestPath = context.BestPathBuffer(MaxStackDepth);
         _scratch = context.ScratchBuffer(1);
-        // One ulp more, so that a face at exactly the distance is found.
-        ClosestDistanceSquared = maxDistance < double.PositiveInfinity
-            ? Math.BitIncrement(maxDistance * maxDistance)
-            : double.PositiveInfinity;
-        (CutoffSquared, BoundFactor, _tolerance, ClosestFace) =
-            (ClosestDistanceSquared, (1 + epsilon) * (1 + epsilon), Rounding * magnitude, -1);
+        _tolerance = ChainError * magnitude;
+        BoundFactor = (1 + epsilon) * (1 + epsilon);
+        ClosestFace = -1;
+        // One ulp more, so that a triangle at exactly the radius is found.
+        ClosestDistanceSquared = Math.BitIncrement(maxDistance * maxDistance);
+        CutoffSquared = ClosestDistanceSquared;
     }
 
-    /// <summary>Squared distance of the nearest face so far, or of the limit that was asked for.</summary>
+    /// <summary>Squared distance of the closest triangle so far, or of the search radius.</summary>
     public double ClosestDistanceSquared { get; private set; }
 
-    /// <summary>Squared bounds from here on can't matter: a little less than the nearest so far.</summary>
+    /// <summary>Limit for squared bounds, a little less than the squared distance of the closest triangle.</summary>
     public double CutoffSquared { get; private set; }
 
-    /// <summary>True when a search into the depth has given up.</summary>
+    /// <summary>True when a depth-first search has given up.</summary>
     public bool HasExceededBudget { get; private set; }
 
-    /// <summary>Square of half the size, in the frame of the whole, of what is answered by the base mesh in its place.</summary>
+    /// <summary>Squared radius in the frame of the query at which a sub-fractal is replaced by the base mesh.</summary>
     public double MinRadiusSquared { get; set; }
 
     /// <summary>Squared bounds are multiplied by this before they are compared: (1 + ε)².</summary>
     public double BoundFactor { get; }
 
-    /// <summary>The nearest face of the base, −1 for none.</summary>
+    /// <summary>Face index of the closest triangle in the base mesh; −1 for none.</summary>
     public int ClosestFace { get; private set; }
 
-    /// <summary>How many copies lead to it.</summary>
+    /// <summary>Number of child instances that lead to the closest triangle.</summary>
     public int ClosestDepth { get; private set; }
 
-    public long FaceTests;
-    public long BoundTests;
+    /// <summary>Number of triangles that were tested.</summary>
+    public long FaceTests { get; private set; }
 
-    /// <summary>The copies that lead to the nearest face.</summary>
+    /// <summary>Number of bounding volumes that were tested.</summary>
+    public long BoundTests { get; set; }
+
+    /// <summary>The indices of the child instances that lead to the closest triangle.</summary>
     public readonly ReadOnlySpan<int> ClosestPath => _closestPath[..ClosestDepth];
 
-    /// <summary>Of a <see cref="BestFirstSearch"/>.</summary>
+    /// <summary>The queue of a <see cref="BestFirstSearch"/>.</summary>
     public readonly ExpandedChildren ExpandedChildren => _context.ExpandedChildren;
 
-    /// <summary>True for squared bounds, in the frame of the whole, of what can't be nearer.</summary>
+    /// <summary>Tells whether a squared bound in the frame of the query excludes a closer triangle.</summary>
     public readonly bool Excludes(double boundSquared) => !(boundSquared * BoundFactor < CutoffSquared);
 
-    /// <summary>Remembers the copy that is gone into.</summary>
+    /// <summary>Adds the cost of a search of the base mesh.</summary>
+    public void AddStatistics(in ClosestTriangle closest)
+    {
+        FaceTests += closest.FaceTests;
+        BoundTests += closest.BoundTests;
+    }
+
+    /// <summary>Records the child instance that is entered.</summary>
+    /// <param name="depth">Number of child instances before it.</param>
+    /// <param name="childIndex">Index of the child in its parent.</param>
     public void RecordChild(int depth, int childIndex)
     {
         if (depth >= _path.Length)
@@ -83,7 +94,7 @@ internal ref struct FractalSearchState
         _path[depth] = childIndex;
     }
 
-    /// <summary>For searches into the depth: false when they take too long, and then nothing matters any more.</summary>
+    /// <summary>Tells whether a depth-first search may go on; when it takes too long, everything is excluded from then on.</summary>
     public bool WithinBudget(int depth)
     {
         if (depth < MaxStackDepth && BoundTests < MaxBoundTests)
@@ -91,21 +102,27 @@ internal ref struct FractalSearchState
             return true;
         }
 
-        (HasExceededBudget, CutoffSquared) = (true, 0);
+        HasExceededBudget = true;
+        CutoffSquared = 0;
         return false;
     }
 
-    /// <summary>Begins once more after giving up; nothing farther than what was found matters.</summary>
-    public void ResetBudget() =>
-        (HasExceededBudget, CutoffSquared) = (false, ClosestFace < 0 ? ClosestDistanceSquared : CutoffFor(ClosestDistanceSquared));
+    /// <summary>Begins again after giving up, limited by what was found.</summary>
+    public void ResetBudget()
+    {
+        HasExceededBudget = false;
+        CutoffSquared = ClosestFace < 0 ? ClosestDistanceSquared : CutoffFor(ClosestDistanceSquared);
+    }
 
-    /// <summary>A face that is nearer than all before.</summary>
-    /// <param name="distanceSquared">Its squared distance in the frame of the whole.</param>
-    /// <param name="faceIndex">Of the base.</param>
-    /// <param name="depth">How many copies lead to it.</param>
+    /// <summary>Records a triangle that is closer than all before, with the current path.</summary>
+    /// <param name="distanceSquared">Its squared distance in the frame of the query.</param>
+    /// <param name="faceIndex">Its face index in the base mesh.</param>
+    /// <param name="depth">Number of child instances that lead to it.</param>
     public void UpdateClosest(double distanceSquared, int faceIndex, int depth)
     {
-        (ClosestDistanceSquared, ClosestFace, ClosestDepth) = (distanceSquared, faceIndex, depth);
+        ClosestDistanceSquared = distanceSquared;
+        ClosestFace = faceIndex;
+        ClosestDepth = depth;
         if (depth > _closestPath.Length)
         {
             _closestPath = _context.BestPathBuffer(_path.Length);
@@ -115,22 +132,21 @@ internal ref struct FractalSearchState
         CutoffSquared = CutoffFor(distanceSquared);
     }
 
-    /// <summary>Room for the numbers of a sub-fractal's copies, see <see cref="ChildQueue"/>.</summary>
+    /// <summary>Reserves scratch memory for the children of a sub-fractal, see <see cref="ChildQueue"/>.</summary>
     /// <param name="offset">Where the memory of the levels above ends.</param>
-    /// <param name="length">How many.</param>
+    /// <param name="length">Number of values.</param>
     public Span<double> ScratchSlice(int offset, int length)
     {
         if (_scratch.Length < offset + length)
         {
-            // What the levels above use stays where it is.
+            // The levels above keep their old memory.
             _scratch = _context.ScratchBuffer(2 * (offset + length));
         }
 
         return _scratch.Slice(offset, length);
     }
 
-    // Distances that differ by no more than they round by are the same: without this, positions far from small copies would look at all of
-    // them.
+    // Distances that differ by no more than rounding count as equal. Otherwise positions far from small children would visit all of them.
     private readonly double CutoffFor(double distanceSquared)
     {
         var distance = Math.Max(0, Math.Sqrt(distanceSquared) - _tolerance);

@@ -4,49 +4,52 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>The maps of a set together with what a search needs of them, kept once however many levels have the set.</summary>
+/// <summary>The maps of a transformation set with the terms a search needs. All levels with the same set share it.</summary>
 internal sealed class MapSet
 {
-    private const double Rounding = 1e-15;
+    // An upper bound of the relative rounding error of a norm.
+    private const double NormError = 1e-15;
 
-    /// <summary>For a set.</summary>
+    /// <summary>Computes the terms of a transformation set.</summary>
+    /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
     public MapSet(TransformationSet set)
         : this([.. set.Maps])
     {
     }
 
-    /// <summary>For maps.</summary>
+    /// <summary>Computes the terms of some maps.</summary>
+    /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
     public MapSet(AffineMap[] maps)
     {
         Maps = maps;
         Inverses = [.. Maps.Select(map => map.Inverse())];
         ScalesSquared = [.. Maps.Select(map => map.Linear.V1.LengthSquared())];
         IdentityIndex = Array.IndexOf(Maps, AffineMap.Identity);
-        OperatorNormBounds = [.. Maps.Select(map => BoundingSphere.OperatorNormBound(map.Linear) * (1 + Rounding))];
+        OperatorNormBounds = [.. Maps.Select(map => BoundingSphere.OperatorNormBound(map.Linear) * (1 + NormError))];
         AreSimilarities = Maps.All(map => Similarity.IsSimilarity(map.Linear));
     }
 
-    /// <summary>The set of the identity alone.</summary>
+    /// <summary>The set that contains the identity alone.</summary>
     public static MapSet Identity { get; } = new([AffineMap.Identity]);
 
-    /// <summary>In the order of the set.</summary>
+    /// <summary>The maps in the order of the set.</summary>
     public AffineMap[] Maps { get; }
 
-    /// <summary>Of the maps.</summary>
+    /// <summary>The inverses of the maps.</summary>
     public AffineMap[] Inverses { get; }
 
-    /// <summary>Squares of the factors by which the maps lengthen, where they are similarities.</summary>
+    /// <summary>Squares of the factors by which the maps lengthen vectors; meaningful for similarities only.</summary>
     public double[] ScalesSquared { get; }
 
-    /// <summary>At most by these factors do the maps lengthen anything.</summary>
+    /// <summary>Upper bounds of the factors by which the maps lengthen vectors.</summary>
     public double[] OperatorNormBounds { get; }
 
-    /// <summary>The first place of the identity in the set, or −1.</summary>
+    /// <summary>Index of the first identity in the set; −1 for none.</summary>
     public int IdentityIndex { get; }
 
-    /// <summary>True when all maps are multiples of rotations and mirrors.</summary>
+    /// <summary>True when all maps are similarities.</summary>
     public bool AreSimilarities { get; }
 
-    /// <summary>Bytes of the arrays.</summary>
+    /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => Maps.Length * 26 * sizeof(double);
 }

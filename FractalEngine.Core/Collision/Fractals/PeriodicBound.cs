@@ -1,83 +1,83 @@
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// Shows that the last round of a repetition, widened a little, holds all rounds above it, however many. If all that a round above is made
-/// of is held by the widened one, provided that what is below is, then, by induction, so it is at every depth.
+/// Proves that the bounds of the last round of a repetition, inflated a little, contain all rounds above it, however many.
 /// </summary>
-/// <param name="topLevel">Its uppermost level.</param>
-/// <param name="period">Its number of levels.</param>
-/// <param name="volumeAt">Of all levels up to the top.</param>
-/// <param name="edgesAt">Of all levels up to the top.</param>
+/// <remarks>
+/// The proof is by induction: if the children of a round above lie in the inflated bounds, provided that their own children do, then so
+/// does every round.
+/// </remarks>
+/// <param name="topLevel">Remaining levels at the top of the last round.</param>
+/// <param name="period">Number of levels in a round.</param>
+/// <param name="volumeAt">Gives the bounds of each level up to the top.</param>
+/// <param name="edgesAt">Gives the edges of each level up to the top.</param>
 /// <param name="toleranceFactor">
-/// From 1 upwards: what may change, as a multiple of the usual. Which corners a hull keeps may change a little from round to round without
+/// Multiple of the usual tolerance for changes, at least 1. The choice of a hull's corners may change a little from round to round without
 /// end.
 /// </param>
-internal sealed class PeriodicBound(long topLevel, int period, Func<long, BoundingVolume> volumeAt, Func<long, ChildEdge[]> edgesAt,
-    double toleranceFactor)
+internal sealed class PeriodicBound(
+    long topLevel, int period, Func<long, BoundingVolume> volumeAt, Func<long, ChildEdge[]> edgesAt, double toleranceFactor)
 {
-    // Bounds settle when a round changes them by less than this part of their size, or of the margin by which they are too large anyway.
-    // They are then widened by ten times as much as they changed, or by what rounding may change.
+    // Bounds have converged when a round changes them by less than this part of their size, or of the margin by which they are too large
+    // anyway.
     private const double ConvergenceTolerance = 1e-7;
     private const double MarginTolerance = 0.05;
-    private const double InflationFactor = 10;
-    private const double Rounding = 1e-14;
 
-    // Where margins had to grow, boxes may need more.
+    // Boxes are inflated by so many times as much as they changed, at least by what rounding may change.
+    private const double InflationFactor = 10;
+    private const double BoxError = 1e-14;
+
+    // Where margins had to grow, boxes may need more inflation.
     private const double InflationGrowth = 8;
     private const double MaxInflation = 0.2;
 
     private const int MaxMarginIterations = 300;
 
-    /// <summary>Its lowest level.</summary>
+    /// <summary>Remaining levels at the bottom of the last round.</summary>
     public long FirstLevel { get; } = topLevel - period + 1;
 
-    /// <summary>The lowest level of a round so far up that all its copies are of levels in rounds like this one.</summary>
+    /// <summary>The lowest level of a round so far up that all its children lie in rounds like the last one.</summary>
     public long InductionLevel { get; } = topLevel + 1 + (ChildInstanceBuilder.MaxExpandedLevels * (long)period);
 
-    /// <summary>False where the bounds of the last two rounds differ too much.</summary>
+    /// <summary>Tells whether the bounds of the last two rounds differ little enough.</summary>
     public bool HasConverged() => MaxRelativeChange() <= ConvergenceThreshold();
 
-    /// <summary>The place of a level in its round, 0 the lowest.</summary>
+    /// <summary>The place of a level in its round, from 0 at the bottom.</summary>
     public int PhaseOf(long level) => (int)((((level - FirstLevel) % period) + period) % period);
 
-    /// <summary>The level itself or, for one above the round, that in the round which is like it.</summary>
+    /// <summary>The level itself or, for one above the last round, the level of the last round with the same phase.</summary>
     public long EquivalentLevel(long level) => level <= topLevel ? level : FirstLevel + PhaseOf(level);
 
-    /// <summary>The outline of any level: those of the rounds above are the same.</summary>
+    /// <summary>The bounds of any level, where all rounds from the last one up share theirs.</summary>
+    /// <param name="volumes">The bounds of a round by phases.</param>
+    /// <param name="level">Remaining levels.</param>
     public BoundingVolume VolumeAt(BoundingVolume[] volumes, long level) => level < FirstLevel ? volumeAt(level) : volumes[PhaseOf(level)];
 
-    /// <summary>Outlines that hold this round and all rounds above it; null where none are found.</summary>
-    /// <param name="children">Of a round above, by their places.</param>
+    /// <summary>Finds bounds that contain the last round and all rounds above it, by phases; null where none are found.</summary>
+    /// <param name="children">The children of a round above, by phases.</param>
     public BoundingVolume[]? TryProveInvariant(ChildInstance[][] children)
     {
-        // Copies in the first rounds above are of levels below this one; what is said of it must hold for those as well.
-        var coveredLevels = Enumerable.Range(0, period).Select(i => new HashSet<long> { FirstLevel + i }).ToArray();
-        for (var level = topLevel + 1; level < InductionLevel; level++)
+        var coveredLevels = FindCoveredLevels(children);
+        for (var phase = 0; phase < period; phase++)
         {
-            foreach (var childLevel in children[PhaseOf(level)].Where(child => child.LevelStep >= 0)
-                .Select(child => child.RemainingLevels(level)).Where(childLevel => childLevel < FirstLevel))
+            var lastBox = volumeAt(FirstLevel + phase).Box;
+            if (!(coveredLevels[phase].Max(level => RelativeChange(volumeAt(level).Box, lastBox)) <= ConvergenceThreshold()))
             {
-                coveredLevels[PhaseOf(childLevel)].Add(childLevel);
+                return null;
             }
         }
 
-        if (!coveredLevels.Select((levels, i) => levels.Max(level => RelativeChange(volumeAt(level).Box, volumeAt(FirstLevel + i).Box)))
-            .All(change => change <= ConvergenceThreshold()))
-        {
-            return null;
-        }
-
-        var volumesWithMargins = WithInvariantMargins([.. Enumerable.Range(0, period).Select(i => volumeAt(FirstLevel + i))],
-            coveredLevels);
-        for (var inflation = Math.Max(InflationFactor * MaxRelativeChange(), Rounding); inflation < MaxInflation;
+        var volumesWithMargins = WithInvariantMargins(
+            [.. Enumerable.Range(0, period).Select(phase => volumeAt(FirstLevel + phase))], coveredLevels);
+        for (var inflation = Math.Max(InflationFactor * MaxRelativeChange(), BoxError); inflation < MaxInflation;
             inflation *= InflationGrowth)
         {
-            BoundingVolume[] volumes =
-                [.. volumesWithMargins.Select(
-                    (volume, i) => volume with { Box = Inflate(coveredLevels[i].Select(level => volumeAt(level).Box), inflation) })];
-            if (Enumerable.Range(0, period).All(i => ContainsChildren(volumes, i)))
+            BoundingVolume[] volumes = [.. volumesWithMargins.Select((volume, phase) =>
+                volume with { Box = Inflate(coveredLevels[phase].Select(level => volumeAt(level).Box), inflation) })];
+            if (Enumerable.Range(0, period).All(phase => ContainsChildren(volumes, phase)))
             {
                 return volumes;
             }
@@ -86,84 +86,112 @@ internal sealed class PeriodicBound(long topLevel, int period, Func<long, Boundi
         return null;
     }
 
-    private static BoundingBox Inflate(IEnumerable<BoundingBox> boxes, double fraction) =>
-        boxes.Aggregate(BoundingBox.Union) switch { var box =>
-            BoundingVolume.Inflate(box, (fraction * box.Diagonal) + (Rounding * Magnitude(box))) };
+    private static BoundingBox Inflate(IEnumerable<BoundingBox> boxes, double fraction)
+    {
+        var box = boxes.Aggregate(BoundingBox.Union);
+        return BoundingVolume.Inflate(box, (fraction * box.Diagonal) + (BoxError * Magnitude(box)));
+    }
 
-    /// <summary>By which part of its size a box changes, rounding left out: what shrinks to a point does no more.</summary>
+    /// <summary>
+    /// Computes the change of a box as a part of its size. A change by no more than rounding counts as none, for boxes that shrink to a
+    /// point do no more.
+    /// </summary>
     private static double RelativeChange(BoundingBox box1, BoundingBox box2)
     {
         var change = Math.Max((box1.Minimum - box2.Minimum).MaxAbsComponent(), (box1.Maximum - box2.Maximum).MaxAbsComponent());
-        return box1 == box2 || change <= Rounding * Magnitude(box1) ? 0 : change / box1.Diagonal;
+        return box1 == box2 || change <= BoxError * Magnitude(box1) ? 0 : change / box1.Diagonal;
     }
 
-    private static double Magnitude(BoundingBox box) =>
-        box.IsEmpty ? 0 : Math.Max(box.Minimum.MaxAbsComponent(), box.Maximum.MaxAbsComponent());
+    private static double Magnitude(BoundingBox box) => box.IsEmpty ? 0 : BoundingVolume.MaxAbsCoordinate(box);
 
     private static BoundingVolume[] WithoutHulls(BoundingVolume[] volumes) =>
         [.. volumes.Select(volume => volume with { Hull = null, Margin = 0 })];
 
-    private double ConvergenceThreshold() => Math.Max(
-        ConvergenceTolerance, Math.Min(1, toleranceFactor * MarginTolerance) * Enumerable.Range(0, period)
-        .Select(i => volumeAt(FirstLevel + i)).Min(volume => volume.Margin / volume.Box.Diagonal));
+    private static double MaxDistanceOutside(BoundingVolume outerVolume, IEnumerable<Vector> points) =>
+        points.Max(outerVolume.Hull!.DistanceUpperBound);
 
-    private double MaxRelativeChange() =>
-        Enumerable.Range(0, period).Max(i => RelativeChange(volumeAt(FirstLevel + i).Box, volumeAt(FirstLevel + i - period).Box));
+    private double ConvergenceThreshold()
+    {
+        var minRelativeMargin = Enumerable.Range(0, period).Select(phase => volumeAt(FirstLevel + phase))
+            .Min(volume => volume.Margin / volume.Box.Diagonal);
+        return Math.Max(ConvergenceTolerance, Math.Min(1, toleranceFactor * MarginTolerance) * minRelativeMargin);
+    }
+
+    private double MaxRelativeChange() => Enumerable.Range(0, period)
+        .Max(phase => RelativeChange(volumeAt(FirstLevel + phase).Box, volumeAt(FirstLevel + phase - period).Box));
+
+    /// <summary>
+    /// Lists the levels that the bounds of each phase must contain: that of the last round, and lower ones that have parents in the first
+    /// rounds above.
+    /// </summary>
+    private HashSet<long>[] FindCoveredLevels(ChildInstance[][] children)
+    {
+        var coveredLevels = Enumerable.Range(0, period).Select(phase => new HashSet<long> { FirstLevel + phase }).ToArray();
+        for (var level = topLevel + 1; level < InductionLevel; level++)
+        {
+            foreach (var child in children[PhaseOf(level)].Where(child => !child.LevelStep.IsAbsolute))
+            {
+                var childLevel = child.RemainingLevels(level);
+                if (childLevel < FirstLevel)
+                {
+                    coveredLevels[PhaseOf(childLevel)].Add(childLevel);
+                }
+            }
+        }
+
+        return coveredLevels;
+    }
+
+    private CollapsedEdge[] CollapsedEdgesOf(int phase) => [.. edgesAt(FirstLevel + phase)
+        .Select(edge => CollapsedEdge.Collapse(edge, InductionLevel + phase, level => edgesAt(EquivalentLevel(level))))];
 
     private bool ContainsChildren(BoundingVolume[] volumes, int phase)
     {
         var outerBox = volumes[phase].Box;
-        return edgesAt(FirstLevel + phase)
-            .Select(edge => CollapsedEdge.Collapse(edge, InductionLevel + phase, level => edgesAt(EquivalentLevel(level))))
-            .Select(collapsedEdge => VolumeAt(volumes, collapsedEdge.RemainingLevels)
-            .TransformedBox(collapsedEdge.Map, collapsedEdge.OperatorNormBound)).All(box => BoundingBox.Union(outerBox, box) == outerBox);
+        return CollapsedEdgesOf(phase)
+            .Select(edge => VolumeAt(volumes, edge.RemainingLevels).TransformedBox(edge.Map, edge.OperatorNormBound))
+            .All(box => BoundingBox.Union(outerBox, box) == outerBox);
     }
 
-    /// <summary>Gives the hulls margins by which they hold the rounds above as well; takes the hulls away where there are none.</summary>
+    /// <summary>Gives the hulls margins by which they contain the rounds above as well; removes the hulls where there are none.</summary>
     private BoundingVolume[] WithInvariantMargins(BoundingVolume[] volumes, HashSet<long>[] coveredLevels)
     {
-        var collapsedEdges = Enumerable.Range(0, period)
-            .SelectMany(i => edgesAt(FirstLevel + i)
-            .Select(edge => (Place: i, Part: CollapsedEdge.Collapse(edge, InductionLevel + i, level => edgesAt(EquivalentLevel(level))))))
-            .ToArray();
-        var childVolumes = collapsedEdges.Where(item => item.Part.RemainingLevels < FirstLevel).Select(item => item.Part.RemainingLevels)
+        var edges = Enumerable.Range(0, period)
+            .SelectMany(phase => CollapsedEdgesOf(phase).Select(edge => (Phase: phase, Edge: edge))).ToArray();
+        var fixedVolumes = edges.Where(item => item.Edge.RemainingLevels < FirstLevel).Select(item => item.Edge.RemainingLevels)
             .Concat(coveredLevels.SelectMany(levels => levels)).Select(volumeAt);
-        if (volumes.Any(volume => volume.Hull is null) || childVolumes.Any(volume => volume.Hull is null && !volume.Box.IsEmpty))
+        if (volumes.Any(volume => volume.Hull is null) || fixedVolumes.Any(volume => volume.Hull is null && !volume.Box.IsEmpty))
         {
             return WithoutHulls(volumes);
         }
 
-        // A margin holds if it is no less than what corners miss by, and a part's margin on top of that.
-        var margins = coveredLevels.Select((levels, i) => levels.Select(volumeAt).Where(volume => volume.Hull is not null)
-            .Max(volume => volume.Margin + MaxDistanceOutside(volumes[i], volume.Hull!.Vertices))).ToArray();
-        var vertexDistances = collapsedEdges.Select(item => VolumeAt(volumes, item.Part.RemainingLevels).Hull is { } hull
-            ? MaxDistanceOutside(volumes[item.Place], hull.Vertices.Select(vertex => item.Part.Map * vertex))
+        var margins = coveredLevels.Select((levels, phase) => levels.Select(volumeAt).Where(volume => volume.Hull is not null)
+            .Max(volume => volume.Margin + MaxDistanceOutside(volumes[phase], volume.Hull!.Vertices))).ToArray();
+        var vertexDistances = edges.Select(item => VolumeAt(volumes, item.Edge.RemainingLevels).Hull is { } hull
+            ? MaxDistanceOutside(volumes[item.Phase], hull.Vertices.Select(vertex => item.Edge.Map * vertex))
             : double.NegativeInfinity).ToArray();
         for (var iteration = 0; iteration < MaxMarginIterations; iteration++)
         {
             var isInvariant = true;
-            for (var i = 0; i < collapsedEdges.Length; i++)
+            for (var i = 0; i < edges.Length; i++)
             {
-                var (phase, collapsedEdge) = collapsedEdges[i];
-                var requiredMargin = vertexDistances[i]
-                    + (collapsedEdge.OperatorNormBound
-                        * (collapsedEdge.RemainingLevels < FirstLevel
-                        ? volumeAt(collapsedEdge.RemainingLevels).Margin
-                        : margins[PhaseOf(collapsedEdge.RemainingLevels)]));
+                // A margin holds if it is no less than the distance of a child's corners plus the child's own margin.
+                var (phase, edge) = edges[i];
+                var childMargin = edge.RemainingLevels < FirstLevel
+                    ? volumeAt(edge.RemainingLevels).Margin
+                    : margins[PhaseOf(edge.RemainingLevels)];
+                var requiredMargin = vertexDistances[i] + (edge.OperatorNormBound * childMargin);
                 isInvariant &= requiredMargin <= margins[phase];
-                // A little more than needed, so that it ends.
+                // A little more than needed makes the iteration end.
                 margins[phase] = Math.Max(margins[phase], requiredMargin * (1 + ConvergenceTolerance));
             }
 
             if (isInvariant)
             {
-                return [.. volumes.Select((volume, i) => volume with { Margin = margins[i] })];
+                return [.. volumes.Select((volume, phase) => volume with { Margin = margins[phase] })];
             }
         }
 
         return WithoutHulls(volumes);
     }
-
-    private static double MaxDistanceOutside(BoundingVolume outerVolume, IEnumerable<Maths.Vector> points) =>
-        points.Max(outerVolume.Hull!.DistanceUpperBound);
 }

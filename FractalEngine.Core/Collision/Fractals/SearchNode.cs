@@ -2,36 +2,44 @@ using System.Runtime.Intrinsics;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>A sub-fractal that a search is in.</summary>
+/// <summary>A sub-fractal instance that a <see cref="BestFirstSearch"/> has expanded.</summary>
 /// <param name="subFractal">The sub-fractal.</param>
-/// <param name="remainingLevels">The levels it has left.</param>
+/// <param name="remainingLevels">Its remaining levels.</param>
 /// <param name="map">From its frame to that of the query.</param>
-/// <param name="inverse">Back.</param>
-/// <param name="parentNode">The sub-fractal that it is a copy in, −1 for none.</param>
-/// <param name="childIndex">Its number there.</param>
-/// <param name="depth">How many copies lead to it.</param>
-internal struct SearchNode(SubFractal subFractal, long remainingLevels, SimdAffineMap map, SimdAffineMap inverse, int parentNode,
-    int childIndex, int depth)
+/// <param name="inverse">From the frame of the query to its own.</param>
+/// <param name="parentNode">Index of the node that it is a child of; −1 for the root.</param>
+/// <param name="childIndex">Index among the children of that node.</param>
+/// <param name="depth">Number of child instances that lead to it.</param>
+internal struct SearchNode(
+    SubFractal subFractal, long remainingLevels, SimdAffineMap map, SimdAffineMap inverse, int parentNode, int childIndex, int depth)
 {
+    /// <summary>The sub-fractal, shared by all its instances.</summary>
     public readonly SubFractal SubFractal = subFractal;
+
+    /// <summary>Remaining levels of the sub-fractal.</summary>
     public readonly long RemainingLevels = remainingLevels;
+
+    /// <summary>From the instance's frame to that of the query.</summary>
     public readonly SimdAffineMap Map = map;
+
+    /// <summary>From the frame of the query to the instance's.</summary>
     public readonly SimdAffineMap Inverse = inverse;
+
+    /// <summary>Index of the parent node; −1 for the root.</summary>
     public readonly int ParentNode = parentNode;
+
+    /// <summary>Index among the children of the parent node.</summary>
     public readonly int ChildIndex = childIndex;
+
+    /// <summary>Number of child instances that lead to the node.</summary>
     public readonly int Depth = depth;
 
-    /// <summary>How many open copies and sub-fractals are of this one.</summary>
+    /// <summary>Number of nodes and queued children that refer to the node.</summary>
     public int ReferenceCount;
 
-    /// <summary>A lower bound of the squared distance of everything in the sub-fractal.</summary>
+    /// <summary>Computes a lower bound of the squared distance of everything in the instance.</summary>
     /// <param name="position">In the frame of the query: x, y, z, 0.</param>
-    /// <param name="cutoffSquared">Bounds above this need not be better.</param>
-    public readonly double LowerBoundSquared(Vector256<double> position, double cutoffSquared)
-    {
-        var boxDistanceSquared = SubFractal.TransformedBoxDistanceSquared(position, in Map);
-        return boxDistanceSquared < cutoffSquared && SubFractal.Hull is { } hull
-            ? Math.Max(boxDistanceSquared, hull.TransformedLowerBoundSquared(position, in Map, in Inverse, cutoffSquared))
-            : boxDistanceSquared;
-    }
+    /// <param name="cutoffSquared">The method may return early at this value.</param>
+    public readonly double LowerBoundSquared(Vector256<double> position, double cutoffSquared) =>
+        SubFractal.TransformedLowerBoundSquared(position, in Map, in Inverse, cutoffSquared, out _);
 }

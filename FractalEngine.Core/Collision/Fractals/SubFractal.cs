@@ -1,42 +1,49 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
+using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>The part of a fractal that has some number of levels left, in its own frame: its copies and bounds.</summary>
+/// <summary>The part of a fractal that has a certain number of remaining levels, in its own frame: its children and bounds.</summary>
 internal sealed class SubFractal
 {
-    /// <summary>Numbers of boxes are rounded up to a multiple of this, with boxes that are infinitely far away.</summary>
-    public const int Lanes = 4;
-
-    /// <summary>Numbers kept for each copy: a box.</summary>
+    // A box for each child.
     private const int ValuesPerChild = 6;
 
     private static readonly Vector FarAwayPoint = 1e300 * Vector.One;
 
     private readonly Vector256<double> _halfSize;
 
-    /// <summary>For a level.</summary>
+    /// <summary>Creates the sub-fractal of a level.</summary>
     /// <param name="set">The set of the level; null for the base.</param>
-    /// <param name="children">The copies it makes.</param>
-    /// <param name="childBoxes">Around the copies, in this frame.</param>
-    /// <param name="boundingVolume">Of everything.</param>
-    /// <param name="baseBox">Of the base mesh.</param>
-    /// <param name="hull">Of everything, if that is a bound better than the box.</param>
-    /// <param name="childHull">The hull of what the first copy is of.</param>
-    public SubFractal(MapSet? set, ChildInstance[] children, ReadOnlySpan<BoundingBox> childBoxes, BoundingVolume boundingVolume,
-        BoundingBox baseBox, HullBound? hull, HullBound? childHull)
+    /// <param name="children">The children; none for the base.</param>
+    /// <param name="childBoxes">Boxes around the children, in this frame.</param>
+    /// <param name="box">A box around the sub-fractal.</param>
+    /// <param name="baseBox">The box of the base mesh.</param>
+    /// <param name="hull">A hull around the sub-fractal, if it bounds better than the box.</param>
+    /// <param name="childHull">The hull of the sub-fractal that the first child is an instance of.</param>
+    public SubFractal(
+        MapSet? set,
+        ChildInstance[] children,
+        ReadOnlySpan<BoundingBox> childBoxes,
+        BoundingBox box,
+        BoundingBox baseBox,
+        HullBound? hull,
+        HullBound? childHull)
     {
-        (Set, Children, Box, Centre, Hull) = (set, children, boundingVolume.Box, SimdAffineMap.ToVector256(boundingVolume.Box.Centre),
-            hull);
-        _halfSize = SimdAffineMap.ToVector256(0.5 * boundingVolume.Box.Size);
-        PaddedCount = (children.Length + Lanes - 1) / Lanes * Lanes;
+        Set = set;
+        Children = children;
+        Box = box;
+        Hull = hull;
+        Centre = SimdAffineMap.ToVector256(box.Centre);
+        _halfSize = SimdAffineMap.ToVector256(0.5 * box.Size);
+        PaddedCount = VectorX4.PaddedCount(children.Length);
         ChildBounds = new double[ValuesPerChild * PaddedCount];
         for (var i = 0; i < PaddedCount; i++)
         {
-            // What stands for no copy has no centre near anything.
+            // Padding and empty children are far from everything.
             var (x, y, z) = i < childBoxes.Length && !childBoxes[i].IsEmpty ? childBoxes[i].Centre : FarAwayPoint;
             var (halfX, halfY, halfZ) = i < childBoxes.Length ? 0.5 * childBoxes[i].Size : Vector.Zero;
             ReadOnlySpan<double> rows = [x, y, z, halfX, halfY, halfZ];
@@ -54,34 +61,40 @@ internal sealed class SubFractal
     /// <summary>The set of this level; null for the base.</summary>
     public MapSet? Set { get; }
 
-    /// <summary>What the level copies.</summary>
+    /// <summary>The children; none for the base.</summary>
     public ChildInstance[] Children { get; }
 
-    /// <summary>The number of boxes, padding included.</summary>
+    /// <summary>Number of child boxes including padding, which is far from everything.</summary>
     public int PaddedCount { get; }
 
-    /// <summary>Boxes around the copies, [6 × <see cref="PaddedCount"/>]: x, y, z of their centres, then of half their sizes.</summary>
+    /// <summary>Boxes around the children, [6 × <see cref="PaddedCount"/>]: x, y, z of the centres, then of half the sizes.</summary>
     public double[] ChildBounds { get; }
 
-    /// <summary>Bounds of all copies together; null where they are not alike.</summary>
+    /// <summary>Bounds of all children together; null where they are not instances of one sub-fractal without rotation.</summary>
     public UnrotatedChildBounds? UnrotatedBounds { get; }
 
-    /// <summary>False where each copy's box is that of its sub-fractal, moved and scaled.</summary>
+    /// <summary>False where each child's box is that of its sub-fractal, moved and scaled.</summary>
     public bool HasRotatedChildren { get; }
 
-    /// <summary>Around everything, in this frame.</summary>
+    /// <summary>A box around the sub-fractal, in its frame.</summary>
     public BoundingBox Box { get; }
 
-    /// <summary>Of the box: x, y, z, 0.</summary>
+    /// <summary>Centre of the box: x, y, z, 0.</summary>
     public Vector256<double> Centre { get; }
 
-    /// <summary>Around everything; null where it is no better than the box.</summary>
+    /// <summary>A hull around the sub-fractal; null where it is no better than the box.</summary>
     public HullBound? Hull { get; }
 
-    /// <summary>Square of half the diagonal of a box around this and the base mesh.</summary>
+    /// <summary>Square of half the diagonal of a box around the sub-fractal and the base mesh.</summary>
     public double RadiusSquared { get; }
 
-    /// <summary>The squared distance of a position from the box.</summary>
+    /// <summary>Number of bytes of the arrays.</summary>
+    public long StorageBytes =>
+        (sizeof(double) * ChildBounds.Length) + (UnrotatedBounds?.StorageBytes ?? 0) + (Children.Length * 24) + (Hull?.StorageBytes ?? 0)
+        + 160;
+
+    /// <summary>Computes the squared distance of a position from the box.</summary>
+    /// <param name="position">In the frame of the sub-fractal: x, y, z, 0.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public double BoxDistanceSquared(Vector256<double> position)
     {
@@ -89,17 +102,31 @@ internal sealed class SubFractal
         return Vector256.Dot(outside, outside);
     }
 
-    /// <summary>The squared distance of a position from a box around the image of the box.</summary>
+    /// <summary>Computes the squared distance of a position from a box around the image of the box.</summary>
+    /// <param name="position">In the frame of the image: x, y, z, 0.</param>
+    /// <param name="map">From the frame of the sub-fractal to that of the image.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public double TransformedBoxDistanceSquared(Vector256<double> position, in SimdAffineMap map)
     {
-        var outside = Vector256.MaxNative(Vector256.Abs(position - map.Apply(Centre)) - map.TransformHalfSize(_halfSize),
-            Vector256<double>.Zero);
+        var fromCentre = Vector256.Abs(position - map.Apply(Centre));
+        var outside = Vector256.MaxNative(fromCentre - map.TransformHalfSize(_halfSize), Vector256<double>.Zero);
         return Vector256.Dot(outside, outside);
     }
 
-    /// <summary>Bytes of the arrays.</summary>
-    public long StorageBytes =>
-        (sizeof(double) * ChildBounds.Length) + (UnrotatedBounds?.StorageBytes ?? 0) + (Children.Length * 24) + (Hull?.StorageBytes ?? 0)
-        + 160;
+    /// <summary>Computes a lower bound of the squared distance of a position from the sub-fractal's image under any map.</summary>
+    /// <param name="position">In the frame of the image: x, y, z, 0.</param>
+    /// <param name="map">From the frame of the sub-fractal to that of the image.</param>
+    /// <param name="inverse">From the frame of the image to that of the sub-fractal; it need not be accurate.</param>
+    /// <param name="cutoffSquared">The method may return early at this value.</param>
+    /// <param name="isHullTested">True when the box did not suffice.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public double TransformedLowerBoundSquared(
+        Vector256<double> position, in SimdAffineMap map, in SimdAffineMap inverse, double cutoffSquared, out bool isHullTested)
+    {
+        var bound = TransformedBoxDistanceSquared(position, in map);
+        isHullTested = bound < cutoffSquared && Hull is not null;
+        return isHullTested
+            ? Math.Max(bound, Hull!.TransformedLowerBoundSquared(position, in map, in inverse, cutoffSquared))
+            : bound;
+    }
 }

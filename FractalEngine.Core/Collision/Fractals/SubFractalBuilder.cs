@@ -6,16 +6,19 @@ namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>Builds the sub-fractals of a <see cref="SubFractalTable"/>, from the base mesh upwards.</summary>
 /// <remarks>
-/// The identity is not a copy like the others: where all levels below have it, the base mesh stands at the level itself, and a copy may
-/// pass over levels that have it. Each chain of the other maps is then reached in one way, on its earliest levels (docs/colliders.md).
+/// The identity is not a child like the others. Where all levels below have it, the base mesh belongs to the level itself, and a child may
+/// skip levels that have it. Each chain of the other maps is then reached by one path, on its earliest levels (docs/colliders.md).
 /// </remarks>
 internal sealed class SubFractalBuilder
 {
-    // More mean that the bounds grow or shrink too slowly to settle.
+    // More mean that the bounds grow or shrink too slowly to converge.
     private const int MaxSubFractals = 4000;
 
     // A hull that fills its box bounds no better than the box.
     private const double MaxHullFillRatio = 0.95;
+
+    // Stands for infinitely many rounds: no search descends so many levels.
+    private const long EndlessRounds = 1L << 40;
 
     private readonly Fractal _fractal;
     private readonly Dictionary<TransformationSet, MapSet> _sets = new(ReferenceEqualityComparer.Instance);
@@ -25,25 +28,30 @@ internal sealed class SubFractalBuilder
     private readonly ChildInstanceBuilder _childBuilder = new();
     private readonly List<LevelRegion> _regions = [];
 
+    /// <summary>Begins with the base mesh, which has no remaining levels.</summary>
     public SubFractalBuilder(Fractal fractal)
     {
         _fractal = fractal;
         HasOnlySimilarities = fractal.Description.Steps.All(HasOnlySimilarMaps);
-        var volume = BoundingVolume.Of(fractal.BaseMesh);
-        Append(1, new BuiltLevel(new(null, [], [], volume, volume.Box, CreateHullBound(volume), null), volume, []));
+        var volume = BoundingVolume.FromMesh(fractal.BaseMesh);
+        var baseSubFractal = new SubFractal(null, [], [], volume.Box, volume.Box, CreateHullBound(volume), null);
+        AppendLevels(1, new BuiltLevel(baseSubFractal, volume, []));
     }
 
+    /// <summary>The sub-fractals that were built, in the order of <see cref="Regions"/>.</summary>
     public IReadOnlyList<SubFractal> SubFractals => _subFractals;
 
+    /// <summary>The runs of levels that were built, the lowest first.</summary>
     public IReadOnlyList<LevelRegion> Regions => _regions;
 
-    /// <summary>True when all maps are multiples of rotations and mirrors.</summary>
+    /// <summary>True when all maps are similarities.</summary>
     public bool HasOnlySimilarities { get; }
 
-    /// <summary>Of what has been added.</summary>
+    /// <summary>Number of levels that were built.</summary>
     public long Levels { get; private set; } = -1;
 
     /// <summary>Adds the levels of all steps, the innermost first.</summary>
+    /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
     public void AddAllSteps()
     {
         foreach (var step in _fractal.Description.Steps.Reverse())
@@ -52,6 +60,14 @@ internal sealed class SubFractalBuilder
         }
     }
 
+    /// <summary>The bounds of the sub-fractal with a number of remaining levels.</summary>
+    public BoundingVolume VolumeAt(long remainingLevels) => _volumes[FindIndex(remainingLevels)];
+
+    /// <summary>
+    /// The edges of the sub-fractal with a number of remaining levels, see <see cref="ChildInstanceBuilder.EdgesAt"/>.
+    /// </summary>
+    public ChildEdge[] EdgesAt(long remainingLevels) => _edges[FindIndex(remainingLevels)];
+
     private static bool HasOnlySimilarMaps(FractalStep step) => step switch
     {
         Repetition repetition => repetition.Body.All(HasOnlySimilarMaps),
@@ -59,19 +75,14 @@ internal sealed class SubFractalBuilder
         _ => throw new ArgumentException($"{step.GetType().Name} is no step of a fractal", nameof(step)),
     };
 
-    private int FindIndex(long levels) => LevelRegion.FindIndex(CollectionsMarshal.AsSpan(_regions), levels);
+    private int FindIndex(long remainingLevels) => LevelRegion.FindIndex(CollectionsMarshal.AsSpan(_regions), remainingLevels);
 
-    private SubFractal At(long levels) => _subFractals[FindIndex(levels)];
+    private MapSet MapSetAt(long remainingLevels) => _subFractals[FindIndex(remainingLevels)].Set!;
 
-    /// <summary>What holds the sub-fractal with so many levels left.</summary>
-    public BoundingVolume VolumeAt(long levels) => _volumes[FindIndex(levels)];
-
-    /// <summary>The steps by which it is made of sub-fractals further down, see <see cref="ChildInstanceBuilder.EdgesAt"/>.</summary>
-    public ChildEdge[] EdgesAt(long levels) => _edges[FindIndex(levels)];
-
-    private void Append(long count, params ReadOnlySpan<BuiltLevel> builtLevels)
+    /// <summary>Appends a run of levels that recur with the period of those given.</summary>
+    private void AppendLevels(long count, params ReadOnlySpan<BuiltLevel> builtLevels)
     {
-        // States that don't repeat are joined to the region before, so that most fractals have one or two.
+        // Levels that don't recur join the run before, so that most fractals have one or two runs.
         if (count == builtLevels.Length && _regions is [.., var last] && last.LevelCount == last.Period)
         {
             _regions[^1] = last with { LevelCount = last.LevelCount + count, Period = last.Period + builtLevels.Length };
@@ -97,14 +108,14 @@ internal sealed class SubFractalBuilder
         var hasOnlySets = repetition.Body.All(inner => inner is TransformationSet);
         var levelsBelowRepetition = Levels;
         var period = hasOnlySets ? repetition.Body.Length : int.MaxValue;
-        // Two rounds are written out in any case: copies may pass over a round of levels, and must meet the same sets there.
+        // Two rounds are built in any case: children may skip a round of levels, and must meet the same sets there.
         var nextAttempt = 2;
         for (var round = 0; round < (repetition.Count ?? int.MaxValue); round++)
         {
             if (hasOnlySets && round >= nextAttempt)
             {
-                if (TryRepeatRound(levelsBelowRepetition, repetition.Body.Length, (repetition.Count - round) * repetition.LevelsPerRound,
-                    Math.Max(1, 0.125 * round)))
+                var remainingRounds = repetition.Count - round ?? EndlessRounds;
+                if (TryRepeatRound(levelsBelowRepetition, period, remainingRounds * period, Math.Max(1, 0.125 * round)))
                 {
                     return;
                 }
@@ -129,47 +140,52 @@ internal sealed class SubFractalBuilder
         }
     }
 
-    /// <param name="levelsBelowRepetition">The levels below the repetition that the level belongs to.</param>
-    /// <param name="period">After so many levels their sets are the same again.</param>
-    /// <param name="set">The level's.</param>
+    /// <summary>Adds one level to the chain.</summary>
+    /// <param name="levelsBelowRepetition">Remaining levels below the repetition that the level belongs to.</param>
+    /// <param name="period">Number of levels after which the sets of the repetition recur.</param>
+    /// <param name="set">The set of the level.</param>
     private void AddLevel(long levelsBelowRepetition, int period, TransformationSet set)
     {
         if (_subFractals.Count > MaxSubFractals)
         {
             throw new FractalLimitException(
-                $"exact search needs transformations that shrink, or less depth: {Levels} levels above the base the fractal's bounds still change");
+                "exact search needs transformations that shrink, or less depth: "
+                + $"{Levels} levels above the base the fractal's bounds still change");
         }
 
         if (!_sets.TryGetValue(set, out var mapSet))
         {
-            _sets[set] = mapSet = new(set);
+            mapSet = new(set);
+            _sets[set] = mapSet;
         }
 
         var level = Levels + 1;
-        var edges = ChildInstanceBuilder.EdgesAt(level, levelsBelowRepetition, period, mapSet, below => At(below).Set!);
+        var edges = ChildInstanceBuilder.EdgesAt(level, levelsBelowRepetition, period, mapSet, MapSetAt);
         var collapsedEdges = edges.Select(edge => CollapsedEdge.Collapse(edge, level, EdgesAt))
-            .Where(collapsedEdge => !VolumeAt(collapsedEdge.RemainingLevels).Box.IsEmpty).ToArray();
-        if (collapsedEdges.Any(
-            collapsedEdge => !(VolumeAt(collapsedEdge.RemainingLevels)
-            .TransformedBox(collapsedEdge.Map, collapsedEdge.OperatorNormBound) is var box && box.Minimum.IsFinite()
-            && box.Size.IsFinite())))
+            .Where(edge => !VolumeAt(edge.RemainingLevels).Box.IsEmpty).ToArray();
+        if (!collapsedEdges.All(HasFiniteBox))
         {
             throw new FractalLimitException($"the bounds of the fractal are beyond the range of a double {level} levels above its base");
         }
 
-        var volume = VolumeOf(collapsedEdges);
+        var volume = ComputeUnion(collapsedEdges);
         var children = _childBuilder.ExpandChildren(level, edges, EdgesAt);
-        Append(1,
-            new BuiltLevel(CreateSubFractal(mapSet, children, children.Select(child => VolumeAt(child.RemainingLevels(level))), volume),
-            volume, edges));
+        var childVolumes = children.Select(child => VolumeAt(child.RemainingLevels(level)));
+        AppendLevels(1, new BuiltLevel(CreateSubFractal(mapSet, children, childVolumes, volume), volume, edges));
     }
 
-    /// <summary>Lets one round, widened a little, stand for all rounds that are left, if it can be shown to hold them.</summary>
-    /// <param name="levelsBelowRepetition">The levels below the repetition.</param>
-    /// <param name="period">Levels of a round.</param>
-    /// <param name="remainingLevels">How many levels are left; null for infinitely many.</param>
+    private bool HasFiniteBox(CollapsedEdge edge)
+    {
+        var box = VolumeAt(edge.RemainingLevels).TransformedBox(edge.Map, edge.OperatorNormBound);
+        return box.Minimum.IsFinite() && box.Size.IsFinite();
+    }
+
+    /// <summary>Replaces all remaining rounds by one that is inflated a little, if it can be proved to contain them.</summary>
+    /// <param name="levelsBelowRepetition">Remaining levels below the repetition.</param>
+    /// <param name="period">Number of levels in a round.</param>
+    /// <param name="levelCount">Number of levels in the remaining rounds.</param>
     /// <param name="toleranceFactor">See <see cref="PeriodicBound"/>.</param>
-    private bool TryRepeatRound(long levelsBelowRepetition, int period, long? remainingLevels, double toleranceFactor)
+    private bool TryRepeatRound(long levelsBelowRepetition, int period, long levelCount, double toleranceFactor)
     {
         var periodicBound = new PeriodicBound(Levels, period, VolumeAt, EdgesAt, toleranceFactor);
         if (!periodicBound.HasConverged())
@@ -177,14 +193,19 @@ internal sealed class SubFractalBuilder
             return false;
         }
 
-        // In rounds so far up that their copies are of levels in rounds like the last one, and in those between, the copies must be the
-        // same.
-        ChildInstance[] ChildrenAt(long level) => _childBuilder.ExpandChildren(
-            level,
-            ChildInstanceBuilder.EdgesAt(level, levelsBelowRepetition, period, At(periodicBound.EquivalentLevel(level)).Set!,
-            below => At(periodicBound.EquivalentLevel(below)).Set!),
-            below => EdgesAt(periodicBound.EquivalentLevel(below)));
-        var children = Enumerable.Range(0, period).Select(i => ChildrenAt(periodicBound.InductionLevel + i)).ToArray();
+        // The children must be the same in rounds so far up that theirs lie in rounds like the last one, and in those between.
+        ChildInstance[] ChildrenAt(long level)
+        {
+            var edges = ChildInstanceBuilder.EdgesAt(
+                level,
+                levelsBelowRepetition,
+                period,
+                MapSetAt(periodicBound.EquivalentLevel(level)),
+                lower => MapSetAt(periodicBound.EquivalentLevel(lower)));
+            return _childBuilder.ExpandChildren(level, edges, lower => EdgesAt(periodicBound.EquivalentLevel(lower)));
+        }
+
+        var children = Enumerable.Range(0, period).Select(phase => ChildrenAt(periodicBound.InductionLevel + phase)).ToArray();
         for (var level = Levels + 1; level < periodicBound.InductionLevel; level++)
         {
             if (!ChildrenAt(level).SequenceEqual(children[periodicBound.PhaseOf(level)]))
@@ -198,45 +219,50 @@ internal sealed class SubFractalBuilder
             return false;
         }
 
-        // No search goes down 10¹² levels.
-        Append(remainingLevels ?? (period << 20) * (1L << 20), [.. volumes.Select((volume, i) => new BuiltLevel(
-            CreateSubFractal(At(periodicBound.FirstLevel + i).Set!, children[i],
-            children[i].Select(child => periodicBound.VolumeAt(volumes, child.RemainingLevels(periodicBound.InductionLevel + i))), volume),
-            volume,
-            EdgesAt(periodicBound.FirstLevel + i)))]);
+        var builtLevels = new BuiltLevel[period];
+        for (var phase = 0; phase < period; phase++)
+        {
+            var level = periodicBound.FirstLevel + phase;
+            var parentLevels = periodicBound.InductionLevel + phase;
+            var childVolumes = children[phase].Select(child => periodicBound.VolumeAt(volumes, child.RemainingLevels(parentLevels)));
+            var subFractal = CreateSubFractal(MapSetAt(level), children[phase], childVolumes, volumes[phase]);
+            builtLevels[phase] = new(subFractal, volumes[phase], EdgesAt(level));
+        }
+
+        AppendLevels(levelCount, builtLevels);
         return true;
     }
 
-    /// <summary>The outline of some parts, none of them empty.</summary>
-    private BoundingVolume VolumeOf(CollapsedEdge[] collapsedEdges)
+    /// <summary>Computes the bounds of the union of some parts, none of them empty.</summary>
+    private BoundingVolume ComputeUnion(CollapsedEdge[] edges)
     {
-        if (collapsedEdges is [] or [_])
+        if (edges is [])
         {
-            return collapsedEdges is [var only]
-                ? BoundingVolume.Create(VolumeAt(only.RemainingLevels), only.Map, only.OperatorNormBound)
-                : BoundingVolume.Empty;
+            return BoundingVolume.Empty;
         }
 
-        var volumes = collapsedEdges.Select(collapsedEdge => VolumeAt(collapsedEdge.RemainingLevels)).ToArray();
-        var box =
-            collapsedEdges.Zip(volumes,
-            (collapsedEdge, volume) => volume.TransformedBox(collapsedEdge.Map, collapsedEdge.OperatorNormBound))
+        if (edges is [var only])
+        {
+            return VolumeAt(only.RemainingLevels).Transform(only.Map, only.OperatorNormBound);
+        }
+
+        var volumes = edges.Select(edge => VolumeAt(edge.RemainingLevels)).ToArray();
+        var box = edges.Zip(volumes, (edge, volume) => volume.TransformedBox(edge.Map, edge.OperatorNormBound))
             .Aggregate(BoundingBox.Union);
         var vertices = volumes.All(volume => volume.Hull is not null)
-            ? collapsedEdges.Zip(volumes).SelectMany(pair => pair.Second.Hull!.Vertices.Select(vertex => pair.First.Map * vertex)).ToArray()
+            ? edges.Zip(volumes).SelectMany(pair => pair.Second.Hull!.Vertices.Select(vertex => pair.First.Map * vertex)).ToArray()
             : null;
-        return BoundingVolume.Create(box, vertices,
-            collapsedEdges.Zip(volumes, (collapsedEdge, volume) => collapsedEdge.OperatorNormBound * volume.Margin).Max());
+        var margin = edges.Zip(volumes, (edge, volume) => edge.OperatorNormBound * volume.Margin).Max();
+        return BoundingVolume.FromVertices(box, vertices, margin);
     }
 
     private SubFractal CreateSubFractal(MapSet set, ChildInstance[] children, IEnumerable<BoundingVolume> volumes, BoundingVolume volume)
     {
         BoundingVolume[] childVolumes = [.. volumes];
-        var boxes = children.Zip(childVolumes, (child, childVolume) => childVolume.TransformedBox(child.Map, child.OperatorNormBound))
-            .ToArray();
-        return new(set, children, boxes, volume, _volumes[0].Box, CreateHullBound(volume), childVolumes.Length > 0
-            ? CreateHullBound(childVolumes[0])
-            : null);
+        BoundingBox[] childBoxes =
+            [.. children.Zip(childVolumes, (child, childVolume) => childVolume.TransformedBox(child.Map, child.OperatorNormBound))];
+        var childHull = childVolumes.Length > 0 ? CreateHullBound(childVolumes[0]) : null;
+        return new(set, children, childBoxes, volume.Box, _volumes[0].Box, CreateHullBound(volume), childHull);
     }
 
     private HullBound? CreateHullBound(BoundingVolume volume)

@@ -3,8 +3,8 @@ using FractalEngine.Core.Fractals;
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
-/// The sub-fractals of a fractal, one for each number of levels that are left. Deep repetitions share those of one round once their bounds
-/// have settled, so the table stays in kilobytes at any depth.
+/// The sub-fractals of a fractal, one for each number of remaining levels. Deep repetitions share those of one round once their bounds have
+/// converged, so the table takes kilobytes at any depth.
 /// </summary>
 internal sealed class SubFractalTable
 {
@@ -14,9 +14,10 @@ internal sealed class SubFractalTable
 
     private SubFractalTable(SubFractalBuilder builder)
     {
-        (_regions, Levels) = ([.. builder.Regions], builder.Levels);
+        _regions = [.. builder.Regions];
+        Levels = builder.Levels;
         var isReachable = FindReachable(builder.SubFractals);
-        // Levels that are only passed on the way to others, several at once, are never looked at.
+        // Levels that every path skips are never visited.
         _subFractals = [.. builder.SubFractals.Select((subFractal, i) => isReachable[i] ? subFractal : null)];
         _mapSets = [.. builder.SubFractals.Select(subFractal => subFractal.Set)];
         HasOnlySimilarities = builder.HasOnlySimilarities;
@@ -24,25 +25,25 @@ internal sealed class SubFractalTable
         RadiusSquared = 0.25 * Root.Box.Size.LengthSquared();
     }
 
-    /// <summary>The levels of the whole fractal; a huge number where they are infinitely many.</summary>
+    /// <summary>Number of levels of the whole fractal; a huge number where they are infinitely many.</summary>
     public long Levels { get; }
 
-    /// <summary>The whole fractal.</summary>
+    /// <summary>The sub-fractal with all levels, which is the whole fractal.</summary>
     public SubFractal Root { get; }
 
     /// <summary>Square of half the diagonal of the whole fractal's box.</summary>
     public double RadiusSquared { get; }
 
-    /// <summary>True when all maps are multiples of rotations and mirrors, so that distances scale with them.</summary>
+    /// <summary>True when all maps are similarities, so that they multiply distances by their scale.</summary>
     public bool HasOnlySimilarities { get; }
 
-    /// <summary>Bytes of all that is kept.</summary>
+    /// <summary>Number of bytes of everything in the table.</summary>
     public long StorageBytes => _subFractals.Sum(subFractal => subFractal?.StorageBytes ?? 0)
         + _subFractals.SelectMany(subFractal => subFractal?.Children ?? []).Distinct().Sum(child => child.StorageBytes)
         + _mapSets.Distinct().Sum(set => set?.StorageBytes ?? 0) + (16 * (long)_subFractals.Length);
 
-    /// <summary>The table of a fractal in affine composition.</summary>
-    /// <exception cref="FractalLimitException">Bounds overflow a double, or don't settle; the message names the level.</exception>
+    /// <summary>Builds the table of a fractal in affine composition.</summary>
+    /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
     public static SubFractalTable Build(Fractal fractal)
     {
         var builder = new SubFractalBuilder(fractal);
@@ -50,20 +51,19 @@ internal sealed class SubFractalTable
         return new(builder);
     }
 
-    /// <summary>The sub-fractal with so many levels left.</summary>
-    public SubFractal At(long levels) => _subFractals[LevelRegion.FindIndex(_regions, levels)]!;
+    /// <summary>The sub-fractal with a number of remaining levels, which must be one that a search can visit.</summary>
+    public SubFractal At(long remainingLevels) => _subFractals[LevelRegion.FindIndex(_regions, remainingLevels)]!;
 
-    /// <summary>
-    /// The set on top of the sub-fractal with so many levels left, which may be one that is never looked at; null for the base.
-    /// </summary>
-    public MapSet? MapSetAt(long levels) => _mapSets[LevelRegion.FindIndex(_regions, levels)];
+    /// <summary>The set on top of the sub-fractal with a number of remaining levels, whether or not it is visited; null for the base.</summary>
+    public MapSet? MapSetAt(long remainingLevels) => _mapSets[LevelRegion.FindIndex(_regions, remainingLevels)];
 
-    /// <summary>Which states a search can come to; all, where finding that out would take long.</summary>
+    /// <summary>Determines which sub-fractals a search can visit; all, where finding that out would take long.</summary>
     private bool[] FindReachable(IReadOnlyList<SubFractal> subFractals)
     {
         const int maxChainLength = 256;
         var isReachable = new bool[subFractals.Count];
-        var (seen, next) = (new HashSet<long>(), new HashSet<long> { Levels });
+        var seen = new HashSet<long>();
+        var next = new HashSet<long> { Levels };
         for (var chainLength = 0; next.Count > 0; chainLength++)
         {
             if (chainLength == maxChainLength)
@@ -72,9 +72,9 @@ internal sealed class SubFractalTable
                 break;
             }
 
-            var levels = next.Where(seen.Add).ToArray();
+            var current = next.Where(seen.Add).ToArray();
             next.Clear();
-            foreach (var level in levels)
+            foreach (var level in current)
             {
                 var index = LevelRegion.FindIndex(_regions, level);
                 isReachable[index] = true;
@@ -83,30 +83,5 @@ internal sealed class SubFractalTable
         }
 
         return isReachable;
-    }
-}
-
-/// <summary>Levels from <paramref name="FirstLevel"/> on, whose states repeat with a period.</summary>
-/// <param name="FirstLevel">Levels left in the first.</param>
-/// <param name="LevelCount">Of levels.</param>
-/// <param name="FirstIndex">The number of the first one's state.</param>
-/// <param name="Period">After so many levels the states are the same again.</param>
-internal readonly record struct LevelRegion(long FirstLevel, long LevelCount, int FirstIndex, int Period)
-{
-    /// <summary>The number of a level's state.</summary>
-    public static int FindIndex(ReadOnlySpan<LevelRegion> regions, long levels)
-    {
-        // Most searches are in the outermost one.
-        for (var i = regions.Length - 1; i >= 0; i--)
-        {
-            ref readonly var region = ref regions[i];
-            var offset = levels - region.FirstLevel;
-            if (offset >= 0 && offset < region.LevelCount)
-            {
-                return region.FirstIndex + (int)(offset < region.Period ? offset : region.Period == 1 ? 0 : offset % region.Period);
-            }
-        }
-
-        throw new ArgumentOutOfRangeException(nameof(levels), levels, "the fractal has fewer levels");
     }
 }

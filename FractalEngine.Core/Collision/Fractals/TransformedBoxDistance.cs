@@ -5,11 +5,11 @@ using FractalEngine.Core.Collision.Bvh;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
-/// <summary>Distances to the images of boxes under any map, four at a time: to the boxes around the images.</summary>
+/// <summary>Computes squared distances to boxes around the images of boxes under any map, four at a time.</summary>
 internal static class TransformedBoxDistance
 {
-    /// <summary>Queues the copies of a sub-fractal by the distances of boxes around their images.</summary>
-    /// <param name="queue">Of the copies.</param>
+    /// <summary>Queues the children of a sub-fractal by the distances of boxes around their images.</summary>
+    /// <param name="queue">The queue of the children.</param>
     /// <param name="subFractal">The sub-fractal.</param>
     /// <param name="position">In the frame of the images: x, y, z, 0.</param>
     /// <param name="map">From the sub-fractal's frame to that of the images.</param>
@@ -19,20 +19,21 @@ internal static class TransformedBoxDistance
         ref var rows = ref MemoryMarshal.GetArrayDataReference(subFractal.ChildBounds);
         var fromOrigin = VectorX4.Broadcast(position - map.Translation);
         var (v1, v2, v3) = (VectorX4.Broadcast(map.V1), VectorX4.Broadcast(map.V2), VectorX4.Broadcast(map.V3));
-        for (var i = 0; i < paddedCount; i += SubFractal.Lanes)
+        for (var i = 0; i < paddedCount; i += VectorX4.Count)
         {
-            var (centre, halfSize) = (VectorX4.Load(ref rows, i, paddedCount), VectorX4.Load(ref rows, (3 * paddedCount) + i, paddedCount));
+            var centre = VectorX4.Load(ref rows, i, paddedCount);
+            var halfSize = VectorX4.Load(ref rows, (3 * paddedCount) + i, paddedCount);
             var fromCentre = fromOrigin - ((centre.X * v1) + (centre.Y * v2) + (centre.Z * v3));
             queue.SetBounds(DistanceSquared(fromCentre, halfSize, v1, v2, v3), fromCentre.LengthSquared(), i);
         }
     }
 
-    /// <summary>The squared distances to boxes around the images of boxes.</summary>
-    /// <param name="fromCentre">From the images of their centres.</param>
-    /// <param name="halfSize">Of the boxes.</param>
-    /// <param name="v1">The map's first column.</param>
-    /// <param name="v2">The second.</param>
-    /// <param name="v3">The third.</param>
+    /// <summary>Computes the squared distances of a position from boxes around the images of four boxes.</summary>
+    /// <param name="fromCentre">From the images of the boxes' centres to the position.</param>
+    /// <param name="halfSize">Half the sizes of the boxes.</param>
+    /// <param name="v1">First column of the map's linear part.</param>
+    /// <param name="v2">Second column of the map's linear part.</param>
+    /// <param name="v3">Third column of the map's linear part.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector256<double> DistanceSquared(VectorX4 fromCentre, VectorX4 halfSize, VectorX4 v1, VectorX4 v2, VectorX4 v3)
     {

@@ -5,25 +5,25 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision.Reference;
 
 /// <summary>
-/// The paper's octree (§5.4), greedy: at each level it goes on to the one child whose box is nearest, and looks at the faces of the leaf
-/// where it ends. It may miss the nearest face. For comparison; <see cref="HierarchyCollider"/> is exact and mostly faster.
+/// Finds a close point of a mesh by the paper's octree (§5.4), greedily: at each level it descends into the child with the closest box, and
+/// tests the triangles of the leaf where it ends. For comparison; <see cref="HierarchyCollider"/> is exact and mostly faster.
 /// </summary>
 /// <remarks>
-/// A box is divided at its centre into eight. A face belongs to the box that holds its centroid, and sticks out of it. Boxes without faces
-/// are not kept: the descent passes them over, so it never ends in an empty leaf; only a mesh without faces has no answer. A box that
-/// holds one face is not divided further.
+/// A box is subdivided at its centre into eight. A triangle belongs to the box that contains its centroid, and may reach out of it. Boxes
+/// without triangles are not kept: the descent never ends in an empty leaf, and only a mesh without faces has no closest point. A box with
+/// one triangle is not subdivided further. The leaf where the descent ends may lack the closest triangle.
 /// <para>
-/// Costs are counted as the paper counts them: a box is its twelve faces, and all eight children of each level count, so that the cost is
-/// 8·12·depth, plus the faces of the leaf. The paper's own numbers (figure 18) are round(8·12·3·log₈(faces)) for all of its five
-/// meshes. What is really looked at, a few boxes a level until one face is left, are the bound tests.
+/// Costs are counted as the paper counts them. A box is its twelve faces, and all eight children of each level count, so that the cost is
+/// 8·12·depth plus the triangles of the leaf. The paper's own numbers (figure 18) are round(8·12·3·log₈(faces)) for all of its five
+/// meshes. What is really tested, a few boxes a level until one triangle is left, are the bound tests.
 /// </para>
 /// </remarks>
 public sealed class BoundingBoxCollider : Collider
 {
-    /// <summary>The most levels; a double can't be halved more often than that between its own neighbours.</summary>
+    /// <summary>Maximum number of levels; a double can't be halved more often than that between its own neighbours.</summary>
     public const int MaxDepth = 64;
 
-    /// <summary>The faces of all children of a box, by the paper's way to count.</summary>
+    /// <summary>Number of faces of a box's children, which is the paper's cost of a level.</summary>
     public const int CostPerLevel = 8 * 12;
 
     private readonly Mesh _mesh;
@@ -31,9 +31,9 @@ public sealed class BoundingBoxCollider : Collider
     private readonly List<Node> _nodes = [];
     private readonly int[] _faceIndices;
 
-    /// <summary>Divides a mesh's faces.</summary>
-    /// <param name="mesh">Cost: O(faces · depth).</param>
-    /// <param name="depth">Levels below the root, to <see cref="MaxDepth"/>; null for <see cref="DefaultDepth"/>.</param>
+    /// <summary>Builds the octree of a mesh. Cost: O(faces · depth).</summary>
+    /// <param name="mesh">The mesh.</param>
+    /// <param name="depth">Number of levels below the root, up to <see cref="MaxDepth"/>; null for <see cref="DefaultDepth"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">The depth is negative or too large.</exception>
     public BoundingBoxCollider(Mesh mesh, int? depth = null)
     {
@@ -42,14 +42,14 @@ public sealed class BoundingBoxCollider : Collider
         ArgumentOutOfRangeException.ThrowIfGreaterThan(Depth, MaxDepth, nameof(depth));
         _mesh = mesh;
         _faceIndices = [.. Enumerable.Range(0, mesh.FaceCount)];
-        var centroids = _faceIndices.Select(face => mesh.Face(face) switch { var (a, b, c) => (a / 3) + (b / 3) + (c / 3) }).ToArray();
+        Vector[] centroids = [.. _faceIndices.Select(CentroidOf)];
         _rootBox = centroids.Aggregate(BoundingBox.Empty, (box, centroid) => box.Including(centroid));
         _nodes.Add(default);
         Subdivide(0, 0, _faceIndices.Length, _rootBox, Depth, centroids);
         _nodes.TrimExcess();
     }
 
-    /// <summary>Levels below the root.</summary>
+    /// <summary>Number of levels below the root.</summary>
     public int Depth { get; }
 
     /// <inheritdoc/>
@@ -58,7 +58,7 @@ public sealed class BoundingBoxCollider : Collider
     /// <inheritdoc/>
     public override long StorageBytes => (_nodes.Capacity * 12L) + (_faceIndices.Length * sizeof(int));
 
-    /// <summary>The paper's depth, 3·log₈(faces), rounded; 0 for up to one face.</summary>
+    /// <summary>Computes the paper's depth, 3·log₈(faces), rounded; 0 for up to one face.</summary>
     public static int DefaultDepth(int faceCount) => faceCount <= 1 ? 0 : (int)Math.Round(3 * Math.Log(faceCount, 8));
 
     /// <inheritdoc/>
@@ -72,37 +72,29 @@ public sealed class BoundingBoxCollider : Collider
             return false;
         }
 
-        var (node, box) = (_nodes[0], _rootBox);
+        var node = _nodes[0];
+        var box = _rootBox;
         while (node.ChildMask != 0)
         {
-            (node, box) = ClosestChild(position, node, box, context);
+            (node, box) = FindClosestChild(position, node, box, context);
         }
 
-        var (closestPoint, closestFace) = (default(TrianglePoint), -1);
+        var scan = new TriangleScan(_mesh, position);
         foreach (var face in _faceIndices.AsSpan(node.FirstFaceOrChild, node.FaceCount))
         {
-            var (a, b, c) = _mesh.Face(face);
-            var point = TriangleKernel.ClosestPoint(position, a, b, c);
-            if (closestFace < 0 || point.DistanceSquared < closestPoint.DistanceSquared)
-            {
-                (closestPoint, closestFace) = (point, face);
-            }
+            scan.Test(face);
         }
 
         context.FaceTests += ((long)CostPerLevel * Depth) + node.FaceCount;
-        closest = ClosestPointFactory.Create(_mesh, closestFace, closestPoint);
+        closest = ClosestPointFactory.OnMesh(_mesh, scan.ClosestFace, scan.ClosestPoint);
         return closest.Distance <= maxDistance;
     }
 
-    /// <summary>A box: a leaf with faces, or children that lie one after the other.</summary>
-    /// <param name="FirstFaceOrChild">Place of the first face, or number of the first child.</param>
-    /// <param name="FaceCount">Of the faces of a leaf.</param>
-    /// <param name="ChildMask">Which children there are, a bit each: 1 is right, 2 is up, 4 is forward; 0 for a leaf.</param>
-    private readonly record struct Node(int FirstFaceOrChild, int FaceCount, int ChildMask);
-
     private static BoundingBox ChildBox(BoundingBox box, int octant)
     {
-        var ((x0, y0, z0), (x1, y1, z1), (x, y, z)) = (box.Minimum, box.Maximum, box.Centre);
+        var (x0, y0, z0) = box.Minimum;
+        var (x1, y1, z1) = box.Maximum;
+        var (x, y, z) = box.Centre;
         return new(
             new((octant & 1) != 0 ? x : x0, (octant & 2) != 0 ? y : y0, (octant & 4) != 0 ? z : z0),
             new((octant & 1) != 0 ? x1 : x, (octant & 2) != 0 ? y1 : y, (octant & 4) != 0 ? z1 : z));
@@ -111,9 +103,18 @@ public sealed class BoundingBoxCollider : Collider
     private static int OctantOf(Vector v, Vector centre) =>
         (v.X >= centre.X ? 1 : 0) | (v.Y >= centre.Y ? 2 : 0) | (v.Z >= centre.Z ? 4 : 0);
 
-    private (Node Node, BoundingBox Box) ClosestChild(Vector position, Node node, BoundingBox box, QueryContext context)
+    private Vector CentroidOf(int face)
     {
-        var (closestNode, closestBox, closestDistanceSquared, child) = (default(Node), box, double.PositiveInfinity, node.FirstFaceOrChild);
+        var (a, b, c) = _mesh.Face(face);
+        return (a / 3) + (b / 3) + (c / 3);
+    }
+
+    private (Node Node, BoundingBox Box) FindClosestChild(Vector position, Node node, BoundingBox box, QueryContext context)
+    {
+        var closestNode = default(Node);
+        var closestBox = box;
+        var closestDistanceSquared = double.PositiveInfinity;
+        var child = node.FirstFaceOrChild;
         for (var octant = 0; octant < 8; octant++)
         {
             if ((node.ChildMask & (1 << octant)) == 0)
@@ -122,11 +123,12 @@ public sealed class BoundingBoxCollider : Collider
             }
 
             var childBox = ChildBox(box, octant);
-            var distanceSquared = Vector.Max(Vector.Max(childBox.Minimum - position, position - childBox.Maximum), Vector.Zero)
-                .LengthSquared();
+            var distanceSquared = childBox.DistanceSquared(position);
             if (distanceSquared < closestDistanceSquared || child == node.FirstFaceOrChild)
             {
-                (closestNode, closestBox, closestDistanceSquared) = (_nodes[child], childBox, distanceSquared);
+                closestNode = _nodes[child];
+                closestBox = childBox;
+                closestDistanceSquared = distanceSquared;
             }
 
             context.BoundTests++;
@@ -144,10 +146,10 @@ public sealed class BoundingBoxCollider : Collider
             return;
         }
 
-        var centre = box.Centre;
         Span<int> octantStarts = stackalloc int[9];
-        SortByOctant(first, count, centre, centroids, octantStarts);
-        var (child, childMask) = (_nodes.Count, 0);
+        SortByOctant(first, count, box.Centre, centroids, octantStarts);
+        var child = _nodes.Count;
+        var childMask = 0;
         for (var octant = 0; octant < 8; octant++)
         {
             if (octantStarts[octant + 1] > octantStarts[octant])
@@ -162,18 +164,19 @@ public sealed class BoundingBoxCollider : Collider
         {
             if ((childMask & (1 << octant)) != 0)
             {
-                Subdivide(child++, first + octantStarts[octant], octantStarts[octant + 1] - octantStarts[octant], ChildBox(box, octant),
-                    remainingDepth - 1, centroids);
+                var octantCount = octantStarts[octant + 1] - octantStarts[octant];
+                Subdivide(child, first + octantStarts[octant], octantCount, ChildBox(box, octant), remainingDepth - 1, centroids);
+                child++;
             }
         }
     }
 
-    /// <summary>Sorts a run of faces, keeping the order within an octant.</summary>
-    /// <param name="first">Of the run.</param>
-    /// <param name="count">Of the run.</param>
-    /// <param name="centre">Of the box.</param>
-    /// <param name="centroids">In the order of the faces; sorted with them.</param>
-    /// <param name="octantStarts">Where each octant's faces begin in the run.</param>
+    /// <summary>Sorts a run of triangles by octants, and keeps the order within an octant.</summary>
+    /// <param name="first">Place of the first triangle of the run.</param>
+    /// <param name="count">Number of triangles in the run.</param>
+    /// <param name="centre">Centre of the box that is subdivided.</param>
+    /// <param name="centroids">Centroids in the order of the triangles; sorted with them.</param>
+    /// <param name="octantStarts">Receives the places in the run where the octants begin, and its end.</param>
     private void SortByOctant(int first, int count, Vector centre, Vector[] centroids, Span<int> octantStarts)
     {
         octantStarts.Clear();
@@ -189,13 +192,21 @@ public sealed class BoundingBoxCollider : Collider
             octantStarts[octant + 1] += octantStarts[octant];
         }
 
-        var (oldFaces, oldCentroids) = (_faceIndices.AsSpan(first, count).ToArray(), centroids.AsSpan(first, count).ToArray());
+        var oldFaces = _faceIndices.AsSpan(first, count).ToArray();
+        var oldCentroids = centroids.AsSpan(first, count).ToArray();
         Span<int> next = stackalloc int[8];
         octantStarts[..8].CopyTo(next);
         for (var i = 0; i < count; i++)
         {
             var target = first + next[octants[i]]++;
-            (_faceIndices[target], centroids[target]) = (oldFaces[i], oldCentroids[i]);
+            _faceIndices[target] = oldFaces[i];
+            centroids[target] = oldCentroids[i];
         }
     }
+
+    /// <summary>A box of the octree: a leaf with triangles, or a node whose children lie one after the other.</summary>
+    /// <param name="FirstFaceOrChild">Place of the first triangle of a leaf, or index of the first child of a node.</param>
+    /// <param name="FaceCount">Number of triangles in a leaf.</param>
+    /// <param name="ChildMask">The children that exist, a bit each: 1 is right, 2 is up, 4 is forward; 0 for a leaf.</param>
+    private readonly record struct Node(int FirstFaceOrChild, int FaceCount, int ChildMask);
 }

@@ -3,33 +3,25 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Reference;
 
-/// <summary>The copies of one level that a descent of some width goes on with; kept for the next query.</summary>
+/// <summary>
+/// The instances of one level that a <see cref="FractalCollider"/> descends into, up to some number. The memory is kept for the next query.
+/// </summary>
 internal sealed class DescentBeam
 {
     private readonly List<Candidate> _candidates = [];
-    private readonly List<(int Parent, int Copy)> _pathNodes = [];
+    private readonly List<PathNode> _pathNodes = [];
     private List<Entry> _next = [];
     private int _width;
 
-    /// <summary>A copy that the descent goes on with.</summary>
-    /// <param name="Map">From its frame to that of the query.</param>
-    /// <param name="LocalPosition">The position in its frame, where all maps are similar.</param>
-    /// <param name="ScaleSquared">Of the map, where all maps are similar.</param>
-    /// <param name="DistanceSquared">Distance of the base there.</param>
-    /// <param name="ClosestFace">The nearest of the base there.</param>
-    /// <param name="PathNode">Where its way from the root ends; −1 at the root.</param>
-    public readonly record struct Entry(AffineMap Map, Vector LocalPosition, double ScaleSquared, double DistanceSquared, int ClosestFace,
-        int PathNode);
-
-    private readonly record struct Candidate(double DistanceSquared, int ParentEntry, int ChildIndex, int ClosestFace);
-
-    /// <summary>Those of the present level, the nearest first.</summary>
+    /// <summary>The entries of the present level, the closest first.</summary>
     public List<Entry> Entries { get; private set; } = [];
 
-    /// <summary>Candidates that are not nearer than this are not kept.</summary>
+    /// <summary>Squared distance from which on candidates are not kept.</summary>
     public double CutoffSquared => _candidates.Count < _width ? double.PositiveInfinity : _candidates[^1].DistanceSquared;
 
-    /// <summary>Begins a search.</summary>
+    /// <summary>Empties the beam for another search.</summary>
+    /// <param name="width">Maximum number of entries of a level.</param>
+    /// <param name="root">The entry of the whole fractal.</param>
     public void Begin(int width, in Entry root)
     {
         _width = width;
@@ -40,12 +32,12 @@ internal sealed class DescentBeam
     }
 
     /// <summary>
-    /// Keeps a copy of an entry if it is nearer than <see cref="CutoffSquared"/>; of copies at the same distance the first.
+    /// Keeps a child of an entry if it is closer than <see cref="CutoffSquared"/>. Of children at the same distance the first is kept.
     /// </summary>
-    /// <param name="distanceSquared">Its distance.</param>
-    /// <param name="parentEntry">The entry.</param>
-    /// <param name="childIndex">Its number in the set; −1 for the entry itself, which goes on as it is.</param>
-    /// <param name="closestFace">The nearest.</param>
+    /// <param name="distanceSquared">Squared distance of the child's base mesh.</param>
+    /// <param name="parentEntry">Index of the entry.</param>
+    /// <param name="childIndex">Index of the child's map in the set; −1 for the entry itself, which goes on without a map.</param>
+    /// <param name="closestFace">Face index of the closest triangle in the child's base mesh.</param>
     public void InsertIfCloser(double distanceSquared, int parentEntry, int childIndex, int closestFace)
     {
         if (!(distanceSquared < CutoffSquared))
@@ -68,37 +60,58 @@ internal sealed class DescentBeam
     }
 
     /// <summary>Makes the candidates the entries of the next level.</summary>
+    /// <param name="set">The set of the present level.</param>
+    /// <param name="hasOnlySimilarities">True when all maps of the fractal are similarities.</param>
     public void AdvanceLevel(MapSet set, bool hasOnlySimilarities)
     {
         _next.Clear();
-        foreach (var (distanceSquared, parentEntry, childIndex, closestFace) in _candidates)
+        foreach (var candidate in _candidates)
         {
-            var entry = Entries[parentEntry];
-            if (childIndex >= 0)
-            {
-                _pathNodes.Add((entry.PathNode, childIndex));
-                entry = new(
-                    entry.Map * set.Maps[childIndex], hasOnlySimilarities
-                    ? set.Inverses[childIndex] * entry.LocalPosition
-                    : entry.LocalPosition, entry.ScaleSquared * set.ScalesSquared[childIndex],
-                    distanceSquared, closestFace, _pathNodes.Count - 1);
-            }
-
-            _next.Add(entry);
+            var parent = Entries[candidate.ParentEntry];
+            _next.Add(candidate.ChildIndex < 0 ? parent : CreateEntry(parent, candidate, set, hasOnlySimilarities));
         }
 
         _candidates.Clear();
         (Entries, _next) = (_next, Entries);
     }
 
-    /// <summary>Writes the way of the nearest entry.</summary>
+    /// <summary>Writes the path of the closest entry.</summary>
     public void WritePath(QueryContext context)
     {
-        for (var pathNode = Entries[0].PathNode; pathNode >= 0; pathNode = _pathNodes[pathNode].Parent)
+        for (var node = Entries[0].PathNode; node >= 0; node = _pathNodes[node].Parent)
         {
-            context.AppendToPath(_pathNodes[pathNode].Copy);
+            context.AppendToPath(_pathNodes[node].ChildIndex);
         }
 
         context.ReversePath();
     }
+
+    private Entry CreateEntry(in Entry parent, Candidate candidate, MapSet set, bool hasOnlySimilarities)
+    {
+        var childIndex = candidate.ChildIndex;
+        _pathNodes.Add(new(parent.PathNode, childIndex));
+        return new(
+            parent.Map * set.Maps[childIndex],
+            hasOnlySimilarities ? set.Inverses[childIndex] * parent.LocalPosition : parent.LocalPosition,
+            parent.ScaleSquared * set.ScalesSquared[childIndex],
+            candidate.DistanceSquared,
+            candidate.ClosestFace,
+            _pathNodes.Count - 1);
+    }
+
+    /// <summary>An instance that the descent goes on in.</summary>
+    /// <param name="Map">From its frame to that of the query.</param>
+    /// <param name="LocalPosition">Position of the query in its frame; used where all maps are similarities.</param>
+    /// <param name="ScaleSquared">Squared scale of the map; used where all maps are similarities.</param>
+    /// <param name="DistanceSquared">Squared distance of the base mesh in its frame.</param>
+    /// <param name="ClosestFace">Face index of the closest triangle in that base mesh.</param>
+    /// <param name="PathNode">Index of the last node of its path; −1 at the root.</param>
+    public readonly record struct Entry(
+        AffineMap Map, Vector LocalPosition, double ScaleSquared, double DistanceSquared, int ClosestFace, int PathNode);
+
+    /// <summary>An instance that may become an entry of the next level, see <see cref="InsertIfCloser"/>.</summary>
+    private readonly record struct Candidate(double DistanceSquared, int ParentEntry, int ChildIndex, int ClosestFace);
+
+    /// <summary>A map on the path of an entry, and the node before it.</summary>
+    private readonly record struct PathNode(int Parent, int ChildIndex);
 }

@@ -4,19 +4,15 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Reference;
 
-/// <content>The descent that goes on in several copies.</content>
+/// <content>The descent into several instances of each level.</content>
 public sealed partial class FractalCollider
 {
-    // Differs from §4.4.3: the paper goes on in one copy.
+    // Differs from §4.4.3: the paper descends into one instance.
     private bool FindWithBeam(Vector position, double maxDistance, QueryContext context, out ClosestPoint closest)
     {
-        var (beam, closestFace, distanceSquared, faceTests) = (context.DescentBeam, -1, double.PositiveInfinity, 0L);
-        if (_hasNoLevels)
-        {
-            _baseBvh.TestAllTriangles(position, ref distanceSquared, ref closestFace, ref faceTests);
-        }
-
-        beam.Begin(_beamWidth, new(AffineMap.Identity, position, 1, distanceSquared, closestFace, -1));
+        var beam = context.DescentBeam;
+        var baseTriangle = TestBaseWithoutLevels(position, context);
+        beam.Begin(_beamWidth, new(AffineMap.Identity, position, 1, baseTriangle.DistanceSquared, baseTriangle.FaceIndex, -1));
         foreach (var (set, rounds) in _levels)
         {
             for (var round = 0; round < rounds; round++)
@@ -24,7 +20,7 @@ public sealed partial class FractalCollider
                 var hasChildren = false;
                 for (var parent = 0; parent < beam.Entries.Count; parent++)
                 {
-                    hasChildren |= OfferChildren(beam, parent, set, round > 0, position, ref faceTests);
+                    hasChildren |= OfferChildren(beam, parent, set, round > 0, position, context);
                 }
 
                 beam.AdvanceLevel(set, _hasOnlySimilarities);
@@ -35,7 +31,6 @@ public sealed partial class FractalCollider
             }
         }
 
-        context.FaceTests += faceTests;
         if (beam.Entries.Count == 0 || beam.Entries[0].ClosestFace < 0)
         {
             closest = default;
@@ -43,12 +38,13 @@ public sealed partial class FractalCollider
         }
 
         beam.WritePath(context);
-        closest = ClosestPointFactory.Create(_baseMesh, beam.Entries[0].ClosestFace, beam.Entries[0].Map, position);
+        closest = ClosestPointFactory.OnInstance(_baseMesh, beam.Entries[0].ClosestFace, beam.Entries[0].Map, position);
         return closest.Distance <= maxDistance;
     }
 
-    /// <summary>False when the copy is too small for copies of its own, and goes on as it is.</summary>
-    private bool OfferChildren(DescentBeam beam, int parent, MapSet set, bool canTerminate, Vector position, ref long faceTests)
+    /// <summary>Offers the children of an entry to the beam.</summary>
+    /// <returns>False when the entry is too small for children, and is offered itself.</returns>
+    private bool OfferChildren(DescentBeam beam, int parent, MapSet set, bool canTerminate, Vector position, QueryContext context)
     {
         var entry = beam.Entries[parent];
         if (canTerminate && BoundingSphere.OperatorNormBound(entry.Map.Linear) < MinScale)
@@ -59,24 +55,24 @@ public sealed partial class FractalCollider
 
         for (var childIndex = 0; childIndex < set.Maps.Length; childIndex++)
         {
-            var (distanceSquared, closestFace) = (beam.CutoffSquared, -1);
+            ClosestTriangle closest;
             if (_hasOnlySimilarities)
             {
                 var scaleSquared = entry.ScaleSquared * set.ScalesSquared[childIndex];
-                distanceSquared /= scaleSquared;
-                _baseBvh.TestAllTriangles(set.Inverses[childIndex] * entry.LocalPosition, ref distanceSquared, ref closestFace,
-                    ref faceTests);
-                distanceSquared *= scaleSquared;
+                closest = new(beam.CutoffSquared / scaleSquared);
+                _baseBvh.TestAllTriangles(set.Inverses[childIndex] * entry.LocalPosition, ref closest);
+                closest.DistanceSquared *= scaleSquared;
             }
             else
             {
-                _baseBvh.TestAllTransformedTriangles(position, entry.Map * set.Maps[childIndex], ref distanceSquared, ref closestFace,
-                    ref faceTests);
+                closest = new(beam.CutoffSquared);
+                _baseBvh.TestAllTransformedTriangles(position, entry.Map * set.Maps[childIndex], ref closest);
             }
 
-            if (closestFace >= 0)
+            context.FaceTests += closest.FaceTests;
+            if (closest.FaceIndex >= 0)
             {
-                beam.InsertIfCloser(distanceSquared, parent, childIndex, closestFace);
+                beam.InsertIfCloser(closest.DistanceSquared, parent, childIndex, closest.FaceIndex);
             }
         }
 

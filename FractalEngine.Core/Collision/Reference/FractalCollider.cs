@@ -8,16 +8,17 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision.Reference;
 
 /// <summary>
-/// The paper's descent (§4.4.3): at each level every transformation is looked at as if the base object stood there alone, and the search
-/// goes on in the nearest one only. Approximate: a copy of the base can be farther away while the sub-fractal that stands on it is nearer.
+/// Finds a close point of a fractal by the paper's descent (§4.4.3). At each level, every transformation is tested as if the base mesh were
+/// there alone, and the search descends into the closest instance only.
 /// </summary>
 /// <remarks>
-/// A round of a recursion is one level, its sets concatenated; sets below the last recursion belong to the base object. So a query costs
-/// exactly b·t face tests a level, b·t·d in all; it keeps t maps and the base object.
+/// Approximate: an instance of the base mesh can be farther away while its sub-fractal is closer. A round of a recursion is one level, its
+/// sets concatenated; sets below the last recursion belong to the base mesh. So a query costs exactly b·t face tests a level, b·t·d in all;
+/// the collider keeps t maps and the base mesh.
 /// </remarks>
 public sealed partial class FractalCollider : Collider
 {
-    // A copy that is smaller than the last place of a coordinate has no parts that could be told apart.
+    // An instance smaller than the last place of a coordinate has no parts that could be told apart.
     private const double MinScale = 1e-15;
 
     private readonly List<(MapSet Set, int Rounds)> _levels = [];
@@ -27,18 +28,18 @@ public sealed partial class FractalCollider : Collider
     private readonly bool _hasNoLevels;
     private readonly int _beamWidth;
 
-    /// <summary>Prepares a fractal in affine composition.</summary>
-    /// <param name="fractal">Of any depth.</param>
+    /// <summary>Prepares a fractal in affine composition for queries.</summary>
+    /// <param name="fractal">A fractal of any depth.</param>
     /// <param name="beamWidth">
-    /// In how many of the nearest copies of each level the search goes on: 1 is the paper's descent; more cost up to as many times as much
-    /// and err less, but are not exact either.
+    /// Number of the closest instances of each level that the search descends into; 1 is the paper's descent. A larger beam costs up to so
+    /// many times as much and errs less, but is not exact either.
     /// </param>
     /// <exception cref="ArgumentOutOfRangeException">The width is less than 1.</exception>
     /// <exception cref="ArgumentException">The fractal is composed componentwise.</exception>
     /// <exception cref="SingularMatrixException">
-    /// A map flattens what it maps, as a scale of 0 does; fractal files with one are refused.
+    /// A map has no inverse, as with a scale of 0. The parser refuses fractal files with such a map.
     /// </exception>
-    /// <exception cref="FractalLimitException">A round, or the base object, has more than a million instances of its own.</exception>
+    /// <exception cref="FractalLimitException">A round, or the base mesh, has more than a million instances of its own.</exception>
     public FractalCollider(Fractal fractal, int beamWidth = 1)
     {
         ArgumentOutOfRangeException.ThrowIfLessThan(beamWidth, 1);
@@ -86,22 +87,16 @@ public sealed partial class FractalCollider : Collider
             return FindWithBeam(position, maxDistance, context, out closest);
         }
 
-        var (map, localPosition, closestFace) = (AffineMap.Identity, position, -1);
-        var faceTests = 0L;
-        if (_hasNoLevels)
-        {
-            var distanceSquared = double.PositiveInfinity;
-            _baseBvh.TestAllTriangles(position, ref distanceSquared, ref closestFace, ref faceTests);
-        }
-
+        var map = AffineMap.Identity;
+        var localPosition = position;
+        var closestFace = TestBaseWithoutLevels(position, context).FaceIndex;
         foreach (var (set, rounds) in _levels)
         {
             for (var round = 0; round < rounds && !(round > 0 && BoundingSphere.OperatorNormBound(map.Linear) < MinScale); round++)
             {
-                var childIndex = ClosestChild(set, position, localPosition, map, ref closestFace, ref faceTests);
+                var childIndex = FindClosestChild(set, position, localPosition, in map, ref closestFace, context);
                 if (childIndex < 0)
                 {
-                    context.FaceTests += faceTests;
                     closest = default;
                     return false;
                 }
@@ -112,43 +107,59 @@ public sealed partial class FractalCollider : Collider
             }
         }
 
-        context.FaceTests += faceTests;
-        closest = closestFace < 0 ? default : ClosestPointFactory.Create(_baseMesh, closestFace, map, position);
+        closest = closestFace < 0 ? default : ClosestPointFactory.OnInstance(_baseMesh, closestFace, map, position);
         return closestFace >= 0 && closest.Distance <= maxDistance;
     }
 
-    /// <summary>
-    /// Looks at all faces of the base under each map of a set, and says under which the nearest is; −1 where there are no faces.
-    /// </summary>
-    private int ClosestChild(MapSet set, Vector position, Vector localPosition, in AffineMap map, ref int closestFace, ref long faceTests)
+    /// <summary>Tests the base mesh itself, if there are no levels.</summary>
+    private ClosestTriangle TestBaseWithoutLevels(Vector position, QueryContext context)
     {
-        var (closestDistanceSquared, closestChild) = (double.PositiveInfinity, -1);
+        var closest = new ClosestTriangle(double.PositiveInfinity);
+        if (_hasNoLevels)
+        {
+            _baseBvh.TestAllTriangles(position, ref closest);
+            context.FaceTests += closest.FaceTests;
+        }
+
+        return closest;
+    }
+
+    /// <summary>Tests all triangles of the base mesh under each map of a set.</summary>
+    /// <returns>Index of the map with the closest triangle; −1 where the base mesh has no faces.</returns>
+    private int FindClosestChild(
+        MapSet set, Vector position, Vector localPosition, in AffineMap map, ref int closestFace, QueryContext context)
+    {
+        var closestDistanceSquared = double.PositiveInfinity;
+        var closestChild = -1;
         for (var childIndex = 0; childIndex < set.Maps.Length; childIndex++)
         {
-            var candidateFace = -1;
-            // Where distances scale, the position goes into the copy's frame; else the base goes into the position's.
+            ClosestTriangle closest;
+            // Where distances scale, the position is taken into the child's frame; else the base is taken into the query's.
             if (_hasOnlySimilarities)
             {
-                var distanceSquared = closestDistanceSquared / set.ScalesSquared[childIndex];
-                _baseBvh.TestAllTriangles(set.Inverses[childIndex] * localPosition, ref distanceSquared, ref candidateFace, ref faceTests);
-                closestDistanceSquared = candidateFace < 0 ? closestDistanceSquared : distanceSquared * set.ScalesSquared[childIndex];
+                closest = new(closestDistanceSquared / set.ScalesSquared[childIndex]);
+                _baseBvh.TestAllTriangles(set.Inverses[childIndex] * localPosition, ref closest);
+                closest.DistanceSquared *= set.ScalesSquared[childIndex];
             }
             else
             {
-                _baseBvh.TestAllTransformedTriangles(position, map * set.Maps[childIndex], ref closestDistanceSquared, ref candidateFace,
-                    ref faceTests);
+                closest = new(closestDistanceSquared);
+                _baseBvh.TestAllTransformedTriangles(position, map * set.Maps[childIndex], ref closest);
             }
 
-            if (candidateFace >= 0)
+            context.FaceTests += closest.FaceTests;
+            if (closest.FaceIndex >= 0)
             {
-                (closestChild, closestFace) = (childIndex, candidateFace);
+                closestDistanceSquared = closest.DistanceSquared;
+                closestChild = childIndex;
+                closestFace = closest.FaceIndex;
             }
         }
 
         return closestChild;
     }
 
-    /// <summary>All maps of some steps, one after the other, as one set.</summary>
+    /// <summary>Concatenates all maps of some steps to one set.</summary>
     private static AffineMap[] Concatenate(ImmutableArray<FractalStep> steps)
     {
         const int maxMaps = 1_000_000;

@@ -3,7 +3,8 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Reference;
 
-/// <summary>Looks at every face (paper §4.4.2): exact, and the reference that the others are compared with.</summary>
+/// <summary>Tests every triangle (paper §4.4.2). Exact, and the reference that the other colliders are compared with.</summary>
+/// <param name="mesh">The mesh, of which nothing is copied.</param>
 public sealed class SimpleCollider(Mesh mesh) : Collider
 {
     /// <inheritdoc/>
@@ -21,17 +22,20 @@ public sealed class SimpleCollider(Mesh mesh) : Collider
     {
         context.ClearPath();
         context.FaceTests += mesh.FaceCount;
-        var (closestDistanceSquared, closestFace) = (double.PositiveInfinity, -1);
+        var closestDistanceSquared = double.PositiveInfinity;
+        var closestFace = -1;
         for (var face = 0; face < mesh.FaceCount; face++)
         {
             var (a, b, c) = mesh.Face(face);
             var distanceSquared = TriangleKernel.ClosestPoint(position, map * a, map * b, map * c).DistanceSquared;
-            (closestDistanceSquared, closestFace) = distanceSquared < closestDistanceSquared
-                ? (distanceSquared, face)
-                : (closestDistanceSquared, closestFace);
+            if (distanceSquared < closestDistanceSquared)
+            {
+                closestDistanceSquared = distanceSquared;
+                closestFace = face;
+            }
         }
 
-        closest = closestFace < 0 ? default : ClosestPointFactory.Create(mesh, closestFace, map, position);
+        closest = closestFace < 0 ? default : ClosestPointFactory.OnInstance(mesh, closestFace, map, position);
         return closestFace >= 0 && closest.Distance <= maxDistance;
     }
 
@@ -41,18 +45,13 @@ public sealed class SimpleCollider(Mesh mesh) : Collider
     {
         context.ClearPath();
         context.FaceTests += mesh.FaceCount;
-        var (closestPoint, closestFace) = (default(TrianglePoint), -1);
+        var scan = new TriangleScan(mesh, position);
         for (var face = 0; face < mesh.FaceCount; face++)
         {
-            var (a, b, c) = mesh.Face(face);
-            var point = TriangleKernel.ClosestPoint(position, a, b, c);
-            if (closestFace < 0 || point.DistanceSquared < closestPoint.DistanceSquared)
-            {
-                (closestPoint, closestFace) = (point, face);
-            }
+            scan.Test(face);
         }
 
-        closest = closestFace < 0 ? default : ClosestPointFactory.Create(mesh, closestFace, closestPoint);
-        return closestFace >= 0 && closest.Distance <= maxDistance;
+        closest = scan.ClosestFace < 0 ? default : ClosestPointFactory.OnMesh(mesh, scan.ClosestFace, scan.ClosestPoint);
+        return scan.ClosestFace >= 0 && closest.Distance <= maxDistance;
     }
 }

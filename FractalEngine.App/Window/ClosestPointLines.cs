@@ -1,0 +1,36 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Physics;
+using FractalEngine.Render;
+
+namespace FractalEngine.App.Window;
+
+/// <summary>Visualises the closest points that bodies find, as lines in world space.</summary>
+internal static class ClosestPointLines
+{
+    private const int MaxBodies = 100;
+
+    // Length of a normal divided by the radius of its body.
+    private const double NormalLengthRatio = 2;
+
+    private static readonly Colour ClosestPointColour = new(1, 0.75, 0.2);
+    private static readonly Colour NormalColour = new(0.3, 0.9, 1);
+
+    /// <summary>Creates two lines per body: one to its closest point, and the normal there. Awake bodies come first.</summary>
+    /// <param name="world">The world whose bodies are shown.</param>
+    /// <param name="alpha">The fraction of a step since the last one, from 0 to 1; see <see cref="Body.InterpolatedMap"/>.</param>
+    public static List<LineSegment> Create(PhysicsWorld world, double alpha)
+    {
+        var lines = new List<LineSegment>();
+        foreach (var body in world.Bodies.OrderBy(static body => body.IsAsleep).Take(MaxBodies))
+        {
+            var centre = body.InterpolatedMap(alpha).Translation;
+            if (world.TryFindClosest(centre, world.ColliderOverride ?? body.Description.Collider, out var closest))
+            {
+                lines.Add(new(centre, closest.Point, ClosestPointColour));
+                lines.Add(new(closest.Point, closest.Point + (NormalLengthRatio * body.Radius * closest.Normal), NormalColour));
+            }
+        }
+
+        return lines;
+    }
+}

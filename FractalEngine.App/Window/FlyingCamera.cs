@@ -1,0 +1,218 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
+
+namespace FractalEngine.App.Window;
+
+/// <summary>
+/// A camera that moves freely through a scene, and into a fractal to any depth. Within a fractal its position is a
+/// <see cref="FractalAddress"/>, and distances are in a unit that changes with the depth.
+/// </summary>
+internal sealed class FlyingCamera
+{
+    // Sizes of the scene per second: the scene is crossed in about three seconds.
+    private const double SceneSizesPerSecond = 0.35;
+
+    // Near a fractal the distance to its surface halves about every second.
+    private const double SurfaceDistancesPerSecond = 0.8;
+
+    // Distance of the focus divided by that of the closest surface.
+    private const double MaxFocusDistanceRatio = 2;
+
+    // Depth of the near plane divided by the distance of the closest surface.
+    private const double NearPlaneFraction = 0.02;
+
+    // Depth of the far plane divided by the distance of the farthest drawn point.
+    private const double FarPlaneFactor = 1.01;
+
+    // Limits the roots that are drawn around the camera. Maps that hardly shrink lead to many ancestors of a similar size.
+    private const int MaxAncestors = 1000;
+
+    private readonly double _sceneSize;
+    private readonly BoundingBox _sceneBounds;
+    private readonly CameraPose _initialPose;
+    private readonly FractalLocation? _fractal;
+    private FractalAddress? _address;
+
+    /// <summary>Creates a camera for one scene.</summary>
+    /// <param name="bounds">Bounds of the scene in world space, which determine speed and focus.</param>
+    /// <param name="camera">The initial camera, to which <see cref="Reset"/> returns.</param>
+    /// <param name="projection">The initial projection.</param>
+    /// <param name="orthographicHeight">The initial visible height in scene units; null where it follows the camera.</param>
+    /// <param name="fractal">The fractal that the camera can enter to any depth; null for none.</param>
+    public FlyingCamera(
+        BoundingBox bounds, Camera camera, Projection projection, double? orthographicHeight, FractalLocation? fractal = null)
+    {
+        _fractal = fractal;
+        _sceneBounds = bounds.IsEmpty ? new(-Vector.One, Vector.One) : bounds;
+        _sceneSize = Math.Max(_sceneBounds.Diagonal, 1e-9 * (1 + _sceneBounds.Centre.MaxAbsComponent()));
+        _initialPose = new(camera, projection, orthographicHeight, 0);
+        Pose = _initialPose;
+        FocusDistance = DistanceToCentre(camera);
+        ResetFractalAddress();
+    }
+
+    /// <summary>The state of the camera, which changes with every movement.</summary>
+    public CameraPose Pose { get; private set; }
+
+    /// <summary>The camera in world space, as far as double precision can express its position.</summary>
+    public Camera Camera =>
+        _address is null ? Pose.Camera : Pose.Camera with { Position = _address.WorldPosition(_fractal!.ObjectToWorld) };
+
+    /// <summary>The present projection of the view.</summary>
+    public Projection Projection => Pose.Projection;
+
+    /// <summary>The visible height that the scene states, zoomed, in scene units; null where it follows the camera.</summary>
+    public double? OrthographicHeight => Pose.OrthographicHeight;
+
+    /// <summary>Number of levels between the whole fractal and the sub-fractal around the camera.</summary>
+    public int Depth => _address?.Depth ?? 0;
+
+    /// <summary>Decimal logarithm of the magnification of the camera's surroundings.</summary>
+    public double Log10Magnification => _address is null ? 0 : -_address.LogUnit / Math.Log(10);
+
+    /// <summary>Distance of the point that the camera orbits and zooms to, straight ahead. In the present unit.</summary>
+    public double FocusDistance { get; private set; }
+
+    /// <summary>Speed in present units per second: by the size of the scene, and near a fractal by the distance to it.</summary>
+    public double Speed
+    {
+        get
+        {
+            var sceneSpeed = SceneSizesPerSecond * _sceneSize;
+            if (_address is null)
+            {
+                return sceneSpeed;
+            }
+
+            var fractalSpeed = SurfaceDistancesPerSecond * _address.ClosestSurfaceDistance();
+            return _address.Depth == 0 ? Math.Min(sceneSpeed, fractalSpeed) : fractalSpeed;
+        }
+    }
+
+    private Vector Focus => Pose.Camera.Position + (FocusDistance * Pose.Camera.LocalAxes.V3);
+
+    /// <summary>Adapts a view to a camera within the fractal. Returns the view itself while the camera is outside.</summary>
+    public View WithDeepZoom(View view)
+    {
+        if (_address is not { Depth: > 0 } || Projection != Projection.Perspective)
+        {
+            return view;
+        }
+
+        var roots = _address.CollectRoots(MaxAncestors);
+        return view with
+        {
+            DeepZoom = new(_fractal!.ObjectIndex, roots, _address.LogUnit),
+            FixedClipPlanes = (NearPlaneFraction * _address.ClosestSurfaceDistance(), FarPlaneFactor * _address.MaxDrawDistance(roots)),
+        };
+    }
+
+    /// <summary>Moves along the camera's own axes.</summary>
+    /// <param name="distances">Distances to the right, up and forward, in the present unit.</param>
+    public void Move(Vector distances) => Apply(CameraNavigation.Move(Pose.Camera, distances));
+
+    /// <summary>Turns in place about the world's up and the camera's own right.</summary>
+    /// <param name="right">Angle to the right in radians.</param>
+    /// <param name="up">Angle upwards in radians.</param>
+    public void Turn(double right, double up) => Apply(CameraNavigation.Turn(Pose.Camera, right, up));
+
+    /// <summary>Turns around the point in focus, which keeps its place in the frame.</summary>
+    /// <inheritdoc cref="Turn"/>
+    public void Orbit(double right, double up) => Apply(CameraNavigation.Orbit(Pose.Camera, Focus, right, up));
+
+    /// <summary>Zooms to the point in focus, or away from it.</summary>
+    /// <param name="factor">The new distance of the point divided by the old one, positive.</param>
+    public void Zoom(double factor)
+    {
+        if (_address is not null)
+        {
+            // Zooming in leads to the closest surface, however close it is. Zooming out leads away from it by as much.
+            var maxFocusDistance = Math.Max(1, factor) * MaxFocusDistanceRatio * _address.ClosestSurfaceDistance();
+            FocusDistance = factor > 1 && _address.Depth > 0 ? maxFocusDistance : Math.Min(FocusDistance, maxFocusDistance);
+        }
+
+        Apply(CameraNavigation.Zoom(Pose.Camera, Focus, factor));
+        FocusDistance *= factor;
+        Pose = Pose with { OrthographicHeight = factor * Pose.OrthographicHeight };
+    }
+
+    /// <summary>Switches between perspective and orthographic projection.</summary>
+    public void ToggleProjection() => Pose = Pose with
+    {
+        Projection = Projection == Projection.Perspective ? Projection.Orthographic : Projection.Perspective,
+    };
+
+    /// <summary>Moves the camera so that the whole scene is visible in the present direction.</summary>
+    /// <param name="aspect">Width divided by height of the frame.</param>
+    public void FrameScene(double aspect) => FrameScene(Camera, aspect);
+
+    /// <summary>Moves the camera so that the whole scene is visible in another direction.</summary>
+    /// <param name="direction">The direction in which the camera looks, world space.</param>
+    /// <param name="aspect">Width divided by height of the frame.</param>
+    public void LookAlong(Vector direction, double aspect) =>
+        FrameScene(Camera with { Rotation = CameraFraming.LookRotation(direction) }, aspect);
+
+    /// <summary>Returns to the initial camera and projection.</summary>
+    public void Reset()
+    {
+        Pose = _initialPose;
+        FocusDistance = DistanceToCentre(Pose.Camera);
+        ResetFractalAddress();
+    }
+
+    /// <summary>Continues from another camera in world space.</summary>
+    public void MoveTo(Camera camera)
+    {
+        Pose = Pose with { Camera = camera };
+        FocusDistance = DistanceToCentre(camera);
+        ResetFractalAddress();
+    }
+
+    private void FrameScene(Camera camera, double aspect)
+    {
+        Pose = Pose with { Camera = CameraFraming.Frame(camera, _sceneBounds, aspect), OrthographicHeight = null };
+        FocusDistance = DistanceToCentre(Pose.Camera);
+        ResetFractalAddress();
+    }
+
+    /// <summary>Takes a moved camera. Within a fractal its position is a displacement in the present unit.</summary>
+    private void Apply(Camera camera)
+    {
+        if (_address is null)
+        {
+            Pose = Pose with { Camera = camera };
+            return;
+        }
+
+        var displacement = camera.Position;
+        var logUnit = _address.LogUnit;
+        _address.Move(displacement);
+        FocusDistance *= Math.Exp(logUnit - _address.LogUnit);
+        Pose = Pose with
+        {
+            Camera = camera with { Position = Vector.Zero },
+            MoveCount = Pose.MoveCount + (displacement == Vector.Zero ? 0 : 1),
+        };
+    }
+
+    /// <summary>Computes the address of the present camera in the fractal, if the scene has one.</summary>
+    private void ResetFractalAddress()
+    {
+        if (_fractal is not null)
+        {
+            _address = new(_fractal.Hierarchy, _fractal.ObjectToWorld, Pose.Camera.Position);
+            _address.Move(Vector.Zero);
+            FocusDistance *= Math.Exp(-_address.LogUnit);
+            Pose = Pose with { Camera = Pose.Camera with { Position = Vector.Zero }, MoveCount = Pose.MoveCount + 1 };
+        }
+    }
+
+    private double DistanceToCentre(Camera camera)
+    {
+        var depth = camera.ToCameraSpace(_sceneBounds.Centre).Z;
+        return depth > 1e-3 * _sceneSize ? depth : _sceneSize;
+    }
+}

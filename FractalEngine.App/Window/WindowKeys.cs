@@ -1,0 +1,79 @@
+using FractalEngine.Render;
+using FractalEngine.Render.Windowing;
+
+namespace FractalEngine.App.Window;
+
+/// <summary>Runs the commands of keys that do not move the camera: overlays, files, render settings and physics.</summary>
+/// <param name="window">The window whose size screenshots have.</param>
+/// <param name="renderer">The renderer of the window, for screenshots.</param>
+/// <param name="overlay">The overlay of the window, which shows messages.</param>
+/// <param name="settings">The initial render settings.</param>
+internal sealed class WindowKeys(RenderWindow window, WindowRenderer renderer, WindowOverlay overlay, RenderSettings settings)
+{
+    /// <summary>The present render settings.</summary>
+    public RenderSettings Settings { get; private set; } = settings;
+
+    /// <summary>Runs the command of a key; keys without a command are ignored.</summary>
+    /// <param name="pressed">The key that was pressed.</param>
+    /// <param name="document">The document shown, or null.</param>
+    /// <param name="now">The present time.</param>
+    public Redraw Handle(KeyPressed pressed, Document? document, TimeSpan now)
+    {
+        switch (pressed.Key)
+        {
+            case Key.H:
+                overlay.ShowsKeys = !overlay.ShowsKeys;
+                return Redraw.Overlay;
+            case Key.I:
+                overlay.ShowsStatistics = !overlay.ShowsStatistics;
+                return Redraw.Overlay;
+            default:
+                var redraw = document is null ? Redraw.None : HandleForDocument(pressed, document, now);
+                return redraw == Redraw.None ? ApplySettings(pressed.Key, now) : redraw;
+        }
+    }
+
+    private Redraw HandleForDocument(KeyPressed pressed, Document document, TimeSpan now)
+    {
+        var isControlHeld = pressed.Modifiers.HasFlag(KeyModifiers.Control);
+        switch (pressed.Key)
+        {
+            case Key.T when document.Trail is { } trail:
+                document.ToggleTrail();
+                overlay.ShowMessage(document.IsTrailEnabled ? $"paper's zoom: m ← m·t, trail {trail.Length}" : "engine's zoom", now);
+                return Redraw.Scene;
+            case Key.F12:
+                var image = renderer.Capture(document, Settings, window.Width, window.Height);
+                overlay.Report(WindowFiles.SaveScreenshot(image, document.File.Path), now);
+                return Redraw.Scene;
+            case Key.S when isControlHeld:
+                overlay.Report(WindowFiles.SaveScene(document), now);
+                return Redraw.Overlay;
+        }
+
+        if (isControlHeld || PhysicsKeys.Apply(document, pressed.Key) is not { } message)
+        {
+            return Redraw.None;
+        }
+
+        overlay.PhysicsStatus = document.Physics.StatusText;
+        overlay.ShowMessage(message, now);
+        return Redraw.Scene;
+    }
+
+    private Redraw ApplySettings(Key key, TimeSpan now)
+    {
+        if (SettingKeys.Apply(Settings, key) is not var (changedSettings, message))
+        {
+            return Redraw.None;
+        }
+
+        Settings = changedSettings;
+        if (message is not null)
+        {
+            overlay.ShowMessage(message, now);
+        }
+
+        return Redraw.Scene;
+    }
+}

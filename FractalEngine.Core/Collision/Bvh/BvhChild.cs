@@ -1,0 +1,75 @@
+using System.Runtime.CompilerServices;
+
+namespace FractalEngine.Core.Collision.Bvh;
+
+/// <summary>Refers to a child of a BVH node, which is a node, a leaf or absent. Its size is 4 bytes.</summary>
+internal readonly record struct BvhChild
+{
+    // The index of a node, or the complement of 4 · the index of a leaf + its triangles − 1, which is negative.
+    private readonly int _code;
+
+    private BvhChild(int code) => _code = code;
+
+    /// <summary>The reference to an absent child, whose bounds are infinitely far away.</summary>
+    public static BvhChild None => new(int.MinValue);
+
+    /// <summary>The reference to the root, which is the first node.</summary>
+    public static BvhChild Root => new(0);
+
+    /// <summary>True for a child that is a node.</summary>
+    public bool IsNode
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => _code >= 0;
+    }
+
+    /// <summary>Index of the node; meaningless for a leaf.</summary>
+    public int NodeIndex => _code;
+
+    /// <summary>Index of the leaf; meaningless for a node.</summary>
+    public int LeafIndex
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => (int)((uint)~_code / BvhLayout.MaxLeafTriangles);
+    }
+
+    /// <summary>Number of triangles in the leaf, from 1 to 4; meaningless for a node.</summary>
+    public int TriangleCount
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => (int)((uint)~_code % BvhLayout.MaxLeafTriangles) + 1;
+    }
+
+    /// <summary>The reference as 32 bits, for entries of a traversal stack.</summary>
+    public uint Bits
+    {
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => (uint)_code;
+    }
+
+    /// <summary>Creates a reference to a node.</summary>
+    public static BvhChild ForNode(int nodeIndex) => new(nodeIndex);
+
+    /// <summary>Creates a reference to a leaf.</summary>
+    /// <param name="leafIndex">Index of the leaf.</param>
+    /// <param name="triangleCount">Number of triangles in it, from 1 to 4.</param>
+    public static BvhChild ForLeaf(int leafIndex, int triangleCount) =>
+        new(~((leafIndex * BvhLayout.MaxLeafTriangles) + triangleCount - 1));
+
+    /// <summary>Restores a reference from its <see cref="Bits"/>.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static BvhChild FromBits(uint bits) => new((int)bits);
+
+    /// <summary>Adjusts a reference of a subtree whose nodes and leaves are appended to those of another tree.</summary>
+    /// <param name="firstNode">Number of nodes before the subtree.</param>
+    /// <param name="firstLeaf">Number of leaves before the subtree.</param>
+    public BvhChild Rebase(int firstNode, int firstLeaf)
+    {
+        if (this == None)
+        {
+            return None;
+        }
+
+        return IsNode ? ForNode(NodeIndex + firstNode) : ForLeaf(LeafIndex + firstLeaf, TriangleCount);
+    }
+}

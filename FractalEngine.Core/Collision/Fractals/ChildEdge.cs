@@ -1,0 +1,28 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Collision.Fractals;
+
+/// <summary>One map by which a sub-fractal contains another one with fewer remaining levels.</summary>
+/// <param name="Set">The set that the map belongs to.</param>
+/// <param name="MapIndex">Index of the map in the set.</param>
+/// <param name="LevelStep">
+/// Goes down 1 level, and 1 more for each level that its identity skips. Where a whole repetition is skipped, it leads to the level
+/// below the repetition.
+/// </param>
+internal readonly record struct ChildEdge(MapSet Set, int MapIndex, LevelStep LevelStep)
+{
+    /// <summary>The map from the child's frame to that of the parent.</summary>
+    public AffineMap Map => Set.Maps[MapIndex];
+
+    /// <summary>Upper bound of the factor by which the map lengthens vectors.</summary>
+    public double OperatorNormBound => Set.OperatorNormBounds[MapIndex];
+
+    /// <summary>Creates an edge to the level below a repetition, by the identity.</summary>
+    /// <param name="remainingLevels">Remaining levels below the repetition.</param>
+    public static ChildEdge SkipTo(long remainingLevels) => new(MapSet.Identity, 0, LevelStep.To(remainingLevels));
+
+    /// <summary>Computes the remaining levels of the child.</summary>
+    /// <param name="parentLevels">Remaining levels of the parent.</param>
+    public long RemainingLevels(long parentLevels) => LevelStep.RemainingLevels(parentLevels);
+}

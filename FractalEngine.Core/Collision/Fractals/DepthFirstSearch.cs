@@ -1,0 +1,76 @@
+using FractalEngine.Core.Collision.Bvh;
+
+namespace FractalEngine.Core.Collision.Fractals;
+
+/// <summary>
+/// Searches a fractal depth first: each sub-fractal's children are visited by ascending lower bounds, and culled where the bound is beyond
+/// the closest triangle so far.
+/// </summary>
+/// <typeparam name="TFrame">How bounds and positions are compared; a struct, so that the search is compiled for it.</typeparam>
+/// <param name="table">The sub-fractals.</param>
+/// <param name="bvh">The hierarchy of the base mesh.</param>
+internal sealed class DepthFirstSearch<TFrame>(SubFractalTable table, TriangleBvh bvh)
+    where TFrame : struct, ISearchFrame<TFrame>
+{
+    /// <summary>Searches the whole fractal.</summary>
+    /// <param name="frame">The frame of the whole fractal.</param>
+    /// <param name="search">The state of the search.</param>
+    public void Run(TFrame frame, ref FractalSearchState search) => Visit(table.Root, table.Levels, ref frame, 0, 0, ref search);
+
+    /// <summary>Searches a sub-fractal and its children.</summary>
+    /// <param name="subFractal">The sub-fractal.</param>
+    /// <param name="remainingLevels">Its remaining levels.</param>
+    /// <param name="frame">Its frame, which stays as it is; an <c>in</c> parameter would be copied by each call of the interface.</param>
+    /// <param name="depth">Number of child instances that lead to it.</param>
+    /// <param name="offset">Where free scratch memory begins.</param>
+    /// <param name="search">The state of the search.</param>
+    private void Visit(
+        SubFractal subFractal, long remainingLevels, ref TFrame frame, int depth, int offset, ref FractalSearchState search)
+    {
+        if (remainingLevels == 0 || frame.RadiusSquared(subFractal) <= search.MinRadiusSquared)
+        {
+            frame.TestTriangles(bvh, depth, ref search);
+            return;
+        }
+
+        if (!search.WithinBudget(depth))
+        {
+            return;
+        }
+
+        var children = subFractal.Children;
+        var length = ChildQueue.ValuesPerChild * subFractal.PaddedCount;
+        var queue = new ChildQueue(search.ScratchSlice(offset, length));
+        frame.FillQueue(subFractal, queue, ref search);
+        var cutoffSquared = frame.ChildCutoffSquared(in search);
+        var hasNext = queue.TryPeek(cutoffSquared, out var closestChild);
+        while (hasNext)
+        {
+            var child = children[closestChild];
+            var childLevels = child.RemainingLevels(remainingLevels);
+            var childSubFractal = table.At(childLevels);
+            var childFrame = frame.Enter(child);
+            if (!queue.IsRefined(closestChild) && frame.CanRefine(childLevels, bvh.FaceCount))
+            {
+                // The child's own bounds are tighter than the box around its image. Only children that seem closest are refined.
+                var refinedBound = frame.RefinedBoundSquared(
+                    subFractal, child, childSubFractal, ref childFrame, cutoffSquared, ref search);
+                if (queue.Refine(closestChild, refinedBound))
+                {
+                    hasNext = queue.TryPeek(cutoffSquared, out var next);
+                    if (!hasNext || next != closestChild)
+                    {
+                        closestChild = next;
+                        continue;
+                    }
+                }
+            }
+
+            queue.Remove(closestChild);
+            search.RecordChild(depth, closestChild);
+            Visit(childSubFractal, childLevels, ref childFrame, depth + 1, offset + length, ref search);
+            cutoffSquared = frame.ChildCutoffSquared(in search);
+            hasNext = queue.TryPeek(cutoffSquared, out closestChild);
+        }
+    }
+}

@@ -1,0 +1,46 @@
+using FractalEngine.Core.Collision.Bvh;
+
+namespace FractalEngine.Core.Collision.Fractals;
+
+/// <summary>How a <see cref="DepthFirstSearch{TFrame}"/> relates the sub-fractal it is in to the position of the query.</summary>
+/// <typeparam name="TSelf">The type that implements the interface.</typeparam>
+internal interface ISearchFrame<TSelf>
+    where TSelf : struct, ISearchFrame<TSelf>
+{
+    /// <summary>Computes the squared radius of a sub-fractal in the frame of the query, or an upper bound of it.</summary>
+    double RadiusSquared(SubFractal subFractal);
+
+    /// <summary>Computes the limit for squared bounds of children, in the units of this frame's bounds.</summary>
+    double ChildCutoffSquared(in FractalSearchState search);
+
+    /// <summary>Sets rough bounds for all children of a sub-fractal.</summary>
+    /// <param name="subFractal">The sub-fractal of this frame.</param>
+    /// <param name="queue">Receives the bounds.</param>
+    /// <param name="search">Receives the cost.</param>
+    void FillQueue(SubFractal subFractal, ChildQueue queue, ref FractalSearchState search);
+
+    /// <summary>Computes the frame of a child.</summary>
+    TSelf Enter(ChildInstance child);
+
+    /// <summary>Tells whether the child's own bounds are worth their cost.</summary>
+    /// <param name="remainingLevels">Remaining levels of the child.</param>
+    /// <param name="baseFaceCount">Number of faces of the base mesh.</param>
+    bool CanRefine(long remainingLevels, int baseFaceCount);
+
+    /// <summary>Computes the best bound of a child there is: from the child's own box and hull.</summary>
+    /// <param name="parent">The sub-fractal of this frame.</param>
+    /// <param name="child">The child instance.</param>
+    /// <param name="childSubFractal">The sub-fractal of the child.</param>
+    /// <param name="childFrame">The frame of the child.</param>
+    /// <param name="cutoffSquared">The method may return early at this value.</param>
+    /// <param name="search">Receives the cost.</param>
+    double RefinedBoundSquared(
+        SubFractal parent, ChildInstance child, SubFractal childSubFractal, ref TSelf childFrame, double cutoffSquared,
+        ref FractalSearchState search);
+
+    /// <summary>Searches the base mesh in this frame.</summary>
+    /// <param name="bvh">The hierarchy of the base mesh.</param>
+    /// <param name="depth">Number of child instances that lead to this frame.</param>
+    /// <param name="search">Receives the closest triangle and the cost.</param>
+    void TestTriangles(TriangleBvh bvh, int depth, ref FractalSearchState search);
+}

@@ -1,0 +1,124 @@
+using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
+using System.Runtime.Intrinsics;
+using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Collision.Fractals;
+
+/// <summary>
+/// The frame of a sub-fractal where all maps are similarities: the position is taken into the sub-fractal's frame, and distances there are
+/// multiplied by the scale.
+/// </summary>
+internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
+{
+    // To test all triangles of a smaller base costs no more than to test its hull.
+    private const int MaxFacesWithoutHull = 8;
+
+    private readonly Vector256<double> _position;
+    private readonly double _scaleSquared;
+
+    /// <summary>Creates the frame of the whole fractal.</summary>
+    /// <param name="position">Position of the query in the fractal's frame.</param>
+    public SimilarityFrame(Vector position)
+        : this(SimdAffineMap.ToVector256(position), 1)
+    {
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private SimilarityFrame(Vector256<double> position, double scaleSquared)
+    {
+        _position = position;
+        _scaleSquared = scaleSquared;
+    }
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public double RadiusSquared(SubFractal subFractal) => subFractal.RadiusSquared * _scaleSquared;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public double ChildCutoffSquared(in FractalSearchState search) => search.CutoffSquared / (_scaleSquared * search.BoundFactor);
+
+    /// <inheritdoc/>
+    public void FillQueue(SubFractal subFractal, ChildQueue queue, ref FractalSearchState search)
+    {
+        SetBoxBounds(subFractal, queue);
+        search.BoundTests += subFractal.Children.Length;
+        if (subFractal.UnrotatedBounds is not { } unrotatedBounds)
+        {
+            return;
+        }
+
+        var direction = _position - subFractal.Centre;
+        var directionLengthSquared = Vector256.Dot(direction, direction);
+        if (directionLengthSquared > subFractal.RadiusSquared)
+        {
+            unrotatedBounds.RaiseBySupport(direction, directionLengthSquared, _position, queue);
+        }
+        else
+        {
+            unrotatedBounds.RaiseByFacets(_position, queue);
+        }
+
+        search.BoundTests += subFractal.Children.Length;
+    }
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public SimilarityFrame Enter(ChildInstance child) => new(child.InverseSimdMap.Apply(_position), _scaleSquared * child.ScaleSquared);
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public bool CanRefine(long remainingLevels, int baseFaceCount) => remainingLevels > 0 || baseFaceCount > MaxFacesWithoutHull;
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public double RefinedBoundSquared(
+        SubFractal parent, ChildInstance child, SubFractal childSubFractal, ref SimilarityFrame childFrame, double cutoffSquared,
+        ref FractalSearchState search)
+    {
+        var bound = 0.0;
+        var localCutoffSquared = cutoffSquared / child.ScaleSquared;
+        if (parent.HasRotatedChildren)
+        {
+            // Without rotation, the box around the image is the image of the box.
+            bound = childSubFractal.BoxDistanceSquared(childFrame._position);
+            search.BoundTests++;
+        }
+
+        if (bound < localCutoffSquared && childSubFractal.Hull is { } hull)
+        {
+            bound = Math.Max(bound, hull.LowerBoundSquared(childFrame._position, localCutoffSquared));
+            search.BoundTests++;
+        }
+
+        return bound * child.ScaleSquared;
+    }
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public void TestTriangles(TriangleBvh bvh, int depth, ref FractalSearchState search)
+    {
+        var closest = new ClosestTriangle(search.ClosestDistanceSquared / _scaleSquared);
+        bvh.FindClosest(SimdAffineMap.ToVector(_position), ref closest, search.BoundFactor);
+        search.AddStatistics(in closest);
+        if (closest.FaceIndex >= 0)
+        {
+            search.UpdateClosest(closest.DistanceSquared * _scaleSquared, closest.FaceIndex, depth);
+        }
+    }
+
+    private void SetBoxBounds(SubFractal subFractal, ChildQueue queue)
+    {
+        var paddedCount = subFractal.PaddedCount;
+        ref var rows = ref MemoryMarshal.GetArrayDataReference(subFractal.ChildBounds);
+        var position = VectorX4.Broadcast(_position);
+        for (var i = 0; i < paddedCount; i += VectorX4.Count)
+        {
+            var fromCentre = (position - VectorX4.Load(ref rows, i, paddedCount)).Absolute();
+            var outside = VectorX4.MaxNative(fromCentre - VectorX4.Load(ref rows, (3 * paddedCount) + i, paddedCount), VectorX4.Zero);
+            queue.SetBounds(outside.LengthSquared(), fromCentre.LengthSquared(), i);
+        }
+    }
+}

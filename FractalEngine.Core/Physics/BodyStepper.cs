@@ -1,0 +1,81 @@
+using System.Globalization;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Character;
+
+namespace FractalEngine.Core.Physics;
+
+/// <summary>Takes one body through one step: shrinking, damping, forces, motion and sleep.</summary>
+internal sealed class BodyStepper
+{
+    // Of the speed that the acceleration adds in a step.
+    private const double RestitutionThresholdFraction = 0.5;
+
+    // Of √(acceleration · radius), the speed that a body reaches by falling half its radius.
+    private const double SleepSpeedFraction = 0.02;
+
+    private static readonly Vector[] SingleSphereOffset = [Vector.Zero];
+
+    private readonly PhysicsSettings _settings;
+    private readonly BodyGrid _grid;
+    private readonly Obstacles _obstacles;
+    private readonly SleepIslands _islands;
+    private readonly QueryContext _queryContext;
+    private readonly BodyMover _mover;
+
+    public BodyStepper(
+        PhysicsSettings settings, List<Body> bodies, BodyGrid grid, Obstacles obstacles, SleepIslands islands, QueryContext queryContext)
+    {
+        _settings = settings;
+        _grid = grid;
+        _obstacles = obstacles;
+        _islands = islands;
+        _queryContext = queryContext;
+        _mover = new(bodies, obstacles, islands);
+    }
+
+    /// <summary>Makes the step of a body that is awake.</summary>
+    /// <param name="body">Its previous state must have been saved.</param>
+    /// <param name="staticColliders">Colliders of the body's kind; null where there are no static objects.</param>
+    /// <param name="character">Character that is in the way; null for none.</param>
+    /// <param name="gravity">Units per second².</param>
+    /// <param name="stepLength">Seconds, positive.</param>
+    /// <param name="stepIndex">Number of steps before this one, for the message.</param>
+    /// <exception cref="InvalidOperationException">The body has left the range of a double; the message names it.</exception>
+    public void Step(
+        Body body, StaticColliders? staticColliders, CharacterController? character, Vector gravity, double stepLength, long stepIndex)
+    {
+        var faceTestsBefore = _queryContext.FaceTests;
+        var boundTestsBefore = _queryContext.BoundTests;
+        var description = body.Description;
+        if (body.IsShrinking)
+        {
+            body.Scale = Math.Max(description.MinimumScale, body.Scale - (description.Shrinkage * stepLength));
+        }
+
+        var acceleration = gravity + (body.Force / description.Mass);
+        if (description.Damping > 0)
+        {
+            body.Velocity *= Math.Exp(-description.Damping * stepLength);
+        }
+
+        var maxTravel = new Motion(body.Position, body.Velocity, acceleration).MaxTravelDistance(stepLength);
+        _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 2 * maxTravel, character);
+        var accelerationMagnitude = acceleration.Length();
+        var restitutionThreshold =
+            _settings.RestitutionThreshold ?? RestitutionThresholdFraction * accelerationMagnitude * stepLength;
+        _mover.Move(body, acceleration, stepLength, restitutionThreshold);
+        if (!body.Position.IsFinite() || !body.Velocity.IsFinite())
+        {
+            var state = $"position {body.Position}, velocity {body.Velocity}";
+            throw new InvalidOperationException(string.Create(
+                CultureInfo.InvariantCulture, $"body {body.Name} has left the range of a double in step {stepIndex}: {state}"));
+        }
+
+        _grid.Update(body.Index);
+        body.FaceTests = _queryContext.FaceTests - faceTestsBefore;
+        body.BoundTests = _queryContext.BoundTests - boundTestsBefore;
+        var sleepSpeed = _settings.SleepSpeed ?? SleepSpeedFraction * Math.Sqrt(accelerationMagnitude * body.Radius);
+        _islands.Update(body, sleepSpeed, _settings.TimeBeforeSleep, stepLength);
+    }
+}

@@ -1,0 +1,200 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+
+namespace FractalEngine.Core.Physics.Character;
+
+/// <summary>
+/// The capsule of a character: casts it along paths, tells ground from walls, and keeps the planes that its velocity must not lead into.
+/// </summary>
+/// <remarks>The capsule is a row of spheres half a radius apart: between them it is 3 % of the radius thinner.</remarks>
+internal sealed class CharacterCapsule
+{
+    /// <summary>Maximum number of obstacles that one move slides along.</summary>
+    public const int MaxHits = 6;
+
+    // Of the radius.
+    private const double SphereSpacing = 0.5;
+
+    // Of the radius: how far behind an edge the ground is probed, and how much farther than that the probe searches.
+    private const double EdgeProbeDistance = 1e-3;
+    private const double EdgeProbeMargin = 1.01;
+
+    // Of the radius: a shorter move counts as none, so that a standing character stands.
+    private const double MinMoveFraction = 1e-7;
+
+    private readonly PhysicsWorld _world;
+    private readonly Obstacles _obstacles;
+    private readonly Player _player;
+    private readonly SphereSweep _sweep;
+    private readonly OverlapResolver _overlapResolver;
+    private readonly SafeDistance _safeDistance = new();
+    private readonly HalfSpaces _planes = new();
+    private Vector[] _sphereOffsets = [];
+    private bool _isOverlapResolved;
+
+    public CharacterCapsule(PhysicsWorld world, Obstacles obstacles, Player player)
+    {
+        _world = world;
+        _obstacles = obstacles;
+        _player = player;
+        _sweep = new(obstacles);
+        _overlapResolver = new(obstacles);
+        MinGroundCosine = Math.Cos(player.MaxSlopeAngle * Math.PI / 180);
+        AlignWithGravity();
+    }
+
+    /// <summary>Position of the capsule's centre, world space.</summary>
+    public Vector Position { get; set; }
+
+    /// <summary>Direction against gravity, of length 1: the capsule's axis.</summary>
+    public Vector Up { get; private set; }
+
+    /// <summary>Cosine of the steepest slope that is ground.</summary>
+    public double MinGroundCosine { get; }
+
+    /// <summary>Radius of the capsule, scene units.</summary>
+    public double Radius => _player.Radius;
+
+    /// <summary>Shortest move that counts as one, scene units.</summary>
+    public double MinMoveDistance => MinMoveFraction * _player.Radius;
+
+    /// <summary>Offsets of the capsule's spheres from its position.</summary>
+    public ReadOnlySpan<Vector> SphereOffsets => _sphereOffsets;
+
+    /// <summary>Number of planes that velocities are projected onto, see <see cref="ProjectVelocity"/>.</summary>
+    public int PlaneCount => _planes.Count;
+
+    /// <summary>Turns the capsule's axis against the world's gravity; without gravity it is the y-axis.</summary>
+    public void AlignWithGravity()
+    {
+        Up = _world.Gravity == Vector.Zero ? Vector.J : -_world.Gravity.UnitVector();
+        var halfSegment = (0.5 * _player.Height) - _player.Radius;
+        var intervalCount = (int)Math.Ceiling(2 * halfSegment / (SphereSpacing * _player.Radius));
+        _sphereOffsets = new Vector[intervalCount + 1];
+        for (var i = 0; i <= intervalCount; i++)
+        {
+            _sphereOffsets[i] = (intervalCount == 0 ? 0 : (2.0 * i / intervalCount) - 1) * halfSegment * Up;
+        }
+
+        InvalidateSurroundings();
+    }
+
+    /// <summary>Discards what is known of surfaces, and lets the next step check for overlaps.</summary>
+    public void InvalidateSurroundings()
+    {
+        _safeDistance.Invalidate();
+        _isOverlapResolved = false;
+    }
+
+    /// <summary>Prepares a step: sets up the obstacles, and resolves an overlap.</summary>
+    /// <param name="searchMargin">How much farther queries search than asked, so that the next steps need none.</param>
+    /// <returns>False where the capsule is closed in.</returns>
+    public bool TryBeginStep(double searchMargin)
+    {
+        _world.PrepareObstacles(_sphereOffsets, _player.Radius, _safeDistance, searchMargin);
+        _sweep.ResetStepBudget();
+        if (!_isOverlapResolved)
+        {
+            var position = Position;
+            _isOverlapResolved = _overlapResolver.TryResolve(ref position, Contact.NoBody);
+            Position = position;
+        }
+
+        return _isOverlapResolved;
+    }
+
+    /// <summary>Moves the capsule along a path until it touches something or the time is up.</summary>
+    /// <param name="motion">Begins at <see cref="Position"/>.</param>
+    /// <param name="timeLeft">Duration of the path; receives what is left of it.</param>
+    /// <param name="contact">What is touched.</param>
+    /// <param name="elapsed">The time that has passed.</param>
+    /// <returns>True when something was touched.</returns>
+    public bool MoveAlong(in Motion motion, ref double timeLeft, out Contact contact, out double elapsed)
+    {
+        _obstacles.CollectNearbyBodies(in motion, timeLeft, Contact.NoBody);
+        var isHit = _sweep.TryFindImpact(in motion, timeLeft, out contact, out elapsed);
+        Position = motion.PositionAt(elapsed);
+        timeLeft -= elapsed;
+        return isHit;
+    }
+
+    /// <summary>Moves the capsule straight until it touches something or the time is up.</summary>
+    /// <param name="velocity">Units per second; or a displacement, where the time is the fraction of it.</param>
+    /// <param name="timeLeft">Duration of the move; receives what is left of it.</param>
+    /// <param name="contact">What is touched.</param>
+    /// <returns>True when something was touched.</returns>
+    public bool MoveStraight(Vector velocity, ref double timeLeft, out Contact contact) =>
+        MoveAlong(new(Position, velocity, Vector.Zero), ref timeLeft, out contact, out _);
+
+    /// <summary>Moves the capsule straight by a displacement, or up to what is in the way.</summary>
+    /// <returns>True when something was in the way.</returns>
+    public bool MoveBy(Vector displacement, out Contact contact)
+    {
+        var fractionLeft = 1.0;
+        return MoveStraight(displacement, ref fractionLeft, out contact);
+    }
+
+    /// <summary>True for what can be stood on: a slope that is level enough, or the edge of one.</summary>
+    /// <param name="contact">What is touched.</param>
+    /// <param name="normal">Its normal at the present position.</param>
+    public bool IsWalkable(in Contact contact, Vector normal)
+    {
+        if (Vector.Dot(normal, Up) >= MinGroundCosine)
+        {
+            return true;
+        }
+
+        var horizontalNormal = normal - (Vector.Dot(normal, Up) * Up);
+        if (contact.IsFlat || contact.IsBody || !(Vector.Dot(normal, Up) > 0))
+        {
+            return false;
+        }
+
+        // Just above what lies behind the edge.
+        var probeDistance = EdgeProbeDistance * _player.Radius;
+        var probe = contact.Point + (probeDistance * (Up - horizontalNormal.UnitVectorOrZero()));
+        return _obstacles.TryFindClosestPoint(probe, EdgeProbeMargin * probeDistance, out var closest)
+            && Math.Abs(Vector.Dot(closest.Normal, Up)) >= MinGroundCosine && Vector.Dot(probe - closest.Point, Up) > 0;
+    }
+
+    /// <summary>Removes all planes that velocities are projected onto.</summary>
+    public void ClearPlanes() => _planes.Clear();
+
+    /// <summary>Lets no velocity lead into a surface.</summary>
+    public void AddPlane(Vector normal) => _planes.Add(normal, 0);
+
+    /// <summary>Lets no horizontal velocity lead into a wall, however it leans.</summary>
+    public void AddWallPlane(Vector normal)
+    {
+        var wallNormal = (normal - (Vector.Dot(normal, Up) * Up)).UnitVectorOrZero();
+        _planes.Add(wallNormal == Vector.Zero ? normal : wallNormal, 0);
+    }
+
+    /// <summary>Projects a velocity or acceleration onto those that lead into no plane; zero where these leave no direction free.</summary>
+    public Vector ProjectVelocity(Vector velocity) => _planes.ProjectOrZero(velocity);
+
+    /// <summary>Gives a body that is in the way the velocity of the character along the normal.</summary>
+    public void PushBody(in Contact contact, Vector normal, Vector velocity)
+    {
+        if (!contact.IsBody)
+        {
+            return;
+        }
+
+        var body = _world.Bodies[contact.BodyIndex];
+        var approachSpeed = Vector.Dot(velocity - body.Velocity, normal);
+        if (approachSpeed < 0)
+        {
+            _world.SetVelocity(body, body.Velocity + (approachSpeed * normal));
+        }
+    }
+
+    /// <summary>Wakes the bodies that touch the capsule at a position.</summary>
+    public void WakeTouchingBodies(Vector position)
+    {
+        foreach (var sphereOffset in _sphereOffsets)
+        {
+            _world.WakeOverlapping(position + sphereOffset, _player.Radius);
+        }
+    }
+}

@@ -1,0 +1,184 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics;
+
+/// <summary>
+/// How contacts change the velocity of a body: the paper's response v ← −e·vₙ + vₛ (§4.4.4), friction, and the load that bodies transmit to
+/// each other.
+/// </summary>
+internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
+{
+    // Bounces at the same moment, one after the other: more of them are a corner that leaves no path.
+    private const int MaxBounces = 16;
+
+    // Of the speed: what rounding leaves along a normal.
+    private const double RelativeTolerance = 1e-13;
+
+    private readonly HalfSpaces _planes = new();
+
+    /// <summary>Makes the velocity of a body lead into none of its contacts: by bouncing where the approach is fast enough.</summary>
+    /// <param name="body">Its contacts must be up to date.</param>
+    /// <param name="position">Position of the body, world space.</param>
+    /// <param name="restitutionThreshold">Approach speed below which it does not bounce, units per second.</param>
+    public void ResolveContacts(Body body, Vector position, double restitutionThreshold)
+    {
+        var contacts = body.Contacts;
+        for (var bounce = 0; bounce < MaxBounces; bounce++)
+        {
+            var fastestIndex = -1;
+            var fastestSpeed = 0.0;
+            for (var i = 0; i < contacts.Count; i++)
+            {
+                var velocity = RelativeVelocity(body, contacts[i]);
+                var speed = Vector.Dot(velocity, contacts[i].Normal(position));
+                if (speed < fastestSpeed && speed < -RelativeTolerance * velocity.MaxAbsComponent()
+                    && (contacts[i].IsBody || -speed > restitutionThreshold))
+                {
+                    fastestIndex = i;
+                    fastestSpeed = speed;
+                }
+            }
+
+            if (fastestIndex < 0)
+            {
+                break;
+            }
+
+            Bounce(body, contacts[fastestIndex], contacts[fastestIndex].Normal(position), -fastestSpeed, restitutionThreshold);
+        }
+
+        // Slow approaches to surfaces, all at once.
+        body.Velocity = contacts.ProjectVelocity(body.Velocity, position, _planes, onlySurfaces: true);
+    }
+
+    /// <summary>
+    /// Reduces an acceleration by friction. It acts against the velocity at the end of the time, so that it never turns a body round, and
+    /// holds slow bodies.
+    /// </summary>
+    /// <param name="body">Touches something.</param>
+    /// <param name="acceleration">By gravity and forces.</param>
+    /// <param name="netAcceleration">What the contacts leave of it; receives what friction leaves of that.</param>
+    /// <param name="duration">Seconds; receives the time until the body stops or turns, if that is sooner.</param>
+    /// <returns>True when the body stops then.</returns>
+    public static bool ApplyFriction(Body body, Vector acceleration, ref Vector netAcceleration, ref double duration)
+    {
+        var frictionDeceleration = body.Description.Friction * (acceleration - netAcceleration).Length();
+        var velocity = body.Velocity;
+        var velocityDotAcceleration = Vector.Dot(velocity, netAcceleration);
+        var speedSquared = velocity.LengthSquared();
+        if (velocityDotAcceleration < 0)
+        {
+            // Beyond that time the friction would help it.
+            duration = Math.Min(duration, -speedSquared / velocityDotAcceleration);
+        }
+
+        var velocityWithoutFriction = velocity + (duration * netAcceleration);
+        var speedWithoutFriction = velocityWithoutFriction.Length();
+        if (speedWithoutFriction > duration * frictionDeceleration)
+        {
+            netAcceleration -= frictionDeceleration / speedWithoutFriction * velocityWithoutFriction;
+            return false;
+        }
+
+        // When friction has taken all that the acceleration has added to the velocity: |v + s·t| = f·t.
+        var excess = (frictionDeceleration * frictionDeceleration) - netAcceleration.LengthSquared();
+        var stopTime = excess > 0
+            ? (velocityDotAcceleration + Math.Sqrt((velocityDotAcceleration * velocityDotAcceleration) + (excess * speedSquared))) / excess
+            : duration;
+        duration = Math.Min(duration, stopTime);
+        netAcceleration = duration > 0 ? -velocity / duration : Vector.Zero;
+        return true;
+    }
+
+    /// <summary>
+    /// Applies the load that other bodies have transmitted: a body gives way where it can, and passes the load on to bodies it lies on.
+    /// Nothing bounces from a load.
+    /// </summary>
+    public void ApplyPendingLoad(Body body, Vector position)
+    {
+        var loadVelocity = body.PendingLoadVelocity;
+        body.PendingLoadVelocity = Vector.Zero;
+        if (loadVelocity == Vector.Zero)
+        {
+            return;
+        }
+
+        var contacts = body.Contacts;
+        body.Velocity += contacts.ProjectVelocity(loadVelocity, position, _planes);
+        for (var i = 0; i < contacts.Count; i++)
+        {
+            var normal = contacts[i].Normal(position);
+            if (!contacts[i].IsBody || bodies[contacts[i].BodyIndex] is not { IsAsleep: false } other)
+            {
+                continue;
+            }
+
+            var normalSpeed = Vector.Dot(loadVelocity, normal);
+            if (normalSpeed < 0)
+            {
+                other.PendingLoadVelocity += normalSpeed * (body.Description.Mass / other.Description.Mass) * normal;
+            }
+        }
+    }
+
+    /// <summary>Transmits the load of a body to the bodies that it lies on. They apply it in their own turn.</summary>
+    /// <param name="body">The body that presses.</param>
+    /// <param name="acceleration">By gravity and forces.</param>
+    /// <param name="position">Position of the body, world space.</param>
+    /// <param name="duration">Seconds for which it presses.</param>
+    public void TransmitLoad(Body body, Vector acceleration, Vector position, double duration)
+    {
+        for (var i = 0; i < body.Contacts.Count; i++)
+        {
+            var contact = body.Contacts[i];
+            if (!contact.IsBody || bodies[contact.BodyIndex] is { IsAsleep: true })
+            {
+                continue;
+            }
+
+            var other = bodies[contact.BodyIndex];
+            var normal = contact.Normal(position);
+            var loadAcceleration = -Vector.Dot(acceleration - other.NetAcceleration, normal);
+            if (loadAcceleration > 0)
+            {
+                other.PendingLoadVelocity -= duration * loadAcceleration * (body.Description.Mass / other.Description.Mass) * normal;
+            }
+        }
+    }
+
+    private Vector RelativeVelocity(Body body, in Contact contact) =>
+        contact.IsBody ? body.Velocity - bodies[contact.BodyIndex].Velocity : body.Velocity;
+
+    private void Bounce(Body body, in Contact contact, Vector normal, double approachSpeed, double restitutionThreshold)
+    {
+        var other = contact.IsBody ? bodies[contact.BodyIndex] : null;
+        if (other is { IsAsleep: true } && approachSpeed > restitutionThreshold)
+        {
+            islands.Wake(other);
+        }
+
+        // A body that sleeps on is as firm as the ground.
+        var movable = other is { IsAsleep: false, IsStuck: false } ? other : null;
+        var massShare = movable is null ? 1 : movable.Description.Mass / (body.Description.Mass + movable.Description.Mass);
+        var restitution = approachSpeed > restitutionThreshold ? CombinedRestitution(body, other) : 0;
+        var velocityChange = (1 + restitution) * approachSpeed * normal;
+        var relativeVelocity = RelativeVelocity(body, in contact);
+        var tangentialVelocity = relativeVelocity - (Vector.Dot(relativeVelocity, normal) * normal);
+        var tangentialSpeed = tangentialVelocity.Length();
+        var maxFrictionSpeed = body.Description.Friction * (1 + restitution) * approachSpeed;
+        if (maxFrictionSpeed > 0 && tangentialSpeed > 0)
+        {
+            velocityChange -= Math.Min(maxFrictionSpeed / tangentialSpeed, 1) * tangentialVelocity;
+        }
+
+        body.Velocity += massShare * velocityChange;
+        if (movable is not null)
+        {
+            movable.Velocity -= (1 - massShare) * velocityChange;
+        }
+    }
+
+    private static double CombinedRestitution(Body body, Body? other) => other is null
+        ? body.Description.Restitution
+        : Math.Min(body.Description.Restitution, other.Description.Restitution);
+}

@@ -1,0 +1,27 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics;
+
+/// <summary>Distances within which a sphere counts as touching something.</summary>
+internal static class ContactTolerances
+{
+    /// <summary>Factor on a radius that still finds neighbours which touch up to rounding.</summary>
+    public const double NeighbourRadiusFactor = 1 + 1e-6;
+
+    // Of the radius: ten times the tolerance to which the moment of an impact is found.
+    private const double TouchFraction = 1e-9;
+
+    // Of the radius: large enough that a body on several edges is not passed from one to the next by the curve of its path.
+    private const double SlopFraction = 1e-6;
+
+    // Of the largest coordinate: about 45 roundings of a double.
+    private const double RoundingFraction = 1e-14;
+
+    /// <summary>Largest gap that rounding cannot tell from 0, in scene units.</summary>
+    public static double Touch(double radius, Vector position) =>
+        (TouchFraction * radius) + (RoundingFraction * position.MaxAbsComponent());
+
+    /// <summary>Largest gap at which something that was touched still counts as a contact, in scene units.</summary>
+    public static double Slop(double radius, Vector position) =>
+        (SlopFraction * radius) + (RoundingFraction * position.MaxAbsComponent());
+}

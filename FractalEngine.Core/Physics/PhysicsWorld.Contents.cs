@@ -1,0 +1,189 @@
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Character;
+using FractalEngine.Core.Scenes;
+
+namespace FractalEngine.Core.Physics;
+
+/// <content>What the world consists of: adding and changing static objects, bodies and the character.</content>
+public sealed partial class PhysicsWorld
+{
+    /// <summary>Adds a fractal that bodies collide with. Equal fractals share one collider, and existing colliders are kept.</summary>
+    /// <param name="fractal">May be infinite.</param>
+    /// <param name="placement">Placement in world space; null to leave the fractal in its own frame.</param>
+    /// <returns>The object, which can be moved.</returns>
+    /// <exception cref="ArgumentException">A number of the placement is not finite, or its scale has no inverse.</exception>
+    /// <remarks>Wakes all bodies. The collider is built at its first query, see <see cref="BuildColliders"/>.</remarks>
+    public StaticObject AddStatic(Fractal fractal, Transformation? placement = null) => AddStatic(_statics.ModelOf(fractal), placement);
+
+    /// <summary>Adds a mesh that bodies collide with. Equal meshes share one collider, and existing colliders are kept.</summary>
+    /// <inheritdoc cref="AddStatic(Fractal, Transformation?)"/>
+    /// <param name="mesh">Need not be closed.</param>
+    /// <param name="placement">Placement in world space; null to leave the mesh in its own frame.</param>
+    public StaticObject AddStatic(Mesh mesh, Transformation? placement = null) => AddStatic(_statics.ModelOf(mesh), placement);
+
+    /// <summary>
+    /// Adds a model that bodies collide with. Objects with the same model share its collider, and existing colliders are kept.
+    /// </summary>
+    /// <inheritdoc cref="AddStatic(Fractal, Transformation?)"/>
+    /// <param name="model">A mesh or a fractal, possibly of the world's scene.</param>
+    /// <param name="placement">Placement in world space; null to leave the model in its own frame.</param>
+    public StaticObject AddStatic(Model model, Transformation? placement = null)
+    {
+        var actualPlacement = placement ?? Transformation.Identity;
+        ArgumentCheck.RequirePlacement(actualPlacement, nameof(placement));
+        var added = AppendStatic(new(new SceneObject(model) { Placement = actualPlacement }), objectIndex: null);
+        InvalidateSurroundings(mayOverlap: true);
+        return added;
+    }
+
+    /// <summary>Adds a sphere that moves, as <see cref="Add"/> does.</summary>
+    /// <param name="position">Initial position of the centre in world space.</param>
+    /// <param name="radius">Scene units, positive.</param>
+    /// <param name="restitution">Fraction of the speed along the normal that a collision preserves, from 0 to 1.</param>
+    /// <param name="velocity">Initial velocity, units per second.</param>
+    /// <param name="mass">Kilograms, positive.</param>
+    /// <param name="friction">Coulomb's coefficient, not negative.</param>
+    /// <param name="damping">Rate at which the sphere loses speed, per second, not negative.</param>
+    /// <returns>The body of the sphere.</returns>
+    /// <exception cref="ArgumentException">A number is not finite, or outside its range; the message names it.</exception>
+    public Body AddSphere(
+        Vector position, double radius, double restitution = 0, Vector velocity = default, double mass = 1, double friction = 0,
+        double damping = 0) => Add(new(position, radius)
+        {
+            Restitution = restitution, Velocity = velocity, Mass = mass, Friction = friction, Damping = damping,
+        });
+
+    /// <summary>Adds a body. It stays until <see cref="Reset"/>. Cost O(n·log n) for n bodies.</summary>
+    /// <exception cref="ArgumentException">A number is not finite, or outside its range; the message names it and the body.</exception>
+    public Body Add(BodyDescription description)
+    {
+        Validate(description);
+        var body = AppendBody(description);
+        _grid.Build(_bodies);
+        return body;
+    }
+
+    /// <summary>Adds several bodies, or none if one of them is invalid. Faster than adding them one by one.</summary>
+    /// <inheritdoc cref="Add"/>
+    public void AddRange(IEnumerable<BodyDescription> descriptions)
+    {
+        var all = descriptions.ToArray();
+        foreach (var description in all)
+        {
+            Validate(description);
+        }
+
+        foreach (var description in all)
+        {
+            AppendBody(description);
+        }
+
+        _grid.Build(_bodies);
+    }
+
+    /// <summary>Puts a character into the world, in place of the previous one. It is not yet active.</summary>
+    /// <param name="player">Position and sizes in world space, scene units.</param>
+    /// <exception cref="ArgumentException">
+    /// The position is not finite, the radius is not positive, or the height is less than twice the radius.
+    /// </exception>
+    public CharacterController AddCharacter(Player player)
+    {
+        ArgumentCheck.RequireFinite(player.Position, nameof(player));
+        ArgumentCheck.Require(
+            player.Radius > 0 && player.Height >= 2 * player.Radius && double.IsFinite(player.Height),
+            "expected a positive radius and a finite height of at least twice the radius", null, nameof(player));
+        if (Character is { } previous)
+        {
+            previous.IsActive = false;
+        }
+
+        return Character = new(this, _obstacles, player);
+    }
+
+    /// <summary>Builds all colliders that bodies and character use, instead of at their first queries.</summary>
+    /// <remarks>Colliders that exist are kept.</remarks>
+    /// <exception cref="ColliderMismatchException">A collider does not fit an object.</exception>
+    /// <exception cref="FractalLimitException">A fractal is too large for its collider.</exception>
+    public void BuildColliders()
+    {
+        foreach (var kind in _bodies.Select(ColliderKindOf).Append(CharacterColliderKind).Distinct())
+        {
+            _statics.CollidersOf(kind)?.Build();
+        }
+    }
+
+    /// <summary>Gives a body another velocity, and wakes it with all that touch it.</summary>
+    /// <param name="body">A body of this world.</param>
+    /// <param name="velocity">Units per second.</param>
+    /// <exception cref="ArgumentException">The velocity is not finite, or the body is not of this world.</exception>
+    public void SetVelocity(Body body, Vector velocity)
+    {
+        RequireOwn(body);
+        ArgumentCheck.RequireFinite(velocity, nameof(velocity), body);
+        _islands.Wake(body);
+        body.Velocity = velocity;
+    }
+
+    /// <summary>Lets a constant force act on a body, in place of the previous one, and wakes it with all that touch it.</summary>
+    /// <param name="body">A body of this world.</param>
+    /// <param name="force">Kilograms times units per second².</param>
+    /// <exception cref="ArgumentException">The force is not finite, or the body is not of this world.</exception>
+    public void SetForce(Body body, Vector force)
+    {
+        RequireOwn(body);
+        ArgumentCheck.RequireFinite(force, nameof(force), body);
+        _islands.Wake(body);
+        body.Force = force;
+    }
+
+    /// <summary>Moves a static object of the scene, see <see cref="StaticObject.MoveTo"/>.</summary>
+    /// <param name="objectIndex">Index of the object in the scene, from 0.</param>
+    /// <param name="placement">New placement in world space.</param>
+    /// <exception cref="ArgumentOutOfRangeException">The scene has no such object.</exception>
+    /// <exception cref="ArgumentException">The object is a body, or the placement is not finite or has no inverse.</exception>
+    public void MoveObject(int objectIndex, Transformation placement)
+    {
+        ArgumentOutOfRangeException.ThrowIfNegative(objectIndex);
+        ArgumentOutOfRangeException.ThrowIfGreaterThanOrEqual(objectIndex, _staticOfObject.Length);
+        var target = _staticOfObject[objectIndex];
+        ArgumentCheck.Require(target is not null, "the object is a body, which moves by itself", null, nameof(objectIndex));
+        MoveStatic(target, placement);
+    }
+
+    /// <summary>Moves a static object and its colliders, and wakes all bodies.</summary>
+    internal void MoveStatic(StaticObject target, Transformation placement)
+    {
+        ArgumentCheck.RequirePlacement(placement, nameof(placement));
+        target.SetPlacement(placement);
+        _statics.Refresh(target);
+        InvalidateSurroundings(mayOverlap: true);
+    }
+
+    private StaticObject AppendStatic(PlacedModel placed, int? objectIndex)
+    {
+        var added = new StaticObject(this, placed, _statics.Objects.Count, objectIndex);
+        _statics.Add(added);
+        return added;
+    }
+
+    private Body AppendBody(BodyDescription description)
+    {
+        var body = new Body(description, _bodies.Count, _gravity);
+        _bodies.Add(body);
+        return body;
+    }
+
+    private void Validate(BodyDescription description)
+    {
+        description.Validate();
+        ArgumentCheck.Require(
+            description.ObjectIndex is not { } index || (index >= 0 && index < _scene.Objects.Length),
+            "the object index must be that of an object of the scene", description.Name is { } name ? $"body {name}" : null);
+    }
+
+    private void RequireOwn(Body body) => ArgumentCheck.Require(
+        body.Index < _bodies.Count && ReferenceEquals(_bodies[body.Index], body), "the body is not of this world", null, nameof(body));
+}

@@ -1,0 +1,75 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics;
+
+/// <summary>Puts slow bodies to sleep, and wakes whole islands: a body with all that touch it, directly or through others.</summary>
+internal sealed class SleepIslands(List<Body> bodies, BodyGrid grid)
+{
+    // Initial capacity of the lists of neighbours; beyond it they grow.
+    private const int InitialNeighbourCapacity = 256;
+
+    private readonly List<int> _neighbours = new(InitialNeighbourCapacity);
+    private readonly List<int> _candidates = new(InitialNeighbourCapacity);
+    private readonly Stack<Body> _stack = new(InitialNeighbourCapacity);
+
+    /// <summary>Puts a body to sleep that has barely moved for some time; one that moves wakes what touched it before.</summary>
+    /// <param name="body">Awake, after its step.</param>
+    /// <param name="sleepSpeed">Average speed below which it counts as resting, units per second; at 0 it never rests.</param>
+    /// <param name="timeBeforeSleep">Seconds for which it must rest.</param>
+    /// <param name="stepLength">Length of the last step, seconds.</param>
+    public void Update(Body body, double sleepSpeed, double timeBeforeSleep, double stepLength)
+    {
+        // Measured by distance: a jammed body may be pushed about and go nowhere.
+        var maxDistance = sleepSpeed * stepLength;
+        var isSlow = (body.Position - body.PreviousPosition).LengthSquared() < maxDistance * maxDistance && body.Contacts.Count > 0;
+        var isResting = sleepSpeed > 0 && !body.IsShrinking && (isSlow || body.IsStuck);
+        body.SleepTimer = isResting ? body.SleepTimer + stepLength : 0;
+        if (body.SleepTimer >= timeBeforeSleep && isResting)
+        {
+            body.Sleep();
+        }
+        else if (!isResting)
+        {
+            // A body that slept on this one may have lost its support.
+            WakeOverlapping(body.PreviousPosition, body.PreviousScale * body.Description.Radius, body.Index);
+        }
+    }
+
+    /// <summary>Wakes a body and its whole island.</summary>
+    public void Wake(Body body)
+    {
+        body.Wake();
+        _stack.Push(body);
+        while (_stack.TryPop(out var next))
+        {
+            _neighbours.Clear();
+            grid.CollectOverlaps(
+                new(next.Position, next.Position), next.Radius * ContactTolerances.NeighbourRadiusFactor, next.Index, _neighbours);
+            foreach (var index in _neighbours)
+            {
+                if (bodies[index].IsAsleep)
+                {
+                    bodies[index].Wake();
+                    _stack.Push(bodies[index]);
+                }
+            }
+        }
+    }
+
+    /// <summary>Wakes the islands of all bodies that touch a sphere.</summary>
+    /// <param name="centre">World space.</param>
+    /// <param name="radius">Scene units.</param>
+    /// <param name="excludedIndex">Index of the body that the sphere belongs to.</param>
+    public void WakeOverlapping(Vector centre, double radius, int excludedIndex = Contact.NoBody)
+    {
+        _candidates.Clear();
+        grid.CollectOverlaps(new(centre, centre), radius * ContactTolerances.NeighbourRadiusFactor, excludedIndex, _candidates);
+        foreach (var index in _candidates)
+        {
+            if (bodies[index].IsAsleep)
+            {
+                Wake(bodies[index]);
+            }
+        }
+    }
+}

@@ -1,0 +1,46 @@
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Scenes;
+
+namespace FractalEngine.Core.Physics;
+
+/// <summary>The static objects of a world as colliders of one kind see them.</summary>
+internal sealed class StaticColliders
+{
+    private readonly StaticObjectSet _set;
+
+    /// <summary>Creates the view of a set. No collider is built yet.</summary>
+    /// <param name="set">The objects, at least one.</param>
+    /// <param name="kind">Kind of all their colliders.</param>
+    public StaticColliders(StaticObjectSet set, ColliderKind kind)
+    {
+        _set = set;
+        Scene = new(new LoadedScene(new(), [.. set.Objects.Select(static placed => placed.Placed)]), kind);
+    }
+
+    /// <summary>Answers queries for the closest point, in world space.</summary>
+    public SceneCollider Scene { get; private set; }
+
+    /// <summary>
+    /// Tells whether an object is a closed solid, or consists of such. What is behind its faces is then inside it.
+    /// </summary>
+    public bool IsSolid(int index) => _set.IsSolid(_set.Objects[index].Model.Mesh);
+
+    /// <summary>Sign of an object's winding, see <see cref="StaticObject.WindingSign"/>.</summary>
+    public int WindingSign(int index) => _set.Objects[index].WindingSign;
+
+    /// <summary>Builds all colliders now, and finds which objects are solid, instead of at their first queries.</summary>
+    public void Build()
+    {
+        Scene.Build();
+        for (var i = 0; i < _set.Objects.Count; i++)
+        {
+            IsSolid(i);
+        }
+    }
+
+    /// <summary>Adds an object. The colliders of the others are kept.</summary>
+    public void Add(PlacedModel placed) => Scene = Scene.WithAddedObject(placed);
+
+    /// <summary>Replaces an object by the same one at another placement.</summary>
+    public void Replace(int index, PlacedModel placed) => Scene = Scene.WithObject(index, placed);
+}

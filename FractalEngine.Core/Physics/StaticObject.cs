@@ -1,0 +1,78 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+
+namespace FractalEngine.Core.Physics;
+
+/// <summary>
+/// A mesh or fractal that bodies collide with and that no force moves. Owned by a <see cref="PhysicsWorld"/>: its scene declares the
+/// object, or <see cref="PhysicsWorld.AddStatic(Model, Transformation?)"/> adds it.
+/// </summary>
+public sealed class StaticObject
+{
+    private readonly PhysicsWorld _world;
+    private readonly PlacedModel _initial;
+
+    /// <summary>Creates the handle of an object at its initial placement.</summary>
+    /// <param name="world">The world that owns the object.</param>
+    /// <param name="placed">The object's model and initial placement.</param>
+    /// <param name="index">Index among the world's static objects.</param>
+    /// <param name="objectIndex">Index in the scene; null for an object that was added.</param>
+    internal StaticObject(PhysicsWorld world, PlacedModel placed, int index, int? objectIndex)
+    {
+        _world = world;
+        _initial = placed;
+        Placed = placed;
+        Index = index;
+        ObjectIndex = objectIndex;
+    }
+
+    /// <summary>Index among the static objects of the world, from 0.</summary>
+    public int Index { get; }
+
+    /// <summary>Index of the object in the world's scene, from 0; null for an object that was added.</summary>
+    public int? ObjectIndex { get; }
+
+    /// <summary>The mesh or fractal in its own frame, shared by all objects that show it.</summary>
+    public Model Model => Placed.Model;
+
+    /// <summary>Current placement in world space: the paper's global matrix m.</summary>
+    public Transformation Placement => Placed.Declaration.Placement;
+
+    /// <summary>The current placement as a map from the model's frame to world space.</summary>
+    public AffineMap ObjectToWorld => Placed.ObjectToWorld;
+
+    /// <summary>Box that holds the object in world space.</summary>
+    public BoundingBox Bounds => Placed.Bounds;
+
+    /// <summary>The object as a scene would hold it, at its current placement.</summary>
+    internal PlacedModel Placed { get; private set; }
+
+    /// <summary>True while the object is where the world first had it.</summary>
+    internal bool IsAtInitialPlacement => ReferenceEquals(Placed, _initial);
+
+    /// <summary>
+    /// 1 where faces look out of the object as they are wound, −1 where its matrix mirrors it, 0 where its instances differ.
+    /// </summary>
+    internal int WindingSign =>
+        Model is FractalModel { Fractal.Description.PreservesOrientation: false } ? 0 : Math.Sign(ObjectToWorld.Linear.Determinant());
+
+    /// <summary>
+    /// Moves the object, and its collider with it, without building the collider anew. Bodies that it then overlaps are pushed out in the
+    /// next step; they are not given its speed.
+    /// </summary>
+    /// <param name="placement">New placement in world space, finite and with a scale that has an inverse.</param>
+    /// <exception cref="ArgumentException">A number is not finite, or the scale has no inverse.</exception>
+    /// <remarks>
+    /// Wakes all bodies. Cost O(n) for n static objects, and O(v) for the bounds of a mesh of v vertices. Approximate colliders
+    /// (<see cref="ColliderKind.Fractal"/>, <see cref="ColliderKind.BoundingBox"/>) of objects with a non-uniform scale are built again
+    /// at the next query.
+    /// </remarks>
+    public void MoveTo(Transformation placement) => _world.MoveStatic(this, placement);
+
+    /// <summary>Replaces the placement, of which the caller tells the colliders.</summary>
+    internal void SetPlacement(Transformation placement) => Placed = new(Placed.Declaration with { Placement = placement }, Model);
+
+    /// <summary>Returns to the initial placement, of which the caller tells the colliders.</summary>
+    internal void ResetPlacement() => Placed = _initial;
+}

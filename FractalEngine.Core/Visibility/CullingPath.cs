@@ -1,0 +1,33 @@
+using System.Runtime.CompilerServices;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+
+namespace FractalEngine.Core.Visibility;
+
+/// <summary>The path of child instances that leads to a sub-fractal during culling.</summary>
+/// <param name="Hash">Hash that tells the sub-fractal apart from others of its object.</param>
+/// <param name="ColourPath">Path that decides about the colour; stays as it is where the object has no gradient.</param>
+internal readonly record struct CullingPath(ulong Hash, ColourPath ColourPath)
+{
+    // Roots differ in bits that child indices do not reach.
+    private const int RootShift = 40;
+
+    /// <summary>Creates the path of a whole fractal, from which nothing has been appended.</summary>
+    public static CullingPath Start => new(0, ColourPath.Start);
+
+    /// <summary>Creates the path of one of several roots.</summary>
+    /// <param name="index">Index of the root among those of its object.</param>
+    /// <param name="colourPath">Path of maps that lead to the root.</param>
+    public static CullingPath FromRoot(int index, ColourPath colourPath) => new((ulong)(index + 1) << RootShift, colourPath);
+
+    /// <summary>Appends one child instance to the path.</summary>
+    /// <param name="childIndex">Index of the child instance among its siblings.</param>
+    /// <param name="depth">Number of child instances in the path so far.</param>
+    /// <param name="mapIndex">Index of the child's map in its set; −1 for the identity.</param>
+    /// <param name="childCount">Number of the child instances.</param>
+    /// <param name="gradient">Gradient of the object.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public CullingPath Append(int childIndex, int depth, int mapIndex, int childCount, GradientKind gradient) => new(
+        ((Hash ^ (ulong)(childIndex + 1)) * HashMixing.GoldenGamma) + (ulong)depth,
+        gradient == GradientKind.None ? ColourPath : ColourPath.Append(mapIndex, childIndex, childCount));
+}

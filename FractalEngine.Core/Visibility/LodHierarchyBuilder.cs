@@ -1,0 +1,74 @@
+using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Visibility;
+
+/// <summary>Builds the <see cref="LodHierarchy"/> of a fractal.</summary>
+internal static class LodHierarchyBuilder
+{
+    // A box counts as holding another one if their union is no larger than this multiple of it.
+    private const double ContainmentFactor = 1.001;
+
+    /// <summary>Builds the hierarchy of a fractal of either composition, see <see cref="LodHierarchy.Build(Fractal)"/>.</summary>
+    public static LodHierarchy Build(Fractal fractal) =>
+        fractal.Description.Composition == Composition.Componentwise ? BuildComponentwise(fractal) : BuildAffine(fractal);
+
+    private static LodHierarchy BuildAffine(Fractal fractal)
+    {
+        var builder = new SubFractalBuilder(fractal);
+        builder.AddAllSteps();
+        var regions = builder.Regions.ToArray();
+        var nodes = new LodNode[builder.SubFractals.Count];
+        foreach (var region in regions)
+        {
+            for (var i = 0; i < region.Period; i++)
+            {
+                nodes[region.FirstIndex + i] = BuildNode(builder, region.FirstLevel + i);
+            }
+        }
+
+        return new(nodes, regions, builder.Levels, fractal.BaseMesh);
+    }
+
+    private static LodNode BuildNode(SubFractalBuilder builder, long remainingLevels)
+    {
+        var children = new List<LodChild>();
+        foreach (var edge in builder.EdgesAt(remainingLevels))
+        {
+            var volume = builder.VolumeAt(edge.RemainingLevels(remainingLevels));
+            if (!volume.Box.IsEmpty)
+            {
+                children.Add(new(
+                    edge.Map,
+                    volume.TransformedBox(edge.Map, edge.OperatorNormBound),
+                    edge.LevelStep,
+                    edge.Map == AffineMap.Identity ? -1 : edge.MapIndex));
+            }
+        }
+
+        var baseBox = builder.VolumeAt(0).Box;
+        var box = builder.VolumeAt(remainingLevels).Box;
+        return new(box, ComputeProxyMap(baseBox, box), [.. children]);
+    }
+
+    /// <summary>Computes the map under which the base mesh is the proxy of what a box holds.</summary>
+    /// <remarks>
+    /// It is the identity where the base mesh lies within the box. Otherwise the maps have carried the base mesh away, and the proxy is
+    /// stretched to fill the box.
+    /// </remarks>
+    private static AffineMap ComputeProxyMap(BoundingBox baseBox, BoundingBox box) =>
+        box.IsEmpty || BoundingBox.Union(box, baseBox).Diagonal <= ContainmentFactor * box.Diagonal
+        ? AffineMap.Identity
+        : InstanceBvh.MapBoxToBox(baseBox, box);
+
+    /// <summary>Builds the hierarchy of componentwise sums, which have no levels: an <see cref="InstanceBvh"/> groups them.</summary>
+    private static LodHierarchy BuildComponentwise(Fractal fractal)
+    {
+        var mesh = fractal.BaseMesh;
+        var maps = mesh.FaceCount == 0 ? [] : FractalGenerator.Expand(fractal, FractalLimits.MaxComponentwiseSums);
+        var bvh = new InstanceBvh(mesh.Bounds, [.. maps]);
+        return new(bvh.Nodes, [new(0, bvh.Nodes.Length, 0, bvh.Nodes.Length)], bvh.RootIndex, mesh);
+    }
+}

@@ -1,0 +1,13 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.Parsing.Fractals;
+
+/// <summary>Contents of a parsed fractal file, whose base mesh is not loaded yet.</summary>
+/// <param name="Source">Text of the file.</param>
+/// <param name="Description">Steps and composition of the result.</param>
+/// <param name="BaseFile">Name of the base mesh's file, relative to the fractal file.</param>
+/// <param name="BaseFileNameOffset">Offset of that name in the text, for messages about the base mesh.</param>
+/// <param name="ResultOffset">Offset of the declaration of the result, for messages about the fractal as a whole.</param>
+public sealed record ParsedFractal(
+    SourceText Source, FractalDescription Description, string BaseFile, int BaseFileNameOffset, int ResultOffset);

@@ -1,0 +1,16 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.Parsing.Meshes;
+
+/// <summary>Materials of a parsed material file, with a warning about its faults.</summary>
+/// <param name="Source">Text of the file.</param>
+/// <param name="Materials">Materials by name; their textures are named as in the file.</param>
+/// <param name="TextureNameOffsets">Offset of the texture's name in the text for each material, for messages.</param>
+/// <param name="Warnings">At most one, about statements that can't be read.</param>
+public sealed record ParsedMtl(
+    SourceText Source,
+    ImmutableDictionary<string, Material> Materials,
+    ImmutableDictionary<string, int> TextureNameOffsets,
+    ImmutableArray<Diagnostic> Warnings);

@@ -1,0 +1,16 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.Parsing.Scenes;
+
+/// <summary>Contents of a parsed scene file with its original lines, so that saving keeps comments and layout.</summary>
+/// <param name="Source">Text of the file.</param>
+/// <param name="Scene">Scene that the text declares; the models of its objects are not loaded yet.</param>
+/// <param name="Lines">All lines of the text in order.</param>
+public sealed record ParsedScene(SourceText Source, Scene Scene, ImmutableArray<SceneLine> Lines)
+{
+    /// <summary>Offsets of the file names of all objects in the text, in the order of the objects.</summary>
+    public IEnumerable<int> FileNameOffsets =>
+        Lines.Where(line => line.Kind == SceneDeclarationKind.SceneObject).Select(line => line.FileNameOffset);
+}

@@ -1,0 +1,30 @@
+using OpenTK.Graphics.OpenGL4;
+
+namespace FractalEngine.Render.Gl;
+
+/// <summary>Uploads the pixels of two-dimensional textures.</summary>
+internal static class TextureUpload
+{
+    /// <summary>Uploads the first level of the bound texture, and sets its filters.</summary>
+    /// <param name="internalFormat">Format in which the GPU stores the texture.</param>
+    /// <param name="format">Components of the given pixels, one byte each.</param>
+    /// <param name="width">Width in texels.</param>
+    /// <param name="height">Height in texels.</param>
+    /// <param name="pixels">Rows without padding, [height × width × components].</param>
+    /// <param name="minFilter">Filter for texels smaller than a pixel.</param>
+    /// <param name="magFilter">Filter for texels larger than a pixel.</param>
+    public static unsafe void Upload(
+        PixelInternalFormat internalFormat, PixelFormat format, int width, int height, ReadOnlySpan<byte> pixels,
+        TextureMinFilter minFilter, TextureMagFilter magFilter)
+    {
+        GL.PixelStore(PixelStoreParameter.UnpackAlignment, 1);
+        fixed (byte* start = pixels)
+        {
+            GL.TexImage2D(
+                TextureTarget.Texture2D, 0, internalFormat, width, height, 0, format, PixelType.UnsignedByte, (IntPtr)start);
+        }
+
+        GL.TexParameter(TextureTarget.Texture2D, TextureParameterName.TextureMinFilter, (int)minFilter);
+        GL.TexParameter(TextureTarget.Texture2D, TextureParameterName.TextureMagFilter, (int)magFilter);
+    }
+}

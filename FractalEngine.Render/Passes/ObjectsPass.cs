@@ -1,0 +1,201 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Render.Gl;
+using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Windowing;
+
+namespace FractalEngine.Render.Passes;
+
+/// <summary>
+/// Draws the objects of a scene: opaque batches, loose spheres, then transparent batches from back to front. Each object is one instanced
+/// draw call for each of its materials, whether it shows a mesh or a fractal.
+/// </summary>
+internal sealed class ObjectsPass : IDisposable
+{
+    // Natural logarithm. In smaller units than this, point lights look the same.
+    private const double MaxLogLightScale = 14;
+
+    // Coral in the palette.
+    private const int SphereColourIndex = 2;
+
+    private readonly GlResources _resources;
+    private readonly SceneBuffers _buffers;
+    private readonly ObjectTransforms _transforms;
+    private readonly MeshPass _meshPass;
+    private readonly LightBlock _lightBlock;
+    private readonly ObjectBlock[] _objectBlocks;
+    private DrawableScene _scene;
+    private TransparentOrder _transparentOrder;
+    private SphereBatch? _sphereBatch;
+
+    /// <summary>Creates the uniform buffers of a scene's lights and objects.</summary>
+    /// <param name="context">Current context.</param>
+    /// <param name="scene">Scene to draw.</param>
+    /// <param name="buffers">Buffers of the same scene, filled before the first frame.</param>
+    /// <param name="transforms">Current transforms of its objects; read for each frame.</param>
+    public ObjectsPass(RenderContext context, DrawableScene scene, SceneBuffers buffers, ObjectTransforms transforms)
+    {
+        _resources = context.Resources;
+        _scene = scene;
+        _buffers = buffers;
+        _transforms = transforms;
+        _meshPass = new(context);
+        _lightBlock = new(_resources, scene.Source.Scene.Lights, scene.Source.Bounds);
+        _objectBlocks = [.. scene.Objects.Select(item => new ObjectBlock(_resources, item.Name))];
+        _transparentOrder = TransparentOrder.Create(scene);
+    }
+
+    /// <summary>Number of objects that the last frame drew with one face of their triangles culled.</summary>
+    public int BackFaceCulledCount { get; private set; }
+
+    /// <summary>Draws another preparation of the same scene from now on.</summary>
+    public void SetScene(DrawableScene scene)
+    {
+        _scene = scene;
+        _transparentOrder = TransparentOrder.Create(scene);
+    }
+
+    /// <summary>Draws all objects into the bound framebuffer's viewport.</summary>
+    /// <param name="frame">View of the frame.</param>
+    /// <param name="spheres">Spheres beside the objects, not drawn in a deep zoom.</param>
+    /// <param name="settings">Style and optimisations.</param>
+    public void Draw(in FrameView frame, IReadOnlyList<SphereInstance> spheres, RenderSettings settings)
+    {
+        var view = frame.View;
+        _meshPass.Begin(in frame, settings.Wireframe, settings.Shading);
+        var lightScale = view.DeepZoom is { } zoom ? Math.Exp(Math.Min(-zoom.LogUnit, MaxLogLightScale)) : 1;
+        _lightBlock.Bind(MeshPass.LightBinding, view.Camera.Position, lightScale);
+        DrawOpaque(in frame, settings);
+        if (spheres.Count > 0 && view.DeepZoom is null)
+        {
+            _meshPass.Cull(CullFace.None);
+            _meshPass.UseMaterial(null, Colour.White, MeshFeatures.CameraRelative);
+            _sphereBatch ??= new(_resources);
+            _sphereBatch.Draw(spheres, view.Camera.Position, ObjectPalette.ColourOf(SphereColourIndex));
+        }
+
+        if (!settings.Wireframe)
+        {
+            DrawTransparent(view);
+        }
+
+        _meshPass.End();
+    }
+
+    /// <inheritdoc/>
+    public void Dispose()
+    {
+        foreach (var block in _objectBlocks)
+        {
+            block.Dispose();
+        }
+
+        _sphereBatch?.Dispose();
+        _lightBlock.Dispose();
+        _meshPass.Dispose();
+    }
+
+    private void DrawOpaque(in FrameView frame, RenderSettings settings)
+    {
+        BackFaceCulledCount = 0;
+        for (var i = 0; i < _objectBlocks.Length; i++)
+        {
+            var item = _scene.Objects[i];
+            if (item.IsDynamic && settings.Culling is { FrustumCulling: true }
+                && !frame.View.MayIntersectFrustum(_transforms.Bounds[i], frame.Aspect))
+            {
+                continue;
+            }
+
+            var culledFace = settings.Wireframe || !settings.BackFaceCulling ? CullFace.None : FaceToCull(i, in frame);
+            BackFaceCulledCount += culledFace == CullFace.None ? 0 : 1;
+            _meshPass.Cull(culledFace);
+            BindObjectBlock(i, frame.View);
+            if (settings.Wireframe)
+            {
+                _meshPass.UseMaterial(null, Colour.White, FeaturesOf(i, CullFace.None));
+                DrawInstances(i, _buffers.BuffersOf(item.Model).WholeMesh);
+            }
+            else
+            {
+                DrawBatches(i, drawsTransparent: false, FeaturesOf(i, culledFace));
+            }
+        }
+    }
+
+    /// <summary>
+    /// Draws the transparent batches, the farthest object first, and of each object the faces that point away first. The colours of a
+    /// convex object then blend in the right order. Triangles within one side and instances of a fractal are not sorted.
+    /// </summary>
+    private void DrawTransparent(View view)
+    {
+        MeshPass.BeginTransparent();
+        foreach (var index in _transparentOrder.SortBackToFront(view.Camera, _transforms.Bounds))
+        {
+            BindObjectBlock(index, view);
+            var isMirrored = _transforms.ObjectToWorld[index].Linear.Determinant() < 0;
+            _meshPass.Cull(isMirrored ? CullFace.Back : CullFace.Front);
+            DrawBatches(index, drawsTransparent: true, FeaturesOf(index, CullFace.None));
+            _meshPass.Cull(isMirrored ? CullFace.Front : CullFace.Back);
+            DrawBatches(index, drawsTransparent: true, FeaturesOf(index, CullFace.None));
+        }
+
+        MeshPass.EndTransparent();
+    }
+
+    /// <summary>Draws the batches of an object that are opaque, or those that are transparent.</summary>
+    private void DrawBatches(int index, bool drawsTransparent, MeshFeatures instanceFeatures)
+    {
+        var item = _scene.Objects[index];
+        foreach (ref readonly var batch in item.Model.Batches.AsSpan())
+        {
+            if (batch.IsTransparent == drawsTransparent)
+            {
+                _buffers.BindTexture(batch.Material);
+                _meshPass.UseMaterial(batch.Material, item.Tint, instanceFeatures);
+                DrawInstances(index, batch);
+            }
+        }
+    }
+
+    private void DrawInstances(int index, DrawableBatch batch)
+    {
+        if (_buffers.Culler.SelectsInstances(index))
+        {
+            _buffers.Culler.Draw(index, batch);
+        }
+        else
+        {
+            _buffers.BuffersOf(_scene.Objects[index].Model).Draw(batch);
+        }
+    }
+
+    private void BindObjectBlock(int index, View view)
+    {
+        var item = _scene.Objects[index];
+        var objectToWorld = _transforms.ObjectToWorld[index];
+        // Culled instances are already in world axes about the camera.
+        var modelToWorld = _buffers.Culler.SelectsInstances(index)
+            ? AffineMap.Translate(view.Camera.Position)
+            : new AffineMap(objectToWorld.Linear, objectToWorld * item.Model.Origin);
+        var gradientEnd = item.Gradient?.EndColour ?? item.Colour;
+        _objectBlocks[index].Bind(MeshPass.ObjectBinding, modelToWorld, item.Colour, gradientEnd, view.Camera.Position);
+    }
+
+    private MeshFeatures FeaturesOf(int index, CullFace culledFace) =>
+        (_buffers.Culler.SelectsInstances(index) ? MeshFeatures.CameraRelative : MeshFeatures.None)
+        | (culledFace == CullFace.Back ? MeshFeatures.FrontFacesOnly : MeshFeatures.None);
+
+    /// <summary>Returns the face of an object's triangles that is certainly invisible; none where both may be seen.</summary>
+    private CullFace FaceToCull(int index, in FrameView frame)
+    {
+        var orientation = Math.Sign(_transforms.ObjectToWorld[index].Linear.Determinant());
+        var isCulled = _buffers.Culler.SelectsInstances(index);
+        var windingSign = orientation
+            * (isCulled ? _buffers.Culler.WindingSign(index) : _scene.Objects[index].Model.WindingSign);
+        // A solid that the near plane cuts shows its inner side. Culling has tested its instances one by one.
+        return windingSign == 0 || !(isCulled || frame.View.IsBeyondDepth(_transforms.Bounds[index], frame.Near)) ? CullFace.None
+            : windingSign < 0 ? CullFace.Front
+            : CullFace.Back;
+    }
+}

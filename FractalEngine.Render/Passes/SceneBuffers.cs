@@ -1,0 +1,55 @@
+using FractalEngine.Render.Gl;
+using FractalEngine.Render.Preparation;
+
+namespace FractalEngine.Render.Passes;
+
+/// <summary>The textures, meshes and visible instances of a scene on the GPU. Models and textures are uploaded once.</summary>
+/// <param name="resources">Resources of the current context.</param>
+internal sealed class SceneBuffers(GlResources resources) : IDisposable
+{
+    private readonly TextureSet _textures = new();
+    private readonly Dictionary<DrawableModel, ModelBuffers> _models = [];
+    private SceneCuller? _culler;
+
+    /// <summary>Culls the instances of the scene and holds the visible ones.</summary>
+    public SceneCuller Culler => _culler!;
+
+    /// <summary>Uploads what is not on the GPU yet, and deletes the buffers of models that the scene no longer has.</summary>
+    /// <exception cref="GlException">The GPU's memory does not suffice. What was uploaded before stays until disposal.</exception>
+    public void Upload(DrawableScene scene)
+    {
+        _culler?.Dispose();
+        _culler = null;
+        foreach (var model in _models.Keys.Except(scene.Models).ToArray())
+        {
+            _models[model].Dispose();
+            _models.Remove(model);
+        }
+
+        _textures.Upload(resources, scene.Textures);
+        foreach (var model in scene.Models.Where(model => !_models.ContainsKey(model)))
+        {
+            _models.Add(model, new(resources, model));
+        }
+
+        _culler = new(resources, scene, _models);
+    }
+
+    /// <summary>Returns the buffers of a model of the scene.</summary>
+    public ModelBuffers BuffersOf(DrawableModel model) => _models[model];
+
+    /// <summary>Binds the texture of a material, if it has one.</summary>
+    public void BindTexture(DrawableMaterial? material) => _textures.Bind(material);
+
+    /// <inheritdoc/>
+    public void Dispose()
+    {
+        _culler?.Dispose();
+        foreach (var buffers in _models.Values)
+        {
+            buffers.Dispose();
+        }
+
+        _textures.Dispose();
+    }
+}

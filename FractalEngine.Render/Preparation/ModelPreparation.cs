@@ -1,0 +1,153 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility;
+
+namespace FractalEngine.Render.Preparation;
+
+/// <summary>Prepares single models for the GPU, and creates the boxes that are shown until then.</summary>
+internal static class ModelPreparation
+{
+    // With fewer instances, culling back faces saves less than the test for a solid costs.
+    private const int MinInstancesForSolidTest = 100;
+    private const int MaxFacesForSolidTest = 256;
+
+    /// <summary>Prepares a model for the GPU.</summary>
+    /// <param name="model">Model with its mesh and materials.</param>
+    /// <param name="settings">Settings with the budgets and the crease angle.</param>
+    /// <param name="textures">Cache that decodes the textures.</param>
+    /// <param name="notices">Receives sentences for the user about whatever is not drawn in full.</param>
+    public static DrawableModel Prepare(
+        Model model, RenderSettings settings, TextureCache textures, ImmutableArray<string>.Builder notices)
+    {
+        var name = model.Name;
+        var mesh = model.Mesh;
+        if (mesh.FaceCount == 0)
+        {
+            return CreateEmpty(name, isPlaceholder: false);
+        }
+
+        var hierarchy = settings.Culling is null ? null : TryBuildHierarchy(name, model, notices);
+        var maps = hierarchy is null && model is FractalModel { Fractal: var fractal }
+            ? Expand(name, fractal, settings, notices)
+            : [AffineMap.Identity];
+        var origin = CentreOrOrigin(model.Bounds);
+        var meshOrigin = CentreOrOrigin(mesh.Bounds);
+        var batches = FaceBatches.ByMaterial(model, textures, settings.RemoveDegenerateTriangles);
+        var (vertices, textureCoordinates, indices) = DrawableMeshBuilder.Build(mesh, meshOrigin, settings.CreaseAngle, batches);
+        var testsSolidity = hierarchy is not null
+            ? model is FractalModel || mesh.FaceCount <= MaxFacesForSolidTest
+            : maps.Length >= MinInstancesForSolidTest;
+        // The inner sides of a solid are visible through transparent faces.
+        var hasTransparentBatches = batches.Batches.Any(static batch => batch.IsTransparent);
+        var meshWindingSign = testsSolidity && !hasTransparentBatches && ClosedSurface.IsSolid(mesh) ? 1 : 0;
+        var instanceSign = hierarchy is null ? CommonOrientation(maps) : OrientationOfInstances(model);
+        // The instances of a fractal with a hierarchy are selected for each frame.
+        var instances = hierarchy is null || model is MeshModel ? ToInstanceRows(maps, meshOrigin, origin) : [];
+        return new(name, origin, model.Bounds, vertices, indices, instances)
+        {
+            LodHierarchy = hierarchy,
+            MeshOrigin = meshOrigin,
+            TextureCoordinates = textureCoordinates,
+            Batches = batches.Batches,
+            DegenerateTriangleCount = batches.DegenerateTriangleCount,
+            MeshWindingSign = meshWindingSign,
+            WindingSign = meshWindingSign * instanceSign,
+        };
+    }
+
+    /// <summary>Creates the box that is shown until a model is prepared. A model without finite bounds has none.</summary>
+    public static DrawableModel CreatePlaceholder(Model model)
+    {
+        var name = model.Name;
+        var bounds = model.Bounds;
+        if (model.Mesh.FaceCount == 0 || bounds.IsEmpty || !bounds.Size.IsFinite())
+        {
+            return CreateEmpty(name, isPlaceholder: true);
+        }
+
+        var mesh = CreateBoxMesh(bounds);
+        var batches = FaceBatches.SingleBatch(mesh);
+        var (vertices, _, indices) = DrawableMeshBuilder.Build(mesh, bounds.Centre, 0, batches);
+        var instances = ToInstanceRows([AffineMap.Identity], bounds.Centre, bounds.Centre);
+        return new(name, bounds.Centre, bounds, vertices, indices, instances) { Batches = batches.Batches, IsPlaceholder = true };
+    }
+
+    private static DrawableModel CreateEmpty(string name, bool isPlaceholder) =>
+        new(name, Vector.Zero, BoundingBox.Empty, [], [], []) { IsPlaceholder = isPlaceholder };
+
+    private static Mesh CreateBoxMesh(BoundingBox box)
+    {
+        var (x1, y1, z1) = box.Minimum;
+        var (x2, y2, z2) = box.Maximum;
+        return new(
+            [x1, y1, z1, x2, y1, z1, x1, y2, z1, x2, y2, z1, x1, y1, z2, x2, y1, z2, x1, y2, z2, x2, y2, z2],
+            [0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 4, 2, 4, 6, 2, 1, 3, 5, 3, 7, 5, 2, 6, 3, 3, 6, 7, 0, 1, 4, 1, 5, 4]);
+    }
+
+    /// <summary>Builds the hierarchy that instances are selected from; null where the fractal has no bounds and must be expanded.</summary>
+    private static LodHierarchy? TryBuildHierarchy(string name, Model model, ImmutableArray<string>.Builder notices)
+    {
+        try
+        {
+            return model is FractalModel { Fractal: var fractal } ? LodHierarchy.Build(fractal) : LodHierarchy.Build(model.Mesh);
+        }
+        catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
+        {
+            notices.Add($"{name}: {exception.Message}");
+            return null;
+        }
+    }
+
+    private static ImmutableArray<AffineMap> Expand(
+        string name, Fractal fractal, RenderSettings settings, ImmutableArray<string>.Builder notices)
+    {
+        var (maps, notice) = FractalInstances.Expand(name, fractal, settings);
+        if (notice is not null)
+        {
+            notices.Add(notice);
+        }
+
+        return maps;
+    }
+
+    /// <summary>Returns 1 where all instances of a model certainly keep the orientation of its mesh, otherwise 0.</summary>
+    private static int OrientationOfInstances(Model model) =>
+        model is FractalModel { Fractal.Description.PreservesOrientation: false } ? 0 : 1;
+
+    /// <summary>Returns the sign that the determinants of all maps have; 0 where they differ or one is singular.</summary>
+    private static int CommonOrientation(ImmutableArray<AffineMap> maps)
+    {
+        var sign = Math.Sign(maps[0].Linear.Determinant());
+        foreach (ref readonly var map in maps.AsSpan())
+        {
+            if (Math.Sign(map.Linear.Determinant()) != sign)
+            {
+                return 0;
+            }
+        }
+
+        return sign;
+    }
+
+    /// <summary>Returns the centre of a box, or the origin where it is infinite, as that of an unbounded fractal.</summary>
+    private static Vector CentreOrOrigin(BoundingBox box) => box.Centre.IsFinite() ? box.Centre : Vector.Zero;
+
+    /// <summary>
+    /// Returns the maps between the translated frames as instances. They are translated in double precision, before rounding to single.
+    /// </summary>
+    private static float[] ToInstanceRows(ImmutableArray<AffineMap> maps, Vector meshOrigin, Vector origin)
+    {
+        var rows = new float[maps.Length * DrawableModel.FloatsPerInstance];
+        var remaining = rows.AsSpan();
+        foreach (ref readonly var map in maps.AsSpan())
+        {
+            InstanceRow.Write(map.Linear, (map * meshOrigin) - origin, remaining);
+            remaining = remaining[DrawableModel.FloatsPerInstance..];
+        }
+
+        return rows;
+    }
+}

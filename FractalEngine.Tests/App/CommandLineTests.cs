@@ -1,0 +1,263 @@
+using System.Numerics;
+using System.Text.Json;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.App;
+
+/// <summary>Tests outputs and exit codes of the commands that need no display. Each command runs as a process.</summary>
+public sealed class CommandLineTests : IDisposable
+{
+    private readonly TemporaryFolder _folder = new();
+
+    public CommandLineTests()
+    {
+        _folder.Write("cube.obj", SampleFiles.Cube);
+        _folder.Write("row.fdo", SampleFiles.Row("3"));
+    }
+
+    public void Dispose() => _folder.Dispose();
+
+    [Fact]
+    public void Info_OfFractal_CountsExactly()
+    {
+        var (exitCode, output, error) = Run("info", "row.fdo", "--json");
+        Assert.Equal((0, ""), (exitCode, error));
+        using var info = JsonDocument.Parse(output);
+        Assert.Equal("fractal", info.RootElement.GetProperty("kind").GetString());
+        Assert.Equal(64, info.RootElement.GetProperty("vertices").GetInt32());
+        Assert.Equal(96, info.RootElement.GetProperty("faces").GetInt32());
+        Assert.Equal(8, info.RootElement.GetProperty("instances").GetInt32());
+        Assert.Equal(8, info.RootElement.GetProperty("distinctInstances").GetInt32());
+        Assert.Equal(new FileInfo(_folder["row.fdo"]).Length + new FileInfo(_folder["cube.obj"]).Length,
+            info.RootElement.GetProperty("storageBytes").GetInt64());
+        Assert.Equal([-0.5, -0.0625, -0.0625], info.RootElement.GetProperty("boundsMin").EnumerateArray()
+            .Select(number => number.GetDouble()));
+        Assert.Equal([0.5, 0.0625, 0.0625], info.RootElement.GetProperty("boundsMax").EnumerateArray()
+            .Select(number => number.GetDouble()));
+        Assert.InRange(info.RootElement.GetProperty("loadMilliseconds").GetDouble(), 0.001, 60_000);
+    }
+
+    [Fact]
+    public void Info_OfAGoogolInstances_WritesEveryDigit()
+    {
+        _folder.Write("googol.fdo", SampleFiles.Row("100")
+            .Replace("[t.1, t.2]", $"[{string.Join(", ", Enumerable.Repeat("t.1", 10))}]", StringComparison.Ordinal));
+        var (exitCode, output, _) = Run("info", "googol.fdo", "--json");
+        Assert.Equal(0, exitCode);
+        Assert.Contains($"\"instances\": {BigInteger.Pow(10, 100)},", output, StringComparison.Ordinal);
+        Assert.Contains("\"distinctInstances\": null", output, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Info_OfDepthOneMillion_WritesEveryDigit()
+    {
+        _folder.Write("deep.fdo", SampleFiles.Row("1000000"));
+        var (exitCode, output, _) = Run("info", "deep.fdo");
+        Assert.Equal(0, exitCode);
+        // 2^1000000 has 301,030 digits, the first and last of which are known (OEIS A000079).
+        var digits = output.Split('\n').First(line => line.StartsWith("instances", StringComparison.Ordinal))[18..].Trim();
+        Assert.Equal(301_030, digits.Length);
+        Assert.StartsWith("99006562292958982506979236163", digits, StringComparison.Ordinal);
+        Assert.EndsWith("747109376", digits, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Info_OfInfiniteFractal_SaysSo()
+    {
+        _folder.Write("infinite.fdo", SampleFiles.Row(""));
+        var (exitCode, output, _) = Run("info", "infinite.fdo", "--json");
+        Assert.Equal(0, exitCode);
+        Assert.Contains("\"instances\": null, \"infinite\": true", output, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Count_OfMesh_WritesHeaderOnce()
+    {
+        Assert.Equal(new AppResult(0, $"12{Environment.NewLine}", ""), Run("count", "cube.obj"));
+        Assert.Equal("# Mesh count: 12\n" + SampleFiles.Cube, File.ReadAllText(_folder["cube.obj"]));
+        Assert.Equal(0, Run("count", "cube.obj").ExitCode);
+        Assert.Equal("# Mesh count: 12\n" + SampleFiles.Cube, File.ReadAllText(_folder["cube.obj"]));
+    }
+
+    [Fact]
+    public void Count_OfFractal_IsWrongUsage() => Assert.Equal(2, Run("count", "row.fdo").ExitCode);
+
+    [Fact]
+    public void Export_WithDepth_OverridesTheFile()
+    {
+        Assert.Equal(new AppResult(0, "", ""), Run("export", "row.fdo", "--output", "flat.obj", "--depth", "5"));
+        Assert.Contains("\"faces\": 384,", Run("info", "flat.obj", "--json").Output, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Export_IntoAMissingFolder_CreatesIt()
+    {
+        Assert.Equal(0, Run("export", "row.fdo", "--output", "a/b/flat.obj").ExitCode);
+        Assert.True(File.Exists(_folder["a/b/flat.obj"]));
+    }
+
+    [Fact]
+    public void Export_OverTheLimit_ExitsWith3AndWritesNothing()
+    {
+        var (exitCode, output, error) = Run("export", "row.fdo", "--output", "flat.obj", "--limit", "95");
+        Assert.Equal((3, ""), (exitCode, output));
+        Assert.StartsWith("error: ", error, StringComparison.Ordinal);
+        Assert.Equal(["cube.obj", "row.fdo"], Directory.GetFiles(_folder.Path).Select(Path.GetFileName).Order());
+    }
+
+    [Fact]
+    public void Export_BeyondTheMaxDepth_ExitsWith3() =>
+        Assert.Equal(3, Run("export", "row.fdo", "--output", "flat.obj", "--depth", "1000001").ExitCode);
+
+    [SkippableFact]
+    public void Check_OfANamedPipe_DoesNotWait()
+    {
+        Skip.If(OperatingSystem.IsWindows(), "there are no named pipes");
+        System.Diagnostics.Process.Start("mkfifo", _folder["pipe.obj"]).WaitForExit();
+        Assert.Equal(new AppResult(1, "", "pipe.obj:1:1: error: this is a pipe or a device, expected a file\n"), Run("check", "pipe.obj"));
+    }
+
+    [Fact]
+    public void Export_OfInfiniteFractal_ExitsWith3()
+    {
+        _folder.Write("infinite.fdo", SampleFiles.Row(""));
+        Assert.Equal(3, Run("export", "infinite.fdo", "--output", "flat.obj").ExitCode);
+        Assert.Equal(0, Run("export", "infinite.fdo", "--output", "flat.obj", "--depth", "2").ExitCode);
+    }
+
+    [Fact]
+    public void Save_WithinTheFolder_KeepsEveryByte()
+    {
+        var text = "# mine\r\no \"row.fdo\"   #\r\n  # his\r\nc (1 2 3), # 60\r\n";
+        _folder.Write("scene.sdo", text);
+        Assert.Equal(new AppResult(0, "", ""), Run("save", "scene.sdo", "--output", "copy.sdo"));
+        Assert.Equal(text, File.ReadAllText(_folder["copy.sdo"]));
+    }
+
+    [Fact]
+    public void Save_IntoAnotherFolder_NamesTheSameFiles()
+    {
+        _folder.Write("scene.sdo", "o \"row.fdo\" #\n");
+        Directory.CreateDirectory(_folder["there"]);
+        var (exitCode, _, error) = Run("save", "scene.sdo", "--output", "there/copy.sdo");
+        Assert.Equal(0, exitCode);
+        Assert.Contains("--allow-outside", error, StringComparison.Ordinal);
+        Assert.Equal("o \"../row.fdo\" #\n", File.ReadAllText(_folder["there/copy.sdo"]));
+        Assert.Equal(1, Run("check", "there/copy.sdo").ExitCode);
+        Assert.Equal(0, Run("check", "there/copy.sdo", "--allow-outside").ExitCode);
+    }
+
+    [Fact]
+    public void Check_OfAGoodFile_SaysOk() =>
+        Assert.Equal(new AppResult(0, $"row.fdo: ok{Environment.NewLine}", ""), Run("check", "row.fdo"));
+
+    [Fact]
+    public void Check_OfAMeshWithoutItsMaterialFile_WarnsAndSaysOk()
+    {
+        _folder.Write("red.obj", "mtllib red.mtl\nusemtl red\n" + SampleFiles.Cube);
+        Assert.Equal(
+            new AppResult(0, $"red.obj: ok{Environment.NewLine}",
+            "red.obj:1:8: warning: the file \"red.mtl\" is not found\n  mtllib red.mtl\n         ^\n"),
+            Run("check", "red.obj"));
+    }
+
+    [Fact]
+    public void Check_OfABadBase_NamesTheReferringLine()
+    {
+        _folder.Write("bad.fdo", "x. \"nope.obj\"\n<$>. x\n");
+        Assert.Equal(
+            new AppResult(1, "", "bad.fdo:1:4: error: the file \"nope.obj\" is not found\n  x. \"nope.obj\"\n     ^\n"),
+            Run("check", "bad.fdo"));
+    }
+
+    [Theory]
+    [InlineData("frobnicate", "x.obj")]
+    [InlineData("info")]
+    [InlineData("info", "cube.obj", "--nonsense")]
+    [InlineData("info", "")]
+    [InlineData("--nonsense")]
+    [InlineData("info", "--nonsense", "cube.obj")]
+    [InlineData("export", "cube.obj", "--output", "cube.obj")]
+    [InlineData("export", "cube.obj")]
+    [InlineData("export", "cube.obj", "--output", "flat.png")]
+    [InlineData("export", "row.fdo", "--output", "flat.obj", "--depth", "-1")]
+    [InlineData("export", "row.fdo", "--output", "flat.obj", "--depth", "many")]
+    [InlineData("export", "cube.obj", "--output", "flat.obj", "--depth", "2")]
+    [InlineData("export", "cube.obj", "--output", "row.fdo/flat.obj")]
+    [InlineData("render", "cube.obj", "--output", "a.png", "--resolution", "0x10")]
+    [InlineData("render", "cube.obj", "--output", "a.png", "--projection", "fisheye")]
+    [InlineData("render", "cube.obj", "--output", "a.png", "--shading", "flat")]
+    public void Arguments_OfWrongUsage_ExitWith2AndAMessageOnStderr(params string[] arguments)
+    {
+        var (exitCode, output, error) = Run(arguments);
+        Assert.Equal((2, ""), (exitCode, output));
+        Assert.StartsWith("error: ", error, StringComparison.Ordinal);
+        Assert.DoesNotContain("   at ", error, StringComparison.Ordinal);
+    }
+
+    [Theory]
+    [InlineData("render", "cube.obj", "--output", "a.png")]
+    [InlineData("view", "cube.obj")]
+    public void Without_AnUnknownWord_NamesItAndTheKnownOnes(params string[] arguments)
+    {
+        var (exitCode, _, error) = Run([.. arguments, "--without", "backface-culling", "--without", "nonsense"]);
+        Assert.Equal(2, exitCode);
+        Assert.StartsWith(
+            "error: --without: expected one of backface-culling, frustum-culling, occlusion-culling, degenerate-removal, "
+            + "state-filtering, buffer-reuse, mesh-sharing, lazy-loading, idle, not 'nonsense'\n",
+            error, StringComparison.Ordinal);
+    }
+
+    [Theory]
+    [InlineData("missing.obj")]
+    [InlineData("missing.sdo")]
+    [InlineData(".")]
+    [InlineData("notes.txt")]
+    public void Info_OfAnUnreadableFile_ExitsWith1(string file)
+    {
+        _folder.Write("notes.txt", "hello\n");
+        var (exitCode, output, error) = Run("info", file);
+        Assert.Equal((1, ""), (exitCode, output));
+        Assert.Matches(@"^\S+:1:1: error: [^\n]+\n$", error);
+    }
+
+    [SkippableFact]
+    public void Render_WithoutDisplay_ExitsWith4AndWritesNothing()
+    {
+        Skip.IfNot(OperatingSystem.IsLinux(), "only X11 and Wayland find their display by variables of the environment");
+        var noDisplay = new Dictionary<string, string?> { ["DISPLAY"] = null, ["WAYLAND_DISPLAY"] = null };
+        var (exitCode, output, error) = AppProcess.Run(_folder.Path, noDisplay, "render", "cube.obj", "--output", "a.png");
+        Assert.Equal((4, ""), (exitCode, output));
+        // The system's own libraries may write lines of theirs.
+        Assert.Matches("(?m)^error: [^\n]+$", error);
+        Assert.DoesNotContain("   at ", error, StringComparison.Ordinal);
+        Assert.False(File.Exists(_folder["a.png"]));
+    }
+
+    [Theory]
+    [InlineData("de_DE.UTF-8")]
+    [InlineData("tr_TR.UTF-8")]
+    [InlineData("ar_SA.UTF-8")]
+    public void Commands_InAnyCulture_WriteTheSame(string culture)
+    {
+        var environment = new Dictionary<string, string?> { ["LC_ALL"] = culture, ["LANG"] = culture };
+        var flat = AppProcess.Run(_folder.Path, environment, "export", "row.fdo", "--output", "there.obj");
+        Assert.Equal(new AppResult(0, "", ""), flat);
+        Assert.Equal(new AppResult(0, "", ""), Run("export", "row.fdo", "--output", "here.obj"));
+        Assert.Equal(File.ReadAllBytes(_folder["here.obj"]), File.ReadAllBytes(_folder["there.obj"]));
+    }
+
+    [Theory]
+    [InlineData("--help")]
+    [InlineData("--version")]
+    [InlineData("render", "--help")]
+    [InlineData("render", "--version")]
+    public void HelpOrVersion_OfAnyCommand_ExitsWith0(params string[] arguments)
+    {
+        var (exitCode, output, error) = Run(arguments);
+        Assert.Equal((0, ""), (exitCode, error));
+        Assert.NotEqual("", output);
+    }
+
+    private AppResult Run(params string[] arguments) => AppProcess.Run(_folder.Path, arguments);
+}

@@ -1,0 +1,88 @@
+using System.Text.Json;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.App.Commands;
+
+/// <summary>Tests the command <c>query</c>, which prints one line per position in order, or one error.</summary>
+public sealed class QueryCommandTests : IDisposable
+{
+    private readonly TemporaryFolder _folder = new();
+
+    public QueryCommandTests()
+    {
+        _folder.Write("cube.obj", SampleFiles.Cube);
+        _folder.Write("row.fdo", SampleFiles.Row("1000000"));
+        _folder.Write("scene.sdo", "o \"cube.obj\" ((0, 0, 0), #, (2, 2, 2))\no \"cube.obj\" ((10, 0, 0), #, #)\n");
+    }
+
+    public void Dispose() => _folder.Dispose();
+
+    [Theory]
+    [InlineData("exact")]
+    [InlineData("hierarchy")]
+    [InlineData("simple")]
+    public void Query_OfACube_GivesDistancePointAndNormal(string collider)
+    {
+        _folder.Write("points.txt", "# two points\n2 0.25 0.125\n\n0, 0.125, -1 # below\n");
+        var (exitCode, output, error) = Run("query", "cube.obj", "--points", "points.txt", "--collider", collider);
+        Assert.Equal(0, exitCode);
+        var lines = output.Split('\n', StringSplitOptions.RemoveEmptyEntries);
+        Assert.Equal(2, lines.Length);
+        Assert.StartsWith("1.5 0.5 0.25 0.125 1 0 0 ", lines[0], StringComparison.Ordinal);
+        Assert.StartsWith("0.5 0 0.125 -0.5 0 0 -1 ", lines[1].Replace("-0 ", "0 ", StringComparison.Ordinal), StringComparison.Ordinal);
+        Assert.StartsWith("faces 12\nbuild ", error, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Query_WithMaxDistance_SaysNone()
+    {
+        _folder.Write("points.txt", "3 0 0\n1 0 0\n");
+        var lines = Run("query", "cube.obj", "--points", "points.txt", "--within", "1").Output.Split('\n');
+        Assert.Equal("none", lines[0]);
+        Assert.StartsWith("0.5 ", lines[1], StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Query_OfADeepFractal_IsAccurate()
+    {
+        _folder.Write("points.txt", "0.1 2 0\n");
+        var (exitCode, output, _) = Run("query", "row.fdo", "--points", "points.txt", "--json");
+        Assert.Equal(0, exitCode);
+        using var results = JsonDocument.Parse(output);
+        // The row is only 2⁻¹⁰⁰⁰⁰⁰⁰ thick, so its distance is 2 to the last digits of the coordinates.
+        Assert.Equal(2, results.RootElement[0].GetProperty("distance").GetDouble(), 1e-14);
+    }
+
+    [Fact]
+    public void Query_OfAScene_IsInWorldSpace()
+    {
+        _folder.Write("points.txt", "0 3 0\n10 3 0\n");
+        var lines = Run("query", "scene.sdo", "--points", "points.txt").Output.Split('\n');
+        Assert.StartsWith("2 0 1 0 0 1 0 ", lines[0], StringComparison.Ordinal);
+        Assert.StartsWith("2.5 10 0.5 0 0 1 0 ", lines[1], StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Query_OfBadPoints_NamesTheLine()
+    {
+        _folder.Write("points.txt", "1 2 3\n4 5\n");
+        Assert.Equal(
+            new AppResult(1, "", "points.txt:2:4: error: unexpected end of line, expected ','\n  4 5\n     ^\n"),
+            Run("query", "cube.obj", "--points", "points.txt"));
+    }
+
+    [Theory]
+    [InlineData("--collider", "fractal")]
+    [InlineData("--collider", "magic")]
+    [InlineData("--within", "-1")]
+    [InlineData("--epsilon", "NaN")]
+    public void Query_WithInvalidOptions_IsWrongUsage(params string[] options)
+    {
+        _folder.Write("points.txt", "1 2 3\n");
+        var (exitCode, output, error) = Run(["query", "cube.obj", "--points", "points.txt", .. options]);
+        Assert.Equal((2, ""), (exitCode, output));
+        Assert.StartsWith("error: ", error, StringComparison.Ordinal);
+    }
+
+    private AppResult Run(params string[] arguments) => AppProcess.Run(_folder.Path, arguments);
+}

@@ -1,0 +1,258 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Parsing.Assets;
+
+public sealed class AssetLoaderTests : IDisposable
+{
+    private const string Triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    private readonly TemporaryFolder _folder = new();
+
+    public void Dispose() => _folder.Dispose();
+
+    private string Fails(string file, LoadOptions? options = null) =>
+        Errors.MessageOf(() => AssetLoader.Load(_folder[file], options)).Replace(_folder.Path + "/", "", StringComparison.Ordinal);
+
+    [Fact]
+    public void Load_OfAMesh_IsASceneOfThatObject()
+    {
+        var loaded = AssetLoader.Load(_folder.Write("a.obj", Triangle));
+        Assert.Equal((FileKind.Mesh, Triangle.Length), (loaded.Kind, loaded.StorageBytes));
+        Assert.IsType<MeshModel>(Assert.Single(loaded.Scene.Objects).Model);
+        Assert.Equal(1, loaded.Scene.Objects[0].Model.FaceCount);
+    }
+
+    [Fact]
+    public void Load_OfAppendixB_CountsItsFacesAndTheBytesOfBothFiles()
+    {
+        _folder.Write("FractalBase.obj", Triangle);
+        var loaded = AssetLoader.Load(_folder.Write("b.fdo", Samples.AppendixB));
+        Assert.Equal((FileKind.Fractal, 244_140_625), (loaded.Kind, loaded.Scene.Objects[0].Model.FaceCount));
+        Assert.Equal(Triangle.Length + Samples.AppendixB.Length, loaded.StorageBytes);
+    }
+
+    [Fact]
+    public void Load_OfAppendixA_HasItsObjectsWhereItSays()
+    {
+        _folder.Write("SampleAsset1.obj", Triangle);
+        _folder.Write("SampleAsset2.obj", Triangle);
+        var loaded = AssetLoader.Load(_folder.Write("a.sdo", Samples.AppendixA));
+        Assert.Equal(FileKind.Scene, loaded.Kind);
+        Assert.Equal(new(1, 1, 1), loaded.Scene.Objects[0].ObjectToWorld.Translation);
+        Assert.Equal(2, loaded.Scene.Objects.Length);
+    }
+
+    [Fact]
+    public void Load_WithoutSharing_ReadsAFileForEachObject()
+    {
+        _folder.Write("a.obj", Triangle);
+        _folder.Write("f.fdo", "<$>. \"a.obj\"");
+        var scene =
+            _folder.Write("s.sdo",
+            "o \"a.obj\" #\no \"a.obj\" ((1, 0, 0), #, #)\no \"a.obj\" ((2, 0, 0), #, #)\no \"f.fdo\" #\no \"f.fdo\" #");
+        Assert.Equal(2, AssetLoader.Load(scene).Scene.Models.Count());
+        var models = AssetLoader.Load(scene, new() { ShareModels = false }).Scene.Models.ToArray();
+        Assert.Equal((5, 5), (models.Length, models.Select(model => model.Mesh).Distinct(ReferenceEqualityComparer.Instance).Count()));
+    }
+
+    [Fact]
+    public void Load_OfAFileNamedOften_ReadsItOnce()
+    {
+        _folder.Write("sub/a.obj", Triangle);
+        _folder.Write("f.fdo", "<$>. \"sub/a.obj\"");
+        var text = "o \"sub/a.obj\" #\no \"sub/../sub/a.obj\" ((1, 0, 0), #, #)\no \"f.fdo\" #\no \"f.fdo\" #";
+        var loaded = AssetLoader.Load(_folder.Write("s.sdo", text));
+        var models = loaded.Scene.Objects.Select(placed => placed.Model).ToArray();
+        Assert.Same(models[0], models[1]);
+        Assert.Same(models[2], models[3]);
+        Assert.Equal(2, loaded.Scene.Models.Count());
+        Assert.Equal(text.Length + Triangle.Length + "<$>. \"sub/a.obj\"".Length, loaded.StorageBytes);
+    }
+
+    [Fact]
+    public void Load_OfNamesInAFractal_IsRelativeToTheFractal()
+    {
+        _folder.Write("sub/b.obj", Triangle);
+        _folder.Write("sub/f.fdo", "<$>. \"b.obj\"");
+        Assert.Single(AssetLoader.Load(_folder.Write("s.sdo", "o \"sub/f.fdo\" #")).Scene.Objects);
+    }
+
+    [Theory]
+    [InlineData("f.fdo", "v 1 2 3\nx. \"missing.obj\"\n<$>. x\n",
+        "f.fdo:2:4: error: the file \"missing.obj\" is not found\n  x. \"missing.obj\"\n     ^")]
+    [InlineData("s.sdo", "# a\no \"missing.obj\" #\n",
+        "s.sdo:2:3: error: the file \"missing.obj\" is not found\n  o \"missing.obj\" #\n    ^")]
+    public void Load_WithAMissingFile_PointsAtItsName(string file, string text, string expected)
+    {
+        _folder.Write(file, text);
+        Assert.Equal(expected, Fails(file));
+    }
+
+    [Fact]
+    public void Load_WithADirectoryForAFile_PointsAtItsName()
+    {
+        Directory.CreateDirectory(_folder["d.obj"]);
+        _folder.Write("s.sdo", "o \"d.obj\" #");
+        Assert.Equal("s.sdo:1:3: error: \"d.obj\" is a directory, expected a file\n  o \"d.obj\" #\n    ^", Fails("s.sdo"));
+    }
+
+    [Theory]
+    [InlineData("missing.obj", "missing.obj:1:1: error: file not found")]
+    [InlineData("missing.sdo", "missing.sdo:1:1: error: file not found")]
+    [InlineData("missing", "missing:1:1: error: file not found")]
+    [InlineData("a.txt", "a.txt:1:1: error: the ending says nothing of the contents, expected .obj, .fdo or .sdo")]
+    [InlineData("d.sdo", "d.sdo:1:1: error: this is a directory, expected a file")]
+    public void Load_OfAPathThatIsNoSuchFile_SaysWhy(string file, string expected)
+    {
+        _folder.Write("a.txt", "v 1 2 3");
+        Directory.CreateDirectory(_folder["d.sdo"]);
+        Assert.Equal(expected, Fails(file));
+    }
+
+    [Fact]
+    public void Load_WithAnErrorInAReferredFile_PointsIntoThatFile()
+    {
+        _folder.Write("bad.obj", "v 1 2 3\nf 1 2 3\n");
+        _folder.Write("s.sdo", "o \"bad.obj\" #");
+        Assert.EndsWith("bad.obj:2:5: error: vertex 2 of 1 so far: it is beyond the last\n  f 1 2 3\n      ^", Fails("s.sdo"),
+            StringComparison.Ordinal);
+    }
+
+    [Theory]
+    [InlineData("../outside.obj")]
+    [InlineData("../scene-elsewhere/outside.obj")]
+    [InlineData("ABSOLUTE")]
+    [InlineData("link.obj")]
+    [InlineData("linked/outside.obj")]
+    public void Load_OfAFileOutsideTheFolder_IsRefusedUnlessAllowed(string name)
+    {
+        var outside = _folder.Write("outside.obj", Triangle);
+        _folder.Write("scene-elsewhere/outside.obj", Triangle);
+        _folder.Write("scene/s.sdo", $"o \"{name.Replace("ABSOLUTE", outside, StringComparison.Ordinal)}\" #");
+        File.CreateSymbolicLink(_folder["scene/link.obj"], outside);
+        Directory.CreateSymbolicLink(_folder["scene/linked"], _folder.Path);
+        Assert.Contains("s.sdo:1:3: error: \"", Fails("scene/s.sdo"), StringComparison.Ordinal);
+        Assert.Contains("--allow-outside", Fails("scene/s.sdo"), StringComparison.Ordinal);
+        Assert.Single(AssetLoader.Load(_folder["scene/s.sdo"], new() { AllowOutsideFiles = true }).Scene.Objects);
+    }
+
+    [Fact]
+    public void Load_OfAFileOutside_IsRefusedWhetherItExistsOrNot()
+    {
+        // Otherwise a scene could find out what files there are.
+        _folder.Write("scene/s.sdo", "o \"../missing.obj\" #");
+        Assert.Contains("lies outside the folder", Fails("scene/s.sdo"), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Load_OfAFractalThatLeadsOutside_IsRefusedToo()
+    {
+        _folder.Write("outside.obj", Triangle);
+        _folder.Write("scene/sub/f.fdo", "<$>. \"../../outside.obj\"");
+        _folder.Write("scene/s.sdo", "o \"sub/f.fdo\" #");
+        Assert.Contains("lies outside the folder", Fails("scene/s.sdo"), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Load_OfAFractalBelowItsScene_MayUseTheScenesFolder()
+    {
+        _folder.Write("scene/base.obj", Triangle);
+        _folder.Write("scene/sub/f.fdo", "<$>. \"../base.obj\"");
+        Assert.Single(AssetLoader.Load(_folder.Write("scene/s.sdo", "o \"sub/f.fdo\" #")).Scene.Objects);
+    }
+
+    [Fact]
+    public void Load_UnderAnAssetRoot_MayNameFilesBelowTheRootOnly()
+    {
+        _folder.Write("assets/.asset-root", "");
+        _folder.Write("assets/models/a.obj", Triangle);
+        _folder.Write("outside.obj", Triangle);
+        Assert.Single(AssetLoader.Load(_folder.Write("assets/scenes/s.sdo", "o \"../models/a.obj\" #")).Scene.Objects);
+        _folder.Write("assets/scenes/t.sdo", "o \"../../outside.obj\" #");
+        Assert.Contains("lies outside the folder", Fails("assets/scenes/t.sdo"), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Load_WithUnknownKeywords_CollectsOneWarningPerFile()
+    {
+        _folder.Write("a.obj", Triangle + "curv 1\nvp 2\n");
+        _folder.Write("b.obj", "vp 1\n" + Triangle);
+        var loaded = AssetLoader.Load(_folder.Write("s.sdo", "o \"a.obj\" #\no \"b.obj\" #\no \"a.obj\" #"));
+        Assert.Equal([5, 1], loaded.Warnings.Select(warning => warning.Line));
+        Assert.All(loaded.Warnings, warning => Assert.Equal(DiagnosticSeverity.Warning, warning.Severity));
+    }
+
+    [Fact]
+    public void Check_OfASceneWithManyErrors_FindsThemAll()
+    {
+        _folder.Write("bad.obj", "v 1 2\n");
+        _folder.Write("bad.fdo", "<$>. x");
+        _folder.Write("good.obj", Triangle);
+        _folder.Write("s.sdo", "o \"bad.obj\" #\no \"missing.obj\" #\no \"good.obj\" #\no \"bad.fdo\" #\no \"bad.obj\" #");
+        var found = AssetLoader.Check(_folder["s.sdo"]);
+        Assert.Equal(
+            ["bad.obj:1", "s.sdo:2", "bad.fdo:1"],
+            found.Where(d => d.Severity == DiagnosticSeverity.Error).Select(d => $"{Path.GetFileName(d.File)}:{d.Line}").Distinct());
+    }
+
+    [Fact]
+    public void Check_OfASoundScene_FindsNothing()
+    {
+        _folder.Write("a.obj", Triangle);
+        Assert.Empty(AssetLoader.Check(_folder.Write("s.sdo", "o \"a.obj\" #")));
+    }
+
+    [Fact]
+    public void Options_OfDepthAndComposition_ReplaceWhatTheFileSays()
+    {
+        _folder.Write("FractalBase.obj", Triangle);
+        var path = _folder.Write("b.fdo", Samples.AppendixB);
+        var fractal =
+            ((FractalModel)AssetLoader.Load(path,
+            new() { Depth = 2, Composition = Composition.Componentwise }).Scene.Objects[0].Model).Fractal;
+        Assert.Equal((625, Composition.Componentwise), (fractal.InstanceCount, fractal.Description.Composition));
+    }
+
+    [Fact]
+    public void Load_OfAnInfiniteFractalComponentwise_IsRefused()
+    {
+        _folder.Write("b.obj", Triangle);
+        _folder.Write("f.fdo", "v .5 .5 .5\nt.a. (#, #, a)\nx. \"b.obj\"\nz<x>. [t.1] x\n<$>. z");
+        Assert.NotEmpty(AssetLoader.Load(_folder["f.fdo"]).Scene.Objects);
+        Assert.Contains("f.fdo:5:1: error: an infinite fractal can't be composed componentwise",
+            Fails("f.fdo", new() { Composition = Composition.Componentwise }), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Load_OfAnInfiniteFractalThatDoesNotShrink_IsRefused()
+    {
+        _folder.Write("b.obj", Triangle);
+        _folder.Write("f.fdo", "v 1 0 0\nt.a. (a, #, #)\nx. \"b.obj\"\nz<x>. [#, t.1] x\n<$>. z");
+        Assert.Contains("f.fdo:5:1: error: the infinite fractal has no bounds", Fails("f.fdo"), StringComparison.Ordinal);
+    }
+
+    [Theory]
+    [MemberData(nameof(InCulture.Names), MemberType = typeof(InCulture))]
+    public void Load_InAnyCulture_TellsFilesByTheirEndings(string culture)
+    {
+        _folder.Write("A.OBJ", Triangle);
+        _folder.Write("F.FDO", "<$>. \"A.OBJ\"");
+        var path = _folder.Write("S.SDO", "o \"F.FDO\" #");
+        Assert.Equal(FileKind.Scene, InCulture.Run(culture, () => AssetLoader.Load(path)).Kind);
+    }
+
+    [Fact]
+    public void Load_OfVerticesOnly_IsAnEmptyMesh() =>
+        Assert.Equal(0, AssetLoader.Load(_folder.Write("a.obj", "v 1 2 3\n")).Scene.Objects[0].Model.FaceCount);
+
+    [Fact]
+    public void Load_OfAnInfiniteFractalThatGrows_IsRefused()
+    {
+        _folder.Write("b.obj", Triangle);
+        _folder.Write("f.fdo", "v 2 2 2\nv 1 0 0\nt.a.b. (b, #, a)\nx. \"b.obj\"\nz<x>. [#, t.1.2] x\n<$>. z");
+        Assert.Contains("f.fdo:6:1: error: the infinite fractal has no bounds", Fails("f.fdo"), StringComparison.Ordinal);
+    }
+}

@@ -1,0 +1,298 @@
+using System.Buffers.Binary;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Parsing.Assets;
+
+/// <summary>Materials and textures that files name are found and shared; missing ones give a warning only.</summary>
+public sealed class MaterialLoaderTests : IDisposable
+{
+    private const string Triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    private readonly TemporaryFolder _folder = new();
+
+    public void Dispose() => _folder.Dispose();
+
+    [Fact]
+    public void Load_OfAMeshWithMaterials_HasThoseThatItUses()
+    {
+        WritePngHeader("wood.png", 4, 3);
+        _folder.Write("a.mtl", "newmtl wood\nmap_Kd wood.png\nnewmtl unused\nmap_Kd missing.png\n");
+        var loaded = Load("mtllib a.mtl\nusemtl wood\nf 1 2 3\n");
+        Assert.Empty(loaded.Warnings);
+        Assert.Equal(new Material("wood") { Texture = new(_folder["wood.png"]) },
+            Assert.Single(loaded.Scene.Objects[0].Model.Materials).Value);
+        Assert.Equal(new[] { "a.obj", "a.mtl", "wood.png" }.Sum(file => new FileInfo(_folder[file]).Length), loaded.StorageBytes);
+    }
+
+    [Fact]
+    public void Load_OfAFractal_HasTheMaterialsOfItsBase()
+    {
+        _folder.Write("a.mtl", "newmtl red\nKd 1 0 0\n");
+        _folder.Write("base.obj", $"mtllib a.mtl\n{Triangle}usemtl red\nf 1 2 3\n");
+        var loaded = AssetLoader.Load(_folder.Write("f.fdo", "<$>. \"base.obj\""));
+        Assert.Equal(new Colour(1, 0, 0), Assert.IsType<FractalModel>(loaded.Scene.Objects[0].Model).Materials["red"].Diffuse);
+    }
+
+    [Fact]
+    public void Load_OfOneMaterialFileForManyMeshes_ReadsItOnce()
+    {
+        _folder.Write("a.mtl", "newmtl red\nKd x\n");
+        _folder.Write("a.obj", $"mtllib a.mtl\n{Triangle}usemtl red\nf 1 2 3\n");
+        _folder.Write("b.obj", $"mtllib a.mtl\n{Triangle}usemtl red\nf 1 3 2\n");
+        var loaded = AssetLoader.Load(_folder.Write("s.sdo", "o \"a.obj\" #\no \"b.obj\" #\no \"a.obj\" #"));
+        Assert.Single(loaded.Warnings);
+        Assert.Same(loaded.Scene.Objects[0].Model.Materials["red"], loaded.Scene.Objects[1].Model.Materials["red"]);
+    }
+
+    [Fact]
+    public void Load_OfAnImageInAnotherFolder_IsRelativeToTheMaterialFile()
+    {
+        WritePngHeader("sub/images/wood.png", 2, 2);
+        _folder.Write("sub/a.mtl", "newmtl wood\nmap_Kd images/wood.png\n");
+        Assert.Equal(_folder["sub/images/wood.png"], MaterialOf(Load("mtllib sub/a.mtl\nusemtl wood\nf 1 2 3\n")).Texture!.Path);
+    }
+
+    [Theory]
+    [InlineData("mtllib a.mtl b.mtl")]
+    [InlineData("mtllib a.mtl\nmtllib b.mtl")]
+    [InlineData("mtllib two words.mtl b.mtl")]
+    [InlineData("mtllib two\\ words.mtl b.mtl")]
+    [InlineData("mtllib two words.mtl\nmtllib b.mtl")]
+    public void Load_OfSeveralMaterialFiles_FindsTheMaterialsOfAll(string statements)
+    {
+        _folder.Write("a.mtl", "newmtl red\n");
+        _folder.Write("two words.mtl", "newmtl red\n");
+        _folder.Write("b.mtl", "newmtl blue\n");
+        var loaded = Load($"{statements}\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 2 3\n");
+        Assert.Empty(loaded.Warnings);
+        Assert.Equal(["blue", "red"], loaded.Scene.Objects[0].Model.Materials.Keys.Order());
+    }
+
+    [Fact]
+    public void Load_WithoutItsMaterialFile_WarnsOnceAndLoads()
+    {
+        var loaded = Load("mtllib gone.mtl\nmtllib gone too.mtl\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 2 3\n");
+        Assert.Empty(loaded.Scene.Objects[0].Model.Materials);
+        Assert.Equal("a.obj:1:8: warning: the file \"gone.mtl\" is not found (2 such files in all)\n  mtllib gone.mtl\n         ^",
+            SingleWarning(loaded));
+    }
+
+    [Fact]
+    public void Load_WithAMaterialThatNoFileDeclares_Warns()
+    {
+        _folder.Write("a.mtl", "newmtl red\n");
+        Assert.Equal(
+            "a.obj:7:8: warning: no material file declares \"blue\": drawn in the object's own colour\n  usemtl blue\n         ^",
+            SingleWarning(Load("mtllib a.mtl\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 2 3\n", before: Triangle)));
+    }
+
+    [Theory]
+    [InlineData("newmtl a\0b", "a.mtl:1:9: warning: the file is binary (it has a NUL byte), expected UTF-8 text")]
+    [InlineData("\uFEFF\0", "a.mtl:1:1: warning: the file is binary (it has a NUL byte), expected UTF-8 text")]
+    public void Load_WithAMaterialFileThatIsNoText_Warns(string text, string expected)
+    {
+        _folder.Write("a.mtl", text);
+        Assert.Equal(expected, SingleWarning(Load("mtllib a.mtl\nusemtl red\nf 1 2 3\n")));
+    }
+
+    [Fact]
+    public void Load_WithAMaterialFileBeyondTheLimit_Warns()
+    {
+        using (var stream = File.Create(_folder["a.mtl"]))
+        {
+            stream.SetLength(ParsingLimits.MaxMaterialBytes + 1);
+        }
+
+        Assert.Equal("a.mtl:1:1: warning: the file has 16777217 bytes, more than the limit of 16777216",
+            SingleWarning(Load("mtllib a.mtl\nusemtl red\nf 1 2 3\n")));
+    }
+
+    [Fact]
+    public void Load_WithAMissingImage_WarnsOnceAndIsGrey()
+    {
+        _folder.Write("a.mtl", "newmtl red\nKd 1 0.5 0\nmap_Kd gone.png\nnewmtl blue\nmap_Kd gone.png\n");
+        var loaded = Load("mtllib a.mtl\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 2 3\n");
+        Assert.Equal("a.mtl:3:8: warning: the file \"gone.png\" is not found: drawn grey\n  map_Kd gone.png\n         ^",
+            SingleWarning(loaded));
+        var materials = loaded.Scene.Objects[0].Model.Materials;
+        Assert.Equal((new Colour(0.6, 0.3, 0), null), (materials["red"].Diffuse, materials["red"].Texture));
+        Assert.Equal((new Colour(0.6, 0.6, 0.6), null), (materials["blue"].Diffuse, materials["blue"].Texture));
+    }
+
+    [Fact]
+    public void Load_WithThousandsOfMissingImages_WarnsOfTwenty()
+    {
+        var names = Enumerable.Range(0, 3000).ToArray();
+        _folder.Write("a.mtl", string.Concat(names.Select(name => $"newmtl m{name}\nmap_Kd {name}.png\n")));
+        var loaded = Load("mtllib a.mtl\n" + string.Concat(names.Select(name => $"usemtl m{name}\nf 1 2 3\n")));
+        Assert.Equal(20, loaded.Warnings.Length);
+        Assert.Equal("the file \"19.png\" is not found: drawn grey; further unusable textures are not reported",
+            loaded.Warnings[^1].Message);
+        Assert.All(loaded.Scene.Objects[0].Model.Materials.Values, material => Assert.Null(material.Texture));
+    }
+
+    [Theory]
+    [InlineData("no image", "\"a.png\" is not a PNG, JPEG, BMP or TGA image")]
+    [InlineData("", "\"a.png\" is empty, expected an image")]
+    public void Load_WithAFileThatIsNoImage_WarnsAndIsGrey(string contents, string message)
+    {
+        _folder.Write("a.png", contents);
+        AssertImageIsRefused(message);
+    }
+
+    [Fact]
+    public void Load_WithAPipeForAnImage_DoesNotWait()
+    {
+        if (!OperatingSystem.IsWindows())
+        {
+            System.Diagnostics.Process.Start("mkfifo", _folder["a.png"]).WaitForExit();
+            AssertImageIsRefused("\"a.png\" is empty, expected an image");
+        }
+    }
+
+    [Theory]
+    [InlineData(8193, 1, "the image \"a.png\" has 8193×1 pixels, more than the limit of 8192 per side")]
+    [InlineData(4, 4_000_000_000, "the image \"a.png\" has 4×4000000000 pixels, more than the limit of 8192 per side")]
+    [InlineData(0, 5, "\"a.png\" is not a PNG, JPEG, BMP or TGA image")]
+    public void Load_WithAnImageBeyondTheLimit_WarnsAndIsGrey(uint width, uint height, string message)
+    {
+        WritePngHeader("a.png", width, height);
+        AssertImageIsRefused(message);
+    }
+
+    [Fact]
+    public void Load_WithAnImageFileBeyondTheLimit_WarnsAndIsGrey()
+    {
+        WritePngHeader("a.png", 1, 1);
+        using (var stream = File.OpenWrite(_folder["a.png"]))
+        {
+            stream.SetLength(ParsingLimits.MaxImageBytes + 1);
+        }
+
+        AssertImageIsRefused("the image \"a.png\" is larger than the limit of 67108864 bytes");
+    }
+
+    [Fact]
+    public void Load_WithImagesBeyondTheTotalPixelLimit_OmitsTheLast()
+    {
+        var names = new[] { "a", "b", "c" };
+        foreach (var name in names)
+        {
+            WritePngHeader($"{name}.png", 8192, 8192);
+        }
+
+        _folder.Write("a.mtl", string.Concat(names.Select(name => $"newmtl {name}\nmap_Kd {name}.png\n")));
+        var loaded = Load("mtllib a.mtl\n" + string.Concat(names.Select(name => $"usemtl {name}\nf 1 2 3\n")));
+        Assert.Equal("with \"c.png\" all images have more than the limit of 134217728 pixels: drawn grey",
+            Assert.Single(loaded.Warnings).Message);
+        Assert.Equal(["a", "b"], loaded.Scene.Objects[0].Model.Materials.Where(item => item.Value.Texture is not null)
+            .Select(item => item.Key).Order());
+    }
+
+    [Theory]
+    [InlineData("mtllib ../outside.mtl")]
+    [InlineData("mtllib inside.mtl")]
+    public void Load_OfAFileOutsideTheFolder_IsNotReadUnlessAllowed(string library)
+    {
+        WritePngHeader("outside.png", 2, 2);
+        _folder.Write("outside.mtl", "newmtl m\nmap_Kd outside.png\n");
+        _folder.Write("scene/inside.mtl", "newmtl m\nmap_Kd ../outside.png\n");
+        var path = _folder.Write("scene/a.obj", $"{library}\n{Triangle}usemtl m\nf 1 2 3\n");
+        var loaded = AssetLoader.Load(path);
+        Assert.Contains("lies outside the folder of the file that was opened: allow that with --allow-outside",
+            Assert.Single(loaded.Warnings).Message, StringComparison.Ordinal);
+        Assert.True(loaded.Scene.Objects[0].Model.Materials.GetValueOrDefault("m") is null or { Texture: null });
+        var allowed = AssetLoader.Load(path, new() { AllowOutsideFiles = true });
+        Assert.Empty(allowed.Warnings);
+        Assert.Equal(_folder["outside.png"], MaterialOf(allowed).Texture!.Path);
+    }
+
+    [Theory]
+    [InlineData("a.jpg", new byte[] { 0xFF, 0xD8, 0xFF, 0xE0, 0, 4, 1, 2, 0xFF, 0xFF, 0xC2, 0, 17, 8, 0x01, 0x02, 0x03, 0x04, 3, 1, 2, 3 },
+        true)]
+    [InlineData("a.jpg", new byte[] { 0xFF, 0xD8, 0xFF, 0xE0, 0, 4, 1, 2 }, false)]
+    [InlineData("a.jpg", new byte[] { 0xFF, 0xD8, 0xFF, 0xC4, 0, 2, 1, 2, 3, 4, 5, 6, 7 }, false)]
+    [InlineData("a.bmp", new byte[] { 0x42, 0x4D, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 40, 0, 0, 0, 9, 0, 0, 0, 0xF0, 0xFF, 0xFF, 0xFF },
+        true)]
+    [InlineData("a.bmp", new byte[] { 0x42, 0x4D, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 12, 0, 0, 0, 9, 0, 8, 0, 1, 0, 24, 0 }, true)]
+    [InlineData("a.bmp", new byte[] { 0x42, 0x4D, 0 }, false)]
+    [InlineData("a.tga", new byte[] { 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 6, 0, 24, 0 }, true)]
+    [InlineData("a.tga", new byte[] { 0, 0, 7, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 6, 0, 24, 0 }, false)]
+    [InlineData("a.raw", new byte[] { 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 6, 0, 24, 0 }, false)]
+    public void Load_OfAnImageHeader_TellsImagesFromOtherFiles(string name, byte[] header, bool isImage)
+    {
+        File.WriteAllBytes(_folder[name], header);
+        _folder.Write("a.mtl", $"newmtl m\nmap_Kd {name}\n");
+        var loaded = Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n");
+        Assert.Equal(isImage, MaterialOf(loaded).Texture is not null);
+        Assert.Equal(isImage, loaded.Warnings.IsEmpty);
+    }
+
+    [Theory]
+    [InlineData("a.jpg", new byte[] { 0xFF, 0xD8, 0xFF, 0xC0, 0, 17, 8, 0x00, 0x01, 0x20, 0x01, 3, 1 }, "8193×1")]
+    [InlineData("a.bmp", new byte[] { 0x42, 0x4D, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 40, 0, 0, 0, 9, 0, 0, 0, 0, 0, 0, 0x80 },
+        "9×2147483648")]
+    [InlineData("a.tga", new byte[] { 0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, 6, 0, 24, 0 }, "65535×6")]
+    public void Load_OfAnImageHeader_ReadsItsSize(string name, byte[] header, string size)
+    {
+        File.WriteAllBytes(_folder[name], header);
+        _folder.Write("a.mtl", $"newmtl m\nmap_Kd {name}\n");
+        Assert.Contains($" {size} ", SingleWarning(Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n")), StringComparison.Ordinal);
+    }
+
+    [SkippableFact]
+    public void Load_OfRealFiles_FindsTheirMaterialsAndTextures()
+    {
+        Skip.If(SharedModels.Folder is null, "there is no folder of real models beside the checkout");
+        foreach (var (file, materials, textures) in ((string, int, int)[])[
+            ("trimesh/capsule.obj", 1, 1),
+            ("online3dviewer/cube with white spaces.obj", 3, 1),
+            ("online3dviewer/texture_parameters.obj", 4, 4),
+            ("tinyobjloader/cornell_box.obj", 4, 0)])
+        {
+            var loaded = AssetLoader.Load(Path.Combine(SharedModels.Folder!, file));
+            Assert.Empty(loaded.Warnings);
+            var found = loaded.Scene.Objects[0].Model.Materials.Values.ToArray();
+            Assert.Equal((file, textures), (file, found.Count(material => material.Texture is not null)));
+            Assert.True(found.Length >= materials, $"{file}: {found.Length} materials");
+        }
+    }
+
+    private static Material MaterialOf(LoadedFile file) => Assert.Single(file.Scene.Objects[0].Model.Materials).Value;
+
+    private LoadedFile Load(string text, string before = "") =>
+        AssetLoader.Load(
+            _folder.Write("a.obj", before.Length > 0
+            ? before + text
+            : text.Insert(text.IndexOf("usemtl", StringComparison.Ordinal), Triangle)));
+
+    private string SingleWarning(LoadedFile file)
+    {
+        var warning = Assert.Single(file.Warnings);
+        Assert.Equal(DiagnosticSeverity.Warning, warning.Severity);
+        return (warning with { File = Path.GetFileName(warning.File) }).ToString();
+    }
+
+    private void AssertImageIsRefused(string message)
+    {
+        _folder.Write("a.mtl", "newmtl m\nmap_Kd a.png\n");
+        var loaded = Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n");
+        Assert.Equal($"a.mtl:2:8: warning: {message}: drawn grey\n  map_Kd a.png\n         ^", SingleWarning(loaded));
+        Assert.Null(MaterialOf(loaded).Texture);
+    }
+
+    /// <summary>Writes the first bytes of a PNG file, which hold its size.</summary>
+    private void WritePngHeader(string name, uint width, uint height)
+    {
+        byte[] head = [0x89, (byte)'P', (byte)'N', (byte)'G', 0x0D, 0x0A, 0x1A, 0x0A, 0, 0, 0, 13, (byte)'I', (byte)'H', (byte)'D',
+            (byte)'R', .. new byte[13]];
+        BinaryPrimitives.WriteUInt32BigEndian(head.AsSpan(16), width);
+        BinaryPrimitives.WriteUInt32BigEndian(head.AsSpan(20), height);
+        Directory.CreateDirectory(Path.GetDirectoryName(_folder[name])!);
+        File.WriteAllBytes(_folder[name], head);
+    }
+}

@@ -1,0 +1,104 @@
+using FractalEngine.Core.Images;
+using FractalEngine.Render.Images;
+using FractalEngine.Tests.Images;
+
+namespace FractalEngine.Tests.Render.Images;
+
+[Collection(SdlComparisonTests.Name)]
+public sealed class ImageFileTests : IDisposable
+{
+    private readonly DirectoryInfo _directory = Directory.CreateTempSubdirectory("fractalengine-images-");
+
+    public void Dispose() => _directory.Delete(recursive: true);
+
+    [Fact]
+    public void SavePng_AnyPixels_LoadsThemBack()
+    {
+        var image = new PixelImage(7, 5, new byte[7 * 5 * 4]);
+        new Random(1).NextBytes(image.Pixels);
+        var path = Path.Combine(_directory.FullName, "random ü.png");
+        ImageFile.SavePng(image, path);
+        var loaded = ImageFile.Load(path);
+        Assert.Equal((7, 5), (loaded.Width, loaded.Height));
+        Assert.Equal(image.Pixels, loaded.Pixels);
+        Assert.Single(_directory.GetFiles());
+    }
+
+    [Fact]
+    public void SavePng_ExistingFile_IsReplaced()
+    {
+        var path = Path.Combine(_directory.FullName, "twice.png");
+        ImageFile.SavePng(new(1, 1, [1, 2, 3, 255]), path);
+        ImageFile.SavePng(new(1, 1, [4, 5, 6, 255]), path);
+        Assert.Equal((4, 5, 6, 255), ImageFile.Load(path)[0, 0]);
+    }
+
+    [Fact]
+    public void SavePng_MissingDirectory_IsAnErrorThatNamesTheFile()
+    {
+        var path = Path.Combine(_directory.FullName, "missing", "x.png");
+        var error = Assert.Throws<IOException>(() => ImageFile.SavePng(new(1, 1, new byte[4]), path));
+        Assert.StartsWith($"{path} can't be written: ", error.Message, StringComparison.Ordinal);
+        // The temporary file, which is written first, is not mentioned.
+        Assert.DoesNotContain(".tmp", error.Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Load_NoImage_IsAnErrorThatNamesTheFile()
+    {
+        var path = Path.Combine(_directory.FullName, "text.png");
+        File.WriteAllText(path, "no image");
+        Assert.StartsWith($"{path} can't be read: ", ErrorOf(path), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Load_OfAPngByAnotherName_KnowsItByItsFirstBytes()
+    {
+        var path = Path.Combine(_directory.FullName, "image.jpg");
+        ImageFile.SavePng(new(1, 1, [1, 2, 3, 4]), path);
+        Assert.Equal((1, 2, 3, 4), ImageFile.Load(path, _ => throw new DllNotFoundException())[0, 0]);
+    }
+
+    [Fact]
+    public void Load_OfADamagedPng_SaysWhere()
+    {
+        var path = Path.Combine(_directory.FullName, "cut.png");
+        ImageFile.SavePng(new(1, 1, [1, 2, 3, 4]), path);
+        File.WriteAllBytes(path, File.ReadAllBytes(path)[..30]);
+        Assert.Equal($"{path} can't be read: byte 30: the file ends within the chunk IHDR", ErrorOf(path));
+    }
+
+    [Fact]
+    public void Load_OfAnotherFormatWithoutTheLibrary_SaysWhatIsMissing()
+    {
+        var path = Path.Combine(_directory.FullName, "image.bmp");
+        File.WriteAllBytes(path, Bmp);
+        var error = Assert.Throws<IOException>(() => ImageFile.Load(path, _ => throw new DllNotFoundException()));
+        var expected = $"{path} can't be read: it is no PNG image, and other formats need SDL2_image (Debian: ";
+        Assert.StartsWith(expected, error.Message, StringComparison.Ordinal);
+    }
+
+    [SkippableFact]
+    public void Load_OfABmp_ReadsItWithSdl()
+    {
+        var path = Path.Combine(_directory.FullName, "image.bmp");
+        File.WriteAllBytes(path, Bmp);
+        SdlComparisonTests.RequireSdl();
+        Assert.Equal((30, 20, 10, 255), ImageFile.Load(path)[0, 0]);
+    }
+
+    [Fact]
+    public void Load_OfAMissingFile_IsAnErrorThatNamesIt()
+    {
+        var path = Path.Combine(_directory.FullName, "missing.png");
+        Assert.StartsWith($"{path} can't be read: ", ErrorOf(path), StringComparison.Ordinal);
+    }
+
+    private static string ErrorOf(string path) => Assert.Throws<IOException>(() => ImageFile.Load(path)).Message;
+
+    /// <summary>One pixel of 24 bits: blue, green, red.</summary>
+    private static byte[] Bmp =>
+    [
+        .. "BM"u8, 58, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 24, 0, .. new byte[24], 10, 20, 30, 0,
+    ];
+}
