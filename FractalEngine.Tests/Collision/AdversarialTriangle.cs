@@ -1,4 +1,5 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Collision;
 
@@ -31,9 +32,7 @@ internal readonly record struct AdversarialTriangle(Vector Position, Vector A, V
     /// <summary>Draws a position on a vertex, an edge, the triangle or its plane, or near it, or far from it.</summary>
     public static Vector RandomPosition(Random random, Vector a, Vector b, Vector c)
     {
-        var u = random.NextDouble();
-        var v = random.NextDouble();
-        (u, v) = u + v > 1 ? (1 - u, 1 - v) : (u, v);
+        var (u, v) = random.Barycentrics();
         var inside = a + (u * (b - a)) + (v * (c - a));
         var normal = Vector.Cross(b - a, c - a);
         return random.Next(10) switch

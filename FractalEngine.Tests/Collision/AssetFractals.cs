@@ -1,14 +1,15 @@
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Collision;
 
 /// <summary>Loads the fractals that come with the program.</summary>
 internal static class AssetFractals
 {
-    /// <summary>The folder of the fractal files.</summary>
-    public static readonly string Folder = Find();
+    /// <summary>Where they are.</summary>
+    public static readonly string Folder = Repository.Full("assets/fractals");
 
     /// <summary>Loads a fractal with the depth that its file states.</summary>
     /// <param name="name">Name of the file without its extension.</param>
@@ -24,19 +25,5 @@ internal static class AssetFractals
         var recursion = fractal.Description.Steps.OfType<Repetition>().First();
         var steps = fractal.Description.Steps.Replace(recursion, recursion.WithCount(depth));
         return new(fractal.Description with { Steps = steps }, fractal.BaseMesh);
-    }
-
-    private static string Find()
-    {
-        for (DirectoryInfo? folder = new(AppContext.BaseDirectory); folder is not null; folder = folder.Parent)
-        {
-            var fractals = Path.Combine(folder.FullName, "assets", "fractals");
-            if (Directory.Exists(fractals))
-            {
-                return fractals;
-            }
-        }
-
-        throw new DirectoryNotFoundException("expected the folder 'assets/fractals' above the tests");
     }
 }

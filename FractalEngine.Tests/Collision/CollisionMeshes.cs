@@ -66,9 +66,7 @@ internal static class CollisionMeshes
         var bounds = mesh.Bounds;
         var diagonal = mesh.Bounds.Diagonal;
         var (a, b, c) = mesh.Face(random.Next(mesh.FaceCount));
-        var u = random.NextDouble();
-        var v = random.NextDouble();
-        (u, v) = u + v > 1 ? (1 - u, 1 - v) : (u, v);
+        var (u, v) = random.Barycentrics();
         var inside = a + (u * (b - a)) + (v * (c - a));
         return random.Next(8) switch
         {

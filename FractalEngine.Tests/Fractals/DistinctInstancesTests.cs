@@ -43,16 +43,17 @@ public class DistinctInstancesTests
         Assert.False(DistinctInstances.AreProvedDistinct(Samples.Repeated(3, Transformation.Identity, Samples.Move(1, 0, 0))));
 
     [Fact]
-    public void Count_OfAnyFractal_IsNullOrTheNaiveNumber() => Seeded.Run(200, random =>
+    public void Count_OfASmallFractal_IsTheNaiveNumber() => Seeded.Run(200, random =>
     {
         var fractal = RandomFractals.Create(random);
         var expected = NaiveFractal.Distinct(NaiveFractal.Chains(fractal.Description), 1e-12).Count;
-        Assert.Equal(expected, DistinctInstances.Count(fractal) ?? expected);
+        Assert.Equal(expected, DistinctInstances.Count(fractal));
         Assert.True(!DistinctInstances.AreProvedDistinct(fractal) || fractal.InstanceCount == expected, "a false proof");
     });
 
+    // Some of these have equal or overlapping children, so that nothing can be proved.
     [Fact]
-    public void AreProvedDistinct_OfRandomQuarterTurns_IsNeverWrong() => Seeded.Run(500, random =>
+    public void AreProvedDistinct_OfRandomQuarterTurns_IsNeverWrong() => Seeded.RunMost(500, random =>
     {
         var set = Enumerable.Range(0, random.Next(1, 5)).Select(_ => new Transformation(
             new(random.Next(-2, 3), random.Next(-2, 3), random.Next(-2, 3)),
@@ -60,17 +61,15 @@ public class DistinctInstancesTests
             (random.Next(2) == 0 ? 0.5 : -0.5) * Vector.One));
         var fractal = Samples.Repeated(random.Next(1, 4), [.. set]);
         var expected = NaiveFractal.Distinct(NaiveFractal.Chains(fractal.Description), 1e-9).Count;
-        Assert.True(
-            !DistinctInstances.AreProvedDistinct(fractal) || fractal.InstanceCount == expected,
-            $"{fractal.InstanceCount} chains, {expected} distinct");
-    });
+        var isProved = DistinctInstances.AreProvedDistinct(fractal);
+        Assert.True(!isProved || fractal.InstanceCount == expected, $"{fractal.InstanceCount} chains, {expected} distinct");
+        return isProved;
+    }, minShare: 0.6);
 
     [Fact]
     public void Count_OfOneInstance_IsOne() => Assert.Equal(1, DistinctInstances.Count(Samples.Repeated(0, Samples.Move(1, 0, 0))));
 
     [Fact]
-    public void Count_OfAMillionIdentities_IsOneOrUnknown() =>
-        Assert.Contains(
-            DistinctInstances.Count(Samples.Repeated(1_000_000, Transformation.Identity, Transformation.Identity)),
-            new BigInteger?[] { 1, null });
+    public void Count_OfAMillionIdentities_IsUnknown() =>
+        Assert.Null(DistinctInstances.Count(Samples.Repeated(1_000_000, Transformation.Identity, Transformation.Identity)));
 }

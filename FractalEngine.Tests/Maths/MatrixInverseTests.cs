@@ -37,6 +37,7 @@ public class MatrixInverseTests
     [Theory]
     [InlineData(1e100, 1, 1e-100)]
     [InlineData(1e100, 1e100, 1e-100)]
+    [InlineData(1e100, 1e-100, 1e-100)]
     public void Inverse_OfAnyScaleThatFilesMayHave_IsTheReciprocalScale(double x, double y, double z)
     {
         var inverse = Matrix.Diagonal(new(x, y, z)).Inverse();
@@ -87,12 +88,4 @@ public class MatrixInverseTests
         // Rounding the entries of the matrix alone changes its inverse by 1e12 × 1e-16 of itself; a hundred times that is allowed.
         Near.Equal(expected, matrix.Inverse(), 1e-2 * 1e12);
     });
-
-    [Fact]
-    public void Inverse_OfTheMostUnevenScaleThatFilesMayHave_IsTheReciprocalScale()
-    {
-        // Each factor lies within the limits of files, and so does each reciprocal.
-        var inverse = Matrix.Diagonal(new(1e100, 1e-100, 1e-100)).Inverse();
-        Near.Equal(Vector.One, new Vector(1e100 * inverse.V1.X, 1e-100 * inverse.V2.Y, 1e-100 * inverse.V3.Z), 1e-15);
-    }
 }

@@ -24,6 +24,14 @@ internal static class RandomExtensions
         }
     }
 
+    /// <summary>Creates the barycentrics of the second and third vertex for a point of a triangle. All points are equally likely.</summary>
+    public static (double U, double V) Barycentrics(this Random random)
+    {
+        var u = random.NextDouble();
+        var v = random.NextDouble();
+        return u + v > 1 ? (1 - u, 1 - v) : (u, v);
+    }
+
     /// <summary>Creates Euler angles in degrees.</summary>
     public static Vector Degrees(this Random random) => random.Vector(180);
 

@@ -20,9 +20,7 @@ internal static class FractalPositions
         var mesh = fractal.BaseMesh;
         var levels = (int)Math.Min(fractal.LevelCount ?? MaxLevels, MaxLevels);
         var (a, b, c) = mesh.Face(random.Next(mesh.FaceCount));
-        var u = random.NextDouble();
-        var v = random.NextDouble();
-        (u, v) = u + v > 1 ? (1 - u, 1 - v) : (u, v);
+        var (u, v) = random.Barycentrics();
         var inside = a + (u * (b - a)) + (v * (c - a));
         return random.Next(12) switch
         {

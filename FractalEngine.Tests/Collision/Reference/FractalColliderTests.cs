@@ -24,7 +24,6 @@ public class FractalColliderTests
         var context = new QueryContext();
         Assert.True(new FractalCollider(fractal).TryFindClosest(new(1, 2, 3), double.PositiveInfinity, context, out _));
         Assert.Equal((cost, depth), (context.Statistics.FaceTests, context.InstancePath.Length));
-        Assert.Equal(cost, (long)faces * transformations * depth);
     }
 
     [Fact]
@@ -37,16 +36,19 @@ public class FractalColliderTests
     }
 
     [Fact]
-    public void TryFindClosest_IsNeverCloserThanExactSearch() => Seeded.Run(200, random =>
+    public void TryFindClosest_IsNeverCloserThanExactSearch() => Seeded.RunMost(200, random =>
     {
         var fractal = RandomFractals.Create(random);
         var position = random.Vector(4);
         var context = new QueryContext();
-        if (new FractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, context, out var greedy))
+        if (!new FractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, context, out var greedy))
         {
-            Assert.True(new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, context, out var exact));
-            Assert.True(exact.Distance <= greedy.Distance + (1e-12 * fractal.Bounds.Diagonal), $"{exact.Distance} and {greedy.Distance}");
+            return false;
         }
+
+        Assert.True(new ExactFractalCollider(fractal).TryFindClosest(position, double.PositiveInfinity, context, out var exact));
+        Assert.True(exact.Distance <= greedy.Distance + (1e-12 * fractal.Bounds.Diagonal), $"{exact.Distance} and {greedy.Distance}");
+        return true;
     });
 
     [Fact]
@@ -94,12 +96,12 @@ public class FractalColliderTests
     }
 
     [Fact]
-    public void BeamWidth_OfAllInstances_IsExactAndReportsTheInstance() => Seeded.Run(200, random =>
+    public void Width_OfAllInstances_IsExactAndNamesTheInstance() => Seeded.RunMost(200, random =>
     {
         var fractal = RandomFractals.Create(random);
         if (fractal.InstanceCount is not { } count || count > 2000)
         {
-            return;
+            return false;
         }
 
         var context = new QueryContext();
@@ -111,6 +113,7 @@ public class FractalColliderTests
         // The tolerance is the rounding of both, as a part of the size and of the distance.
         Assert.Equal(exact.Distance, wide.Distance, 1e-12 * (size + exact.Distance));
         Assert.All(path, mapIndex => Assert.True(mapIndex >= 0));
+        return true;
     });
 
     [Fact]
