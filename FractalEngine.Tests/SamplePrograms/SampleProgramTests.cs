@@ -1,4 +1,3 @@
-using System.Diagnostics;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.SamplePrograms;
@@ -7,15 +6,9 @@ namespace FractalEngine.Tests.SamplePrograms;
 public sealed class SampleProgramTests : IDisposable
 {
     private const int MaxLines = 40;
-    private const string OutputHeading = "// Output:";
-
-    // Building a program of one file takes seconds, on a busy machine a minute.
-    private static readonly TimeSpan Patience = TimeSpan.FromMinutes(4);
-
     private readonly TemporaryFolder _folder = new();
 
-    public static TheoryData<string> Programs =>
-        [.. Directory.GetFiles(Repository.Full("samples"), "*.cs").Select(file => Path.GetFileName(file)).Order(StringComparer.Ordinal)];
+    public static TheoryData<string> Programs => [.. SampleProgram.Names];
 
     public void Dispose() => _folder.Dispose();
 
@@ -26,11 +19,12 @@ public sealed class SampleProgramTests : IDisposable
     [MemberData(nameof(Programs))]
     public void Program_IsShortAndSaysWhatItPrints(string program)
     {
-        var lines = File.ReadAllLines(Repository.Full("samples/" + program));
+        var sample = new SampleProgram(program);
+        var lines = sample.Lines;
         Assert.InRange(lines.Length, 10, MaxLines);
         Assert.StartsWith("#:project ../FractalEngine.", lines[0], StringComparison.Ordinal);
         Assert.Contains("#:property PublishAot=false", lines);
-        Assert.NotEmpty(ExpectedOutput(lines));
+        Assert.NotEmpty(sample.ExpectedOutput);
     }
 
     [Fact]
@@ -48,30 +42,13 @@ public sealed class SampleProgramTests : IDisposable
     [Trait("Category", "Soak")]
     public void Program_PrintsWhatItSays(string program)
     {
-        var text = File.ReadAllLines(Repository.Full("samples/" + program));
-        var draws = text[0].Contains("Render", StringComparison.Ordinal);
+        var sample = new SampleProgram(program);
+        var draws = sample.Lines[0].Contains("Render", StringComparison.Ordinal);
         Skip.If(draws && OperatingSystem.IsLinux() && Environment.GetEnvironmentVariable("DISPLAY") is null, "no display to draw on");
         // Its own files stay in a folder of their own; the assets are where it looks for them.
         Directory.CreateSymbolicLink(_folder["assets"], Repository.Full("assets"));
-        var start = new ProcessStartInfo("dotnet", ["run", Repository.Full("samples/" + program)])
-        {
-            WorkingDirectory = _folder.Path,
-            RedirectStandardOutput = true,
-            RedirectStandardError = true,
-        };
-        using var process = Process.Start(start)!;
-        var output = process.StandardOutput.ReadToEndAsync();
-        var error = process.StandardError.ReadToEndAsync();
-        if (!process.WaitForExit(Patience))
-        {
-            process.Kill(entireProcessTree: true);
-            Assert.Fail($"{program} did not end within {Patience}");
-        }
-
-        Assert.Equal((0, ""), (process.ExitCode, error.GetAwaiter().GetResult()));
-        Assert.Equal(ExpectedOutput(text), output.GetAwaiter().GetResult().TrimEnd().Split('\n').Select(line => line.TrimEnd()));
+        var (exitCode, output, error) = Dotnet.Run(_folder.Path, null, "run", sample.File);
+        Assert.Equal((0, ""), (exitCode, error));
+        Assert.Equal(sample.ExpectedOutput, SampleProgram.SplitOutput(output));
     }
-
-    private static string[] ExpectedOutput(string[] lines) =>
-        [.. lines.SkipWhile(line => line != OutputHeading).Skip(1).Select(line => line.Length > 3 ? line[3..].TrimEnd() : "")];
 }

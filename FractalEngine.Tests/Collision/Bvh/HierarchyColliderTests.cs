@@ -91,7 +91,7 @@ public class HierarchyColliderTests
             hierarchy.TryFindClosest(position, double.PositiveInfinity, exact, out _);
             hierarchy.TryFindClosest(position, double.PositiveInfinity, rough, out _, 0.1);
         });
-        Assert.True(rough.Statistics.FaceTests < exact.Statistics.FaceTests, $"{rough.Statistics.FaceTests} instead of {exact.Statistics.FaceTests} faces");
+        Assert.InRange(rough.Statistics.FaceTests, 1, exact.Statistics.FaceTests - 1);
     }
 
     [Fact]
