@@ -79,6 +79,12 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
         var bound = childSubFractal.TransformedLowerBoundSquared(
             _position, in childFrame._map, in childFrame._inverse, cutoffSquared, out var isHullTested);
         search.BoundTests += isHullTested ? 2 : 1;
+        if (search.NeedsTightBounds && bound < cutoffSquared && childSubFractal.Solid is { } solid)
+        {
+            bound = Math.Max(bound, solid.LowerBoundSquared(_position, in childFrame._map, cutoffSquared));
+            search.BoundTests++;
+        }
+
         return bound;
     }
 

@@ -7,6 +7,9 @@ internal ref struct FractalSearchState
     private const int MaxStackDepth = 128;
     private const int MaxBoundTests = 50_000;
 
+    // So many bounds suffice for most queries. What needs more has many sub-fractals at nearly the same distance.
+    private const int MaxRoughBoundTests = 500;
+
     // An upper bound of the rounding error of coordinates along a chain of maps, as a part of the largest of them.
     private const double ChainError = 4e-15;
 
@@ -64,6 +67,9 @@ internal ref struct FractalSearchState
 
     /// <summary>Number of bounding volumes that were tested.</summary>
     public long BoundTests { get; set; }
+
+    /// <summary>True when the search has become so long that exact distances of sub-fractals' hulls pay.</summary>
+    public readonly bool NeedsTightBounds => BoundTests > MaxRoughBoundTests;
 
     /// <summary>The indices of the child instances that lead to the closest triangle.</summary>
     public readonly ReadOnlySpan<int> ClosestPath => _closestPath[..ClosestDepth];

@@ -63,8 +63,8 @@ internal sealed class PeriodicBound(
         var coveredLevels = FindCoveredLevels(children);
         for (var phase = 0; phase < period; phase++)
         {
-            var lastBox = volumeAt(FirstLevel + phase).Box;
-            if (!(coveredLevels[phase].Max(level => RelativeChange(volumeAt(level).Box, lastBox)) <= ConvergenceThreshold()))
+            var lastVolume = volumeAt(FirstLevel + phase);
+            if (!(coveredLevels[phase].Max(level => RelativeChange(volumeAt(level), lastVolume)) <= ConvergenceThreshold()))
             {
                 return null;
             }
@@ -93,6 +93,22 @@ internal sealed class PeriodicBound(
     }
 
     /// <summary>
+    /// Computes the change of bounds as a part of their size. Hulls that stand for many points change by up to their margins anyway.
+    /// </summary>
+    private static double RelativeChange(BoundingVolume volume1, BoundingVolume volume2)
+    {
+        var boxChange = RelativeChange(volume1.Box, volume2.Box);
+        if (volume1.Hull is not { } hull1 || volume2.Hull is not { } hull2)
+        {
+            return boxChange;
+        }
+
+        var change = Math.Max(MaxDistanceOutside(volume1, hull2.Vertices), MaxDistanceOutside(volume2, hull1.Vertices))
+            - volume1.Margin - volume2.Margin - (BoxError * Magnitude(volume1.Box));
+        return change <= 0 ? boxChange : Math.Max(boxChange, change / volume1.Box.Diagonal);
+    }
+
+    /// <summary>
     /// Computes the change of a box as a part of its size. A change by no more than rounding counts as none, for boxes that shrink to a
     /// point do no more.
     /// </summary>
@@ -118,7 +134,7 @@ internal sealed class PeriodicBound(
     }
 
     private double MaxRelativeChange() => Enumerable.Range(0, period)
-        .Max(phase => RelativeChange(volumeAt(FirstLevel + phase).Box, volumeAt(FirstLevel + phase - period).Box));
+        .Max(phase => RelativeChange(volumeAt(FirstLevel + phase), volumeAt(FirstLevel + phase - period)));
 
     /// <summary>
     /// Lists the levels that the bounds of each phase must contain: that of the last round, and lower ones that have parents in the first

@@ -41,5 +41,5 @@ internal struct SearchNode(
     /// <param name="position">In the frame of the query: x, y, z, 0.</param>
     /// <param name="cutoffSquared">The method may return early at this value.</param>
     public readonly double LowerBoundSquared(Vector256<double> position, double cutoffSquared) =>
-        SubFractal.TransformedLowerBoundSquared(position, in Map, in Inverse, cutoffSquared, out _);
+        SubFractal.Solid is { } solid ? solid.LowerBoundSquared(position, in Map, cutoffSquared) : double.PositiveInfinity;
 }

@@ -21,6 +21,9 @@ internal readonly struct SimdAffineMap
         Translation = translation;
     }
 
+    /// <summary>The map that changes nothing.</summary>
+    public static readonly SimdAffineMap Identity = new(AffineMap.Identity);
+
     /// <summary>First column of the linear part.</summary>
     public Vector256<double> V1 { get; }
 

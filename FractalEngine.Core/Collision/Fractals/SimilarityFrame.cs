@@ -93,6 +93,12 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
             search.BoundTests++;
         }
 
+        if (search.NeedsTightBounds && bound < localCutoffSquared && childSubFractal.Solid is { } solid)
+        {
+            bound = Math.Max(bound, solid.LowerBoundSquared(childFrame._position, in SimdAffineMap.Identity, localCutoffSquared));
+            search.BoundTests++;
+        }
+
         return bound * child.ScaleSquared;
     }
 

@@ -24,6 +24,7 @@ internal sealed class SubFractal
     /// <param name="baseBox">The box of the base mesh.</param>
     /// <param name="hull">A hull around the sub-fractal, if it bounds better than the box.</param>
     /// <param name="childHull">The hull of the sub-fractal that the first child is an instance of.</param>
+    /// <param name="solid">A convex solid around the sub-fractal; null where it is empty.</param>
     public SubFractal(
         MapSet? set,
         ChildInstance[] children,
@@ -31,8 +32,10 @@ internal sealed class SubFractal
         BoundingBox box,
         BoundingBox baseBox,
         HullBound? hull,
-        HullBound? childHull)
+        HullBound? childHull,
+        ConvexSolid? solid)
     {
+        Solid = solid;
         Set = set;
         Children = children;
         Box = box;
@@ -85,13 +88,16 @@ internal sealed class SubFractal
     /// <summary>A hull around the sub-fractal; null where it is no better than the box.</summary>
     public HullBound? Hull { get; }
 
+    /// <summary>A convex solid around the sub-fractal, for exact distances; null where the sub-fractal is empty.</summary>
+    public ConvexSolid? Solid { get; }
+
     /// <summary>Square of half the diagonal of a box around the sub-fractal and the base mesh.</summary>
     public double RadiusSquared { get; }
 
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes =>
         (sizeof(double) * ChildBounds.Length) + (UnrotatedBounds?.StorageBytes ?? 0) + (Children.Length * 24) + (Hull?.StorageBytes ?? 0)
-        + 160;
+        + (Solid?.StorageBytes ?? 0) + 160;
 
     /// <summary>Computes the squared distance of a position from the box.</summary>
     /// <param name="position">In the frame of the sub-fractal: x, y, z, 0.</param>

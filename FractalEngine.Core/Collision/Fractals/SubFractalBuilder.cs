@@ -34,7 +34,7 @@ internal sealed class SubFractalBuilder
         _fractal = fractal;
         HasOnlySimilarities = fractal.Description.Steps.All(HasOnlySimilarMaps);
         var volume = BoundingVolume.FromMesh(fractal.BaseMesh);
-        var baseSubFractal = new SubFractal(null, [], [], volume.Box, volume.Box, CreateHullBound(volume), null);
+        var baseSubFractal = new SubFractal(null, [], [], volume.Box, volume.Box, CreateHullBound(volume), null, CreateSolid(volume));
         AppendLevels(1, new BuiltLevel(baseSubFractal, volume, []));
     }
 
@@ -262,8 +262,15 @@ internal sealed class SubFractalBuilder
         BoundingBox[] childBoxes =
             [.. children.Zip(childVolumes, (child, childVolume) => childVolume.TransformedBox(child.Map, child.OperatorNormBound))];
         var childHull = childVolumes.Length > 0 ? CreateHullBound(childVolumes[0]) : null;
-        return new(set, children, childBoxes, volume.Box, _volumes[0].Box, CreateHullBound(volume), childHull);
+        return new(set, children, childBoxes, volume.Box, _volumes[0].Box, CreateHullBound(volume), childHull, CreateSolid(volume));
     }
+
+    private static ConvexSolid? CreateSolid(BoundingVolume volume) => volume switch
+    {
+        { Box.IsEmpty: true } => null,
+        { Hull: { } hull } => new(hull.Vertices.AsSpan(), volume.Margin),
+        _ => ConvexSolid.FromBox(volume.Box),
+    };
 
     private HullBound? CreateHullBound(BoundingVolume volume)
     {
