@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -58,6 +59,7 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <returns>A fractal of <c>maps^depth</c> times as many instances; costs no more memory than the set.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The depth is negative or beyond the limit.</exception>
     /// <exception cref="InvalidOperationException">The fractal is infinite already.</exception>
+    [OverloadResolutionPriority(1)] // A collection expression of maps is then no riddle.
     public Fractal Repeat(IEnumerable<Transformation> maps, int? depth = null) => Repeat([TransformationSet.Of(maps)], depth);
 
     /// <summary>Repeats a round of steps, such as several sets after one another.</summary>
