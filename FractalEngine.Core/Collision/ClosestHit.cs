@@ -12,7 +12,7 @@ namespace FractalEngine.Core.Collision;
 /// For each level of a fractal, the outermost first, the index of the transformation in its set. Empty for a mesh. Shorter than the depth
 /// of the fractal where deeper levels are below the precision of the result.
 /// </param>
-/// <param name="ObjectIndex">Index of the object in its scene; 0 where a single shape was asked.</param>
+/// <param name="ObjectIndex">Index of the object in its scene; 0 where a single shape was queried.</param>
 public sealed record ClosestHit(
     double Distance, Vector Point, Vector Normal, int FaceIndex, ImmutableArray<int> InstancePath, int ObjectIndex = 0)
 {
