@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures, and draws what was measured: docs/benchmarks/*.csv and *.svg. `./bench.sh quick` takes smaller shapes, and some
-# minutes. Names of commands after that measure those only; all pictures are drawn.
+# minutes. Names of commands after that measure those only; all plots are drawn.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/eng/setup.sh"
 

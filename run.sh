@@ -9,8 +9,8 @@ build FractalEngine.App
 app=("$root/FractalEngine.App/bin/$configuration/net10.0/FractalEngine.App")
 [ -x "${app[0]}" ] || app=(dotnet "${app[0]}.dll")
 
-# Pictures need OpenGL, and OpenGL needs a display. Without one, a virtual one serves for pictures; a window on
-# it would be seen by nobody, so the program is told to draw that into a file.
+# Drawing needs OpenGL, and OpenGL needs a display. Without one, a virtual one serves for images; a window on it would
+# be seen by nobody, so the program is told to draw that into a file.
 if [ -z "${DISPLAY:-}" ] && command -v xvfb-run >/dev/null; then
     case "${1:-}" in
         info | count | export | check | save | generate | query | simulate | --help | -h | '-?' | --version) ;;

@@ -6,13 +6,15 @@ internal static class ExitCode
     /// <summary>The command has succeeded.</summary>
     public const int Done = 0;
 
-    /// <summary>The input can't be loaded.</summary>
+    /// <summary>The input can't be loaded, or has no valid meaning.</summary>
     public const int BadInput = 1;
 
-    /// <summary>The command line is invalid, or names an output that can't be written.</summary>
+    /// <summary>
+    /// The command line is invalid, names an output that can't be written, or names a collider that does not fit the model.
+    /// </summary>
     public const int WrongUsage = 2;
 
-    /// <summary>The input is well-formed, but exceeds a documented limit.</summary>
+    /// <summary>The input is well-formed, but exceeds a documented limit, what the driver can do, or the machine's memory.</summary>
     public const int OverLimit = 3;
 
     /// <summary>There is no display, or no OpenGL on the display.</summary>
@@ -21,6 +23,6 @@ internal static class ExitCode
     /// <summary>The program itself has failed (EX_SOFTWARE of sysexits.h).</summary>
     public const int Internal = 70;
 
-    /// <summary>A signal has ended the program, which shells report as 128 plus the signal number; SIGINT is 2.</summary>
+    /// <summary>SIGINT or SIGTERM has ended a simulation. For both it is 128 plus the number of SIGINT, 2, as shells count.</summary>
     public const int Interrupted = 130;
 }

@@ -9,5 +9,5 @@ namespace FractalEngine.Render;
 /// </summary>
 /// <param name="ObjectIndex">Index of the object in the scene, from 0. No other object is drawn.</param>
 /// <param name="Roots">Sub-fractals that culling starts from, in world axes about the camera, in the unit of the address.</param>
-/// <param name="LogUnit">Natural logarithm of that unit, which is given in scene units.</param>
+/// <param name="LogUnit">Natural logarithm of the unit of <see cref="Roots"/>, that unit being a length in scene units.</param>
 public sealed record DeepZoom(int ObjectIndex, ImmutableArray<LodRoot> Roots, double LogUnit);

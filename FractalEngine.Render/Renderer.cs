@@ -86,7 +86,13 @@ public sealed class Renderer : IDisposable
         return DrawFrame(sceneRenderer, DefaultView(sceneRenderer.Scene.Source, camera));
     }
 
-    /// <inheritdoc cref="Draw(Scene, Camera?)"/>
+    /// <summary>Draws a loaded scene, such as a file's, with its own camera or another one.</summary>
+    /// <param name="scene">Scene with its models.</param>
+    /// <param name="camera">Camera in place of the scene's own; null for that, or for one that frames the scene where it has none.</param>
+    /// <returns>A new image of <see cref="Width"/> × <see cref="Height"/> pixels.</returns>
+    /// <exception cref="GlException">The image or the scene is too large for the driver.</exception>
+    /// <exception cref="ObjectDisposedException">The renderer was disposed.</exception>
+    /// <exception cref="InvalidOperationException">This is not the thread that created the renderer.</exception>
     public PixelImage Draw(LoadedScene scene, Camera? camera = null)
     {
         ArgumentNullException.ThrowIfNull(scene);

@@ -118,8 +118,12 @@ public sealed record View(Camera Camera, Projection Projection)
     }
 
     /// <summary>
-    /// Tests conservatively whether a box can be visible: false if it is certainly behind the camera or beyond an edge of the frame.
+    /// Tests a box against the view frustum, conservatively: false if it is certainly behind the camera or beyond an edge of the frame.
     /// </summary>
+    /// <remarks>
+    /// This frustum test serves objects as wholes: meshes that physics moves, in every frame, and models that are prepared on first sight.
+    /// Sub-fractals are tested by <see cref="Core.Visibility.VisibleSet"/>. The planes of depth are not tested, besides the camera's own.
+    /// </remarks>
     /// <param name="box">Box in world space. An infinite box is visible from everywhere.</param>
     /// <param name="aspect">Width divided by height of the frame.</param>
     public bool MayIntersectFrustum(BoundingBox box, double aspect)

@@ -4,7 +4,7 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision;
 
 /// <summary>The closest point of a shape together with the instance that it lies on, for callers that pass no context.</summary>
-/// <param name="Distance">From the position to the point, scene units; 0 on the surface.</param>
+/// <param name="Distance">Distance of the point from the position, scene units; 0 on the surface.</param>
 /// <param name="Point">The closest point, in the frame of the query.</param>
 /// <param name="Normal">The unit normal of the face, by its winding. Where several faces are equally close, that of one of them.</param>
 /// <param name="FaceIndex">Index of the face in the mesh, from 0.</param>
@@ -12,7 +12,7 @@ namespace FractalEngine.Core.Collision;
 /// For each level of a fractal, the outermost first, the index of the transformation in its set. Empty for a mesh. Shorter than the depth
 /// of the fractal where deeper levels are below the precision of the result.
 /// </param>
-/// <param name="ObjectIndex">Index of the object in its scene; 0 where a single shape was asked.</param>
+/// <param name="ObjectIndex">Index of the object in its scene; 0 where a single shape was queried.</param>
 public sealed record ClosestHit(
     double Distance, Vector Point, Vector Normal, int FaceIndex, ImmutableArray<int> InstancePath, int ObjectIndex = 0)
 {

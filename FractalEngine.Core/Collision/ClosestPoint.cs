@@ -3,14 +3,14 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision;
 
 /// <summary>The result of a query: the point of a shape closest to a position.</summary>
-/// <param name="Distance">From the position, scene units; 0 on the surface.</param>
+/// <param name="Distance">Distance of the point from the position, scene units; 0 on the surface.</param>
 /// <param name="Point">In the frame of the query.</param>
 /// <param name="Normal">
 /// The unit normal of the face, by its winding. Where several faces are equally close, that of one of them. It is not the direction from
 /// the point to the position, which is not defined on the surface.
 /// </param>
 /// <param name="Barycentrics">Weights of the vertices of the face.</param>
-/// <param name="Feature">Where on the face the point is.</param>
+/// <param name="Feature">Part of the face that holds the point: a vertex, an edge or the interior.</param>
 /// <param name="FaceIndex">Index of the face in the mesh, from 0.</param>
 public readonly record struct ClosestPoint(
     double Distance, Vector Point, Vector Normal, Vector Barycentrics, TriangleFeature Feature, int FaceIndex);

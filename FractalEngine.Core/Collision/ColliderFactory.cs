@@ -11,7 +11,10 @@ namespace FractalEngine.Core.Collision;
 /// <summary>Makes the collider of a kind for a model, where the kind fits it.</summary>
 public static class ColliderFactory
 {
-    /// <summary>The most faces of an expanded fractal that the colliders of meshes are made for; three times as many vertices.</summary>
+    /// <summary>
+    /// Maximum number of faces of a fractal that is expanded into one mesh for a collider of meshes. The mesh may have three times as many
+    /// vertices.
+    /// </summary>
     public const long MaxExpandedFaces = 20_000_000;
 
     /// <summary>True for kinds whose colliders serve objects with any matrix, see <see cref="Collider.FindClosestTransformed"/>.</summary>

@@ -1,6 +1,6 @@
 namespace FractalEngine.Core.Collision;
 
-/// <summary>A collider was asked for that does not fit the model; the message says which do.</summary>
+/// <summary>Thrown where a kind of collider can't serve a model; the message lists the kinds that can.</summary>
 public sealed class ColliderMismatchException : FractalEngineException
 {
     /// <summary>Makes an error with a message of one line.</summary>

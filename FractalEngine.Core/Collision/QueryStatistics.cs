@@ -4,6 +4,9 @@ namespace FractalEngine.Core.Collision;
 public sealed class QueryStatistics
 {
     /// <summary>Number of faces that were tested: the paper's collision cost (§5.2.3).</summary>
+    /// <remarks>
+    /// <see cref="Reference.BoundingBoxCollider"/> also counts twelve faces for each of eight boxes at every level, as the paper does.
+    /// </remarks>
     public long FaceTests { get; set; }
 
     /// <summary>Number of bounding volumes that were tested.</summary>

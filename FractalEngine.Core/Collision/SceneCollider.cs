@@ -12,8 +12,8 @@ namespace FractalEngine.Core.Collision;
 /// objects that show the model. Each query takes the object's own matrix into account, so that moving an object costs nothing.
 /// </summary>
 /// <remarks>
-/// A matrix with a non-uniform scale does not keep distances in proportion: then the search itself takes it into account, which costs
-/// several times more. The approximate colliders can't, so such an object gets one of its own, in world space.
+/// A skewed matrix (one that is no similarity) does not keep distances in proportion: then the search itself takes it into account, which
+/// costs several times more. The approximate colliders can't, so such an object gets one of its own, in world space.
 /// </remarks>
 public sealed class SceneCollider
 {
@@ -153,7 +153,7 @@ public sealed class SceneCollider
     /// <param name="context">Receives the costs and the instance; one for each thread.</param>
     /// <param name="closest">The closest point in world space, if there is one.</param>
     /// <param name="objectIndex">Index of the object in the scene, −1 for none.</param>
-    /// <param name="excludedObject">An object that is not tested, such as the one that asks; −1 for none.</param>
+    /// <param name="excludedObject">Index of an object that is not tested, such as the querying body's own; −1 for none.</param>
     /// <param name="epsilon">Allowed relative error, see <see cref="Collider"/>.</param>
     /// <returns>False when no face lies within the radius.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the radius or ε is negative or NaN.</exception>

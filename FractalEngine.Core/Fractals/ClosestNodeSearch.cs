@@ -27,7 +27,7 @@ internal sealed class ClosestNodeSearch(LodHierarchy hierarchy)
     /// <param name="remainingLevels">Number of levels that the sub-fractal has left.</param>
     /// <param name="frameToCamera">Map from its frame to world axes about the camera.</param>
     /// <param name="levelsUp">Number that tells the starts apart, see <see cref="Result"/>.</param>
-    /// <param name="excludedChild">Index of a child to leave out; −1 for none.</param>
+    /// <param name="excludedChild">Index of a child that is not added; −1 for none.</param>
     public void AddStart(long remainingLevels, AffineMap frameToCamera, int levelsUp, int excludedChild = -1)
     {
         _nodes.Add(new(-1, -1, levelsUp, remainingLevels, frameToCamera));

@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using System.Numerics;
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -52,13 +53,18 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <param name="baseMesh">The mesh that every instance will show.</param>
     public static Fractal Of(Mesh baseMesh) => new(new([]), baseMesh);
 
-    /// <summary>Repeats a set of transformations: one instance of the fractal so far for each chain of that many maps.</summary>
-    /// <param name="maps">The set; an empty one leaves nothing.</param>
+    /// <summary>
+    /// Repeats a set of transformations: one instance of the fractal so far for each chain of <paramref name="depth"/>
+    /// transformations.
+    /// </summary>
+    /// <param name="transformations">The set, in its order; an empty one leaves nothing.</param>
     /// <param name="depth">How often, not negative and at most <see cref="FractalLimits.MaxDepth"/>; null for the infinite fractal.</param>
-    /// <returns>A fractal of <c>maps^depth</c> times as many instances; costs no more memory than the set.</returns>
+    /// <returns>A fractal of <c>n^depth</c> times as many instances for a set of n; costs no more memory than the set.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The depth is negative or beyond the limit.</exception>
     /// <exception cref="InvalidOperationException">The fractal is infinite already.</exception>
-    public Fractal Repeat(IEnumerable<Transformation> maps, int? depth = null) => Repeat([TransformationSet.Of(maps)], depth);
+    [OverloadResolutionPriority(1)] // A collection expression of transformations is then not ambiguous.
+    public Fractal Repeat(IEnumerable<Transformation> transformations, int? depth = null) =>
+        Repeat([TransformationSet.Of(transformations)], depth);
 
     /// <summary>Repeats a round of steps, such as several sets after one another.</summary>
     /// <param name="round">Outermost first: the last one is applied first. At least one, and only finite ones.</param>
@@ -77,9 +83,9 @@ public sealed class Fractal : IEquatable<Fractal>
     }
 
     /// <summary>Applies a set of transformations once: one instance of the fractal so far for each of them.</summary>
-    /// <param name="maps">The set; an empty one leaves nothing.</param>
+    /// <param name="transformations">The set, in its order; an empty one leaves nothing.</param>
     /// <exception cref="InvalidOperationException">The fractal is infinite already.</exception>
-    public Fractal Apply(IEnumerable<Transformation> maps) => Prepend(TransformationSet.Of(maps));
+    public Fractal Apply(IEnumerable<Transformation> transformations) => Prepend(TransformationSet.Of(transformations));
 
     /// <summary>Makes the same fractal with chains composed in another way.</summary>
     /// <exception cref="ArgumentException">An infinite fractal can't be composed componentwise: its positions don't shrink.</exception>

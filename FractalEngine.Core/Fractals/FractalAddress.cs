@@ -335,7 +335,7 @@ public sealed class FractalAddress
 
     /// <summary>Tests whether a frame is so skewed that coordinates in it have no precision.</summary>
     /// <remarks>
-    /// Maps that stretch one direction more than another get there some ten levels after double precision fails from outside.
+    /// Skewed maps get there some ten levels after double precision fails from outside.
     /// </remarks>
     private static bool IsNearlySingular(Matrix linear)
     {

@@ -4,8 +4,8 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>
-/// The steps that make a fractal of a base mesh (paper §4.2.2). A description is never longer than the file that says it, whatever number
-/// of instances it describes.
+/// The steps that make a fractal of a base mesh (paper §4.2.2). Nothing is expanded: the size of a description follows the declared
+/// transformations, not the depth or the number of instances.
 /// </summary>
 /// <param name="Steps">Outermost first: the last step is applied to the base mesh first.</param>
 /// <param name="Composition">How transformations along a chain are composed.</param>

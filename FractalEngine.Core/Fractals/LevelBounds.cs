@@ -3,8 +3,10 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>
-/// A bounding volume of the sub-fractal at each of the outermost levels, in that sub-fractal's own frame.
+/// A bounding volume of the sub-fractal at each of the outermost levels, in that sub-fractal's own frame, for the search of
+/// <see cref="FractalBounds"/>.
 /// </summary>
+/// <remarks>Exact search of closest points has bounds of its own, in <see cref="Collision.Fractals.SubFractalTable"/>.</remarks>
 internal sealed class LevelBounds
 {
     // Deeper levels are never visited one by one: each halving of the scale uses up one of a double's 53 bits, so that a search ends long

@@ -3,7 +3,10 @@ using FractalEngine.Core.Generation;
 namespace FractalEngine.Core.Geometry;
 
 /// <summary>Closed meshes of simple solids, and a square: bases for fractals, obstacles and tests.</summary>
-/// <remarks>Faces of the solids are wound outwards. Every call makes a new mesh; keep it to share it.</remarks>
+/// <remarks>
+/// All faces of a solid are front faces from outside: <c>Cross(b − a, c − a)</c> points outwards. In the engine's left-handed world their
+/// vertices then appear in clockwise order. Every call makes a new mesh; keep it to share it.
+/// </remarks>
 public static class Shapes
 {
     private const int MaxSphereSubdivisions = 9;
@@ -28,7 +31,11 @@ public static class Shapes
             [4, 6, 7, 4, 7, 5, 1, 3, 2, 1, 2, 0, 2, 3, 7, 2, 7, 6, 1, 0, 4, 1, 4, 5, 5, 7, 3, 5, 3, 1, 0, 2, 6, 0, 6, 4]);
     }
 
-    /// <summary>Makes a regular tetrahedron around the origin with vertices on the unit sphere: 4 vertices, 4 faces.</summary>
+    /// <summary>
+    /// Makes a regular tetrahedron around the origin with vertices on the unit sphere, at corners of a cube: 4 vertices, 4 faces, wound
+    /// outwards.
+    /// </summary>
+    /// <remarks>The vertices are (1, 1, 1), (1, −1, −1), (−1, 1, −1) and (−1, −1, 1), each divided by √3.</remarks>
     public static Mesh Tetrahedron()
     {
         var a = Math.Sqrt(1 / 3.0);

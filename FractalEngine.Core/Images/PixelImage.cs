@@ -1,9 +1,9 @@
 namespace FractalEngine.Core.Images;
 
 /// <summary>An image as plain data: sRGB, 8 bits a component.</summary>
-/// <param name="Width">Pixels.</param>
-/// <param name="Height">Pixels.</param>
-/// <param name="Pixels">Red, green, blue, alpha; the top row first; [height × width × 4].</param>
+/// <param name="Width">Width of the image in pixels.</param>
+/// <param name="Height">Height of the image in pixels.</param>
+/// <param name="Pixels">Components of all pixels: red, green, blue, alpha; the top row first; [height × width × 4].</param>
 public sealed record PixelImage(int Width, int Height, byte[] Pixels)
 {
     /// <summary>The components of one pixel.</summary>
@@ -19,8 +19,8 @@ public sealed record PixelImage(int Width, int Height, byte[] Pixels)
     }
 
     /// <summary>Makes an image of rows in OpenGL's order.</summary>
-    /// <param name="width">Pixels.</param>
-    /// <param name="height">Pixels.</param>
+    /// <param name="width">Width of the image in pixels.</param>
+    /// <param name="height">Height of the image in pixels.</param>
     /// <param name="rows">As <see cref="Pixels"/>, but the bottom row first; copied.</param>
     public static PixelImage FromBottomUp(int width, int height, byte[] rows)
     {

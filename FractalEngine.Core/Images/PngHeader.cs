@@ -6,7 +6,7 @@ namespace FractalEngine.Core.Images;
 /// <param name="Width">Pixels, from 1 to 2³¹ − 1.</param>
 /// <param name="Height">Pixels, from 1 to 2³¹ − 1.</param>
 /// <param name="BitDepth">Bits a sample or palette index: 1, 2, 4, 8 or 16.</param>
-/// <param name="ColourType">What the samples mean.</param>
+/// <param name="ColourType">Colour type: which components the samples of a pixel are.</param>
 /// <param name="IsInterlaced">Whether the pixels come in the seven passes of Adam7.</param>
 public readonly record struct PngHeader(int Width, int Height, int BitDepth, PngColourType ColourType, bool IsInterlaced)
 {

@@ -3,8 +3,8 @@ using System.Globalization;
 namespace FractalEngine.Core.Maths;
 
 /// <summary>
-/// A 3×4 affine map: v ↦ Linear·v + Translation. Chains of transformations are kept in this form, because a
-/// non-uniform scale followed by a rotation shears and no longer is one (position, rotation, scale).
+/// A 3×4 affine map: v ↦ Linear·v + Translation. Chains of transformations are kept in this form, since a rotation
+/// followed by a non-uniform scale is not one (position, rotation, scale).
 /// </summary>
 /// <param name="Linear">Matrix whose columns are the images of the axes.</param>
 /// <param name="Translation">Image of the origin, in scene units.</param>

@@ -41,7 +41,7 @@ public sealed record BodyDescription(Vector Position, double Radius)
     /// <summary>Index in the world's scene of the object that moves with the body; null for none.</summary>
     public int? ObjectIndex { get; init; }
 
-    /// <summary>Linear part of that object's matrix m: rotation and scale.</summary>
+    /// <summary>Linear part (rotation and scale) of the paper's matrix m of the object at <see cref="ObjectIndex"/>.</summary>
     public Matrix LinearPart { get; init; } = Matrix.Identity;
 
     /// <summary>

@@ -59,7 +59,7 @@ internal sealed class SphereSweep(Obstacles obstacles)
             if (obstacles.TryFindClosestContact(target, maxTravel, out var overlapped)
                 && overlapped.Gap(target) < -obstacles.TouchTolerance(target))
             {
-                elapsed += FindImpactTime(in remaining, duration, overlapped, out hit);
+                elapsed += FindTimeOfImpact(in remaining, duration, overlapped, out hit);
                 return true;
             }
 
@@ -69,13 +69,13 @@ internal sealed class SphereSweep(Obstacles obstacles)
         return false;
     }
 
-    /// <summary>Finds the moment of an impact by false position, each guess checked by a query.</summary>
+    /// <summary>Finds the time of impact by false position, each guess checked by a query.</summary>
     /// <param name="motion">Overlaps nothing at its start.</param>
     /// <param name="upperTime">A time at which it overlaps something.</param>
     /// <param name="overlapped">What it overlaps then.</param>
     /// <param name="hit">Receives what is touched first.</param>
     /// <returns>Seconds from the start of the path.</returns>
-    private double FindImpactTime(in Motion motion, double upperTime, Contact overlapped, out Contact hit)
+    private double FindTimeOfImpact(in Motion motion, double upperTime, Contact overlapped, out Contact hit)
     {
         hit = overlapped;
         var lowerTime = 0.0;

@@ -32,7 +32,7 @@ public sealed class PlacedModel
     /// <summary>The object as the scene declares it.</summary>
     public SceneObject Declaration { get; }
 
-    /// <summary>What the object shows, in its own frame.</summary>
+    /// <summary>Mesh or fractal that the object shows, in its own coordinate frame.</summary>
     public Model Model { get; }
 
     /// <summary>Maps the model's frame to world space: the paper's global matrix m.</summary>

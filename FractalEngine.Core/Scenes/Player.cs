@@ -3,9 +3,9 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Scenes;
 
 /// <summary>A player who walks in the scene, as a capsule.</summary>
-/// <param name="Position">Where the player's centre starts, world space.</param>
-/// <param name="Radius">Of the body, scene units, positive.</param>
-/// <param name="Height">From the lowest to the highest point; at least twice the radius.</param>
+/// <param name="Position">Initial position of the capsule's centre, world space.</param>
+/// <param name="Radius">Radius of the capsule, scene units, positive.</param>
+/// <param name="Height">Height of the capsule from its lowest to its highest point, scene units; at least twice the radius.</param>
 public sealed record Player(Vector Position, double Radius, double Height)
 {
     /// <summary>The steepest ground that is walked on unless the scene says so, degrees from the horizontal.</summary>

@@ -36,7 +36,7 @@ public record SceneObject
         Placement = placement;
     }
 
-    /// <summary>What the object shows; null for an object whose file is not loaded.</summary>
+    /// <summary>Mesh or fractal that the object shows; null for an object whose file is not loaded.</summary>
     public Model? Model { get; init; }
 
     /// <summary>The model's file as the scene names it, relative to the scene's file; null for an object made in code.</summary>

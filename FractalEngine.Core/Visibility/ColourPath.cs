@@ -4,8 +4,8 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Core.Visibility;
 
 /// <summary>
-/// The facts about the maps that lead to a sub-fractal which decide about its colour, see <see cref="GradientKind"/>. Identities are
-/// left out.
+/// Summary of the path from a fractal to one of its sub-fractals, from which a gradient takes the sub-fractal's colour, see
+/// <see cref="GradientKind"/>. Identities on the path do not count.
 /// </summary>
 /// <param name="MapCount">Number of maps that lead to the sub-fractal.</param>
 /// <param name="PathFraction">

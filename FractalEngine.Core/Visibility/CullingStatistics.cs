@@ -1,6 +1,6 @@
 namespace FractalEngine.Core.Visibility;
 
-/// <summary>Counts of what culling has visited and skipped in one frame.</summary>
+/// <summary>Numbers of the sub-fractals that culling tested in one frame, and of those that it skipped or simplified, by reason.</summary>
 public record struct CullingStatistics
 {
     /// <summary>Number of sub-fractals that were tested.</summary>

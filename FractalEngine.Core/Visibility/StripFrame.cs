@@ -5,8 +5,13 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Visibility;
 
-/// <summary>The parameters of one strip of one frame, and the projection from view space to pixels.</summary>
+/// <summary>
+/// The view frustum of one strip of a frame: projects boxes from view space to pixels, and tests them against the frustum.
+/// </summary>
 /// <remarks>
+/// This is where frustum culling of fractals and static meshes happens: a box outside the frustum has the footprint
+/// <see cref="Footprint.Outside"/>, which <see cref="StripCuller"/> skips. Meshes that physics moves are tested by the renderer, one box
+/// for each object.
 /// Pixels are those of the occlusion buffer: two by two for each pixel of the frame where pixels have several samples. Columns and rows
 /// are counted from the upper left corner of the frame.
 /// </remarks>
@@ -115,7 +120,7 @@ internal readonly struct StripFrame
     /// <summary>Map from view space to world axes about the camera.</summary>
     public SimdAffineMap ViewToWorld { get; }
 
-    /// <summary>Computes the footprint of a box in view space, in double precision.</summary>
+    /// <summary>Tests a box in view space against the frustum, and computes its footprint, in double precision.</summary>
     /// <param name="centre">Centre of the box: x, y, z, 0.</param>
     /// <param name="halfSize">Half the size of the box: x, y, z, 0.</param>
     public Footprint ProjectBox(Vector256<double> centre, Vector256<double> halfSize)

@@ -8,10 +8,10 @@ internal sealed class StripOutput
     private int _objectCount;
 
     /// <summary>Instances that lie within the strip: rows of 3×4 maps from the drawn mesh's frame to world axes about the camera.</summary>
-    public InstanceRows Instances { get; } = new(hasPathHashes: false);
+    public InstanceList Instances { get; } = new(hasPathHashes: false);
 
     /// <summary>Instances that other strips may have as well, with hashes that tell them apart.</summary>
-    public InstanceRows SharedInstances { get; } = new(hasPathHashes: true);
+    public InstanceList SharedInstances { get; } = new(hasPathHashes: true);
 
     /// <summary>Statistics of the strip.</summary>
     public ref CullingStatistics Statistics => ref _statistics;

@@ -15,7 +15,7 @@ public sealed class VisibleSet
     private const int FineStepCount = 4;
 
     private readonly StripCuller[] _strips = new StripCuller[StripCount];
-    private readonly InstanceRows _sharedInstances = new(hasPathHashes: false);
+    private readonly InstanceList _sharedInstances = new(hasPathHashes: false);
     private readonly HashSet<(int Rank, ulong PathHash)> _mergedKeys = [];
     private readonly ParallelOptions _parallelOptions = new();
     private readonly Action<int> _cullStrip;
@@ -44,7 +44,7 @@ public sealed class VisibleSet
 
     /// <summary>Number of floats of one instance.</summary>
     /// <remarks>They are the rows of a 3×4 map from the drawn mesh's frame to world axes about the camera.</remarks>
-    public static int FloatsPerInstance => InstanceRows.FloatsPerInstance;
+    public static int FloatsPerInstance => InstanceList.FloatsPerInstance;
 
     /// <summary>Number of chunks that the instances of each object come in.</summary>
     public static int ChunkCount => StripCount + 1;
@@ -105,7 +105,7 @@ public sealed class VisibleSet
     public ReadOnlySpan<float> Instances(int objectIndex, int chunk)
     {
         var (start, count) = RangeOf(objectIndex, chunk);
-        return RowsOf(chunk).Span.Slice(start * InstanceRows.FloatsPerInstance, count * InstanceRows.FloatsPerInstance);
+        return ListOf(chunk).Span.Slice(start * InstanceList.FloatsPerInstance, count * InstanceList.FloatsPerInstance);
     }
 
     /// <summary>Gradient factors from 0 to 1, one for each of <see cref="Instances"/>, of an object with a gradient.</summary>
@@ -115,7 +115,7 @@ public sealed class VisibleSet
     {
         var (start, count) = RangeOf(objectIndex, chunk);
         // The factors may end before an empty range.
-        return count == 0 ? [] : RowsOf(chunk).GradientFactors.Slice(start, count);
+        return count == 0 ? [] : ListOf(chunk).GradientFactors.Slice(start, count);
     }
 
     /// <summary>Counts the visible instances of an object.</summary>
@@ -149,7 +149,7 @@ public sealed class VisibleSet
 
     private int RankOf(int objectIndex) => _ranks.AsSpan(0, _objects.Count)[objectIndex];
 
-    private InstanceRows RowsOf(int chunk) => chunk < StripCount ? _strips[chunk].Output.Instances : _sharedInstances;
+    private InstanceList ListOf(int chunk) => chunk < StripCount ? _strips[chunk].Output.Instances : _sharedInstances;
 
     private (int Start, int Count) RangeOf(int objectIndex, int chunk)
     {

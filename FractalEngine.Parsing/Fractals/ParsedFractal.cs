@@ -7,7 +7,7 @@ namespace FractalEngine.Parsing.Fractals;
 /// <param name="Source">Text of the file.</param>
 /// <param name="Description">Steps and composition of the result.</param>
 /// <param name="BaseFile">Name of the base mesh's file, relative to the fractal file.</param>
-/// <param name="BaseFileNameOffset">Offset of that name in the text, for messages about the base mesh.</param>
-/// <param name="ResultOffset">Offset of the declaration of the result, for messages about the fractal as a whole.</param>
+/// <param name="BaseFileNameOffset">Offset of <see cref="BaseFile"/> in the text, in characters, for messages about the base mesh.</param>
+/// <param name="ResultOffset">Offset of the result's declaration in the text, in characters, for messages about the whole fractal.</param>
 public sealed record ParsedFractal(
     SourceText Source, FractalDescription Description, string BaseFile, int BaseFileNameOffset, int ResultOffset);

@@ -10,6 +10,10 @@ namespace FractalEngine.Render.Passes;
 /// Draws the objects of a scene: opaque batches, loose spheres, then transparent batches from back to front. Each object is one instanced
 /// draw call for each of its materials, whether it shows a mesh or a fractal.
 /// </summary>
+/// <remarks>
+/// Frustum culling happens in two places. Fractals and static meshes come here as the instances that <see cref="SceneCuller"/> kept.
+/// Meshes that physics moves are tested here, each box by <see cref="View.MayIntersectFrustum"/>.
+/// </remarks>
 internal sealed class ObjectsPass : IDisposable
 {
     // Natural logarithm. In smaller units than this, point lights look the same.

@@ -1,8 +1,8 @@
 namespace FractalEngine.Render.Preparation;
 
 /// <summary>The triangles of a model that share a material, and are drawn by one call.</summary>
-/// <param name="FirstIndex">Position of the first of them in the model's indices.</param>
-/// <param name="IndexCount">Number of indices, three a triangle.</param>
+/// <param name="FirstIndex">Position of the batch's first index in <see cref="DrawableModel.Indices"/>.</param>
+/// <param name="IndexCount">Number of indices of the batch, three a triangle.</param>
 /// <param name="Material">Material of the triangles; null for the object's own colour.</param>
 public readonly record struct DrawableBatch(int FirstIndex, int IndexCount, DrawableMaterial? Material)
 {

@@ -63,7 +63,7 @@ void main()
     gl_Position = vec4(
         viewPosition.xy * viewScale, depthScale.x * viewPosition.z + depthScale.y, depthScale.z * viewPosition.z + depthScale.w);
 
-    // The cofactor matrix maps the cross product of two edges to that of the mapped edges, also under skew, mirrors and flattening:
+    // The cofactor matrix maps the cross product of two edges to that of the mapped edges, also under skewed, mirrored and flat maps:
     // the normal stays on the side from which the triangle is seen as a front face.
     vec3 c0 = vec3(instanceRow0.x, instanceRow1.x, instanceRow2.x);
     vec3 c1 = vec3(instanceRow0.y, instanceRow1.y, instanceRow2.y);

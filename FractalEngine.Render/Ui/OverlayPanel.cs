@@ -4,7 +4,7 @@ namespace FractalEngine.Render.Ui;
 
 /// <summary>Text on a translucent panel over a frame.</summary>
 /// <param name="Anchor">Position of the panel in the frame.</param>
-/// <param name="Lines">Lines from the top.</param>
+/// <param name="Lines">Lines of the panel, from the top.</param>
 public sealed record OverlayPanel(OverlayAnchor Anchor, ImmutableArray<OverlayLine> Lines)
 {
     /// <summary>Heading above the lines; null for none.</summary>

@@ -34,7 +34,8 @@ public sealed class CommandLineTests : IDisposable
             .Select(number => number.GetDouble()));
         Assert.Equal([0.5, 0.0625, 0.0625], info.RootElement.GetProperty("boundsMax").EnumerateArray()
             .Select(number => number.GetDouble()));
-        Assert.InRange(info.RootElement.GetProperty("loadMilliseconds").GetDouble(), 0.001, 60_000);
+        // However fast or busy the machine is, loading takes some time.
+        Assert.True(info.RootElement.GetProperty("loadMilliseconds").GetDouble() > 0);
     }
 
     [Fact]

@@ -76,7 +76,10 @@ internal static partial class ApiPages
         _ => false,
     };
 
-    /// <summary>Equality, hashes and texts are no news; nor is what a record or an exception has by itself.</summary>
+    /// <summary>
+    /// Equality, hashes and texts are no news; nor is what a record or an exception has by itself. The signature of a type tells of its
+    /// <c>Dispose</c>.
+    /// </summary>
     private static bool IsImplied(Type type, MemberInfo member) =>
         member.Name is "Equals" or "GetHashCode" or "ToString" or "Deconstruct" or "op_Equality" or "op_Inequality" or "Dispose"
         || (member is ConstructorInfo && (type.IsAbstract || typeof(Exception).IsAssignableFrom(type)))

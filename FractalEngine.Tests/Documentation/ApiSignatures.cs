@@ -14,7 +14,7 @@ internal static class ApiSignatures
         [typeof(char)] = "char", [typeof(string)] = "string", [typeof(object)] = "object",
     };
 
-    /// <summary>Writes a type with its kind and what it inherits.</summary>
+    /// <summary>Writes a type with its kind, what it inherits, and <see cref="IDisposable"/> where it has that itself.</summary>
     public static string Of(Type type)
     {
         var kind = type.IsEnum ? "enum"
@@ -25,29 +25,41 @@ internal static class ApiSignatures
         var modifiers = type is { IsAbstract: true, IsSealed: true } ? "static "
             : type is { IsAbstract: true, IsInterface: false } ? "abstract "
             : type is { IsSealed: true, IsClass: true } && kind != "delegate" ? "sealed " : "";
-        var bases = type.BaseType is { } parent && !type.IsValueType && parent != typeof(object) && kind != "delegate"
-            ? $" : {NameOf(parent)}"
-            : "";
-        return $"{modifiers}{kind} {NameOf(type)}{bases}";
+        List<string> bases = [];
+        if (type.BaseType is { } parent && !type.IsValueType && parent != typeof(object) && kind != "delegate")
+        {
+            bases.Add(NameOf(parent));
+        }
+
+        if (typeof(IDisposable).IsAssignableFrom(type) && !typeof(IDisposable).IsAssignableFrom(type.BaseType))
+        {
+            bases.Add(nameof(IDisposable));
+        }
+
+        return $"{modifiers}{kind} {NameOf(type)}{(bases.Count > 0 ? $" : {string.Join(", ", bases)}" : "")}";
     }
 
     /// <summary>Writes a member without the modifiers that all public members share.</summary>
     public static string Of(MemberInfo member, NullabilityInfoContext nullability) => member switch
     {
         ConstructorInfo constructor => $"new {NameOf(constructor.DeclaringType!)}({Parameters(constructor, nullability)})",
-        MethodInfo method => $"{Static(method)}{Abstract(method)}{TypeOf(nullability.Create(method.ReturnParameter), method.ReturnType)} "
+        MethodInfo method => $"{Static(method)}{Abstract(method)}"
+            + $"{TypeOf(nullability.Create(method.ReturnParameter), method.ReturnType, method.ReturnParameter)} "
             + $"{NameOf(method)}({Parameters(method, nullability)})",
-        PropertyInfo property => $"{Static(property.GetMethod!)}{TypeOf(nullability.Create(property), property.PropertyType)} "
+        PropertyInfo property => $"{Static(property.GetMethod!)}{TypeOf(nullability.Create(property), property.PropertyType, property)} "
             + $"{NameOf(property, nullability)} {{ {Accessors(property)} }}",
         FieldInfo { IsLiteral: true } constant =>
             $"const {NameOf(constant.FieldType)} {constant.Name} = {Literal(constant.GetRawConstantValue())}",
-        FieldInfo field => $"{(field.IsStatic ? "static " : "")}{TypeOf(nullability.Create(field), field.FieldType)} {field.Name}",
+        FieldInfo field => $"{(field.IsStatic ? "static " : "")}{TypeOf(nullability.Create(field), field.FieldType, field)} {field.Name}",
         EventInfo @event => $"event {NameOf(@event.EventHandlerType!)} {@event.Name}",
         _ => member.Name,
     };
 
     /// <summary>Writes the name of a type with its type arguments.</summary>
-    public static string NameOf(Type type)
+    public static string NameOf(Type type) => NameOf(type, new());
+
+    /// <summary>Writes the name of a type, and takes the names of tuple elements from a queue until that is empty.</summary>
+    private static string NameOf(Type type, Queue<string?> elementNames)
     {
         if (Keywords.TryGetValue(type, out var keyword))
         {
@@ -56,17 +68,17 @@ internal static class ApiSignatures
 
         if (Nullable.GetUnderlyingType(type) is { } underlying)
         {
-            return NameOf(underlying) + "?";
+            return NameOf(underlying, elementNames) + "?";
         }
 
         if (type.IsArray)
         {
-            return NameOf(type.GetElementType()!) + "[]";
+            return NameOf(type.GetElementType()!, elementNames) + "[]";
         }
 
         if (type.IsByRef)
         {
-            return NameOf(type.GetElementType()!);
+            return NameOf(type.GetElementType()!, elementNames);
         }
 
         var outer = type is { IsNested: true, IsGenericParameter: false } ? NameOf(type.DeclaringType!) + "." : "";
@@ -76,9 +88,13 @@ internal static class ApiSignatures
         }
 
         var arguments = type.GetGenericArguments();
-        return type.Name.StartsWith("ValueTuple", StringComparison.Ordinal)
-            ? $"({string.Join(", ", arguments.Select(NameOf))})"
-            : $"{outer}{type.Name.Split('`')[0]}<{string.Join(", ", arguments.Select(NameOf))}>";
+        if (!type.Name.StartsWith("ValueTuple", StringComparison.Ordinal))
+        {
+            return $"{outer}{type.Name.Split('`')[0]}<{string.Join(", ", arguments.Select(argument => NameOf(argument, elementNames)))}>";
+        }
+
+        string[] ownNames = [.. arguments.Select(_ => elementNames.TryDequeue(out var name) && name is not null ? $" {name}" : "")];
+        return $"({string.Join(", ", arguments.Select((argument, i) => NameOf(argument, elementNames) + ownNames[i]))})";
     }
 
     private static string NameOf(MethodInfo method)
@@ -129,7 +145,7 @@ internal static class ApiSignatures
             _ => "",
         };
         var value = parameter.HasDefaultValue ? $" = {Default(parameter)}" : "";
-        return $"{modifier}{TypeOf(nullability.Create(parameter), parameter.ParameterType)} {parameter.Name}{value}";
+        return $"{modifier}{TypeOf(nullability.Create(parameter), parameter.ParameterType, parameter)} {parameter.Name}{value}";
     }
 
     private static string Default(ParameterInfo parameter) => parameter.DefaultValue is null && parameter.ParameterType.IsValueType
@@ -149,9 +165,15 @@ internal static class ApiSignatures
         _ => value.ToString()!,
     };
 
-    private static string TypeOf(NullabilityInfo nullability, Type type) =>
-        NameOf(type) + (nullability.ReadState == NullabilityState.Nullable && !type.IsValueType && !type.IsByRef
+    private static string TypeOf(NullabilityInfo nullability, Type type, ICustomAttributeProvider member) =>
+        NameOf(type, ElementNames(member)) + (nullability.ReadState == NullabilityState.Nullable && !type.IsValueType && !type.IsByRef
             || type.IsByRef && nullability.ReadState == NullabilityState.Nullable && !type.GetElementType()!.IsValueType ? "?" : "");
+
+    /// <summary>The names of the elements of all tuples in a type, each tuple's own before those of the tuples in it.</summary>
+    private static Queue<string?> ElementNames(ICustomAttributeProvider member) =>
+        new(member.GetCustomAttributes(typeof(TupleElementNamesAttribute), false) is [TupleElementNamesAttribute names]
+            ? names.TransformNames
+            : []);
 
     private static bool IsRecord(Type type) => type.GetMethod("PrintMembers", BindingFlags.Instance | BindingFlags.NonPublic) is not null;
 }

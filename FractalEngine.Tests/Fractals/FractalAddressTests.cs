@@ -158,14 +158,14 @@ public class FractalAddressTests
     public void CollectRoots_OfAllAncestors_AreTheWholeFractal(string name, int depth)
     {
         var fractal = depth < 0 ? AssetFractals.Load(name) : AssetFractals.Load(name, depth);
-        Seeded.Run(name == "snowflake" ? 2 : 5, random => CheckRoots(random, fractal, SamplePlacement));
+        Seeded.Run(name == "snowflake" ? 2 : 5, random => Assert.True(CheckRoots(random, fractal, SamplePlacement)));
     }
 
     [Fact]
-    public void CollectRoots_OfRandomFractals_AreTheWholeFractal() => Seeded.Run(150, random =>
+    public void CollectRoots_OfRandomFractals_AreTheWholeFractal() => Seeded.RunMost(150, random =>
     {
         var fractal = RandomFractals.Create(random, random.Next(3) == 0 ? Composition.Componentwise : Composition.Affine);
-        CheckRoots(random, fractal, random.Next(2) == 0 ? AffineMap.Identity : SamplePlacement);
+        return CheckRoots(random, fractal, random.Next(2) == 0 ? AffineMap.Identity : SamplePlacement);
     });
 
     [Fact]
@@ -405,13 +405,15 @@ public class FractalAddressTests
         Near.Equal(0, Near.Difference(frameToCamera, dive.Address.FrameToCamera) / size, tolerance);
     }
 
-    private static void CheckRoots(Random random, Fractal fractal, AffineMap placement)
+    /// <summary>Checks that the sub-fractals of all ancestors are the whole fractal.</summary>
+    /// <returns>False for a fractal without instances, of which nothing can be checked.</returns>
+    private static bool CheckRoots(Random random, Fractal fractal, AffineMap placement)
     {
         var hierarchy = LodHierarchy.Build(fractal);
         var top = hierarchy.NodeAt(hierarchy.LevelCount);
         if (top.IsEmpty)
         {
-            return;
+            return false;
         }
 
         var position = placement * (top.Box.Centre + top.Box.Size.Stretch(random.Vector()));
@@ -441,6 +443,7 @@ public class FractalAddressTests
         CullingViews.AssertEachVisibleOnce([.. expected], found);
         var distinct = FractalGenerator.Expand(fractal, 2_000_000).Select(instance => objectToCamera * instance).ToArray();
         Assert.All(CullingViews.CountMatches(distinct, found), count => Assert.True(count >= 1));
+        return true;
     }
 
     private static void AddInstances(List<AffineMap> found, LodHierarchy hierarchy, long levels, AffineMap map)

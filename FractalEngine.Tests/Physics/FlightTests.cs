@@ -48,7 +48,7 @@ public class FlightTests
 
     [Theory]
     [MemberData(nameof(Steps))]
-    public void Bounce_OnAFloor_RisesByTheSquareOfRestitution(double step) => Seeded.Run(step < 1e-4 ? 4 : 40, random =>
+    public void Bounce_OnAFloor_RisesByTheSquareOfRestitution(double step) => Seeded.RunMost(step < 1e-4 ? 4 : 40, random =>
     {
         const double Gravity = 9.8;
         var restitution = random.Between(0.2, 1);
@@ -74,7 +74,10 @@ public class FlightTests
             var top = body.Position.Y - radius + (body.Velocity.Y * body.Velocity.Y / (2 * Gravity));
             Near.Equal(expectedTop, top, 1e-6 * height);
         }
-    });
+
+        // At the longest step, flights after low falls take less than two steps from the beginning.
+        return lastImpact > 0;
+    }, minShare: 0.8);
 
     [Fact]
     public void Bounce_AtAnAngle_KeepsTheSpeedAlongTheSurface() => Seeded.Run(200, random =>

@@ -31,7 +31,7 @@ public class ImpactTests
     });
 
     [Fact]
-    public void Oblique_WithAnyMasses_KeepsMomentumAndReversesTheApproach() => Seeded.Run(300, random =>
+    public void Oblique_WithAnyMasses_KeepsMomentumAndReversesTheApproach() => Seeded.RunMost(300, random =>
     {
         var m1 = random.Between(0.1, 10);
         var m2 = random.Between(0.1, 10);
@@ -45,7 +45,7 @@ public class ImpactTests
         var body2 = world.AddSphere(target - u2 + (0.8 * random.NextDouble() * random.Direction()), 0.5, e, u2, m2);
         if ((body1.Position - body2.Position).Length() <= 1.01)
         {
-            return;
+            return false;
         }
 
         var momentum = world.Momentum();
@@ -59,6 +59,7 @@ public class ImpactTests
         Near.Equal(-e * Vector.Dot(u1 - u2, normal), Vector.Dot(body1.Velocity - body2.Velocity, normal), 1e-9);
         var loss = 0.5 * m1 * m2 / (m1 + m2) * (1 - (e * e)) * Math.Pow(Vector.Dot(u1 - u2, normal), 2);
         Near.Equal(energy - loss, world.Energy(), 1e-10 * energy);
+        return true;
     });
 
     [Fact]

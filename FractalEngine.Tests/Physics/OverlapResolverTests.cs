@@ -17,12 +17,12 @@ public class OverlapResolverTests
 
     /// <summary>The centre is on a face, an edge or a corner, or in front of one that is overlapped.</summary>
     [Fact]
-    public void Start_OnATriangle_IsMovedOff() => Seeded.Run(500, random =>
+    public void Start_OnATriangle_IsMovedOff() => Seeded.RunMost(500, random =>
     {
         var (a, b, c) = (random.Vector(), random.Vector(), random.Vector());
         if (Vector.Cross(b - a, c - a).Length() < 0.1)
         {
-            return;
+            return false;
         }
 
         var (u, v) = (random.NextDouble(), random.NextDouble());
@@ -37,6 +37,7 @@ public class OverlapResolverTests
         };
         var world = TestWorlds.Create(Vector.Zero, 1 / 60.0, TestWorlds.Place(PhysicsMeshes.FromTriangles((a, b, c))));
         CheckFree(world, world.Add(new(start, radius)), new SphereTriangleOracle([(a, b, c)]).Distance, radius);
+        return true;
     });
 
     [Theory]
@@ -151,6 +152,8 @@ public class OverlapResolverTests
             Assert.True(!body.IsStuck || body.Velocity == Vector.Zero);
         }));
         CheckNoOverlap(world);
+        // Those that find no free position in time are stuck, and may overlap others.
+        Seeded.AssertMost(world.Bodies.Count(body => !body.IsStuck), world.Bodies.Count, minShare: 0.6);
     }
 
     [Fact]
@@ -161,6 +164,7 @@ public class OverlapResolverTests
         world.Run(30);
         CheckNoOverlap(world);
         Assert.All(world.Bodies, body => Assert.InRange(body.Position.Length(), 0, 12));
+        Assert.DoesNotContain(world.Bodies, body => body.IsStuck);
     });
 
     [Theory]
@@ -173,7 +177,7 @@ public class OverlapResolverTests
         var placed = TestWorlds.Place(fractal);
         var collider = new SceneCollider(new LoadedScene(new(), [placed]));
         var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, placed);
-        Seeded.Run(60, random =>
+        Seeded.RunMost(60, random =>
         {
             world.Reset();
             var size = placed.Bounds.Diagonal;
@@ -186,7 +190,9 @@ public class OverlapResolverTests
                     $"{body.Description}: {closest.Distance:R} from the surface at {body.Position}");
                 Assert.True(!body.IsStuck || body.Velocity == Vector.Zero);
             });
-        });
+            // A large body that begins in a small hole stays stuck.
+            return !body.IsStuck;
+        }, minShare: 0.3);
     }
 
     private static Mesh CreateSolid(string name) => name == "cube" ? PhysicsMeshes.Cube : MeshGenerators.Create("icosphere", 1, 80);

@@ -121,38 +121,14 @@ public class StaticObjectTests
         Assert.Equal(hash, world.StateHash);
     }
 
-    /// <summary>The oracle has every face where plain arithmetic puts it.</summary>
     [Fact]
-    public void Shots_AtObjectsUnderAnyMatrix_NeverOverlapThem() => Seeded.Run(120, random =>
+    public void Shots_AtObjectsUnderAnyMatrix_NeverOverlapThem()
     {
-        var fractal = random.Next(2) == 0 ? Samples.Repeated(2, random.Transformation(), random.Transformation()) : null;
-        var placement = random.Transformation(0.3, 2);
-        var placed = fractal is null ? TestWorlds.Place(Samples.Tetrahedron, placement) : TestWorlds.Place(fractal, placement);
-        var map = NaiveFractal.MapOf(placement);
-        (Vector A, Vector B, Vector C)[] faces = fractal is null
-            ? [.. PhysicsMeshes.TrianglesOf(Samples.Tetrahedron).Select(face =>
-                (NaiveFractal.Apply(map, face.A), NaiveFractal.Apply(map, face.B), NaiveFractal.Apply(map, face.C)))]
-            : [.. NaiveFractal.Corners(fractal.Description, fractal.BaseMesh, map).Chunk(3).Select(face => (face[0], face[1], face[2]))];
-        var oracle = new SphereTriangleOracle(faces);
-        var world = TestWorlds.Create(random.Vector(10), Math.Pow(10, random.Between(-3, -1)), placed);
-        for (var shot = 0; shot < 5; shot++)
-        {
-            var aim = 1 / 3.0 * (faces[0].A + faces[0].B + faces[0].C);
-            var radius = Math.Pow(10, random.Between(-2.5, 0));
-            var start = aim + (Math.Max(2 * radius, 1) * random.Direction());
-            if (oracle.Distance(start) < radius * (1 + 1e-6))
-            {
-                continue;
-            }
-
-            world.Reset();
-            var velocity = Math.Pow(10, random.Between(0, 2)) * (aim - start).UnitVector();
-            var body = world.AddSphere(start, radius, random.NextDouble(), velocity);
-            world.Run(15, () => Assert.True(
-                oracle.Distance(body.Position) >= radius * (1 - 1e-6),
-                $"{body.Description}, step {world.Settings.TimeStep:R}, {placement}: {oracle.Distance(body.Position):R} from the surface"));
-        }
-    });
+        var hits = 0;
+        Seeded.Run(120, random => hits += ShootAtObject(random, 5));
+        // Some begin too close to be shot, and slow ones do not arrive in so few short steps.
+        Seeded.AssertMost(hits, 120 * 5, minShare: 0.5);
+    }
 
     [Fact]
     public void ColliderOverride_WithExactKinds_GivesTheSameMotion()
@@ -177,6 +153,46 @@ public class StaticObjectTests
         var world = CreateWorldWithCubes();
         Assert.True(world.TryFindClosest(new(0, 2, 0), ColliderKind.Exact, out var closest));
         Assert.Equal(1.5, closest.Distance, 1e-12);
+    }
+
+    /// <summary>
+    /// Shoots spheres at a face of an object under a random matrix. The oracle has every face where plain arithmetic puts it.
+    /// </summary>
+    /// <returns>The number of shots that hit something.</returns>
+    private static int ShootAtObject(Random random, int shots)
+    {
+        var fractal = random.Next(2) == 0 ? Samples.Repeated(2, random.Transformation(), random.Transformation()) : null;
+        var placement = random.Transformation(0.3, 2);
+        var placed = fractal is null ? TestWorlds.Place(Samples.Tetrahedron, placement) : TestWorlds.Place(fractal, placement);
+        var map = NaiveFractal.MapOf(placement);
+        (Vector A, Vector B, Vector C)[] faces = fractal is null
+            ? [.. PhysicsMeshes.TrianglesOf(Samples.Tetrahedron).Select(face =>
+                (NaiveFractal.Apply(map, face.A), NaiveFractal.Apply(map, face.B), NaiveFractal.Apply(map, face.C)))]
+            : [.. NaiveFractal.Corners(fractal.Description, fractal.BaseMesh, map).Chunk(3).Select(face => (face[0], face[1], face[2]))];
+        var oracle = new SphereTriangleOracle(faces);
+        var world = TestWorlds.Create(random.Vector(10), Math.Pow(10, random.Between(-3, -1)), placed);
+        var hits = 0;
+        for (var shot = 0; shot < shots; shot++)
+        {
+            var aim = 1 / 3.0 * (faces[0].A + faces[0].B + faces[0].C);
+            var radius = Math.Pow(10, random.Between(-2.5, 0));
+            var start = aim + (Math.Max(2 * radius, 1) * random.Direction());
+            if (oracle.Distance(start) < radius * (1 + 1e-6))
+            {
+                continue;
+            }
+
+            world.Reset();
+            var velocity = Math.Pow(10, random.Between(0, 2)) * (aim - start).UnitVector();
+            var body = world.AddSphere(start, radius, random.NextDouble(), velocity);
+            world.Run(15, () => Assert.True(
+                oracle.Distance(body.Position) >= radius * (1 - 1e-6),
+                $"{body.Description}, step {world.Settings.TimeStep:R}, {placement}: {oracle.Distance(body.Position):R} from the surface"));
+            // Nothing else turns it: gravity alone changes the velocity by the same amount in each step.
+            hits += (body.Velocity - velocity - (world.Time * world.Gravity)).Length() > 1e-9 ? 1 : 0;
+        }
+
+        return hits;
     }
 
     /// <summary>A static cube about the origin, and a cube that is a body 3 above it.</summary>

@@ -93,20 +93,25 @@ public sealed class ViewTests
     [Theory]
     [InlineData(Projection.Perspective)]
     [InlineData(Projection.Orthographic)]
-    public void MayIntersectFrustum_BoxThatReachesIntoTheFrame_IsTrue(Projection projection) => Seeded.Run(300, random =>
+    public void MayIntersectFrustum_BoxThatReachesIntoTheFrame_IsTrue(Projection projection) => Seeded.RunMost(300, random =>
     {
         var view = new View(new(random.Vector(3), random.Vector(3), 20 + (100 * random.NextDouble())), projection)
         {
             OrthographicHeight = 1 + (5 * random.NextDouble()),
         };
         var box = BoundingBox.Empty.Including(random.Vector(8)).Including(random.Vector(8));
+        var isInFrame = false;
         for (var i = 0; i < 20; i++)
         {
             var point = box.Minimum + box.Size.Stretch(new(random.NextDouble(), random.NextDouble(), random.NextDouble()));
             if (view.Project(point, 300, 200) is var (x, y, depth) && depth > 0 && x is > 0 and < 300 && y is > 0 and < 200)
             {
                 Assert.True(view.MayIntersectFrustum(box, 1.5), $"{point} of {box}");
+                isInFrame = true;
             }
         }
-    });
+
+        // Most boxes lie behind the camera or beside the frame, or reach into it by too little.
+        return isInFrame;
+    }, minShare: 0.25);
 }

@@ -42,7 +42,7 @@ public class CameraFramingTests
         var camera = CameraFraming.Frame(new(Vector.Zero, random.Vector(3), 60), box, 1);
         var maxExtent = Corners(box).Select(camera.ToCameraSpace)
             .Max(v => Math.Max(Math.Abs(v.X), Math.Abs(v.Y)) / v.Z / camera.HalfHeightAtUnitDepth);
-        // A third of the picture at least, whatever margin is left.
+        // A third of the frame at least, whatever margin is left.
         Assert.InRange(maxExtent, 1.0 / 3, 1);
     });
 
@@ -93,7 +93,7 @@ public class CameraFramingTests
     private static void AssertVisible(Camera camera, Vector corner, double aspect)
     {
         var mapped = camera.ToCameraSpace(corner);
-        // A corner may lie on the picture's edge, to rounding.
+        // A corner may lie on the frame's edge, to rounding.
         var half = camera.HalfHeightAtUnitDepth * mapped.Z * (1 + 1e-12);
         Assert.True(mapped.Z > 0 && Math.Abs(mapped.Y) <= half && Math.Abs(mapped.X) <= half * aspect, $"{corner} is at {mapped}");
     }

@@ -91,8 +91,8 @@ public sealed class CameraStabilityTests(ITestOutputHelper output)
             var (mean, share) = RenderScenes.Difference(first, At(depth));
             Assert.Equal(depth, dive.Address.Depth);
             report.Require(
-                "picture beside that at depth 40: share of pixels that differ by more than 8 of 255", share, 0, () => $"depth {depth}");
-            report.Require("picture beside that at depth 40: mean difference of 255", mean, 0, () => $"depth {depth}");
+                "image beside that at depth 40: share of pixels that differ by more than 8 of 255", share, 0, () => $"depth {depth}");
+            report.Require("image beside that at depth 40: mean difference of 255", mean, 0, () => $"depth {depth}");
         }
 
         PixelImage At(int depth)

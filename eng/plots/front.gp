@@ -1,4 +1,4 @@
-# docs/benchmarks/front.csv: time against error, a picture for each shape. Run in the root of the repository.
+# docs/benchmarks/front.csv: time against error, a plot for each shape. Run in the root of the repository.
 set datafile separator comma
 set datafile columnheaders
 table = "docs/benchmarks/front.csv"

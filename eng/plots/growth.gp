@@ -47,11 +47,11 @@ plot for [i=1:4] folder.'growth-faces.csv' using 2:(strcol(1) eq 'terrain' ? col
      for [i=1:4] folder.'growth-faces.csv' using 2:(strcol(1) eq 'icosphere' ? column(F[i]) : NaN) with linespoints lw 1.5 dt 2 pt 6 ps 0.5 lc rgb C[i]
 
 set output folder.'drawing.svg'
-set title 'A picture of the Menger sponge from afar, 1280 × 720, depth 1 to 5'
+set title 'A frame of the Menger sponge from afar, 1280 × 720, depth 1 to 5'
 set xrange [150:60000000]
 set yrange [1:*]
 set xlabel 'faces of the fractal'
-set ylabel 'ms a picture'
+set ylabel 'ms a frame'
 set key inside top left Left reverse maxrows 2
 plot folder.'drawing.csv' using 3:(strcol(4) eq 'all' ? $6 : NaN) with linespoints lw 2 pt 7 ps 0.5 lc rgb C[2] title 'every instance drawn', \
-     folder.'drawing.csv' using 3:(strcol(4) eq 'chosen' ? $6 : NaN) with linespoints lw 2 pt 7 ps 0.5 lc rgb C[1] title 'those chosen that can be seen'
+     folder.'drawing.csv' using 3:(strcol(4) eq 'chosen' ? $6 : NaN) with linespoints lw 2 pt 7 ps 0.5 lc rgb C[1] title 'visible instances drawn'

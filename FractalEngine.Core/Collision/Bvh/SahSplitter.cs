@@ -3,7 +3,8 @@ using System.Runtime.CompilerServices;
 namespace FractalEngine.Core.Collision.Bvh;
 
 /// <summary>
-/// Splits ranges of triangles in two by the surface area heuristic over bins: the expected cost of a side is its surface times its leaves.
+/// Splits ranges of triangles in two for <see cref="TriangleBvhBuilder"/>, by the surface area heuristic (SAH) over bins: it takes the
+/// plane between two bins with the lowest sum, over both sides, of the surface area times the number of leaves.
 /// </summary>
 /// <param name="triangles">The triangles, which are reordered within the ranges.</param>
 internal sealed class SahSplitter(TriangleBounds[] triangles)

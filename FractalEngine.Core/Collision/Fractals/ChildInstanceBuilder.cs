@@ -64,7 +64,7 @@ internal sealed class ChildInstanceBuilder
     /// <summary>Builds the children of a level: its edges, expanded by the edges of the levels they lead to while these are few.</summary>
     /// <param name="level">Remaining levels of the parent.</param>
     /// <param name="edges">The edges of the level.</param>
-    /// <param name="edgesAt">Gives the edges of a lower level by its remaining levels; it is not asked for those of the base.</param>
+    /// <param name="edgesAt">Gives the edges of a lower level by its remaining levels; it is never called for the base, at 0.</param>
     public ChildInstance[] ExpandChildren(long level, ChildEdge[] edges, Func<long, ChildEdge[]> edgesAt)
     {
         List<EdgeChain> chains = [.. edges.Select(edge => new EdgeChain([edge], edge.RemainingLevels(level)))];

@@ -6,7 +6,8 @@ namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>
 /// Finds the closest point of a fractal of any depth, exactly, by branch and bound over its levels. Each sub-fractal is bounded by a box
-/// that provably contains it. The closest is visited first, and sub-fractals that can't be closer than the best so far are culled.
+/// that provably contains it, and mostly by a convex hull too. The closest is visited first, and sub-fractals that can't be closer than
+/// the best so far are skipped.
 /// </summary>
 /// <remarks>
 /// Memory and time follow the levels, not the faces. Why the bounds hold is explained in docs/colliders.md. Sub-fractals smaller than

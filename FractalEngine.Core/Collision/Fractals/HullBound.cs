@@ -38,7 +38,7 @@ internal sealed class HullBound
     /// <param name="box">A box around the hull.</param>
     /// <param name="margin">The margin in scene units, not negative.</param>
     /// <param name="includeAxisPlanes">
-    /// False where the planes of an axis-parallel box are tested elsewhere. Maps that skew need them, and more of the others.
+    /// False where the planes of an axis-parallel box are tested elsewhere. Skewed maps need them, and more of the others.
     /// </param>
     public HullBound(ConvexHull hull, BoundingBox box, double margin, bool includeAxisPlanes)
     {

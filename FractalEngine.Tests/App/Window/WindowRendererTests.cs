@@ -86,12 +86,7 @@ public sealed class WindowRendererTests : IDisposable
         document.CameraControls.Handle(new KeyPressed(Key.F, KeyModifiers.None, false), window.Aspect);
         document.FirstSightLoader.Start(document.UpdateView(window.Aspect), window.Aspect);
         Assert.True(document.FirstSightLoader.IsRunning);
-        DrawableScene? scene;
-        while ((scene = document.FirstSightLoader.TakeScene()) is null)
-        {
-            Thread.Sleep(1);
-        }
-
+        var scene = Polling.WaitFor(document.FirstSightLoader.TakeScene, "scene with the models that became visible");
         Assert.DoesNotContain(scene.Models, model => model.IsPlaceholder);
         Assert.Equal((false, null), (document.FirstSightLoader.IsRunning, document.FirstSightLoader.Progress));
     }

@@ -6,7 +6,7 @@ using FractalEngine.Core.Collision.Fractals;
 namespace FractalEngine.Core.Visibility;
 
 /// <summary>A growing list of instances in the form that the GPU takes: rows of 3×4 maps in single precision.</summary>
-internal sealed class InstanceRows
+internal sealed class InstanceList
 {
     /// <summary>Number of floats that one instance takes.</summary>
     public const int FloatsPerInstance = 12;
@@ -21,7 +21,7 @@ internal sealed class InstanceRows
 
     /// <summary>Creates an empty list.</summary>
     /// <param name="hasPathHashes">Whether the list keeps hashes that tell the instances of one object apart.</param>
-    public InstanceRows(bool hasPathHashes) => _hasPathHashes = hasPathHashes;
+    public InstanceList(bool hasPathHashes) => _hasPathHashes = hasPathHashes;
 
     /// <summary>Number of instances in the list.</summary>
     public int Count { get; private set; }
@@ -66,7 +66,7 @@ internal sealed class InstanceRows
     /// <summary>Appends an instance of another list, with its gradient factor.</summary>
     /// <param name="other">List that has path hashes if this one has.</param>
     /// <param name="index">Index of the instance in the other list.</param>
-    public void AddFrom(InstanceRows other, int index)
+    public void AddFrom(InstanceList other, int index)
     {
         EnsureCapacity();
         other._rows.AsSpan(index * FloatsPerInstance, FloatsPerInstance).CopyTo(_rows.AsSpan(Count * FloatsPerInstance));
