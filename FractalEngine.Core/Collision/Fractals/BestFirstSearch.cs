@@ -47,7 +47,7 @@ internal sealed class BestFirstSearch(SubFractalTable table, TriangleBvh bvh)
         var child = parent.SubFractal.Children[expandedChild.ChildIndex];
         var remainingLevels = child.RemainingLevels(parent.RemainingLevels);
         SearchNode node = new(
-            table.At(remainingLevels),
+            table.At(child, remainingLevels),
             remainingLevels,
             SimdAffineMap.Compose(in parent.Map, in child.SimdMap),
             SimdAffineMap.Compose(in child.InverseSimdMap, in parent.Inverse),

@@ -50,9 +50,13 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
     public BoundingVolume Transform(AffineMap map, double operatorNormBound)
     {
         var box = TransformedBox(map, operatorNormBound);
-        return Hull is null
-            ? new(box, null, 0)
-            : new BoundingVolume(box, Hull.Transform(map), (Margin * operatorNormBound) + RoundingMargin(box)).WithTightBox();
+        if (Hull is null || !(box.Diagonal < MaxHullSize))
+        {
+            return new(box, null, 0);
+        }
+
+        var hull = Hull.Transform(map);
+        return new BoundingVolume(box, hull, (Margin * operatorNormBound) + hull.MaxOutsideDistance + RoundingMargin(box)).WithTightBox();
     }
 
     /// <summary>Computes a box around this volume's image under a map.</summary>

@@ -18,6 +18,9 @@ internal readonly record struct ChildEdge(MapSet Set, int MapIndex, LevelStep Le
     /// <summary>Upper bound of the factor by which the map lengthens vectors.</summary>
     public double OperatorNormBound => Set.OperatorNormBounds[MapIndex];
 
+    /// <summary>The edge from a sub-fractal to a group of its own children: it stays on its level.</summary>
+    public static ChildEdge ToGroup { get; } = new(MapSet.Identity, 0, LevelStep.Down(0));
+
     /// <summary>Creates an edge to the level below a repetition, by the identity.</summary>
     /// <param name="remainingLevels">Remaining levels below the repetition.</param>
     public static ChildEdge SkipTo(long remainingLevels) => new(MapSet.Identity, 0, LevelStep.To(remainingLevels));

@@ -33,6 +33,21 @@ internal sealed class ChildInstance
         _inverseSimdMap = new(inverse);
     }
 
+    private ChildInstance(SubFractal group)
+        : this([ChildEdge.ToGroup])
+    {
+        Group = group;
+    }
+
+    /// <summary>
+    /// The children of one sub-fractal that this one stands for, in the same frame; null where it is an instance of a sub-fractal. Wide
+    /// sets are grouped, so that a search tests few bounds of each.
+    /// </summary>
+    public SubFractal? Group { get; }
+
+    /// <summary>Creates a child that stands for a group of children.</summary>
+    public static ChildInstance Of(SubFractal group) => new(group);
+
     /// <summary>The edges, the outermost first.</summary>
     public ChildEdge[] Edges { get; }
 

@@ -80,7 +80,7 @@ internal sealed class ChildInstanceBuilder
             }
 
             var nextEdges = edgesAt(highestLevel);
-            if (chains.Sum(chain => chain.RemainingLevels == highestLevel ? nextEdges.Length : 1) > MaxChildrenForSameLevel)
+            if (!chains.All(chain => chain.CanGrow()) || chains.Sum(chain => chain.RemainingLevels == highestLevel ? nextEdges.Length : 1) > MaxChildrenForSameLevel)
             {
                 break;
             }
@@ -129,6 +129,21 @@ internal sealed class ChildInstanceBuilder
     /// <summary>Edges one after another, and the remaining levels of the sub-fractal that they lead to.</summary>
     private sealed record EdgeChain(ChildEdge[] Edges, long RemainingLevels)
     {
+        // Coordinates in the frames of smaller children leave the range in which their squares are accurate.
+        private const double MaxInverseEntry = 1e40;
+
+        /// <summary>True when the maps of the chain and one more stay well within the range of a double.</summary>
+        public bool CanGrow()
+        {
+            var inverseEntry = 1.0;
+            foreach (var edge in Edges)
+            {
+                inverseEntry *= Math.Max(1, edge.Set.Inverses[edge.MapIndex].Linear.MaxAbsEntry());
+            }
+
+            return inverseEntry < MaxInverseEntry;
+        }
+
         public EdgeChain Append(ChildEdge edge) => new([.. Edges, edge], edge.RemainingLevels(RemainingLevels));
     }
 

@@ -21,6 +21,9 @@ internal sealed partial class ConvexHull
     // Facets whose normals differ by less in every component share a plane.
     private const double SamePlaneTolerance = 1e-9;
 
+    // Shorter transformed normals have lost their direction to rounding.
+    private const double MinNormalLength = 1e-30;
+
     private readonly ImmutableArray<(Vector A, Vector B, Vector C)> _facets;
 
     private ConvexHull(
@@ -77,21 +80,30 @@ internal sealed partial class ConvexHull
     }
 
     /// <summary>
-    /// Computes the hull's image under a map, which is the hull of the images. The points lie outside it by up to
-    /// <see cref="MaxOutsideDistance"/> times the factor by which the map lengthens vectors.
+    /// Computes the hull's image under a map, which is the hull of the images. The points lie outside it by up to this hull's
+    /// <see cref="MaxOutsideDistance"/> times the factor by which the map lengthens vectors, and that of the image besides.
     /// </summary>
     public ConvexHull Transform(AffineMap map)
     {
-        // Normals transform by the cofactors; a mirror turns them inside out.
-        var normalMatrix = map.Linear.Cofactors();
-        var orientation = map.Linear.Determinant() < 0 ? -1 : 1;
-        var planes = Planes.Select(plane => plane with
+        // Normals transform by the cofactors; a mirror turns them inside out. Their lengths don't matter, but must not underflow.
+        var linear = (1 / map.Linear.MaxAbsEntry()) * map.Linear;
+        var normalMatrix = linear.Cofactors();
+        var orientation = linear.Determinant() < 0 ? -1 : 1;
+        Vector[] normals = [.. Planes.Select(plane => orientation * (normalMatrix * plane.Normal))];
+        ImmutableArray<Vector> vertices = [.. Vertices.Select(vertex => map * vertex)];
+        if (!normals.All(normal => normal.MaxAbsComponent() is > MinNormalLength and < double.PositiveInfinity))
         {
-            Normal = orientation * (normalMatrix * plane.Normal).UnitVector(),
+            // The map flattens the hull, or shrinks it to a segment or a point.
+            return Build(vertices.AsSpan(), Math.Max(4, vertices.Length));
+        }
+
+        var planes = Planes.Zip(normals, (plane, normal) => plane with
+        {
+            Normal = normal.UnitVector(),
             Offset = double.NegativeInfinity,
         });
         return new ConvexHull(
-            [.. Vertices.Select(vertex => map * vertex)],
+            vertices,
             [.. planes],
             0,
             [.. _facets.Select(facet => (map * facet.A, map * facet.B, map * facet.C))]).WithConservativeOffsets();

@@ -88,7 +88,7 @@ internal sealed class ConvexSolid
             var separation = height - (_margin * Math.Sqrt(Vector256.Dot(localDirection, localDirection)));
             if (separation > 0)
             {
-                bound = Math.Max(bound, separation * separation / lengthSquared);
+                bound = Math.Max(bound, separation * (separation / lengthSquared));
             }
 
             if (!(bound < cutoffSquared) || lengthSquared - height <= ConvergenceTolerance * lengthSquared || !simplex.TryAdd(toVertex))

@@ -48,7 +48,7 @@ internal sealed class DepthFirstSearch<TFrame>(SubFractalTable table, TriangleBv
         {
             var child = children[closestChild];
             var childLevels = child.RemainingLevels(remainingLevels);
-            var childSubFractal = table.At(childLevels);
+            var childSubFractal = table.At(child, childLevels);
             var childFrame = frame.Enter(child);
             if (!queue.IsRefined(closestChild) && frame.CanRefine(childLevels, bvh.FaceCount))
             {

@@ -19,9 +19,17 @@ public sealed class ExactFractalCollider : Collider
     /// <summary>The part of a fractal's size below which no further level is visited.</summary>
     public const double RelativePrecision = 1e-15;
 
+    // Largest coordinates whose squares, and those of parts 1e-15 of them, are accurate.
+    private const double MinMagnitude = 1e-100;
+    private const double MaxMagnitude = 1e140;
+
+    // As a part of the largest coordinate: the precision of a fractal that is smaller, such as a point, is that of its coordinates.
+    private const double MinPrecisionRadius = 1e-3;
+
     private readonly Fractal _fractal;
     private readonly SubFractalTable _table;
     private readonly TriangleBvh _baseBvh;
+    private readonly double _precisionRadiusSquared;
     private readonly DepthFirstSearch<SimilarityFrame> _similaritySearch;
     private readonly DepthFirstSearch<AffineFrame> _affineSearch;
     private readonly BestFirstSearch _bestFirstSearch;
@@ -45,6 +53,8 @@ public sealed class ExactFractalCollider : Collider
         _fractal = fractal;
         _table = SubFractalTable.Build(fractal);
         _baseBvh = new(fractal.BaseMesh);
+        var minRadius = MinPrecisionRadius * BoundingVolume.MaxAbsCoordinate(_table.Root.Box);
+        _precisionRadiusSquared = _table.Root.Box.IsEmpty ? 0 : Math.Max(_table.RadiusSquared, minRadius * minRadius);
         _similaritySearch = new(_table, _baseBvh);
         _affineSearch = new(_table, _baseBvh);
         _bestFirstSearch = new(_table, _baseBvh);
@@ -90,7 +100,12 @@ public sealed class ExactFractalCollider : Collider
 
         var box = isSimilarity ? _table.Root.Box : _table.Root.Box.Transform(map);
         var magnitude = Math.Max(position.MaxAbsComponent(), BoundingVolume.MaxAbsCoordinate(box));
-        var search = new FractalSearchState(maxDistance, epsilon, magnitude, context);
+        if (magnitude is < MinMagnitude or > MaxMagnitude && double.IsFinite(magnitude) && magnitude > 0)
+        {
+            return FindClosestScaled(position, in map, magnitude, maxDistance, epsilon, context, out closest);
+        }
+
+        var search = new FractalSearchState(maxDistance, epsilon, position.MaxAbsComponent(), magnitude, context);
         search.BoundTests++;
         if (!search.Excludes(box.DistanceSquared(position)))
         {
@@ -110,9 +125,29 @@ public sealed class ExactFractalCollider : Collider
         return closest.Distance <= maxDistance;
     }
 
+    /// <summary>Finds the closest point in a frame of other units, where the squares of coordinates stay within the range of a double.</summary>
+    private bool FindClosestScaled(
+        Vector position, in AffineMap map, double magnitude, double maxDistance, double epsilon, QueryContext context,
+        out ClosestPoint closest)
+    {
+        // Powers of two change no digits.
+        var exponent = Math.ILogB(magnitude);
+        var scale = Math.ScaleB(1, -exponent);
+        AffineMap scaledMap = new(scale * map.Linear, scale * map.Translation);
+        if (!FindClosestInImage(
+            scale * position, in scaledMap, isSimilarity: false, maxDistance * scale, epsilon, context, out var scaled))
+        {
+            closest = default;
+            return false;
+        }
+
+        closest = scaled with { Distance = Math.ScaleB(scaled.Distance, exponent), Point = scaled.Point / scale };
+        return closest.Distance <= maxDistance;
+    }
+
     private void SearchLevels(Vector position, in AffineMap map, bool isSimilarity, ref FractalSearchState search)
     {
-        var minRadiusSquared = RelativePrecision * RelativePrecision * _table.RadiusSquared;
+        var minRadiusSquared = RelativePrecision * RelativePrecision * _precisionRadiusSquared;
         if (isSimilarity)
         {
             search.MinRadiusSquared = minRadiusSquared;
@@ -136,9 +171,16 @@ public sealed class ExactFractalCollider : Collider
     {
         var map = AffineMap.Identity;
         var remainingLevels = _table.Levels;
+        var subFractal = _table.Root;
         foreach (var childIndex in path)
         {
-            var child = _table.At(remainingLevels).Children[childIndex];
+            var child = subFractal.Children[childIndex];
+            if (child.Group is { } group)
+            {
+                subFractal = group;
+                continue;
+            }
+
             map *= child.Map;
             foreach (var edge in child.Edges)
             {
@@ -163,6 +205,8 @@ public sealed class ExactFractalCollider : Collider
 
                 remainingLevels = childLevels;
             }
+
+            subFractal = _table.At(remainingLevels);
         }
 
         return map;

@@ -13,10 +13,14 @@ internal ref struct FractalSearchState
     // An upper bound of the rounding error of coordinates along a chain of maps, as a part of the largest of them.
     private const double ChainError = 4e-15;
 
+    // A larger error is allowed, but its square times that of a distance would leave the range of a double.
+    private const double MaxEpsilon = 1e8;
+
     /// <summary>Maximum number of child instances on a path; longer ones end there.</summary>
     public const int MaxDepth = 20_000;
 
     private readonly QueryContext _context;
+    private readonly double _positionMagnitude;
     private readonly double _tolerance;
     private Span<int> _path;
     private Span<int> _closestPath;
@@ -25,16 +29,18 @@ internal ref struct FractalSearchState
     /// <summary>Begins a search without a result.</summary>
     /// <param name="maxDistance">Search radius in the frame of the query.</param>
     /// <param name="epsilon">Relative error that the caller allows.</param>
+    /// <param name="positionMagnitude">Largest absolute coordinate of the position.</param>
     /// <param name="magnitude">Largest absolute coordinate of the fractal and the position.</param>
     /// <param name="context">Lends its buffers.</param>
-    public FractalSearchState(double maxDistance, double epsilon, double magnitude, QueryContext context)
+    public FractalSearchState(double maxDistance, double epsilon, double positionMagnitude, double magnitude, QueryContext context)
     {
+        _positionMagnitude = positionMagnitude;
         _context = context;
         _path = context.PathBuffer(MaxStackDepth);
         _closestPath = context.BestPathBuffer(MaxStackDepth);
         _scratch = context.ScratchBuffer(1);
         _tolerance = ChainError * magnitude;
-        BoundFactor = (1 + epsilon) * (1 + epsilon);
+        BoundFactor = (1 + Math.Min(epsilon, MaxEpsilon)) * (1 + Math.Min(epsilon, MaxEpsilon));
         ClosestFace = -1;
         // A triangle at exactly the radius may seem farther by what rounding in the frames of the levels adds.
         ClosestDistanceSquared = DistanceCutoff.FromRadius(maxDistance + _tolerance);
@@ -155,7 +161,10 @@ internal ref struct FractalSearchState
     // Distances that differ by no more than rounding count as equal. Otherwise positions far from small children would visit all of them.
     private readonly double CutoffFor(double distanceSquared)
     {
-        var distance = Math.Max(0, Math.Sqrt(distanceSquared) - _tolerance);
+        var distance = Math.Sqrt(distanceSquared);
+        // What is no farther than the closest triangle has no larger coordinates than that, however far the fractal reaches elsewhere.
+        var tolerance = Math.Min(_tolerance, ChainError * (_positionMagnitude + distance));
+        distance = Math.Max(0, distance - tolerance);
         return distance * distance;
     }
 }

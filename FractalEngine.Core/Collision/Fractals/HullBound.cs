@@ -148,7 +148,7 @@ internal sealed class HullBound
     private double SeparationSquared(Vector256<double> direction, double directionLengthSquared, Vector256<double> position, double support)
     {
         var separation = Vector256.Dot(direction, position) - support - (_margin * Math.Sqrt(directionLengthSquared));
-        return separation > 0 ? separation * separation / directionLengthSquared : 0;
+        return separation > 0 ? separation * (separation / directionLengthSquared) : 0;
     }
 
     /// <summary>Computes the squared distance by which a position lies beyond the image in a direction; 0 if it does not.</summary>
@@ -157,7 +157,7 @@ internal sealed class HullBound
         var localDirection = map.MultiplyTransposed(direction);
         var separation = Vector256.Dot(direction, position - map.Translation) - VertexSupport(localDirection)
             - (_margin * Length(localDirection));
-        return separation > 0 ? separation * separation / Vector256.Dot(direction, direction) : 0;
+        return separation > 0 ? separation * (separation / Vector256.Dot(direction, direction)) : 0;
     }
 
     /// <summary>Computes the largest height of a position above a plane; negative inside.</summary>

@@ -95,9 +95,13 @@ internal sealed class SubFractal
     public double RadiusSquared { get; }
 
     /// <summary>Number of bytes of the arrays.</summary>
-    public long StorageBytes =>
-        (sizeof(double) * ChildBounds.Length) + (UnrotatedBounds?.StorageBytes ?? 0) + (Children.Length * 24) + (Hull?.StorageBytes ?? 0)
+    public long StorageBytes => Children.Sum(child => child.Group?.StorageBytes ?? 0)
+        + (sizeof(double) * ChildBounds.Length) + (UnrotatedBounds?.StorageBytes ?? 0) + (Children.Length * 24) + (Hull?.StorageBytes ?? 0)
         + (Solid?.StorageBytes ?? 0) + 160;
+
+    /// <summary>Lists the children, and those of groups among them.</summary>
+    public IEnumerable<ChildInstance> AllChildren() =>
+        Children.SelectMany(child => child.Group is { } group ? [child, .. group.AllChildren()] : (IEnumerable<ChildInstance>)[child]);
 
     /// <summary>Computes the squared distance of a position from the box.</summary>
     /// <param name="position">In the frame of the sub-fractal: x, y, z, 0.</param>

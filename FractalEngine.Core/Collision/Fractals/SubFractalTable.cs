@@ -39,7 +39,7 @@ internal sealed class SubFractalTable
 
     /// <summary>Number of bytes of everything in the table.</summary>
     public long StorageBytes => _subFractals.Sum(subFractal => subFractal?.StorageBytes ?? 0)
-        + _subFractals.SelectMany(subFractal => subFractal?.Children ?? []).Distinct().Sum(child => child.StorageBytes)
+        + _subFractals.SelectMany(subFractal => subFractal?.AllChildren() ?? []).Distinct().Sum(child => child.StorageBytes)
         + _mapSets.Distinct().Sum(set => set?.StorageBytes ?? 0) + (16 * (long)_subFractals.Length);
 
     /// <summary>Builds the table of a fractal in affine composition.</summary>
@@ -53,6 +53,11 @@ internal sealed class SubFractalTable
 
     /// <summary>The sub-fractal with a number of remaining levels, which must be one that a search can visit.</summary>
     public SubFractal At(long remainingLevels) => _subFractals[LevelRegion.FindIndex(_regions, remainingLevels)]!;
+
+    /// <summary>The sub-fractal, or the group of children, that a child is an instance of.</summary>
+    /// <param name="child">The child.</param>
+    /// <param name="remainingLevels">Remaining levels of the child.</param>
+    public SubFractal At(ChildInstance child, long remainingLevels) => child.Group ?? At(remainingLevels);
 
     /// <summary>The set on top of the sub-fractal with a number of remaining levels, visited or not; null for the base.</summary>
     public MapSet? MapSetAt(long remainingLevels) => _mapSets[LevelRegion.FindIndex(_regions, remainingLevels)];
@@ -78,7 +83,7 @@ internal sealed class SubFractalTable
             {
                 var index = LevelRegion.FindIndex(_regions, level);
                 isReachable[index] = true;
-                next.UnionWith(subFractals[index].Children.Select(child => child.RemainingLevels(level)));
+                next.UnionWith(subFractals[index].AllChildren().Where(child => child.Group is null).Select(child => child.RemainingLevels(level)));
             }
         }
 
