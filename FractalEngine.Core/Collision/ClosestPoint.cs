@@ -13,4 +13,12 @@ namespace FractalEngine.Core.Collision;
 /// <param name="Feature">Part of the face that holds the point: a vertex, an edge or the interior.</param>
 /// <param name="FaceIndex">Index of the face in the mesh, from 0.</param>
 public readonly record struct ClosestPoint(
-    double Distance, Vector Point, Vector Normal, Vector Barycentrics, TriangleFeature Feature, int FaceIndex);
+    double Distance, Vector Point, Vector Normal, Vector Barycentrics, TriangleFeature Feature, int FaceIndex)
+{
+    /// <summary>Upper bound of how much farther the point is than the closest point of the shape, scene units.</summary>
+    /// <remarks>
+    /// Exact colliders state the rounding of their search, what ε allows, and what a search left open that met its limit of work. For
+    /// other colliders it is the distance itself, as they promise nothing.
+    /// </remarks>
+    public double ErrorBound { get; init; }
+}

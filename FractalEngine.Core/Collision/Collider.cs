@@ -12,6 +12,9 @@ namespace FractalEngine.Core.Collision;
 /// </summary>
 public abstract class Collider
 {
+    // An upper bound of the rounding error of a distance, as a part of the largest coordinate.
+    private const double RoundingError = 4e-15;
+
     private readonly SpareContext _spareContext = new();
 
     /// <summary>False for colliders that may miss the closest point.</summary>
@@ -81,7 +84,26 @@ public abstract class Collider
     public bool TryFindClosest(Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, double epsilon = 0)
     {
         ThrowIfInvalid(position, maxDistance, epsilon);
-        return FindClosestCore(position, maxDistance, epsilon, context, out closest);
+        if (!FindClosestCore(position, maxDistance, epsilon, context, out closest))
+        {
+            return false;
+        }
+
+        closest = closest with { ErrorBound = CompleteErrorBound(position, in closest, epsilon) };
+        return true;
+    }
+
+    /// <summary>Adds what holds for every collider to the error bound of a result.</summary>
+    private double CompleteErrorBound(Vector position, in ClosestPoint closest, double epsilon)
+    {
+        if (!IsExact)
+        {
+            return closest.Distance;
+        }
+
+        var rounding = RoundingError * Math.Max(position.MaxAbsComponent(), closest.Point.MaxAbsComponent());
+        var allowed = epsilon > 0 ? closest.Distance * (epsilon / (1 + epsilon)) : 0;
+        return Math.Min(closest.Distance, Math.Max(closest.ErrorBound, rounding) + (double.IsNaN(allowed) ? closest.Distance : allowed));
     }
 
     /// <summary>Finds the closest point of the shape under any map, which costs more than in the shape's own frame.</summary>

@@ -8,7 +8,8 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// <summary>Searches a fractal best first: it always visits the child with the lowest bound of all that were found.</summary>
 /// <remarks>
 /// A depth-first search is faster on most fractals. But where levels hardly shrink it descends thousands of them, perhaps once for each
-/// child on its way back. This search then begins again, limited by what was found.
+/// child on its way back. This search then begins again, limited by what was found. It ends when it has met the limit of work, and leaves
+/// open what it did not visit.
 /// </remarks>
 /// <param name="table">The sub-fractals.</param>
 /// <param name="bvh">The hierarchy of the base mesh.</param>
@@ -30,7 +31,11 @@ internal sealed class BestFirstSearch(SubFractalTable table, TriangleBvh bvh)
         while (expandedChildren.TryTake(out var expandedChild))
         {
             var cutoffSquared = search.CutoffSquared / search.BoundFactor;
-            if (expandedChild.BoundSquared < cutoffSquared)
+            if (search.HasMetWorkLimit)
+            {
+                search.LeaveOpen(expandedChild.BoundSquared);
+            }
+            else if (expandedChild.BoundSquared < cutoffSquared)
             {
                 Visit(in expandedChild, simdPosition, cutoffSquared, expandedChildren, ref search);
             }

@@ -120,8 +120,10 @@ public sealed class ExactFractalCollider : Collider
                 && FindClosestInImage(position, in map, isSimilarity, maxDistance, 0, context, out closest);
         }
 
-        var instance = map * ResolveInstance(search.ClosestPath, context);
+        var instance = ResolveInstance(search.ClosestPath, in map, context, out var reach);
         closest = ClosestPointFactory.OnInstance(_fractal.BaseMesh, search.ClosestFace, instance, position);
+        reach = Math.Max(reach, closest.Point.MaxAbsComponent());
+        closest = closest with { ErrorBound = search.ErrorBound(closest.Distance, reach) };
         return closest.Distance <= maxDistance;
     }
 
@@ -141,7 +143,7 @@ public sealed class ExactFractalCollider : Collider
             return false;
         }
 
-        closest = scaled with { Distance = Math.ScaleB(scaled.Distance, exponent), Point = scaled.Point / scale };
+        closest = scaled with { Distance = Math.ScaleB(scaled.Distance, exponent), Point = scaled.Point / scale, ErrorBound = Math.ScaleB(scaled.ErrorBound, exponent) };
         return closest.Distance <= maxDistance;
     }
 
@@ -167,9 +169,14 @@ public sealed class ExactFractalCollider : Collider
     }
 
     /// <summary>Follows the path to the closest triangle: composes its instance's map, and records the map index of each level.</summary>
-    private AffineMap ResolveInstance(ReadOnlySpan<int> path, QueryContext context)
+    /// <param name="path">Indices of child instances from the root.</param>
+    /// <param name="rootMap">From the frame of the fractal to that of the query.</param>
+    /// <param name="context">Receives the map indices.</param>
+    /// <param name="reach">The largest absolute coordinate of a frame's origin on the way, in the frame of the query.</param>
+    private AffineMap ResolveInstance(ReadOnlySpan<int> path, in AffineMap rootMap, QueryContext context, out double reach)
     {
-        var map = AffineMap.Identity;
+        var map = rootMap;
+        reach = map.Translation.MaxAbsComponent();
         var remainingLevels = _table.Levels;
         var subFractal = _table.Root;
         foreach (var childIndex in path)
@@ -182,6 +189,7 @@ public sealed class ExactFractalCollider : Collider
             }
 
             map *= child.Map;
+            reach = Math.Max(reach, map.Translation.MaxAbsComponent());
             foreach (var edge in child.Edges)
             {
                 var childLevels = edge.RemainingLevels(remainingLevels);

@@ -7,6 +7,9 @@ internal ref struct FractalSearchState
     private const int MaxStackDepth = 128;
     private const int MaxBoundTests = 50_000;
 
+    // About a second of work. What is still open then is said in the error bound of the result.
+    private const int MaxWork = 1_000_000;
+
     // So many bounds suffice for most queries. What needs more has many sub-fractals at nearly the same distance.
     private const int MaxRoughBoundTests = 500;
 
@@ -42,6 +45,7 @@ internal ref struct FractalSearchState
         _tolerance = ChainError * magnitude;
         BoundFactor = (1 + Math.Min(epsilon, MaxEpsilon)) * (1 + Math.Min(epsilon, MaxEpsilon));
         ClosestFace = -1;
+        OpenBoundSquared = double.PositiveInfinity;
         // A triangle at exactly the radius may seem farther by what rounding in the frames of the levels adds.
         ClosestDistanceSquared = DistanceCutoff.FromRadius(maxDistance + _tolerance);
         CutoffSquared = ClosestDistanceSquared;
@@ -67,6 +71,12 @@ internal ref struct FractalSearchState
 
     /// <summary>Number of child instances that lead to the closest triangle.</summary>
     public int ClosestDepth { get; private set; }
+
+    /// <summary>Lower bound of the squared distance of what a search that met its limit of work left open; infinite when it left nothing.</summary>
+    public double OpenBoundSquared { get; private set; }
+
+    /// <summary>True when a search may do no more work.</summary>
+    public readonly bool HasMetWorkLimit => BoundTests >= MaxWork;
 
     /// <summary>Number of triangles that were tested.</summary>
     public long FaceTests { get; private set; }
@@ -142,6 +152,27 @@ internal ref struct FractalSearchState
 
         _path[..depth].CopyTo(_closestPath);
         CutoffSquared = CutoffFor(distanceSquared);
+    }
+
+    /// <summary>Records a sub-fractal that is not searched for lack of work, unless it is excluded.</summary>
+    /// <param name="boundSquared">Lower bound of its squared distance.</param>
+    public void LeaveOpen(double boundSquared)
+    {
+        if (!Excludes(boundSquared))
+        {
+            OpenBoundSquared = Math.Min(OpenBoundSquared, boundSquared);
+        }
+    }
+
+    /// <summary>Computes how much closer than the closest triangle another one may be, by rounding and by what was left open.</summary>
+    /// <param name="distance">Distance of the closest triangle.</param>
+    /// <param name="reach">Largest absolute coordinate on the path to it.</param>
+    public readonly double ErrorBound(double distance, double reach)
+    {
+        var rounding = ChainError * Math.Max(reach, _positionMagnitude + distance);
+        // Sub-fractals of the least radius were replaced by the base mesh.
+        var precision = 2 * Math.Sqrt(MinRadiusSquared);
+        return Math.Max(0, distance - Math.Sqrt(OpenBoundSquared)) + rounding + precision;
     }
 
     /// <summary>Reserves scratch memory for the children of a sub-fractal, see <see cref="ChildQueue"/>.</summary>
