@@ -79,6 +79,12 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
         var bound = childSubFractal.TransformedLowerBoundSquared(
             _position, in childFrame._map, in childFrame._inverse, cutoffSquared, out var isHullTested);
         search.BoundTests += isHullTested ? 2 : 1;
+        if (bound < cutoffSquared && childSubFractal.Clusters is { } clusters)
+        {
+            bound = Math.Max(bound, clusters.LowerBoundSquared(_position, in childFrame._map));
+            search.BoundTests++;
+        }
+
         if (search.NeedsTightBounds && bound < cutoffSquared && childSubFractal.Solid is { } solid)
         {
             bound = Math.Max(bound, solid.LowerBoundSquared(_position, in childFrame._map, cutoffSquared));

@@ -12,6 +12,9 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// <param name="Margin">How far the sub-fractal may reach out of the hull, in scene units.</param>
 internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double Margin)
 {
+    /// <summary>Boxes that contain the sub-fractal together; none where <see cref="Box"/> alone bounds it as well.</summary>
+    public BoundingBox[] Clusters { get; init; } = [];
+
     // An upper bound of the rounding error of a mapped point, as a part of the largest coordinate.
     private const double MappedPointError = 2e-15;
 
@@ -79,6 +82,10 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
 
         return Intersection(transformedBox, Inflate(hullBox, (Margin * operatorNormBound) + RoundingMargin(transformedBox)));
     }
+
+    /// <summary>Computes boxes around the images of the clusters, or of the box, under a map.</summary>
+    public IEnumerable<BoundingBox> TransformedClusters(AffineMap map) =>
+        Clusters is [] ? [Box.Transform(map)] : Clusters.Select(cluster => cluster.Transform(map));
 
     /// <summary>Computes a box that is larger by a margin on all sides.</summary>
     public static BoundingBox Inflate(BoundingBox box, double margin) =>

@@ -29,7 +29,7 @@ public sealed class ExactFractalCollider : Collider
     private readonly Fractal _fractal;
     private readonly SubFractalTable _table;
     private readonly TriangleBvh _baseBvh;
-    private readonly double _precisionRadiusSquared;
+    private readonly double _precisionRadius;
     private readonly DepthFirstSearch<SimilarityFrame> _similaritySearch;
     private readonly DepthFirstSearch<AffineFrame> _affineSearch;
     private readonly BestFirstSearch _bestFirstSearch;
@@ -53,8 +53,7 @@ public sealed class ExactFractalCollider : Collider
         _fractal = fractal;
         _table = SubFractalTable.Build(fractal);
         _baseBvh = new(fractal.BaseMesh);
-        var minRadius = MinPrecisionRadius * BoundingVolume.MaxAbsCoordinate(_table.Root.Box);
-        _precisionRadiusSquared = _table.Root.Box.IsEmpty ? 0 : Math.Max(_table.RadiusSquared, minRadius * minRadius);
+        _precisionRadius = PrecisionRadius(_table.Root);
         _similaritySearch = new(_table, _baseBvh);
         _affineSearch = new(_table, _baseBvh);
         _bestFirstSearch = new(_table, _baseBvh);
@@ -149,7 +148,10 @@ public sealed class ExactFractalCollider : Collider
 
     private void SearchLevels(Vector position, in AffineMap map, bool isSimilarity, ref FractalSearchState search)
     {
-        var minRadiusSquared = RelativePrecision * RelativePrecision * _precisionRadiusSquared;
+        // Where most of the fractal is far smaller than all of it, a result is as precise as its own coordinates.
+        var minRadius = RelativePrecision
+            * (_table.Root.Clusters is null ? _precisionRadius : Math.Max(_precisionRadius, position.MaxAbsComponent()));
+        var minRadiusSquared = minRadius * minRadius;
         if (isSimilarity)
         {
             search.MinRadiusSquared = minRadiusSquared;
@@ -166,6 +168,18 @@ public sealed class ExactFractalCollider : Collider
             search.ResetBudget();
             _bestFirstSearch.Run(position, in map, ref search);
         }
+    }
+
+    /// <summary>Computes the radius that <see cref="RelativePrecision"/> is a part of.</summary>
+    private static double PrecisionRadius(SubFractal root)
+    {
+        if (root.Box.IsEmpty)
+        {
+            return 0;
+        }
+
+        var box = root.Clusters?.Bulk ?? root.Box;
+        return Math.Max(0.5 * box.Diagonal, MinPrecisionRadius * BoundingVolume.MaxAbsCoordinate(box));
     }
 
     /// <summary>Follows the path to the closest triangle: composes its instance's map, and records the map index of each level.</summary>

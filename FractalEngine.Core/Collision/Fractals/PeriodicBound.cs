@@ -34,6 +34,8 @@ internal sealed class PeriodicBound(
     private const double InflationGrowth = 8;
     private const double MaxInflation = 0.2;
 
+    private const double ClusterInflation = 1e-3;
+
     private const int MaxMarginIterations = 300;
 
     /// <summary>Remaining levels at the bottom of the last round.</summary>
@@ -79,7 +81,7 @@ internal sealed class PeriodicBound(
                 volume with { Box = Inflate(coveredLevels[phase].Select(level => volumeAt(level).Box), inflation) })];
             if (Enumerable.Range(0, period).All(phase => ContainsChildren(volumes, phase)))
             {
-                return volumes;
+                return WithInvariantClusters(volumes, coveredLevels);
             }
         }
 
@@ -97,7 +99,12 @@ internal sealed class PeriodicBound(
     /// </summary>
     private static double RelativeChange(BoundingVolume volume1, BoundingVolume volume2)
     {
-        var boxChange = RelativeChange(volume1.Box, volume2.Box);
+        if (volume1.Clusters.Length != volume2.Clusters.Length)
+        {
+            return 1;
+        }
+
+        var boxChange = volume1.Clusters.Zip(volume2.Clusters, RelativeChange).Append(RelativeChange(volume1.Box, volume2.Box)).Max();
         if (volume1.Hull is not { } hull1 || volume2.Hull is not { } hull2)
         {
             return boxChange;
@@ -167,6 +174,27 @@ internal sealed class PeriodicBound(
         return CollapsedEdgesOf(phase)
             .Select(edge => VolumeAt(volumes, edge.RemainingLevels).TransformedBox(edge.Map, edge.OperatorNormBound))
             .All(box => BoundingBox.Union(outerBox, box) == outerBox);
+    }
+
+    /// <summary>Inflates clusters so that they contain those of the rounds above as well; removes them where that fails.</summary>
+    private BoundingVolume[] WithInvariantClusters(BoundingVolume[] volumes, HashSet<long>[] coveredLevels)
+    {
+        BoundingVolume[] inflated = [.. volumes.Select(volume => volume with
+        {
+            Clusters = [.. volume.Clusters.Select(cluster => Inflate([cluster], ClusterInflation))],
+        })];
+        for (var phase = 0; phase < period; phase++)
+        {
+            var outer = inflated[phase].Clusters;
+            var inner = CollapsedEdgesOf(phase).SelectMany(edge => VolumeAt(inflated, edge.RemainingLevels).TransformedClusters(edge.Map))
+                .Concat(coveredLevels[phase].SelectMany(level => volumeAt(level).TransformedClusters(AffineMap.Identity)));
+            if (!inner.All(box => box.IsEmpty || outer.Any(cluster => BoundingBox.Union(cluster, box) == cluster)))
+            {
+                return [.. volumes.Select(volume => volume with { Clusters = [] })];
+            }
+        }
+
+        return inflated;
     }
 
     /// <summary>Gives the hulls margins by which they contain the rounds above as well; removes the hulls where there are none.</summary>

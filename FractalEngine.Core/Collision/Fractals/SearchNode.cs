@@ -40,6 +40,11 @@ internal struct SearchNode(
     /// <summary>Computes a lower bound of the squared distance of everything in the instance.</summary>
     /// <param name="position">In the frame of the query: x, y, z, 0.</param>
     /// <param name="cutoffSquared">The method may return early at this value.</param>
-    public readonly double LowerBoundSquared(Vector256<double> position, double cutoffSquared) =>
-        SubFractal.Solid is { } solid ? solid.LowerBoundSquared(position, in Map, cutoffSquared) : double.PositiveInfinity;
+    public readonly double LowerBoundSquared(Vector256<double> position, double cutoffSquared)
+    {
+        var bound = SubFractal.Clusters?.LowerBoundSquared(position, in Map) ?? 0;
+        return SubFractal.Solid is not { } solid ? double.PositiveInfinity
+            : bound < cutoffSquared ? Math.Max(bound, solid.LowerBoundSquared(position, in Map, cutoffSquared))
+            : bound;
+    }
 }

@@ -93,6 +93,12 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
             search.BoundTests++;
         }
 
+        if (bound < localCutoffSquared && childSubFractal.Clusters is { } clusters)
+        {
+            bound = Math.Max(bound, clusters.LowerBoundSquared(childFrame._position));
+            search.BoundTests++;
+        }
+
         if (search.NeedsTightBounds && bound < localCutoffSquared && childSubFractal.Solid is { } solid)
         {
             bound = Math.Max(bound, solid.LowerBoundSquared(childFrame._position, in SimdAffineMap.Identity, localCutoffSquared));

@@ -12,6 +12,9 @@ internal sealed class SubFractal
     // A box for each child.
     private const int ValuesPerChild = 6;
 
+    // Rounding of a centre and half a size, as a part of the size: one side of a huge box may be close to a position.
+    private const double HalfSizeError = 2e-15;
+
     private static readonly Vector FarAwayPoint = 1e300 * Vector.One;
 
     private readonly Vector256<double> _halfSize;
@@ -25,6 +28,7 @@ internal sealed class SubFractal
     /// <param name="hull">A hull around the sub-fractal, if it bounds better than the box.</param>
     /// <param name="childHull">The hull of the sub-fractal that the first child is an instance of.</param>
     /// <param name="solid">A convex solid around the sub-fractal; null where it is empty.</param>
+    /// <param name="clusters">Boxes that bound better than one; null where they don't.</param>
     public SubFractal(
         MapSet? set,
         ChildInstance[] children,
@@ -33,22 +37,24 @@ internal sealed class SubFractal
         BoundingBox baseBox,
         HullBound? hull,
         HullBound? childHull,
-        ConvexSolid? solid)
+        ConvexSolid? solid,
+        ClusterBounds? clusters)
     {
         Solid = solid;
+        Clusters = clusters;
         Set = set;
         Children = children;
         Box = box;
         Hull = hull;
         Centre = SimdAffineMap.ToVector256(box.Centre);
-        _halfSize = SimdAffineMap.ToVector256(0.5 * box.Size);
+        _halfSize = SimdAffineMap.ToVector256((0.5 + HalfSizeError) * box.Size);
         PaddedCount = VectorX4.PaddedCount(children.Length);
         ChildBounds = new double[ValuesPerChild * PaddedCount];
         for (var i = 0; i < PaddedCount; i++)
         {
             // Padding and empty children are far from everything.
             var (x, y, z) = i < childBoxes.Length && !childBoxes[i].IsEmpty ? childBoxes[i].Centre : FarAwayPoint;
-            var (halfX, halfY, halfZ) = i < childBoxes.Length ? 0.5 * childBoxes[i].Size : Vector.Zero;
+            var (halfX, halfY, halfZ) = i < childBoxes.Length ? (0.5 + HalfSizeError) * childBoxes[i].Size : Vector.Zero;
             ReadOnlySpan<double> rows = [x, y, z, halfX, halfY, halfZ];
             for (var row = 0; row < ValuesPerChild; row++)
             {
@@ -91,13 +97,16 @@ internal sealed class SubFractal
     /// <summary>A convex solid around the sub-fractal, for exact distances; null where the sub-fractal is empty.</summary>
     public ConvexSolid? Solid { get; }
 
+    /// <summary>Boxes that bound the sub-fractal better than one; null where they don't.</summary>
+    public ClusterBounds? Clusters { get; }
+
     /// <summary>Square of half the diagonal of a box around the sub-fractal and the base mesh.</summary>
     public double RadiusSquared { get; }
 
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => Children.Sum(child => child.Group?.StorageBytes ?? 0)
         + (sizeof(double) * ChildBounds.Length) + (UnrotatedBounds?.StorageBytes ?? 0) + (Children.Length * 24) + (Hull?.StorageBytes ?? 0)
-        + (Solid?.StorageBytes ?? 0) + 160;
+        + (Solid?.StorageBytes ?? 0) + (Clusters?.StorageBytes ?? 0) + 160;
 
     /// <summary>Lists the children, and those of groups among them.</summary>
     public IEnumerable<ChildInstance> AllChildren() =>

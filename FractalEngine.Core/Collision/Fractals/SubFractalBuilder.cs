@@ -1,6 +1,7 @@
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
@@ -24,7 +25,11 @@ internal sealed class SubFractalBuilder
     // Stands for infinitely many rounds: no search descends so many levels.
     private const long EndlessRounds = 1L << 40;
 
+    // A map whose translation or scale is so many times the median of its set throws instances far away from the others.
+    private const double OutlierFactor = 30;
+
     private readonly Fractal _fractal;
+    private readonly bool _hasOutliers;
     private readonly Dictionary<TransformationSet, MapSet> _sets = new(ReferenceEqualityComparer.Instance);
     private readonly List<SubFractal> _subFractals = [];
     private readonly List<BoundingVolume> _volumes = [];
@@ -37,8 +42,9 @@ internal sealed class SubFractalBuilder
     {
         _fractal = fractal;
         HasOnlySimilarities = fractal.Description.Steps.All(HasOnlySimilarMaps);
+        _hasOutliers = fractal.Description.Steps.Any(step => HasOutliers(step, fractal.BaseMesh.Bounds.Diagonal));
         var volume = BoundingVolume.FromMesh(fractal.BaseMesh);
-        var baseSubFractal = new SubFractal(null, [], [], volume.Box, volume.Box, CreateHullBound(volume), null, CreateSolid(volume));
+        var baseSubFractal = new SubFractal(null, [], [], volume.Box, volume.Box, CreateHullBound(volume), null, CreateSolid(volume), null);
         AppendLevels(1, new BuiltLevel(baseSubFractal, volume, []));
     }
 
@@ -78,6 +84,26 @@ internal sealed class SubFractalBuilder
         TransformationSet set => set.Maps.All(map => Similarity.IsSimilarity(map.Linear)),
         _ => throw new ArgumentException($"{step.GetType().Name} is no step of a fractal", nameof(step)),
     };
+
+    private static bool HasOutliers(FractalStep step, double baseDiagonal)
+    {
+        if (step is Repetition repetition)
+        {
+            return repetition.Body.Any(inner => HasOutliers(inner, baseDiagonal));
+        }
+
+        var maps = ((TransformationSet)step).Maps;
+        if (maps.Length < 2)
+        {
+            return false;
+        }
+
+        double[] reaches = [.. maps.Select(map => MapReach(map, baseDiagonal)).Order()];
+        return reaches[^1] > OutlierFactor * reaches[(maps.Length - 1) / 2];
+    }
+
+    private static double MapReach(AffineMap map, double baseDiagonal) =>
+        map.Translation.MaxAbsComponent() + (map.Linear.MaxAbsEntry() * baseDiagonal);
 
     private int FindIndex(long remainingLevels) => LevelRegion.FindIndex(CollectionsMarshal.AsSpan(_regions), remainingLevels);
 
@@ -245,9 +271,10 @@ internal sealed class SubFractalBuilder
             return BoundingVolume.Empty;
         }
 
+        var clusters = ComputeClusters(edges);
         if (edges is [var only])
         {
-            return VolumeAt(only.RemainingLevels).Transform(only.Map, only.OperatorNormBound);
+            return VolumeAt(only.RemainingLevels).Transform(only.Map, only.OperatorNormBound) with { Clusters = clusters };
         }
 
         var volumes = edges.Select(edge => VolumeAt(edge.RemainingLevels)).ToArray();
@@ -257,7 +284,48 @@ internal sealed class SubFractalBuilder
             ? edges.Zip(volumes).SelectMany(pair => pair.Second.Hull!.Vertices.Select(vertex => pair.First.Map * vertex)).ToArray()
             : null;
         var margin = edges.Zip(volumes, (edge, volume) => edge.OperatorNormBound * volume.Margin).Max();
-        return BoundingVolume.FromVertices(box, vertices, margin);
+        return BoundingVolume.FromVertices(box, vertices, margin) with { Clusters = clusters };
+    }
+
+    /// <summary>Computes the clusters of the union of some parts: the bulk first, then what outliers throw away from it, the farthest first.</summary>
+    /// <remarks>
+    /// Outliers of the parts surround the parts in the same arrangement, so those of one rank form one cluster. The nearest join the bulk
+    /// when there are too many.
+    /// </remarks>
+    private BoundingBox[] ComputeClusters(CollapsedEdge[] edges)
+    {
+        if (!_hasOutliers || edges is [])
+        {
+            return [];
+        }
+
+        var reaches = edges.Select(edge => MapReach(edge.Map, _volumes[0].Box.Diagonal)).ToArray();
+        var maxReach = OutlierFactor * reaches.Order().ElementAt((reaches.Length - 1) / 2);
+        List<BoundingBox> clusters = [BoundingBox.Empty];
+        clusters.AddRange(edges.Where((_, i) => reaches[i] > maxReach)
+            .Select(edge => VolumeAt(edge.RemainingLevels).Box.Transform(edge.Map)));
+        var outlierCount = clusters.Count - 1;
+        foreach (var edge in edges.Where((_, i) => reaches[i] <= maxReach))
+        {
+            foreach (var (rank, box) in VolumeAt(edge.RemainingLevels).TransformedClusters(edge.Map).Index())
+            {
+                var target = rank == 0 ? 0 : rank + outlierCount;
+                if (target == clusters.Count)
+                {
+                    clusters.Add(BoundingBox.Empty);
+                }
+
+                clusters[target] = BoundingBox.Union(clusters[target], box);
+            }
+        }
+
+        while (clusters.Count > ClusterBounds.MaxBoxes)
+        {
+            clusters[0] = BoundingBox.Union(clusters[0], clusters[^1]);
+            clusters.RemoveAt(clusters.Count - 1);
+        }
+
+        return [.. clusters.Where(cluster => !cluster.IsEmpty)];
     }
 
     private SubFractal CreateSubFractal(MapSet set, ChildInstance[] children, IEnumerable<BoundingVolume> volumes, BoundingVolume volume)
@@ -272,7 +340,7 @@ internal sealed class SubFractalBuilder
             childHull = null;
         }
 
-        return new(set, children, childBoxes, volume.Box, _volumes[0].Box, CreateHullBound(volume), childHull, CreateSolid(volume));
+        return new(set, children, childBoxes, volume.Box, _volumes[0].Box, CreateHullBound(volume), childHull, CreateSolid(volume), CreateClusters(volume));
     }
 
     /// <summary>Groups many children by the places of their boxes, and the groups again, until they are few.</summary>
@@ -303,9 +371,11 @@ internal sealed class SubFractalBuilder
                 ? CreateGroups(range)
                 : (members.Select(i => children[i]).ToArray(), members.Select(i => childBoxes[i]).ToArray());
             var hasFirstHull = parts[0].Group is null && parts[0].LevelStep == children[0].LevelStep;
-            return new(set, parts, boxes, box, parentBox, null, hasFirstHull ? childHull : null, ConvexSolid.FromBox(box));
+            return new(set, parts, boxes, box, parentBox, null, hasFirstHull ? childHull : null, ConvexSolid.FromBox(box), null);
         }
     }
+
+    private static ClusterBounds? CreateClusters(BoundingVolume volume) => volume.Clusters.Length > 1 ? new(volume.Clusters) : null;
 
     private static ConvexSolid? CreateSolid(BoundingVolume volume) => volume switch
     {
