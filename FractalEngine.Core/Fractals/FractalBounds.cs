@@ -1,3 +1,4 @@
+using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -36,64 +37,38 @@ public static class FractalBounds
             return whole.Box;
         }
 
-        var (minimum, maximum) = whole.Box;
-        return new(
-            new(
-                0 - ComputeSupport(fractal, bounds, -Vector.I, -minimum.X),
-                0 - ComputeSupport(fractal, bounds, -Vector.J, -minimum.Y),
-                0 - ComputeSupport(fractal, bounds, -Vector.K, -minimum.Z)),
-            new(
-                ComputeSupport(fractal, bounds, Vector.I, maximum.X),
-                ComputeSupport(fractal, bounds, Vector.J, maximum.Y),
-                ComputeSupport(fractal, bounds, Vector.K, maximum.Z)));
-    }
-
-    /// <summary>Computes the largest <c>Dot(direction, v)</c> over all points v of the fractal.</summary>
-    /// <param name="fractal">Fractal in affine composition.</param>
-    /// <param name="bounds">Bounds of the fractal's levels.</param>
-    /// <param name="direction">Unit vector along an axis.</param>
-    /// <param name="bound">Upper bound of the result.</param>
-    private static double ComputeSupport(Fractal fractal, LevelBounds bounds, Vector direction, double bound)
-    {
-        var tolerance = RelativeTolerance * Math.Max(bounds.At(0).Box.Diagonal, Math.Abs(bound));
-        // Ties are common in symmetric fractals: of bounds that are equal to the tolerance the deepest is taken first.
-        var open = new PriorityQueue<(AffineMap Map, long Level, double Bound), (double, long)>();
-        open.Enqueue((AffineMap.Identity, 0, bound), default);
-        for (var visitedCount = 0; open.TryDequeue(out var node, out _); visitedCount++)
+        try
         {
-            if (node.Level == fractal.LevelCount)
-            {
-                return node.Bound;
-            }
-
-            if (visitedCount > MaxSearchedNodes || bounds.At(node.Level).Sphere.Transform(node.Map).Radius <= tolerance)
-            {
-                return open.UnorderedItems.Select(item => item.Element.Bound).Append(node.Bound).Max();
-            }
-
-            foreach (var map in fractal.LevelAt(node.Level).Maps)
-            {
-                var childMap = node.Map * map;
-                var childBound = node.Level + 1 == fractal.LevelCount
-                    ? ComputeMeshSupport(fractal.BaseMesh, childMap, direction)
-                    : Math.Min(node.Bound, bounds.At(node.Level + 1).SupportBound(childMap, direction));
-                open.Enqueue((childMap, node.Level + 1, childBound), (-Math.Round(childBound / tolerance), -(node.Level + 1)));
-            }
+            return new(
+                new(0 - Support(-Vector.I), 0 - Support(-Vector.J), 0 - Support(-Vector.K)),
+                new(Support(Vector.I), Support(Vector.J), Support(Vector.K)));
+        }
+        catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
+        {
+            // Sub-fractals have no bounds of their own where maps don't shrink or have no inverse.
+            return whole.Box;
         }
 
-        return bound;
+        double Support(Vector direction) =>
+            FarthestPointSearch.Run(fractal, AffineMap.Identity, new SupportMeasure(direction), RelativeTolerance, MaxSearchedNodes);
     }
 
-    private static double ComputeMeshSupport(Mesh mesh, AffineMap map, Vector direction)
+    /// <summary>Measures how far points reach in a direction.</summary>
+    private readonly struct SupportMeasure(Vector direction) : IPointMeasure
     {
-        var local = map.Linear.Transpose() * direction;
-        var support = double.NegativeInfinity;
-        for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
-        {
-            support = Math.Max(support, Vector.Dot(local, mesh.Vertex(vertex)));
-        }
+        public double UpperBound(SubFractal subFractal, in AffineMap map) => subFractal.SupportBound(in map, direction);
 
-        return support + Vector.Dot(direction, map.Translation);
+        public double Largest(Mesh mesh, in AffineMap map)
+        {
+            var local = map.Linear.Transpose() * direction;
+            var support = double.NegativeInfinity;
+            for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
+            {
+                support = Math.Max(support, Vector.Dot(local, mesh.Vertex(vertex)));
+            }
+
+            return support + Vector.Dot(direction, map.Translation);
+        }
     }
 
     /// <summary>Computes the box of all vertices of the enumerated sums where they are few, else a box that may be wider.</summary>

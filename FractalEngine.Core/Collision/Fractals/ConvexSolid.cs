@@ -102,6 +102,14 @@ internal sealed class ConvexSolid
         return bound;
     }
 
+    /// <summary>Computes the largest product of a direction with a point of the solid.</summary>
+    /// <param name="direction">In the solid's frame, of any length.</param>
+    public double Support(Vector direction)
+    {
+        var vertex = FindLowestVertex(SimdAffineMap.ToVector256(-direction));
+        return Vector.Dot(direction, SimdAffineMap.ToVector(vertex)) + (_margin * direction.Length());
+    }
+
     /// <summary>Finds the vertex with the smallest product with a direction.</summary>
     private Vector256<double> FindLowestVertex(Vector256<double> direction)
     {

@@ -51,7 +51,7 @@ public sealed class ExactFractalCollider : Collider
         }
 
         _fractal = fractal;
-        _table = SubFractalTable.Build(fractal);
+        _table = fractal.Hierarchy;
         _baseBvh = new(fractal.BaseMesh);
         _precisionRadius = PrecisionRadius(_table.Root);
         _similaritySearch = new(_table, _baseBvh);
@@ -159,7 +159,11 @@ public sealed class ExactFractalCollider : Collider
         }
         else
         {
-            search.MinRadiusSquared = minRadiusSquared * new SimdAffineMap(map).FrobeniusNormSquared();
+            var normSquared = new SimdAffineMap(map).FrobeniusNormSquared();
+            var mappedRadius = minRadius * map.Linear.MaxAbsEntry();
+            search.MinRadiusSquared = normSquared is > MinMagnitude and < MaxMagnitude
+                ? minRadiusSquared * normSquared
+                : mappedRadius * mappedRadius;
             _affineSearch.Run(new(position, in map), ref search);
         }
 
@@ -192,6 +196,7 @@ public sealed class ExactFractalCollider : Collider
         var map = rootMap;
         reach = map.Translation.MaxAbsComponent();
         var remainingLevels = _table.Levels;
+        var exponent = 0L;
         var subFractal = _table.Root;
         foreach (var childIndex in path)
         {
@@ -207,6 +212,13 @@ public sealed class ExactFractalCollider : Collider
             foreach (var edge in child.Edges)
             {
                 var childLevels = edge.RemainingLevels(remainingLevels);
+                if (edge.Set.Power is { } power)
+                {
+                    exponent = power.AppendToPath(context, exponent, childLevels);
+                    remainingLevels = childLevels;
+                    continue;
+                }
+
                 var isIdentity = edge.Set == MapSet.Identity;
                 if (isIdentity && childLevels == 0 && remainingLevels > FractalSearchState.MaxDepth)
                 {

@@ -29,6 +29,9 @@ internal sealed class MapSet
         AreSimilarities = Maps.All(map => Similarity.IsSimilarity(map.Linear));
     }
 
+    /// <summary>How a chain of the fractal's own maps replaces the map of this set; null where the set is one of the fractal's.</summary>
+    public MapPower? Power { get; init; }
+
     /// <summary>The set that contains the identity alone.</summary>
     public static MapSet Identity { get; } = new([AffineMap.Identity]);
 

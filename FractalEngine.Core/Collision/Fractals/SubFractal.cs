@@ -103,6 +103,9 @@ internal sealed class SubFractal
     /// <summary>Square of half the diagonal of a box around the sub-fractal and the base mesh.</summary>
     public double RadiusSquared { get; }
 
+    /// <summary>Half the diagonal of a box around the sub-fractal and the base mesh.</summary>
+    public double Radius => Math.Sqrt(RadiusSquared);
+
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => Children.Sum(child => child.Group?.StorageBytes ?? 0)
         + (sizeof(double) * ChildBounds.Length) + (UnrotatedBounds?.StorageBytes ?? 0) + (Children.Length * 24) + (Hull?.StorageBytes ?? 0)
@@ -130,6 +133,15 @@ internal sealed class SubFractal
         var fromCentre = Vector256.Abs(position - map.Apply(Centre));
         var outside = Vector256.MaxNative(fromCentre - map.TransformHalfSize(_halfSize), Vector256<double>.Zero);
         return Vector256.Dot(outside, outside);
+    }
+
+    /// <summary>Computes an upper bound of the product of a direction with the points of the sub-fractal's image under a map.</summary>
+    public double SupportBound(in AffineMap map, Vector direction)
+    {
+        var local = map.Linear.Transpose() * direction;
+        var boxSupport = Vector.Dot(local, Box.Centre) + (0.5 * Vector.Dot(local.Absolute(), Box.Size));
+        var support = Solid is null ? boxSupport : Math.Min(boxSupport, Solid.Support(local));
+        return support + Vector.Dot(direction, map.Translation);
     }
 
     /// <summary>Computes a lower bound of the squared distance of a position from the sub-fractal's image under any map.</summary>

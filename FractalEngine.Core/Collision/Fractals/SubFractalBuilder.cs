@@ -135,6 +135,12 @@ internal sealed class SubFractalBuilder
     private void AddStep(FractalStep step)
     {
         var repetition = step as Repetition ?? new([step], 1);
+        if (MapPowers.TryCreate(repetition) is { } powers)
+        {
+            powers.AddLevels(Levels, AddLevel);
+            return;
+        }
+
         var hasOnlySets = repetition.Body.All(inner => inner is TransformationSet);
         var levelsBelowRepetition = Levels;
         var period = hasOnlySets ? repetition.Body.Length : int.MaxValue;
@@ -189,8 +195,13 @@ internal sealed class SubFractalBuilder
             _sets[set] = mapSet;
         }
 
+        AddLevel(ChildInstanceBuilder.EdgesAt(Levels + 1, levelsBelowRepetition, period, mapSet, MapSetAt), mapSet);
+    }
+
+    /// <summary>Adds one level with given edges to the chain.</summary>
+    private void AddLevel(ChildEdge[] edges, MapSet mapSet)
+    {
         var level = Levels + 1;
-        var edges = ChildInstanceBuilder.EdgesAt(level, levelsBelowRepetition, period, mapSet, MapSetAt);
         var collapsedEdges = edges.Select(edge => CollapsedEdge.Collapse(edge, level, EdgesAt))
             .Where(edge => !VolumeAt(edge.RemainingLevels).Box.IsEmpty).ToArray();
         if (!collapsedEdges.All(HasFiniteBox))
