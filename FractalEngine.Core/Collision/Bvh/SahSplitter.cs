@@ -6,7 +6,8 @@ namespace FractalEngine.Core.Collision.Bvh;
 /// Splits ranges of triangles in two by the surface area heuristic over bins: the expected cost of a side is its surface times its leaves.
 /// </summary>
 /// <param name="triangles">The triangles, which are reordered within the ranges.</param>
-internal sealed class SahSplitter(TriangleBounds[] triangles)
+/// <param name="maxLeafTriangles">Maximum number of triangles in a leaf.</param>
+internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangles)
 {
     /// <summary>
     /// Maximum depth at which the heuristic is followed. Below it, ranges are split by number, so that no arrangement of triangles makes
@@ -23,14 +24,14 @@ internal sealed class SahSplitter(TriangleBounds[] triangles)
     /// <param name="ranges">The ranges to choose from.</param>
     /// <param name="depth">Depth of the node that they are to be children of.</param>
     /// <returns>The place of the range; −1 when all are small enough for leaves.</returns>
-    public static int FindLargestSplittable(ReadOnlySpan<TriangleRange> ranges, int depth)
+    public int FindLargestSplittable(ReadOnlySpan<TriangleRange> ranges, int depth)
     {
         var largest = -1;
         var largestSize = -1f;
         for (var i = 0; i < ranges.Length; i++)
         {
             var rangeSize = depth < MaxSahDepth ? ranges[i].Bounds.HalfArea : ranges[i].Count;
-            if (ranges[i].Count > BvhLayout.MaxLeafTriangles && rangeSize > largestSize)
+            if (ranges[i].Count > maxLeafTriangles && rangeSize > largestSize)
             {
                 largest = i;
                 largestSize = rangeSize;
@@ -171,7 +172,7 @@ internal sealed class SahSplitter(TriangleBounds[] triangles)
 
     /// <summary>The surface of a range times its leaves.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static float ExpectedCost(SimdBoundingBox bounds, int triangleCount) => triangleCount == 0
+    private float ExpectedCost(SimdBoundingBox bounds, int triangleCount) => triangleCount == 0
         ? 0
-        : bounds.HalfArea * ((triangleCount + BvhLayout.MaxLeafTriangles - 1) / BvhLayout.MaxLeafTriangles);
+        : bounds.HalfArea * ((triangleCount + maxLeafTriangles - 1) / maxLeafTriangles);
 }
