@@ -18,7 +18,9 @@ internal struct ClosestTriangle(double distanceSquared)
     /// <summary>Number of bounding volumes that were tested.</summary>
     public long BoundTests;
 
-    /// <summary>Takes the closest of some triangles if it is closer than the one so far. Of equally close ones, the first face wins.</summary>
+    /// <summary>
+    /// Takes the closest of some triangles if it is closer than the one so far. Of equally close ones, the first in the mesh wins.
+    /// </summary>
     /// <param name="distancesSquared">Squared distances of the triangles.</param>
     /// <param name="faces">Face indices of the triangles, one to four; lanes beyond them are ignored.</param>
     public void Update(Vector256<double> distancesSquared, ReadOnlySpan<int> faces)

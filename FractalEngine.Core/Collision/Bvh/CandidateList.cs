@@ -14,23 +14,23 @@ internal ref struct CandidateList(Span<ulong> entries)
     // The bits of the squared distance above the place of the triangle among those of all leaves.
     private readonly Span<ulong> _entries = entries;
 
-    /// <summary>Number of triangles in the list.</summary>
+    /// <summary>Number of triangles that are in the list now.</summary>
     public int Count { get; private set; }
 
     /// <summary>True when another leaf may not fit.</summary>
     public readonly bool IsFull => Count > Capacity - BvhLayout.MaxLeafTriangles;
 
-    /// <summary>Places of the triangles, in the lower half.</summary>
+    /// <summary>The place of a listed triangle among the triangles of all leaves.</summary>
     public readonly int this[int i] => (int)_entries[i];
 
-    /// <summary>Adds a triangle.</summary>
+    /// <summary>Adds a triangle at the end of the list.</summary>
     /// <param name="distanceSquared">Its squared distance in single precision.</param>
     /// <param name="triangle">Its place among the triangles of all leaves.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Add(float distanceSquared, int triangle) =>
         _entries[Count++] = ((ulong)BitConverter.SingleToUInt32Bits(distanceSquared) << 32) | (uint)triangle;
 
-    /// <summary>Removes all triangles.</summary>
+    /// <summary>Removes all triangles from the list.</summary>
     public void Clear() => Count = 0;
 
     /// <summary>Removes the triangles that are not below a limit.</summary>

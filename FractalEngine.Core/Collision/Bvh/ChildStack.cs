@@ -6,8 +6,9 @@ namespace FractalEngine.Core.Collision.Bvh;
 
 /// <summary>Sorts the children of a node for the stack of a search.</summary>
 /// <remarks>
-/// An entry has the bits of a squared bound above those of a <see cref="BvhChild"/>. Bounds are not negative, so entries sort like them. The
-/// lane of the child replaces the last three bits of the bound: no two entries are equal, and bounds become smaller if anything.
+/// An entry has the bits of a squared bound above those of a <see cref="BvhChild"/>. Bounds are not negative, so entries sort like them.
+/// The lane of the child replaces the last three bits of the bound: no two entries are equal, and no bound becomes larger by more than the
+/// margin of <see cref="FloatCutoff"/> allows.
 /// </remarks>
 internal static class ChildStack
 {
@@ -40,9 +41,12 @@ internal static class ChildStack
     {
         // A child that is not hit is closer than all others, so that it comes to lie above the new top.
         keys |= ~hits;
-        var places1 = FartherMask(keys, Vector256.Create(1, 2, 3, 4, 5, 6, 7, 0)) + FartherMask(keys, Vector256.Create(2, 3, 4, 5, 6, 7, 0, 1));
-        var places2 = FartherMask(keys, Vector256.Create(3, 4, 5, 6, 7, 0, 1, 2)) + FartherMask(keys, Vector256.Create(4, 5, 6, 7, 0, 1, 2, 3));
-        var places3 = FartherMask(keys, Vector256.Create(5, 6, 7, 0, 1, 2, 3, 4)) + FartherMask(keys, Vector256.Create(6, 7, 0, 1, 2, 3, 4, 5));
+        var places1 = FartherMask(keys, Vector256.Create(1, 2, 3, 4, 5, 6, 7, 0));
+        var places2 = FartherMask(keys, Vector256.Create(2, 3, 4, 5, 6, 7, 0, 1));
+        var places3 = FartherMask(keys, Vector256.Create(3, 4, 5, 6, 7, 0, 1, 2));
+        places1 += FartherMask(keys, Vector256.Create(4, 5, 6, 7, 0, 1, 2, 3));
+        places2 += FartherMask(keys, Vector256.Create(5, 6, 7, 0, 1, 2, 3, 4));
+        places3 += FartherMask(keys, Vector256.Create(6, 7, 0, 1, 2, 3, 4, 5));
         var places = -(places1 + places2 + places3 + FartherMask(keys, Vector256.Create(7, 0, 1, 2, 3, 4, 5, 6)));
         // Read back lane by lane, which costs less than to extract them.
         Unsafe.SkipInit(out PushedLanes lanes);

@@ -7,9 +7,8 @@ namespace FractalEngine.Core.Collision.Bvh;
 /// closest triangle even in double precision.
 /// </summary>
 /// <remarks>
-/// All lengths are in the boxes' units. A distance d comes out wrong by at most u·(Representation·(P + 2) + Arithmetic·(d + E)) + δ. Here
-/// u is half a last place, P the largest coordinate of the position, E the longest edge, and δ the rounding of the kernel. The proof is in
-/// docs/colliders.md.
+/// All lengths are in the boxes' units. The bound of the error of a distance is proved in docs/colliders.md. It counts twice: once for the
+/// triangle that seems closest, and once for the one that is.
 /// </remarks>
 internal readonly struct FloatCutoff
 {
@@ -17,10 +16,14 @@ internal readonly struct FloatCutoff
     public const double UnitRoundoff = 1.0 / (1 << 24);
 
     // √3, for the rounding of a position and of a foot, and a little for what is small of second order.
-    private const double RepresentationError = 1.8;
+    private const double CoordinateError = 1.8;
 
-    // What the sums and products of TriangleFrames add, in units of the distance from the foot.
-    private const double ArithmeticError = 32;
+    // The sums and products of TriangleFrames, as parts of the distance and of the longest edge.
+    private const double DistanceError = 24;
+    private const double EdgeError = 34;
+
+    // The rounding of the limit itself.
+    private const double LimitError = 8;
 
     private readonly float _factor;
     private readonly float _summand;
@@ -37,8 +40,8 @@ internal readonly struct FloatCutoff
     /// <param name="kernelError">An upper bound of the rounding of the kernel's distances.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static FloatCutoff Create(double maxCoordinate, double longestEdge, double kernelError) => new(
-        // Once for the closest triangle and once for the other, and a little for terms of second order.
-        (float)(1 + (2.1 * ArithmeticError * UnitRoundoff)), (float)(2.1 * ErrorBound(maxCoordinate, longestEdge, kernelError, 0)));
+        (float)(1 + (((2 * DistanceError) + LimitError) * UnitRoundoff)),
+        (float)(2.1 * ErrorBound(maxCoordinate, longestEdge, kernelError, 0)));
 
     /// <summary>An upper bound of the error of a distance in single precision.</summary>
     /// <param name="maxCoordinate">Largest coordinate of the position.</param>
@@ -47,7 +50,7 @@ internal readonly struct FloatCutoff
     /// <param name="distance">The distance.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static double ErrorBound(double maxCoordinate, double longestEdge, double kernelError, double distance) =>
-        (UnitRoundoff * ((RepresentationError * (maxCoordinate + 2)) + (ArithmeticError * (distance + longestEdge)))) + kernelError;
+        (UnitRoundoff * ((CoordinateError * (maxCoordinate + 2)) + (DistanceError * distance) + (EdgeError * longestEdge))) + kernelError;
 
     /// <summary>Computes the limit of squared distances, exclusive.</summary>
     /// <param name="distanceSquared">Smallest squared distance in single precision.</param>

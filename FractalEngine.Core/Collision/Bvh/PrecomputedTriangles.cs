@@ -36,11 +36,11 @@ internal sealed class PrecomputedTriangles
         }
     }
 
-    /// <summary>Number of bytes kept.</summary>
+    /// <summary>Number of bytes kept beside the mesh.</summary>
     public long StorageBytes =>
         (_quads.Length * (long)Unsafe.SizeOf<TriangleX4>()) + _firstTriangles.Length + _quadIndices.Length;
 
-    /// <summary>Number of fours.</summary>
+    /// <summary>Number of fours that the triangles make.</summary>
     public int QuadCount => _quads.Length;
 
     /// <summary>The index of the four that a leaf consists of.</summary>
@@ -48,7 +48,7 @@ internal sealed class PrecomputedTriangles
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public int QuadOf(BvhChild leaf) => _quadIndices[leaf.FirstTriangle];
 
-    /// <summary>Tests four triangles.</summary>
+    /// <summary>Tests four triangles in the mesh's own frame.</summary>
     /// <param name="quad">Index of the four.</param>
     /// <param name="position">In the mesh's frame.</param>
     /// <param name="closest">The limit; receives the closest triangle.</param>
@@ -56,7 +56,7 @@ internal sealed class PrecomputedTriangles
     public void Test(int quad, in Vector position, ref ClosestTriangle closest) =>
         Update(TriangleX4.DistancesSquared(in _quads[quad], in position, closest.DistanceSquared), quad, ref closest);
 
-    /// <summary>Tests the images of four triangles.</summary>
+    /// <summary>Tests the images of four triangles under a map.</summary>
     /// <param name="quad">Index of the four.</param>
     /// <param name="position">In the frame of the images.</param>
     /// <param name="map">From the mesh's frame to that of the images.</param>

@@ -23,15 +23,17 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
     /// <summary>Finds the range to split next: the one with the largest surface or, deep in the tree, with the most triangles.</summary>
     /// <param name="ranges">The ranges to choose from.</param>
     /// <param name="depth">Depth of the node that they are to be children of.</param>
+    /// <param name="total">Number of triangles in the node.</param>
     /// <returns>The place of the range; −1 when all are small enough for leaves.</returns>
-    public int FindLargestSplittable(ReadOnlySpan<TriangleRange> ranges, int depth)
+    public int FindLargestSplittable(ReadOnlySpan<TriangleRange> ranges, int depth, int total)
     {
+        var maxCount = total > 8 * maxLeafTriangles ? 8 * maxLeafTriangles : maxLeafTriangles;
         var largest = -1;
         var largestSize = -1f;
         for (var i = 0; i < ranges.Length; i++)
         {
             var rangeSize = depth < MaxSahDepth ? ranges[i].Bounds.HalfArea : ranges[i].Count;
-            if (ranges[i].Count > maxLeafTriangles && rangeSize > largestSize)
+            if (ranges[i].Count > maxCount && rangeSize > largestSize)
             {
                 largest = i;
                 largestSize = rangeSize;
@@ -48,6 +50,12 @@ internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangl
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     public (TriangleRange Left, TriangleRange Right) Split(TriangleRange range, int depth)
     {
+        if (range.Count <= SweepSplitter.MaxTriangles && range.Count > maxLeafTriangles)
+        {
+            var leftCount = SweepSplitter.Split(triangles.AsSpan(range.Start, range.Count), maxLeafTriangles);
+            return (CreateRange(range.Start, leftCount), CreateRange(range.Start + leftCount, range.Count - leftCount));
+        }
+
         if (depth >= MaxSahDepth || !TryFindSplitPlane(range, out var axis, out var lastLeftBin, out var bins))
         {
             return SplitInHalf(range);

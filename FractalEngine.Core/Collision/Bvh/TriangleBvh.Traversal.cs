@@ -44,7 +44,15 @@ internal sealed partial class TriangleBvh
                 var z = Vector256.MaxNative(Vector256.MaxNative(Unsafe.Add(ref node, 2) - pz, pz - Unsafe.Add(ref node, 5)), zero);
                 var bounds = (x * x) + (y * y) + (z * z);
                 var hits = Vector256.LessThan(bounds, Vector256.Create(boxCutoffSquared));
-                var hitCount = BitOperations.PopCount(hits.ExtractMostSignificantBits());
+                var hitMask = hits.ExtractMostSignificantBits();
+                if (BitOperations.IsPow2(hitMask))
+                {
+                    current = BvhChild.FromBits(Unsafe.Add(
+                        ref Unsafe.As<Vector256<float>, uint>(ref Unsafe.Add(ref node, 6)), BitOperations.TrailingZeroCount(hitMask)));
+                    continue;
+                }
+
+                var hitCount = BitOperations.PopCount(hitMask);
                 if (hitCount != 0)
                 {
                     ChildStack.Push(bounds, hits, Unsafe.Add(ref node, 6).AsUInt32(), ref Unsafe.Add(ref stackBase, stackCount));

@@ -7,15 +7,18 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision.Bvh;
 
 /// <summary>
-/// A bounding volume hierarchy over the triangles of a mesh, with eight children a node and up to four triangles a leaf. Exact: the
-/// distance it finds is, to the last bit, the smallest that <see cref="TriangleKernel"/> gives for any triangle.
+/// A bounding volume hierarchy over the triangles of a mesh, with eight children a node and up to eight triangles a leaf. Exact: the
+/// distance it finds is, to the last bit, the smallest that <see cref="TriangleKernel"/> gives for any triangle. Of equally close triangles
+/// the first in the mesh is found.
 /// </summary>
 /// <remarks>
-/// Boxes are floats relative to the mesh's centre and size, rounded outwards. A position becomes an interval of floats that contains it.
-/// So a box's distance comes out too large by no more than the rounding of four sums and three products. The limit that it is compared
-/// with is raised by more than that and by more than the rounding of the kernel (see <see cref="BoundCutoff"/>): no box is culled whose
-/// triangles could be closer. Positions so far away that an interval of floats would contain all boxes are compared in double precision.
-/// <para>Triangles are tested in double precision, four at once, from the mesh's own arrays. Small meshes precompute what they can.</para>
+/// Boxes and triangles are floats relative to the mesh's centre and size. The search is in single precision near the mesh. It keeps every
+/// triangle that rounding might hide as the closest (<see cref="FloatCutoff"/>), and decides between them in double precision at the end.
+/// Positions far away, where floats can't tell triangles apart, are searched in double precision.
+/// <para>
+/// Small meshes have leaves of up to four triangles, which are precomputed and tested in double precision. The smallest have no boxes. Nor
+/// have meshes whose size or place is beyond the range in which the kernel's rounding is known: every face is tested there.
+/// </para>
 /// </remarks>
 internal sealed partial class TriangleBvh
 {

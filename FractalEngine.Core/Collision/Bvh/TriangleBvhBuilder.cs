@@ -35,7 +35,8 @@ internal sealed class TriangleBvhBuilder
         _splitter = new(_triangles, maxLeafTriangles);
         _loop = loop;
         // Lanes beyond the last leaf are read, and must not be slow to compute with.
-        var frames = GC.AllocateUninitializedArray<float>((TriangleFrames.Rows * mesh.FaceCount) + BvhLayout.MaxLeafTriangles);
+        var frames = GC.AllocateUninitializedArray<float>(
+            checked((TriangleFrames.Rows * mesh.FaceCount) + BvhLayout.MaxLeafTriangles));
         frames.AsSpan(frames.Length - BvhLayout.MaxLeafTriangles).Clear();
         _topLevels = new(GC.AllocateUninitializedArray<int>(mesh.FaceCount), frames);
     }
@@ -143,7 +144,7 @@ internal sealed class TriangleBvhBuilder
 
         for (; count < BvhLayout.BranchingFactor; count++)
         {
-            var largest = _splitter.FindLargestSplittable(children[..count], depth);
+            var largest = _splitter.FindLargestSplittable(children[..count], depth, range.Count);
             if (largest < 0)
             {
                 break;

@@ -16,7 +16,9 @@ namespace FractalEngine.Core.Collision.Bvh;
 /// </remarks>
 internal static class TriangleFrames
 {
-    /// <summary>Floats of a triangle: foot x, y, z; x axis x, y, z; y axis x, y, z; altitude; base on the left, base on the right.</summary>
+    /// <summary>
+    /// Floats of a triangle: foot x, y and z, x axis x, y and z, y axis x, y and z, altitude, base on the left and base on the right.
+    /// </summary>
     public const int Rows = 12;
 
     // Squared lengths below this count as this, so that nothing is divided by zero. Lengths are relative to the mesh.

@@ -65,7 +65,9 @@ public class HierarchyColliderTests
         Seeded.Run(60, random =>
         {
             var linear = new Matrix(
-                AdversarialTriangle.RandomInCube(random), AdversarialTriangle.RandomInCube(random), AdversarialTriangle.RandomInCube(random));
+                AdversarialTriangle.RandomInCube(random),
+                AdversarialTriangle.RandomInCube(random),
+                AdversarialTriangle.RandomInCube(random));
             var map = new AffineMap(linear, mesh.Bounds.Diagonal * AdversarialTriangle.RandomInCube(random));
             var position = map * CollisionMeshes.RandomPosition(random, mesh);
             Assert.True(simple.FindClosestTransformed(position, map, double.PositiveInfinity, 0, context, out var expected));
@@ -274,7 +276,7 @@ public class HierarchyColliderTests
     /// <summary>Compares the hierarchy with every triangle.</summary>
     /// <param name="mesh">The mesh.</param>
     /// <param name="queries">Number of random positions.</param>
-    /// <param name="isInKernelsRange">False where products of coordinates over- or underflow, so that the kernel itself is inaccurate.</param>
+    /// <param name="isInKernelsRange">False where products of coordinates over- or underflow: there the kernel is inaccurate.</param>
     private static void Compare(Mesh mesh, int queries, bool isInKernelsRange = true)
     {
         var simple = new SimpleCollider(mesh);
