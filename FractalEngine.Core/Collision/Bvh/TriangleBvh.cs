@@ -33,8 +33,9 @@ internal sealed partial class TriangleBvh
     private const double MinSafeSize = 1e-45;
     private const double MaxSafePosition = 1e90;
 
-    // In units of the mesh's half size. Here the rounding of a position to single precision is 4e-6 of it, less than most triangles.
-    private const double FarThreshold = 64;
+    // In units of the mesh's half size. Here the rounding of a distance to single precision is up to 1e-3 of it: farther away, too many
+    // triangles would have to be decided between.
+    private const double FarThreshold = 256;
 
     private readonly Mesh _mesh;
     private readonly Vector _origin;

@@ -23,7 +23,7 @@ public class TriangleFramesTests
         {
             var (a, b, c) = triangles[random.Next(triangles.Length)];
             var position = AdversarialTriangle.RandomPosition(random, a, b, c);
-            position = position.MaxAbsComponent() < 64 ? position : 64 * AdversarialTriangle.RandomInCube(random);
+            position = position.MaxAbsComponent() < 256 ? position : 256 * AdversarialTriangle.RandomInCube(random);
             var distancesSquared = TriangleFrames.DistancesSquared(
                 ref rows[0], triangles.Length, Vector256.Create((float)position.X), Vector256.Create((float)position.Y),
                 Vector256.Create((float)position.Z));
