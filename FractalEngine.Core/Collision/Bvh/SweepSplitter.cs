@@ -44,6 +44,7 @@ internal static class SweepSplitter
         return bestCount;
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private static (float Cost, int Count) FindPlace(ReadOnlySpan<TriangleBounds> sorted, int maxLeafTriangles)
     {
         // One more than the full leaves of the largest range, if leaves hold but one triangle.

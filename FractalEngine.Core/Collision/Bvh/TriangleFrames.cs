@@ -96,6 +96,8 @@ internal static class TriangleFrames
     private static Vector256<float> Row(ref float leaf, nint row, nint count) =>
         Vector256.LoadUnsafe(ref Unsafe.Add(ref leaf, row * count));
 
+    // A mesh is built once, often before the tiers of the compiler have warmed up.
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private static double Write(Vector a, Vector b, Vector c, Span<float> rows, int stride)
     {
         // The longest edge runs from b to c.
