@@ -1,3 +1,5 @@
+using System.Runtime.Intrinsics;
+
 namespace FractalEngine.Core.Collision;
 
 /// <summary>The closest triangle that a search has found so far, and the cost of finding it.</summary>
@@ -15,4 +17,21 @@ internal struct ClosestTriangle(double distanceSquared)
 
     /// <summary>Number of bounding volumes that were tested.</summary>
     public long BoundTests;
+
+    /// <summary>
+    /// Takes the closest of some triangles if it is closer than the one so far. Of equally close ones, the first in the mesh wins.
+    /// </summary>
+    /// <param name="distancesSquared">Squared distances of the triangles.</param>
+    /// <param name="faces">Face indices of the triangles, one to four; lanes beyond them are ignored.</param>
+    public void Update(Vector256<double> distancesSquared, ReadOnlySpan<int> faces)
+    {
+        for (var i = 0; i < faces.Length; i++)
+        {
+            if (distancesSquared[i] < DistanceSquared || (distancesSquared[i] == DistanceSquared && faces[i] < FaceIndex))
+            {
+                DistanceSquared = distancesSquared[i];
+                FaceIndex = faces[i];
+            }
+        }
+    }
 }

@@ -11,8 +11,8 @@ namespace FractalEngine.Core.Collision.Bvh;
 /// <param name="summand">Summand for the rounding of the kernel.</param>
 internal readonly struct BoundCutoff(double factor, double summand)
 {
-    // An upper bound of the kernel's error, as a part of the coordinates.
-    private const double KernelError = 1.0 / (1L << 46);
+    /// <summary>An upper bound of the kernel's error, as a part of the coordinates.</summary>
+    public const double KernelError = 1.0 / (1L << 46);
 
     /// <summary>Computes the coefficients of the limit.</summary>
     /// <param name="scale">Boxes' units per unit of the mesh.</param>

@@ -5,7 +5,7 @@ namespace FractalEngine.Core.Collision.Bvh;
 /// <summary>Refers to a child of a BVH node, which is a node, a leaf or absent. Its size is 4 bytes.</summary>
 internal readonly record struct BvhChild
 {
-    // The index of a node, or the complement of 4 · the index of a leaf + its triangles − 1, which is negative.
+    // The index of a node, or the complement of 8 · the place of a leaf's first triangle + its triangles − 1, which is negative.
     private readonly int _code;
 
     private BvhChild(int code) => _code = code;
@@ -26,14 +26,14 @@ internal readonly record struct BvhChild
     /// <summary>Index of the node; meaningless for a leaf.</summary>
     public int NodeIndex => _code;
 
-    /// <summary>Index of the leaf; meaningless for a node.</summary>
-    public int LeafIndex
+    /// <summary>Place of the leaf's first triangle among the triangles of all leaves; meaningless for a node.</summary>
+    public int FirstTriangle
     {
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         get => (int)((uint)~_code / BvhLayout.MaxLeafTriangles);
     }
 
-    /// <summary>Number of triangles in the leaf, from 1 to 4; meaningless for a node.</summary>
+    /// <summary>Number of triangles in the leaf, from 1 to 8; meaningless for a node.</summary>
     public int TriangleCount
     {
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -51,25 +51,16 @@ internal readonly record struct BvhChild
     public static BvhChild ForNode(int nodeIndex) => new(nodeIndex);
 
     /// <summary>Creates a reference to a leaf.</summary>
-    /// <param name="leafIndex">Index of the leaf.</param>
-    /// <param name="triangleCount">Number of triangles in it, from 1 to 4.</param>
-    public static BvhChild ForLeaf(int leafIndex, int triangleCount) =>
-        new(~((leafIndex * BvhLayout.MaxLeafTriangles) + triangleCount - 1));
+    /// <param name="firstTriangle">Place of its first triangle among those of all leaves.</param>
+    /// <param name="triangleCount">Number of triangles in it, from 1 to 8.</param>
+    public static BvhChild ForLeaf(int firstTriangle, int triangleCount) =>
+        new(~((firstTriangle * BvhLayout.MaxLeafTriangles) + triangleCount - 1));
 
     /// <summary>Restores a reference from its <see cref="Bits"/>.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static BvhChild FromBits(uint bits) => new((int)bits);
 
-    /// <summary>Adjusts a reference of a subtree whose nodes and leaves are appended to those of another tree.</summary>
+    /// <summary>Adjusts a reference of a subtree whose nodes are appended to those of another tree.</summary>
     /// <param name="firstNode">Number of nodes before the subtree.</param>
-    /// <param name="firstLeaf">Number of leaves before the subtree.</param>
-    public BvhChild Rebase(int firstNode, int firstLeaf)
-    {
-        if (this == None)
-        {
-            return None;
-        }
-
-        return IsNode ? ForNode(NodeIndex + firstNode) : ForLeaf(LeafIndex + firstLeaf, TriangleCount);
-    }
+    public BvhChild Rebase(int firstNode) => IsNode ? ForNode(NodeIndex + firstNode) : this;
 }

@@ -7,7 +7,8 @@ namespace FractalEngine.Core.Collision.Bvh;
 /// plane between two bins with the lowest sum, over both sides, of the surface area times the number of leaves.
 /// </summary>
 /// <param name="triangles">The triangles, which are reordered within the ranges.</param>
-internal sealed class SahSplitter(TriangleBounds[] triangles)
+/// <param name="maxLeafTriangles">Maximum number of triangles in a leaf.</param>
+internal sealed class SahSplitter(TriangleBounds[] triangles, int maxLeafTriangles)
 {
     /// <summary>
     /// Maximum depth at which the heuristic is followed. Below it, ranges are split by number, so that no arrangement of triangles makes
@@ -23,15 +24,17 @@ internal sealed class SahSplitter(TriangleBounds[] triangles)
     /// <summary>Finds the range to split next: the one with the largest surface or, deep in the tree, with the most triangles.</summary>
     /// <param name="ranges">The ranges to choose from.</param>
     /// <param name="depth">Depth of the node that they are to be children of.</param>
+    /// <param name="total">Number of triangles in the node.</param>
     /// <returns>The place of the range; −1 when all are small enough for leaves.</returns>
-    public static int FindLargestSplittable(ReadOnlySpan<TriangleRange> ranges, int depth)
+    public int FindLargestSplittable(ReadOnlySpan<TriangleRange> ranges, int depth, int total)
     {
+        var maxCount = total > 8 * maxLeafTriangles ? 8 * maxLeafTriangles : maxLeafTriangles;
         var largest = -1;
         var largestSize = -1f;
         for (var i = 0; i < ranges.Length; i++)
         {
             var rangeSize = depth < MaxSahDepth ? ranges[i].Bounds.HalfArea : ranges[i].Count;
-            if (ranges[i].Count > BvhLayout.MaxLeafTriangles && rangeSize > largestSize)
+            if (ranges[i].Count > maxCount && rangeSize > largestSize)
             {
                 largest = i;
                 largestSize = rangeSize;
@@ -48,6 +51,12 @@ internal sealed class SahSplitter(TriangleBounds[] triangles)
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     public (TriangleRange Left, TriangleRange Right) Split(TriangleRange range, int depth)
     {
+        if (range.Count <= SweepSplitter.MaxTriangles && range.Count > maxLeafTriangles)
+        {
+            var leftCount = SweepSplitter.Split(triangles.AsSpan(range.Start, range.Count), maxLeafTriangles);
+            return (CreateRange(range.Start, leftCount), CreateRange(range.Start + leftCount, range.Count - leftCount));
+        }
+
         if (depth >= MaxSahDepth || !TryFindSplitPlane(range, out var axis, out var lastLeftBin, out var bins))
         {
             return SplitInHalf(range);
@@ -172,7 +181,7 @@ internal sealed class SahSplitter(TriangleBounds[] triangles)
 
     /// <summary>The surface of a range times its leaves.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static float ExpectedCost(SimdBoundingBox bounds, int triangleCount) => triangleCount == 0
+    private float ExpectedCost(SimdBoundingBox bounds, int triangleCount) => triangleCount == 0
         ? 0
-        : bounds.HalfArea * ((triangleCount + BvhLayout.MaxLeafTriangles - 1) / BvhLayout.MaxLeafTriangles);
+        : bounds.HalfArea * ((triangleCount + maxLeafTriangles - 1) / maxLeafTriangles);
 }

@@ -1,4 +1,3 @@
-using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Maths;
@@ -15,7 +14,7 @@ internal sealed partial class TriangleBvh
     /// <param name="boundFactor">As in <see cref="FindClosest"/>.</param>
     public void FindClosestTransformed(in Vector position, in AffineMap map, ref ClosestTriangle closest, double boundFactor)
     {
-        if (_mesh.FaceCount <= MaxBruteForceTriangles)
+        if (_mesh.FaceCount <= MaxBruteForceTriangles || !_isInSafeRange)
         {
             TestAllTransformedTriangles(in position, in map, ref closest);
             return;
@@ -30,9 +29,16 @@ internal sealed partial class TriangleBvh
     /// <param name="closest">The limit; receives the closest triangle and the cost.</param>
     public void TestAllTransformedTriangles(in Vector position, in AffineMap map, ref ClosestTriangle closest)
     {
-        for (var leaf = 0; leaf < _leaves.Length; leaf++)
+        if (_precomputed is not null)
         {
-            TryUpdateClosest(TransformedDistancesSquared(leaf, in position, in map), leaf, ref closest);
+            for (var quad = 0; quad < _precomputed.QuadCount; quad++)
+            {
+                _precomputed.TestTransformed(quad, in position, in map, ref closest);
+            }
+        }
+        else
+        {
+            TestTransformedFaces(_faces, in position, in map, ref closest);
         }
 
         closest.FaceTests += _mesh.FaceCount;
@@ -59,7 +65,7 @@ internal sealed partial class TriangleBvh
             }
 
             // Boxes are wider than their triangles by more than rounding.
-            if (closestChild < 0 || !(smallestBound * boundFactor < closest.DistanceSquared))
+            if (closestChild < 0 || !(smallestBound * boundFactor <= closest.DistanceSquared))
             {
                 return;
             }
@@ -73,7 +79,14 @@ internal sealed partial class TriangleBvh
             }
 
             closest.FaceTests += next.TriangleCount;
-            TryUpdateClosest(TransformedDistancesSquared(next.LeafIndex, in position, in map), next.LeafIndex, ref closest);
+            if (_precomputed is not null)
+            {
+                _precomputed.TestTransformed(_precomputed.QuadOf(next), in position, in map, ref closest);
+            }
+            else
+            {
+                TestTransformedFaces(_faces.AsSpan(next.FirstTriangle, next.TriangleCount), in position, in map, ref closest);
+            }
         }
     }
 
@@ -100,7 +113,13 @@ internal sealed partial class TriangleBvh
         }
     }
 
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private Vector256<double> TransformedDistancesSquared(int leaf, ref readonly Vector position, ref readonly AffineMap map) =>
-        TriangleX4.DistancesSquared(in _leaves[leaf], _mesh.Positions.AsSpan(), in position, in map);
+    private void TestTransformedFaces(
+        ReadOnlySpan<int> faces, ref readonly Vector position, ref readonly AffineMap map, ref ClosestTriangle closest)
+    {
+        for (; faces.Length > 0; faces = faces[Math.Min(VectorX4.Count, faces.Length)..])
+        {
+            var quad = faces[..Math.Min(VectorX4.Count, faces.Length)];
+            closest.Update(TriangleX4.DistancesSquared(_mesh, quad, in position, in map), quad);
+        }
+    }
 }

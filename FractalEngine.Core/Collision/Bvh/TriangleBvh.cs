@@ -1,4 +1,5 @@
 using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -6,35 +7,47 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Collision.Bvh;
 
 /// <summary>
-/// A bounding volume hierarchy over the triangles of a mesh, with eight children a node and up to four triangles a leaf. Exact: the
-/// distance it finds is, to the last bit, the smallest that <see cref="TriangleKernel"/> gives for any triangle.
+/// A bounding volume hierarchy over the triangles of a mesh, with eight children a node and up to eight triangles a leaf. Exact: the
+/// distance it finds is, to the last bit, the smallest that <see cref="TriangleKernel"/> gives for any triangle. Of equally close triangles
+/// the first in the mesh is found.
 /// </summary>
 /// <remarks>
-/// Boxes are floats relative to the mesh's centre and size, rounded outwards. A position becomes an interval of floats that contains it.
-/// So a box's distance comes out too large by no more than the rounding of four sums and three products. The limit that it is compared
-/// with is raised by more than that and by more than the rounding of the kernel (see <see cref="BoundCutoff"/>): no box is culled whose
-/// triangles could be closer. Positions so far away that an interval of floats would contain all boxes are compared in double precision.
-/// <para>Triangles are tested in double precision, four at once, from the mesh's own arrays. Small meshes precompute what they can.</para>
+/// Boxes and triangles are floats relative to the mesh's centre and size. The search is in single precision near the mesh. It keeps every
+/// triangle that rounding might hide as the closest (<see cref="FloatCutoff"/>), and decides between them in double precision at the end.
+/// Positions far away, where floats can't tell triangles apart, are searched in double precision.
+/// <para>
+/// Small meshes have leaves of up to four triangles, which are precomputed and tested in double precision. The smallest have no boxes. Nor
+/// have meshes whose size or place is beyond the range in which the kernel's rounding is known: every face is tested there.
+/// </para>
 /// </remarks>
 internal sealed partial class TriangleBvh
 {
-    // Up to so many triangles are kept precomputed, 136 bytes for each four.
+    // Up to so many triangles are kept precomputed, 136 bytes for each.
     private const int MaxPrecomputedTriangles = 64;
 
     // Up to so many triangles are all tested, since boxes would save nothing.
-    private const int MaxBruteForceTriangles = 8;
+    private const int MaxBruteForceTriangles = 16;
 
-    // In units of the mesh's half size. Here the rounding of a position to single precision is 4e-6 of it, less than most triangles.
-    private const double FarThreshold = 64;
+    // Beyond these, products of four coordinates over- or underflow in the kernel, and its error is not that of BoundCutoff.
+    private const double MaxSafeLength = 1e45;
+    private const double MinSafeSize = 1e-45;
+    private const double MaxSafePosition = 1e90;
+
+    // In units of the mesh's half size. Here the rounding of a distance to single precision is up to 1e-3 of it: farther away, too many
+    // triangles would have to be decided between.
+    private const double FarThreshold = 256;
 
     private readonly Mesh _mesh;
     private readonly Vector _origin;
     private readonly double _scale;
     private readonly double _magnitude;
-    private readonly Vector256<float>[] _nodeBounds = [];
-    private readonly BvhChild[] _children = [];
-    private readonly BvhLeaf[] _leaves = [];
-    private readonly TriangleX4[] _precomputedLeaves = [];
+    private readonly Vector256<float>[] _nodes = [];
+    private readonly nint _nodeOffset;
+    private readonly float[] _frames = [];
+    private readonly int[] _faces = [];
+    private readonly double _longestEdge;
+    private readonly PrecomputedTriangles? _precomputed;
+    private readonly bool _isInSafeRange;
     private readonly int _stackSize;
 
     /// <summary>Builds the hierarchy of a mesh. Cost: O(n·log n) for n faces, on all cores where they are many.</summary>
@@ -50,13 +63,23 @@ internal sealed partial class TriangleBvh
         _scale = PowerOfTwoScale(0.5 * mesh.Bounds.Size.MaxAbsComponent());
         var maxCoordinate = Vector.Max(mesh.Bounds.Minimum.Absolute(), mesh.Bounds.Maximum.Absolute()).MaxAbsComponent();
         _magnitude = (2 * maxCoordinate * _scale) + FarThreshold;
-        var layout = TriangleBvhBuilder.Build(mesh, _origin, _scale);
-        _nodeBounds = [.. layout.NodeBounds];
-        _children = [.. layout.Children];
-        _leaves = [.. layout.Leaves];
-        _precomputedLeaves = mesh.FaceCount <= MaxPrecomputedTriangles ? [.. layout.Leaves.Select(GatherTriangles)] : [];
+        _isInSafeRange = maxCoordinate < MaxSafeLength && IsSafeSize(mesh.Bounds.Size.MaxAbsComponent());
+        if (mesh.FaceCount <= MaxBruteForceTriangles || !_isInSafeRange)
+        {
+            _faces = [.. Enumerable.Range(0, mesh.FaceCount)];
+            _precomputed = mesh.FaceCount <= MaxPrecomputedTriangles ? new(mesh, _faces, QuadCounts(mesh.FaceCount)) : null;
+            return;
+        }
+
+        var isSmall = mesh.FaceCount <= MaxPrecomputedTriangles;
+        var layout = TriangleBvhBuilder.Build(mesh, _origin, _scale, isSmall ? VectorX4.Count : BvhLayout.MaxLeafTriangles);
+        (_nodes, _nodeOffset) = layout.CreateNodes();
+        _frames = isSmall ? [] : layout.Frames;
+        _faces = layout.Faces;
+        _longestEdge = layout.LongestEdge;
+        _precomputed = isSmall ? new(mesh, _faces, layout.LeafCounts()) : null;
         // A node on the stack is replaced by up to eight.
-        _stackSize = ((BvhLayout.BranchingFactor - 1) * SubtreeHeight(BvhChild.Root)) + 1;
+        _stackSize = ((BvhLayout.BranchingFactor - 1) * SubtreeHeight(BvhChild.Root)) + 1 + ChildStack.Slack;
     }
 
     /// <summary>Number of triangles in the mesh.</summary>
@@ -64,16 +87,18 @@ internal sealed partial class TriangleBvh
 
     /// <summary>Number of bytes kept beside the mesh.</summary>
     public long StorageBytes =>
-        (_nodeBounds.Length * 32L) + (_children.Length * 4L) + (_leaves.Length * 64L)
-        + (_precomputedLeaves.Length * (long)Unsafe.SizeOf<TriangleX4>());
+        (_nodes.Length * 32L) + (_frames.Length * 4L) + (_faces.Length * 4L) + (_precomputed?.StorageBytes ?? 0);
 
-    /// <summary>Finds the closest triangle, if it is closer than the limit.</summary>
+    /// <summary>Finds the closest triangle, if it is closer than the limit. Of equally close ones, the first face wins.</summary>
     /// <param name="position">In the mesh's frame, finite.</param>
     /// <param name="closest">The limit; receives the closest triangle and the cost.</param>
     /// <param name="boundFactor">Squared bounds are multiplied by this before they are compared: (1 + ε)², 1 for exact answers.</param>
-    public void FindClosest(in Vector position, ref ClosestTriangle closest, double boundFactor)
+    /// <param name="mayDefer">
+    /// True to accept a face whose distance is not computed: then the squared distance is NaN, and the face may be beyond the limit.
+    /// </param>
+    public void FindClosest(in Vector position, ref ClosestTriangle closest, double boundFactor, bool mayDefer = false)
     {
-        if (_mesh.FaceCount <= MaxBruteForceTriangles)
+        if (_mesh.FaceCount <= MaxBruteForceTriangles || !_isInSafeRange || !(position.MaxAbsComponent() < MaxSafePosition))
         {
             TestAllTriangles(in position, ref closest);
             return;
@@ -84,7 +109,7 @@ internal sealed partial class TriangleBvh
         var inverseBoundFactor = 1 / Math.Min(boundFactor, 1e30);
         if (localPosition.MaxAbsComponent() < FarThreshold)
         {
-            TraverseNear(in position, in localPosition, ref closest, inverseBoundFactor);
+            TraverseNear(in position, in localPosition, ref closest, inverseBoundFactor, mayDefer);
         }
         else
         {
@@ -97,68 +122,38 @@ internal sealed partial class TriangleBvh
     /// <param name="closest">The limit; receives the closest triangle and the cost.</param>
     public void TestAllTriangles(in Vector position, ref ClosestTriangle closest)
     {
-        for (var leaf = 0; leaf < _leaves.Length; leaf++)
+        if (_precomputed is not null)
         {
-            TryUpdateClosest(DistancesSquared(leaf, in position, closest.DistanceSquared), leaf, ref closest);
+            for (var quad = 0; quad < _precomputed.QuadCount; quad++)
+            {
+                _precomputed.Test(quad, in position, ref closest);
+            }
+        }
+        else
+        {
+            TestFaces(_faces, in position, ref closest);
         }
 
         closest.FaceTests += _mesh.FaceCount;
     }
 
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private ReadOnlySpan<Vector256<float>> NodeBounds(BvhChild node) =>
-        _nodeBounds.AsSpan(node.NodeIndex * BvhLayout.VectorsPerNode, BvhLayout.VectorsPerNode);
-
-    private ReadOnlySpan<BvhChild> Children(BvhChild node) =>
-        _children.AsSpan(node.NodeIndex * BvhLayout.BranchingFactor, BvhLayout.BranchingFactor);
-
-    private bool TestLeaf(BvhChild leaf, in Vector position, ref ClosestTriangle closest)
-    {
-        closest.FaceTests += leaf.TriangleCount;
-        return TryUpdateClosest(DistancesSquared(leaf.LeafIndex, in position, closest.DistanceSquared), leaf.LeafIndex, ref closest);
-    }
+    private static int[] QuadCounts(int faces) =>
+        [.. Enumerable.Range(0, VectorX4.PaddedCount(faces) / VectorX4.Count).Select(quad => Math.Min(VectorX4.Count, faces - (4 * quad)))];
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private Vector256<double> DistancesSquared(int leaf, ref readonly Vector position, double closestDistanceSquared) =>
-        _precomputedLeaves.Length > 0
-        ? TriangleX4.DistancesSquared(in _precomputedLeaves[leaf], in position, closestDistanceSquared)
-        : TriangleX4.DistancesSquared(in _leaves[leaf], _mesh.Positions.AsSpan(), in position);
+    private ref Vector256<float> Node(BvhChild node) => ref Unsafe.Add(
+        ref Unsafe.AddByteOffset(ref MemoryMarshal.GetArrayDataReference(_nodes), _nodeOffset),
+        (nint)node.NodeIndex * BvhLayout.VectorsPerNode);
 
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private bool TryUpdateClosest(Vector256<double> distancesSquared, int leaf, ref ClosestTriangle closest)
-    {
-        if (!Vector256.LessThanAny(distancesSquared, Vector256.Create(closest.DistanceSquared)))
-        {
-            return false;
-        }
+    private ReadOnlySpan<Vector256<float>> NodeBounds(BvhChild node) => MemoryMarshal.CreateReadOnlySpan(ref Node(node), 6);
 
-        SelectClosest(distancesSquared, in _leaves[leaf], ref closest);
-        return true;
-    }
-
-    private static void SelectClosest(Vector256<double> distancesSquared, ref readonly BvhLeaf leaf, ref ClosestTriangle closest)
-    {
-        for (var i = 0; i < BvhLayout.MaxLeafTriangles; i++)
-        {
-            if (distancesSquared[i] < closest.DistanceSquared)
-            {
-                closest.DistanceSquared = distancesSquared[i];
-                closest.FaceIndex = leaf.FaceIndices[i];
-            }
-        }
-    }
-
-    private TriangleX4 GatherTriangles(BvhLeaf leaf)
-    {
-        var positions = _mesh.Positions.AsSpan();
-        return new(
-            VectorX4.Gather(positions, leaf.IndicesA),
-            VectorX4.Gather(positions, leaf.IndicesB),
-            VectorX4.Gather(positions, leaf.IndicesC));
-    }
+    private ReadOnlySpan<BvhChild> Children(BvhChild node) => MemoryMarshal.CreateReadOnlySpan(
+        ref Unsafe.As<Vector256<float>, BvhChild>(ref Unsafe.Add(ref Node(node), 6)), BvhLayout.BranchingFactor);
 
     private static double PowerOfTwoScale(double halfSize) =>
         halfSize > 0 && double.IsFinite(halfSize) ? Math.ScaleB(1, -Math.Clamp(Math.ILogB(halfSize), -400, 400)) : 1;
+
+    private static bool IsSafeSize(double size) => size is 0 or > MinSafeSize;
 
     private int SubtreeHeight(BvhChild node)
     {

@@ -20,24 +20,37 @@ internal sealed class TriangleBvhBuilder
     private readonly TriangleBounds[] _triangles;
     private readonly SahSplitter _splitter;
     private readonly ParallelLoop _loop;
-    private readonly BvhLayout _topLevels = new();
+    private readonly Vector _origin;
+    private readonly double _scale;
+    private readonly int _maxLeafTriangles;
+    private readonly BvhLayout _topLevels;
 
-    private TriangleBvhBuilder(Mesh mesh, ParallelLoop loop)
+    private TriangleBvhBuilder(Mesh mesh, Vector origin, double scale, int maxLeafTriangles, ParallelLoop loop)
     {
         _mesh = mesh;
+        _origin = origin;
+        _scale = scale;
         _triangles = GC.AllocateUninitializedArray<TriangleBounds>(mesh.FaceCount);
-        _splitter = new(_triangles);
+        _maxLeafTriangles = maxLeafTriangles;
+        _splitter = new(_triangles, maxLeafTriangles);
         _loop = loop;
+        // Lanes beyond the last leaf are read, and must not be slow to compute with.
+        var frames = GC.AllocateUninitializedArray<float>(
+            checked((TriangleFrames.Rows * mesh.FaceCount) + BvhLayout.MaxLeafTriangles));
+        frames.AsSpan(frames.Length - BvhLayout.MaxLeafTriangles).Clear();
+        _topLevels = new(GC.AllocateUninitializedArray<int>(mesh.FaceCount), frames);
     }
 
     /// <summary>Builds the tree of a mesh. Cost: O(n·log n) for n faces.</summary>
     /// <param name="mesh">A mesh with at least one face.</param>
     /// <param name="origin">Origin of the boxes' coordinates.</param>
     /// <param name="scale">Factor by which coordinates relative to the origin are multiplied, so that they lie from about −1 to 1.</param>
+    /// <param name="maxLeafTriangles">Maximum number of triangles in a leaf, at most eight.</param>
     /// <param name="threads">Maximum number of threads; null for one a core.</param>
-    public static BvhLayout Build(Mesh mesh, Vector origin, double scale, int? threads = null)
+    public static BvhLayout Build(
+        Mesh mesh, Vector origin, double scale, int maxLeafTriangles = BvhLayout.MaxLeafTriangles, int? threads = null)
     {
-        var builder = new TriangleBvhBuilder(mesh, new(threads));
+        var builder = new TriangleBvhBuilder(mesh, origin, scale, maxLeafTriangles, new(threads));
         var root = new TriangleBoundsBuilder(mesh, origin, scale).Compute(builder._triangles, builder._loop);
         builder.BuildTopLevels(root);
         return builder._topLevels;
@@ -61,7 +74,7 @@ internal sealed class TriangleBvhBuilder
         var subtreeLayouts = new BvhLayout[subtrees.Count];
         _loop.For(subtreeLayouts.Length, i =>
         {
-            subtreeLayouts[i] = new();
+            subtreeLayouts[i] = new(_topLevels.Faces, _topLevels.Frames);
             BuildSubtree(subtreeLayouts[i], subtrees[i].Range, -1, subtrees[i].Depth);
         });
         for (var i = 0; i < subtreeLayouts.Length; i++)
@@ -93,9 +106,9 @@ internal sealed class TriangleBvhBuilder
     private void BuildSubtree(BvhLayout layout, TriangleRange range, int slot, int depth)
     {
         // The root is a node in any case, so that the search begins at one.
-        if (range.Count <= BvhLayout.MaxLeafTriangles && slot >= 0)
+        if (range.Count <= _maxLeafTriangles && slot >= 0)
         {
-            layout.AddLeaf(slot, _mesh, _triangles.AsSpan(range.Start, range.Count));
+            layout.AddLeaf(slot, range.Start, _triangles.AsSpan(range.Start, range.Count), _mesh, _origin, _scale);
             return;
         }
 
@@ -120,7 +133,7 @@ internal sealed class TriangleBvhBuilder
             // Three rounds of halving leave little for the loop after them.
             var ranges = new TriangleRange[BvhLayout.BranchingFactor];
             ranges[0] = range;
-            for (; count < ranges.Length && ranges.Take(count).All(r => r.Count > BvhLayout.MaxLeafTriangles); count *= 2)
+            for (; count < ranges.Length && ranges.Take(count).All(r => r.Count > _maxLeafTriangles); count *= 2)
             {
                 var halfCount = count;
                 _loop.For(halfCount, i => (ranges[i], ranges[halfCount + i]) = _splitter.Split(ranges[i], depth));
@@ -131,7 +144,7 @@ internal sealed class TriangleBvhBuilder
 
         for (; count < BvhLayout.BranchingFactor; count++)
         {
-            var largest = SahSplitter.FindLargestSplittable(children[..count], depth);
+            var largest = _splitter.FindLargestSplittable(children[..count], depth, range.Count);
             if (largest < 0)
             {
                 break;

@@ -1,5 +1,6 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Bvh;
@@ -39,33 +40,69 @@ internal readonly struct TriangleX4
         ref readonly TriangleX4 triangles, ref readonly Vector position, double closestDistanceSquared) =>
         ComputeDistancesSquared(in position, triangles._a, triangles._b, triangles._c, triangles._terms, closestDistanceSquared);
 
-    /// <summary>Computes the squared distances of a position from four triangles of a mesh.</summary>
-    /// <param name="leaf">The vertex indices of the triangles.</param>
-    /// <param name="positions">Vertex coordinates of the mesh, [vertices × 3].</param>
+    /// <summary>Computes the squared distances of a position from up to four triangles of a mesh.</summary>
+    /// <param name="mesh">The mesh.</param>
+    /// <param name="faces">One to four face indices; the last one fills the lanes that are left over.</param>
     /// <param name="position">In the mesh's frame.</param>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public static Vector256<double> DistancesSquared(
-        ref readonly BvhLeaf leaf, ReadOnlySpan<double> positions, ref readonly Vector position)
+    public static Vector256<double> DistancesSquared(Mesh mesh, ReadOnlySpan<int> faces, ref readonly Vector position)
     {
-        var a = VectorX4.Gather(positions, leaf.IndicesA);
-        var b = VectorX4.Gather(positions, leaf.IndicesB);
-        var c = VectorX4.Gather(positions, leaf.IndicesC);
+        Gather(mesh, faces, out var a, out var b, out var c);
         return ComputeDistancesSquared(in position, a, b, c, PrecomputedTerms.Create(a, b, c), null);
     }
 
-    /// <summary>Computes the squared distances of a position from the images of four triangles of a mesh.</summary>
-    /// <param name="leaf">The vertex indices of the triangles.</param>
-    /// <param name="positions">Vertex coordinates of the mesh, [vertices × 3].</param>
+    /// <summary>Computes the squared distances of a position from the images of up to four triangles of a mesh.</summary>
+    /// <param name="mesh">The mesh.</param>
+    /// <param name="faces">One to four face indices; the last one fills the lanes that are left over.</param>
     /// <param name="position">In the frame of the images.</param>
     /// <param name="map">From the mesh's frame to that of the images.</param>
     [MethodImpl(MethodImplOptions.NoInlining)]
     public static Vector256<double> DistancesSquared(
-        ref readonly BvhLeaf leaf, ReadOnlySpan<double> positions, ref readonly Vector position, ref readonly AffineMap map)
+        Mesh mesh, ReadOnlySpan<int> faces, ref readonly Vector position, ref readonly AffineMap map)
     {
-        var a = VectorX4.Gather(positions, leaf.IndicesA).Transform(in map);
-        var b = VectorX4.Gather(positions, leaf.IndicesB).Transform(in map);
-        var c = VectorX4.Gather(positions, leaf.IndicesC).Transform(in map);
+        Gather(mesh, faces, out var a, out var b, out var c);
+        a = a.Transform(in map);
+        b = b.Transform(in map);
+        c = c.Transform(in map);
         return ComputeDistancesSquared(in position, a, b, c, PrecomputedTerms.Create(a, b, c), null);
+    }
+
+    /// <summary>Computes the squared distances of a position from the images of four precomputed triangles.</summary>
+    /// <param name="triangles">The four triangles.</param>
+    /// <param name="position">In the frame of the images.</param>
+    /// <param name="map">From the triangles' frame to that of the images.</param>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    public static Vector256<double> DistancesSquared(
+        ref readonly TriangleX4 triangles, ref readonly Vector position, ref readonly AffineMap map)
+    {
+        var a = triangles._a.Transform(in map);
+        var b = triangles._b.Transform(in map);
+        var c = triangles._c.Transform(in map);
+        return ComputeDistancesSquared(in position, a, b, c, PrecomputedTerms.Create(a, b, c), null);
+    }
+
+    /// <summary>Precomputes the terms of up to four triangles of a mesh.</summary>
+    /// <param name="mesh">The mesh.</param>
+    /// <param name="faces">One to four face indices; the last one fills the lanes that are left over.</param>
+    public static TriangleX4 Create(Mesh mesh, ReadOnlySpan<int> faces)
+    {
+        Gather(mesh, faces, out var a, out var b, out var c);
+        return new(a, b, c);
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static void Gather(Mesh mesh, ReadOnlySpan<int> faces, out VectorX4 a, out VectorX4 b, out VectorX4 c)
+    {
+        var indices = mesh.VertexIndices.AsSpan();
+        var last = faces.Length - 1;
+        var face0 = indices.Slice(3 * faces[0], 3);
+        var face1 = indices.Slice(3 * faces[Math.Min(1, last)], 3);
+        var face2 = indices.Slice(3 * faces[Math.Min(2, last)], 3);
+        var face3 = indices.Slice(3 * faces[last], 3);
+        var positions = mesh.Positions.AsSpan();
+        a = VectorX4.Gather(positions, Vector128.Create(face0[0], face1[0], face2[0], face3[0]));
+        b = VectorX4.Gather(positions, Vector128.Create(face0[1], face1[1], face2[1], face3[1]));
+        c = VectorX4.Gather(positions, Vector128.Create(face0[2], face1[2], face2[2], face3[2]));
     }
 
     /// <summary>The terms of four triangles that do not depend on a position: normals of any length, and squared lengths.</summary>

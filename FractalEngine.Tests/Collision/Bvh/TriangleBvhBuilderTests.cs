@@ -16,10 +16,12 @@ public class TriangleBvhBuilderTests
         var expected = TriangleBvhBuilder.Build(mesh, Vector.Zero, 1, threads: 1);
         foreach (var threads in new[] { 2, 3, 16 })
         {
-            var actual = TriangleBvhBuilder.Build(mesh, Vector.Zero, 1, threads);
+            var actual = TriangleBvhBuilder.Build(mesh, Vector.Zero, 1, threads: threads);
             Assert.Equal(expected.Children, actual.Children);
             Assert.Equal(expected.NodeBounds, actual.NodeBounds);
-            Assert.Equal(expected.Leaves, actual.Leaves);
+            Assert.Equal(expected.Faces, actual.Faces);
+            Assert.Equal(expected.Frames, actual.Frames);
+            Assert.Equal(expected.LongestEdge, actual.LongestEdge);
         }
     }
 
@@ -41,10 +43,7 @@ public class TriangleBvhBuilderTests
                 return 1 + children.Where(grandchild => grandchild != BvhChild.None).Max(HeightOf);
             }
 
-            for (var i = 0; i < child.TriangleCount; i++)
-            {
-                faces.Add(layout.Leaves[child.LeafIndex].FaceIndices[i]);
-            }
+            faces.AddRange(layout.Faces.AsSpan(child.FirstTriangle, child.TriangleCount));
 
             return 0;
         }
@@ -52,22 +51,34 @@ public class TriangleBvhBuilderTests
 
     [Theory]
     [InlineData(0, 1)]
-    [InlineData(0, 4)]
+    [InlineData(0, 8)]
     [InlineData(7, 3)]
-    [InlineData(500_000_000, 2)]
-    public void ForLeaf_OfAnyLeaf_IsDecodedAndRebased(int leafIndex, int triangleCount)
+    [InlineData(200_000_000, 5)]
+    public void ForLeaf_OfAnyLeaf_IsDecoded(int firstTriangle, int triangleCount)
     {
-        var child = BvhChild.ForLeaf(leafIndex, triangleCount);
-        Assert.Equal((false, leafIndex, triangleCount), (child.IsNode, child.LeafIndex, child.TriangleCount));
+        var child = BvhChild.ForLeaf(firstTriangle, triangleCount);
+        Assert.Equal((false, firstTriangle, triangleCount), (child.IsNode, child.FirstTriangle, child.TriangleCount));
         Assert.Equal(child, BvhChild.FromBits(child.Bits));
-        Assert.Equal(BvhChild.ForLeaf(leafIndex + 30, triangleCount), child.Rebase(firstNode: 5, firstLeaf: 30));
+        Assert.NotEqual(BvhChild.None, child);
     }
 
     [Fact]
-    public void Rebase_OfNodesAndAbsentChildren_MovesNodesOnly()
+    public void Rebase_OfNodesLeavesAndAbsentChildren_MovesNodesOnly()
     {
-        Assert.Equal(BvhChild.ForNode(17), BvhChild.ForNode(12).Rebase(firstNode: 5, firstLeaf: 30));
-        Assert.Equal(BvhChild.None, BvhChild.None.Rebase(firstNode: 5, firstLeaf: 30));
+        Assert.Equal(BvhChild.ForNode(17), BvhChild.ForNode(12).Rebase(firstNode: 5));
+        Assert.Equal(BvhChild.ForLeaf(3, 2), BvhChild.ForLeaf(3, 2).Rebase(firstNode: 5));
+        Assert.Equal(BvhChild.None, BvhChild.None.Rebase(firstNode: 5));
         Assert.True(BvhChild.FromBits(BvhChild.ForNode(12).Bits).IsNode);
+    }
+
+    [Theory]
+    [InlineData(4)]
+    [InlineData(8)]
+    public void LeafCounts_OfAnyLeafSize_AddUpToTheFaces(int maxLeafTriangles)
+    {
+        var mesh = CollisionMeshes.TriangleSoup(1, 500, 0.1);
+        var counts = TriangleBvhBuilder.Build(mesh, Vector.Zero, 1, maxLeafTriangles).LeafCounts();
+        Assert.Equal(mesh.FaceCount, counts.Sum());
+        Assert.All(counts, count => Assert.InRange(count, 1, maxLeafTriangles));
     }
 }
