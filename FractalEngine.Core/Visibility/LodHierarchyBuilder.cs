@@ -17,7 +17,7 @@ internal static class LodHierarchyBuilder
 
     private static LodHierarchy BuildAffine(Fractal fractal)
     {
-        var builder = new SubFractalBuilder(fractal);
+        var builder = new SubFractalBuilder(fractal, doublesPowers: false);
         builder.AddAllSteps();
         var regions = builder.Regions.ToArray();
         var nodes = new LodNode[builder.SubFractals.Count];

@@ -30,6 +30,7 @@ internal sealed class SubFractalBuilder
 
     private readonly Fractal _fractal;
     private readonly bool _hasOutliers;
+    private readonly bool _doublesPowers;
     private readonly Dictionary<TransformationSet, MapSet> _sets = new(ReferenceEqualityComparer.Instance);
     private readonly List<SubFractal> _subFractals = [];
     private readonly List<BoundingVolume> _volumes = [];
@@ -38,9 +39,14 @@ internal sealed class SubFractalBuilder
     private readonly List<LevelRegion> _regions = [];
 
     /// <summary>Begins with the base mesh, which has no remaining levels.</summary>
-    public SubFractalBuilder(Fractal fractal)
+    /// <param name="fractal">Fractal in affine composition.</param>
+    /// <param name="doublesPowers">
+    /// True to double the levels of one map, see <see cref="MapPowers"/>; false for one level for each set, whose path colours need.
+    /// </param>
+    public SubFractalBuilder(Fractal fractal, bool doublesPowers)
     {
         _fractal = fractal;
+        _doublesPowers = doublesPowers;
         HasOnlySimilarities = fractal.Description.Steps.All(HasOnlySimilarMaps);
         _hasOutliers = fractal.Description.Steps.Any(step => HasOutliers(step, fractal.BaseMesh.Bounds.Diagonal));
         var volume = BoundingVolume.FromMesh(fractal.BaseMesh);
@@ -135,7 +141,7 @@ internal sealed class SubFractalBuilder
     private void AddStep(FractalStep step)
     {
         var repetition = step as Repetition ?? new([step], 1);
-        if (MapPowers.TryCreate(repetition) is { } powers)
+        if (_doublesPowers && MapPowers.TryCreate(repetition) is { } powers)
         {
             powers.AddLevels(Levels, AddLevel);
             return;

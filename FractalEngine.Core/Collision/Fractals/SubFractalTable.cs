@@ -46,7 +46,7 @@ internal sealed class SubFractalTable
     /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
     public static SubFractalTable Build(Fractal fractal)
     {
-        var builder = new SubFractalBuilder(fractal);
+        var builder = new SubFractalBuilder(fractal, doublesPowers: true);
         builder.AddAllSteps();
         return new(builder);
     }

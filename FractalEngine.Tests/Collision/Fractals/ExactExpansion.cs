@@ -2,7 +2,6 @@ using System.Numerics;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
-using FractalEngine.Tests.Support;
 using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Tests.Collision.Fractals;
