@@ -38,13 +38,17 @@ internal sealed record FileSummary(
         return new(
             file.Kind.ToString().ToLowerInvariant(),
             Sum(models, model => model.VertexCount),
-            Sum(models, model => model.FaceCount),
+            CountFaces(file),
             Sum(models, model => model.InstanceCount),
             Sum(models, model => distinctCounts[model]),
             file.Scene.Bounds,
             file.StorageBytes,
             loadTime);
     }
+
+    /// <summary>Counts the faces of a loaded file, null for infinitely many. Unlike the whole summary it enumerates nothing.</summary>
+    public static BigInteger? CountFaces(LoadedFile file) =>
+        Sum(file.Scene.Objects.Select(placed => placed.Model), model => model.FaceCount);
 
     /// <summary>Formats the summary as one JSON object, in which numbers of any length are written out.</summary>
     public string ToJson() => "{" + string.Join(", ", Fields(FormatJson).Select(field => $"\"{field.Name}\": {field.Value}")) + "}";

@@ -106,7 +106,7 @@ internal static class QueryCommand
     private static void WriteReport(
         LoadedFile file, SceneCollider collider, int queryCount, QueryContext context, TimeSpan buildTime, TimeSpan queryTime)
     {
-        var faceCount = FileSummary.Of(file, TimeSpan.Zero).Faces;
+        var faceCount = FileSummary.CountFaces(file);
         WriteReportLine($"faces {(faceCount is { } count ? DecimalText.Format(count) : "infinite")}");
         WriteReportLine($"build {buildTime.TotalMilliseconds:F3} ms");
         WriteReportLine($"memory {collider.StorageBytes} bytes");

@@ -18,6 +18,7 @@ internal static class GrowthCommand
         ["growth-bodies"] = GrowthByBodies.Write,
         ["growth-maps"] = GrowthByMaps.Write,
         ["growth-faces"] = GrowthByFaces.Write,
+        ["growth-objects"] = GrowthByObjects.Write,
         ["drawing"] = DrawingGrowth.Write,
     };
 

@@ -18,6 +18,7 @@ public sealed class QueryContext
     private double[] _objectBounds = [];
     private ExpandedChildren? _expandedChildren;
     private DescentBeam? _descentBeam;
+    private ObjectQueue? _objectQueue;
 
     /// <summary>Counts of faces and bounding volumes that the queries of this context tested.</summary>
     public QueryStatistics Statistics { get; } = new();
@@ -40,10 +41,13 @@ public sealed class QueryContext
     /// <summary>The beam of descents into several children, made by the first of them.</summary>
     internal DescentBeam DescentBeam => _descentBeam ??= new();
 
+    /// <summary>The queue of searches among many objects, made by the first of them.</summary>
+    internal ObjectQueue ObjectQueue => _objectQueue ??= new();
+
     /// <summary>Memory for the numbers of a search, kept for the next search.</summary>
     internal Span<double> ScratchBuffer(int length) => _scratch.Length >= length ? _scratch : _scratch = new double[length];
 
-    /// <summary>Memory for a lower bound of each object of a scene.</summary>
+    /// <summary>Memory for a lower bound of each of a few objects.</summary>
     internal Span<double> ObjectBoundsBuffer(int count)
     {
         if (_objectBounds.Length < count)

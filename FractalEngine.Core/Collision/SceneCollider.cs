@@ -1,9 +1,10 @@
-using System.Collections.Immutable;
 using System.Diagnostics.CodeAnalysis;
+using System.Runtime.Intrinsics;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using BitOperations = System.Numerics.BitOperations;
 
 namespace FractalEngine.Core.Collision;
 
@@ -12,15 +13,20 @@ namespace FractalEngine.Core.Collision;
 /// objects that show the model. Each query takes the object's own matrix into account, so that moving an object costs nothing.
 /// </summary>
 /// <remarks>
-/// A skewed matrix (one that is no similarity) does not keep distances in proportion: then the search itself takes it into account, which
-/// costs several times more. The approximate colliders can't, so such an object gets one of its own, in world space.
+/// A skewed matrix (one that is no similarity) does not keep distances in proportion: then the search itself takes it into account, which costs
+/// several times more. The approximate colliders can't, so such an object gets one of its own, in world space.
+/// A query finds its object in O(log n) for n objects that lie apart: the first one builds a hierarchy over their boxes. Objects are tested
+/// in the order of the distances of their boxes, equally close ones in the order of the scene. Of equally close points the first one wins.
 /// </remarks>
 public sealed class SceneCollider
 {
-    private readonly ImmutableArray<ColliderInstance> _instances;
     private readonly Dictionary<Model, Lazy<Collider>> _sharedColliders;
     private readonly ColliderKind _kind;
     private readonly SpareContext _spareContext = new();
+    private readonly Lock _hierarchyLock = new();
+
+    // Replaced by the same objects in another hierarchy only.
+    private volatile SceneObjects _objects;
 
     /// <summary>Prepares the colliders of a scene made in code, or loaded from a file. Builds none of them yet.</summary>
     /// <param name="scene">With its models.</param>
@@ -39,25 +45,33 @@ public sealed class SceneCollider
         _kind = kind;
         _sharedColliders =
             scene.Models.ToDictionary(model => model, model => new Lazy<Collider>(() => CreateCollider(model)));
-        _instances = [.. scene.Objects.Select(CreateInstance)];
+        _objects = SceneObjects.Of([.. scene.Objects.Select((placed, index) => CreateInstance(index, placed))]);
     }
 
-    private SceneCollider(
-        ImmutableArray<ColliderInstance> instances, Dictionary<Model, Lazy<Collider>> sharedColliders, ColliderKind kind)
+    private SceneCollider(SceneObjects objects, Dictionary<Model, Lazy<Collider>> sharedColliders, ColliderKind kind)
     {
-        _instances = instances;
+        _objects = objects;
         _sharedColliders = sharedColliders;
         _kind = kind;
     }
 
     /// <summary>
     /// Makes the collider of the same scene with one of its objects elsewhere. Colliders are shared; only the approximate ones of skewed
-    /// objects are built anew.
+    /// objects are built anew. Costs O(log n) for n objects.
     /// </summary>
     /// <param name="index">Index of the object in the scene, from 0.</param>
     /// <param name="placed">The same model under another matrix.</param>
-    public SceneCollider WithObject(int index, PlacedModel placed) =>
-        new(_instances.SetItem(index, CreateInstance(placed)), _sharedColliders, _kind);
+    /// <exception cref="ArgumentOutOfRangeException">There is no object with this index.</exception>
+    /// <remarks>
+    /// The hierarchy over the objects keeps its shape. Once moves have doubled its boxes, the next query builds another, O(n log n).
+    /// </remarks>
+    public SceneCollider WithObject(int index, PlacedModel placed)
+    {
+        var objects = _objects;
+        ArgumentOutOfRangeException.ThrowIfNegative(index);
+        ArgumentOutOfRangeException.ThrowIfGreaterThanOrEqual(index, objects.Count);
+        return new(objects.With(CreateInstance(index, placed)), _sharedColliders, _kind);
+    }
 
     /// <summary>Makes the collider of the same scene with another object behind the others. Colliders that exist are shared.</summary>
     /// <param name="placed">Shares the collider of an object with the same model, if there is one.</param>
@@ -69,15 +83,18 @@ public sealed class SceneCollider
             sharedColliders = new(sharedColliders) { [placed.Model] = new(() => CreateCollider(placed.Model)) };
         }
 
-        var withModel = new SceneCollider(_instances, sharedColliders, _kind);
-        return new(_instances.Add(withModel.CreateInstance(placed)), sharedColliders, _kind);
+        var objects = _objects;
+        var withModel = new SceneCollider(objects, sharedColliders, _kind);
+        return new(objects.Add(withModel.CreateInstance(objects.Count, placed)), sharedColliders, _kind);
     }
 
-    private ColliderInstance CreateInstance(PlacedModel placed) => Similarity.TryCreate(placed.ObjectToWorld, out var similarity)
-        ? new(_sharedColliders[placed.Model], similarity, null, placed.Bounds)
-        : ColliderFactory.SupportsTransformedQueries(_kind)
-            ? new(_sharedColliders[placed.Model], Similarity.Identity, placed.ObjectToWorld, placed.Bounds)
-            : new(new(() => CreateCollider(placed)), Similarity.Identity, null, placed.Bounds);
+    private ColliderInstance CreateInstance(int index, PlacedModel placed)
+    {
+        var isSimilar = Similarity.TryCreate(placed.ObjectToWorld, out var similarity);
+        return isSimilar || ColliderFactory.SupportsTransformedQueries(_kind)
+            ? new(index, _sharedColliders[placed.Model], similarity, isSimilar ? null : placed.ObjectToWorld, placed.Bounds)
+            : new(index, new(() => CreateCollider(placed)), Similarity.Identity, null, placed.Bounds);
+    }
 
     private Collider CreateCollider(Model model) => NameMismatch(model, () => ColliderFactory.Create(model, _kind));
 
@@ -98,7 +115,7 @@ public sealed class SceneCollider
 
     /// <summary>Bytes of the colliders built so far, each once.</summary>
     public long StorageBytes =>
-        _instances.Select(instance => instance.Collider).Distinct().Where(collider => collider.IsValueCreated)
+        _objects.ToArray().Select(instance => instance.Collider).Distinct().Where(collider => collider.IsValueCreated)
         .Sum(collider => collider.Value.StorageBytes);
 
     /// <summary>Number of colliders that have been built, and of all.</summary>
@@ -106,7 +123,7 @@ public sealed class SceneCollider
     {
         get
         {
-            var colliders = _instances.Select(instance => instance.Collider).Distinct().ToArray();
+            var colliders = _objects.ToArray().Select(instance => instance.Collider).Distinct().ToArray();
             return (colliders.Count(static collider => collider.IsValueCreated), colliders.Length);
         }
     }
@@ -116,7 +133,7 @@ public sealed class SceneCollider
     /// <exception cref="FractalLimitException">A fractal is too large for the kind.</exception>
     public void Build()
     {
-        foreach (var instance in _instances)
+        foreach (var instance in ReadyObjects().ToArray())
         {
             _ = instance.Collider.Value;
         }
@@ -162,16 +179,31 @@ public sealed class SceneCollider
         double epsilon = 0)
     {
         Collider.ThrowIfInvalid(position, maxDistance, epsilon);
+        var objects = ReadyObjects();
+        var isFound = objects.Hierarchy is { } hierarchy
+            ? TryFindAmongMany(
+                hierarchy, objects.Loose.AsSpan(), position, maxDistance, context, out closest, out objectIndex, excludedObject, epsilon)
+            : TryFindAmongFew(
+                objects.Loose.AsSpan(), position, maxDistance, context, out closest, out objectIndex, excludedObject, epsilon);
+        context.RestorePath();
+        return isFound;
+    }
+
+    /// <summary>Searches a few objects, whose boxes are all tested.</summary>
+    private static bool TryFindAmongFew(
+        ReadOnlySpan<ColliderInstance> objects, Vector position, double maxDistance, QueryContext context, out ClosestPoint closest,
+        out int objectIndex, int excludedObject, double epsilon)
+    {
         closest = default;
         objectIndex = -1;
-        var boundDistances = context.ObjectBoundsBuffer(_instances.Length);
-        for (var i = 0; i < _instances.Length; i++)
+        var boundDistances = context.ObjectBoundsBuffer(objects.Length);
+        for (var i = 0; i < objects.Length; i++)
         {
-            boundDistances[i] = i == excludedObject ? double.PositiveInfinity : Math.Sqrt(_instances[i].Bounds.DistanceSquared(position));
+            boundDistances[i] = i == excludedObject ? double.PositiveInfinity : BoundDistance(objects[i], position);
         }
 
-        context.Statistics.BoundTests += _instances.Length;
-        for (var remaining = _instances.Length; remaining > 0; remaining--)
+        context.Statistics.BoundTests += objects.Length;
+        for (var remaining = objects.Length; remaining > 0; remaining--)
         {
             var nextObject = 0;
             for (var i = 1; i < boundDistances.Length; i++)
@@ -186,7 +218,7 @@ public sealed class SceneCollider
             }
 
             boundDistances[nextObject] = double.PositiveInfinity;
-            if (_instances[nextObject].TryFindClosest(position, maxDistance, context, out var candidate, epsilon)
+            if (objects[nextObject].TryFindClosest(position, maxDistance, context, out var candidate, epsilon)
                 && (objectIndex < 0 || candidate.Distance < closest.Distance))
             {
                 closest = candidate;
@@ -196,28 +228,128 @@ public sealed class SceneCollider
             }
         }
 
-        context.RestorePath();
         return objectIndex >= 0;
     }
 
-    /// <summary>The collider of one object, with its place in the world.</summary>
-    /// <param name="Collider">In the frame of its model, shared by all objects that show it.</param>
-    /// <param name="Similarity">Maps that frame to world space.</param>
-    /// <param name="GeneralMap">Used instead of the similarity where the object's matrix is none; else null.</param>
-    /// <param name="Bounds">In world space.</param>
-    private sealed record ColliderInstance(Lazy<Collider> Collider, Similarity Similarity, AffineMap? GeneralMap, BoundingBox Bounds)
+    /// <summary>Searches objects best first, down from the root of their hierarchy. Tests the same objects as a search among few.</summary>
+    private static bool TryFindAmongMany(
+        ObjectBvh hierarchy, ReadOnlySpan<ColliderInstance> loose, Vector position, double maxDistance, QueryContext context,
+        out ClosestPoint closest, out int objectIndex, int excludedObject, double epsilon)
     {
-        public bool TryFindClosest(Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, double epsilon)
+        closest = default;
+        objectIndex = -1;
+        var queue = context.ObjectQueue;
+        queue.Clear();
+        foreach (var instance in loose)
         {
-            if (GeneralMap is { } map)
+            queue.Add(BoundDistance(instance, position), instance.Index, instance);
+        }
+
+        var boundTests = loose.Length + Expand(hierarchy.Root, position, maxDistance, queue);
+        while (queue.TryTake(out var bound, out var index, out var target)
+            && bound * (objectIndex < 0 ? 1 : 1 + epsilon) <= maxDistance && !double.IsPositiveInfinity(bound))
+        {
+            if (target is ObjectBvhNode node)
             {
-                return Collider.Value.FindClosestTransformed(position, map, maxDistance, epsilon, context, out closest);
+                boundTests += Expand(node, position, maxDistance, queue);
+                continue;
             }
 
-            var isFound = Collider.Value.TryFindClosest(Similarity.ToLocal(position), maxDistance / Similarity.Scale, context,
-                out var localClosest, epsilon);
-            closest = isFound ? Similarity.ToWorld(localClosest) : default;
-            return isFound;
+            var instance = (ColliderInstance)target!;
+            if (index == ObjectQueue.Untested)
+            {
+                index = instance.Index;
+                bound = BoundDistance(instance, position);
+                boundTests++;
+                // Behind what is closer, or equally close and of a smaller index.
+                if (!(bound < queue.Bound && bound * (objectIndex < 0 ? 1 : 1 + epsilon) <= maxDistance))
+                {
+                    queue.Add(bound, index, instance);
+                    continue;
+                }
+            }
+
+            if (index != excludedObject && instance.TryFindClosest(position, maxDistance, context, out var candidate, epsilon)
+                && (objectIndex < 0 || candidate.Distance < closest.Distance))
+            {
+                closest = candidate;
+                objectIndex = index;
+                maxDistance = Math.Min(maxDistance, candidate.Distance);
+                context.SavePath();
+            }
+        }
+
+        context.Statistics.BoundTests += boundTests;
+        queue.Clear();
+        return objectIndex >= 0;
+    }
+
+    private static double BoundDistance(ColliderInstance instance, Vector position) =>
+        Math.Sqrt(instance.Bounds.DistanceSquared(position));
+
+    /// <summary>
+    /// Queues the children of a node that are close enough. The closest child is expanded at once while nothing in the queue is closer.
+    /// </summary>
+    /// <returns>Number of boxes tested.</returns>
+    private static int Expand(ObjectBvhNode root, Vector position, double maxDistance, ObjectQueue queue)
+    {
+        var boundTests = 0;
+        for (var node = root; ;)
+        {
+            boundTests += node.ChildCount;
+            var bounds = node.DistanceBounds(position);
+            var isCloseEnough = Vector256.LessThanOrEqual(bounds, Vector256.Create(maxDistance))
+                & Vector256.LessThan(bounds, Vector256.Create(double.PositiveInfinity));
+            var closeSlots = isCloseEnough.ExtractMostSignificantBits();
+            var nearest = queue.Bound;
+            var nearestSlot = -1;
+            for (var slots = closeSlots; slots != 0; slots &= slots - 1)
+            {
+                var slot = BitOperations.TrailingZeroCount(slots);
+                if (bounds[slot] < nearest)
+                {
+                    nearest = bounds[slot];
+                    nearestSlot = slot;
+                }
+            }
+
+            var nearestChild = nearestSlot < 0 ? null : node[nearestSlot] as ObjectBvhNode;
+            for (var slots = closeSlots; slots != 0; slots &= slots - 1)
+            {
+                var slot = BitOperations.TrailingZeroCount(slots);
+                if (nearestChild is null || slot != nearestSlot)
+                {
+                    queue.Add(bounds[slot], ObjectQueue.Untested, node[slot]);
+                }
+            }
+
+            if (nearestChild is null)
+            {
+                return boundTests;
+            }
+
+            node = nearestChild;
+        }
+    }
+
+    /// <summary>The objects with a hierarchy that is worth its cost, which the first query builds.</summary>
+    private SceneObjects ReadyObjects()
+    {
+        var objects = _objects;
+        return objects.NeedsNewHierarchy ? BuildHierarchy() : objects;
+    }
+
+    private SceneObjects BuildHierarchy()
+    {
+        lock (_hierarchyLock)
+        {
+            // Another thread may have built it meanwhile.
+            if (_objects.NeedsNewHierarchy)
+            {
+                _objects = _objects.WithNewHierarchy();
+            }
+
+            return _objects;
         }
     }
 }

@@ -16,7 +16,7 @@ public static class DistinctInstances
 
     /// <summary>Counts the distinct instances of a fractal.</summary>
     /// <param name="fractal">Fractal of any composition and depth.</param>
-    /// <param name="budget">Maximum number of instances that are enumerated.</param>
+    /// <param name="budget">Maximum number of distinct instances of a level that are enumerated, whatever the number of chains.</param>
     /// <returns>The exact number; null for an infinite fractal, or if there are too many to enumerate and no proof succeeds.</returns>
     public static BigInteger? Count(Fractal fractal, long budget = FractalLimits.MaxEnumeratedInstances)
     {
@@ -29,7 +29,7 @@ public static class DistinctInstances
         {
             return AreProvedDistinct(fractal) ? fractal.InstanceCount
                 : FractalSteps.HasAtMostInstances(fractal.Description.Steps, budget) ? FractalGenerator.Expand(fractal, budget).Length
-                : null;
+                : FractalGenerator.TryExpandLevels(fractal, budget)?.Length;
         }
 
         try
@@ -119,24 +119,90 @@ public static class DistinctInstances
         Math.Max((box1.Minimum - box2.Minimum).MaxAbsComponent(), (box1.Maximum - box2.Maximum).MaxAbsComponent())
         <= 1e-12 * box1.Diagonal;
 
-    private static bool HasDisjointImages(TransformationSet set, BoundingBox box)
+    /// <summary>Tests whether all images of a box lie side by side, in O(n log n) for n images that hardly overlap.</summary>
+    internal static bool HasDisjointImages(TransformationSet set, BoundingBox box)
     {
-        var images = set.Maps.Select(box.Transform).ToArray();
+        BoundingBox[] images = [.. set.Maps.Select(box.Transform)];
+        if (images.Length <= 1)
+        {
+            return true;
+        }
+
+        var extents = ExtentsOf(images);
+        var bvh = ObjectBvh.Build([.. extents.Select((extent, index) => new ObjectBvhLeaf(index, extent))]);
         for (var i = 0; i < images.Length; i++)
         {
-            for (var j = 0; j < i; j++)
+            if (OverlapsAnother(bvh.Root, images, i, extents[i]))
             {
-                if (!AreDisjoint(images[i], images[j]))
-                {
-                    return false;
-                }
+                return false;
             }
         }
 
         return true;
     }
 
-    private static bool AreDisjoint(BoundingBox box1, BoundingBox box2)
+    /// <summary>
+    /// Extends each box that is flat along an axis over the whole of that axis, where nothing counts as disjoint from it. Boxes that are
+    /// not disjoint then have extents with common inner points.
+    /// </summary>
+    private static BoundingBox[] ExtentsOf(BoundingBox[] boxes)
+    {
+        var whole = boxes.Aggregate(BoundingBox.Union);
+        if (whole.IsEmpty || !whole.Size.IsFinite())
+        {
+            // Boxes without numbers are compared with all others.
+            whole = new(double.NegativeInfinity * Vector.One, double.PositiveInfinity * Vector.One);
+            return [.. Enumerable.Repeat(whole, boxes.Length)];
+        }
+
+        // Wider than any box, so that flat ones have common inner points with all, and with each other.
+        var margin = (1 + (1e-6 * Vector.Max(whole.Minimum.Absolute(), whole.Maximum.Absolute()).MaxAbsComponent())) * Vector.One;
+        whole = new(whole.Minimum - margin, whole.Maximum + margin);
+        return [.. boxes.Select(Extend)];
+
+        BoundingBox Extend(BoundingBox box)
+        {
+            var (minimum, maximum) = box;
+            var (width, height, depth) = box.Size;
+            return new(
+                new(
+                    width > 0 ? minimum.X : whole.Minimum.X, height > 0 ? minimum.Y : whole.Minimum.Y,
+                    depth > 0 ? minimum.Z : whole.Minimum.Z),
+                new(
+                    width > 0 ? maximum.X : whole.Maximum.X, height > 0 ? maximum.Y : whole.Maximum.Y,
+                    depth > 0 ? maximum.Z : whole.Maximum.Z));
+        }
+    }
+
+    /// <summary>Tests whether a box is not disjoint from one with a smaller index below a node.</summary>
+    private static bool OverlapsAnother(ObjectBvhNode node, BoundingBox[] boxes, int index, BoundingBox extent)
+    {
+        for (var slot = 0; slot < node.ChildCount; slot++)
+        {
+            if (!HaveCommonInnerPoints(extent, node.BoxOf(slot)))
+            {
+                continue;
+            }
+
+            var overlaps = node[slot] is ObjectBvhNode child
+                ? OverlapsAnother(child, boxes, index, extent)
+                : node[slot] is ObjectBvhLeaf { Index: var other } && other < index && !AreDisjoint(boxes[index], boxes[other]);
+            if (overlaps)
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    private static bool HaveCommonInnerPoints(BoundingBox box1, BoundingBox box2) =>
+        box1.Minimum.X < box2.Maximum.X && box2.Minimum.X < box1.Maximum.X
+        && box1.Minimum.Y < box2.Maximum.Y && box2.Minimum.Y < box1.Maximum.Y
+        && box1.Minimum.Z < box2.Maximum.Z && box2.Minimum.Z < box1.Maximum.Z;
+
+    /// <summary>Tests whether two boxes lie side by side along an axis, where a little overlap counts as rounding.</summary>
+    internal static bool AreDisjoint(BoundingBox box1, BoundingBox box2)
     {
         var overlap = Vector.Min(box1.Maximum, box2.Maximum) - Vector.Max(box1.Minimum, box2.Minimum);
         var size1 = box1.Size;

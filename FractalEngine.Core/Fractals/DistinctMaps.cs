@@ -23,13 +23,46 @@ internal static class DistinctMaps
     private const double TolerancesPerCell = 65521.7;
 
     /// <summary>Keeps the first of each group of equal maps, in order.</summary>
-    public static AffineMap[] Deduplicate(AffineMap[] maps) => Distinct(maps, static (in AffineMap map, Span<double> entries) =>
+    public static AffineMap[] Deduplicate(AffineMap[] maps) => Distinct(maps, WriteMap);
+
+    /// <summary>
+    /// Keeps the first of each group of equal products m1·m2, in the order of <see cref="FractalGenerator.ConcatenatePair"/>: the same maps
+    /// as those of <see cref="Deduplicate(AffineMap[])"/>, without an array of all pairs.
+    /// </summary>
+    /// <param name="outer">The maps m1.</param>
+    /// <param name="inner">The maps m2.</param>
+    /// <param name="maxCount">Maximum number of distinct products.</param>
+    /// <returns>The distinct products; null if there are more.</returns>
+    public static AffineMap[]? DeduplicateProducts(ReadOnlySpan<AffineMap> outer, ReadOnlySpan<AffineMap> inner, long maxCount)
     {
-        WriteTriple(map.Translation, entries);
-        WriteTriple(map.Linear.V1, entries[3..]);
-        WriteTriple(map.Linear.V2, entries[6..]);
-        WriteTriple(map.Linear.V3, entries[9..]);
-    });
+        // All products are multiplied twice, since the tolerance depends on the largest entries.
+        Span<double> maxEntries = stackalloc double[EntryCount];
+        Span<double> entries = stackalloc double[EntryCount];
+        foreach (ref readonly var m1 in outer)
+        {
+            foreach (ref readonly var m2 in inner)
+            {
+                WriteMap(m1 * m2, entries);
+                TakeLarger(maxEntries, entries);
+            }
+        }
+
+        ShareWithinTriples(maxEntries);
+        var grid = new HashGrid<AffineMap>(WriteMap, maxEntries, outer.Length);
+        foreach (ref readonly var m1 in outer)
+        {
+            foreach (ref readonly var m2 in inner)
+            {
+                grid.Add(m1 * m2);
+                if (grid.Count > maxCount)
+                {
+                    return null;
+                }
+            }
+        }
+
+        return grid.ToArray();
+    }
 
     /// <summary>Keeps the first of each group of equal transformations, in order.</summary>
     /// <remarks>Angles are compared as numbers, so 360° differs from 0°.</remarks>
@@ -42,6 +75,14 @@ internal static class DistinctMaps
         WriteTriple(Vector.Zero, entries[9..]);
     });
 
+    private static void WriteMap(in AffineMap map, Span<double> entries)
+    {
+        WriteTriple(map.Translation, entries);
+        WriteTriple(map.Linear.V1, entries[3..]);
+        WriteTriple(map.Linear.V2, entries[6..]);
+        WriteTriple(map.Linear.V3, entries[9..]);
+    }
+
     private delegate void EntryWriter<T>(in T item, Span<double> entries);
 
     private static void WriteTriple(Vector v, Span<double> entries)
@@ -53,55 +94,75 @@ internal static class DistinctMaps
 
     private static T[] Distinct<T>(T[] items, EntryWriter<T> write)
     {
-        // The entries of a triple are of one kind: lengths, angles, factors, or a column of a matrix.
         Span<double> maxEntries = stackalloc double[EntryCount];
         Span<double> entries = stackalloc double[EntryCount];
         foreach (ref readonly var item in items.AsSpan())
         {
             write(item, entries);
-            for (var i = 0; i < EntryCount; i++)
-            {
-                maxEntries[i] = Math.Max(maxEntries[i], Math.Abs(entries[i]));
-            }
+            TakeLarger(maxEntries, entries);
         }
 
+        ShareWithinTriples(maxEntries);
+        var grid = new HashGrid<T>(write, maxEntries, items.Length);
+        foreach (ref readonly var item in items.AsSpan())
+        {
+            grid.Add(item);
+        }
+
+        return grid.Count == items.Length ? items : grid.ToArray();
+    }
+
+    private static void TakeLarger(Span<double> maxEntries, ReadOnlySpan<double> entries)
+    {
+        for (var i = 0; i < EntryCount; i++)
+        {
+            maxEntries[i] = Math.Max(maxEntries[i], Math.Abs(entries[i]));
+        }
+    }
+
+    /// <summary>The entries of a triple are of one kind: lengths, angles, factors, or a column of a matrix.</summary>
+    private static void ShareWithinTriples(Span<double> maxEntries)
+    {
         for (var i = 0; i < EntryCount; i += 3)
         {
             maxEntries[i..(i + 3)].Fill(Math.Max(maxEntries[i], Math.Max(maxEntries[i + 1], maxEntries[i + 2])));
         }
-
-        return new HashGrid<T>(items, write, maxEntries).Distinct();
     }
 
     /// <summary>A hash table over the cells of a grid in the space of all entries.</summary>
-    private ref struct HashGrid<T>(T[] items, EntryWriter<T> write, ReadOnlySpan<double> maxEntries)
+    private readonly ref struct HashGrid<T>(EntryWriter<T> write, ReadOnlySpan<double> maxEntries, int capacity)
     {
         // The offset basis of the hash FNV-1a.
         private const ulong Seed = 14695981039346656037;
 
         private readonly ReadOnlySpan<double> _maxEntries = maxEntries;
-        private readonly Dictionary<ulong, int> _firstOfCell = new(items.Length);
-        private readonly int[] _nextOfCell = new int[items.Length];
-        private readonly List<T> _distinct = new(items.Length);
+        private readonly Dictionary<ulong, int> _firstOfCell = new(capacity);
+        private readonly List<int> _nextOfCell = new(capacity);
+        private readonly List<T> _distinct = new(capacity);
 
-        public T[] Distinct()
+        /// <summary>Number of distinct items so far.</summary>
+        public int Count => _distinct.Count;
+
+        /// <summary>The distinct items, in the order in which they were added.</summary>
+        public T[] ToArray() => [.. _distinct];
+
+        /// <summary>Adds an item, unless an equal one was added before.</summary>
+        public void Add(in T item)
         {
             Span<double> entries = stackalloc double[EntryCount];
             Span<double> other = stackalloc double[EntryCount];
-            foreach (ref readonly var item in items.AsSpan())
+            write(item, entries);
+            if (!Contains(entries, 0, Seed, other))
             {
-                write(item, entries);
-                if (!Contains(entries, 0, Seed, other))
-                {
-                    Add(item, Hash(entries));
-                }
+                ref var first = ref CollectionsMarshal.GetValueRefOrAddDefault(_firstOfCell, Hash(entries), out var exists);
+                _nextOfCell.Add(exists ? first : -1);
+                first = _distinct.Count;
+                _distinct.Add(item);
             }
-
-            return _distinct.Count == items.Length ? items : [.. _distinct];
         }
 
         /// <summary>Computes the cell of an entry, and the entry's offset from the cell's centre, from −½ to ½ cells.</summary>
-        private readonly (long Cell, double Offset) Quantize(double entry, int index)
+        private (long Cell, double Offset) Quantize(double entry, int index)
         {
             var size = TolerancesPerCell * RelativeTolerance * _maxEntries[index];
             var position = size > 0 ? entry / size : 0;
@@ -115,7 +176,7 @@ internal static class DistinctMaps
             return hash ^ (hash >> 29);
         }
 
-        private readonly ulong Hash(ReadOnlySpan<double> entries)
+        private ulong Hash(ReadOnlySpan<double> entries)
         {
             var hash = Seed;
             for (var i = 0; i < EntryCount; i++)
@@ -131,7 +192,7 @@ internal static class DistinctMaps
         /// <param name="index">Number of the entries that are in the hash already.</param>
         /// <param name="hash">Hash of the cells of these entries.</param>
         /// <param name="other">Memory for the entries of another item.</param>
-        private readonly bool Contains(ReadOnlySpan<double> entries, int index, ulong hash, Span<double> other)
+        private bool Contains(ReadOnlySpan<double> entries, int index, ulong hash, Span<double> other)
         {
             for (; index < EntryCount; index++)
             {
@@ -162,7 +223,7 @@ internal static class DistinctMaps
             return false;
         }
 
-        private readonly bool AreEqual(ReadOnlySpan<double> entries, ReadOnlySpan<double> other)
+        private bool AreEqual(ReadOnlySpan<double> entries, ReadOnlySpan<double> other)
         {
             for (var i = 0; i < EntryCount; i++)
             {
@@ -173,14 +234,6 @@ internal static class DistinctMaps
             }
 
             return true;
-        }
-
-        private readonly void Add(in T item, ulong hash)
-        {
-            ref var first = ref CollectionsMarshal.GetValueRefOrAddDefault(_firstOfCell, hash, out var exists);
-            _nextOfCell[_distinct.Count] = exists ? first : -1;
-            first = _distinct.Count;
-            _distinct.Add(item);
         }
     }
 }

@@ -30,9 +30,7 @@ public static class FractalGenerator
 
         if (!FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances) || fractal.Description.IsInfinite)
         {
-            var count = DecimalText.FormatApproximately(fractal.InstanceCount);
-            var limit = DecimalText.FormatApproximately(maxInstances);
-            throw new FractalLimitException($"the fractal has {count} instances, more than the limit of {limit}");
+            throw LimitError(fractal, maxInstances);
         }
 
         var isProvedDistinct = DistinctInstances.AreProvedDistinct(fractal);
@@ -49,6 +47,75 @@ public static class FractalGenerator
         }
 
         return ImmutableCollectionsMarshal.AsImmutableArray(instances);
+    }
+
+    /// <summary>
+    /// Expands a fractal into its distinct instances, as <see cref="Expand"/> does, also where few of many chains are distinct.
+    /// </summary>
+    /// <param name="fractal">Fractal with finitely many levels.</param>
+    /// <param name="maxInstances">
+    /// Maximum number of instances. Where there are more chains, each level is limited to
+    /// <see cref="FractalLimits.MaxEnumeratedInstances"/> distinct ones as well.
+    /// </param>
+    /// <exception cref="FractalLimitException">The fractal has more instances, or takes too long to enumerate.</exception>
+    /// <remarks>
+    /// Time is proportional to the distinct instances of all levels times the maps of a level, whatever the number of chains:
+    /// <see cref="FractalLimits.MaxComparedProducts"/> at most.
+    /// </remarks>
+    public static ImmutableArray<AffineMap> ExpandDistinct(Fractal fractal, long maxInstances)
+    {
+        if (fractal.Description.Composition == Composition.Componentwise
+            || FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances)
+            || fractal.Description.IsInfinite)
+        {
+            return Expand(fractal, maxInstances);
+        }
+
+        return TryExpandLevels(fractal, Math.Min(maxInstances, FractalLimits.MaxEnumeratedInstances)) is { } instances
+            ? ImmutableCollectionsMarshal.AsImmutableArray(instances)
+            : throw LimitError(fractal, maxInstances);
+    }
+
+    /// <summary>Expands a fractal level by level, and removes the repeated instances of each level before the next.</summary>
+    /// <param name="fractal">In affine composition, with finitely many levels.</param>
+    /// <param name="maxInstances">Maximum number of distinct instances of each level.</param>
+    /// <returns>The distinct instances, as those of <see cref="Expand"/>; null if they are too many, or take too long.</returns>
+    internal static AffineMap[]? TryExpandLevels(Fractal fractal, long maxInstances)
+    {
+        // Different chains of these would be different instances, however they are enumerated.
+        if (DistinctInstances.AreProvedDistinct(fractal) && !FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances))
+        {
+            return null;
+        }
+
+        AffineMap[]? instances = [AffineMap.Identity];
+        var products = 0L;
+        for (var level = 0L; level < fractal.LevelCount; level++)
+        {
+            var maps = fractal.LevelAt(level).Maps.AsSpan();
+            if (maps is [var only] && only == AffineMap.Identity)
+            {
+                continue;
+            }
+
+            products += instances.Length * (long)maps.Length;
+            instances = products <= FractalLimits.MaxComparedProducts
+                ? DistinctMaps.DeduplicateProducts(instances, maps, maxInstances)
+                : null;
+            if (instances is null)
+            {
+                return null;
+            }
+        }
+
+        return instances;
+    }
+
+    private static FractalLimitException LimitError(Fractal fractal, long maxInstances)
+    {
+        var count = DecimalText.FormatApproximately(fractal.InstanceCount);
+        var limit = DecimalText.FormatApproximately(maxInstances);
+        return new($"the fractal has {count} instances, more than the limit of {limit}");
     }
 
     /// <summary>Expands a fractal into one mesh of all its faces.</summary>

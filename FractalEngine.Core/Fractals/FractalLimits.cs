@@ -23,8 +23,11 @@ public static class FractalLimits
     /// <summary>Maximum number of faces that are exported, unless stated otherwise: about 3 GB of text.</summary>
     public const long MaxExportedFaces = 50_000_000;
 
-    /// <summary>Maximum number of chains that are enumerated only to count the distinct ones.</summary>
+    /// <summary>Maximum number of distinct instances of a level that are enumerated where there are more chains.</summary>
     public const int MaxEnumeratedInstances = 500_000;
+
+    /// <summary>Maximum number of products of maps that are compared to find the distinct ones of all levels: some seconds.</summary>
+    public const int MaxComparedProducts = 20_000_000;
 
     /// <summary>Maximum number of distinct sums of componentwise composition: about 100 MB.</summary>
     public const int MaxComponentwiseSums = 1_000_000;

@@ -64,9 +64,9 @@ public sealed class StaticObject
     /// <param name="placement">New placement in world space, finite and with a scale that has an inverse.</param>
     /// <exception cref="ArgumentException">A number is not finite, or the scale has no inverse.</exception>
     /// <remarks>
-    /// Wakes all bodies. Cost O(n) for n static objects, and O(v) for the bounds of a mesh of v vertices. Approximate colliders
-    /// (<see cref="ColliderKind.Fractal"/>, <see cref="ColliderKind.BoundingBox"/>) of objects with a skewed matrix are built again at
-    /// the next query.
+    /// Wakes all bodies. Cost O(log n) for n static objects, and O(v) for the bounds of a mesh of v vertices. Approximate colliders
+    /// (<see cref="ColliderKind.Fractal"/>, <see cref="ColliderKind.BoundingBox"/>) of objects with a skewed matrix are built again
+    /// at the next query.
     /// </remarks>
     public void MoveTo(Transformation placement) => _world.MoveStatic(this, placement);
 

@@ -26,6 +26,7 @@ internal sealed class StripCuller
 
     private readonly OccluderRasterizer _rasterizer = new();
     private readonly ChildFootprints _footprints = new();
+    private readonly List<int> _candidates = [];
 
     /// <summary>Instances and statistics of the last run.</summary>
     public StripOutput Output { get; } = new();
@@ -41,6 +42,55 @@ internal sealed class StripCuller
         foreach (var index in order)
         {
             CullObject(new StripContext(in frame, objects[index], Output), objects[index]);
+            Output.EndObject();
+        }
+    }
+
+    /// <summary>Finds the visible instances of all objects, of which a hierarchy tells those that may be visible.</summary>
+    /// <param name="frame">Parameters of the strip, with frustum culling.</param>
+    /// <param name="objects">Objects of the scene, none with roots.</param>
+    /// <param name="order">Indices of the objects, the closest first.</param>
+    /// <param name="ranks">Position of each object in that order.</param>
+    /// <param name="bvh">Hierarchy over the objects.</param>
+    /// <remarks>The output is that of a run without the hierarchy: objects that it skips count as tested.</remarks>
+    public void Cull(
+        in StripFrame frame, IReadOnlyList<CulledObject> objects, ReadOnlySpan<int> order, ReadOnlySpan<int> ranks, CulledObjectBvh bvh)
+    {
+        Output.Clear(order.Length);
+        _rasterizer.Clear(in frame);
+        if (frame.Left < frame.Right)
+        {
+            bvh.CollectCandidates(in frame, ranks, _candidates);
+        }
+        else
+        {
+            _candidates.Clear();
+        }
+
+        var nextRank = 0;
+        foreach (var rank in _candidates)
+        {
+            Skip(in frame, objects, order[nextRank..rank]);
+            CullObject(new StripContext(in frame, objects[order[rank]], Output), objects[order[rank]]);
+            Output.EndObject();
+            nextRank = rank + 1;
+        }
+
+        Skip(in frame, objects, order[nextRank..]);
+    }
+
+    /// <summary>Ends the results of objects outside the frustum, which are counted as if they had been tested.</summary>
+    private void Skip(in StripFrame frame, IReadOnlyList<CulledObject> objects, ReadOnlySpan<int> skipped)
+    {
+        foreach (var index in skipped)
+        {
+            var hierarchy = objects[index].Hierarchy;
+            if (frame.Left < frame.Right && !hierarchy.NodeAt(hierarchy.LevelCount).IsEmpty)
+            {
+                Output.Statistics.VisitedNodes++;
+                Output.Statistics.OutsideFrustum++;
+            }
+
             Output.EndObject();
         }
     }

@@ -22,6 +22,9 @@ internal readonly struct StripFrame
     // Of a pixel: more than the rounding of single precision.
     private const float PixelPadding = 1f / 256;
 
+    // Of a pixel: how far beyond the edges of the strip a box of several objects must be.
+    private const double GroupPadding = 1.0 / 64;
+
     // A strip gives up after so many nodes for each instance of the budget, or of this many.
     private const int MaxNodesPerInstance = 4;
     private const int MinInstancesForNodeLimit = 20_000;
@@ -188,6 +191,22 @@ internal readonly struct StripFrame
             Top = (int)Math.Max(firstY, 0),
             Bottom = (int)Math.Min(lastY, Height - 1),
         };
+    }
+
+    /// <summary>Tests whether a box in view space is so far outside the frustum that every box inside it is outside too.</summary>
+    /// <param name="centre">Centre of the box: x, y, z, 0.</param>
+    /// <param name="halfSize">Half the size of the box, with a margin for rounding: x, y, z, 0.</param>
+    public bool IsGroupOutside(Vector256<double> centre, Vector256<double> halfSize)
+    {
+        var zHigh = centre[2] + halfSize[2];
+        if (zHigh < Near || centre[2] - halfSize[2] > Far)
+        {
+            return true;
+        }
+
+        // Footprints are rounded to single precision, up to the padding. It grows with the depth in perspective.
+        var padding = GroupPadding * (IsPerspective ? Math.Max(0, zHigh) : 1) * Vector128.Create(1 / ScaleX, 1 / ScaleY);
+        return IsOutsideFrustum(centre, halfSize + Vector256.Create(padding, Vector128<double>.Zero));
     }
 
     /// <summary>Tests whether a box lies beyond one of the planes through the eye and the edges of the strip.</summary>

@@ -19,6 +19,7 @@ public sealed class VisibleSet
     private readonly HashSet<(int Rank, ulong PathHash)> _mergedKeys = [];
     private readonly ParallelOptions _parallelOptions = new();
     private readonly Action<int> _cullStrip;
+    private readonly CulledObjectBvh _objectBvh = new();
     private IReadOnlyList<CulledObject> _objects = [];
     private CullingSettings _settings = new();
     private CullingView _view;
@@ -29,6 +30,7 @@ public sealed class VisibleSet
     private int _coarseningStep;
     private int _instanceBudget;
     private int _foundCount;
+    private bool _usesObjectBvh;
     private volatile bool _isOverBudget;
 
     /// <summary>Creates an empty set.</summary>
@@ -48,6 +50,9 @@ public sealed class VisibleSet
 
     /// <summary>Number of chunks that the instances of each object come in.</summary>
     public static int ChunkCount => StripCount + 1;
+
+    /// <summary>Whether many objects are culled by a hierarchy over them: the same result as without, sooner.</summary>
+    internal bool HasObjectBvh { get; init; } = true;
 
     /// <summary>Statistics of the last frame.</summary>
     public CullingStatistics Statistics { get; private set; }
@@ -77,6 +82,7 @@ public sealed class VisibleSet
         _instanceBudget = Math.Max(settings.InstanceBudget, minInstanceCount);
         _parallelOptions.MaxDegreeOfParallelism = Math.Max(1, settings.ThreadCount);
         SortObjects();
+        _usesObjectBvh = HasObjectBvh && settings.FrustumCulling && _objectBvh.TryUpdate(objects);
         // The smallest step that fits is searched for near that of the frame before.
         var step = Math.Max(0, _coarseningStep - 1);
         var fits = TryCull(step);
@@ -233,7 +239,16 @@ public sealed class VisibleSet
         var right = (stripIndex + 1) * _view.Width / StripCount;
         var frame = new StripFrame(in _view, _settings, MinProjectedSize, _instanceBudget, left, right);
         var strip = _strips[stripIndex];
-        strip.Cull(in frame, _objects, _order.AsSpan(0, _objects.Count));
+        var order = _order.AsSpan(0, _objects.Count);
+        if (_usesObjectBvh)
+        {
+            strip.Cull(in frame, _objects, order, _ranks.AsSpan(0, _objects.Count), _objectBvh);
+        }
+        else
+        {
+            strip.Cull(in frame, _objects, order);
+        }
+
         if (Interlocked.Add(ref _foundCount, strip.Output.Instances.Count) > _instanceBudget || strip.Output.IsOverBudget)
         {
             _isOverBudget = true;

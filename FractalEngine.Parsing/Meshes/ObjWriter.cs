@@ -60,7 +60,7 @@ public sealed class ObjWriter
 
         try
         {
-            return FractalGenerator.Expand(fractal, maxFaces / Math.Max(1, fractal.BaseMesh.FaceCount));
+            return FractalGenerator.ExpandDistinct(fractal, maxFaces / Math.Max(1, fractal.BaseMesh.FaceCount));
         }
         catch (FractalLimitException exception)
         {

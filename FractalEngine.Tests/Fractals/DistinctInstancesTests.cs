@@ -70,6 +70,80 @@ public class DistinctInstancesTests
     public void Count_OfOneInstance_IsOne() => Assert.Equal(1, DistinctInstances.Count(Samples.Repeated(0, Samples.Move(1, 0, 0))));
 
     [Fact]
-    public void Count_OfAMillionIdentities_IsUnknown() =>
-        Assert.Null(DistinctInstances.Count(Samples.Repeated(1_000_000, Transformation.Identity, Transformation.Identity)));
+    public void Count_OfAMillionIdentities_IsOne() =>
+        Assert.Equal(1, DistinctInstances.Count(Samples.Repeated(1_000_000, Transformation.Identity, Transformation.Identity)));
+
+    [Fact]
+    public void Count_OfAStaircase_IsOneMoreThanItsSteps()
+    {
+        // 2⁴⁸ chains, which differ only by how often they go up.
+        var staircase = Samples.Repeated(48, Transformation.Identity, Samples.Move(0.3, 1, 0));
+        Assert.Equal(BigInteger.Pow(2, 48), staircase.InstanceCount);
+        Assert.Equal(49, DistinctInstances.Count(staircase));
+        Assert.Equal(49, FractalGenerator.ExpandDistinct(staircase, 1000).Length);
+    }
+
+    [Fact]
+    public void Count_OfALongStaircase_EndsAtTheLimitOfProducts() =>
+        Assert.Null(DistinctInstances.Count(Samples.Repeated(1_000_000, Transformation.Identity, Samples.Move(0.3, 1, 0))));
+
+    [Fact]
+    public void ExpandDistinct_BeyondTheLimitOfDistinctInstances_NamesTheLimit()
+    {
+        var staircase = Samples.Repeated(48, Transformation.Identity, Samples.Move(0.3, 1, 0));
+        Assert.Equal(49, FractalGenerator.ExpandDistinct(staircase, 49).Length);
+        var error = Assert.Throws<FractalLimitException>(() => FractalGenerator.ExpandDistinct(staircase, 48));
+        Assert.Contains("more than the limit of 48", error.Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void TryExpandLevels_OfASmallFractal_EqualsTheExpansionOfAllChainsToTheBit() => Seeded.Run(300, random =>
+    {
+        // One in two with maps that commute, so that many chains are equal up to rounding.
+        var fractal = random.Next(2) == 0
+            ? RandomFractals.Create(random)
+            : Samples.Repeated(random.Next(1, 7), [.. Enumerable.Range(0, random.Next(1, 4)).Select(_ => RandomMove())]);
+        var expected = FractalGenerator.Expand(fractal, 1_000_000);
+        Assert.Equal(expected, FractalGenerator.TryExpandLevels(fractal, 1_000_000));
+        NaiveFractal.AssertSameMaps(
+            NaiveFractal.Distinct(NaiveFractal.Chains(fractal.Description), 1e-12),
+            [.. FractalGenerator.TryExpandLevels(fractal, expected.Length)!], 1e-12);
+        Assert.Null(FractalGenerator.TryExpandLevels(fractal, expected.Length - 1));
+
+        Transformation RandomMove() => Samples.Move(0.1 * random.Next(-3, 4), 0.7 * random.Next(2), 0);
+    });
+
+    // Among images that touch, overlap a little or entirely, or are flat. Most sets of many have two that overlap.
+    [Fact]
+    public void HasDisjointImages_OfAnySet_IsTheVerdictOfAllPairs() => Seeded.Run(3000, random =>
+    {
+        var box = new BoundingBox(
+            random.Vector(1),
+            random.Next(4) == 0 ? new(1.5, 1.5, random.Next(2)) : new(random.Between(1, 2), random.Between(1, 2), random.Between(1, 2)));
+        box = random.Next(4) == 0 ? box with { Maximum = box.Maximum with { Z = box.Minimum.Z } } : box;
+        var cells = Enumerable.Range(0, 512).OrderBy(_ => random.Next()).Take(random.Next(1, 60)).ToArray();
+        var isLattice = random.Next(4) > 0;
+        var set = new TransformationSet([.. cells.Select(cell => new Transformation(
+            isLattice
+                ? new Vector(cell & 7, (cell >> 3) & 7, cell >> 6).Stretch(box.Size + ((random.Next(20) == 0 ? 1e-9 : 0) * random.Vector()))
+                : random.Vector(20),
+            random.Next(2) == 0 ? Vector.Zero : new(90 * random.Next(4), 90 * random.Next(4), 0),
+            random.Between(0.2, 1) * (random.Next(8) == 0 ? new Vector(1, -1, 0) : Vector.One)))]);
+        var images = set.Maps.Select(box.Transform).ToArray();
+        var expected = Enumerable.Range(0, images.Length)
+            .All(i => Enumerable.Range(0, i).All(j => DistinctInstances.AreDisjoint(images[i], images[j])));
+        Assert.Equal(expected, DistinctInstances.HasDisjointImages(set, box));
+    });
+
+    [Fact]
+    public void Count_OfTwoHundredThousandMaps_ComparesFewPairs()
+    {
+        // Cubes of a lattice that touch. All pairs would take minutes.
+        var cube = new Mesh([0, 0, 0, 1, 1, 1, 0, 1, 0], [0, 1, 2]);
+        var maps = Enumerable.Range(0, 200_000)
+            .Select(i => Samples.MoveAndScale(i % 64 / 64.0, i / 64 % 64 / 64.0, i / 4096 / 64.0, 1 / 64.0));
+        var fractal = new Fractal(Samples.Repeated(1, [.. maps]).Description, cube);
+        Assert.True(DistinctInstances.AreProvedDistinct(fractal));
+        Assert.Equal(200_000, DistinctInstances.Count(fractal));
+    }
 }

@@ -129,8 +129,16 @@ public class ObjWriterTests
     {
         using var stream = new MemoryStream();
         var scene = Scene((Model(Samples.Repeated(100, Samples.Move(1, 0, 0), Samples.Move(2, 0, 0))), Transformation.Identity));
-        Assert.Throws<FractalLimitException>(() => ObjWriter.Write(scene, stream, 12_345));
+        // 2¹⁰⁰ chains, of which 101 are distinct.
+        Assert.Throws<FractalLimitException>(() => ObjWriter.Write(scene, stream, (101 * 4) - 1));
         Assert.Equal(0, stream.Length);
+    }
+
+    [Fact]
+    public void Write_OfFewDistinctInstancesOfManyChains_WritesThem()
+    {
+        var scene = Scene((Model(Samples.Repeated(100, Samples.Move(1, 0, 0), Samples.Move(2, 0, 0))), Transformation.Identity));
+        Assert.Equal(101 * 4, Samples.ParseObj(Write(scene, 101 * 4)).Mesh.FaceCount);
     }
 
     [Fact]
@@ -163,7 +171,7 @@ public class ObjWriterTests
     public void Write_BeyondTheLimit_NamesTheLimitThatWasGiven()
     {
         var scene = Scene((Model(Samples.Repeated(100, Samples.Move(1, 0, 0), Samples.Move(2, 0, 0))), Transformation.Identity));
-        var error = Assert.Throws<FractalLimitException>(() => Write(scene, 12_345));
-        Assert.Contains("12345", error.Message, StringComparison.Ordinal);
+        var error = Assert.Throws<FractalLimitException>(() => Write(scene, 345));
+        Assert.Contains("345", error.Message, StringComparison.Ordinal);
     }
 }

@@ -1,0 +1,36 @@
+using System.Runtime.CompilerServices;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Collision;
+
+/// <summary>The collider of one object of a scene, with its place in the world.</summary>
+/// <param name="index">Index of the object in the scene, from 0.</param>
+/// <param name="collider">In the frame of its model, shared by all objects that show it.</param>
+/// <param name="similarity">Maps that frame to world space.</param>
+/// <param name="generalMap">Used instead of the similarity where the object's matrix is none; else null.</param>
+/// <param name="bounds">In world space.</param>
+internal sealed class ColliderInstance(
+    int index, Lazy<Collider> collider, Similarity similarity, AffineMap? generalMap, BoundingBox bounds)
+    : ObjectBvhLeaf(index, bounds)
+{
+    // Apart, since few objects have one, and a query among many waits for memory.
+    private readonly StrongBox<AffineMap>? _generalMap = generalMap is { } map ? new(map) : null;
+
+    /// <summary>In the frame of the model; built at the first query.</summary>
+    public Lazy<Collider> Collider => collider;
+
+    /// <summary>Finds the closest point of the object in world space.</summary>
+    public bool TryFindClosest(Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, double epsilon)
+    {
+        if (_generalMap is not null)
+        {
+            return collider.Value.FindClosestTransformed(position, _generalMap.Value, maxDistance, epsilon, context, out closest);
+        }
+
+        var isFound = collider.Value.TryFindClosest(
+            similarity.ToLocal(position), maxDistance / similarity.Scale, context, out var localClosest, epsilon);
+        closest = isFound ? similarity.ToWorld(localClosest) : default;
+        return isFound;
+    }
+}
