@@ -1,8 +1,8 @@
 using System.CommandLine;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.App.Commands;
@@ -56,8 +56,7 @@ internal static class RenderCommand
 
         using var renderer = Renderer.Offscreen(size.Width, size.Height, settings);
         var image = renderer.Draw(drawable, view);
-        Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(output))!);
-        ImageFile.SavePng(image, output);
+        OutputFile.Write(output, stream => PngWriter.Write(image, stream));
         return ExitCode.Done;
     }
 

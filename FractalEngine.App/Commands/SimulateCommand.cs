@@ -68,11 +68,12 @@ internal static class SimulateCommand
         {
             if (output is null)
             {
-                stepTime = Simulate(path, world, (long)steps, Console.OpenStandardOutput(), interruption);
+                stepTime = Simulate(path, world, (long)steps, StandardStreams.OpenOutput(), interruption);
             }
             else
             {
-                AtomicFile.Write(output, stream => stepTime = Simulate(path, world, (long)steps, stream, interruption));
+                OutputFile.Write(
+                    output, stream => stepTime = Simulate(path, world, (long)steps, stream, interruption), interruption);
             }
         }
 

@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using System.Text;
 using FractalEngine.Core;
+using FractalEngine.Core.Files;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;

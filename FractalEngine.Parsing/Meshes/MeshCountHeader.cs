@@ -1,6 +1,6 @@
 using System.Globalization;
 using System.Text;
-using FractalEngine.Parsing.Assets;
+using FractalEngine.Core.Files;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Meshes;
