@@ -48,7 +48,7 @@ internal static class RenderCommand
             : file.Scene;
         // A default camera frames the scene as it is at time 0, so that images of several times show the same view.
         var view = View.Of(scene, (double)size.Width / size.Height);
-        var drawable = DrawableScene.Prepare(time > 0 ? Simulate(path, scene, time) : scene, settings);
+        var drawable = DrawableScene.Prepare(time > 0 ? Simulate(path, file, scene, time) : scene, settings);
         foreach (var notice in drawable.Notices)
         {
             Console.Error.WriteLine(notice);
@@ -60,9 +60,9 @@ internal static class RenderCommand
         return ExitCode.Done;
     }
 
-    private static LoadedScene Simulate(string path, LoadedScene scene, double seconds)
+    private static LoadedScene Simulate(string path, LoadedFile file, LoadedScene scene, double seconds)
     {
-        var world = SceneWorld.Create(path, scene, new());
+        var world = SceneWorld.Create(file, scene, new());
         while (world.Time + (0.5 * world.Settings.TimeStep) < seconds)
         {
             SceneWorld.Step(path, world);
