@@ -34,8 +34,11 @@ public sealed class SceneCollider
     /// <summary>Prepares the colliders of a scene. Builds none of them yet.</summary>
     /// <param name="scene">With its models.</param>
     /// <param name="kind">The collider of all objects, see <see cref="ColliderFactory"/>.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
     public SceneCollider(LoadedScene scene, ColliderKind kind = ColliderKind.Exact)
     {
+        ArgumentNullException.ThrowIfNull(scene);
+        ColliderFactory.ThrowIfUnknown(kind);
         _kind = kind;
         _sharedColliders =
             scene.Models.ToDictionary(model => model, model => new Lazy<Collider>(() => CreateCollider(model)));
@@ -56,8 +59,20 @@ public sealed class SceneCollider
     /// </summary>
     /// <param name="index">Index of the object in the scene, from 0.</param>
     /// <param name="placed">The same model under another matrix.</param>
-    public SceneCollider WithObject(int index, PlacedModel placed) =>
-        new(_instances.SetItem(index, CreateInstance(placed)), _sharedColliders, _kind);
+    /// <exception cref="ArgumentOutOfRangeException">The scene has no such object.</exception>
+    /// <exception cref="ArgumentException">No object of the scene shows the model.</exception>
+    public SceneCollider WithObject(int index, PlacedModel placed)
+    {
+        ArgumentOutOfRangeException.ThrowIfNegative(index);
+        ArgumentOutOfRangeException.ThrowIfGreaterThanOrEqual(index, _instances.Length);
+        ArgumentNullException.ThrowIfNull(placed);
+        if (!_sharedColliders.ContainsKey(placed.Model))
+        {
+            throw new ArgumentException("expected the model of an object of the scene", nameof(placed));
+        }
+
+        return new(_instances.SetItem(index, CreateInstance(placed)), _sharedColliders, _kind);
+    }
 
     /// <summary>Makes the collider of the same scene with another object behind the others. Colliders that exist are shared.</summary>
     /// <param name="placed">Shares the collider of an object with the same model, if there is one.</param>
@@ -126,10 +141,13 @@ public sealed class SceneCollider
     /// <param name="position">World space, finite.</param>
     /// <returns>The closest point with its normal, face, instance and object.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite.</exception>
-    /// <exception cref="InvalidOperationException">The scene has no faces.</exception>
+    /// <exception cref="InvalidOperationException">
+    /// The scene has no faces, or none at a distance within the range of a double.
+    /// </exception>
     public ClosestHit FindClosest(Vector position) => TryFindClosest(position, double.PositiveInfinity, out var hit)
         ? hit
-        : throw new InvalidOperationException("the scene has no faces, so no point of it is closest");
+        : throw new InvalidOperationException(
+            $"no point of the scene is closest to {position}: it has no faces, or the distance is beyond the range of a double");
 
     /// <summary>Finds the point of the scene closest to a position, if one is near enough.</summary>
     /// <param name="position">World space, finite.</param>
@@ -161,6 +179,7 @@ public sealed class SceneCollider
         Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, out int objectIndex, int excludedObject = -1,
         double epsilon = 0)
     {
+        ArgumentNullException.ThrowIfNull(context);
         Collider.ThrowIfInvalid(position, maxDistance, epsilon);
         closest = default;
         objectIndex = -1;
