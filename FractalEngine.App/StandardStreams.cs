@@ -24,9 +24,11 @@ internal static class StandardStreams
     private static StreamWriter CreateWriter(Stream stream)
     {
         var encoding = Console.OutputEncoding;
-        return new(stream, encoding.CodePage == Encoding.UTF8.CodePage ? new UTF8Encoding(encoderShouldEmitUTF8Identifier: false) : encoding)
+        if (encoding.CodePage == Encoding.UTF8.CodePage)
         {
-            AutoFlush = true,
-        };
+            encoding = new UTF8Encoding(encoderShouldEmitUTF8Identifier: false);
+        }
+
+        return new(stream, encoding) { AutoFlush = true };
     }
 }

@@ -5,8 +5,10 @@ namespace FractalEngine.Core.Scenes;
 /// <summary>A player who walks in the scene, as a capsule.</summary>
 /// <param name="Position">Initial position of the capsule's centre, world space.</param>
 /// <param name="Radius">Radius of the capsule, scene units, positive.</param>
-/// <param name="Height">Height of the capsule from its lowest to its highest point, scene units: at least twice the radius, and at most <see
-/// cref="MaxHeightPerRadius"/> times.</param>
+/// <param name="Height">
+/// Height of the capsule from its lowest to its highest point, scene units: at least twice the radius, and at most
+/// <see cref="MaxHeightPerRadius"/> times.
+/// </param>
 public sealed record Player(Vector Position, double Radius, double Height)
 {
     /// <summary>

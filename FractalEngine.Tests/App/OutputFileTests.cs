@@ -42,7 +42,8 @@ public sealed class OutputFileTests : IDisposable
     {
         using var interruption = new InterruptSignal();
         OutputFile.Write(
-            _folder["a"], _ => Assert.Equal(interruption.UnfinishedFile, Assert.Single(Directory.GetFiles(_folder.Path, "*.tmp"))), interruption);
+            _folder["a"], _ => Assert.Equal(interruption.UnfinishedFile, Assert.Single(Directory.GetFiles(_folder.Path, "*.tmp"))),
+            interruption);
     }
 
     [SkippableTheory]

@@ -50,8 +50,8 @@ internal static partial class ApiPages
             }
 
             var documentation = Find(summaries, member);
-            AppendWrapped(
-                text, $"- `{ApiSignatures.Of(member, nullability)}`", documentation.Summary.Length == 0 ? "" : $"\n{documentation.Summary}");
+            var summary = documentation.Summary;
+            AppendWrapped(text, $"- `{ApiSignatures.Of(member, nullability)}`", summary.Length == 0 ? "" : $"\n{summary}");
             foreach (var note in documentation.Notes)
             {
                 AppendWrapped(text, "  - ", note);

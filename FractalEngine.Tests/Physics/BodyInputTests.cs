@@ -92,7 +92,8 @@ public class BodyInputTests
     {
         Player[] wrong =
         [
-            new(new(double.NaN, 0, 0), 1, 2), new(Vector.Zero, 0, 2), new(Vector.Zero, 1, 1.9), new(Vector.Zero, 1, double.PositiveInfinity),
+            new(new(double.NaN, 0, 0), 1, 2), new(Vector.Zero, 0, 2), new(Vector.Zero, 1, 1.9),
+            new(Vector.Zero, 1, double.PositiveInfinity),
             new(Vector.Zero, double.NaN, 2), new(new(0, 5, 0), 1e-9, 3), new(Vector.Zero, 1, Player.MaxHeightPerRadius * 1.001),
         ];
         Assert.All(wrong, player =>

@@ -168,7 +168,8 @@ public sealed class SimulateCommandTests : IDisposable
         _folder.Write("point.obj", "v 0 0 0\nf 1 1 1\n");
         _folder.Write("point.sdo", "# one line\no \"cube.obj\" #\n  p \"point.obj\" # 0.5 name \"dot\"\n");
         Assert.Equal(
-            new AppResult(1, "", "point.sdo:3:3: error: body dot: the radius must be positive\n    p \"point.obj\" # 0.5 name \"dot\"\n    ^\n"),
+            new AppResult(
+                1, "", "point.sdo:3:3: error: body dot: the radius must be positive\n    p \"point.obj\" # 0.5 name \"dot\"\n    ^\n"),
             Run("simulate", "point.sdo"));
         _folder.Write("point.sdo", "p \"point.obj\" # 0.5\n");
         Assert.StartsWith(
