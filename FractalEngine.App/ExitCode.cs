@@ -23,6 +23,9 @@ internal static class ExitCode
     /// <summary>The program itself has failed (EX_SOFTWARE of sysexits.h).</summary>
     public const int Internal = 70;
 
-    /// <summary>SIGINT or SIGTERM has ended a simulation. For both it is 128 plus the number of SIGINT, 2, as shells count.</summary>
+    /// <summary>
+    /// SIGINT, SIGTERM or SIGHUP has ended a simulation or the writing of a file. For all it is 128 plus the number of SIGINT, 2, as shells
+    /// count.
+    /// </summary>
     public const int Interrupted = 130;
 }

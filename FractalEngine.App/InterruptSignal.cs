@@ -1,9 +1,11 @@
+using System.Globalization;
 using System.Runtime.InteropServices;
 
 namespace FractalEngine.App;
 
 /// <summary>
-/// Receives SIGINT and SIGTERM, so that unfinished work can be undone before the program ends. A second signal ends the program at once.
+/// Receives SIGINT, SIGTERM and SIGHUP, so that unfinished work can be undone before the program ends. A second signal ends the program
+/// at once.
 /// </summary>
 internal sealed class InterruptSignal : IDisposable
 {
@@ -19,7 +21,11 @@ internal sealed class InterruptSignal : IDisposable
     [
         PosixSignalRegistration.Create(PosixSignal.SIGINT, OnSignal),
         PosixSignalRegistration.Create(PosixSignal.SIGTERM, OnSignal),
+        .. IgnoresHangup() ? [] : (PosixSignalRegistration[])[PosixSignalRegistration.Create(PosixSignal.SIGHUP, OnSignal)],
     ];
+
+    /// <summary>Full path of a file that is deleted if the work does not end in time after a signal; null for none.</summary>
+    public string? UnfinishedFile { get; set; }
 
     /// <summary>Throws if a signal has arrived, and acknowledges it.</summary>
     /// <exception cref="OperationCanceledException">A signal has arrived.</exception>
@@ -41,5 +47,32 @@ internal sealed class InterruptSignal : IDisposable
         var isFirst = !_isRequested;
         _isRequested = true;
         context.Cancel = isFirst && _acknowledged.Wait(AcknowledgeTimeout);
+        if (!context.Cancel && UnfinishedFile is { } file)
+        {
+            DeleteQuietly(file);
+        }
+    }
+
+    private static void DeleteQuietly(string file)
+    {
+        try
+        {
+            File.Delete(file);
+        }
+        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
+        {
+            // The program is about to end, and can do no more.
+        }
+    }
+
+    /// <summary>True where the program was started to outlive its terminal, as <c>nohup</c> does. Known on Linux only.</summary>
+    private static bool IgnoresHangup()
+    {
+        const string prefix = "SigIgn:";
+        const string status = "/proc/self/status";
+        return File.Exists(status)
+            && File.ReadLines(status).FirstOrDefault(line => line.StartsWith(prefix, StringComparison.Ordinal)) is { } line
+            && ulong.TryParse(line[prefix.Length..].Trim(), NumberStyles.HexNumber, CultureInfo.InvariantCulture, out var mask)
+            && (mask & 1) != 0;
     }
 }

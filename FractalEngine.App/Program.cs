@@ -4,4 +4,5 @@ using FractalEngine.App;
 // Numbers on the command line, in files and on the screen look the same everywhere, and messages are English.
 CultureInfo.DefaultThreadCurrentCulture = CultureInfo.CurrentCulture = CultureInfo.InvariantCulture;
 CultureInfo.DefaultThreadCurrentUICulture = CultureInfo.CurrentUICulture = CultureInfo.InvariantCulture;
+StandardStreams.Install();
 return CommandLine.Run(args);

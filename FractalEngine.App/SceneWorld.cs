@@ -1,5 +1,7 @@
+using FractalEngine.Core;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.App;
@@ -8,17 +10,20 @@ namespace FractalEngine.App;
 internal static class SceneWorld
 {
     /// <summary>Creates the world of a scene.</summary>
+    /// <param name="file">The file that the scene was loaded from.</param>
+    /// <param name="scene">The scene, perhaps with another projection.</param>
+    /// <param name="settings">Checked by the command line.</param>
     /// <exception cref="SourceException">The scene declares an invalid body, such as one without size.</exception>
-    public static PhysicsWorld Create(string path, LoadedScene scene, PhysicsSettings settings)
+    public static PhysicsWorld Create(LoadedFile file, LoadedScene scene, PhysicsSettings settings)
     {
         try
         {
             return new(scene, settings);
         }
-        catch (ArgumentException exception)
+        catch (SceneObjectException exception) when (file.ParsedScene is { } parsed)
         {
-            // The command line has checked the settings, so the scene declares an invalid body.
-            throw new SourceException(path, exception.Message);
+            throw parsed.Source.Error(
+                parsed.DeclarationOffset(exception.ObjectIndex), exception.Message, exception.Kind == ErrorKind.Limit);
         }
     }
 

@@ -25,7 +25,14 @@ public sealed record RenderSettings
     public double CreaseAngle { get; init; } = NormalGenerator.DefaultCreaseAngle;
 
     /// <summary>Number of samples a pixel; 0 switches multisampling off. A driver that offers fewer uses its maximum.</summary>
-    public int Samples { get; init; } = 4;
+    /// <exception cref="ArgumentOutOfRangeException">The number is negative.</exception>
+    public int Samples
+    {
+        get;
+        init => field = value >= 0
+            ? value
+            : throw new ArgumentOutOfRangeException(nameof(Samples), value, "expected no negative number of samples");
+    } = 4;
 
     /// <summary>Culls the back faces of closed meshes, where only front faces can be seen.</summary>
     public bool BackFaceCulling { get; init; } = true;

@@ -22,13 +22,27 @@ public sealed record View(Camera Camera, Projection Projection)
     public double OrthographicHeight { get; init; } = DefaultHeight;
 
     /// <summary>Width divided by height of the viewport, with bars around it where the frame differs; null for the frame's own.</summary>
-    public double? Aspect { get; init; }
+    /// <exception cref="ArgumentException">The ratio is not positive and finite.</exception>
+    public double? Aspect
+    {
+        get;
+        init => field = value is null or (> 0 and < double.PositiveInfinity)
+            ? value
+            : throw new ArgumentException("expected a positive and finite aspect ratio", nameof(Aspect));
+    }
 
     /// <summary>Object that the camera is deep inside; null where world space is precise enough for the camera's position.</summary>
     public DeepZoom? DeepZoom { get; init; }
 
     /// <summary>Depths of the near and far clip planes, scene units; null to derive them from the scene's bounds.</summary>
-    public (double Near, double Far)? FixedClipPlanes { get; init; }
+    /// <exception cref="ArgumentException">The depths are not finite, or not 0 &lt; near &lt; far.</exception>
+    public (double Near, double Far)? FixedClipPlanes
+    {
+        get;
+        init => field = value is null || (value is { Near: > 0, Far: < double.PositiveInfinity } planes && planes.Near < planes.Far)
+            ? value
+            : throw new ArgumentException("expected clip planes with 0 < near < far", nameof(FixedClipPlanes));
+    }
 
     /// <summary>Half of the visible height, scene units: at depth 1 in perspective, at any depth in orthographic projection.</summary>
     internal double HalfHeight => Projection == Projection.Perspective ? Camera.HalfHeightAtUnitDepth : 0.5 * OrthographicHeight;
@@ -37,6 +51,7 @@ public sealed record View(Camera Camera, Projection Projection)
     /// <param name="scene">Scene that gives projection, clip planes, aspect ratio and bounds.</param>
     /// <param name="frameAspect">Width divided by height of the window or image. A default camera frames the scene for it.</param>
     /// <param name="camera">Camera that replaces the scene's own; null for none.</param>
+    /// <exception cref="ArgumentException">The scene's aspect ratio or clip planes are out of range.</exception>
     public static View Of(LoadedScene scene, double frameAspect, Camera? camera = null)
     {
         var settings = scene.Scene;

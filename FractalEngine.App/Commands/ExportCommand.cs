@@ -46,7 +46,7 @@ internal static class ExportCommand
             throw new UsageException($"{path} has no recursive fractal, so --depth has no effect");
         }
 
-        AtomicFile.Write(output, stream => ObjWriter.Write(file.Scene, stream, maxFaces));
+        OutputFile.Write(output, stream => ObjWriter.Write(file.Scene, stream, maxFaces));
         return ExitCode.Done;
     }
 }

@@ -1,7 +1,6 @@
 using System.CommandLine;
 using System.Globalization;
 using FractalEngine.Core.Generation;
-using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Meshes;
 
 namespace FractalEngine.App.Commands;
@@ -34,7 +33,7 @@ internal static class GenerateCommand
         var generator = MeshGenerators.Find(name)
             ?? throw new UsageException($"unknown mesh '{name}', expected one of: {Names()}");
         var mesh = generator.Create(seed, faces);
-        AtomicFile.Write(output, stream => ObjMeshWriter.Write(mesh, stream, name));
+        OutputFile.Write(output, stream => ObjMeshWriter.Write(mesh, stream, name));
         Console.WriteLine(mesh.FaceCount);
         return ExitCode.Done;
     }

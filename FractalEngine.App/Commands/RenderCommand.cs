@@ -1,8 +1,8 @@
 using System.CommandLine;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
-using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.App.Commands;
@@ -48,7 +48,7 @@ internal static class RenderCommand
             : file.Scene;
         // A default camera frames the scene as it is at time 0, so that images of several times show the same view.
         var view = View.Of(scene, (double)size.Width / size.Height);
-        var drawable = DrawableScene.Prepare(time > 0 ? Simulate(path, scene, time) : scene, settings);
+        var drawable = DrawableScene.Prepare(time > 0 ? Simulate(path, file, scene, time) : scene, settings);
         foreach (var notice in drawable.Notices)
         {
             Console.Error.WriteLine(notice);
@@ -56,14 +56,13 @@ internal static class RenderCommand
 
         using var renderer = Renderer.Offscreen(size.Width, size.Height, settings);
         var image = renderer.Draw(drawable, view);
-        Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(output))!);
-        ImageFile.SavePng(image, output);
+        OutputFile.Write(output, stream => PngWriter.Write(image, stream));
         return ExitCode.Done;
     }
 
-    private static LoadedScene Simulate(string path, LoadedScene scene, double seconds)
+    private static LoadedScene Simulate(string path, LoadedFile file, LoadedScene scene, double seconds)
     {
-        var world = SceneWorld.Create(path, scene, new());
+        var world = SceneWorld.Create(file, scene, new());
         while (world.Time + (0.5 * world.Settings.TimeStep) < seconds)
         {
             SceneWorld.Step(path, world);

@@ -39,7 +39,7 @@ internal static class SaveCommand
             throw new UsageException("a scene can't refer to a file with a quote or a line break in its path");
         }
 
-        AtomicFile.Write(output, stream => stream.Write(Encoding.UTF8.GetBytes(SceneWriter.Write(relocated, file.ParsedScene))));
+        OutputFile.Write(output, stream => stream.Write(Encoding.UTF8.GetBytes(SceneWriter.Write(relocated, file.ParsedScene))));
         var folder = AssetFolder.ForFile(Path.GetFullPath(output));
         if (file.Scene.Models.Any(model => !folder.Contains(model.SourcePath!)))
         {

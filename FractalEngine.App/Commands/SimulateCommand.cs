@@ -2,6 +2,7 @@ using System.CommandLine;
 using System.Diagnostics;
 using System.Globalization;
 using System.Text;
+using FractalEngine.Core;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
@@ -47,7 +48,7 @@ internal static class SimulateCommand
         var steps = Math.Max(0, Math.Ceiling((seconds / step) - StepTolerance));
         if (steps > MaxSteps)
         {
-            throw new UsageException(FormattableString.Invariant(
+            throw new FractalEngineException(ErrorKind.Limit, FormattableString.Invariant(
                 $"{seconds:R} s take {steps:G4} steps of {step:R} s, which exceeds the limit of {MaxSteps} steps"));
         }
 
@@ -58,7 +59,7 @@ internal static class SimulateCommand
         }
 
         var buildClock = Stopwatch.StartNew();
-        var world = SceneWorld.Create(path, file.Scene, new() { TimeStep = step });
+        var world = SceneWorld.Create(file, file.Scene, new() { TimeStep = step });
         world.ColliderOverride = collider;
         // Built ahead, so that the steps are timed without it and can't fail because of it.
         world.BuildColliders();
@@ -68,11 +69,12 @@ internal static class SimulateCommand
         {
             if (output is null)
             {
-                stepTime = Simulate(path, world, (long)steps, Console.OpenStandardOutput(), interruption);
+                stepTime = Simulate(path, world, (long)steps, StandardStreams.OpenOutput(), interruption);
             }
             else
             {
-                AtomicFile.Write(output, stream => stepTime = Simulate(path, world, (long)steps, stream, interruption));
+                OutputFile.Write(
+                    output, stream => stepTime = Simulate(path, world, (long)steps, stream, interruption), interruption);
             }
         }
 

@@ -1,7 +1,7 @@
 using System.Globalization;
 using System.Runtime.InteropServices;
 using System.Text;
-using FractalEngine.Parsing.Assets;
+using FractalEngine.Core.Files;
 
 namespace FractalEngine.Benchmarks.Measuring;
 

@@ -52,6 +52,8 @@ public static class BatchQuery
         double epsilon = 0,
         int? threads = null)
     {
+        ArgumentNullException.ThrowIfNull(collider);
+        ArgumentNullException.ThrowIfNull(context);
         FindClosest(Find, positions, results, context, maxDistance, epsilon, threads);
 
         bool Find(Vector position, QueryContext threadContext, out ClosestPoint closest) =>

@@ -29,32 +29,50 @@ public abstract class Collider
     /// <summary>Builds the collider of a fractal.</summary>
     /// <param name="fractal">Of any size for the kinds that search its levels; others expand it.</param>
     /// <param name="kind">How to search; exact unless stated.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
     /// <exception cref="ColliderMismatchException">The kind does not fit; the message says which kinds do.</exception>
     /// <exception cref="FractalLimitException">The fractal is too large for this kind, or grows beyond a double.</exception>
-    public static Collider For(Fractal fractal, ColliderKind kind = ColliderKind.Exact) => ColliderFactory.Create(fractal, kind);
+    public static Collider For(Fractal fractal, ColliderKind kind = ColliderKind.Exact)
+    {
+        ArgumentNullException.ThrowIfNull(fractal);
+        return ColliderFactory.Create(fractal, kind);
+    }
 
     /// <summary>Builds the collider of a mesh.</summary>
     /// <param name="mesh">Its faces; unused vertices are ignored.</param>
     /// <param name="kind">How to search; exact unless stated.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
     /// <exception cref="ColliderMismatchException">The kind does not fit; the message says which kinds do.</exception>
-    public static Collider For(Mesh mesh, ColliderKind kind = ColliderKind.Exact) => ColliderFactory.Create(mesh, kind);
+    public static Collider For(Mesh mesh, ColliderKind kind = ColliderKind.Exact)
+    {
+        ArgumentNullException.ThrowIfNull(mesh);
+        return ColliderFactory.Create(mesh, kind);
+    }
 
     /// <summary>Builds the collider of a model in its own frame.</summary>
     /// <param name="model">A mesh or a fractal.</param>
     /// <param name="kind">How to search; exact unless stated.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
     /// <exception cref="ColliderMismatchException">The kind does not fit; the message says which kinds do.</exception>
     /// <exception cref="FractalLimitException">The fractal is too large for this kind, or grows beyond a double.</exception>
-    public static Collider For(Model model, ColliderKind kind = ColliderKind.Exact) => ColliderFactory.Create(model, kind);
+    public static Collider For(Model model, ColliderKind kind = ColliderKind.Exact)
+    {
+        ArgumentNullException.ThrowIfNull(model);
+        return ColliderFactory.Create(model, kind);
+    }
 
     /// <summary>Finds the point of the shape closest to a position.</summary>
     /// <param name="position">In the shape's frame, scene units, finite.</param>
     /// <returns>The closest point with its normal, face and instance.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite.</exception>
-    /// <exception cref="InvalidOperationException">The shape has no faces.</exception>
+    /// <exception cref="InvalidOperationException">
+    /// The shape has no faces, or none at a distance within the range of a double.
+    /// </exception>
     /// <remarks>Allocates its result only. Many positions at once: <see cref="BatchQuery"/>.</remarks>
     public ClosestHit FindClosest(Vector position) => TryFindClosest(position, double.PositiveInfinity, out var hit)
         ? hit
-        : throw new InvalidOperationException("the shape has no faces, so no point of it is closest");
+        : throw new InvalidOperationException(
+            $"no point of the shape is closest to {position}: it has no faces, or the distance is beyond the range of a double");
 
     /// <summary>Finds the point of the shape closest to a position, if one is near enough.</summary>
     /// <param name="position">In the shape's frame, scene units, finite.</param>
@@ -83,6 +101,7 @@ public abstract class Collider
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the radius or ε is negative or NaN.</exception>
     public bool TryFindClosest(Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, double epsilon = 0)
     {
+        ArgumentNullException.ThrowIfNull(context);
         ThrowIfInvalid(position, maxDistance, epsilon);
         if (!FindClosestCore(position, maxDistance, epsilon, context, out closest))
         {

@@ -24,29 +24,49 @@ public static class ColliderFactory
     /// <summary>Builds the collider of a model in its own frame.</summary>
     /// <exception cref="ColliderMismatchException">The kind does not fit the model; the message says which kinds do.</exception>
     /// <exception cref="FractalLimitException">The fractal is too large for this kind.</exception>
-    public static Collider Create(Model model, ColliderKind kind) => model switch
+    /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
+    public static Collider Create(Model model, ColliderKind kind)
     {
-        FractalModel { Fractal: var fractal } => Create(fractal, kind),
-        _ => Create(model.Mesh, kind),
-    };
+        ArgumentNullException.ThrowIfNull(model);
+        return model is FractalModel { Fractal: var fractal } ? Create(fractal, kind) : Create(model.Mesh, kind);
+    }
 
     /// <summary>Builds the collider of an object in world space, whatever its matrix.</summary>
     /// <exception cref="ColliderMismatchException">The kind does not fit the model.</exception>
     /// <exception cref="FractalLimitException">The fractal is too large for this kind.</exception>
-    public static Collider Create(PlacedModel placed, ColliderKind kind) => placed.Model switch
+    /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
+    public static Collider Create(PlacedModel placed, ColliderKind kind)
     {
-        FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } =>
-            Create(fractal.WithPlacement(placed.Declaration.Placement), kind),
-        FractalModel { Fractal: var fractal } => CreateExpanded(fractal, placed.ObjectToWorld, kind),
-        _ => Create(FractalGenerator.Flatten(placed.Model.Mesh, [placed.ObjectToWorld]), kind),
-    };
+        ArgumentNullException.ThrowIfNull(placed);
+        ThrowIfUnknown(kind);
+        return placed.Model switch
+        {
+            FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } =>
+                Create(fractal.WithPlacement(placed.Declaration.Placement), kind),
+            FractalModel { Fractal: var fractal } => CreateExpanded(fractal, placed.ObjectToWorld, kind),
+            _ => Create(FractalGenerator.Flatten(placed.Model.Mesh, [placed.ObjectToWorld]), kind),
+        };
+    }
 
-    internal static Collider Create(Fractal fractal, ColliderKind kind) => (kind, fractal.Description.Composition) switch
+    /// <summary>Throws for a number that stands for no kind.</summary>
+    internal static void ThrowIfUnknown(ColliderKind kind)
     {
-        (ColliderKind.Exact, Composition.Affine) => new ExactFractalCollider(fractal),
-        (ColliderKind.Fractal, Composition.Affine) => new FractalCollider(fractal),
-        _ => CreateExpanded(fractal, AffineMap.Identity, kind),
-    };
+        if (!Enum.IsDefined(kind))
+        {
+            throw new ArgumentOutOfRangeException(nameof(kind), kind, "expected one of the kinds of colliders");
+        }
+    }
+
+    internal static Collider Create(Fractal fractal, ColliderKind kind)
+    {
+        ThrowIfUnknown(kind);
+        return (kind, fractal.Description.Composition) switch
+        {
+            (ColliderKind.Exact, Composition.Affine) => new ExactFractalCollider(fractal),
+            (ColliderKind.Fractal, Composition.Affine) => new FractalCollider(fractal),
+            _ => CreateExpanded(fractal, AffineMap.Identity, kind),
+        };
+    }
 
     private static Collider CreateExpanded(Fractal fractal, AffineMap toWorld, ColliderKind kind)
     {
@@ -68,6 +88,8 @@ public static class ColliderFactory
         ColliderKind.Exact or ColliderKind.Hierarchy => new HierarchyCollider(mesh),
         ColliderKind.BoundingBox => new BoundingBoxCollider(mesh),
         ColliderKind.Simple => new SimpleCollider(mesh),
+        not ColliderKind.Fractal => throw new ArgumentOutOfRangeException(
+            nameof(kind), kind, "expected one of the kinds of colliders"),
         _ => throw new ColliderMismatchException(
             "the collider 'fractal' needs a fractal, and this is a mesh: expected exact, hierarchy, bounding-box or simple"),
     };

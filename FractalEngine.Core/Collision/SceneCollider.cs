@@ -40,8 +40,11 @@ public sealed class SceneCollider
     /// <summary>Prepares the colliders of a scene. Builds none of them yet.</summary>
     /// <param name="scene">With its models.</param>
     /// <param name="kind">The collider of all objects, see <see cref="ColliderFactory"/>.</param>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
     public SceneCollider(LoadedScene scene, ColliderKind kind = ColliderKind.Exact)
     {
+        ArgumentNullException.ThrowIfNull(scene);
+        ColliderFactory.ThrowIfUnknown(kind);
         _kind = kind;
         _sharedColliders =
             scene.Models.ToDictionary(model => model, model => new Lazy<Collider>(() => CreateCollider(model)));
@@ -61,7 +64,8 @@ public sealed class SceneCollider
     /// </summary>
     /// <param name="index">Index of the object in the scene, from 0.</param>
     /// <param name="placed">The same model under another matrix.</param>
-    /// <exception cref="ArgumentOutOfRangeException">There is no object with this index.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The scene has no such object.</exception>
+    /// <exception cref="ArgumentException">No object of the scene shows the model.</exception>
     /// <remarks>
     /// The hierarchy over the objects keeps its shape. Once moves have doubled its boxes, the next query builds another, O(n log n).
     /// </remarks>
@@ -70,6 +74,12 @@ public sealed class SceneCollider
         var objects = _objects;
         ArgumentOutOfRangeException.ThrowIfNegative(index);
         ArgumentOutOfRangeException.ThrowIfGreaterThanOrEqual(index, objects.Count);
+        ArgumentNullException.ThrowIfNull(placed);
+        if (!_sharedColliders.ContainsKey(placed.Model))
+        {
+            throw new ArgumentException("expected the model of an object of the scene", nameof(placed));
+        }
+
         return new(objects.With(CreateInstance(index, placed)), _sharedColliders, _kind);
     }
 
@@ -143,10 +153,13 @@ public sealed class SceneCollider
     /// <param name="position">World space, finite.</param>
     /// <returns>The closest point with its normal, face, instance and object.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite.</exception>
-    /// <exception cref="InvalidOperationException">The scene has no faces.</exception>
+    /// <exception cref="InvalidOperationException">
+    /// The scene has no faces, or none at a distance within the range of a double.
+    /// </exception>
     public ClosestHit FindClosest(Vector position) => TryFindClosest(position, double.PositiveInfinity, out var hit)
         ? hit
-        : throw new InvalidOperationException("the scene has no faces, so no point of it is closest");
+        : throw new InvalidOperationException(
+            $"no point of the scene is closest to {position}: it has no faces, or the distance is beyond the range of a double");
 
     /// <summary>Finds the point of the scene closest to a position, if one is near enough.</summary>
     /// <param name="position">World space, finite.</param>
@@ -178,6 +191,7 @@ public sealed class SceneCollider
         Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, out int objectIndex, int excludedObject = -1,
         double epsilon = 0)
     {
+        ArgumentNullException.ThrowIfNull(context);
         Collider.ThrowIfInvalid(position, maxDistance, epsilon);
         var objects = ReadyObjects();
         var isFound = objects.Hierarchy is { } hierarchy

@@ -21,6 +21,8 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <summary>Makes the fractal that a description makes of a base mesh.</summary>
     public Fractal(FractalDescription description, Mesh baseMesh)
     {
+        ArgumentNullException.ThrowIfNull(description);
+        ArgumentNullException.ThrowIfNull(baseMesh);
         Description = description;
         BaseMesh = baseMesh;
         _instanceCount = new(() => FractalSteps.InstanceCount(description.Steps));
@@ -69,6 +71,7 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <param name="depth">How often, not negative and at most <see cref="FractalLimits.MaxDepth"/>; null for the infinite fractal.</param>
     /// <returns>A fractal of <c>n^depth</c> times as many instances for a set of n; costs no more memory than the set.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The depth is negative or beyond the limit.</exception>
+    /// <exception cref="FractalLimitException">The result exceeds one of <see cref="FractalLimits"/>.</exception>
     /// <exception cref="InvalidOperationException">The fractal is infinite already.</exception>
     [OverloadResolutionPriority(1)] // A collection expression of transformations is then not ambiguous.
     public Fractal Repeat(IEnumerable<Transformation> transformations, int? depth = null) =>
@@ -78,6 +81,7 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <param name="round">Outermost first: the last one is applied first. At least one, and only finite ones.</param>
     /// <param name="depth">How often, not negative and at most <see cref="FractalLimits.MaxDepth"/>; null for the infinite fractal.</param>
     /// <exception cref="ArgumentException">The round is empty or infinite, or the depth is out of range.</exception>
+    /// <exception cref="FractalLimitException">The result exceeds one of <see cref="FractalLimits"/>.</exception>
     /// <exception cref="InvalidOperationException">The fractal is infinite already.</exception>
     public Fractal Repeat(IEnumerable<FractalStep> round, int? depth = null)
     {
@@ -92,6 +96,7 @@ public sealed class Fractal : IEquatable<Fractal>
 
     /// <summary>Applies a set of transformations once: one instance of the fractal so far for each of them.</summary>
     /// <param name="transformations">The set, in its order; an empty one leaves nothing.</param>
+    /// <exception cref="FractalLimitException">The result exceeds one of <see cref="FractalLimits"/>.</exception>
     /// <exception cref="InvalidOperationException">The fractal is infinite already.</exception>
     public Fractal Apply(IEnumerable<Transformation> transformations) => Prepend(TransformationSet.Of(transformations));
 
@@ -103,6 +108,10 @@ public sealed class Fractal : IEquatable<Fractal>
         : With(Description with { Composition = composition });
 
     /// <summary>Makes the same fractal at another depth, see <see cref="FractalDescription.WithDepth"/>.</summary>
+    /// <param name="depth">Not negative and at most <see cref="FractalLimits.MaxDepth"/>.</param>
+    /// <exception cref="ArgumentOutOfRangeException">The depth is negative or beyond the limit, which the message names.</exception>
+    /// <exception cref="FractalLimitException">The fractal would have more than <see cref="FractalLimits.MaxLevels"/> levels.</exception>
+    /// <exception cref="InvalidOperationException">Nothing in the fractal is repeated.</exception>
     public Fractal WithDepth(int depth) => With(Description.WithDepth(depth));
 
     /// <summary>Makes the same fractal moved as a whole, see <see cref="FractalDescription.WithPlacement"/>.</summary>
@@ -149,9 +158,17 @@ public sealed class Fractal : IEquatable<Fractal>
 
     private Fractal With(FractalDescription description) => new(description, BaseMesh) { BaseMeshPath = BaseMeshPath };
 
-    private Fractal Prepend(FractalStep step) => Description.IsInfinite
-        ? throw new InvalidOperationException("the fractal is infinite: no step comes after it")
-        : With(Description with { Steps = Description.Steps.Insert(0, step) });
+    private Fractal Prepend(FractalStep step)
+    {
+        if (Description.IsInfinite)
+        {
+            throw new InvalidOperationException("the fractal is infinite: no step comes after it");
+        }
+
+        var steps = Description.Steps.Insert(0, step);
+        FractalLimits.Require(steps);
+        return With(Description with { Steps = steps });
+    }
 
     private static bool Fits(ImmutableArray<FractalStep> steps, long maxInstances) =>
         FractalSteps.LevelCount(steps) is not null && FractalSteps.HasAtMostInstances(steps, maxInstances);

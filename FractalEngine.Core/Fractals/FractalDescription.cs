@@ -23,13 +23,23 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
     /// <summary>
     /// Makes the same description with the outermost repetition carried out <paramref name="depth"/> times.
     /// </summary>
-    /// <param name="depth">Not negative.</param>
+    /// <param name="depth">Not negative and at most <see cref="FractalLimits.MaxDepth"/>.</param>
+    /// <exception cref="ArgumentOutOfRangeException">The depth is negative or beyond the limit, which the message names.</exception>
+    /// <exception cref="FractalLimitException">The fractal would have more than <see cref="FractalLimits.MaxLevels"/> levels.</exception>
     /// <exception cref="InvalidOperationException">Nothing in the fractal is repeated.</exception>
-    public FractalDescription WithDepth(int depth) => Steps.FirstOrDefault(step => step is Repetition) switch
+    public FractalDescription WithDepth(int depth)
     {
-        Repetition outermost => this with { Steps = Steps.Replace(outermost, outermost.WithCount(depth)) },
-        _ => throw new InvalidOperationException("the fractal has no recursive step, so it has no depth to change"),
-    };
+        ArgumentOutOfRangeException.ThrowIfNegative(depth);
+        ArgumentOutOfRangeException.ThrowIfGreaterThan(depth, FractalLimits.MaxDepth);
+        if (Steps.FirstOrDefault(step => step is Repetition) is not Repetition outermost)
+        {
+            throw new InvalidOperationException("the fractal has no recursive step, so it has no depth to change");
+        }
+
+        var steps = Steps.Replace(outermost, outermost.WithCount(depth));
+        FractalLimits.Require(steps);
+        return this with { Steps = steps };
+    }
 
     /// <summary>Makes the same description moved as a whole, by one more level above all others.</summary>
     /// <exception cref="InvalidOperationException">The composition is componentwise: an object's own matrix is affine in both.</exception>

@@ -14,7 +14,8 @@ public static class FractalGenerator
     /// <summary>Expands a fractal into its distinct instances, as maps from the base mesh's frame to the fractal's.</summary>
     /// <param name="fractal">Fractal with finitely many levels.</param>
     /// <param name="maxInstances">
-    /// Maximum number of instances: repeated ones are counted in affine composition, only distinct ones in componentwise composition.
+    /// Maximum number of instances: repeated ones are counted in affine composition, only distinct ones in componentwise composition. More
+    /// than <see cref="Array.MaxLength"/> are always refused.
     /// </param>
     /// <exception cref="FractalLimitException">The fractal has more instances.</exception>
     /// <remarks>
@@ -26,6 +27,13 @@ public static class FractalGenerator
         if (fractal.Description.Composition == Composition.Componentwise)
         {
             return [.. ExpandComponentwise(fractal, maxInstances).Select(transformation => transformation.ToAffineMap())];
+        }
+
+        // What no array holds is refused at once, whatever the caller allows.
+        maxInstances = Math.Min(maxInstances, Array.MaxLength);
+        if (FractalSteps.CountUpTo(fractal.Description.Steps, maxInstances).IsZero && !fractal.Description.IsInfinite)
+        {
+            return [];
         }
 
         if (!FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances) || fractal.Description.IsInfinite)
@@ -121,15 +129,21 @@ public static class FractalGenerator
     /// <summary>Expands a fractal into one mesh of all its faces.</summary>
     /// <param name="fractal">Fractal with finitely many levels.</param>
     /// <param name="maxFaces">Maximum number of faces.</param>
-    /// <exception cref="FractalLimitException">The fractal has more faces.</exception>
+    /// <exception cref="FractalLimitException">
+    /// The fractal has more faces, or more vertices or faces than an array holds. Nothing is expanded then.
+    /// </exception>
     /// <remarks>Mirrored instances are inside out: the normal of a face is that of its image.</remarks>
     public static Mesh Flatten(Fractal fractal, long maxFaces) =>
-        Flatten(fractal.BaseMesh, Expand(fractal, maxFaces / Math.Max(1, fractal.BaseMesh.FaceCount)));
+        Flatten(fractal.BaseMesh, Expand(fractal, Math.Min(
+            maxFaces / Math.Max(1, fractal.BaseMesh.FaceCount),
+            Array.MaxLength / Math.Max(1, Math.Max(fractal.BaseMesh.Positions.Length, fractal.BaseMesh.VertexIndices.Length)))));
 
     /// <summary>Joins instances of a mesh into one mesh.</summary>
     /// <param name="mesh">Mesh whose vertices and faces are repeated for each instance.</param>
     /// <param name="instances">Maps from the mesh's frame to that of the result.</param>
-    /// <exception cref="FractalLimitException">There are more vertices or faces than an array holds.</exception>
+    /// <exception cref="FractalLimitException">
+    /// There are more vertices or faces than an array holds, or a vertex is beyond the range of a double.
+    /// </exception>
     public static Mesh Flatten(Mesh mesh, ImmutableArray<AffineMap> instances)
     {
         if ((long)instances.Length * Math.Max(mesh.Positions.Length, mesh.VertexIndices.Length) > Array.MaxLength)
@@ -146,7 +160,13 @@ public static class FractalGenerator
         {
             for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
             {
-                var (x, y, z) = instances[instance] * mesh.Vertex(vertex);
+                var image = instances[instance] * mesh.Vertex(vertex);
+                if (!image.IsFinite())
+                {
+                    throw new FractalLimitException("a vertex of an instance is beyond the range of a double");
+                }
+
+                var (x, y, z) = image;
                 (positions[nextPosition], positions[nextPosition + 1], positions[nextPosition + 2]) = (x, y, z);
                 nextPosition += 3;
             }

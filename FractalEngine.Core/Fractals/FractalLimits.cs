@@ -1,3 +1,5 @@
+using System.Collections.Immutable;
+
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>The limits of fractals: each bounds time or memory, and is named in the error that it causes.</summary>
@@ -31,4 +33,19 @@ public static class FractalLimits
 
     /// <summary>Maximum number of distinct sums of componentwise composition: about 100 MB.</summary>
     public const int MaxComponentwiseSums = 1_000_000;
+
+    /// <summary>Throws for steps beyond <see cref="MaxSteps"/>, <see cref="MaxNesting"/> or <see cref="MaxLevels"/>.</summary>
+    /// <exception cref="FractalLimitException">A limit is exceeded; the message names it.</exception>
+    internal static void Require(ImmutableArray<FractalStep> steps)
+    {
+        var fault =
+            steps.Length > MaxSteps ? $"{MaxSteps} steps"
+            : steps.Any(step => step.NestingDepth > MaxNesting) ? $"{MaxNesting} repetitions inside each other"
+            : FractalSteps.LevelCount(steps) > MaxLevels ? $"{MaxLevels} levels"
+            : null;
+        if (fault is not null)
+        {
+            throw new FractalLimitException($"the fractal has more than the limit of {fault}");
+        }
+    }
 }

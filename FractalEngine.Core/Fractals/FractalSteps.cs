@@ -6,9 +6,14 @@ namespace FractalEngine.Core.Fractals;
 /// <summary>Counts and look-ups over a sequence of steps, outermost first.</summary>
 public static class FractalSteps
 {
-    /// <summary>Counts the sets that a chain passes through; null stands for infinitely many.</summary>
+    /// <summary>
+    /// Counts the sets that a chain passes through; null stands for infinitely many. A number beyond that of a <see cref="long"/> is its
+    /// maximum.
+    /// </summary>
     public static long? LevelCount(ImmutableArray<FractalStep> steps) =>
-        steps.Aggregate((long?)0, (sum, step) => sum + step.LevelCount);
+        steps.Aggregate((long?)0, static (sum, step) => (sum, step.LevelCount) is ({ } total, { } count)
+            ? (long)Int128.Min(long.MaxValue, (Int128)total + count)
+            : null);
 
     /// <summary>Counts the chains of transformations, repeated ones too; null stands for infinitely many.</summary>
     public static BigInteger? InstanceCount(ImmutableArray<FractalStep> steps) =>

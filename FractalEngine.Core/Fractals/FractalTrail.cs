@@ -18,6 +18,7 @@ namespace FractalEngine.Core.Fractals;
 /// <param name="length">
 /// Length of the trail, at least 1: 1 keeps no trail, and 3 draws what is two transformations further out (Figure 9).
 /// </param>
+/// <exception cref="ArgumentOutOfRangeException">The length is less than 1.</exception>
 public sealed class FractalTrail(Fractal fractal, int length)
 {
     /// <summary>Maximum depth; beyond it a double can't tell the sub-fractals apart.</summary>
@@ -26,7 +27,9 @@ public sealed class FractalTrail(Fractal fractal, int length)
     private readonly Queue<AffineMap> _queue = new();
 
     /// <summary>Length of the trail.</summary>
-    public int Length => length;
+    public int Length { get; } = length >= 1
+        ? length
+        : throw new ArgumentOutOfRangeException(nameof(length), length, "expected a trail of at least one matrix");
 
     /// <summary>Number of transformations whose radius the camera is within.</summary>
     public int Depth { get; private set; }
@@ -41,7 +44,7 @@ public sealed class FractalTrail(Fractal fractal, int length)
     public AffineMap Update(AffineMap placement, Vector cameraPosition)
     {
         _queue.Clear();
-        for (var i = 0; i < length; i++)
+        for (var i = 0; i < Length; i++)
         {
             _queue.Enqueue(placement);
         }

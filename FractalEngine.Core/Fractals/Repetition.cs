@@ -38,7 +38,9 @@ public sealed class Repetition : FractalStep
     public long LevelsPerRound { get; }
 
     /// <inheritdoc/>
-    public override long? LevelCount => Count * LevelsPerRound;
+    /// <remarks>A number beyond that of a <see cref="long"/> is its maximum.</remarks>
+    public override long? LevelCount =>
+        Count is { } count ? (long)Int128.Min(long.MaxValue, (Int128)count * LevelsPerRound) : null;
 
     /// <inheritdoc/>
     public override int NestingDepth { get; }

@@ -14,10 +14,13 @@ public sealed class Mesh : IEquatable<Mesh>
     /// <summary>Makes a mesh of positions and faces.</summary>
     /// <param name="positions">Coordinates, [vertices × 3].</param>
     /// <param name="vertexIndices">Indices of vertices from 0, [faces × 3].</param>
-    /// <exception cref="ArgumentException">A length is not a multiple of three, or a vertex number is out of range.</exception>
+    /// <exception cref="ArgumentException">
+    /// A length is not a multiple of three, a coordinate is NaN or infinite, or a vertex number is out of range.
+    /// </exception>
     public Mesh(ImmutableArray<double> positions, ImmutableArray<int> vertexIndices)
     {
         Require(positions.Length % 3 == 0, nameof(positions), "three coordinates a vertex");
+        Require(AreFinite(positions.AsSpan()), nameof(positions), "finite coordinates");
         Positions = positions;
         VertexIndices = vertexIndices;
         RequireIndices(vertexIndices, vertexIndices.Length, positions.Length / 3, 0, nameof(vertexIndices));
@@ -100,6 +103,8 @@ public sealed class Mesh : IEquatable<Mesh>
     /// Applies a function to every vertex: the paper's T(t) (§4.2.3). Normals are dropped, since a general function
     /// does not say what becomes of them.
     /// </summary>
+    /// <param name="function">Maps a vertex to its new position, which is finite.</param>
+    /// <exception cref="ArgumentException">The function makes a coordinate that is NaN or infinite.</exception>
     public Mesh Transform(Func<Vector, Vector> function)
     {
         var positions = ImmutableArray.CreateBuilder<double>(Positions.Length);
@@ -176,6 +181,19 @@ public sealed class Mesh : IEquatable<Mesh>
 
     private static bool HaveSameBits(ImmutableArray<double> numbers1, ImmutableArray<double> numbers2) =>
         MemoryMarshal.AsBytes(numbers1.AsSpan()).SequenceEqual(MemoryMarshal.AsBytes(numbers2.AsSpan()));
+
+    private static bool AreFinite(ReadOnlySpan<double> numbers)
+    {
+        foreach (var number in numbers)
+        {
+            if (!double.IsFinite(number))
+            {
+                return false;
+            }
+        }
+
+        return true;
+    }
 
     private static BoundingBox BoundsOf(ReadOnlySpan<double> positions)
     {

@@ -69,19 +69,20 @@ public sealed record BodyDescription(Vector Position, double Radius)
 
     /// <summary>Throws for a description that no body can have.</summary>
     /// <exception cref="ArgumentException">A number is not finite, or outside its range; the message names it and the body.</exception>
-    internal void Validate()
-    {
-        Require(Position.IsFinite() && Velocity.IsFinite(), "position and velocity must be finite");
-        Require(LinearPart.IsFinite(), "rotation and scale must be finite");
-        Require(Radius > 0 && double.IsFinite(Radius), "the radius must be positive");
-        Require(Mass > 0 && double.IsFinite(Mass), "the mass must be positive");
-        Require(Restitution is >= 0 and <= 1, "the coefficient of restitution must lie between 0 and 1");
-        Require(Friction >= 0 && double.IsFinite(Friction), "the friction must not be negative");
-        Require(Damping >= 0 && double.IsFinite(Damping), "the damping must not be negative");
-        Require(Shrinkage >= 0 && double.IsFinite(Shrinkage), "the shrinkage must not be negative");
-        Require(MinimumScale is > 0 and <= 1, "the minimum scale must lie between 0 and 1");
-    }
+    internal void Validate() =>
+        ArgumentCheck.Require(FindFault() is null, FindFault() ?? "", Name is null ? "body without a name" : $"body {Name}");
 
-    private void Require(bool isMet, string requirement) =>
-        ArgumentCheck.Require(isMet, requirement, Name is null ? "body without a name" : $"body {Name}");
+    /// <summary>Describes the first number that no body can have; null for a valid description.</summary>
+    internal string? FindFault() =>
+        !(Position.IsFinite() && Velocity.IsFinite()) ? "position and velocity must be finite"
+        : !LinearPart.IsFinite() ? "rotation and scale must be finite"
+        : Radius > 0 && !double.IsFinite(Radius) ? "the radius is beyond the range of a double"
+        : !(Radius > 0) ? "the radius must be positive"
+        : !(Mass > 0 && double.IsFinite(Mass)) ? "the mass must be positive"
+        : !(Restitution is >= 0 and <= 1) ? "the coefficient of restitution must lie between 0 and 1"
+        : !(Friction >= 0 && double.IsFinite(Friction)) ? "the friction must not be negative"
+        : !(Damping >= 0 && double.IsFinite(Damping)) ? "the damping must not be negative"
+        : !(Shrinkage >= 0 && double.IsFinite(Shrinkage)) ? "the shrinkage must not be negative"
+        : !(MinimumScale is > 0 and <= 1) ? "the minimum scale must lie between 0 and 1"
+        : null;
 }

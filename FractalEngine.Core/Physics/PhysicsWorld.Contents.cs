@@ -87,14 +87,13 @@ public sealed partial class PhysicsWorld
     /// <summary>Puts a character into the world, in place of the previous one. It is not yet active.</summary>
     /// <param name="player">Position and sizes in world space, scene units.</param>
     /// <exception cref="ArgumentException">
-    /// The position is not finite, the radius is not positive, or the height is less than twice the radius.
+    /// The position is not finite, the radius is not positive, or the height is less than twice the radius or more than
+    /// <see cref="Player.MaxHeightPerRadius"/> times.
     /// </exception>
     public CharacterController AddCharacter(Player player)
     {
-        ArgumentCheck.RequireFinite(player.Position, nameof(player));
-        ArgumentCheck.Require(
-            player.Radius > 0 && player.Height >= 2 * player.Radius && double.IsFinite(player.Height),
-            "expected a positive radius and a finite height of at least twice the radius", null, nameof(player));
+        ArgumentNullException.ThrowIfNull(player);
+        ArgumentCheck.Require(player.FindFault() is null, player.FindFault() ?? "", null, nameof(player));
         if (Character is { } previous)
         {
             previous.IsActive = false;

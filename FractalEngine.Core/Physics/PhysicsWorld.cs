@@ -1,4 +1,5 @@
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Character;
 using FractalEngine.Core.Scenes;
@@ -51,9 +52,12 @@ public sealed partial class PhysicsWorld
     /// </summary>
     /// <param name="scene">The scene with its models; it also gives gravity and character.</param>
     /// <param name="settings">Null for the default settings.</param>
-    /// <exception cref="ArgumentException">A setting or a body is out of range; the message names it.</exception>
+    /// <exception cref="ArgumentException">A setting is out of range; the message names it.</exception>
+    /// <exception cref="SceneObjectException">No body can be made of a physics object; the message says why.</exception>
+    /// <exception cref="FractalEngineException">The scene's player has impossible sizes.</exception>
     public PhysicsWorld(LoadedScene scene, PhysicsSettings? settings = null)
     {
+        ArgumentNullException.ThrowIfNull(scene);
         _scene = scene;
         _gravity = scene.Scene.Gravity;
         Settings = settings ?? new();
@@ -66,9 +70,7 @@ public sealed partial class PhysicsWorld
         {
             if (scene.Objects[i].Declaration is PhysicsObject declared)
             {
-                var description = BodyDescription.FromPhysicsObject(scene.Objects[i], declared, i);
-                description.Validate();
-                AppendBody(description);
+                AppendBody(DescribeBody(scene.Objects[i], declared, i));
             }
             else
             {
@@ -77,7 +79,9 @@ public sealed partial class PhysicsWorld
         }
 
         _sceneBodyCount = _bodies.Count;
-        Character = scene.Scene.Player is { } player ? new(this, _obstacles, player) : null;
+        Character = scene.Scene.Player is not { } player ? null
+            : player.FindFault() is { } fault ? throw new FractalEngineException($"player: {fault}")
+            : new(this, _obstacles, player);
         _grid.Build(_bodies);
     }
 
@@ -224,6 +228,30 @@ public sealed partial class PhysicsWorld
 
     /// <summary>Wakes the islands of all bodies that touch a sphere of the character.</summary>
     internal void WakeOverlapping(Vector centre, double radius) => _islands.WakeOverlapping(centre, radius);
+
+    /// <summary>Describes the body of a physics object.</summary>
+    /// <exception cref="SceneObjectException">No body can be made of it.</exception>
+    private static BodyDescription DescribeBody(PlacedModel placed, PhysicsObject declared, int index)
+    {
+        BodyDescription description;
+        try
+        {
+            description = BodyDescription.FromPhysicsObject(placed, declared, index);
+        }
+        catch (FractalLimitException exception)
+        {
+            throw new SceneObjectException(index, exception.Kind, $"body {declared.DisplayName}: {exception.Message}", exception);
+        }
+
+        if (description.FindFault() is { } fault)
+        {
+            // A body grows beyond all numbers where its fractal does.
+            var kind = double.IsFinite(description.Radius) ? ErrorKind.Input : ErrorKind.Limit;
+            throw new SceneObjectException(index, kind, $"body {declared.DisplayName}: {fault}");
+        }
+
+        return description;
+    }
 
     private ColliderKind ColliderKindOf(Body body) => _colliderOverride ?? body.Description.Collider;
 

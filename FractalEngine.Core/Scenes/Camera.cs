@@ -8,12 +8,17 @@ namespace FractalEngine.Core.Scenes;
 /// </summary>
 public sealed record Camera
 {
+    private readonly Vector _position;
     private readonly Vector _rotation;
+    private readonly double _fieldOfView;
 
     /// <summary>Makes a camera from its position, rotation and angle of view.</summary>
     /// <param name="position">World space, scene units.</param>
     /// <param name="rotation">Euler angles in radians, see <see cref="Vector.LocalAxes"/>.</param>
     /// <param name="fieldOfView">The full vertical angle of view in degrees, between 0 and 180.</param>
+    /// <exception cref="ArgumentException">
+    /// A number is NaN or infinite, or the angle of view is not more than 0 and less than 180 degrees.
+    /// </exception>
     public Camera(Vector position, Vector rotation, double fieldOfView) =>
         (Position, Rotation, FieldOfView) = (position, rotation, fieldOfView);
 
@@ -27,22 +32,35 @@ public sealed record Camera
     public static Camera Framing(Scene scene, double aspect = 16 / 9.0) => CameraFraming.Default(LoadedScene.Of(scene).Bounds, aspect);
 
     /// <summary>Position in world space, scene units.</summary>
-    public Vector Position { get; init; }
+    /// <exception cref="ArgumentException">A coordinate is NaN or infinite.</exception>
+    public Vector Position
+    {
+        get => _position;
+        init => _position = value.IsFinite() ? value : throw new ArgumentException("expected a finite position", nameof(Position));
+    }
 
     /// <summary>Euler angles in radians, see <see cref="Vector.LocalAxes"/>.</summary>
+    /// <exception cref="ArgumentException">An angle is NaN or infinite.</exception>
     public Vector Rotation
     {
         get => _rotation;
         init
         {
-            _rotation = value;
+            _rotation = value.IsFinite() ? value : throw new ArgumentException("expected a finite rotation", nameof(Rotation));
             LocalAxes = value.LocalAxes();
             LocalAxesInverse = LocalAxes.Inverse();
         }
     }
 
-    /// <summary>The full vertical angle of view in degrees.</summary>
-    public double FieldOfView { get; init; }
+    /// <summary>The full vertical angle of view in degrees, between 0 and 180.</summary>
+    /// <exception cref="ArgumentException">The angle is not more than 0 and less than 180 degrees.</exception>
+    public double FieldOfView
+    {
+        get => _fieldOfView;
+        init => _fieldOfView = value is > 0 and < 180
+            ? value
+            : throw new ArgumentException("expected an angle of view between 0 and 180 degrees", nameof(FieldOfView));
+    }
 
     /// <summary>Columns: the camera's right, up and forward axes in world space.</summary>
     public Matrix LocalAxes { get; private init; }

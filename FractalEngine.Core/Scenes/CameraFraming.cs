@@ -32,6 +32,11 @@ public static class CameraFraming
         {
             box = new(Vector.Zero, Vector.Zero);
         }
+        else if (!box.Size.IsFinite())
+        {
+            // From nowhere all of it is in view.
+            box = new(-Vector.One, Vector.One);
+        }
 
         var halfHeight = camera.HalfHeightAtUnitDepth;
         // A point at (right, up, forward) from the box's centre is in view from a distance d before it when
@@ -42,7 +47,9 @@ public static class CameraFraming
             return (Math.Max(Math.Abs(right) / aspect, Math.Abs(up)) / halfHeight) - forward;
         });
         var minDistance = Math.Max(0.5 * box.Diagonal, 1e-9 * (1 + box.Centre.MaxAbsComponent()));
-        return camera with { Position = box.Centre - (Margin * Math.Max(distance, minDistance) * camera.LocalAxes.V3) };
+        var position = box.Centre - (Margin * Math.Max(distance, minDistance) * camera.LocalAxes.V3);
+        // Of a box that is nearly as large as a double can be, no position shows all.
+        return camera with { Position = position.IsFinite() ? position : box.Centre };
     }
 
     private static IEnumerable<Vector> Corners(BoundingBox box) =>

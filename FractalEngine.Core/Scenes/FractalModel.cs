@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Scenes;
 public sealed class FractalModel(Fractal fractal) : Model
 {
     /// <summary>The fractal that the model shows.</summary>
-    public Fractal Fractal { get; } = fractal;
+    public Fractal Fractal { get; } = fractal ?? throw new ArgumentNullException(nameof(fractal));
 
     /// <inheritdoc/>
     public override Mesh Mesh => Fractal.BaseMesh;

@@ -8,7 +8,7 @@ namespace FractalEngine.Core.Scenes;
 public sealed class MeshModel(Mesh mesh) : Model
 {
     /// <inheritdoc/>
-    public override Mesh Mesh { get; } = mesh;
+    public override Mesh Mesh { get; } = mesh ?? throw new ArgumentNullException(nameof(mesh));
 
     /// <inheritdoc/>
     public override BigInteger? InstanceCount => BigInteger.One;

@@ -45,8 +45,10 @@ public abstract class Model
     private protected abstract string KindName { get; }
 
     /// <summary>Makes the model that shows a mesh.</summary>
+    /// <param name="mesh">In its own frame, scene units.</param>
     public static Model Of(Mesh mesh) => new MeshModel(mesh);
 
     /// <summary>Makes the model that shows a fractal.</summary>
+    /// <param name="fractal">In its own frame, scene units.</param>
     public static Model Of(Fractal fractal) => new FractalModel(fractal);
 }

@@ -5,9 +5,17 @@ namespace FractalEngine.Core.Scenes;
 /// <summary>A player who walks in the scene, as a capsule.</summary>
 /// <param name="Position">Initial position of the capsule's centre, world space.</param>
 /// <param name="Radius">Radius of the capsule, scene units, positive.</param>
-/// <param name="Height">Height of the capsule from its lowest to its highest point, scene units; at least twice the radius.</param>
+/// <param name="Height">
+/// Height of the capsule from its lowest to its highest point, scene units: at least twice the radius, and at most
+/// <see cref="MaxHeightPerRadius"/> times.
+/// </param>
 public sealed record Player(Vector Position, double Radius, double Height)
 {
+    /// <summary>
+    /// Maximum of the height divided by the radius: the capsule is tested as a row of spheres half a radius apart.
+    /// </summary>
+    public const double MaxHeightPerRadius = 1000;
+
     /// <summary>The steepest ground that is walked on unless the scene says so, degrees from the horizontal.</summary>
     public const double DefaultMaxSlopeAngle = 50;
 
@@ -33,6 +41,15 @@ public sealed record Player(Vector Position, double Radius, double Height)
     /// cref="StepHeight"/>'s own.
     /// </summary>
     public double? StepHeightOverride { get; init; }
+
+    /// <summary>Describes what makes the capsule impossible to walk with; null for a valid one.</summary>
+    internal string? FindFault() =>
+        !Position.IsFinite() ? "expected a finite position"
+        : !(Radius > 0 && Height >= 2 * Radius && double.IsFinite(Height))
+            ? "expected a positive radius and a finite height of at least twice the radius"
+        : !(Height <= MaxHeightPerRadius * Radius)
+            ? $"expected a height of at most {MaxHeightPerRadius} times the radius"
+        : null;
 
     /// <summary>How fast the player walks, units a second: 2.5 heights unless stated.</summary>
     public double WalkingSpeed => WalkingSpeedOverride ?? (WalkingSpeedPerHeight * Height);

@@ -11,4 +11,13 @@ namespace FractalEngine.Core.Scenes;
 /// <param name="Intensity">As for a point light.</param>
 /// <param name="Range">As for a point light.</param>
 public sealed record SpotLight(Vector Position, Vector Direction, double Angle, Colour Colour, double Intensity, double Range)
-    : PointLight(Position, Colour, Intensity, Range);
+    : PointLight(Position, Colour, Intensity, Range)
+{
+    /// <summary>The axis of the cone, in which the light travels, world space, of any length but 0.</summary>
+    /// <exception cref="ArgumentException">The direction is (0, 0, 0) or not finite.</exception>
+    public Vector Direction
+    {
+        get;
+        init => field = RequireDirection(value, nameof(Direction));
+    } = RequireDirection(Direction, nameof(Direction));
+}

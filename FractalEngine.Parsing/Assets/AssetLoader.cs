@@ -33,6 +33,12 @@ public sealed class AssetLoader
         _path = path;
         _fullPath = Path.GetFullPath(path);
         _options = options ?? new();
+        if (_options.Depth is { } depth)
+        {
+            ArgumentOutOfRangeException.ThrowIfNegative(depth, nameof(options));
+            ArgumentOutOfRangeException.ThrowIfGreaterThan(depth, FractalLimits.MaxDepth, nameof(options));
+        }
+
         _progress = progress;
         _references = new(AssetFolder.ForFile(_fullPath), _options.AllowOutsideFiles);
         _materials = new(_references, _warnings);
@@ -45,6 +51,7 @@ public sealed class AssetLoader
     /// <param name="options">Options for loading; null for the defaults.</param>
     /// <param name="progress">Receives the progress of each large file.</param>
     /// <exception cref="SourceException">The file, or one that it refers to, can't be loaded: the first error.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The depth of the options is negative or beyond the limit.</exception>
     public static LoadedFile Load(string path, LoadOptions? options = null, IProgress<LoadProgress>? progress = null)
     {
         var loader = new AssetLoader(path, options, progress);

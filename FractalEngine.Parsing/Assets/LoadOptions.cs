@@ -11,7 +11,9 @@ public sealed record LoadOptions
     /// <summary>Composition of all fractals; null for what each file states.</summary>
     public Composition? Composition { get; init; }
 
-    /// <summary>Depth of all fractals that have one; null for what each file states.</summary>
+    /// <summary>
+    /// Depth of all fractals that have one, from 0 to <see cref="FractalLimits.MaxDepth"/>; null for what each file states.
+    /// </summary>
     public int? Depth { get; init; }
 
     /// <summary>Whether all objects of one file share its model. False loads the file once per object, for comparison.</summary>

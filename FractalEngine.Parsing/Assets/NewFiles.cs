@@ -1,3 +1,5 @@
+using FractalEngine.Core.Files;
+
 namespace FractalEngine.Parsing.Assets;
 
 /// <summary>
@@ -7,14 +9,14 @@ internal sealed class NewFiles : IDisposable
 {
     private readonly List<string> _created = [];
 
-    /// <summary>Writes a file without replacing a different one, see <see cref="AtomicFile.WriteNew"/>.</summary>
+    /// <summary>Writes a file without replacing a different one, see <see cref="AtomicFile.WriteWithoutReplacing"/>.</summary>
     /// <param name="path">Full path of the file; another name is chosen if it is taken.</param>
     /// <param name="write">Writes the contents.</param>
     /// <returns>Full path of the file that has these contents.</returns>
     /// <exception cref="IOException">The file can't be written.</exception>
     public string Write(string path, Action<Stream> write)
     {
-        var result = AtomicFile.WriteNew(path, write, out var isCreated);
+        var result = AtomicFile.WriteWithoutReplacing(path, write, out var isCreated);
         if (isCreated)
         {
             _created.Add(result);

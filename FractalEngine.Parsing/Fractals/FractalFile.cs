@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using System.Text;
 using FractalEngine.Core;
+using FractalEngine.Core.Files;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
@@ -12,7 +13,7 @@ namespace FractalEngine.Parsing.Fractals;
 
 /// <summary>Reads and writes fractals as files (<c>.fdo</c>); what is written reads back as an equal fractal.</summary>
 /// <example><code>
-/// FractalFile.Write("sponge.fdo", Fractal.Of(Shapes.Cube()).Repeat(maps, 5));
+/// FractalFile.Write("sponge.fdo", Fractal.Of(Shapes.Cube()).Repeat(maps, 5)); // and sponge.obj
 /// var sponge = FractalFile.Read("sponge.fdo");
 /// </code></example>
 public static class FractalFile
@@ -28,7 +29,7 @@ public static class FractalFile
         return ((FractalModel)AssetLoader.Load(path, options).Scene.Objects[0].Model).Fractal;
     }
 
-    /// <summary>Creates or replaces the file of a fractal.</summary>
+    /// <summary>Creates or replaces the file of a fractal, and writes <c>NAME.obj</c> beside it for a base mesh without a file.</summary>
     /// <param name="path">Path that ends in <c>.fdo</c>; its folder is created if it is missing.</param>
     /// <param name="fractal">Fractal made in code or read from a file.</param>
     /// <exception cref="ArgumentException">The path does not end in <c>.fdo</c>.</exception>

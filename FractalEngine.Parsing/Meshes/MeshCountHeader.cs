@@ -1,6 +1,6 @@
 using System.Globalization;
 using System.Text;
-using FractalEngine.Parsing.Assets;
+using FractalEngine.Core.Files;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Meshes;
@@ -15,11 +15,13 @@ public static class MeshCountHeader
     /// written.
     /// </summary>
     /// <param name="path">Path of an OBJ file in any encoding that extends ASCII.</param>
-    /// <param name="faceCount">Number of triangles to record.</param>
+    /// <param name="faceCount">Number of triangles to record, not negative.</param>
     /// <returns>True if the file was changed.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The number is negative.</exception>
     /// <exception cref="IOException">The file can't be read or written.</exception>
     public static bool Update(string path, int faceCount)
     {
+        ArgumentOutOfRangeException.ThrowIfNegative(faceCount);
         // Latin-1 maps bytes to characters one to one, whatever the encoding of the file.
         var text = Encoding.Latin1.GetString(File.ReadAllBytes(path));
         var updated = WithHeader(text, faceCount);

@@ -1,5 +1,6 @@
 using System.Text;
 using FractalEngine.Core;
+using FractalEngine.Core.Files;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
@@ -53,7 +54,8 @@ public static class MeshFile
     private static void WriteChecked(Mesh mesh, Stream stream)
     {
         ObjMeshWriter.Write(mesh, stream);
-        if (stream.Length > ParsingLimits.MaxObjBytes)
+        // A pipe has no length, and is not read back as a file.
+        if (stream.CanSeek && stream.Length > ParsingLimits.MaxObjBytes)
         {
             throw new FractalEngineException(ErrorKind.Limit,
                 $"the mesh can't be written as an OBJ file: its text has more than the limit of {ParsingLimits.MaxObjBytes} bytes");

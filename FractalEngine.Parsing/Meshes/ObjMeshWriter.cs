@@ -89,7 +89,6 @@ public static class ObjMeshWriter
 
     private static void RequireNumbers(Mesh mesh)
     {
-        Require(mesh.Positions.All(double.IsFinite), "a coordinate of a vertex is not finite");
         Require(mesh.TextureCoordinates.All(double.IsFinite), "a texture coordinate is not finite");
         Require(mesh.Normals.All(double.IsFinite), "a component of a normal is not finite");
         Require(IsUsed(mesh.TextureCoordinates.Length, mesh.TextureIndices), "no face uses the texture coordinates");

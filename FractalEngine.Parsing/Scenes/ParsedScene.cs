@@ -13,4 +13,23 @@ public sealed record ParsedScene(SourceText Source, Scene Scene, ImmutableArray<
     /// <summary>Offsets of the file names of all objects in the text, in the order of the objects.</summary>
     public IEnumerable<int> FileNameOffsets =>
         Lines.Where(line => line.Kind == SceneDeclarationKind.SceneObject).Select(line => line.FileNameOffset);
+
+    /// <summary>Finds where an object is declared: the offset of its <c>o</c> or <c>p</c> in the text.</summary>
+    /// <param name="objectIndex">Index of the object in the scene, from 0.</param>
+    /// <exception cref="ArgumentOutOfRangeException">The scene has no such object.</exception>
+    public int DeclarationOffset(int objectIndex)
+    {
+        var offset = 0;
+        foreach (var line in Lines)
+        {
+            if (line.Kind == SceneDeclarationKind.SceneObject && line.Index == objectIndex)
+            {
+                return offset + line.Text.Length - line.Text.TrimStart().Length;
+            }
+
+            offset += line.Text.Length;
+        }
+
+        throw new ArgumentOutOfRangeException(nameof(objectIndex), objectIndex, "the scene has no such object");
+    }
 }

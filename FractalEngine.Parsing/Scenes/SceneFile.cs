@@ -1,5 +1,6 @@
 using System.Text;
 using FractalEngine.Core;
+using FractalEngine.Core.Files;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;

@@ -17,6 +17,8 @@ public sealed partial class SceneParser
 
         Require(radius > 0 && height >= 2 * radius, radiusStart,
             "the player's radius must be positive, and the height at least twice as much");
+        Require(height <= Player.MaxHeightPerRadius * radius, radiusStart,
+            $"the player's height must be at most {Player.MaxHeightPerRadius} times the radius");
         var player = ParseOptions(rest, new Player(position, radius, height), ParsePlayerOption, out rest);
         return UpdateScene(_scene with { Player = player });
     }

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Files;
 using FractalEngine.Core.Images;
 
 namespace FractalEngine.Render.Images;
@@ -13,36 +14,10 @@ public static class ImageFile
 
     /// <summary>Writes a PNG file. An existing file is replaced only once the new one is complete. Needs no library.</summary>
     /// <param name="image">At least one pixel.</param>
-    /// <param name="path">Relative to the working directory, or absolute; its directory must exist.</param>
+    /// <param name="path">Relative to the working directory, or absolute; its folder is created if it is missing.</param>
     /// <exception cref="ArgumentException">The image has no pixels, or not as many as its sides say.</exception>
     /// <exception cref="IOException">The file can't be written.</exception>
-    public static void SavePng(this PixelImage image, string path)
-    {
-        var temporaryPath = $"{path}.{Guid.NewGuid():N}.tmp";
-        try
-        {
-            using (var stream = new FileStream(temporaryPath, FileMode.CreateNew, FileAccess.Write, FileShare.None, BufferBytes))
-            {
-                PngWriter.Write(image, stream);
-            }
-
-            File.Move(temporaryPath, path, overwrite: true);
-        }
-        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
-        {
-            // Messages show full paths, of which only the last part is known.
-            var reason = exception.Message.Replace(Path.GetFileName(temporaryPath), Path.GetFileName(path), StringComparison.Ordinal);
-            throw new IOException($"{path} can't be written: {reason}", exception);
-        }
-        finally
-        {
-            // Gone after the move; not there at all where its directory is missing.
-            if (File.Exists(temporaryPath))
-            {
-                File.Delete(temporaryPath);
-            }
-        }
-    }
+    public static void SavePng(this PixelImage image, string path) => AtomicFile.Write(path, stream => PngWriter.Write(image, stream));
 
     /// <summary>Reads an image: PNG, known by its first bytes whatever its name is, or any format that SDL2_image knows.</summary>
     /// <exception cref="IOException">The file can't be read or is damaged; or it is no PNG, and SDL2_image is missing.</exception>

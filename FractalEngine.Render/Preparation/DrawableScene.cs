@@ -59,7 +59,7 @@ public sealed class DrawableScene
     }
 
     /// <summary>Creates a scene whose models are placeholder boxes.</summary>
-    internal static DrawableScene CreateWithPlaceholders(LoadedScene scene)
+    internal static DrawableScene CreateWithPlaceholders(LoadedScene scene, ImmutableArray<string> notices)
     {
         var models = new Dictionary<Model, DrawableModel>(ReferenceEqualityComparer.Instance);
         foreach (var model in scene.Models)
@@ -71,7 +71,7 @@ public sealed class DrawableScene
             scene,
             [.. scene.Models.Select(model => models[model])],
             [.. scene.Objects.Select((placed, index) => CreateObject(placed, index, models[placed.Model]))],
-            []);
+            notices);
     }
 
     /// <summary>Returns the scene with one of its models replaced.</summary>

@@ -43,7 +43,7 @@ internal static class ModelPreparation
         // The inner sides of a solid are visible through transparent faces.
         var hasTransparentBatches = batches.Batches.Any(static batch => batch.IsTransparent);
         var meshWindingSign = testsSolidity && !hasTransparentBatches && ClosedSurface.IsSolid(mesh) ? 1 : 0;
-        var instanceSign = hierarchy is null ? CommonOrientation(maps) : OrientationOfInstances(model);
+        var instanceSign = hierarchy is null ? CommonOrientation(name, maps) : OrientationOfInstances(model);
         // The instances of a fractal with a hierarchy are selected for each frame.
         var instances = hierarchy is null || model is MeshModel ? ToInstanceRows(maps, meshOrigin, origin) : [];
         return new(name, origin, model.Bounds, vertices, indices, instances)
@@ -118,18 +118,26 @@ internal static class ModelPreparation
         model is FractalModel { Fractal.Description.PreservesOrientation: false } ? 0 : 1;
 
     /// <summary>Returns the sign that the determinants of all maps have; 0 where they differ or one is singular.</summary>
-    private static int CommonOrientation(ImmutableArray<AffineMap> maps)
+    /// <exception cref="FractalLimitException">A map is beyond the range of a double.</exception>
+    private static int CommonOrientation(string name, ImmutableArray<AffineMap> maps)
     {
-        var sign = Math.Sign(maps[0].Linear.Determinant());
+        int? commonSign = null;
         foreach (ref readonly var map in maps.AsSpan())
         {
-            if (Math.Sign(map.Linear.Determinant()) != sign)
+            var determinant = map.Linear.Determinant();
+            if (double.IsNaN(determinant) || !map.IsFinite())
             {
-                return 0;
+                throw new FractalLimitException($"{name}: an instance is beyond the range of a double, so that nothing can be drawn");
+            }
+
+            var sign = Math.Sign(determinant);
+            if (sign != (commonSign ??= sign))
+            {
+                commonSign = 0;
             }
         }
 
-        return sign;
+        return commonSign ?? 1;
     }
 
     /// <summary>Returns the centre of a box, or the origin where it is infinite, as that of an unbounded fractal.</summary>

@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Passes;
 
 namespace FractalEngine.Render.Preparation;
 
@@ -26,7 +27,14 @@ public sealed class ScenePreparation
         _models = [.. scene.Models];
         _textures = new(_notices, settings.ShareTextures);
         _prepared = new DrawableModel?[_models.Length];
-        Scene = DrawableScene.CreateWithPlaceholders(scene);
+        var lightCount = scene.Scene.Lights.Count(static light => light is not AmbientLight);
+        if (lightCount > LightBlock.MaxLights)
+        {
+            _notices.Add(FormattableString.Invariant(
+                $"of {lightCount} lights besides ambient ones, only the first {LightBlock.MaxLights} shine"));
+        }
+
+        Scene = DrawableScene.CreateWithPlaceholders(scene, _notices.ToImmutable());
     }
 
     /// <summary>Scene as far as it is prepared.</summary>

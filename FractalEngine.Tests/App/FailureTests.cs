@@ -69,13 +69,13 @@ public sealed class FailureTests : IDisposable
     }
 
     [Fact]
-    public void RenderAfterSomeTime_OfABodyWithoutSize_IsOneLine()
+    public void RenderAfterSomeTime_OfABodyWithoutSize_PointsToItsLine()
     {
         _folder.Write("scene.sdo", "p \"point.obj\" # 0.5 name \"dot\"\n");
         var (exitCode, output, error) = Run("render", "scene.sdo", "--time", "1", "--output", "image.png");
         Assert.Equal((1, ""), (exitCode, output));
         Assert.StartsWith("scene.sdo:1:1: error: body dot: ", error, StringComparison.Ordinal);
-        Assert.Single(error.TrimEnd('\n').Split('\n'));
+        Assert.Equal(3, error.TrimEnd('\n').Split('\n').Length);
     }
 
     [Fact]

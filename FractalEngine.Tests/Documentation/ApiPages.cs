@@ -16,21 +16,21 @@ internal static partial class ApiPages
     public static IEnumerable<(string Name, string Text)> Of(Assembly assembly)
     {
         var summaries = XDocument.Load(Path.ChangeExtension(assembly.Location, ".xml")).Descendants("member")
-            .ToDictionary(member => member.Attribute("name")!.Value, member => Plain(member.Element("summary")));
+            .ToDictionary(member => member.Attribute("name")!.Value, Documentation.Of);
         return from type in assembly.GetExportedTypes()
                group type by type.Namespace into types
                orderby types.Key
                select (types.Key!, Page(types.Key!, types.OrderBy(ApiSignatures.NameOf, StringComparer.Ordinal), summaries));
     }
 
-    private static string Page(string name, IEnumerable<Type> types, Dictionary<string, string> summaries)
+    private static string Page(string name, IEnumerable<Type> types, Dictionary<string, Documentation> summaries)
     {
         var text =
             new StringBuilder($"# {name}\n\nThe public types of this namespace, made from the assembly and its XML documentation.\n");
         foreach (var type in types)
         {
             text.Append(CultureInfo.InvariantCulture, $"\n## {ApiSignatures.NameOf(type)}\n\n");
-            AppendWrapped(text, "", Summary(summaries, DocumentationId(type)));
+            AppendWrapped(text, "", Find(summaries, type).Summary);
             text.Append(CultureInfo.InvariantCulture, $"\n```csharp\n{ApiSignatures.Of(type)}\n```\n\n");
             AppendMembers(text, type, summaries);
         }
@@ -38,19 +38,24 @@ internal static partial class ApiPages
         return text.ToString();
     }
 
-    private static void AppendMembers(StringBuilder text, Type type, Dictionary<string, string> summaries)
+    private static void AppendMembers(StringBuilder text, Type type, Dictionary<string, Documentation> summaries)
     {
         var nullability = new NullabilityInfoContext();
         foreach (var member in Members(type))
         {
             if (type.IsEnum)
             {
-                AppendWrapped(text, $"- `{member.Name}`: ", Summary(summaries, DocumentationId(member)));
+                AppendWrapped(text, $"- `{member.Name}`: ", Find(summaries, member).Summary);
                 continue;
             }
 
-            var summary = Summary(summaries, DocumentationId(member));
+            var documentation = Find(summaries, member);
+            var summary = documentation.Summary;
             AppendWrapped(text, $"- `{ApiSignatures.Of(member, nullability)}`", summary.Length == 0 ? "" : $"\n{summary}");
+            foreach (var note in documentation.Notes)
+            {
+                AppendWrapped(text, "  - ", note);
+            }
         }
     }
 
@@ -85,7 +90,8 @@ internal static partial class ApiPages
         || (member is ConstructorInfo && (type.IsAbstract || typeof(Exception).IsAssignableFrom(type)))
         || typeof(Delegate).IsAssignableFrom(type);
 
-    private static string Summary(Dictionary<string, string> summaries, string id) => summaries.GetValueOrDefault(id, "");
+    private static Documentation Find(Dictionary<string, Documentation> documentation, MemberInfo member) =>
+        documentation.GetValueOrDefault(DocumentationId(member), Documentation.None);
 
     /// <summary>The identifier that the compiler gives a type or member in XML documentation.</summary>
     private static string DocumentationId(MemberInfo member)
@@ -168,7 +174,9 @@ internal static partial class ApiPages
     {
         text.Append(head);
         var column = head.Length;
-        var indent = head.StartsWith("- ", StringComparison.Ordinal) ? "  " : "";
+        var indent = head.TrimStart().StartsWith("- ", StringComparison.Ordinal)
+            ? new string(' ', head.IndexOf('-', StringComparison.Ordinal) + 2)
+            : "";
         if (body.StartsWith('\n'))
         {
             text.Append('\n').Append(indent);
@@ -196,6 +204,23 @@ internal static partial class ApiPages
         }
 
         text.Append('\n');
+    }
+
+    /// <summary>What the XML documentation says of a type or member.</summary>
+    /// <param name="Summary">The summary on one line.</param>
+    /// <param name="Notes">A line for each parameter, the result and each exception that it describes.</param>
+    private sealed record Documentation(string Summary, IReadOnlyList<string> Notes)
+    {
+        public static Documentation None { get; } = new("", []);
+
+        public static Documentation Of(XElement member) => new(Plain(member.Element("summary")),
+        [
+            .. member.Elements("param").Where(HasText).Select(note => $"`{note.Attribute("name")!.Value}`: {Plain(note)}"),
+            .. member.Elements("returns").Where(HasText).Select(note => $"Returns: {Plain(note)}"),
+            .. member.Elements("exception").Where(HasText).Select(note => $"`{ShortName(Target(note))}`: {Plain(note)}"),
+        ]);
+
+        private static bool HasText(XElement note) => Plain(note).Length > 0;
     }
 
     [GeneratedRegex(@"\s+")]

@@ -1,5 +1,9 @@
+using FractalEngine.Core;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Tests.Physics;
 
@@ -81,6 +85,41 @@ public class BodyInputTests
             new() { MaxStepsPerAdvance = 0 }, new() { MaxStepsPerAdvance = -1 },
         ];
         Assert.All(wrong, settings => Assert.Throws<ArgumentException>(() => new PhysicsWorld(settings)));
+    }
+
+    [Fact]
+    public void AddCharacter_WithImpossibleSizes_IsRefused()
+    {
+        Player[] wrong =
+        [
+            new(new(double.NaN, 0, 0), 1, 2), new(Vector.Zero, 0, 2), new(Vector.Zero, 1, 1.9),
+            new(Vector.Zero, 1, double.PositiveInfinity),
+            new(Vector.Zero, double.NaN, 2), new(new(0, 5, 0), 1e-9, 3), new(Vector.Zero, 1, Player.MaxHeightPerRadius * 1.001),
+        ];
+        Assert.All(wrong, player =>
+        {
+            Assert.Throws<ArgumentException>(() => new PhysicsWorld().AddCharacter(player));
+            var error = Assert.Throws<FractalEngineException>(() => new PhysicsWorld(new Scene { Player = player }));
+            Assert.StartsWith("player: expected ", error.Message, StringComparison.Ordinal);
+        });
+        Assert.NotNull(new PhysicsWorld().AddCharacter(new(Vector.Zero, 1, Player.MaxHeightPerRadius)));
+    }
+
+    [Fact]
+    public void World_OfASceneWithABodyThatNoWorldCanHave_NamesItsObject()
+    {
+        var valid = new PhysicsObject(Model.Of(Shapes.Cube()));
+        var point = new PhysicsObject(Model.Of(new Mesh([0, 0, 0], [0, 0, 0]))) { Name = "dot" };
+        var error = Assert.Throws<SceneObjectException>(() => new PhysicsWorld(new Scene { Objects = [valid, point] }));
+        Assert.Equal((1, ErrorKind.Input, "body dot: the radius must be positive"), (error.ObjectIndex, error.Kind, error.Message));
+        foreach (var depth in (int?[])[null, 2000])
+        {
+            var growing = Fractal.Of(Shapes.Cube()).Repeat([Transformation.At(Vector.I, 2), Transformation.At(-Vector.I, 2)], depth);
+            var huge = new PhysicsObject(Model.Of(growing));
+            error = Assert.Throws<SceneObjectException>(() => new PhysicsWorld(new Scene { Objects = [huge] }));
+            Assert.Equal((0, ErrorKind.Limit), (error.ObjectIndex, error.Kind));
+            Assert.DoesNotContain("must be positive", error.Message, StringComparison.Ordinal);
+        }
     }
 
     [Theory]

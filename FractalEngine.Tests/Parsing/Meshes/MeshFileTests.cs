@@ -33,7 +33,8 @@ public sealed class MeshFileTests : IDisposable
     public void Write_ThatIsRefused_KeepsTheOldFile()
     {
         MeshFile.Write(_folder["a.obj"], Samples.Triangle);
-        Assert.Throws<FractalEngineException>(() => MeshFile.Write(_folder["a.obj"], new([double.NaN, 0, 0], [])));
+        Assert.Throws<FractalEngineException>(() => MeshFile.Write(
+            _folder["a.obj"], Samples.Triangle.WithNormals([double.NaN, 0, 0], [0, 0, 0])));
         Assert.Equal(Samples.Triangle, MeshFile.Read(_folder["a.obj"]));
         Assert.Single(Directory.GetFiles(_folder.Path));
     }

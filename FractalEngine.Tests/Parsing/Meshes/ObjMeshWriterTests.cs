@@ -135,7 +135,6 @@ public class ObjMeshWriterTests
     [Fact]
     public void Write_OfWhatTheFormatCannotHold_IsRefused()
     {
-        Fails("a coordinate of a vertex is not finite", new([0, double.NaN, 0], []));
         Fails("a texture coordinate is not finite", Samples.Triangle.WithTextureCoordinates([1, 1.0 / 0], [0, 0, 0]));
         Fails("a component of a normal is not finite", Samples.Triangle.WithNormals([1, -1.0 / 0, 0], [0, 0, 0]));
         Fails("no face uses the texture coordinates", Samples.Triangle.WithTextureCoordinates([1, 1], [-1, -1, -1]));

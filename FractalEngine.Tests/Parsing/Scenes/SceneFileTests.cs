@@ -185,7 +185,7 @@ public sealed class SceneFileTests : IDisposable
     {
         var row = Of(new SceneObject(Row()));
         Fails("the scene declares nothing: it has no camera, object or light", new Scene());
-        Fails("the angle of view must lie between 0 and 180 degrees", row with { Camera = new(Vector.Zero, Vector.Zero, 180) });
+        Fails("the clip planes must satisfy 0 < near < far", row with { Clip = (2, 1) });
         Fails("the components of a colour must lie between 0 and 1", row with { Background = new(2, 0, 0) });
         Fails("unexpected 'NaN', expected a number", row with { Gravity = new(0, double.NaN, 0) });
         Fails("expected the name of a .obj or .fdo file", Of(new SceneObject("a.png", Transformation.Identity)));

@@ -89,6 +89,7 @@ public class SceneParserErrorTests
     [InlineData("p \"a.obj\" # 1 mass 1e999", 20, "the number 1e999 is beyond the range of a double")]
     [InlineData("p \"a.obj\" # NaN", 13, "unexpected 'NaN', expected a number")]
     [InlineData("gravity (0, -1e999, 0)", 13, "the number -1e999 is beyond the range of a double")]
+    [InlineData("player (0, 5, 0) 1e-9 3", 18, "the player's height must be at most 1000 times the radius")]
     [InlineData("player (0, 0, 0) 1 2 speed -1", 28, "the player's speed must not be negative")]
     [InlineData("player (0, 0, 0) 1 2 jump -1", 27, "the speed of a jump must not be negative")]
     [InlineData("player (0, 0, 0) 1 2 slope -1", 28, "the player's slope must lie between 0 and 89 degrees")]

@@ -34,9 +34,18 @@ public sealed class ImageFileTests : IDisposable
     }
 
     [Fact]
-    public void SavePng_MissingDirectory_IsAnErrorThatNamesTheFile()
+    public void SavePng_MissingFolder_IsCreated()
     {
-        var path = Path.Combine(_directory.FullName, "missing", "x.png");
+        var path = Path.Combine(_directory.FullName, "missing", "folders", "x.png");
+        new PixelImage(1, 1, [1, 2, 3, 4]).SavePng(path);
+        Assert.Equal((1, 2, 3, 4), ImageFile.Load(path)[0, 0]);
+    }
+
+    [Fact]
+    public void SavePng_BelowAFile_IsAnErrorThatNamesTheFile()
+    {
+        File.WriteAllText(Path.Combine(_directory.FullName, "file"), "");
+        var path = Path.Combine(_directory.FullName, "file", "x.png");
         var error = Assert.Throws<IOException>(() => ImageFile.SavePng(new(1, 1, new byte[4]), path));
         Assert.StartsWith($"{path} can't be written: ", error.Message, StringComparison.Ordinal);
         // The temporary file, which is written first, is not mentioned.

@@ -1,7 +1,9 @@
-using FractalEngine.Parsing.Assets;
+using System.Diagnostics;
+using System.Text;
+using FractalEngine.Core.Files;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Parsing.Assets;
+namespace FractalEngine.Tests.Files;
 
 public sealed class AtomicFileTests : IDisposable
 {
@@ -88,6 +90,77 @@ public sealed class AtomicFileTests : IDisposable
             Assert.NotNull(new FileInfo(_folder["link"]).LinkTarget);
             Assert.Equal(UnixFileMode.UserRead | UnixFileMode.UserWrite | UnixFileMode.GroupRead, File.GetUnixFileMode(_folder["target"]));
         }
+    }
+
+    [SkippableFact]
+    public void Write_IntoAPipe_FeedsItsReader()
+    {
+        Skip.If(OperatingSystem.IsWindows(), "pipes are those of Unix");
+        Assert.Equal(0, Run("mkfifo", "pipe.obj"));
+        foreach (var text in (string[])["first", "second"])
+        {
+            // The second one would read a file that never changes, had the first one replaced the pipe.
+            var reader = Task.Run(() => File.ReadAllText(_folder["pipe.obj"]));
+            AtomicFile.Write(_folder["pipe.obj"], stream => stream.Write(Encoding.UTF8.GetBytes(text)));
+            Assert.True(reader.Wait(Polling.Deadline));
+            Assert.Equal(text, reader.Result);
+        }
+
+        Assert.Equal(0, Run("test", "-p", "pipe.obj"));
+        Assert.Single(Directory.GetFileSystemEntries(_folder.Path));
+    }
+
+    [SkippableFact]
+    public void Write_IntoADevice_LeavesTheDevice()
+    {
+        // A node of its own: an error here must not harm the machine's.
+        Skip.If(OperatingSystem.IsWindows() || Run("mknod", "full", "c", "1", "7") != 0, "only root can make device nodes");
+        File.CreateSymbolicLink(_folder["link"], "full");
+        foreach (var name in (string[])["full", "link"])
+        {
+            var error = Assert.Throws<IOException>(() => AtomicFile.Write(_folder[name], stream => stream.Write("new"u8)));
+            Assert.StartsWith($"{_folder[name]} can't be written: ", error.Message, StringComparison.Ordinal);
+        }
+
+        Assert.Equal(0, Run("test", "-c", "full"));
+        Assert.Equal(2, Directory.GetFileSystemEntries(_folder.Path).Length);
+    }
+
+    [SkippableFact]
+    public void Write_OfAPrivateFile_IsPrivateMeanwhile()
+    {
+        Skip.If(OperatingSystem.IsWindows(), "modes are those of Unix");
+        if (!OperatingSystem.IsWindows())
+        {
+            var mode = UnixFileMode.UserRead | UnixFileMode.UserWrite;
+            File.SetUnixFileMode(_folder.Write("a", "old"), mode);
+            var meanwhile = default(UnixFileMode);
+            AtomicFile.Write(_folder["a"], _ =>
+            {
+                foreach (var file in Directory.GetFiles(_folder.Path))
+                {
+                    meanwhile |= OperatingSystem.IsWindows() ? mode : File.GetUnixFileMode(file);
+                }
+            });
+            Assert.Equal(mode, meanwhile);
+            Assert.Equal(mode, File.GetUnixFileMode(_folder["a"]));
+        }
+    }
+
+    [Fact]
+    public void Write_BelowAFile_NamesTheFileThatIsNoFolder()
+    {
+        _folder.Write("a", "old");
+        var error = Assert.Throws<IOException>(() => AtomicFile.Write(_folder["a/b/c"], _ => { }));
+        Assert.Equal($"{_folder["a/b/c"]} can't be written: {_folder["a"]} is a file, not a directory", error.Message);
+    }
+
+    private int Run(string program, params string[] arguments)
+    {
+        using var process = Process.Start(
+            new ProcessStartInfo(program, arguments) { WorkingDirectory = _folder.Path, RedirectStandardError = true })!;
+        process.WaitForExit();
+        return process.ExitCode;
     }
 
     private static void Fail(Stream stream)

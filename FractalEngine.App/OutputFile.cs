@@ -1,0 +1,30 @@
+using FractalEngine.Core.Files;
+
+namespace FractalEngine.App;
+
+/// <summary>Writes the output of a command whole or not at all, also when a signal ends the command.</summary>
+internal static class OutputFile
+{
+    /// <summary>Creates or replaces a file, see <see cref="AtomicFile.Write"/>.</summary>
+    /// <param name="path">Path of the file.</param>
+    /// <param name="write">Writes the contents.</param>
+    /// <exception cref="IOException">The file can't be written.</exception>
+    /// <exception cref="OperationCanceledException">A signal has arrived.</exception>
+    public static void Write(string path, Action<Stream> write)
+    {
+        using var interruption = new InterruptSignal();
+        Write(path, stream => write(new InterruptibleStream(stream, interruption)), interruption);
+    }
+
+    /// <summary>Creates or replaces a file whose contents take a signal into account.</summary>
+    /// <param name="path">Path of the file.</param>
+    /// <param name="write">Writes the contents; polls the signal.</param>
+    /// <param name="interruption">Deletes the unfinished file where the signal is not polled for long.</param>
+    public static void Write(string path, Action<Stream> write, InterruptSignal interruption) => AtomicFile.Write(path, stream =>
+    {
+        var name = (stream as FileStream)?.Name;
+        // A device or a pipe has its own name, and is not temporary.
+        interruption.UnfinishedFile = name == Path.GetFullPath(path) ? null : name;
+        write(stream);
+    });
+}

@@ -1,0 +1,202 @@
+namespace FractalEngine.Core.Files;
+
+/// <summary>Writes files completely or not at all: into a temporary file in the same folder, which then replaces the target.</summary>
+public static class AtomicFile
+{
+    // More files of one name in a folder are an accident.
+    private const int MaxNumberedNames = 10_000;
+
+    private const int BufferBytes = 1 << 16;
+
+    /// <summary>Creates or replaces a file; its folder is created if it is missing.</summary>
+    /// <param name="path">
+    /// Path of the file. A symbolic link is followed, and the permissions of an existing file are kept. A device or a pipe is written as
+    /// it stands.
+    /// </param>
+    /// <param name="write">Writes the contents, into a stream that may not seek. If it throws, the previous contents remain.</param>
+    /// <exception cref="IOException">The file can't be written.</exception>
+    public static void Write(string path, Action<Stream> write)
+    {
+        ArgumentException.ThrowIfNullOrEmpty(path);
+        ArgumentNullException.ThrowIfNull(write);
+        var target = path;
+        var temporary = path;
+        try
+        {
+            if (FileTypes.IsSpecial(path))
+            {
+                using var stream = new FileStream(path, FileMode.Open, FileAccess.Write, FileShare.ReadWrite, BufferBytes);
+                write(stream);
+                return;
+            }
+
+            target = FindTarget(path);
+            temporary = TemporaryNameFor(target);
+            WriteTemporary(temporary, target, write, () => File.Move(temporary, target, overwrite: true));
+        }
+        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
+        {
+            throw WriteError(path, target, temporary, exception);
+        }
+    }
+
+    /// <summary>
+    /// Creates a file without ever replacing another one. A file with equal contents is used as it is; if the name is taken by another
+    /// file, <c>NAME-2.EXT</c>, <c>NAME-3.EXT</c> and so on are tried.
+    /// </summary>
+    /// <param name="path">Path of the file; its folder is created if it is missing.</param>
+    /// <param name="write">Writes the contents. If it throws, no file is left behind.</param>
+    /// <param name="isCreated">False if a file with equal contents existed.</param>
+    /// <returns>Full path of the file with these contents.</returns>
+    /// <exception cref="IOException">The file can't be written.</exception>
+    public static string WriteWithoutReplacing(string path, Action<Stream> write, out bool isCreated)
+    {
+        ArgumentException.ThrowIfNullOrEmpty(path);
+        ArgumentNullException.ThrowIfNull(write);
+        var target = Path.GetFullPath(path);
+        var temporary = TemporaryNameFor(target);
+        var result = target;
+        var wasMoved = false;
+        try
+        {
+            WriteTemporary(temporary, target, write, () =>
+            {
+                result = FindNameFor(temporary, target, out var exists);
+                if (!exists)
+                {
+                    File.Move(temporary, result, overwrite: false);
+                    wasMoved = true;
+                }
+            });
+        }
+        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
+        {
+            throw WriteError(path, target, temporary, exception);
+        }
+
+        isCreated = wasMoved;
+        return result;
+    }
+
+    /// <summary>Follows a symbolic link to what is to be replaced.</summary>
+    private static string FindTarget(string path)
+    {
+        var target = new FileInfo(path) is { LinkTarget: not null } link
+            ? link.ResolveLinkTarget(returnFinalTarget: true)!.FullName
+            : Path.GetFullPath(path);
+        return Directory.Exists(target) ? throw new IOException("it is a directory") : target;
+    }
+
+    private static string TemporaryNameFor(string target) => $"{target}.{Environment.ProcessId}-{Guid.NewGuid():N}.tmp";
+
+    /// <summary>Describes an error for the user, who knows nothing of the temporary file.</summary>
+    private static IOException WriteError(string path, string target, string temporary, Exception exception)
+    {
+        var reason = FindFileAmongFolders(target) is { } file
+            ? $"{file} is a file, not a directory"
+            : exception.Message.Replace(temporary, target, StringComparison.Ordinal);
+        return new IOException($"{path} can't be written: {reason}", exception);
+    }
+
+    /// <summary>Finds a file where the path needs a folder; null if there is none.</summary>
+    private static string? FindFileAmongFolders(string path)
+    {
+        var folder = Path.GetDirectoryName(path);
+        while (!string.IsNullOrEmpty(folder) && !Path.Exists(folder))
+        {
+            folder = Path.GetDirectoryName(folder);
+        }
+
+        return File.Exists(folder) ? folder : null;
+    }
+
+    /// <summary>Finds the first name that is free, or taken by a file with the same contents.</summary>
+    private static string FindNameFor(string contents, string path, out bool exists)
+    {
+        var stem = Path.Combine(Path.GetDirectoryName(path)!, Path.GetFileNameWithoutExtension(path));
+        for (var number = 1; number <= MaxNumberedNames; number++)
+        {
+            var candidate = number == 1 ? path : FormattableString.Invariant($"{stem}-{number}{Path.GetExtension(path)}");
+            exists = Path.Exists(candidate) || new FileInfo(candidate).LinkTarget is not null;
+            if (!exists || IsFileWithContents(contents, candidate))
+            {
+                return candidate;
+            }
+        }
+
+        throw new IOException("all names that could be used instead are taken");
+    }
+
+    private static bool IsFileWithContents(string contents, string candidate)
+    {
+        if (!File.Exists(candidate) || new FileInfo(contents).Length != new FileInfo(candidate).Length)
+        {
+            return false;
+        }
+
+        try
+        {
+            return HaveEqualContents(contents, candidate);
+        }
+        catch (UnauthorizedAccessException)
+        {
+            // A file that can't be read might be different, so it is not used.
+            return false;
+        }
+    }
+
+    private static bool HaveEqualContents(string file1, string file2)
+    {
+        using var stream1 = File.OpenRead(file1);
+        using var stream2 = File.OpenRead(file2);
+        var buffer1 = new byte[1 << 16];
+        var buffer2 = new byte[1 << 16];
+        int count;
+        do
+        {
+            count = stream1.ReadAtLeast(buffer1, buffer1.Length, throwOnEndOfStream: false);
+            if (stream2.ReadAtLeast(buffer2, buffer2.Length, throwOnEndOfStream: false) != count
+                || !buffer1.AsSpan(0, count).SequenceEqual(buffer2.AsSpan(0, count)))
+            {
+                return false;
+            }
+        }
+        while (count > 0);
+        return true;
+    }
+
+    /// <summary>Writes a temporary file with the permissions of its target, and deletes it unless the last action moves it.</summary>
+    private static void WriteTemporary(string temporary, string target, Action<Stream> write, Action commit)
+    {
+        Directory.CreateDirectory(Path.GetDirectoryName(target)!);
+        var options = new FileStreamOptions
+        {
+            Mode = FileMode.CreateNew, Access = FileAccess.Write, Share = FileShare.None, BufferSize = BufferBytes,
+        };
+        var mode = !OperatingSystem.IsWindows() && File.Exists(target) ? File.GetUnixFileMode(target) : (UnixFileMode?)null;
+        if (!OperatingSystem.IsWindows() && mode is not null)
+        {
+            // What only the owner may read is never readable for others, not even meanwhile.
+            options.UnixCreateMode = mode;
+        }
+
+        try
+        {
+            using (var stream = new FileStream(temporary, options))
+            {
+                write(stream);
+            }
+
+            if (!OperatingSystem.IsWindows() && mode is { } kept)
+            {
+                File.SetUnixFileMode(temporary, kept);
+            }
+
+            commit();
+        }
+        finally
+        {
+            File.Delete(temporary);
+        }
+    }
+}

@@ -1,0 +1,78 @@
+using System.Runtime.InteropServices;
+using System.Text;
+
+namespace FractalEngine.Core.Files;
+
+/// <summary>Tells regular files from devices, pipes and sockets, which .NET does not.</summary>
+internal static class FileTypes
+{
+    // Of <sys/stat.h>, with the same values on Linux and macOS.
+    private const int TypeMask = 0xF000;
+    private const int RegularFile = 0x8000;
+    private const int FolderType = 0x4000;
+
+    // Offset of stx_mode in struct statx of Linux, which is the same on every processor.
+    private const int LinuxModeOffset = 28;
+    private const int CurrentDirectory = -100;
+    private const uint StatxType = 1;
+
+    // Offset of st_mode in struct stat of macOS with inodes of 64 bits.
+    private const int MacModeOffset = 4;
+
+    // More than either structure has.
+    private const int BufferBytes = 512;
+
+    /// <summary>True for an existing device, pipe or socket, through symbolic links. False where the system does not say.</summary>
+    /// <param name="path">Path of a file that may be missing.</param>
+    public static bool IsSpecial(string path)
+    {
+        if (OperatingSystem.IsWindows())
+        {
+            // Names such as NUL become paths in the folder of devices.
+            return Path.GetFullPath(path).StartsWith(@"\\.\", StringComparison.Ordinal);
+        }
+
+        try
+        {
+            return ReadMode(path) is { } mode && (mode & TypeMask) is not (RegularFile or FolderType);
+        }
+        catch (Exception exception) when (exception is DllNotFoundException or EntryPointNotFoundException)
+        {
+            return false;
+        }
+    }
+
+    private static int? ReadMode(string path)
+    {
+        var name = Encoding.UTF8.GetBytes(path + '\0');
+        var buffer = new byte[BufferBytes];
+        if (OperatingSystem.IsLinux())
+        {
+            return ReadLinuxStatus(CurrentDirectory, name, 0, StatxType, buffer) == 0
+                ? BitConverter.ToUInt16(buffer, LinuxModeOffset)
+                : null;
+        }
+
+        if (OperatingSystem.IsMacOS())
+        {
+            var result = RuntimeInformation.ProcessArchitecture == Architecture.X64
+                ? ReadIntelMacStatus(name, buffer)
+                : ReadMacStatus(name, buffer);
+            return result == 0 ? BitConverter.ToUInt16(buffer, MacModeOffset) : null;
+        }
+
+        return null;
+    }
+
+    [DllImport("libc", EntryPoint = "statx")]
+    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
+    private static extern int ReadLinuxStatus(int folder, byte[] path, int flags, uint mask, byte[] buffer);
+
+    [DllImport("libc", EntryPoint = "stat")]
+    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
+    private static extern int ReadMacStatus(byte[] path, byte[] buffer);
+
+    [DllImport("libc", EntryPoint = "stat$INODE64")]
+    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
+    private static extern int ReadIntelMacStatus(byte[] path, byte[] buffer);
+}

@@ -1,0 +1,86 @@
+using System.Diagnostics;
+using System.Globalization;
+using FractalEngine.App;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.App;
+
+/// <summary>Tests that outputs are whole or not there, whatever ends a command or is full.</summary>
+public sealed class OutputFileTests : IDisposable
+{
+    private readonly TemporaryFolder _folder = new();
+
+    public OutputFileTests() => _folder.Write("cube.obj", SampleFiles.Cube);
+
+    public void Dispose() => _folder.Dispose();
+
+    [SkippableTheory]
+    [InlineData("TERM")]
+    [InlineData("HUP")]
+    public void Export_EndedByASignalWhileWriting_LeavesNoFile(string signal)
+    {
+        Skip.If(OperatingSystem.IsWindows(), "there are no POSIX signals");
+        _folder.Write("row.fdo", SampleFiles.Row("21"));
+        using var process = AppProcess.Start(_folder.Path, [], "export", "row.fdo", "--output", "t.obj");
+        try
+        {
+            Polling.WaitUntil(() => Directory.GetFiles(_folder.Path, "*.tmp").Length > 0, "output file");
+            Process.Start("kill", ["-s", signal, process.Id.ToString(CultureInfo.InvariantCulture)]).WaitForExit();
+            Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
+        }
+        finally
+        {
+            process.Kill();
+        }
+
+        Assert.Equal((130, "error: interrupted"), (process.ExitCode, process.StandardError.ReadToEnd().Trim()));
+        Assert.Equal(["cube.obj", "row.fdo"], Directory.GetFiles(_folder.Path).Select(Path.GetFileName).Order());
+    }
+
+    [Fact]
+    public void Write_OfUnfinishedWork_KnowsItsTemporaryFile()
+    {
+        using var interruption = new InterruptSignal();
+        OutputFile.Write(
+            _folder["a"], _ => Assert.Equal(interruption.UnfinishedFile, Assert.Single(Directory.GetFiles(_folder.Path, "*.tmp"))),
+            interruption);
+    }
+
+    [SkippableTheory]
+    [InlineData("info nope.obj 2>FULL", 1, "")]
+    [InlineData("info nope.obj 2>&-", 1, "")]
+    [InlineData("count cube.obj 2>FULL", 0, "12\n")]
+    [InlineData("query cube.obj --points points.txt 2>FULL", 0, "1 0.5 ")]
+    [InlineData("query cube.obj --wrong 2>FULL", 2, "")]
+    [InlineData("count cube.obj >FULL", 2, "error: the standard output can't be written: ")]
+    [InlineData("simulate scene.sdo >FULL", 2, "error: the standard output can't be written: ")]
+    public void Streams_ThatAreFullOrClosed_DoNotChangeTheRest(string command, int exitCode, string output)
+    {
+        // A node of its own instead of /dev/full: an error here must not harm the machine's.
+        Skip.If(OperatingSystem.IsWindows() || Shell("mknod full c 1 7").ExitCode != 0, "only root can make device nodes");
+        _folder.Write("points.txt", "1.5 0.1 0.2\n");
+        _folder.Write("scene.sdo", "p \"cube.obj\" # 0.5\n");
+        var app = Path.ChangeExtension(typeof(OutputFile).Assembly.Location, ".dll");
+        var result = Shell($"dotnet exec '{app}' {command.Replace("FULL", "full", StringComparison.Ordinal)}");
+        Assert.Equal(exitCode, result.ExitCode);
+        if (output.Length == 0)
+        {
+            Assert.Equal("", result.Output + result.Error);
+        }
+
+        Assert.StartsWith(output, result.Output + result.Error, StringComparison.Ordinal);
+    }
+
+    private AppResult Shell(string command)
+    {
+        var start = new ProcessStartInfo("sh", ["-c", command])
+        {
+            WorkingDirectory = _folder.Path, RedirectStandardOutput = true, RedirectStandardError = true,
+        };
+        using var process = Process.Start(start)!;
+        var output = process.StandardOutput.ReadToEndAsync();
+        var error = process.StandardError.ReadToEndAsync();
+        Assert.True(process.WaitForExit(Polling.Deadline), $"{command} does not end");
+        return new(process.ExitCode, output.GetAwaiter().GetResult(), error.GetAwaiter().GetResult());
+    }
+}
