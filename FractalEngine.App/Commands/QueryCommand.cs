@@ -31,21 +31,25 @@ internal static class QueryCommand
         var maxDistance = NumberOption.NonNegative("--within", "R", "Search radius in scene units (default: unlimited).");
         var epsilon = NumberOption.NonNegative(
             "--epsilon", "E", "Accept points farther than the closest by a factor of up to 1 + E (default: 0).");
+        var errorBound = new Option<bool>("--error-bound")
+        {
+            Description = "Also print how much farther than the closest point each result may be.",
+        };
         var json = new Option<bool>("--json") { Description = "Print a JSON array instead of lines." };
         var command = new Command("query", "Find the closest point of FILE's surface for each of many positions.")
         {
-            points, collider, maxDistance, epsilon, json,
+            points, collider, maxDistance, epsilon, errorBound, json,
         };
         shared.AddTo(command);
         command.SetAction(result => Run(
             result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetRequiredValue(points),
             result.GetValue(collider) ?? ColliderKind.Exact, result.GetValue(maxDistance) ?? double.PositiveInfinity,
-            result.GetValue(epsilon) ?? 0, result.GetValue(json)));
+            result.GetValue(epsilon) ?? 0, new(result.GetValue(json), result.GetValue(errorBound))));
         return command;
     }
 
     private static int Run(
-        string path, LoadOptions options, string pointsPath, ColliderKind kind, double maxDistance, double epsilon, bool json)
+        string path, LoadOptions options, string pointsPath, ColliderKind kind, double maxDistance, double epsilon, ResultFormat format)
     {
         var file = ConsoleLoader.Load(path, options);
         var points = PointsParser.Parse(SourceText.Read(pointsPath, pointsPath, ParsingLimits.MaxObjBytes));
@@ -57,7 +61,7 @@ internal static class QueryCommand
         var context = new QueryContext();
         BatchQuery.FindClosest(collider, points.AsMemory(), results, context, maxDistance, epsilon);
         WriteReport(file, collider, points.Length, context, buildTime, clock.Elapsed);
-        Console.Out.Write(FormatResults(results, json));
+        Console.Out.Write(FormatResults(results, format));
         return ExitCode.Done;
     }
 
@@ -68,37 +72,42 @@ internal static class QueryCommand
         return collider;
     }
 
-    private static StringBuilder FormatResults(BatchResult[] results, bool json)
+    private static StringBuilder FormatResults(BatchResult[] results, ResultFormat format)
     {
-        var text = new StringBuilder(json ? "[" : "");
+        var text = new StringBuilder(format.Json ? "[" : "");
         for (var i = 0; i < results.Length; i++)
         {
             var (isFound, closest, faceTests, _) = results[i];
-            if (json)
+            if (format.Json)
             {
-                text.Append(i > 0 ? ",\n" : "").Append(isFound ? FormatJson(closest, faceTests) : "null");
+                text.Append(i > 0 ? ",\n" : "").Append(isFound ? FormatJson(closest, faceTests, format.ErrorBound) : "null");
             }
             else
             {
-                text.Append(isFound ? FormatLine(closest, faceTests) : "none").Append('\n');
+                text.Append(isFound ? FormatLine(closest, faceTests, format.ErrorBound) : "none").Append('\n');
             }
         }
 
-        return text.Append(json ? "]\n" : "");
+        return text.Append(format.Json ? "]\n" : "");
     }
 
-    private static string FormatJson(ClosestPoint closest, long faceTests)
+    private static string FormatJson(ClosestPoint closest, long faceTests, bool hasErrorBound)
     {
+        var errorBound = hasErrorBound ? string.Create(CultureInfo.InvariantCulture, $", \"errorBound\": {closest.ErrorBound:R}") : "";
         var point = FormatVector(closest.Point, ", ");
         var normal = FormatVector(closest.Normal, ", ");
         return string.Create(
             CultureInfo.InvariantCulture,
-            $"{{\"distance\": {closest.Distance:R}, \"point\": [{point}], \"normal\": [{normal}], \"faceTests\": {faceTests}}}");
+            $"{{\"distance\": {closest.Distance:R}, \"point\": [{point}], \"normal\": [{normal}], \"faceTests\": {faceTests}{errorBound}}}");
     }
 
-    private static string FormatLine(ClosestPoint closest, long faceTests) => string.Create(
-        CultureInfo.InvariantCulture,
-        $"{closest.Distance:R} {FormatVector(closest.Point, " ")} {FormatVector(closest.Normal, " ")} {faceTests}");
+    private static string FormatLine(ClosestPoint closest, long faceTests, bool hasErrorBound)
+    {
+        var errorBound = hasErrorBound ? string.Create(CultureInfo.InvariantCulture, $" {closest.ErrorBound:R}") : "";
+        return string.Create(
+            CultureInfo.InvariantCulture,
+            $"{closest.Distance:R} {FormatVector(closest.Point, " ")} {FormatVector(closest.Normal, " ")} {faceTests}{errorBound}");
+    }
 
     private static string FormatVector(Vector vector, string separator) =>
         string.Create(CultureInfo.InvariantCulture, $"{vector.X:R}{separator}{vector.Y:R}{separator}{vector.Z:R}");
@@ -119,4 +128,9 @@ internal static class QueryCommand
     }
 
     private static void WriteReportLine(FormattableString line) => Console.Error.WriteLine(FormattableString.Invariant(line));
+
+    /// <summary>How results are printed.</summary>
+    /// <param name="Json">True for a JSON array, false for lines.</param>
+    /// <param name="ErrorBound">True to print the error bound of each.</param>
+    private readonly record struct ResultFormat(bool Json, bool ErrorBound);
 }

@@ -13,7 +13,7 @@ namespace FractalEngine.Core.Collision;
 public abstract class Collider
 {
     // An upper bound of the rounding error of a distance, as a part of the largest coordinate.
-    private const double RoundingError = 4e-15;
+    internal const double RoundingError = 4e-15;
 
     private readonly SpareContext _spareContext = new();
 
@@ -113,7 +113,7 @@ public abstract class Collider
     }
 
     /// <summary>Adds what holds for every collider to the error bound of a result.</summary>
-    private double CompleteErrorBound(Vector position, in ClosestPoint closest, double epsilon)
+    internal double CompleteErrorBound(Vector position, in ClosestPoint closest, double epsilon)
     {
         if (!IsExact)
         {

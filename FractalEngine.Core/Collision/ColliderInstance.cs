@@ -25,7 +25,13 @@ internal sealed class ColliderInstance(
     {
         if (_generalMap is not null)
         {
-            return collider.Value.FindClosestTransformed(position, _generalMap.Value, maxDistance, epsilon, context, out closest);
+            if (!collider.Value.FindClosestTransformed(position, _generalMap.Value, maxDistance, epsilon, context, out closest))
+            {
+                return false;
+            }
+
+            closest = closest with { ErrorBound = collider.Value.CompleteErrorBound(position, in closest, epsilon) };
+            return true;
         }
 
         var isFound = collider.Value.TryFindClosest(

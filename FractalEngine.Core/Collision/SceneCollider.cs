@@ -210,6 +210,7 @@ public sealed class SceneCollider
     {
         closest = default;
         objectIndex = -1;
+        var lowerBound = double.PositiveInfinity;
         var boundDistances = context.ObjectBoundsBuffer(objects.Length);
         for (var i = 0; i < objects.Length; i++)
         {
@@ -233,7 +234,7 @@ public sealed class SceneCollider
 
             boundDistances[nextObject] = double.PositiveInfinity;
             if (objects[nextObject].TryFindClosest(position, maxDistance, context, out var candidate, epsilon)
-                && (objectIndex < 0 || candidate.Distance < closest.Distance))
+                && IsCloser(candidate, in closest, objectIndex, ref lowerBound))
             {
                 closest = candidate;
                 objectIndex = nextObject;
@@ -242,6 +243,7 @@ public sealed class SceneCollider
             }
         }
 
+        closest = closest with { ErrorBound = Math.Max(closest.ErrorBound, closest.Distance - lowerBound) };
         return objectIndex >= 0;
     }
 
@@ -252,6 +254,7 @@ public sealed class SceneCollider
     {
         closest = default;
         objectIndex = -1;
+        var lowerBound = double.PositiveInfinity;
         var queue = context.ObjectQueue;
         queue.Clear();
         foreach (var instance in loose)
@@ -284,7 +287,7 @@ public sealed class SceneCollider
             }
 
             if (index != excludedObject && instance.TryFindClosest(position, maxDistance, context, out var candidate, epsilon)
-                && (objectIndex < 0 || candidate.Distance < closest.Distance))
+                && IsCloser(candidate, in closest, objectIndex, ref lowerBound))
             {
                 closest = candidate;
                 objectIndex = index;
@@ -295,7 +298,15 @@ public sealed class SceneCollider
 
         context.Statistics.BoundTests += boundTests;
         queue.Clear();
+        closest = closest with { ErrorBound = Math.Max(closest.ErrorBound, closest.Distance - lowerBound) };
         return objectIndex >= 0;
+    }
+
+    /// <summary>Tells whether an object's point is the closest so far, and takes account of what its search left open.</summary>
+    private static bool IsCloser(in ClosestPoint candidate, in ClosestPoint closest, int objectIndex, ref double lowerBound)
+    {
+        lowerBound = Math.Min(lowerBound, candidate.Distance - candidate.ErrorBound);
+        return objectIndex < 0 || candidate.Distance < closest.Distance;
     }
 
     private static double BoundDistance(ColliderInstance instance, Vector position) =>

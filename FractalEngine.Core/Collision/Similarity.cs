@@ -48,5 +48,6 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
         Point = Map * local.Point,
         Distance = Scale * local.Distance,
         Normal = (Map.Linear.Cofactors() * local.Normal).UnitVector(),
+        ErrorBound = (Scale * local.ErrorBound) + (Collider.RoundingError * Map.Translation.MaxAbsComponent()),
     };
 }

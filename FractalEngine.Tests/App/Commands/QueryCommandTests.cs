@@ -1,3 +1,4 @@
+using System.Globalization;
 using System.Text.Json;
 using FractalEngine.Tests.Support;
 
@@ -40,6 +41,22 @@ public sealed class QueryCommandTests : IDisposable
         var lines = Run("query", "cube.obj", "--points", "points.txt", "--within", "1").Output.Split('\n');
         Assert.Equal("none", lines[0]);
         Assert.StartsWith("0.5 ", lines[1], StringComparison.Ordinal);
+    }
+
+    [Theory]
+    [InlineData("exact", 0, 1e-13)]
+    [InlineData("bounding-box", 1.5, 1.5)]
+    public void Query_WithErrorBound_PrintsANinthColumn(string collider, double minimum, double maximum)
+    {
+        _folder.Write("points.txt", "2 0.25 0.125\n");
+        var (exitCode, output, _) = Run("query", "cube.obj", "--points", "points.txt", "--collider", collider, "--error-bound");
+        Assert.Equal(0, exitCode);
+        var columns = output.TrimEnd().Split(' ');
+        Assert.Equal(9, columns.Length);
+        Assert.InRange(double.Parse(columns[8], CultureInfo.InvariantCulture), minimum, maximum);
+        var json = Run("query", "cube.obj", "--points", "points.txt", "--collider", collider, "--error-bound", "--json").Output;
+        using var results = JsonDocument.Parse(json);
+        Assert.InRange(results.RootElement[0].GetProperty("errorBound").GetDouble(), minimum, maximum);
     }
 
     [Fact]
