@@ -98,7 +98,8 @@ internal static class QueryCommand
         var normal = FormatVector(closest.Normal, ", ");
         return string.Create(
             CultureInfo.InvariantCulture,
-            $"{{\"distance\": {closest.Distance:R}, \"point\": [{point}], \"normal\": [{normal}], \"faceTests\": {faceTests}{errorBound}}}");
+            $"{{\"distance\": {closest.Distance:R}, \"point\": [{point}], \"normal\": [{normal}], "
+            + $"\"faceTests\": {faceTests}{errorBound}}}");
     }
 
     private static string FormatLine(ClosestPoint closest, long faceTests, bool hasErrorBound)

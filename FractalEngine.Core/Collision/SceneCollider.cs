@@ -13,8 +13,8 @@ namespace FractalEngine.Core.Collision;
 /// objects that show the model. Each query takes the object's own matrix into account, so that moving an object costs nothing.
 /// </summary>
 /// <remarks>
-/// A skewed matrix (one that is no similarity) does not keep distances in proportion: then the search itself takes it into account, which costs
-/// several times more. The approximate colliders can't, so such an object gets one of its own, in world space.
+/// A skewed matrix (one that is no similarity) does not keep distances in proportion: then the search itself takes it into account, which
+/// costs several times more. The approximate colliders can't, so such an object gets one of its own, in world space.
 /// A query finds its object in O(log n) for n objects that lie apart: the first one builds a hierarchy over their boxes. Objects are tested
 /// in the order of the distances of their boxes, equally close ones in the order of the scene. Of equally close points the first one wins.
 /// </remarks>

@@ -80,7 +80,8 @@ internal sealed class ChildInstanceBuilder
             }
 
             var nextEdges = edgesAt(highestLevel);
-            if (!chains.All(chain => chain.CanGrow()) || chains.Sum(chain => chain.RemainingLevels == highestLevel ? nextEdges.Length : 1) > MaxChildrenForSameLevel)
+            var nextCount = chains.Sum(chain => chain.RemainingLevels == highestLevel ? nextEdges.Length : 1);
+            if (nextCount > MaxChildrenForSameLevel || !chains.All(chain => chain.CanGrow()))
             {
                 break;
             }

@@ -63,7 +63,7 @@ internal sealed class ClusterBounds
         return HorizontalMin(lowest);
     }
 
-    /// <summary>Computes the squared distance of a position from the closest of the boxes around the images of the boxes under a map.</summary>
+    /// <summary>Computes the squared distance of a position from the closest box around the image of a box under a map.</summary>
     /// <param name="position">In the frame of the images: x, y, z, 0.</param>
     /// <param name="map">From the frame of the sub-fractal to that of the images.</param>
     public double LowerBoundSquared(Vector256<double> position, in SimdAffineMap map)

@@ -126,7 +126,7 @@ public sealed class ExactFractalCollider : Collider
         return closest.Distance <= maxDistance;
     }
 
-    /// <summary>Finds the closest point in a frame of other units, where the squares of coordinates stay within the range of a double.</summary>
+    /// <summary>Finds the closest point in other units, in which squares of coordinates stay within the range of a double.</summary>
     private bool FindClosestScaled(
         Vector position, in AffineMap map, double magnitude, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
@@ -142,7 +142,12 @@ public sealed class ExactFractalCollider : Collider
             return false;
         }
 
-        closest = scaled with { Distance = Math.ScaleB(scaled.Distance, exponent), Point = scaled.Point / scale, ErrorBound = Math.ScaleB(scaled.ErrorBound, exponent) };
+        closest = scaled with
+        {
+            Distance = Math.ScaleB(scaled.Distance, exponent),
+            Point = scaled.Point / scale,
+            ErrorBound = Math.ScaleB(scaled.ErrorBound, exponent),
+        };
         return closest.Distance <= maxDistance;
     }
 

@@ -72,7 +72,7 @@ internal ref struct FractalSearchState
     /// <summary>Number of child instances that lead to the closest triangle.</summary>
     public int ClosestDepth { get; private set; }
 
-    /// <summary>Lower bound of the squared distance of what a search that met its limit of work left open; infinite when it left nothing.</summary>
+    /// <summary>Lower bound of the squared distance of all that was left open at the limit of work; infinite when nothing was.</summary>
     public double OpenBoundSquared { get; private set; }
 
     /// <summary>True when a search may do no more work.</summary>

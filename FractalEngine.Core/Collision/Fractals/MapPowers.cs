@@ -69,7 +69,7 @@ internal sealed class MapPowers
         return double.IsFinite(size) && Math.Abs(((1 / size) * highest).Determinant()) > MinDeterminant ? powers : null;
     }
 
-    /// <summary>Adds the levels.</summary>
+    /// <summary>Adds the levels of the repetition on top of those before.</summary>
     /// <param name="levelBelow">Remaining levels below the repetition.</param>
     /// <param name="addLevel">Adds a level on top of those before, from its edges and its set.</param>
     public void AddLevels(long levelBelow, Action<ChildEdge[], MapSet> addLevel)

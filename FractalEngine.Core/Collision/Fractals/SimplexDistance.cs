@@ -12,7 +12,7 @@ internal struct SimplexDistance
     private Vector _p3;
     private int _count;
 
-    /// <summary>Adds a point.</summary>
+    /// <summary>Adds a point to the simplex, unless it is there.</summary>
     /// <param name="point">The point.</param>
     /// <returns>False when the point is in the simplex already, or the simplex is full.</returns>
     public bool TryAdd(Vector point)
@@ -58,7 +58,8 @@ internal struct SimplexDistance
         var best = this;
         var closest = Vector.Zero;
         var distanceSquared = double.PositiveInfinity;
-        foreach (var (v1, v2, v3, opposite) in (ReadOnlySpan<(Vector, Vector, Vector, Vector)>)[(a, b, c, d), (a, b, d, c), (a, c, d, b), (b, c, d, a)])
+        ReadOnlySpan<(Vector, Vector, Vector, Vector)> faces = [(a, b, c, d), (a, b, d, c), (a, c, d, b), (b, c, d, a)];
+        foreach (var (v1, v2, v3, opposite) in faces)
         {
             var normal = Vector.Cross(v2 - v1, v3 - v1);
             if (Vector.Dot(normal, -v1) * Vector.Dot(normal, opposite - v1) > 0)

@@ -304,7 +304,7 @@ internal sealed class SubFractalBuilder
         return BoundingVolume.FromVertices(box, vertices, margin) with { Clusters = clusters };
     }
 
-    /// <summary>Computes the clusters of the union of some parts: the bulk first, then what outliers throw away from it, the farthest first.</summary>
+    /// <summary>Computes the clusters of the union of some parts: the bulk, then what outliers throw away from it, the farthest first.</summary>
     /// <remarks>
     /// Outliers of the parts surround the parts in the same arrangement, so those of one rank form one cluster. The nearest join the bulk
     /// when there are too many.
@@ -357,7 +357,8 @@ internal sealed class SubFractalBuilder
             childHull = null;
         }
 
-        return new(set, children, childBoxes, volume.Box, _volumes[0].Box, CreateHullBound(volume), childHull, CreateSolid(volume), CreateClusters(volume));
+        var hull = CreateHullBound(volume);
+        return new(set, children, childBoxes, volume.Box, _volumes[0].Box, hull, childHull, CreateSolid(volume), CreateClusters(volume));
     }
 
     /// <summary>Groups many children by the places of their boxes, and the groups again, until they are few.</summary>

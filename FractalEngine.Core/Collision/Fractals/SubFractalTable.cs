@@ -83,7 +83,8 @@ internal sealed class SubFractalTable
             {
                 var index = LevelRegion.FindIndex(_regions, level);
                 isReachable[index] = true;
-                next.UnionWith(subFractals[index].AllChildren().Where(child => child.Group is null).Select(child => child.RemainingLevels(level)));
+                next.UnionWith(subFractals[index].AllChildren().Where(child => child.Group is null)
+                    .Select(child => child.RemainingLevels(level)));
             }
         }
 

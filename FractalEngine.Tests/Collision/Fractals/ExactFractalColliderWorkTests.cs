@@ -8,7 +8,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Collision.Fractals;
 
-/// <summary>Tests how much work the exact search does on fractals that once took it minutes, or found nothing, or ended in an error.</summary>
+/// <summary>Tests how much work the exact search does on fractals that once took minutes, found nothing or ended in an error.</summary>
 public class ExactFractalColliderWorkTests
 {
     private static readonly Mesh Cube = Shapes.Cube();
@@ -93,8 +93,8 @@ public class ExactFractalColliderWorkTests
     }
 
     /// <summary>
-    /// Hulls of the first levels are larger than those of the deep ones, in front of whose slanted sides many sub-fractals are about equally
-    /// far away.
+    /// Hulls of the first levels are larger than those of the deep ones, in front of whose slanted sides many sub-fractals are about
+    /// equally far away.
     /// </summary>
     [Theory]
     [InlineData(0.04, -0.2, -1)]

@@ -49,7 +49,7 @@ public class NastyFractalTests
             Assert.True(
                 error <= Math.Max(Tolerance * reach, found.Distance > distance ? found.ErrorBound : 0),
                 FormattableString.Invariant(
-                    $"{position}: {found.Distance:R} ± {found.ErrorBound:E1}, not {distance:R}: {error / reach:E1} of the reach {reach:E1}"));
+                    $"{position}: {found.Distance:R} ± {found.ErrorBound:E1}, not {distance:R}: off by {error / reach:E1} of {reach:E1}"));
             Assert.InRange(context.Statistics.BoundTests, 1, MaxBoundTests);
             loose += found.ErrorBound > LooseBound * Math.Max(reach, found.Point.MaxAbsComponent()) ? 1 : 0;
         }

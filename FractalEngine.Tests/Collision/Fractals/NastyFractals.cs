@@ -6,8 +6,8 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.Collision.Fractals;
 
 /// <summary>
-/// Creates random fractals of few instances with all that breaks bounds: skew, mirrors, maps close to singular, overlaps, identities, several
-/// sets a level, huge and tiny scales and translations, faces without area, wide sets.
+/// Creates random fractals of few instances with all that breaks bounds: skew, mirrors, maps close to singular, overlaps, identities,
+/// several sets a level, huge and tiny scales and translations, faces without area, wide sets.
 /// </summary>
 internal static class NastyFractals
 {
