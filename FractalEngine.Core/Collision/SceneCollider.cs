@@ -243,7 +243,7 @@ public sealed class SceneCollider
             }
         }
 
-        closest = closest with { ErrorBound = Math.Max(closest.ErrorBound, closest.Distance - lowerBound) };
+        closest = closest with { ErrorBound = Math.Min(closest.Distance, Math.Max(closest.ErrorBound, closest.Distance - lowerBound)) };
         return objectIndex >= 0;
     }
 
@@ -298,7 +298,7 @@ public sealed class SceneCollider
 
         context.Statistics.BoundTests += boundTests;
         queue.Clear();
-        closest = closest with { ErrorBound = Math.Max(closest.ErrorBound, closest.Distance - lowerBound) };
+        closest = closest with { ErrorBound = Math.Min(closest.Distance, Math.Max(closest.ErrorBound, closest.Distance - lowerBound)) };
         return objectIndex >= 0;
     }
 

@@ -14,7 +14,7 @@ internal interface IPointMeasure
     double Largest(Mesh mesh, in AffineMap map);
 }
 
-/// <summary>Finds the largest value of a measure over the points of a fractal: how far it reaches in a direction, or from a point.</summary>
+/// <summary>Finds the largest value of a measure over the points of a fractal, such as how far it reaches in a direction.</summary>
 internal static class FarthestPointSearch
 {
     /// <summary>Searches the sub-fractals best first.</summary>

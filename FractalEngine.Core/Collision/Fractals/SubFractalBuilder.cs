@@ -304,7 +304,7 @@ internal sealed class SubFractalBuilder
         return BoundingVolume.FromVertices(box, vertices, margin) with { Clusters = clusters };
     }
 
-    /// <summary>Computes the clusters of the union of some parts: the bulk, then what outliers throw away from it, the farthest first.</summary>
+    /// <summary>Computes the clusters of the union of some parts: the bulk, then what outliers throw away, the farthest first.</summary>
     /// <remarks>
     /// Outliers of the parts surround the parts in the same arrangement, so those of one rank form one cluster. The nearest join the bulk
     /// when there are too many.
