@@ -29,7 +29,7 @@ internal sealed record ColliderVariant(
         var variants = new List<ColliderVariant>();
         if (shape.Fractal is { Description.Composition: Composition.Affine } fractal)
         {
-            variants.AddRange(BuildWithEpsilons("exact", 0, 0, () => new ExactFractalCollider(fractal)));
+            variants.AddRange(BuildWithEpsilons("exact", 0, 0, () => new ExactFractalCollider(FractalCase.Copy(fractal))));
             variants.AddRange(Widths.Select(width => Build("fractal", "width", width, 0, 0, () => new FractalCollider(fractal, width))));
         }
 

@@ -26,7 +26,7 @@ public class FractalColliderBuildBenchmarks : IExtraMetrics
     public BoundingBox Bounds() => new Fractal(_fractal.Description, _fractal.BaseMesh).Bounds;
 
     [Benchmark]
-    public Collider Exact() => new ExactFractalCollider(_fractal);
+    public Collider Exact() => new ExactFractalCollider(FractalCase.Copy(_fractal));
 
     /// <inheritdoc/>
     IEnumerable<ExtraMetric> IExtraMetrics.MeasureExtra(string method) =>

@@ -34,7 +34,7 @@ internal sealed class FractalWorkloads
     {
         var actions = workloads.SelectMany(workload => new Action[]
         {
-            workload.Exact.RunQueries, workload.Greedy.RunQueries, () => _ = new ExactFractalCollider(workload.Fractal),
+            workload.Exact.RunQueries, workload.Greedy.RunQueries, () => _ = new ExactFractalCollider(FractalCase.Copy(workload.Fractal)),
         });
         var seconds = InterleavedTiming.MeasureBestSeconds([.. actions], rounds);
         return [.. seconds.Where((_, i) => i % 3 == 2).Select(build => Math.Round(1e3 * build, 4))];

@@ -17,6 +17,7 @@ internal static class GrowthCommand
         ["growth-depth"] = GrowthByDepth.Write,
         ["growth-bodies"] = GrowthByBodies.Write,
         ["growth-maps"] = GrowthByMaps.Write,
+        ["growth-wide"] = GrowthByWidth.Write,
         ["growth-faces"] = GrowthByFaces.Write,
         ["growth-objects"] = GrowthByObjects.Write,
         ["drawing"] = DrawingGrowth.Write,
