@@ -1,7 +1,7 @@
 using System.Collections.Immutable;
 using System.Numerics;
 using System.Runtime.CompilerServices;
-using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -16,7 +16,7 @@ public sealed class Fractal : IEquatable<Fractal>
 {
     private readonly Lazy<BigInteger?> _instanceCount;
     private readonly Lazy<BoundingBox> _bounds;
-    private readonly Lazy<SubFractalTable> _hierarchy;
+    private readonly Lazy<FractalHierarchy> _hierarchy;
 
     /// <summary>Makes the fractal that a description makes of a base mesh.</summary>
     public Fractal(FractalDescription description, Mesh baseMesh)
@@ -27,7 +27,7 @@ public sealed class Fractal : IEquatable<Fractal>
         BaseMesh = baseMesh;
         _instanceCount = new(() => FractalSteps.InstanceCount(description.Steps));
         _bounds = new(() => FractalBounds.ComputeBox(this));
-        _hierarchy = new(() => SubFractalTable.Build(this));
+        _hierarchy = new(() => FractalHierarchy.Build(this));
     }
 
     /// <summary>The steps that are applied to the base mesh, and how they are composed.</summary>
@@ -54,7 +54,7 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <summary>The sub-fractals with their bounds, for a fractal in affine composition. Made by the first who asks, for all.</summary>
     /// <exception cref="FractalLimitException">The bounds of some level overflow a double, or don't converge.</exception>
     /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
-    internal SubFractalTable Hierarchy => _hierarchy.Value;
+    internal FractalHierarchy Hierarchy => _hierarchy.Value;
 
     /// <summary>Finds the set at one level, 0 being the outermost.</summary>
     public TransformationSet LevelAt(long level) => FractalSteps.LevelAt(Description.Steps, level);

@@ -3,10 +3,9 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>
-/// A bounding volume of the sub-fractal at each of the outermost levels, in that sub-fractal's own frame, for the search of
-/// <see cref="FractalBounds"/>.
+/// A bounding volume of the sub-fractal at each of the outermost levels, in that sub-fractal's own frame, for the box of fractals whose
+/// maps keep boxes axis-aligned, and of those that have no <see cref="Hierarchy.FractalHierarchy"/>.
 /// </summary>
-/// <remarks>Exact search of closest points has bounds of its own, in <see cref="Collision.Fractals.SubFractalTable"/>.</remarks>
 internal sealed class LevelBounds
 {
     // Deeper levels are never visited one by one: each halving of the scale uses up one of a double's 53 bits, so that a search ends long

@@ -1,5 +1,5 @@
-using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;

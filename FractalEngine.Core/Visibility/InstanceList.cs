@@ -1,7 +1,7 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
-using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Visibility;
 

@@ -1,5 +1,5 @@
-using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -17,7 +17,7 @@ internal static class LodHierarchyBuilder
 
     private static LodHierarchy BuildAffine(Fractal fractal)
     {
-        var builder = new SubFractalBuilder(fractal, doublesPowers: false);
+        var builder = new FractalHierarchyBuilder(fractal, doublesPowers: false);
         builder.AddAllSteps();
         var regions = builder.Regions.ToArray();
         var nodes = new LodNode[builder.SubFractals.Count];
@@ -32,7 +32,7 @@ internal static class LodHierarchyBuilder
         return new(nodes, regions, builder.Levels, fractal.BaseMesh);
     }
 
-    private static LodNode BuildNode(SubFractalBuilder builder, long remainingLevels)
+    private static LodNode BuildNode(FractalHierarchyBuilder builder, long remainingLevels)
     {
         var children = new List<LodChild>();
         foreach (var edge in builder.EdgesAt(remainingLevels))

@@ -1,4 +1,4 @@
-using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Visibility;
 

@@ -1,6 +1,5 @@
 using System.Runtime.Intrinsics;
-using FractalEngine.Core.Collision.Fractals;
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 

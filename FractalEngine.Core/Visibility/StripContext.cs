@@ -1,5 +1,5 @@
 using System.Runtime.Intrinsics;
-using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Visibility;

@@ -1,4 +1,3 @@
-using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 

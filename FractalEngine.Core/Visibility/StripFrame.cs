@@ -1,6 +1,5 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
-using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Visibility;

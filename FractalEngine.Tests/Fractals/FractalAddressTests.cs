@@ -2,6 +2,7 @@ using System.Globalization;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility;
 using FractalEngine.Tests.Collision;

@@ -1,5 +1,4 @@
 using System.Runtime.Intrinsics;
-using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;

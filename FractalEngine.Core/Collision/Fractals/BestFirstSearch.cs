@@ -1,6 +1,7 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
@@ -13,7 +14,7 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// </remarks>
 /// <param name="table">The sub-fractals.</param>
 /// <param name="bvh">The hierarchy of the base mesh.</param>
-internal sealed class BestFirstSearch(SubFractalTable table, TriangleBvh bvh)
+internal sealed class BestFirstSearch(FractalHierarchy table, TriangleBvh bvh)
 {
     // Beyond so many nodes children are visited depth first, so that memory stays within about 30 MB.
     private const int MaxNodes = 100_000;

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Fractals.Hierarchy;
 
 namespace FractalEngine.Core.Collision.Fractals;
 
@@ -9,7 +10,7 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// <typeparam name="TFrame">How bounds and positions are compared; a struct, so that the search is compiled for it.</typeparam>
 /// <param name="table">The sub-fractals.</param>
 /// <param name="bvh">The hierarchy of the base mesh.</param>
-internal sealed class DepthFirstSearch<TFrame>(SubFractalTable table, TriangleBvh bvh)
+internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy table, TriangleBvh bvh)
     where TFrame : struct, ISearchFrame<TFrame>
 {
     /// <summary>Searches the whole fractal.</summary>

@@ -1,5 +1,6 @@
 using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
@@ -27,7 +28,7 @@ public sealed class ExactFractalCollider : Collider
     private const double MinPrecisionRadius = 1e-3;
 
     private readonly Fractal _fractal;
-    private readonly SubFractalTable _table;
+    private readonly FractalHierarchy _table;
     private readonly TriangleBvh _baseBvh;
     private readonly double _precisionRadius;
     private readonly DepthFirstSearch<SimilarityFrame> _similaritySearch;

@@ -1,4 +1,6 @@
 using System.Runtime.Intrinsics;
+using FractalEngine.Core.Fractals.Hierarchy;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision.Fractals;
 

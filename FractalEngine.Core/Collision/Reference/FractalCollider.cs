@@ -1,7 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Collision.Bvh;
-using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 

@@ -1,6 +1,7 @@
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 

@@ -1,6 +1,6 @@
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>A simplex of up to four points, reduced to those that span its point closest to the origin.</summary>
 /// <remarks>The regions of segments, triangles and tetrahedra: Ericson, Real-Time Collision Detection (2005), 5.1.</remarks>

@@ -1,6 +1,6 @@
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>A plane that bounds a convex hull: normal · point ≤ offset for all points of the hull.</summary>
 /// <param name="Normal">Outward normal of length 1.</param>

@@ -1,9 +1,10 @@
 using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>
 /// Bounds children that are instances of one solid in any sizes, none of them rotated, as in Sierpiński's and Menger's fractals. One

@@ -1,8 +1,7 @@
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>
 /// The levels of a repetition of one map, or of one map and the identity, such as a winding staircase. Their chains are the powers of the

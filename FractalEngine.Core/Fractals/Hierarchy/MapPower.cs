@@ -1,4 +1,6 @@
-namespace FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>The part of a repetition that one edge stands for, where a level of the hierarchy is many levels of the fractal.</summary>
 /// <param name="MapIndex">Index of the map in the set of the repetition.</param>

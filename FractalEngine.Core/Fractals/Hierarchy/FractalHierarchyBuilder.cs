@@ -1,16 +1,16 @@
 using System.Runtime.InteropServices;
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
-/// <summary>Builds the sub-fractals of a <see cref="SubFractalTable"/>, from the base mesh upwards.</summary>
+/// <summary>Builds the sub-fractals of a <see cref="FractalHierarchy"/>, from the base mesh upwards.</summary>
 /// <remarks>
 /// The identity is not a child like the others. Where all levels below have it, the base mesh belongs to the level itself, and a child may
 /// skip levels that have it. Each chain of the other maps is then reached by one path, on its earliest levels (docs/colliders.md).
 /// </remarks>
-internal sealed class SubFractalBuilder
+internal sealed class FractalHierarchyBuilder
 {
     // More mean that the bounds grow or shrink too slowly to converge.
     private const int MaxSubFractals = 4000;
@@ -43,7 +43,7 @@ internal sealed class SubFractalBuilder
     /// <param name="doublesPowers">
     /// True to double the levels of one map, see <see cref="MapPowers"/>; false for one level for each set, whose path colours need.
     /// </param>
-    public SubFractalBuilder(Fractal fractal, bool doublesPowers)
+    public FractalHierarchyBuilder(Fractal fractal, bool doublesPowers)
     {
         _fractal = fractal;
         _doublesPowers = doublesPowers;

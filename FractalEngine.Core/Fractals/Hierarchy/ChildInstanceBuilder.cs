@@ -1,7 +1,6 @@
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>
 /// Determines the children of sub-fractals, such that no instance of the base mesh is reached by two paths. Equal children are built once.

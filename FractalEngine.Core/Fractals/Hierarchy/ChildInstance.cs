@@ -1,7 +1,6 @@
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>
 /// An instance of a sub-fractal inside another one, reached by one map after another. All sub-fractals with the same child share it.

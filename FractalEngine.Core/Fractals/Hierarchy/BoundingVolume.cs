@@ -2,9 +2,9 @@ using System.Runtime.CompilerServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
-/// <summary>Bounds of a sub-fractal in its own frame, while a <see cref="SubFractalTable"/> is built.</summary>
+/// <summary>Bounds of a sub-fractal in its own frame, while a <see cref="FractalHierarchy"/> is built.</summary>
 /// <param name="Box">Contains the sub-fractal.</param>
 /// <param name="Hull">
 /// Contains the sub-fractal if widened by the margin; null where there is none, or where it would be no better than the box.

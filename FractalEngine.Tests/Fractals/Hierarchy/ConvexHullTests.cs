@@ -1,8 +1,8 @@
-using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Collision.Fractals;
+namespace FractalEngine.Tests.Fractals.Hierarchy;
 
 /// <summary>Convex hulls of any points contain them.</summary>
 public class ConvexHullTests

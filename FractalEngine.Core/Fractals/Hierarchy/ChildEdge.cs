@@ -1,7 +1,6 @@
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>One map by which a sub-fractal contains another one with fewer remaining levels.</summary>
 /// <param name="Set">The set that the map belongs to.</param>

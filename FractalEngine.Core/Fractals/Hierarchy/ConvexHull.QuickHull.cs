@@ -1,7 +1,8 @@
 using System.Runtime.CompilerServices;
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <content>The algorithm for points that do not lie in one plane.</content>
 internal sealed partial class ConvexHull

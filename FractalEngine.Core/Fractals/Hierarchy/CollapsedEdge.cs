@@ -1,7 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>A chain of edges collapsed into one: the sub-fractal that they lead to is one part of the parent.</summary>
 /// <param name="Map">The map from the frame of the part to that of the parent.</param>

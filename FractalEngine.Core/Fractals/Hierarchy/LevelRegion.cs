@@ -1,4 +1,4 @@
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>A run of levels whose sub-fractals recur with a period.</summary>
 /// <param name="FirstLevel">Remaining levels of the first sub-fractal.</param>

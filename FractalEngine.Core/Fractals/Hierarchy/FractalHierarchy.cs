@@ -1,18 +1,17 @@
-using FractalEngine.Core.Fractals;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>
 /// The sub-fractals of a fractal, one for each number of remaining levels. Deep repetitions share those of one round once their bounds have
 /// converged, so the table takes kilobytes at any depth.
 /// </summary>
-internal sealed class SubFractalTable
+internal sealed class FractalHierarchy
 {
     private readonly SubFractal?[] _subFractals;
     private readonly MapSet?[] _mapSets;
     private readonly LevelRegion[] _regions;
 
-    private SubFractalTable(SubFractalBuilder builder)
+    private FractalHierarchy(FractalHierarchyBuilder builder)
     {
         _regions = [.. builder.Regions];
         Levels = builder.Levels;
@@ -44,9 +43,9 @@ internal sealed class SubFractalTable
 
     /// <summary>Builds the table of a fractal in affine composition.</summary>
     /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
-    public static SubFractalTable Build(Fractal fractal)
+    public static FractalHierarchy Build(Fractal fractal)
     {
-        var builder = new SubFractalBuilder(fractal, doublesPowers: true);
+        var builder = new FractalHierarchyBuilder(fractal, doublesPowers: true);
         builder.AddAllSteps();
         return new(builder);
     }

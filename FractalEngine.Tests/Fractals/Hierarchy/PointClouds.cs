@@ -1,7 +1,7 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Collision.Fractals;
+namespace FractalEngine.Tests.Fractals.Hierarchy;
 
 /// <summary>Generates sets of points of all the sorts that break convex hulls.</summary>
 internal static class PointClouds

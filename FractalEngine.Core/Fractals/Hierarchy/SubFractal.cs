@@ -4,7 +4,7 @@ using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>The part of a fractal that has a certain number of remaining levels, in its own frame: its children and bounds.</summary>
 internal sealed class SubFractal

@@ -4,8 +4,9 @@ using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>
 /// Computes lower bounds of distances from a convex solid that contains a sub-fractal. Near the solid they come from the planes of its

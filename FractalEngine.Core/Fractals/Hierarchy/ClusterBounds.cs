@@ -1,9 +1,11 @@
 using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>
 /// Bounds a sub-fractal by several boxes. Where one map throws far away, or enlarges what the others shrink, a single box or hull is

@@ -1,7 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>
 /// Proves that the bounds of the last round of a repetition, inflated a little, contain all rounds above it, however many.

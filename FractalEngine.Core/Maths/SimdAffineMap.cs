@@ -1,8 +1,7 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
-using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Maths;
 
 /// <summary>An <see cref="AffineMap"/> for kernels: each column is a SIMD vector x, y, z, 0.</summary>
 internal readonly struct SimdAffineMap

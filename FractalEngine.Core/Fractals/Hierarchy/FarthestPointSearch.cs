@@ -1,8 +1,7 @@
-using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>What a <see cref="FarthestPointSearch"/> makes as large as possible.</summary>
 internal interface IPointMeasure

@@ -1,8 +1,8 @@
-using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>The maps of a transformation set with the terms a search needs. All levels with the same set share it.</summary>
 internal sealed class MapSet

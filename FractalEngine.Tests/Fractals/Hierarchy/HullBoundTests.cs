@@ -1,9 +1,9 @@
-using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 
-namespace FractalEngine.Tests.Collision.Fractals;
+namespace FractalEngine.Tests.Fractals.Hierarchy;
 
 /// <summary>Lower bounds by hulls never exceed the distance of a point that the hull contains.</summary>
 public class HullBoundTests

@@ -4,7 +4,7 @@ using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Collision.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>
 /// The convex hull of a few vertices, widened by a margin. Its distance from a position is computed exactly, for searches where cheaper

@@ -1,6 +1,6 @@
 using System.Runtime.CompilerServices;
 
-namespace FractalEngine.Core.Fractals;
+namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>
 /// Leads from the remaining levels of a sub-fractal to those of one of its children: so many levels down, or to a fixed level.
