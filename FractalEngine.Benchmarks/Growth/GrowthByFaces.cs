@@ -78,7 +78,8 @@ internal static class GrowthByFaces
 
         public Action[] Actions =>
         [
-            Exact.RunQueries, Greedy.RunQueries, Hierarchy.RunQueries, Simple.RunQueries, () => _ = new ExactFractalCollider(FractalCase.Copy(_fractal)),
+            Exact.RunQueries, Greedy.RunQueries, Hierarchy.RunQueries, Simple.RunQueries,
+            () => _ = new ExactFractalCollider(FractalCase.Copy(_fractal)),
             () => _ = new HierarchyCollider(Mesh),
         ];
     }

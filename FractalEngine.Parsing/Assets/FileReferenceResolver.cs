@@ -18,7 +18,10 @@ internal sealed class FileReferenceResolver(AssetFolder folder, bool allowOutsid
         var fullPath = FullPath(referrer, file);
         if (!IsAllowed(fullPath))
         {
-            throw source.Error(offset, $"\"{file}\" lies outside the folder of the file that was opened: allow that with --allow-outside");
+            throw source.Error(
+                offset,
+                $"\"{file}\" lies outside the folder of the file that was opened: allow that with --allow-outside "
+                + $"({nameof(LoadOptions)}.{nameof(LoadOptions.AllowOutsideFiles)})");
         }
 
         if (!File.Exists(fullPath))

@@ -11,7 +11,10 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Fractals;
 
-/// <summary>Reads and writes fractals as files (<c>.fdo</c>); what is written reads back as an equal fractal.</summary>
+/// <summary>
+/// Reads and writes fractals as files (<c>.fdo</c>). What is written reads back as an equal fractal; with
+/// <see cref="LoadOptions.AllowOutsideFiles"/>, where its base mesh has a file outside the folder of the new one.
+/// </summary>
 /// <example><code>
 /// FractalFile.Write("sponge.fdo", Fractal.Of(Shapes.Cube()).Repeat(maps, 5)); // and sponge.obj
 /// var sponge = FractalFile.Read("sponge.fdo");
