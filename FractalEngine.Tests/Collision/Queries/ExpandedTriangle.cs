@@ -14,6 +14,10 @@ internal readonly record struct ExpandedTriangle(int Face, Vector A, Vector B, V
 {
     public double Distance(Vector position) => Math.Sqrt(TriangleKernel.ClosestPoint(position, A, B, C).DistanceSquared);
 
+    public BoundingBox Box() => new(Vector.Min(A, Vector.Min(B, C)), Vector.Max(A, Vector.Max(B, C)));
+
+    public ExpandedTriangle Transform(AffineMap map) => this with { A = map * A, B = map * B, C = map * C };
+
     public bool IsNear(ExpandedTriangle other, double tolerance) => Face == other.Face && (A - other.A).MaxAbsComponent() <= tolerance
         && (B - other.B).MaxAbsComponent() <= tolerance && (C - other.C).MaxAbsComponent() <= tolerance;
 

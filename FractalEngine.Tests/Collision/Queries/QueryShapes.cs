@@ -18,7 +18,7 @@ internal static class QueryShapes
 
     private static readonly string[] Adversarial = [.. AdversarialFractals.All.Keys];
 
-    public static (Fractal Fractal, Collider Collider) Create(Random random)
+    public static (Fractal Fractal, Collider Collider) Create(Random random, int maxTriangles = 2000)
     {
         if (random.Next(4) == 0)
         {
@@ -26,7 +26,7 @@ internal static class QueryShapes
             return (Fractal.Of(mesh), random.Next(3) == 0 ? new SimpleCollider(mesh) : new HierarchyCollider(mesh));
         }
 
-        var fractal = CreateFractal(random);
+        var fractal = CreateFractal(random, maxTriangles);
         return (fractal, new ExactFractalCollider(fractal));
     }
 
@@ -51,7 +51,7 @@ internal static class QueryShapes
         };
     }
 
-    private static Fractal CreateFractal(Random random)
+    private static Fractal CreateFractal(Random random, int maxTriangles)
     {
         for (; ;)
         {
@@ -61,7 +61,7 @@ internal static class QueryShapes
                 1 => RandomFractals.Create(random),
                 _ => NastyFractals.Create(random),
             };
-            if (fractal.FaceCount <= 2000)
+            if (fractal.FaceCount <= maxTriangles)
             {
                 return fractal;
             }

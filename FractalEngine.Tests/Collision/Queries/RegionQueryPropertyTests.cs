@@ -14,7 +14,7 @@ public class RegionQueryPropertyTests
     private const double Tolerance = 1e-13;
 
     [Fact]
-    public void Regions_OfRandomShapes_HoldWhatAllTrianglesSay() => CheckAll(1, 150);
+    public void Regions_OfRandomShapes_HoldWhatAllTrianglesSay() => CheckAll(1, 120);
 
     [Fact]
     [Trait("Category", "Soak")]

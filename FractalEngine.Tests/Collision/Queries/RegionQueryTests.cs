@@ -220,7 +220,7 @@ public class RegionQueryTests
     }
 
     /// <summary>Menger's sponge from 0 to 3.</summary>
-    private static Fractal Sponge(int? depth) => Fractal.Of(Shapes.Box(new(Vector.Zero, 3 * Vector.One))).Repeat(
+    internal static Fractal Sponge(int? depth) => Fractal.Of(Shapes.Box(new(Vector.Zero, 3 * Vector.One))).Repeat(
         from x in Enumerable.Range(0, 3)
         from y in Enumerable.Range(0, 3)
         from z in Enumerable.Range(0, 3)
