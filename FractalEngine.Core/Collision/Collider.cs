@@ -10,7 +10,7 @@ namespace FractalEngine.Core.Collision;
 /// Finds the point of a shape closest to a position (paper §4.4.2–4.4.3). Immutable: any number of threads may query at once, each with a
 /// context of its own. Queries with a context allocate nothing.
 /// </summary>
-public abstract class Collider
+public abstract partial class Collider
 {
     // An upper bound of the rounding error of a distance, as a part of the largest coordinate.
     internal const double RoundingError = 4e-15;

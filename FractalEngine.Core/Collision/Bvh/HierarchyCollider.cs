@@ -1,3 +1,4 @@
+using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -45,6 +46,9 @@ public sealed class HierarchyCollider(Mesh mesh) : Collider
         closest = ClosestPointFactory.OnInstance(mesh, closestTriangle.FaceIndex, map, position);
         return closest.Distance <= maxDistance;
     }
+
+    /// <inheritdoc/>
+    internal override ShapeTree CreateShapeTree() => new(mesh, _bvh);
 
     /// <inheritdoc/>
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,

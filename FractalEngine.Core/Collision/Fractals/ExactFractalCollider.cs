@@ -75,6 +75,9 @@ public sealed class ExactFractalCollider : Collider
         FindClosestInImage(position, in map, isSimilarity: false, maxDistance, epsilon, context, out closest);
 
     /// <inheritdoc/>
+    internal override ShapeTree CreateShapeTree() => new(_fractal.BaseMesh, _baseBvh, this, _table, RelativePrecision * _precisionRadius);
+
+    /// <inheritdoc/>
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest) =>
         FindClosestInImage(position, AffineMap.Identity, _table.HasOnlySimilarities, maxDistance, epsilon, context, out closest);
@@ -197,7 +200,7 @@ public sealed class ExactFractalCollider : Collider
     /// <param name="rootMap">From the frame of the fractal to that of the query.</param>
     /// <param name="context">Receives the map indices.</param>
     /// <param name="reach">The largest absolute coordinate of a frame's origin on the way, in the frame of the query.</param>
-    private AffineMap ResolveInstance(ReadOnlySpan<int> path, in AffineMap rootMap, QueryContext context, out double reach)
+    internal AffineMap ResolveInstance(ReadOnlySpan<int> path, in AffineMap rootMap, QueryContext context, out double reach)
     {
         var map = rootMap;
         reach = map.Translation.MaxAbsComponent();

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -38,6 +39,9 @@ public sealed class SimpleCollider(Mesh mesh) : Collider
         closest = closestFace < 0 ? default : ClosestPointFactory.OnInstance(mesh, closestFace, map, position);
         return closestFace >= 0 && closest.Distance <= maxDistance;
     }
+
+    /// <inheritdoc/>
+    internal override ShapeTree CreateShapeTree() => new(mesh, bvh: null);
 
     /// <inheritdoc/>
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,

@@ -48,6 +48,9 @@ internal sealed class ConvexSolid
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => (sizeof(double) * (long)_rows.Length) + 96;
 
+    /// <summary>How far the solid reaches beyond the hull of the vertices, in scene units.</summary>
+    public double Margin => _margin;
+
     /// <summary>Creates the solid box.</summary>
     public static ConvexSolid FromBox(BoundingBox box)
     {
@@ -109,6 +112,11 @@ internal sealed class ConvexSolid
         var vertex = FindLowestVertex(SimdAffineMap.ToVector256(-direction));
         return Vector.Dot(direction, SimdAffineMap.ToVector(vertex)) + (_margin * direction.Length());
     }
+
+    /// <summary>Finds the vertex with the smallest product with a direction.</summary>
+    /// <param name="direction">In the solid's frame, of any length.</param>
+    public Vector FindLowestVertex(Vector direction) =>
+        SimdAffineMap.ToVector(FindLowestVertex(SimdAffineMap.ToVector256(direction)));
 
     /// <summary>Finds the vertex with the smallest product with a direction.</summary>
     private Vector256<double> FindLowestVertex(Vector256<double> direction)

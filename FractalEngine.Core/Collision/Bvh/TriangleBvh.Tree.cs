@@ -1,0 +1,44 @@
+using System.Runtime.InteropServices;
+using System.Runtime.Intrinsics;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Collision.Bvh;
+
+/// <content>The nodes as a tree of boxes in the mesh's frame, for walks that don't look for a closest point.</content>
+internal sealed partial class TriangleBvh
+{
+    /// <summary>The mesh whose triangles the hierarchy holds.</summary>
+    public Mesh Mesh => _mesh;
+
+    /// <summary>False where all triangles are tested without boxes: then there is no tree, and <see cref="AllFaces"/> is its only leaf.</summary>
+    public bool HasNodes => _nodes.Length > 0;
+
+    /// <summary>The face indices of all triangles, in the order of the leaves.</summary>
+    public ReadOnlySpan<int> AllFaces => _faces;
+
+    /// <summary>Finds a child of a node.</summary>
+    /// <param name="node">A node.</param>
+    /// <param name="index">Index of the child, from 0 to 7.</param>
+    /// <param name="child">The child: a node or a leaf.</param>
+    /// <param name="box">A box around its triangles in the mesh's frame, to the rounding of its coordinates.</param>
+    /// <returns>False for an absent child.</returns>
+    public bool TryGetChild(BvhChild node, int index, out BvhChild child, out BoundingBox box)
+    {
+        child = Children(node)[index];
+        if (child == BvhChild.None)
+        {
+            box = BoundingBox.Empty;
+            return false;
+        }
+
+        var rows = MemoryMarshal.Cast<Vector256<float>, float>(NodeBounds(node));
+        var minimum = new Vector(rows[index], rows[8 + index], rows[16 + index]);
+        var maximum = new Vector(rows[24 + index], rows[32 + index], rows[40 + index]);
+        box = new(_origin + (minimum / _scale), _origin + (maximum / _scale));
+        return true;
+    }
+
+    /// <summary>The face indices of a leaf's triangles.</summary>
+    public ReadOnlySpan<int> Faces(BvhChild leaf) => _faces.AsSpan(leaf.FirstTriangle, leaf.TriangleCount);
+}

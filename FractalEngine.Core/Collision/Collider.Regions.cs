@@ -1,0 +1,148 @@
+using System.Collections.Immutable;
+using System.Globalization;
+using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Collision;
+
+/// <content>Questions about all faces in a ball or a box.</content>
+public abstract partial class Collider
+{
+    // About a second of work.
+    private const long MaxBoundTests = 1_000_000;
+
+    // A ball that is still undecided is left to the search for its closest point.
+    private const long MaxBallBoundTests = 20_000;
+
+    // Largest coordinates whose squares, and those of parts 1e-15 of them, are accurate.
+    private const double MinMagnitude = 1e-100;
+    private const double MaxMagnitude = 1e140;
+
+    /// <summary>Finds all faces within a distance of a position.</summary>
+    /// <param name="position">In the shape's frame, scene units, finite.</param>
+    /// <param name="radius">Scene units, not negative; may be infinite. A face at exactly this distance counts.</param>
+    /// <param name="maximum">Number of faces beyond which the query is refused, not negative.</param>
+    /// <param name="context">Receives the costs; null where they don't matter.</param>
+    /// <returns>
+    /// The closest point of each face, by ascending distance; of equal distances by instance path, then by face. Chains of transformations
+    /// that differ only in where they have the identity, or in equal maps of a set, are one instance. Of a fractal, what is smaller than
+    /// the last digit of its size counts as one base mesh, as in <see cref="FindClosest"/>.
+    /// </returns>
+    /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the radius or the maximum is negative or NaN.</exception>
+    /// <exception cref="FractalLimitException">
+    /// There are more faces than <paramref name="maximum"/>, or finding out takes more than about a million bounds.
+    /// </exception>
+    /// <exception cref="NotSupportedException">The collider is not exact.</exception>
+    public ImmutableArray<ClosestHit> FindAllWithin(Vector position, double radius, int maximum, QueryContext? context = null)
+    {
+        ThrowIfInvalid(position, radius, 0);
+        ArgumentOutOfRangeException.ThrowIfNegative(maximum);
+        var tree = CreateShapeTree();
+        var scale = PowerOfTwoScale(tree, position.MaxAbsComponent());
+        var hits = new List<BallHit>();
+        var visitor = new BallVisitor(scale * position, scale * radius, MaxBoundTests, hits, maximum);
+        var end = ShapeWalk.Run(tree, Scaling(scale), ref visitor, (context ?? new()).Statistics);
+        if (end == ShapeWalkEnd.Completed)
+        {
+            return [.. hits.Select(CreateHit).Order(Comparer<ClosestHit>.Create(CompareHits))];
+        }
+
+        var distance = radius.ToString("R", CultureInfo.InvariantCulture);
+        throw new FractalLimitException(end == ShapeWalkEnd.Found
+            ? $"at least {hits.Count} faces lie within {distance}: expected at most {maximum}"
+            : $"more than {MaxBoundTests} bounds are needed to find the faces within {distance}: at least {hits.Count} lie there");
+
+        ClosestHit CreateHit(BallHit hit) =>
+            new(hit.Distance / scale, hit.Point / scale, hit.Normal, hit.FaceIndex, [.. tree.InstancePath(hit.Path)]);
+    }
+
+    /// <summary>Tells whether a face meets a closed ball.</summary>
+    /// <param name="centre">In the shape's frame, scene units, finite.</param>
+    /// <param name="radius">Scene units, not negative; may be infinite.</param>
+    /// <param name="context">Receives the costs; null where they don't matter.</param>
+    /// <returns>True when the closest distance is at most the radius. The inside of a closed shape has no faces.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The centre is not finite, or the radius is negative or NaN.</exception>
+    /// <exception cref="FractalLimitException">The answer takes more than about a million bounds.</exception>
+    /// <exception cref="NotSupportedException">The collider is not exact.</exception>
+    public bool Overlaps(Vector centre, double radius, QueryContext? context = null)
+    {
+        ThrowIfInvalid(centre, radius, 0);
+        var tree = CreateShapeTree();
+        var scale = PowerOfTwoScale(tree, centre.MaxAbsComponent());
+        var visitor = new BallVisitor(scale * centre, scale * radius, MaxBallBoundTests);
+        context ??= new();
+        var end = ShapeWalk.Run(tree, Scaling(scale), ref visitor, context.Statistics);
+        if (end != ShapeWalkEnd.LimitMet)
+        {
+            return end == ShapeWalkEnd.Found;
+        }
+
+        var boundTests = context.Statistics.BoundTests;
+        return TryFindClosest(centre, radius, context, out _)
+            || (context.Statistics.BoundTests - boundTests >= MaxBoundTests ? throw Undecided("ball") : false);
+    }
+
+    /// <summary>Tells whether a face meets a closed box.</summary>
+    /// <param name="box">In the shape's frame, scene units; corners are finite. The empty box meets nothing.</param>
+    /// <param name="context">Receives the costs; null where they don't matter.</param>
+    /// <returns>
+    /// True when a face has a point in the box. A face that is closer to it than about 4e-15 of the largest coordinate may count. The inside
+    /// of a closed shape has no faces.
+    /// </returns>
+    /// <exception cref="ArgumentOutOfRangeException">A coordinate of the box is NaN, or infinite where the box is not empty.</exception>
+    /// <exception cref="FractalLimitException">The answer takes more than about a million bounds.</exception>
+    /// <exception cref="NotSupportedException">The collider is not exact.</exception>
+    public bool Overlaps(BoundingBox box, QueryContext? context = null)
+    {
+        var isFinite = box.Minimum.IsFinite() && box.Maximum.IsFinite();
+        var isEmpty = box == BoundingBox.Empty || (isFinite && box.IsEmpty);
+        if (!isFinite && !isEmpty)
+        {
+            throw new ArgumentOutOfRangeException(nameof(box), box, "expected finite corners");
+        }
+
+        var tree = CreateShapeTree();
+        if (isEmpty)
+        {
+            return false;
+        }
+
+        var scale = PowerOfTwoScale(tree, BoundingVolume.MaxAbsCoordinate(box));
+        var visitor = new BoxVisitor(new(scale * box.Minimum, scale * box.Maximum), tree.IsFractal, MaxBoundTests);
+        var end = ShapeWalk.Run(tree, Scaling(scale), ref visitor, (context ?? new()).Statistics);
+        return end == ShapeWalkEnd.LimitMet ? throw Undecided("box") : end == ShapeWalkEnd.Found;
+    }
+
+    /// <summary>The shape as a tree of nodes, for questions other than the closest point of one position.</summary>
+    /// <exception cref="NotSupportedException">The collider is not exact.</exception>
+    internal virtual ShapeTree CreateShapeTree() => throw new NotSupportedException(
+        $"{GetType().Name} finds closest points of positions only: expected an exact collider of a mesh or a fractal");
+
+    private protected static AffineMap Scaling(double scale) => new(scale * Matrix.Identity, Vector.Zero);
+
+    /// <summary>The power of two by which a query is scaled, so that squares stay within the range of a double: mostly 1.</summary>
+    private static double PowerOfTwoScale(ShapeTree tree, double queryMagnitude)
+    {
+        if (tree.IsEmpty)
+        {
+            return 1;
+        }
+
+        var magnitude = Math.Max(queryMagnitude, BoundingVolume.MaxAbsCoordinate(tree.Box));
+        return magnitude is < MinMagnitude or > MaxMagnitude && double.IsFinite(magnitude) && magnitude > 0
+            ? Math.ScaleB(1, -Math.ILogB(magnitude))
+            : 1;
+    }
+
+    private static int CompareHits(ClosestHit hit1, ClosestHit hit2)
+    {
+        var byDistance = hit1.Distance.CompareTo(hit2.Distance);
+        var byPath = byDistance != 0 ? byDistance : hit1.InstancePath.AsSpan().SequenceCompareTo(hit2.InstancePath.AsSpan());
+        return byPath != 0 ? byPath : hit1.FaceIndex.CompareTo(hit2.FaceIndex);
+    }
+
+    private static FractalLimitException Undecided(string region) => new(
+        $"more than {MaxBoundTests} bounds are needed to tell whether the {region} meets a face: it touches too many small parts closely");
+}

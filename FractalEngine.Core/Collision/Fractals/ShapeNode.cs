@@ -1,0 +1,83 @@
+using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Collision.Fractals;
+
+/// <summary>
+/// A part of a <see cref="ShapeTree"/> in the frame of a query: a sub-fractal, or a node or leaf of the hierarchy of the base mesh.
+/// </summary>
+internal readonly struct ShapeNode
+{
+    // An upper bound of the rounding error of coordinates along a chain of maps, as a part of the largest of them.
+    private const double ChainError = 4e-15;
+
+    private readonly double _reach;
+
+    /// <summary>Creates a node.</summary>
+    /// <param name="subFractal">The sub-fractal; null inside the base mesh.</param>
+    /// <param name="remainingLevels">Its remaining levels.</param>
+    /// <param name="part">The node or leaf of the base mesh's hierarchy.</param>
+    /// <param name="isBase">True for the base mesh and what is inside.</param>
+    /// <param name="map">From the node's frame to that of the query.</param>
+    /// <param name="localBox">A box around the node in its own frame.</param>
+    /// <param name="reach">The largest absolute coordinate on the way to the node.</param>
+    public ShapeNode(
+        SubFractal? subFractal, long remainingLevels, BvhChild part, bool isBase, in AffineMap map, BoundingBox localBox, double reach)
+    {
+        SubFractal = subFractal;
+        RemainingLevels = remainingLevels;
+        Part = part;
+        IsBase = isBase;
+        Map = map;
+        LocalBox = localBox;
+        Box = localBox.Transform(map);
+        var localReach = BoundingVolume.MaxAbsCoordinate(localBox) * map.Linear.MaxAbsEntry();
+        _reach = Math.Max(Math.Max(reach, map.Translation.MaxAbsComponent()), Math.Max(localReach, BoundingVolume.MaxAbsCoordinate(Box)));
+    }
+
+    /// <summary>The sub-fractal; null inside the base mesh.</summary>
+    public SubFractal? SubFractal { get; }
+
+    /// <summary>Remaining levels of the sub-fractal.</summary>
+    public long RemainingLevels { get; }
+
+    /// <summary>The node or leaf of the base mesh's hierarchy; meaningless above the base mesh.</summary>
+    public BvhChild Part { get; }
+
+    /// <summary>True for the base mesh and what is inside.</summary>
+    public bool IsBase { get; }
+
+    /// <summary>From the node's frame to that of the query.</summary>
+    public AffineMap Map { get; }
+
+    /// <summary>A box around the node in its own frame.</summary>
+    public BoundingBox LocalBox { get; }
+
+    /// <summary>A box around the node in the frame of the query.</summary>
+    public BoundingBox Box { get; }
+
+    /// <summary>The largest absolute coordinate on the way to the node, in the frame of the query.</summary>
+    public double Reach => _reach;
+
+    /// <summary>How far rounding may have moved what is inside, in the frame of the query.</summary>
+    public double Slack => ChainError * _reach;
+
+    /// <summary>Finds a point of a convex solid around the node that lies lowest in a direction.</summary>
+    /// <param name="direction">In the frame of the query, of any length.</param>
+    /// <param name="margin">How much lower the node may reach, times the length of the direction.</param>
+    public Vector FindLowestPoint(Vector direction, out double margin)
+    {
+        var local = Map.Linear.Transpose() * direction;
+        if (SubFractal?.Solid is { } solid)
+        {
+            margin = solid.Margin * local.Length();
+            return Map * solid.FindLowestVertex(local);
+        }
+
+        margin = 0;
+        var (minimum, maximum) = LocalBox;
+        return Map * new Vector(
+            local.X > 0 ? minimum.X : maximum.X, local.Y > 0 ? minimum.Y : maximum.Y, local.Z > 0 ? minimum.Z : maximum.Z);
+    }
+}
