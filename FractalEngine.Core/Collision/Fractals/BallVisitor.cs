@@ -1,4 +1,5 @@
 using System.Runtime.Intrinsics;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 

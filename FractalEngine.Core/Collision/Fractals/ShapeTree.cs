@@ -1,4 +1,5 @@
 using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -14,7 +15,7 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// <param name="table">The levels of the fractal; null for a mesh.</param>
 /// <param name="minRadius">The radius, in the fractal's frame, at which a sub-fractal is replaced by the base mesh.</param>
 internal sealed class ShapeTree(
-    Mesh mesh, TriangleBvh? bvh, ExactFractalCollider? fractal = null, SubFractalTable? table = null, double minRadius = 0)
+    Mesh mesh, TriangleBvh? bvh, ExactFractalCollider? fractal = null, FractalHierarchy? table = null, double minRadius = 0)
 {
     private readonly int[] _allFaces = bvh is null ? [.. Enumerable.Range(0, mesh.FaceCount)] : [];
 
