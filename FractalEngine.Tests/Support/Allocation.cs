@@ -18,4 +18,12 @@ internal static class Allocation
             ? result
             : throw new XunitException(FormattableString.Invariant($"allocated {bytes} bytes, more than {limitBytes}"));
     }
+
+    /// <summary>Runs something on this thread, and returns the number of bytes that it has allocated there.</summary>
+    public static long Measure(Action run)
+    {
+        var before = GC.GetAllocatedBytesForCurrentThread();
+        run();
+        return GC.GetAllocatedBytesForCurrentThread() - before;
+    }
 }
