@@ -10,7 +10,7 @@ public abstract partial class Collider
 {
     /// <summary>Finds the closest points of this shape and another one.</summary>
     /// <param name="other">The collider of the other shape; may be this one.</param>
-    /// <param name="placementOfOther">Maps the other shape's frame to this one's, finite; it may stretch, skew or flatten.</param>
+    /// <param name="placementOfOther">Maps the other shape's frame to this one's, finite; may stretch, skew or flatten.</param>
     /// <param name="context">Receives the costs; null where they don't matter.</param>
     /// <returns>
     /// Both points in this shape's frame. Shapes whose faces meet have the distance 0, to rounding. A shape inside another one has not: only
@@ -32,6 +32,12 @@ public abstract partial class Collider
             throw new ArgumentOutOfRangeException(nameof(placementOfOther), placementOfOther, "expected finite numbers");
         }
 
+        return FindClosestPair(AffineMap.Identity, other, placementOfOther, context);
+    }
+
+    /// <summary>Finds the closest points of two shapes under maps to the frame of the query.</summary>
+    internal ClosestPair FindClosestPair(AffineMap placement, Collider other, AffineMap placementOfOther, QueryContext? context)
+    {
         var tree = CreateShapeTree();
         var otherTree = other.CreateShapeTree();
         if (tree.IsEmpty || otherTree.IsEmpty)
@@ -39,9 +45,11 @@ public abstract partial class Collider
             throw new InvalidOperationException("a shape has no faces, so no points of the two are closest");
         }
 
-        var scale = PowerOfTwoScale(tree, BoundingVolume.MaxAbsCoordinate(otherTree.Box.Transform(placementOfOther)));
+        var scale = PowerOfTwoScale(Math.Max(
+            BoundingVolume.MaxAbsCoordinate(tree.Box.Transform(placement)),
+            BoundingVolume.MaxAbsCoordinate(otherTree.Box.Transform(placementOfOther))));
         var pair = ClosestPairSearch.Run(
-            tree, Scaling(scale), otherTree, Scaling(scale) * placementOfOther, (context ?? new()).Statistics);
+            tree, Scaling(scale) * placement, otherTree, Scaling(scale) * placementOfOther, (context ?? new()).Statistics);
         return scale == 1 ? pair : pair with
         {
             Distance = pair.Distance / scale,

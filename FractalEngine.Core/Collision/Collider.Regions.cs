@@ -31,7 +31,7 @@ public abstract partial class Collider
     /// that differ only in where they have the identity, or in equal maps of a set, are one instance. Of a fractal, what is smaller than
     /// the last digit of its size counts as one base mesh, as in <see cref="FindClosest"/>.
     /// </returns>
-    /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the radius or the maximum is negative or NaN.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or a limit is negative or NaN.</exception>
     /// <exception cref="FractalLimitException">
     /// There are more faces than <paramref name="maximum"/>, or finding out takes more than about a million bounds.
     /// </exception>
@@ -89,8 +89,8 @@ public abstract partial class Collider
     /// <param name="box">In the shape's frame, scene units; corners are finite. The empty box meets nothing.</param>
     /// <param name="context">Receives the costs; null where they don't matter.</param>
     /// <returns>
-    /// True when a face has a point in the box. A face that is closer to it than about 4e-15 of the largest coordinate may count. The inside
-    /// of a closed shape has no faces.
+    /// True when a face has a point in the box. A face that is closer to it than about 4e-15 of the largest coordinate may count.
+    /// The inside of a closed shape has no faces.
     /// </returns>
     /// <exception cref="ArgumentOutOfRangeException">A coordinate of the box is NaN, or infinite where the box is not empty.</exception>
     /// <exception cref="FractalLimitException">The answer takes more than about a million bounds.</exception>
@@ -124,18 +124,13 @@ public abstract partial class Collider
     private protected static AffineMap Scaling(double scale) => new(scale * Matrix.Identity, Vector.Zero);
 
     /// <summary>The power of two by which a query is scaled, so that squares stay within the range of a double: mostly 1.</summary>
-    private static double PowerOfTwoScale(ShapeTree tree, double queryMagnitude)
-    {
-        if (tree.IsEmpty)
-        {
-            return 1;
-        }
+    private static double PowerOfTwoScale(ShapeTree tree, double queryMagnitude) =>
+        tree.IsEmpty ? 1 : PowerOfTwoScale(Math.Max(queryMagnitude, BoundingVolume.MaxAbsCoordinate(tree.Box)));
 
-        var magnitude = Math.Max(queryMagnitude, BoundingVolume.MaxAbsCoordinate(tree.Box));
-        return magnitude is < MinMagnitude or > MaxMagnitude && double.IsFinite(magnitude) && magnitude > 0
+    private static double PowerOfTwoScale(double magnitude) =>
+        magnitude is < MinMagnitude or > MaxMagnitude && double.IsFinite(magnitude) && magnitude > 0
             ? Math.ScaleB(1, -Math.ILogB(magnitude))
             : 1;
-    }
 
     private static int CompareHits(ClosestHit hit1, ClosestHit hit2)
     {

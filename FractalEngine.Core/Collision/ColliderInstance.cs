@@ -20,6 +20,9 @@ internal sealed class ColliderInstance(
     /// <summary>In the frame of the model; built at the first query.</summary>
     public Lazy<Collider> Collider => collider;
 
+    /// <summary>Maps the frame of the collider to world space.</summary>
+    public AffineMap ObjectToWorld => _generalMap?.Value ?? similarity.Map;
+
     /// <summary>Finds the closest point of the object in world space.</summary>
     public bool TryFindClosest(Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, double epsilon)
     {

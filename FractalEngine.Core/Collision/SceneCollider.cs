@@ -18,7 +18,7 @@ namespace FractalEngine.Core.Collision;
 /// A query finds its object in O(log n) for n objects that lie apart: the first one builds a hierarchy over their boxes. Objects are tested
 /// in the order of the distances of their boxes, equally close ones in the order of the scene. Of equally close points the first one wins.
 /// </remarks>
-public sealed class SceneCollider
+public sealed partial class SceneCollider
 {
     private readonly Dictionary<Model, Lazy<Collider>> _sharedColliders;
     private readonly ColliderKind _kind;

@@ -11,7 +11,7 @@ internal sealed partial class TriangleBvh
     /// <summary>The mesh whose triangles the hierarchy holds.</summary>
     public Mesh Mesh => _mesh;
 
-    /// <summary>False where all triangles are tested without boxes: then there is no tree, and <see cref="AllFaces"/> is its only leaf.</summary>
+    /// <summary>False where all triangles are tested without boxes: then <see cref="AllFaces"/> is the only leaf.</summary>
     public bool HasNodes => _nodes.Length > 0;
 
     /// <summary>The face indices of all triangles, in the order of the leaves.</summary>

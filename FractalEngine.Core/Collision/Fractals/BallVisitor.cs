@@ -30,7 +30,8 @@ internal struct BallVisitor(Vector centre, double radius, long maxBoundTests, Li
     {
         var limit = radius + _slack + node.Slack;
         var limitSquared = limit * limit;
-        if (node.Box.DistanceSquared(centre) > limitSquared || (node.SubFractal is { } subFractal && Excludes(subFractal, in node, limitSquared)))
+        if (node.Box.DistanceSquared(centre) > limitSquared
+            || (node.SubFractal is { } subFractal && Excludes(subFractal, in node, limitSquared)))
         {
             return double.PositiveInfinity;
         }

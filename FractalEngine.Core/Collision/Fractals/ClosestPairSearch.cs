@@ -11,8 +11,8 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// </summary>
 /// <remarks>
 /// Now and then it descends from the best pair to a pair of leaves, always into the closest child: at first, then after twice as many pairs
-/// each time. So it has a good result early, also where many bounds are nearly equal, as between parallel walls of deep fractals. It ends when it
-/// has met the limit of work, and says what it left open.
+/// each time. So it has a good result early, also where many bounds are nearly equal, as between parallel walls of deep fractals. It ends
+/// when it has met the limit of work, and says what it left open.
 /// </remarks>
 internal sealed class ClosestPairSearch
 {

@@ -5,7 +5,7 @@ namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>Bounds the distance of two parts of shapes by the distance of convex solids around them.</summary>
 /// <remarks>
-/// The algorithm of Gilbert, Johnson and Keerthi (1988) on the differences of their points, as <see cref="ConvexSolid"/> does for one solid.
+/// The algorithm of Gilbert, Johnson and Keerthi (1988) on the differences of their points, as <see cref="ConvexSolid"/> does for one.
 /// Each step's direction gives a lower bound that holds whatever the rounding of the simplex.
 /// </remarks>
 internal static class ConvexPairDistance

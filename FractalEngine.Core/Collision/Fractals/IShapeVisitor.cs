@@ -10,8 +10,8 @@ internal interface IShapeVisitor
 
     /// <summary>Tells how a part of the shape lies to what is looked for.</summary>
     /// <returns>
-    /// Positive infinity where no face of it counts, negative infinity where the walk has found what it looks for; else a number by which the
-    /// children of one node are ordered: the smallest is visited first.
+    /// Positive infinity where no face of it counts, negative infinity where the walk has found what it looks for. Else a number by
+    /// which the children of one node are ordered: the smallest is visited first.
     /// </returns>
     double Measure(in ShapeNode node);
 

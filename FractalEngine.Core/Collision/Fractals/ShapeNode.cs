@@ -13,8 +13,6 @@ internal readonly struct ShapeNode
     // An upper bound of the rounding error of coordinates along a chain of maps, as a part of the largest of them.
     private const double ChainError = 4e-15;
 
-    private readonly double _reach;
-
     /// <summary>Creates a node.</summary>
     /// <param name="subFractal">The sub-fractal; null inside the base mesh.</param>
     /// <param name="remainingLevels">Its remaining levels.</param>
@@ -33,8 +31,9 @@ internal readonly struct ShapeNode
         Map = map;
         LocalBox = localBox;
         Box = localBox.Transform(map);
-        var localReach = BoundingVolume.MaxAbsCoordinate(localBox) * map.Linear.MaxAbsEntry();
-        _reach = Math.Max(Math.Max(reach, map.Translation.MaxAbsComponent()), Math.Max(localReach, BoundingVolume.MaxAbsCoordinate(Box)));
+        // The largest products and sums that make a coordinate.
+        var localReach = map.Linear.Absolute() * Vector.Max(localBox.Minimum.Absolute(), localBox.Maximum.Absolute());
+        Reach = Math.Max(reach, localReach.MaxAbsComponent() + map.Translation.MaxAbsComponent());
     }
 
     /// <summary>The sub-fractal; null inside the base mesh.</summary>
@@ -59,10 +58,10 @@ internal readonly struct ShapeNode
     public BoundingBox Box { get; }
 
     /// <summary>The largest absolute coordinate on the way to the node, in the frame of the query.</summary>
-    public double Reach => _reach;
+    public double Reach { get; }
 
     /// <summary>How far rounding may have moved what is inside, in the frame of the query.</summary>
-    public double Slack => ChainError * _reach;
+    public double Slack => ChainError * Reach;
 
     /// <summary>Finds a point of a convex solid around the node that lies lowest in a direction.</summary>
     /// <param name="direction">In the frame of the query, of any length.</param>

@@ -5,6 +5,7 @@ using FractalEngine.Core.Collision.Reference;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Collision.Queries;
@@ -136,6 +137,49 @@ public class ClosestPairTests
         var collider = new HierarchyCollider(Samples.Tetrahedron.Transform(v => scale * v));
         var pair = collider.FindClosestPair(collider, AffineMap.Translate(-3 * scale * Vector.I));
         Assert.Equal(1, pair.Distance / scale, 1e-12);
+    }
+
+    /// <summary>The closest children of the walls are pairs without number, and their bounds are hardly below the gap.</summary>
+    [Theory]
+    [InlineData(0.1)]
+    [InlineData(1e-6)]
+    public void FindClosestPair_OfSlantedWalls_StatesWhatIsLeftOpen(double gap)
+    {
+        var corners = Samples.Tetrahedron;
+        var fractal = new Fractal(
+            new([new Repetition([new TransformationSet([.. new[] { Vector.Zero, Vector.I, 0.5 * Vector.J, 1.5 * Vector.K }
+                .Select(position => Transformation.At(position, 0.5))])], null)]),
+            corners);
+        var collider = new ExactFractalCollider(fractal);
+        // The slanted face has the corners (2, 0, 0), (0, 1, 0), (0, 0, 3): mirrored through its plane, and moved by the gap.
+        var normal = new Vector(3, 6, 2) / 7;
+        var mirror = new Matrix(
+            Vector.I - (2 * normal.X * normal), Vector.J - (2 * normal.Y * normal), Vector.K - (2 * normal.Z * normal));
+        var map = new AffineMap(mirror, ((2 * 6 / 7.0) + gap) * normal);
+        var context = new QueryContext();
+        var pair = collider.FindClosestPair(collider, map, context);
+        Assert.InRange(pair.Distance, gap - 1e-14, gap + Math.Max(pair.ErrorBound, 1e-14));
+        Assert.InRange(pair.ErrorBound, 0, 1e-5);
+        Assert.InRange(context.Statistics.BoundTests, 1, MaxBoundTests);
+    }
+
+    [Fact]
+    public void FindClosestPair_OfObjectsInAScene_IsInWorldSpace()
+    {
+        var collider = new SceneCollider(new Scene
+        {
+            Objects =
+            [
+                new(Samples.Tetrahedron) { Placement = Transformation.At(new(10, 0, 0)) },
+                new(Samples.Tetrahedron) { Placement = new(new(5, 0, 0), Vector.Zero, new(1, 2, 3)) },
+            ],
+        });
+        var pair = collider.FindClosestPair(0, 1);
+        Assert.Equal(3, pair.Distance, 1e-14);
+        Assert.Equal(new(10, 0, 0), pair.Point);
+        Assert.Equal(new(7, 0, 0), pair.OtherPoint);
+        Assert.Throws<ArgumentOutOfRangeException>(() => collider.FindClosestPair(0, 2));
+        Assert.Throws<ArgumentOutOfRangeException>(() => collider.FindClosestPair(-1, 1));
     }
 
     private static void CheckAll(int firstSeed, int cases) =>

@@ -73,12 +73,15 @@ public class RegionQueryPropertyTests
             _ => position1 + (Math.Pow(10, -random.Next(0, 12)) * random.Vector(shape.Magnitude)),
         };
         var box = new BoundingBox(Vector.Min(position1, position2), Vector.Max(position1, position2));
-        var margin = Tolerance * Math.Max(shape.Magnitude, Math.Max(position1.MaxAbsComponent(), position2.MaxAbsComponent())) * Vector.One;
+        var magnitude = Math.Max(shape.Magnitude, Math.Max(position1.MaxAbsComponent(), position2.MaxAbsComponent()));
+        var margin = Tolerance * magnitude * Vector.One;
         var smaller = new BoundingBox(box.Minimum + margin, box.Maximum - margin);
         var larger = new BoundingBox(box.Minimum - margin, box.Maximum + margin);
         AssertOverlap(
             !smaller.IsEmpty && shape.Triangles.Any(triangle => triangle.Meets(smaller)),
-            shape.Triangles.Any(triangle => triangle.Meets(larger)),
+            // Rounding makes the cuts miss triangles that a tiny box just touches, but not the distances of its corners.
+            shape.Triangles.Any(triangle => triangle.Meets(larger)
+                || Math.Min(triangle.Distance(position1), triangle.Distance(position2)) <= margin.X),
             collider.Overlaps(box),
             $"box {box}");
     }

@@ -187,7 +187,7 @@ public class RegionQueryTests
         Assert.Throws<ArgumentOutOfRangeException>(() => collider.Overlaps(new(0, double.PositiveInfinity, 0), 1));
         Assert.Throws<ArgumentOutOfRangeException>(() => collider.Overlaps(Vector.Zero, double.NaN));
         Assert.Throws<ArgumentOutOfRangeException>(() => collider.Overlaps(new BoundingBox(new(double.NaN, 0, 0), Vector.One)));
-        Assert.Throws<ArgumentOutOfRangeException>(() => collider.Overlaps(new BoundingBox(Vector.Zero, new(double.PositiveInfinity, 1, 1))));
+        Assert.Throws<ArgumentOutOfRangeException>(() => collider.Overlaps(UnitBox with { Maximum = new(double.PositiveInfinity, 1, 1) }));
         Assert.False(collider.Overlaps(BoundingBox.Empty));
     }
 

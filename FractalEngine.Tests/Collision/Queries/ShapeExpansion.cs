@@ -31,7 +31,7 @@ internal sealed class ShapeExpansion
     /// <summary>Number of levels.</summary>
     public long Levels => _fractal.LevelCount!.Value;
 
-    /// <summary>True where chains differ only in where they have the identity, or in equal maps, so that a query finds one of them.</summary>
+    /// <summary>True where chains differ only in their identities or in equal maps, so that a query finds one of them.</summary>
     public bool HasEqualInstances { get; }
 
     /// <summary>
