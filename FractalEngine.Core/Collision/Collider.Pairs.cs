@@ -13,8 +13,8 @@ public abstract partial class Collider
     /// <param name="placementOfOther">Maps the other shape's frame to this one's, finite; may stretch, skew or flatten.</param>
     /// <param name="context">Receives the costs; null where they don't matter.</param>
     /// <returns>
-    /// Both points in this shape's frame. Shapes whose faces meet have the distance 0, to rounding. A shape inside another one has not: only
-    /// faces count.
+    /// Both points in this shape's frame. Shapes whose faces meet have the distance 0, to rounding. A shape inside another one has not:
+    /// only faces count.
     /// </returns>
     /// <exception cref="ArgumentOutOfRangeException">The placement is not finite.</exception>
     /// <exception cref="InvalidOperationException">A shape has no faces.</exception>

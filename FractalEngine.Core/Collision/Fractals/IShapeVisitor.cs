@@ -15,7 +15,7 @@ internal interface IShapeVisitor
     /// </returns>
     double Measure(in ShapeNode node);
 
-    /// <summary>Visits a face.</summary>
+    /// <summary>Visits a face of an instance.</summary>
     /// <param name="face">Its index in the base mesh.</param>
     /// <param name="a">The first corner in the frame of the query.</param>
     /// <param name="b">The second corner.</param>

@@ -13,7 +13,7 @@ internal readonly struct ShapeNode
     // An upper bound of the rounding error of coordinates along a chain of maps, as a part of the largest of them.
     private const double ChainError = 4e-15;
 
-    /// <summary>Creates a node.</summary>
+    /// <summary>Creates a node of a shape.</summary>
     /// <param name="subFractal">The sub-fractal; null inside the base mesh.</param>
     /// <param name="remainingLevels">Its remaining levels.</param>
     /// <param name="part">The node or leaf of the base mesh's hierarchy.</param>

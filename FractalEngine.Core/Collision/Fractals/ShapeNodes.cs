@@ -26,7 +26,7 @@ internal sealed class ShapeNodes
         Add(tree.Root(in map), -1, -1, 0);
     }
 
-    /// <summary>Number of nodes.</summary>
+    /// <summary>Number of nodes that are kept.</summary>
     public int Count => _entries.Count;
 
     /// <summary>How far a sub-fractal may reach that was replaced by the base mesh, in the frame of the query.</summary>
@@ -41,7 +41,7 @@ internal sealed class ShapeNodes
     /// <summary>The boxes around these triangles.</summary>
     public IReadOnlyList<BoundingBox> TriangleBoxes => _triangleBoxes;
 
-    /// <summary>A node.</summary>
+    /// <summary>The node with an index.</summary>
     public ShapeNode this[int index] => _entries[index].Node;
 
     /// <summary>True for a node without children.</summary>

@@ -25,7 +25,7 @@ internal sealed class ShapeTree(
     /// <summary>True for the levels of a fractal, whose coordinates are rounded along chains of maps.</summary>
     public bool IsFractal => table is not null;
 
-    /// <summary>The base mesh.</summary>
+    /// <summary>The mesh that every instance shows.</summary>
     public Mesh Mesh => mesh;
 
     /// <summary>A box around the shape in its own frame.</summary>

@@ -87,7 +87,8 @@ public class RegionQueryPropertyTests
     }
 
     private static void AssertOverlap(bool isCertain, bool isPossible, bool actual, string region) =>
-        Assert.True(actual ? isPossible : !isCertain, $"{region}: {actual}, though {(actual ? "nothing is near" : "a triangle is inside")}");
+        var reason = actual ? "nothing is near" : "a triangle is inside";
+        Assert.True(actual ? isPossible : !isCertain, $"{region}: {actual}, though {reason}");
 
     private static double Radius(Random random, double[] distances) => distances.Length == 0 ? 1 : random.Next(5) switch
     {
