@@ -127,6 +127,8 @@ internal readonly ref struct ChildQueue(Span<double> values)
 
         ref var key = ref _values[_paddedCount + child];
         key = (previousBound > 0 ? key : key * SeparatedFactor) + (bound - previousBound);
+        // The centre of a huge box that is nearly empty says nothing.
+        key = Math.Min(key, 2 * bound);
         previousBound = bound;
         return true;
     }

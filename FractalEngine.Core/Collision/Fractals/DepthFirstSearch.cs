@@ -44,6 +44,11 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy table, TriangleB
         var queue = new ChildQueue(search.ScratchSlice(offset, length));
         frame.FillQueue(subFractal, queue, ref search);
         var cutoffSquared = frame.ChildCutoffSquared(in search);
+        if (subFractal.Clusters is not null)
+        {
+            RefineAll(subFractal, remainingLevels, ref frame, queue, cutoffSquared, ref search);
+        }
+
         var hasNext = queue.TryPeek(cutoffSquared, out var closestChild);
         while (hasNext)
         {
@@ -72,6 +77,25 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy table, TriangleB
             Visit(childSubFractal, childLevels, ref childFrame, depth + 1, offset + length, ref search);
             cutoffSquared = frame.ChildCutoffSquared(in search);
             hasNext = queue.TryPeek(cutoffSquared, out closestChild);
+        }
+    }
+
+    /// <summary>Refines all children, where their boxes are nearly empty and tell nothing of their order.</summary>
+    private void RefineAll(
+        SubFractal subFractal, long remainingLevels, ref TFrame frame, ChildQueue queue, double cutoffSquared,
+        ref FractalSearchState search)
+    {
+        for (var i = 0; i < subFractal.Children.Length; i++)
+        {
+            if (!(queue.BoundOf(i) < cutoffSquared))
+            {
+                continue;
+            }
+
+            var child = subFractal.Children[i];
+            var childFrame = frame.Enter(child);
+            var childSubFractal = table.At(child, child.RemainingLevels(remainingLevels));
+            queue.Refine(i, frame.RefinedBoundSquared(subFractal, child, childSubFractal, ref childFrame, cutoffSquared, ref search));
         }
     }
 }

@@ -86,9 +86,11 @@ public class RegionQueryPropertyTests
             $"box {box}");
     }
 
-    private static void AssertOverlap(bool isCertain, bool isPossible, bool actual, string region) =>
+    private static void AssertOverlap(bool isCertain, bool isPossible, bool actual, string region)
+    {
         var reason = actual ? "nothing is near" : "a triangle is inside";
         Assert.True(actual ? isPossible : !isCertain, $"{region}: {actual}, though {reason}");
+    }
 
     private static double Radius(Random random, double[] distances) => distances.Length == 0 ? 1 : random.Next(5) switch
     {
