@@ -117,6 +117,22 @@ public class ExactFractalColliderWorkTests
         Assert.Equal(distances[2], distances[0], 1e-3);
     }
 
+    /// <summary>A query must not visit sub-fractals around the position one after another when the radius excludes little.</summary>
+    [Fact]
+    public void TryFindClosest_WithARadiusOnTheInfiniteSponge_TestsFewBounds()
+    {
+        var collider = new ExactFractalCollider(Fractal.Of(Cube).Repeat(SpongeMaps));
+        var context = new QueryContext();
+        var found = 0;
+        Seeded.Run(20_000, random =>
+        {
+            context.Statistics.Reset();
+            found += collider.TryFindClosest(random.Vector(0.7), 0.3 * random.NextDouble(), context, out _) ? 1 : 0;
+            Assert.InRange(context.Statistics.BoundTests, 0, 10_000);
+        });
+        Assert.InRange(found, 5_000, 20_000);
+    }
+
     [Fact]
     public void TryFindClosest_OfASpongeWithOneFarMap_IsExact()
     {
