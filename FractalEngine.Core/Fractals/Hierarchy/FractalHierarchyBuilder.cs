@@ -18,10 +18,6 @@ internal sealed class FractalHierarchyBuilder
     // A hull that fills its box bounds no better than the box.
     private const double MaxHullFillRatio = 0.95;
 
-    // A level of more children is searched as a tree of groups.
-    private const int MaxUngroupedChildren = 64;
-    private const int GroupSize = 16;
-
     // Stands for infinitely many rounds: no search descends so many levels.
     private const long EndlessRounds = 1L << 40;
 
@@ -351,46 +347,15 @@ internal sealed class FractalHierarchyBuilder
         BoundingBox[] childBoxes =
             [.. children.Zip(childVolumes, (child, childVolume) => childVolume.TransformedBox(child.Map, child.OperatorNormBound))];
         var childHull = childVolumes.Length > 0 ? CreateHullBound(childVolumes[0]) : null;
-        if (children.Length > MaxUngroupedChildren)
+        if (children.Length > ChildGroups.MaxUngroupedChildren)
         {
-            (children, childBoxes) = GroupChildren(set, children, childBoxes, BoundingBox.Union(volume.Box, _volumes[0].Box), childHull);
+            var parentBox = BoundingBox.Union(volume.Box, _volumes[0].Box);
+            (children, childBoxes) = ChildGroups.Create(set, children, childBoxes, parentBox, childHull);
             childHull = null;
         }
 
         var hull = CreateHullBound(volume);
         return new(set, children, childBoxes, volume.Box, _volumes[0].Box, hull, childHull, CreateSolid(volume), CreateClusters(volume));
-    }
-
-    /// <summary>Groups many children by the places of their boxes, and the groups again, until they are few.</summary>
-    /// <param name="set">The set of the level.</param>
-    /// <param name="children">All children.</param>
-    /// <param name="childBoxes">Their boxes in the frame of the parent.</param>
-    /// <param name="parentBox">A box around the parent and the base mesh: no group is smaller, so that none counts as a point.</param>
-    /// <param name="childHull">The hull of the sub-fractal that the first child is an instance of.</param>
-    private static (ChildInstance[] Groups, BoundingBox[] Boxes) GroupChildren(
-        MapSet set, ChildInstance[] children, BoundingBox[] childBoxes, BoundingBox parentBox, HullBound? childHull)
-    {
-        int[] nonEmpty = [.. Enumerable.Range(0, children.Length).Where(i => !childBoxes[i].IsEmpty)];
-        var partition = new BoxPartition([.. nonEmpty.Select(i => childBoxes[i])]);
-        return CreateGroups(0..nonEmpty.Length);
-
-        (ChildInstance[], BoundingBox[]) CreateGroups(Range range)
-        {
-            var parts = partition.Split(range, GroupSize, GroupSize);
-            BoundingBox[] boxes = [.. parts.Select(partition.BoundsOf)];
-            ChildInstance[] groups = [.. parts.Select((part, i) => ChildInstance.Of(CreateGroup(part, boxes[i])))];
-            return (groups, boxes);
-        }
-
-        SubFractal CreateGroup(Range range, BoundingBox box)
-        {
-            int[] members = [.. partition.Order[range].ToArray().Select(i => nonEmpty[i])];
-            var (parts, boxes) = members.Length > GroupSize
-                ? CreateGroups(range)
-                : (members.Select(i => children[i]).ToArray(), members.Select(i => childBoxes[i]).ToArray());
-            var hasFirstHull = parts[0].Group is null && parts[0].LevelStep == children[0].LevelStep;
-            return new(set, parts, boxes, box, parentBox, null, hasFirstHull ? childHull : null, ConvexSolid.FromBox(box), null);
-        }
     }
 
     private static ClusterBounds? CreateClusters(BoundingVolume volume) => volume.Clusters.Length > 1 ? new(volume.Clusters) : null;
