@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
@@ -15,10 +16,19 @@ namespace FractalEngine.Core.Collision;
 public readonly record struct ClosestPoint(
     double Distance, Vector Point, Vector Normal, Vector Barycentrics, TriangleFeature Feature, int FaceIndex)
 {
+    private readonly double _errorBound;
+
     /// <summary>Upper bound of how much farther the point is than the closest point of the shape, scene units.</summary>
     /// <remarks>
     /// Exact colliders state the rounding of their search, what ε allows, and what a search left open that met its limit of work. For
     /// other colliders it is the distance itself, as they promise nothing.
     /// </remarks>
-    public double ErrorBound { get; init; }
+    public double ErrorBound
+    {
+        get => _errorBound;
+        init => _errorBound = value;
+    }
+
+    /// <summary>Sets the error bound in place: to copy a result takes a noticeable part of a query.</summary>
+    internal static void SetErrorBound(ref ClosestPoint closest, double errorBound) => Unsafe.AsRef(in closest._errorBound) = errorBound;
 }

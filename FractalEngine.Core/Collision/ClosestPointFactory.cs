@@ -38,6 +38,14 @@ internal static class ClosestPointFactory
         return Create(a, b, c, face, TriangleKernel.ClosestPoint(position, a, b, c));
     }
 
+    /// <inheritdoc cref="OnInstance(Mesh, int, AffineMap, Vector)"/>
+    public static ClosestPoint OnInstance(Mesh mesh, int face, in SimdAffineMap map, Vector position)
+    {
+        var (a, b, c) = mesh.Face(face);
+        (a, b, c) = (map.Apply(a), map.Apply(b), map.Apply(c));
+        return Create(a, b, c, face, TriangleKernel.ClosestPoint(position, a, b, c));
+    }
+
     private static ClosestPoint Create(Vector a, Vector b, Vector c, int face, TrianglePoint point) => new(
         Math.Sqrt(point.DistanceSquared), point.Point, TriangleKernel.UnitNormal(a, b, c), point.Barycentrics, point.Feature, face);
 }

@@ -108,7 +108,7 @@ public abstract partial class Collider
             return false;
         }
 
-        closest = closest with { ErrorBound = CompleteErrorBound(position, in closest, epsilon) };
+        ClosestPoint.SetErrorBound(ref closest, CompleteErrorBound(position, in closest, epsilon));
         return true;
     }
 

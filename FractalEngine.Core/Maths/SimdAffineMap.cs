@@ -50,6 +50,10 @@ internal readonly struct SimdAffineMap
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Vector256<double> Apply(Vector256<double> point) => ApplyLinear(point) + Translation;
 
+    /// <summary>Maps a point.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Vector Apply(Vector point) => ToVector(Apply(ToVector256(point)));
+
     /// <summary>Multiplies the transposed linear part by a vector.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Vector256<double> MultiplyTransposed(Vector256<double> direction) =>

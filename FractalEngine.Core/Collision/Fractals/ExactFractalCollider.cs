@@ -1,3 +1,4 @@
+using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Hierarchy;
@@ -124,9 +125,9 @@ public sealed class ExactFractalCollider : Collider
         }
 
         var instance = ResolveInstance(search.ClosestPath, in map, context, out var reach);
-        closest = ClosestPointFactory.OnInstance(_fractal.BaseMesh, search.ClosestFace, instance, position);
+        closest = ClosestPointFactory.OnInstance(_fractal.BaseMesh, search.ClosestFace, in instance, position);
         reach = Math.Max(reach, closest.Point.MaxAbsComponent());
-        closest = closest with { ErrorBound = search.ErrorBound(closest.Distance, reach) };
+        ClosestPoint.SetErrorBound(ref closest, search.ErrorBound(closest.Distance, reach));
         return closest.Distance <= maxDistance;
     }
 
@@ -200,10 +201,10 @@ public sealed class ExactFractalCollider : Collider
     /// <param name="rootMap">From the frame of the fractal to that of the query.</param>
     /// <param name="context">Receives the map indices.</param>
     /// <param name="reach">The largest absolute coordinate of a frame's origin on the way, in the frame of the query.</param>
-    internal AffineMap ResolveInstance(ReadOnlySpan<int> path, in AffineMap rootMap, QueryContext context, out double reach)
+    internal SimdAffineMap ResolveInstance(ReadOnlySpan<int> path, in AffineMap rootMap, QueryContext context, out double reach)
     {
-        var map = rootMap;
-        reach = map.Translation.MaxAbsComponent();
+        var map = new SimdAffineMap(rootMap);
+        var maxTranslation = Vector256.Abs(map.Translation);
         var remainingLevels = _table.Levels;
         var exponent = 0L;
         var subFractal = _table.Root;
@@ -216,8 +217,16 @@ public sealed class ExactFractalCollider : Collider
                 continue;
             }
 
-            map *= child.Map;
-            reach = Math.Max(reach, map.Translation.MaxAbsComponent());
+            map = SimdAffineMap.Compose(in map, in child.SimdMap);
+            maxTranslation = Vector256.Max(maxTranslation, Vector256.Abs(map.Translation));
+            if (child.MapIndices is { } mapIndices)
+            {
+                context.AppendToPath(mapIndices);
+                remainingLevels = child.RemainingLevels(remainingLevels);
+                subFractal = _table.At(remainingLevels);
+                continue;
+            }
+
             foreach (var edge in child.Edges)
             {
                 var childLevels = edge.RemainingLevels(remainingLevels);
@@ -232,6 +241,7 @@ public sealed class ExactFractalCollider : Collider
                 if (isIdentity && childLevels == 0 && remainingLevels > FractalSearchState.MaxDepth)
                 {
                     // A path that ends early goes on with identities.
+                    reach = SimdAffineMap.ToVector(maxTranslation).MaxAbsComponent();
                     return map;
                 }
 
@@ -252,6 +262,7 @@ public sealed class ExactFractalCollider : Collider
             subFractal = _table.At(remainingLevels);
         }
 
+        reach = SimdAffineMap.ToVector(maxTranslation).MaxAbsComponent();
         return map;
     }
 }

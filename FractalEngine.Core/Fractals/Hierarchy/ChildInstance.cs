@@ -28,6 +28,11 @@ internal sealed class ChildInstance
             LevelStep = LevelStep.Then(levelStep);
         }
 
+        if (edges.All(edge => edge.LevelStep == LevelStep.Down(1) && edge.Set.Power is null && edge.Set != MapSet.Identity))
+        {
+            MapIndices = [.. edges.Select(edge => edge.MapIndex)];
+        }
+
         _simdMap = new(map);
         _inverseSimdMap = new(inverse);
     }
@@ -50,6 +55,9 @@ internal sealed class ChildInstance
     /// <summary>The edges, the outermost first.</summary>
     public ChildEdge[] Edges { get; }
 
+    /// <summary>The map index of each edge, where each goes down one level by a map of that level's set; null for others.</summary>
+    public int[]? MapIndices { get; }
+
     /// <summary>The map from the child's frame to that of the parent.</summary>
     public AffineMap Map => _simdMap.ToAffineMap();
 
@@ -69,7 +77,7 @@ internal sealed class ChildInstance
     public LevelStep LevelStep { get; }
 
     /// <summary>Number of bytes of the maps and edges.</summary>
-    public long StorageBytes => (35 * sizeof(double)) + (24 * Edges.Length) + 40;
+    public long StorageBytes => (35 * sizeof(double)) + (28 * Edges.Length) + 48;
 
     /// <summary>Computes the remaining levels of the child.</summary>
     /// <param name="parentLevels">Remaining levels of the parent.</param>

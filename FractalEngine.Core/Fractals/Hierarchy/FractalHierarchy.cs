@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 
 namespace FractalEngine.Core.Fractals.Hierarchy;
 
@@ -7,9 +8,13 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// </summary>
 internal sealed class FractalHierarchy
 {
+    // Up to here sub-fractals are found without a search.
+    private const int MaxLowestLevel = 63;
+
     private readonly SubFractal?[] _subFractals;
     private readonly MapSet?[] _mapSets;
     private readonly LevelRegion[] _regions;
+    private readonly SubFractal?[] _lowest;
 
     private FractalHierarchy(FractalHierarchyBuilder builder)
     {
@@ -18,6 +23,12 @@ internal sealed class FractalHierarchy
         var isReachable = FindReachable(builder.SubFractals);
         // Levels that every path skips are never visited.
         _subFractals = [.. builder.SubFractals.Select((subFractal, i) => isReachable[i] ? subFractal : null)];
+        _lowest = new SubFractal?[Math.Min(Levels, MaxLowestLevel) + 1];
+        for (var level = 0; level < _lowest.Length; level++)
+        {
+            _lowest[level] = _subFractals[LevelRegion.FindIndex(_regions, level)];
+        }
+
         _mapSets = [.. builder.SubFractals.Select(subFractal => subFractal.Set)];
         HasOnlySimilarities = builder.HasOnlySimilarities;
         Root = At(Levels);
@@ -39,7 +50,7 @@ internal sealed class FractalHierarchy
     /// <summary>Number of bytes of everything in the table.</summary>
     public long StorageBytes => _subFractals.Sum(subFractal => subFractal?.StorageBytes ?? 0)
         + _subFractals.SelectMany(subFractal => subFractal?.AllChildren() ?? []).Distinct().Sum(child => child.StorageBytes)
-        + _mapSets.Distinct().Sum(set => set?.StorageBytes ?? 0) + (16 * (long)_subFractals.Length);
+        + _mapSets.Distinct().Sum(set => set?.StorageBytes ?? 0) + (16 * (long)_subFractals.Length) + (8 * _lowest.Length);
 
     /// <summary>Builds the table of a fractal in affine composition.</summary>
     /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
@@ -51,7 +62,11 @@ internal sealed class FractalHierarchy
     }
 
     /// <summary>The sub-fractal with a number of remaining levels, which must be one that a search can visit.</summary>
-    public SubFractal At(long remainingLevels) => _subFractals[LevelRegion.FindIndex(_regions, remainingLevels)]!;
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public SubFractal At(long remainingLevels) =>
+        (ulong)remainingLevels < (ulong)_lowest.Length ? _lowest[remainingLevels]! : AtHighLevel(remainingLevels);
+
+    private SubFractal AtHighLevel(long remainingLevels) => _subFractals[LevelRegion.FindIndex(_regions, remainingLevels)]!;
 
     /// <summary>The sub-fractal, or the group of children, that a child is an instance of.</summary>
     /// <param name="child">The child.</param>
