@@ -56,9 +56,20 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
     public double ChildCutoffSquared(in FractalSearchState search) => search.CutoffSquared / search.BoundFactor;
 
     /// <inheritdoc/>
-    public void FillQueue(SubFractal subFractal, ChildQueue queue, ref FractalSearchState search)
+    public bool IsNear(SubFractal subFractal) => false;
+
+    /// <inheritdoc/>
+    public float FloatError(ChildLanes lanes) => throw new NotSupportedException();
+
+    /// <inheritdoc/>
+    public void FillQueue(
+        FractalHierarchy hierarchy, ChildLanes lanes, long remainingLevels, double cutoffSquared, in FloatChildQueue queue) =>
+        throw new NotSupportedException();
+
+    /// <inheritdoc/>
+    public void FillQueue(SubFractal subFractal, in ChildQueue queue, ref FractalSearchState search)
     {
-        TransformedBoxDistance.FillQueue(queue, subFractal, _position, in _map);
+        TransformedBoxDistance.FillQueue(in queue, subFractal, _position, in _map);
         search.BoundTests += subFractal.Children.Length;
     }
 

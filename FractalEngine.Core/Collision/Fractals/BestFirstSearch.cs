@@ -93,7 +93,7 @@ internal sealed class BestFirstSearch(FractalHierarchy table, TriangleBvh bvh)
     {
         var subFractal = node.SubFractal;
         ChildQueue queue = new(search.ScratchSlice(0, ChildQueue.ValuesPerChild * subFractal.PaddedCount));
-        TransformedBoxDistance.FillQueue(queue, subFractal, position, in node.Map);
+        TransformedBoxDistance.FillQueue(in queue, subFractal, position, in node.Map);
         search.BoundTests += subFractal.Children.Length;
         var parent = expandedChildren.AddNode(in node, MaxNodes);
         for (var i = 0; i < subFractal.Children.Length; i++)

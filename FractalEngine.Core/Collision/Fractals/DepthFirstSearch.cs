@@ -39,16 +39,41 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy table, TriangleB
             return;
         }
 
-        var children = subFractal.Children;
-        var length = ChildQueue.ValuesPerChild * subFractal.PaddedCount;
-        var queue = new ChildQueue(search.ScratchSlice(offset, length));
-        frame.FillQueue(subFractal, queue, ref search);
         var cutoffSquared = frame.ChildCutoffSquared(in search);
-        if (subFractal.Clusters is not null)
+        if (frame.IsNear(subFractal))
         {
-            RefineAll(subFractal, remainingLevels, ref frame, queue, cutoffSquared, ref search);
+            var lanes = subFractal.Lanes!;
+            var queue = new FloatChildQueue(search.ScratchSlice(offset, lanes.PaddedCount), frame.FloatError(lanes));
+            frame.FillQueue(table, lanes, remainingLevels, cutoffSquared, in queue);
+            search.BoundTests += subFractal.Children.Length;
+            // One bit for each child whose bound is the best there is.
+            var refined = lanes.IsComplete && !search.NeedsTightBounds ? ulong.MaxValue : 0;
+            VisitChildren(subFractal, remainingLevels, ref frame, depth, offset + lanes.PaddedCount, queue, refined, ref search);
         }
+        else
+        {
+            var length = ChildQueue.ValuesPerChild * subFractal.PaddedCount;
+            var queue = new ChildQueue(search.ScratchSlice(offset, length));
+            frame.FillQueue(subFractal, in queue, ref search);
+            var refined = 0UL;
+            if (subFractal.Clusters is not null)
+            {
+                RefineAll(subFractal, remainingLevels, ref frame, in queue, cutoffSquared, ref search);
+                refined = ulong.MaxValue;
+            }
 
+            VisitChildren(subFractal, remainingLevels, ref frame, depth, offset + length, queue, refined, ref search);
+        }
+    }
+
+    /// <summary>Searches the children in a queue.</summary>
+    private void VisitChildren<TQueue>(
+        SubFractal subFractal, long remainingLevels, ref TFrame frame, int depth, int offset, TQueue queue, ulong refined,
+        ref FractalSearchState search)
+        where TQueue : struct, IChildQueue, allows ref struct
+    {
+        var children = subFractal.Children;
+        var cutoffSquared = frame.ChildCutoffSquared(in search);
         var hasNext = queue.TryPeek(cutoffSquared, out var closestChild);
         while (hasNext)
         {
@@ -56,11 +81,12 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy table, TriangleB
             var childLevels = child.RemainingLevels(remainingLevels);
             var childSubFractal = table.At(child, childLevels);
             var childFrame = frame.Enter(child);
-            if (!queue.IsRefined(closestChild) && frame.CanRefine(childLevels, bvh.FaceCount))
+            if ((refined & (1UL << closestChild)) == 0 && frame.CanRefine(childLevels, bvh.FaceCount))
             {
                 // The child's own bounds are tighter than the box around its image. Only children that seem closest are refined.
                 var refinedBound = frame.RefinedBoundSquared(
                     subFractal, child, childSubFractal, ref childFrame, cutoffSquared, ref search);
+                refined |= 1UL << closestChild;
                 if (queue.Refine(closestChild, refinedBound))
                 {
                     hasNext = queue.TryPeek(cutoffSquared, out var next);
@@ -74,7 +100,7 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy table, TriangleB
 
             queue.Remove(closestChild);
             search.RecordChild(depth, closestChild);
-            Visit(childSubFractal, childLevels, ref childFrame, depth + 1, offset + length, ref search);
+            Visit(childSubFractal, childLevels, ref childFrame, depth + 1, offset, ref search);
             cutoffSquared = frame.ChildCutoffSquared(in search);
             hasNext = queue.TryPeek(cutoffSquared, out closestChild);
         }
@@ -82,7 +108,7 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy table, TriangleB
 
     /// <summary>Refines all children, where their boxes are nearly empty and tell nothing of their order.</summary>
     private void RefineAll(
-        SubFractal subFractal, long remainingLevels, ref TFrame frame, ChildQueue queue, double cutoffSquared,
+        SubFractal subFractal, long remainingLevels, ref TFrame frame, in ChildQueue queue, double cutoffSquared,
         ref FractalSearchState search)
     {
         for (var i = 0; i < subFractal.Children.Length; i++)

@@ -14,11 +14,25 @@ internal interface ISearchFrame<TSelf>
     /// <summary>Computes the limit for squared bounds of children, in the units of this frame's bounds.</summary>
     double ChildCutoffSquared(in FractalSearchState search);
 
+    /// <summary>True where floats tell the children of a sub-fractal apart.</summary>
+    bool IsNear(SubFractal subFractal);
+
+    /// <summary>An upper bound of the rounding error of the children's distances in single precision.</summary>
+    float FloatError(ChildLanes lanes);
+
+    /// <summary>Sets bounds for all children of a sub-fractal that is near.</summary>
+    /// <param name="hierarchy">The hierarchy.</param>
+    /// <param name="lanes">The children.</param>
+    /// <param name="remainingLevels">Remaining levels of the sub-fractal.</param>
+    /// <param name="cutoffSquared">Bounds at or above it need not be the best.</param>
+    /// <param name="queue">Receives the bounds.</param>
+    void FillQueue(FractalHierarchy hierarchy, ChildLanes lanes, long remainingLevels, double cutoffSquared, in FloatChildQueue queue);
+
     /// <summary>Sets rough bounds for all children of a sub-fractal.</summary>
     /// <param name="subFractal">The sub-fractal of this frame.</param>
     /// <param name="queue">Receives the bounds.</param>
     /// <param name="search">Receives the cost.</param>
-    void FillQueue(SubFractal subFractal, ChildQueue queue, ref FractalSearchState search);
+    void FillQueue(SubFractal subFractal, in ChildQueue queue, ref FractalSearchState search);
 
     /// <summary>Computes the frame of a child.</summary>
     TSelf Enter(ChildInstance child);

@@ -42,27 +42,38 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
     public double ChildCutoffSquared(in FractalSearchState search) => search.CutoffSquared / (_scaleSquared * search.BoundFactor);
 
     /// <inheritdoc/>
-    public void FillQueue(SubFractal subFractal, ChildQueue queue, ref FractalSearchState search)
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public bool IsNear(SubFractal subFractal)
     {
-        SetBoxBounds(subFractal, queue);
-        search.BoundTests += subFractal.Children.Length;
-        if (subFractal.UnrotatedBounds is not { } unrotatedBounds)
-        {
-            return;
-        }
+        var direction = _position - subFractal.Centre;
+        return subFractal.Lanes is not null && Vector256.Dot(direction, direction)
+            < ChildLanes.MaxDistanceFactor * ChildLanes.MaxDistanceFactor * subFractal.RadiusSquared;
+    }
 
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public float FloatError(ChildLanes lanes) => lanes.DistanceError(_position);
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public void FillQueue(
+        FractalHierarchy hierarchy, ChildLanes lanes, long remainingLevels, double cutoffSquared, in FloatChildQueue queue) =>
+        lanes.FillQueue(hierarchy, remainingLevels, _position, cutoffSquared, in queue);
+
+    /// <inheritdoc/>
+    public void FillQueue(SubFractal subFractal, in ChildQueue queue, ref FractalSearchState search)
+    {
         var direction = _position - subFractal.Centre;
         var directionLengthSquared = Vector256.Dot(direction, direction);
-        if (directionLengthSquared > subFractal.RadiusSquared)
+        search.BoundTests += subFractal.Children.Length;
+        if (subFractal.UnrotatedBounds is { } unrotatedBounds && directionLengthSquared > subFractal.RadiusSquared)
         {
-            unrotatedBounds.RaiseBySupport(direction, directionLengthSquared, _position, queue);
+            unrotatedBounds.FillQueue(direction, directionLengthSquared, _position, subFractal.ChildBounds, in queue);
         }
         else
         {
-            unrotatedBounds.RaiseByFacets(_position, queue);
+            SetBoxBounds(subFractal, in queue);
         }
-
-        search.BoundTests += subFractal.Children.Length;
     }
 
     /// <inheritdoc/>
@@ -122,16 +133,15 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
         }
     }
 
-    private void SetBoxBounds(SubFractal subFractal, ChildQueue queue)
+    private void SetBoxBounds(SubFractal subFractal, in ChildQueue queue)
     {
         var paddedCount = subFractal.PaddedCount;
         ref var rows = ref MemoryMarshal.GetArrayDataReference(subFractal.ChildBounds);
         var position = VectorX4.Broadcast(_position);
         for (var i = 0; i < paddedCount; i += VectorX4.Count)
         {
-            var fromCentre = (position - VectorX4.Load(ref rows, i, paddedCount)).Absolute();
-            var outside = VectorX4.MaxNative(fromCentre - VectorX4.Load(ref rows, (3 * paddedCount) + i, paddedCount), VectorX4.Zero);
-            queue.SetBounds(outside.LengthSquared(), fromCentre.LengthSquared(), i);
+            var bounds = BoxDistance.SquaredX4(ref rows, paddedCount, i, position, out var centreDistances);
+            queue.SetBounds(bounds, centreDistances, i);
         }
     }
 }

@@ -15,7 +15,7 @@ internal static class TransformedBoxDistance
     /// <param name="subFractal">The sub-fractal.</param>
     /// <param name="position">In the frame of the images: x, y, z, 0.</param>
     /// <param name="map">From the sub-fractal's frame to that of the images.</param>
-    public static void FillQueue(ChildQueue queue, SubFractal subFractal, Vector256<double> position, in SimdAffineMap map)
+    public static void FillQueue(in ChildQueue queue, SubFractal subFractal, Vector256<double> position, in SimdAffineMap map)
     {
         var paddedCount = subFractal.PaddedCount;
         ref var rows = ref MemoryMarshal.GetArrayDataReference(subFractal.ChildBounds);

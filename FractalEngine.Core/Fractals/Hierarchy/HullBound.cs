@@ -5,6 +5,7 @@ using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Core.Fractals.Hierarchy;
 
@@ -29,6 +30,7 @@ internal sealed class HullBound
     private readonly double[] _vertices;
     private readonly int _planeCount;
     private readonly int _vertexCount;
+    private readonly int _hullVertexCount;
     private readonly Vector256<double>[] _smallHullVertices = [];
     private readonly Vector256<double> _centre;
     private readonly double _farDistanceSquared;
@@ -59,6 +61,7 @@ internal sealed class HullBound
             _planes[(3 * _planeCount) + i] = offset + margin;
         }
 
+        _hullVertexCount = hull.Vertices.Length;
         _vertexCount = VectorX4.PaddedCount(hull.Vertices.Length);
         _vertices = new double[3 * _vertexCount];
         for (var i = 0; i < _vertexCount; i++)
@@ -76,6 +79,13 @@ internal sealed class HullBound
 
     /// <summary>The planes of the solid, without those that fill the last lanes.</summary>
     public IReadOnlyList<HullPlane> Planes { get; }
+
+    /// <summary>The vertices of the hull, in front of the margin.</summary>
+    public Vector[] CopyVertices() =>
+        [.. Enumerable.Range(0, _hullVertexCount).Select(i => new Vector(_vertices[i], _vertices[_vertexCount + i], _vertices[(2 * _vertexCount) + i]))];
+
+    /// <summary>How far the solid reaches beyond its vertices.</summary>
+    public double Margin => _margin;
 
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => sizeof(double) * (long)(_planes.Length + _vertices.Length + (4 * _smallHullVertices.Length));

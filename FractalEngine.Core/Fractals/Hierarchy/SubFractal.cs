@@ -48,6 +48,8 @@ internal sealed class SubFractal
         Hull = hull;
         Centre = SimdAffineMap.ToVector256(box.Centre);
         _halfSize = SimdAffineMap.ToVector256((0.5 + HalfSizeError) * box.Size);
+        Floats = hull is null ? new(box, [], [], 0) : new(box, hull.Planes, hull.CopyVertices(), hull.Margin);
+        Lanes = clusters is null ? ChildLanes.CreateOrNull(children, childBoxes, childHull, BoundingBox.Union(box, baseBox)) : null;
         PaddedCount = VectorX4.PaddedCount(children.Length);
         ChildBounds = new double[ValuesPerChild * PaddedCount];
         for (var i = 0; i < PaddedCount; i++)
@@ -85,6 +87,12 @@ internal sealed class SubFractal
     /// <summary>False where each child's box is that of its sub-fractal, moved and scaled.</summary>
     public bool HasRotatedChildren { get; }
 
+    /// <summary>The children in single precision; null where that would not bound them well.</summary>
+    public ChildLanes? Lanes { get; }
+
+    /// <summary>The bounds in single precision.</summary>
+    public FloatBound Floats { get; }
+
     /// <summary>A box around the sub-fractal, in its frame.</summary>
     public BoundingBox Box { get; }
 
@@ -109,7 +117,7 @@ internal sealed class SubFractal
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => Children.Sum(child => child.Group?.StorageBytes ?? 0)
         + (sizeof(double) * ChildBounds.Length) + (UnrotatedBounds?.StorageBytes ?? 0) + (Children.Length * 24) + (Hull?.StorageBytes ?? 0)
-        + (Solid?.StorageBytes ?? 0) + (Clusters?.StorageBytes ?? 0) + 160;
+        + (Solid?.StorageBytes ?? 0) + (Lanes?.StorageBytes ?? 0) + Floats.StorageBytes + (Clusters?.StorageBytes ?? 0) + 160;
 
     /// <summary>Lists the children, and those of groups among them.</summary>
     public IEnumerable<ChildInstance> AllChildren() =>

@@ -8,27 +8,19 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>
 /// Bounds children that are instances of one solid in any sizes, none of them rotated, as in Sierpiński's and Menger's fractals. One
-/// support or plane height of the solid serves all of them, four at a time.
+/// support of the solid serves all of them, four at a time.
 /// </summary>
 internal sealed class UnrotatedChildBounds
 {
-    // With more facets the solid is round, and they bound little better than directions.
-    private const int MaxFacets = 8;
-
     private readonly HullBound _childHull;
     private readonly int _paddedCount;
     private readonly double[] _translationsAndScales;
-    private readonly Vector[] _normals;
-    private readonly double[] _offsets;
 
     private UnrotatedChildBounds(HullBound childHull, ChildInstance[] children, int paddedCount)
     {
         _childHull = childHull;
         _paddedCount = paddedCount;
         _translationsAndScales = new double[4 * paddedCount];
-        var planes = childHull.Planes.Count <= MaxFacets ? childHull.Planes : [];
-        _normals = [.. planes.Select(plane => plane.Normal)];
-        _offsets = new double[planes.Count * paddedCount];
         for (var i = 0; i < children.Length; i++)
         {
             var translation = children[i].Map.Translation;
@@ -37,15 +29,11 @@ internal sealed class UnrotatedChildBounds
             _translationsAndScales[paddedCount + i] = translation.Y;
             _translationsAndScales[(2 * paddedCount) + i] = translation.Z;
             _translationsAndScales[(3 * paddedCount) + i] = scale;
-            for (var plane = 0; plane < planes.Count; plane++)
-            {
-                _offsets[(plane * paddedCount) + i] = Vector.Dot(planes[plane].Normal, translation) + (scale * planes[plane].Offset);
-            }
         }
     }
 
     /// <summary>Number of bytes of the arrays.</summary>
-    public long StorageBytes => (sizeof(double) * (_translationsAndScales.Length + (3 * _normals.Length) + _offsets.Length)) + 64;
+    public long StorageBytes => (sizeof(double) * _translationsAndScales.Length) + 64;
 
     /// <summary>Tells whether all children are instances of one sub-fractal, moved and scaled but not rotated.</summary>
     public static bool HasNoRotation(ChildInstance[] children) => children.All(child =>
@@ -59,51 +47,30 @@ internal sealed class UnrotatedChildBounds
     public static UnrotatedChildBounds? CreateOrNull(HullBound? childHull, ChildInstance[] children, int paddedCount) =>
         childHull is not null && HasNoRotation(children) ? new(childHull, children, paddedCount) : null;
 
-    /// <summary>Raises the bounds of all children by the planes of their facets, which is best for positions among them.</summary>
-    /// <param name="position">In the frame of the parent: x, y, z, 0.</param>
-    /// <param name="queue">The queue of the children.</param>
-    public void RaiseByFacets(Vector256<double> position, ChildQueue queue)
-    {
-        var point = SimdAffineMap.ToVector(position);
-        Span<double> heights = stackalloc double[MaxFacets];
-        for (var plane = 0; plane < _normals.Length; plane++)
-        {
-            heights[plane] = Vector.Dot(_normals[plane], point);
-        }
-
-        ref var offsets = ref MemoryMarshal.GetArrayDataReference(_offsets);
-        for (var i = 0; i < _paddedCount; i += VectorX4.Count)
-        {
-            var maxHeight = Vector256<double>.Zero;
-            for (var plane = 0; plane < _normals.Length; plane++)
-            {
-                var offset = Vector256.LoadUnsafe(ref offsets, (nuint)((plane * _paddedCount) + i));
-                maxHeight = Vector256.MaxNative(maxHeight, Vector256.Create(heights[plane]) - offset);
-            }
-
-            queue.RaiseBounds(maxHeight * maxHeight, i);
-        }
-    }
-
-    /// <summary>Raises the bounds of all children by their support in one direction, which is best for positions outside.</summary>
+    /// <summary>Queues all children by their boxes and by their support in one direction, which is best for positions outside.</summary>
     /// <param name="direction">From about the middle of all children to the position: x, y, z, 0.</param>
     /// <param name="directionLengthSquared">Squared length of the direction.</param>
     /// <param name="position">In the frame of the parent: x, y, z, 0.</param>
+    /// <param name="childBoxes">See <see cref="SubFractal.ChildBounds"/>.</param>
     /// <param name="queue">The queue of the children.</param>
-    public void RaiseBySupport(Vector256<double> direction, double directionLengthSquared, Vector256<double> position, ChildQueue queue)
+    public void FillQueue(
+        Vector256<double> direction, double directionLengthSquared, Vector256<double> position, double[] childBoxes, in ChildQueue queue)
     {
         var unitDirection = direction * (1 / Math.Sqrt(directionLengthSquared));
         ref var translations = ref MemoryMarshal.GetArrayDataReference(_translationsAndScales);
+        ref var boxes = ref MemoryMarshal.GetArrayDataReference(childBoxes);
+        var positionX4 = VectorX4.Broadcast(position);
         var directionX4 = VectorX4.Broadcast(unitDirection);
         var height = Vector256.Create(Vector256.Dot(unitDirection, position));
         var support = Vector256.Create(_childHull.Support(unitDirection));
         for (var i = 0; i < _paddedCount; i += VectorX4.Count)
         {
+            var bounds = BoxDistance.SquaredX4(ref boxes, _paddedCount, i, positionX4, out var centreDistances);
             var translation = VectorX4.Load(ref translations, i, _paddedCount);
             var separation = height - VectorX4.Dot(directionX4, translation)
                 - (Vector256.LoadUnsafe(ref translations, (nuint)((3 * _paddedCount) + i)) * support);
             separation = Vector256.MaxNative(separation, Vector256<double>.Zero);
-            queue.RaiseBounds(separation * separation, i);
+            queue.SetBounds(Vector256.MaxNative(bounds, separation * separation), centreDistances, i);
         }
     }
 }

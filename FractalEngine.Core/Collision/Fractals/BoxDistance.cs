@@ -1,0 +1,25 @@
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
+using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Fractals.Hierarchy;
+
+namespace FractalEngine.Core.Collision.Fractals;
+
+/// <summary>Computes squared distances to boxes, four at a time.</summary>
+internal static class BoxDistance
+{
+    /// <summary>Computes the squared distances of a position from four boxes.</summary>
+    /// <param name="rows">The boxes, see <see cref="SubFractal.ChildBounds"/>.</param>
+    /// <param name="paddedCount">Number of boxes in each row.</param>
+    /// <param name="first">Index of the first of the four.</param>
+    /// <param name="position">In the frame of the boxes.</param>
+    /// <param name="centreDistances">Squared distances of the boxes' centres.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Vector256<double> SquaredX4(
+        ref double rows, int paddedCount, int first, VectorX4 position, out Vector256<double> centreDistances)
+    {
+        var fromCentre = (position - VectorX4.Load(ref rows, first, paddedCount)).Absolute();
+        centreDistances = fromCentre.LengthSquared();
+        return VectorX4.MaxNative(fromCentre - VectorX4.Load(ref rows, (3 * paddedCount) + first, paddedCount), VectorX4.Zero).LengthSquared();
+    }
+}
