@@ -1,3 +1,4 @@
+using System.Numerics;
 using System.Runtime.Intrinsics;
 
 namespace FractalEngine.Core.Collision;
@@ -25,13 +26,24 @@ internal struct ClosestTriangle(double distanceSquared)
     /// <param name="faces">Face indices of the triangles, one to four; lanes beyond them are ignored.</param>
     public void Update(Vector256<double> distancesSquared, ReadOnlySpan<int> faces)
     {
-        for (var i = 0; i < faces.Length; i++)
+        // NaN never counts as closer. Lanes beyond the faces repeat the last one.
+        distancesSquared = Vector256.ConditionalSelect(
+            Vector256.Equals(distancesSquared, distancesSquared), distancesSquared, Vector256.Create(double.PositiveInfinity));
+        var pair = Vector128.MinNative(distancesSquared.GetLower(), distancesSquared.GetUpper());
+        var smallest = Vector128.MinNative(pair, Vector128.Shuffle(pair.AsInt64(), Vector128.Create(1L, 0)).AsDouble())[0];
+        if (!(smallest <= DistanceSquared) || smallest == double.PositiveInfinity)
         {
-            if (distancesSquared[i] < DistanceSquared || (distancesSquared[i] == DistanceSquared && faces[i] < FaceIndex))
-            {
-                DistanceSquared = distancesSquared[i];
-                FaceIndex = faces[i];
-            }
+            return;
         }
+
+        var matches = Vector256.Equals(distancesSquared, Vector256.Create(smallest)).ExtractMostSignificantBits();
+        var face = smallest < DistanceSquared ? int.MaxValue : FaceIndex;
+        for (; matches != 0; matches &= matches - 1)
+        {
+            face = Math.Min(face, faces[Math.Min(BitOperations.TrailingZeroCount(matches), faces.Length - 1)]);
+        }
+
+        DistanceSquared = smallest;
+        FaceIndex = face;
     }
 }

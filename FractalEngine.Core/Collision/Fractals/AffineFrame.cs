@@ -53,7 +53,7 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public double ChildCutoffSquared(in FractalSearchState search) => search.CutoffSquared / search.BoundFactor;
+    public double ChildCutoffSquared(in FractalSearchState search) => search.BoundCutoffSquared;
 
     /// <inheritdoc/>
     public bool IsNear(SubFractal subFractal) => false;
@@ -80,7 +80,8 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public bool CanRefine(long remainingLevels, int baseFaceCount) => true;
+    public bool CanRefine(
+        SubFractal parent, SubFractal childSubFractal, long remainingLevels, int baseFaceCount, in FractalSearchState search) => true;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -13,6 +13,8 @@ namespace FractalEngine.Core.Collision.Fractals;
 internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy table, TriangleBvh bvh)
     where TFrame : struct, ISearchFrame<TFrame>
 {
+    private readonly int _baseFaceCount = bvh.FaceCount;
+
     /// <summary>Searches the whole fractal.</summary>
     /// <param name="frame">The frame of the whole fractal.</param>
     /// <param name="search">The state of the search.</param>
@@ -81,7 +83,7 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy table, TriangleB
             var childLevels = child.RemainingLevels(remainingLevels);
             var childSubFractal = table.At(child, childLevels);
             var childFrame = frame.Enter(child);
-            if ((refined & (1UL << closestChild)) == 0 && frame.CanRefine(childLevels, bvh.FaceCount))
+            if ((refined & (1UL << closestChild)) == 0 && frame.CanRefine(subFractal, childSubFractal, childLevels, _baseFaceCount, in search))
             {
                 // The child's own bounds are tighter than the box around its image. Only children that seem closest are refined.
                 var refinedBound = frame.RefinedBoundSquared(

@@ -44,6 +44,7 @@ internal ref struct FractalSearchState
         _scratch = context.ScratchBuffer(1);
         _tolerance = ChainError * magnitude;
         BoundFactor = (1 + Math.Min(epsilon, MaxEpsilon)) * (1 + Math.Min(epsilon, MaxEpsilon));
+        InverseBoundFactor = 1 / BoundFactor;
         ClosestFace = -1;
         OpenBoundSquared = double.PositiveInfinity;
         // A triangle at exactly the radius may seem farther by what rounding in the frames of the levels adds.
@@ -56,6 +57,12 @@ internal ref struct FractalSearchState
 
     /// <summary>Limit for squared bounds, a little less than the squared distance of the closest triangle.</summary>
     public double CutoffSquared { get; private set; }
+
+    /// <summary>Limit for squared bounds, where the error that the caller allows is taken off.</summary>
+    public readonly double BoundCutoffSquared => CutoffSquared * InverseBoundFactor;
+
+    /// <summary>1 ÷ <see cref="BoundFactor"/>.</summary>
+    public double InverseBoundFactor { get; }
 
     /// <summary>True when a depth-first search has given up.</summary>
     public bool HasExceededBudget { get; private set; }

@@ -38,9 +38,13 @@ internal interface ISearchFrame<TSelf>
     TSelf Enter(ChildInstance child);
 
     /// <summary>Tells whether the child's own bounds are worth their cost.</summary>
+    /// <param name="parent">The sub-fractal of this frame.</param>
+    /// <param name="childSubFractal">The sub-fractal of the child.</param>
     /// <param name="remainingLevels">Remaining levels of the child.</param>
     /// <param name="baseFaceCount">Number of faces of the base mesh.</param>
-    bool CanRefine(long remainingLevels, int baseFaceCount);
+    /// <param name="search">The state of the search.</param>
+    bool CanRefine(
+        SubFractal parent, SubFractal childSubFractal, long remainingLevels, int baseFaceCount, in FractalSearchState search);
 
     /// <summary>Computes the best bound of a child there is: from the child's own box and hull.</summary>
     /// <param name="parent">The sub-fractal of this frame.</param>

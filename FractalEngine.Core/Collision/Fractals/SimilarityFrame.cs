@@ -18,19 +18,21 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
 
     private readonly Vector256<double> _position;
     private readonly double _scaleSquared;
+    private readonly double _inverseScaleSquared;
 
     /// <summary>Creates the frame of the whole fractal.</summary>
     /// <param name="position">Position of the query in the fractal's frame.</param>
     public SimilarityFrame(Vector position)
-        : this(SimdAffineMap.ToVector256(position), 1)
+        : this(SimdAffineMap.ToVector256(position), 1, 1)
     {
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private SimilarityFrame(Vector256<double> position, double scaleSquared)
+    private SimilarityFrame(Vector256<double> position, double scaleSquared, double inverseScaleSquared)
     {
         _position = position;
         _scaleSquared = scaleSquared;
+        _inverseScaleSquared = inverseScaleSquared;
     }
 
     /// <inheritdoc/>
@@ -39,7 +41,7 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public double ChildCutoffSquared(in FractalSearchState search) => search.CutoffSquared / (_scaleSquared * search.BoundFactor);
+    public double ChildCutoffSquared(in FractalSearchState search) => search.BoundCutoffSquared * _inverseScaleSquared;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -78,11 +80,15 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public SimilarityFrame Enter(ChildInstance child) => new(child.InverseSimdMap.Apply(_position), _scaleSquared * child.ScaleSquared);
+    public SimilarityFrame Enter(ChildInstance child) => new(
+        child.InverseSimdMap.Apply(_position), _scaleSquared * child.ScaleSquared, _inverseScaleSquared * child.InverseScaleSquared);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public bool CanRefine(long remainingLevels, int baseFaceCount) => remainingLevels > 0 || baseFaceCount > MaxFacesWithoutHull;
+    public bool CanRefine(
+        SubFractal parent, SubFractal childSubFractal, long remainingLevels, int baseFaceCount, in FractalSearchState search) =>
+        (remainingLevels > 0 || baseFaceCount > MaxFacesWithoutHull)
+        && (parent.HasRotatedChildren || childSubFractal.Hull is not null || childSubFractal.Clusters is not null || search.NeedsTightBounds);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -91,7 +97,7 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
         ref FractalSearchState search)
     {
         var bound = 0.0;
-        var localCutoffSquared = cutoffSquared / child.ScaleSquared;
+        var localCutoffSquared = cutoffSquared * child.InverseScaleSquared;
         if (parent.HasRotatedChildren)
         {
             // Without rotation, the box around the image is the image of the box.
@@ -105,16 +111,9 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
             search.BoundTests++;
         }
 
-        if (bound < localCutoffSquared && childSubFractal.Clusters is { } clusters)
+        if (bound < localCutoffSquared && (search.NeedsTightBounds || childSubFractal.Clusters is not null))
         {
-            bound = Math.Max(bound, clusters.LowerBoundSquared(childFrame._position));
-            search.BoundTests++;
-        }
-
-        if (search.NeedsTightBounds && bound < localCutoffSquared && childSubFractal.Solid is { } solid)
-        {
-            bound = Math.Max(bound, solid.LowerBoundSquared(childFrame._position, in SimdAffineMap.Identity, localCutoffSquared));
-            search.BoundTests++;
+            bound = Math.Max(bound, TightBoundSquared(childSubFractal, in childFrame, localCutoffSquared, ref search));
         }
 
         return bound * child.ScaleSquared;
@@ -124,13 +123,34 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
     [MethodImpl(MethodImplOptions.NoInlining)]
     public void TestTriangles(TriangleBvh bvh, int depth, ref FractalSearchState search)
     {
-        var closest = new ClosestTriangle(search.ClosestDistanceSquared / _scaleSquared);
+        var closest = new ClosestTriangle(search.ClosestDistanceSquared * _inverseScaleSquared);
         bvh.FindClosest(SimdAffineMap.ToVector(_position), ref closest, search.BoundFactor);
         search.AddStatistics(in closest);
         if (closest.FaceIndex >= 0)
         {
             search.UpdateClosest(closest.DistanceSquared * _scaleSquared, closest.FaceIndex, depth);
         }
+    }
+
+    /// <summary>Computes the bounds of the clusters, and of the solid in long searches.</summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static double TightBoundSquared(
+        SubFractal subFractal, in SimilarityFrame frame, double cutoffSquared, ref FractalSearchState search)
+    {
+        var bound = 0.0;
+        if (subFractal.Clusters is { } clusters)
+        {
+            bound = clusters.LowerBoundSquared(frame._position);
+            search.BoundTests++;
+        }
+
+        if (search.NeedsTightBounds && bound < cutoffSquared && subFractal.Solid is { } solid)
+        {
+            bound = Math.Max(bound, solid.LowerBoundSquared(frame._position, in SimdAffineMap.Identity, cutoffSquared));
+            search.BoundTests++;
+        }
+
+        return bound;
     }
 
     private void SetBoxBounds(SubFractal subFractal, in ChildQueue queue)

@@ -33,6 +33,7 @@ internal sealed class ChildInstance
             MapIndices = [.. edges.Select(edge => edge.MapIndex)];
         }
 
+        InverseScaleSquared = 1 / ScaleSquared;
         _simdMap = new(map);
         _inverseSimdMap = new(inverse);
     }
@@ -69,6 +70,9 @@ internal sealed class ChildInstance
 
     /// <summary>Square of the factor by which the map lengthens vectors; meaningful for similarities only.</summary>
     public double ScaleSquared { get; }
+
+    /// <summary>1 ÷ <see cref="ScaleSquared"/>, rounded.</summary>
+    public double InverseScaleSquared { get; }
 
     /// <summary>Upper bound of the factor by which the map lengthens vectors.</summary>
     public double OperatorNormBound { get; }
