@@ -13,6 +13,8 @@ namespace FractalEngine.Core.Collision.Fractals;
 internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy table, TriangleBvh bvh)
     where TFrame : struct, ISearchFrame<TFrame>
 {
+    private const double MinRefinedBound = 0.01;
+
     private readonly int _baseFaceCount = bvh.FaceCount;
 
     /// <summary>Searches the whole fractal.</summary>
@@ -83,7 +85,11 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy table, TriangleB
             var childLevels = child.RemainingLevels(remainingLevels);
             var childSubFractal = table.At(child, childLevels);
             var childFrame = frame.Enter(child);
-            if ((refined & (1UL << closestChild)) == 0 && frame.CanRefine(subFractal, childSubFractal, childLevels, _baseFaceCount, in search))
+            // While nothing excludes any child, a child around the position is visited as it is.
+            if ((refined & (1UL << closestChild)) == 0
+                && (cutoffSquared < double.PositiveInfinity
+                    || queue.BoundOf(closestChild) > MinRefinedBound * child.ScaleSquared * childSubFractal.RadiusSquared)
+                && frame.CanRefine(subFractal, childSubFractal, childLevels, _baseFaceCount, in search))
             {
                 // The child's own bounds are tighter than the box around its image. Only children that seem closest are refined.
                 var refinedBound = frame.RefinedBoundSquared(
