@@ -38,12 +38,19 @@ internal static class ClosestPointFactory
         return Create(a, b, c, face, TriangleKernel.ClosestPoint(position, a, b, c));
     }
 
-    /// <inheritdoc cref="OnInstance(Mesh, int, AffineMap, Vector)"/>
-    public static ClosestPoint OnInstance(Mesh mesh, int face, in SimdAffineMap map, Vector position)
+    /// <summary>Creates the result for a triangle of an instance, which is tested once more in the frame of the query.</summary>
+    /// <param name="mesh">The mesh of the instance.</param>
+    /// <param name="face">Face index of the triangle.</param>
+    /// <param name="map">From the mesh's frame to that of the query.</param>
+    /// <param name="position">In the frame of the query.</param>
+    /// <param name="closest">The result.</param>
+    public static void OnInstance(Mesh mesh, int face, in SimdAffineMap map, in Vector position, out ClosestPoint closest)
     {
         var (a, b, c) = mesh.Face(face);
         (a, b, c) = (map.Apply(a), map.Apply(b), map.Apply(c));
-        return Create(a, b, c, face, TriangleKernel.ClosestPoint(position, a, b, c));
+        var point = TriangleKernel.ClosestPoint(position, a, b, c);
+        closest = new(
+            Math.Sqrt(point.DistanceSquared), point.Point, TriangleKernel.UnitNormal(a, b, c), point.Barycentrics, point.Feature, face);
     }
 
     private static ClosestPoint Create(Vector a, Vector b, Vector c, int face, TrianglePoint point) => new(

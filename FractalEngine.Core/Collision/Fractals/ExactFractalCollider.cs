@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Fractals;
@@ -28,10 +29,13 @@ public sealed class ExactFractalCollider : Collider
     // As a part of the largest coordinate: the precision of a fractal that is smaller, such as a point, is that of its coordinates.
     private const double MinPrecisionRadius = 1e-3;
 
+    private static readonly AffineMap Identity = AffineMap.Identity;
+
     private readonly Fractal _fractal;
     private readonly FractalHierarchy _table;
     private readonly TriangleBvh _baseBvh;
     private readonly double _precisionRadius;
+    private readonly double _rootMagnitude;
     private readonly DepthFirstSearch<SimilarityFrame> _similaritySearch;
     private readonly DepthFirstSearch<AffineFrame> _affineSearch;
     private readonly BestFirstSearch _bestFirstSearch;
@@ -56,6 +60,7 @@ public sealed class ExactFractalCollider : Collider
         _table = fractal.Hierarchy;
         _baseBvh = new(fractal.BaseMesh);
         _precisionRadius = PrecisionRadius(_table.Root);
+        _rootMagnitude = BoundingVolume.MaxAbsCoordinate(_table.Root.Box);
         _similaritySearch = new(_table, _baseBvh);
         _affineSearch = new(_table, _baseBvh);
         _bestFirstSearch = new(_table, _baseBvh);
@@ -73,7 +78,7 @@ public sealed class ExactFractalCollider : Collider
     /// <inheritdoc/>
     internal override bool FindClosestTransformed(Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest) =>
-        FindClosestInImage(position, in map, isSimilarity: false, maxDistance, epsilon, context, out closest);
+        FindClosestInImage(in position, in map, isSimilarity: false, maxDistance, epsilon, context, out closest);
 
     /// <inheritdoc/>
     internal override ShapeTree CreateShapeTree() => new(_fractal.BaseMesh, _baseBvh, this, _table, RelativePrecision * _precisionRadius);
@@ -81,7 +86,24 @@ public sealed class ExactFractalCollider : Collider
     /// <inheritdoc/>
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest) =>
-        FindClosestInImage(position, AffineMap.Identity, _table.HasOnlySimilarities, maxDistance, epsilon, context, out closest);
+        IsFarther(in position, maxDistance, context, out closest) ? false
+        : FindClosestInImage(in position, in Identity, _table.HasOnlySimilarities, maxDistance, epsilon, context, out closest);
+
+    /// <summary>Tells whether all of the fractal is beyond a radius, at the cost of one box.</summary>
+    private bool IsFarther(in Vector position, double maxDistance, QueryContext context, out ClosestPoint closest)
+    {
+        Unsafe.SkipInit(out closest);
+        var limit = maxDistance + (FractalSearchState.ChainError * (position.MaxAbsComponent() + _rootMagnitude));
+        if (!(_table.Root.BoxDistanceSquared(SimdAffineMap.ToVector256(position)) > DistanceCutoff.FromRadius(limit)))
+        {
+            return false;
+        }
+
+        context.ClearPath();
+        context.Statistics.BoundTests++;
+        closest = default;
+        return true;
+    }
 
     /// <summary>Finds the closest point of the fractal's image under a map.</summary>
     /// <param name="position">In the frame of the image.</param>
@@ -92,40 +114,43 @@ public sealed class ExactFractalCollider : Collider
     /// <param name="context">Receives the cost and the instance.</param>
     /// <param name="closest">The closest point in the frame of the image, if there is one.</param>
     private bool FindClosestInImage(
-        Vector position, in AffineMap map, bool isSimilarity, double maxDistance, double epsilon, QueryContext context,
+        in Vector position, in AffineMap map, bool isSimilarity, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
         context.ClearPath();
-        closest = default;
+        Unsafe.SkipInit(out closest);
         if (_fractal.BaseMesh.FaceCount == 0 || _table.Root.Box.IsEmpty)
         {
+            closest = default;
             return false;
         }
 
+        var positionMagnitude = position.MaxAbsComponent();
         var box = isSimilarity ? _table.Root.Box : _table.Root.Box.Transform(map);
-        var magnitude = Math.Max(position.MaxAbsComponent(), BoundingVolume.MaxAbsCoordinate(box));
+        var magnitude = Math.Max(positionMagnitude, isSimilarity ? _rootMagnitude : BoundingVolume.MaxAbsCoordinate(box));
         if (magnitude is < MinMagnitude or > MaxMagnitude && double.IsFinite(magnitude) && magnitude > 0)
         {
             return FindClosestScaled(position, in map, magnitude, maxDistance, epsilon, context, out closest);
         }
 
-        var search = new FractalSearchState(maxDistance, epsilon, position.MaxAbsComponent(), magnitude, context);
+        var search = new FractalSearchState(maxDistance, epsilon, positionMagnitude, magnitude, context);
         search.BoundTests++;
         if (!search.Excludes(box.DistanceSquared(position)))
         {
-            SearchLevels(position, in map, isSimilarity, ref search);
+            SearchLevels(in position, in map, isSimilarity, ref search);
         }
 
         context.Statistics.FaceTests += search.FaceTests;
         context.Statistics.BoundTests += search.BoundTests;
         if (search.ClosestFace < 0)
         {
+            closest = default;
             return NeedsExactRetry(maxDistance, epsilon)
-                && FindClosestInImage(position, in map, isSimilarity, maxDistance, 0, context, out closest);
+                && FindClosestInImage(in position, in map, isSimilarity, maxDistance, 0, context, out closest);
         }
 
         var instance = ResolveInstance(search.ClosestPath, in map, context, out var reach);
-        closest = ClosestPointFactory.OnInstance(_fractal.BaseMesh, search.ClosestFace, in instance, position);
+        ClosestPointFactory.OnInstance(_fractal.BaseMesh, search.ClosestFace, in instance, in position, out closest);
         reach = Math.Max(reach, closest.Point.MaxAbsComponent());
         ClosestPoint.SetErrorBound(ref closest, search.ErrorBound(closest.Distance, reach));
         return closest.Distance <= maxDistance;
@@ -133,7 +158,7 @@ public sealed class ExactFractalCollider : Collider
 
     /// <summary>Finds the closest point in other units, in which squares of coordinates stay within the range of a double.</summary>
     private bool FindClosestScaled(
-        Vector position, in AffineMap map, double magnitude, double maxDistance, double epsilon, QueryContext context,
+        in Vector position, in AffineMap map, double magnitude, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
         // Powers of two change no digits.
@@ -156,7 +181,7 @@ public sealed class ExactFractalCollider : Collider
         return closest.Distance <= maxDistance;
     }
 
-    private void SearchLevels(Vector position, in AffineMap map, bool isSimilarity, ref FractalSearchState search)
+    private void SearchLevels(in Vector position, in AffineMap map, bool isSimilarity, ref FractalSearchState search)
     {
         // Where most of the fractal is far smaller than all of it, a result is as precise as its own coordinates.
         var minRadius = RelativePrecision

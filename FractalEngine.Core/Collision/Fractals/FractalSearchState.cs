@@ -14,7 +14,7 @@ internal ref struct FractalSearchState
     private const int MaxRoughBoundTests = 500;
 
     // An upper bound of the rounding error of coordinates along a chain of maps, as a part of the largest of them.
-    private const double ChainError = 4e-15;
+    public const double ChainError = 4e-15;
 
     // A larger error is allowed, but its square times that of a distance would leave the range of a double.
     private const double MaxEpsilon = 1e8;
