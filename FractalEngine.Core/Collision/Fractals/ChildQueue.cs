@@ -1,3 +1,4 @@
+using System.Numerics;
 using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
@@ -6,13 +7,15 @@ using FractalEngine.Core.Collision.Bvh;
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>The queue of children anywhere, in double precision.</summary>
+/// <remarks>
+/// Keys keep all their digits. Small children of a distant sub-fractal differ in the last ones only, and a search that visits them in another
+/// order first creeps towards the closest.
+/// </remarks>
 /// <param name="values">Memory of the queue, [2 × padded children]: bounds and keys.</param>
 internal readonly ref struct ChildQueue(Span<double> values) : IChildQueue
 {
     /// <summary>Number of values for each child.</summary>
     public const int ValuesPerChild = 2;
-
-    private const long IndexMask = 127;
 
     // Children around the position have no distance, and are ordered by their centres.
     private const double CentreWeight = 1e-4;
@@ -35,10 +38,7 @@ internal readonly ref struct ChildQueue(Span<double> values) : IChildQueue
             Vector256.GreaterThan(bounds, Vector256<double>.Zero),
             Vector256.Create(CentreWeight * SeparatedFactor),
             Vector256.Create(CentreWeight));
-        var keys = bounds + (weights * centreDistances);
-        var indices = Vector256.Create(0L, 1, 2, 3) + Vector256.Create((long)firstChild);
-        keys = ((keys.AsInt64() & Vector256.Create(~IndexMask)) | indices).AsDouble();
-        keys.StoreUnsafe(ref _values, (nuint)(_paddedCount + firstChild));
+        (bounds + (weights * centreDistances)).StoreUnsafe(ref _values, (nuint)(_paddedCount + firstChild));
     }
 
     /// <inheritdoc/>
@@ -46,20 +46,25 @@ internal readonly ref struct ChildQueue(Span<double> values) : IChildQueue
     public bool TryPeek(double cutoffSquared, out int child)
     {
         var cutoffs = Vector256.Create(cutoffSquared);
-        var infinity = Vector256.Create(double.PositiveInfinity);
-        var smallestKey = infinity;
+        var smallestKeys = Vector256.Create(double.PositiveInfinity);
+        var smallestIndices = Vector256<long>.Zero;
+        var indices = Vector256.Create(0L, 1, 2, 3);
         for (var i = 0; i < _paddedCount; i += VectorX4.Count)
         {
+            var keys = Vector256.LoadUnsafe(ref _values, (nuint)(_paddedCount + i));
             var isBelow = Vector256.LessThan(Vector256.LoadUnsafe(ref _values, (nuint)i), cutoffs);
-            var key = Vector256.ConditionalSelect(isBelow, Vector256.LoadUnsafe(ref _values, (nuint)(_paddedCount + i)), infinity);
-            smallestKey = Vector256.MinNative(smallestKey, key);
+            var isSmaller = isBelow & Vector256.LessThan(keys, smallestKeys);
+            smallestKeys = Vector256.ConditionalSelect(isSmaller, keys, smallestKeys);
+            smallestIndices = Vector256.ConditionalSelect(isSmaller.AsInt64(), indices, smallestIndices);
+            indices += Vector256.Create((long)VectorX4.Count);
         }
 
-        var pair = Vector128.MinNative(smallestKey.GetLower(), smallestKey.GetUpper());
-        pair = Vector128.MinNative(pair, Vector128.Shuffle(pair.AsInt64(), Vector128.Create(1L, 0)).AsDouble());
-        var bits = pair.AsInt64()[0];
-        child = (int)(bits & IndexMask);
-        return bits != BitConverter.DoubleToInt64Bits(double.PositiveInfinity);
+        var pair = Vector128.MinNative(smallestKeys.GetLower(), smallestKeys.GetUpper());
+        var smallestKey = Vector128.MinNative(pair, Vector128.Shuffle(pair.AsInt64(), Vector128.Create(1L, 0)).AsDouble())[0];
+        var lane = BitOperations.TrailingZeroCount(
+            Vector256.Equals(smallestKeys, Vector256.Create(smallestKey)).ExtractMostSignificantBits());
+        child = (int)smallestIndices.GetElement(lane & (VectorX4.Count - 1));
+        return smallestKey < double.PositiveInfinity;
     }
 
     /// <inheritdoc/>
@@ -83,10 +88,9 @@ internal readonly ref struct ChildQueue(Span<double> values) : IChildQueue
         }
 
         ref var key = ref Unsafe.Add(ref _values, _paddedCount + child);
-        var refinedKey = (previousBound > 0 ? key : key * SeparatedFactor) + (bound - previousBound);
+        key = (previousBound > 0 ? key : key * SeparatedFactor) + (bound - previousBound);
         // The centre of a huge box that is nearly empty says nothing.
-        refinedKey = Math.Min(refinedKey, 2 * bound);
-        key = BitConverter.Int64BitsToDouble((BitConverter.DoubleToInt64Bits(refinedKey) & ~IndexMask) | (uint)child);
+        key = Math.Min(key, 2 * bound);
         previousBound = bound;
         return true;
     }

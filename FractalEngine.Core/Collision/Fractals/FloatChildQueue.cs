@@ -5,6 +5,7 @@ using System.Runtime.Intrinsics;
 namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>The queue of children that are near the position, in single precision: eight bounds are compared at once.</summary>
+/// <remarks>The last bits of a key are the child's index, so that one pass over the keys finds the child.</remarks>
 /// <param name="values">Memory of the queue, [padded children]: bounds and keys, each a float.</param>
 /// <param name="error">An upper bound of the rounding error of a distance.</param>
 internal readonly ref struct FloatChildQueue(Span<double> values, float error) : IChildQueue

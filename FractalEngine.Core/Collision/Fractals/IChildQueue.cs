@@ -4,7 +4,6 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// Orders the children of a sub-fractal by their distances. Each child has a lower bound of its squared distance, and a key that is the
 /// bound or orders children whose bound is 0. Bounds are first rough, and refined only for children whose turn it is.
 /// </summary>
-/// <remarks>The last bits of a key are the child's index, so that one pass over the keys finds the child.</remarks>
 internal interface IChildQueue
 {
     /// <summary>Finds the child with the smallest key of those whose bound is below a limit.</summary>
