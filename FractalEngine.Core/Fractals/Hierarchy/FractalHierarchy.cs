@@ -15,8 +15,7 @@ internal sealed class FractalHierarchy
     {
         _regions = [.. builder.Regions];
         Levels = builder.Levels;
-        var isReachable = FindReachable(builder.SubFractals);
-        // Levels that every path skips are never visited.
+        var isReachable = ReachableLevels.Find(builder.SubFractals, _regions, Levels);
         _subFractals = [.. builder.SubFractals.Select((subFractal, i) => isReachable[i] ? subFractal : null)];
         _mapSets = [.. builder.SubFractals.Select(subFractal => subFractal.Set)];
         HasOnlySimilarities = builder.HasOnlySimilarities;
@@ -60,33 +59,4 @@ internal sealed class FractalHierarchy
 
     /// <summary>The set on top of the sub-fractal with a number of remaining levels, visited or not; null for the base.</summary>
     public MapSet? MapSetAt(long remainingLevels) => _mapSets[LevelRegion.FindIndex(_regions, remainingLevels)];
-
-    /// <summary>Determines which sub-fractals a search can visit; all, where finding that out would take long.</summary>
-    private bool[] FindReachable(IReadOnlyList<SubFractal> subFractals)
-    {
-        const int maxChainLength = 256;
-        var isReachable = new bool[subFractals.Count];
-        var seen = new HashSet<long>();
-        var next = new HashSet<long> { Levels };
-        for (var chainLength = 0; next.Count > 0; chainLength++)
-        {
-            if (chainLength == maxChainLength)
-            {
-                Array.Fill(isReachable, true);
-                break;
-            }
-
-            var current = next.Where(seen.Add).ToArray();
-            next.Clear();
-            foreach (var level in current)
-            {
-                var index = LevelRegion.FindIndex(_regions, level);
-                isReachable[index] = true;
-                next.UnionWith(subFractals[index].AllChildren().Where(child => child.Group is null)
-                    .Select(child => child.RemainingLevels(level)));
-            }
-        }
-
-        return isReachable;
-    }
 }

@@ -83,9 +83,22 @@ internal sealed class FractalHierarchyBuilder
     private static bool HasOnlySimilarMaps(FractalStep step) => step switch
     {
         Repetition repetition => repetition.Body.All(HasOnlySimilarMaps),
-        TransformationSet set => set.Maps.All(map => Similarity.IsSimilarity(map.Linear)),
+        TransformationSet set => HasOnlySimilarMaps(set.Maps.AsSpan()),
         _ => throw new ArgumentException($"{step.GetType().Name} is no step of a fractal", nameof(step)),
     };
+
+    private static bool HasOnlySimilarMaps(ReadOnlySpan<AffineMap> maps)
+    {
+        foreach (ref readonly var map in maps)
+        {
+            if (!Similarity.IsSimilarity(map.Linear))
+            {
+                return false;
+            }
+        }
+
+        return true;
+    }
 
     private static bool HasOutliers(FractalStep step, double baseDiagonal)
     {
@@ -100,7 +113,13 @@ internal sealed class FractalHierarchyBuilder
             return false;
         }
 
-        double[] reaches = [.. maps.Select(map => MapReach(map, baseDiagonal)).Order()];
+        var reaches = new double[maps.Length];
+        for (var i = 0; i < maps.Length; i++)
+        {
+            reaches[i] = MapReach(maps[i], baseDiagonal);
+        }
+
+        Array.Sort(reaches);
         return reaches[^1] > OutlierFactor * reaches[(maps.Length - 1) / 2];
     }
 
@@ -204,23 +223,25 @@ internal sealed class FractalHierarchyBuilder
     private void AddLevel(ChildEdge[] edges, MapSet mapSet)
     {
         var level = Levels + 1;
-        var collapsedEdges = edges.Select(edge => CollapsedEdge.Collapse(edge, level, EdgesAt))
-            .Where(edge => !VolumeAt(edge.RemainingLevels).Box.IsEmpty).ToArray();
-        if (!collapsedEdges.All(HasFiniteBox))
+        var collapsedEdges = new List<CollapsedEdge>(edges.Length);
+        foreach (var edge in edges)
         {
-            throw new FractalLimitException($"the bounds of the fractal are beyond the range of a double {level} levels above its base");
+            var collapsed = CollapsedEdge.Collapse(edge, level, EdgesAt);
+            if (!VolumeAt(collapsed.RemainingLevels).Box.IsEmpty)
+            {
+                collapsedEdges.Add(collapsed);
+            }
         }
 
-        var volume = ComputeUnion(collapsedEdges);
+        var volume = ComputeUnion(collapsedEdges.ToArray(), level);
         var children = _childBuilder.ExpandChildren(level, edges, EdgesAt);
-        var childVolumes = children.Select(child => VolumeAt(child.RemainingLevels(level)));
-        AppendLevels(1, new BuiltLevel(CreateSubFractal(mapSet, children, childVolumes, volume), volume, edges));
-    }
+        var childVolumes = new BoundingVolume[children.Length];
+        for (var i = 0; i < children.Length; i++)
+        {
+            childVolumes[i] = VolumeAt(children[i].RemainingLevels(level));
+        }
 
-    private bool HasFiniteBox(CollapsedEdge edge)
-    {
-        var box = VolumeAt(edge.RemainingLevels).TransformedBox(edge.Map, edge.OperatorNormBound);
-        return box.Minimum.IsFinite() && box.Size.IsFinite();
+        AppendLevels(1, new BuiltLevel(CreateSubFractal(mapSet, children, childVolumes, volume), volume, edges));
     }
 
     /// <summary>Replaces all remaining rounds by one that is inflated a little, if it can be proved to contain them.</summary>
@@ -268,7 +289,7 @@ internal sealed class FractalHierarchyBuilder
             var level = periodicBound.FirstLevel + phase;
             var parentLevels = periodicBound.InductionLevel + phase;
             var childVolumes = children[phase].Select(child => periodicBound.VolumeAt(volumes, child.RemainingLevels(parentLevels)));
-            var subFractal = CreateSubFractal(MapSetAt(level), children[phase], childVolumes, volumes[phase]);
+            var subFractal = CreateSubFractal(MapSetAt(level), children[phase], childVolumes.ToArray(), volumes[phase]);
             builtLevels[phase] = new(subFractal, volumes[phase], EdgesAt(level));
         }
 
@@ -277,11 +298,26 @@ internal sealed class FractalHierarchyBuilder
     }
 
     /// <summary>Computes the bounds of the union of some parts, none of them empty.</summary>
-    private BoundingVolume ComputeUnion(CollapsedEdge[] edges)
+    /// <param name="edges">The parts.</param>
+    /// <param name="level">Remaining levels of the union.</param>
+    private BoundingVolume ComputeUnion(CollapsedEdge[] edges, long level)
     {
         if (edges is [])
         {
             return BoundingVolume.Empty;
+        }
+
+        var box = BoundingBox.Empty;
+        foreach (var edge in edges)
+        {
+            var part = VolumeAt(edge.RemainingLevels).TransformedBox(edge.Map, edge.OperatorNormBound);
+            if (!part.Minimum.IsFinite() || !part.Size.IsFinite())
+            {
+                throw new FractalLimitException(
+                    $"the bounds of the fractal are beyond the range of a double {level} levels above its base");
+            }
+
+            box = BoundingBox.Union(box, part);
         }
 
         var clusters = ComputeClusters(edges);
@@ -290,13 +326,32 @@ internal sealed class FractalHierarchyBuilder
             return VolumeAt(only.RemainingLevels).Transform(only.Map, only.OperatorNormBound) with { Clusters = clusters };
         }
 
-        var volumes = edges.Select(edge => VolumeAt(edge.RemainingLevels)).ToArray();
-        var box = edges.Zip(volumes, (edge, volume) => volume.TransformedBox(edge.Map, edge.OperatorNormBound))
-            .Aggregate(BoundingBox.Union);
-        var vertices = volumes.All(volume => volume.Hull is not null)
-            ? edges.Zip(volumes).SelectMany(pair => pair.Second.Hull!.Vertices.Select(vertex => pair.First.Map * vertex)).ToArray()
-            : null;
-        var margin = edges.Zip(volumes, (edge, volume) => edge.OperatorNormBound * volume.Margin).Max();
+        var hasHulls = true;
+        var vertexCount = 0;
+        var margin = 0.0;
+        foreach (var edge in edges)
+        {
+            var volume = VolumeAt(edge.RemainingLevels);
+            hasHulls &= volume.Hull is not null;
+            vertexCount += volume.Hull?.Vertices.Length ?? 0;
+            margin = Math.Max(margin, edge.OperatorNormBound * volume.Margin);
+        }
+
+        if (!hasHulls)
+        {
+            return BoundingVolume.FromVertices(box, null, margin) with { Clusters = clusters };
+        }
+
+        var vertices = new Vector[vertexCount];
+        var next = 0;
+        foreach (var edge in edges)
+        {
+            foreach (var vertex in VolumeAt(edge.RemainingLevels).Hull!.Vertices)
+            {
+                vertices[next++] = edge.Map * vertex;
+            }
+        }
+
         return BoundingVolume.FromVertices(box, vertices, margin) with { Clusters = clusters };
     }
 
@@ -341,11 +396,14 @@ internal sealed class FractalHierarchyBuilder
         return [.. clusters.Where(cluster => !cluster.IsEmpty)];
     }
 
-    private SubFractal CreateSubFractal(MapSet set, ChildInstance[] children, IEnumerable<BoundingVolume> volumes, BoundingVolume volume)
+    private SubFractal CreateSubFractal(MapSet set, ChildInstance[] children, BoundingVolume[] childVolumes, BoundingVolume volume)
     {
-        BoundingVolume[] childVolumes = [.. volumes];
-        BoundingBox[] childBoxes =
-            [.. children.Zip(childVolumes, (child, childVolume) => childVolume.TransformedBox(child.Map, child.OperatorNormBound))];
+        var childBoxes = new BoundingBox[children.Length];
+        for (var i = 0; i < children.Length; i++)
+        {
+            childBoxes[i] = childVolumes[i].TransformedBox(children[i].Map, children[i].OperatorNormBound);
+        }
+
         var childHull = childVolumes.Length > 0 ? CreateHullBound(childVolumes[0]) : null;
         if (children.Length > ChildGroups.MaxUngroupedChildren)
         {
