@@ -28,7 +28,7 @@ public sealed class ExactFractalCollider : Collider
     private const double MinPrecisionRadius = 1e-3;
 
     private readonly Fractal _fractal;
-    private readonly FractalHierarchy _table;
+    private readonly FractalHierarchy _hierarchy;
     private readonly TriangleBvh _baseBvh;
     private readonly double _precisionRadius;
     private readonly DepthFirstSearch<SimilarityFrame> _similaritySearch;
@@ -52,19 +52,19 @@ public sealed class ExactFractalCollider : Collider
         }
 
         _fractal = fractal;
-        _table = fractal.Hierarchy;
+        _hierarchy = fractal.Hierarchy;
         _baseBvh = new(fractal.BaseMesh);
-        _precisionRadius = PrecisionRadius(_table.Root);
-        _similaritySearch = new(_table, _baseBvh);
-        _affineSearch = new(_table, _baseBvh);
-        _bestFirstSearch = new(_table, _baseBvh);
+        _precisionRadius = PrecisionRadius(_hierarchy.Root);
+        _similaritySearch = new(_hierarchy, _baseBvh);
+        _affineSearch = new(_hierarchy, _baseBvh);
+        _bestFirstSearch = new(_hierarchy, _baseBvh);
     }
 
     /// <inheritdoc/>
     public override bool IsExact => true;
 
     /// <inheritdoc/>
-    public override long StorageBytes => _table.StorageBytes + _baseBvh.StorageBytes;
+    public override long StorageBytes => _hierarchy.StorageBytes + _baseBvh.StorageBytes;
 
     /// <inheritdoc/>
     internal override bool SupportsTransformedQueries => true;
@@ -75,12 +75,13 @@ public sealed class ExactFractalCollider : Collider
         FindClosestInImage(position, in map, isSimilarity: false, maxDistance, epsilon, context, out closest);
 
     /// <inheritdoc/>
-    internal override ShapeTree CreateShapeTree() => new(_fractal.BaseMesh, _baseBvh, this, _table, RelativePrecision * _precisionRadius);
+    internal override ShapeTree CreateShapeTree() =>
+        new(_fractal.BaseMesh, _baseBvh, this, _hierarchy, RelativePrecision * _precisionRadius);
 
     /// <inheritdoc/>
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest) =>
-        FindClosestInImage(position, AffineMap.Identity, _table.HasOnlySimilarities, maxDistance, epsilon, context, out closest);
+        FindClosestInImage(position, AffineMap.Identity, _hierarchy.HasOnlySimilarities, maxDistance, epsilon, context, out closest);
 
     /// <summary>Finds the closest point of the fractal's image under a map.</summary>
     /// <param name="position">In the frame of the image.</param>
@@ -96,12 +97,12 @@ public sealed class ExactFractalCollider : Collider
     {
         context.ClearPath();
         closest = default;
-        if (_fractal.BaseMesh.FaceCount == 0 || _table.Root.Box.IsEmpty)
+        if (_fractal.BaseMesh.FaceCount == 0 || _hierarchy.Root.Box.IsEmpty)
         {
             return false;
         }
 
-        var box = isSimilarity ? _table.Root.Box : _table.Root.Box.Transform(map);
+        var box = isSimilarity ? _hierarchy.Root.Box : _hierarchy.Root.Box.Transform(map);
         var magnitude = Math.Max(position.MaxAbsComponent(), BoundingVolume.MaxAbsCoordinate(box));
         if (magnitude is < MinMagnitude or > MaxMagnitude && double.IsFinite(magnitude) && magnitude > 0)
         {
@@ -159,7 +160,7 @@ public sealed class ExactFractalCollider : Collider
     {
         // Where most of the fractal is far smaller than all of it, a result is as precise as its own coordinates.
         var minRadius = RelativePrecision
-            * (_table.Root.Clusters is null ? _precisionRadius : Math.Max(_precisionRadius, position.MaxAbsComponent()));
+            * (_hierarchy.Root.Clusters is null ? _precisionRadius : Math.Max(_precisionRadius, position.MaxAbsComponent()));
         var minRadiusSquared = minRadius * minRadius;
         if (isSimilarity)
         {
@@ -204,9 +205,9 @@ public sealed class ExactFractalCollider : Collider
     {
         var map = rootMap;
         reach = map.Translation.MaxAbsComponent();
-        var remainingLevels = _table.Levels;
+        var remainingLevels = _hierarchy.Levels;
         var exponent = 0L;
-        var subFractal = _table.Root;
+        var subFractal = _hierarchy.Root;
         foreach (var childIndex in path)
         {
             var child = subFractal.Children[childIndex];
@@ -238,7 +239,7 @@ public sealed class ExactFractalCollider : Collider
                 // Levels that are skipped take their identity.
                 for (var level = remainingLevels; level > (isIdentity ? childLevels : childLevels + 1); level--)
                 {
-                    context.AppendToPath(_table.MapSetAt(level)!.IdentityIndex);
+                    context.AppendToPath(_hierarchy.MapSetAt(level)!.IdentityIndex);
                 }
 
                 if (!isIdentity)
@@ -249,7 +250,7 @@ public sealed class ExactFractalCollider : Collider
                 remainingLevels = childLevels;
             }
 
-            subFractal = _table.At(remainingLevels);
+            subFractal = _hierarchy.At(remainingLevels);
         }
 
         return map;

@@ -20,7 +20,9 @@ internal sealed class ChildInstanceBuilder
     /// <summary>Maximum number of rounds of a repetition between a sub-fractal and its children.</summary>
     public const int MaxExpandedLevels = 16;
 
-    private readonly Dictionary<ChildEdge[], ChildInstance> _instances = new(new EdgeSequenceComparer());
+    private readonly Dictionary<ChildEdge[], ChildInstance> _instances = new(EdgeSequenceComparer.Instance);
+
+    private readonly HashSet<ChildEdge[]> _sharedEdges = new(EdgeSequenceComparer.Instance);
 
     /// <summary>
     /// Lists the edges of a level. First come its own maps; then, where its identity lets it be skipped, the maps that the next levels of
@@ -58,6 +60,18 @@ internal sealed class ChildInstanceBuilder
 
             currentSet = setAt(level - levelsDown);
         }
+    }
+
+    /// <summary>Returns the edges of an earlier level where they are equal: most levels share theirs.</summary>
+    public ChildEdge[] Share(ChildEdge[] edges)
+    {
+        if (_sharedEdges.TryGetValue(edges, out var shared))
+        {
+            return shared;
+        }
+
+        _sharedEdges.Add(edges);
+        return edges;
     }
 
     /// <summary>Builds the children of a level: its edges, expanded by the edges of the levels they lead to while these are few.</summary>
@@ -219,6 +233,8 @@ internal sealed class ChildInstanceBuilder
 
     private sealed class EdgeSequenceComparer : IEqualityComparer<ChildEdge[]>
     {
+        public static EdgeSequenceComparer Instance { get; } = new();
+
         public bool Equals(ChildEdge[]? edges1, ChildEdge[]? edges2) => edges1.AsSpan().SequenceEqual(edges2);
 
         public int GetHashCode(ChildEdge[] edges)

@@ -185,7 +185,8 @@ internal sealed class PeriodicBound(
         var maxChange = 0.0;
         for (var phase = 0; phase < period; phase++)
         {
-            maxChange = Math.Max(maxChange, RelativeChange(volumeAt(FirstLevel + phase), volumeAt(FirstLevel + phase - period), double.PositiveInfinity));
+            var change = RelativeChange(volumeAt(FirstLevel + phase), volumeAt(FirstLevel + phase - period), double.PositiveInfinity);
+            maxChange = Math.Max(maxChange, change);
         }
 
         return maxChange;
