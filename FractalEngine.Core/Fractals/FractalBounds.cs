@@ -9,9 +9,9 @@ namespace FractalEngine.Core.Fractals;
 /// </summary>
 /// <remarks>
 /// Maps that keep boxes axis-aligned have exact boxes level by level. For others the farthest point along each axis is searched for in the
-/// <see cref="FractalHierarchy"/>, best bound first. The box is exact to 1e-12 of the fractal's size in nearly all cases. Where a search would visit more than <see cref="MaxSearchedNodes"/> sub-fractals it stops and
-/// returns the bound that it has, which holds the fractal but may be wider.
-/// Infinite fractals are bounded by their limit. The box is not finite where the maps grow beyond a double.
+/// <see cref="FractalHierarchy"/>, best bound first. The box is exact to 1e-12 of the fractal's size in nearly all cases. Where a search
+/// would visit more than <see cref="MaxSearchedNodes"/> sub-fractals it stops and returns the bound that it has, which holds the fractal
+/// but may be wider. Infinite fractals are bounded by their limit. The box is not finite where the maps grow beyond a double.
 /// </remarks>
 public static class FractalBounds
 {
