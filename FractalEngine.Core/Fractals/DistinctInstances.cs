@@ -1,4 +1,3 @@
-using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using BigInteger = System.Numerics.BigInteger;
@@ -12,7 +11,7 @@ namespace FractalEngine.Core.Fractals;
 public static class DistinctInstances
 {
     // A proof visits every round until the boxes converge: those of sponges do so at once, others within a hundred rounds.
-    private const int MaxProvedRounds = 1000;
+    private const int MaxProvedRounds = 1500;
 
     /// <summary>Counts the distinct instances of a fractal.</summary>
     /// <param name="fractal">Fractal of any composition and depth.</param>
@@ -58,66 +57,12 @@ public static class DistinctInstances
             return false;
         }
 
-        var box = fractal.BaseMesh.Bounds;
-        return TryProveSteps(fractal.Description.Steps, ref box);
+        var boxes = new LevelBoxes(fractal.BaseMesh, MaxProvedRounds);
+        return boxes.Ascend(fractal.Description.Steps).All(set => HasExactDisjointImages(set, boxes.Volume.Box)) && boxes.Volume.IsFinite();
     }
 
-    /// <summary>Tries to prove that the chains of some steps give distinct instances, from the innermost step outwards.</summary>
-    /// <param name="steps">Steps, outermost first.</param>
-    /// <param name="box">Box of the child instances; becomes that of the whole.</param>
-    private static bool TryProveSteps(ImmutableArray<FractalStep> steps, ref BoundingBox box)
-    {
-        foreach (var step in steps.Reverse())
-        {
-            var isProved = step switch
-            {
-                TransformationSet set => TryProveSet(set, ref box),
-                Repetition repetition => TryProveRepetition(repetition, ref box),
-                _ => throw new InvalidOperationException($"unknown step {step}"),
-            };
-            if (!isProved)
-            {
-                return false;
-            }
-        }
-
-        return true;
-    }
-
-    private static bool TryProveRepetition(Repetition repetition, ref BoundingBox box)
-    {
-        for (var round = 0; round < repetition.Count; round++)
-        {
-            var previousBox = box;
-            if (round == MaxProvedRounds || !TryProveSteps(repetition.Body, ref box))
-            {
-                return false;
-            }
-
-            // Once the boxes no longer change, every further round is the same.
-            if (AreNearlyEqual(previousBox, box))
-            {
-                return true;
-            }
-        }
-
-        return true;
-    }
-
-    private static bool TryProveSet(TransformationSet set, ref BoundingBox box)
-    {
-        if (set.Maps.Length == 0 || !set.Maps.All(map => map.Linear.IsScaledAxisPermutation()) || !HasDisjointImages(set, box))
-        {
-            return false;
-        }
-
-        box = set.Maps.Select(box.Transform).Aggregate(BoundingBox.Union);
-        return true;
-    }
-
-    private static bool AreNearlyEqual(BoundingBox box1, BoundingBox box2) =>
-        Math.Max((box1.Minimum - box2.Minimum).MaxAbsComponent(), (box1.Maximum - box2.Maximum).MaxAbsComponent())
-        <= 1e-12 * box1.Diagonal;
+    private static bool HasExactDisjointImages(TransformationSet set, BoundingBox box) =>
+        set.Maps.Length > 0 && set.Maps.All(map => map.Linear.IsScaledAxisPermutation()) && HasDisjointImages(set, box);
 
     /// <summary>Tests whether all images of a box lie side by side, in O(n log n) for n images that hardly overlap.</summary>
     internal static bool HasDisjointImages(TransformationSet set, BoundingBox box)

@@ -17,6 +17,7 @@ public sealed class Fractal : IEquatable<Fractal>
     private readonly Lazy<BigInteger?> _instanceCount;
     private readonly Lazy<BoundingBox> _bounds;
     private readonly Lazy<FractalHierarchy> _hierarchy;
+    private readonly Lazy<FractalHierarchy> _hierarchyBySets;
 
     /// <summary>Makes the fractal that a description makes of a base mesh.</summary>
     public Fractal(FractalDescription description, Mesh baseMesh)
@@ -28,6 +29,7 @@ public sealed class Fractal : IEquatable<Fractal>
         _instanceCount = new(() => FractalSteps.InstanceCount(description.Steps));
         _bounds = new(() => FractalBounds.ComputeBox(this));
         _hierarchy = new(() => FractalHierarchy.Build(this));
+        _hierarchyBySets = new(() => Hierarchy.HasDoubledPowers ? FractalHierarchy.Build(this, doublesPowers: false) : Hierarchy);
     }
 
     /// <summary>The steps that are applied to the base mesh, and how they are composed.</summary>
@@ -55,6 +57,13 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <exception cref="FractalLimitException">The bounds of some level overflow a double, or don't converge.</exception>
     /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
     internal FractalHierarchy Hierarchy => _hierarchy.Value;
+
+    /// <summary>
+    /// The same with one level for each set, whose path colours need. It is another one only where <see cref="Hierarchy"/> doubles powers.
+    /// </summary>
+    /// <exception cref="FractalLimitException">The bounds of some level overflow a double, or don't converge.</exception>
+    /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
+    internal FractalHierarchy HierarchyBySets => _hierarchyBySets.Value;
 
     /// <summary>Finds the set at one level, 0 being the outermost.</summary>
     public TransformationSet LevelAt(long level) => FractalSteps.LevelAt(Description.Steps, level);

@@ -8,11 +8,10 @@ namespace FractalEngine.Core.Fractals;
 /// Computes the bounding box of a fractal without expanding it.
 /// </summary>
 /// <remarks>
-/// Along each axis the farthest point is searched for from the whole fractal down, best bound first. The bounds are a sphere and a box
-/// around the sub-fractal at each level. The box is exact to 1e-12 of the fractal's size in nearly all cases. Where a search would visit
-/// more than
-/// <see cref="MaxSearchedNodes"/> sub-fractals it stops and returns the bound that it has, which holds the fractal but may be wider.
-/// Infinite fractals are bounded by their limit. The box is not finite where the maps grow beyond a double.
+/// Maps that keep boxes axis-aligned have exact boxes level by level. For others the farthest point along each axis is searched for in the
+/// <see cref="FractalHierarchy"/>, best bound first. The box is exact to 1e-12 of the fractal's size in nearly all cases. Where a search
+/// would visit more than <see cref="MaxSearchedNodes"/> sub-fractals it stops and returns the bound that it has, which holds the fractal
+/// but may be wider. Infinite fractals are bounded by their limit. The box is not finite where the maps grow beyond a double.
 /// </remarks>
 public static class FractalBounds
 {
@@ -26,17 +25,12 @@ public static class FractalBounds
         { BaseMesh.VertexCount: 0 } => BoundingBox.Empty,
         _ when FractalSteps.CountUpTo(fractal.Description.Steps, 1).IsZero => BoundingBox.Empty,
         { Description.Composition: Composition.Componentwise } => ComputeComponentwiseBox(fractal),
-        _ => ComputeAffineBox(fractal, LevelBounds.Compute(fractal)),
+        _ when LevelBoxes.AreExact(fractal.Description.Steps) => LevelBoxes.ComputeBox(fractal),
+        _ => ComputeAffineBox(fractal),
     };
 
-    private static BoundingBox ComputeAffineBox(Fractal fractal, LevelBounds bounds)
+    private static BoundingBox ComputeAffineBox(Fractal fractal)
     {
-        var whole = bounds.At(0);
-        if (!whole.Box.Size.IsFinite() || bounds.HasExactBoxes)
-        {
-            return whole.Box;
-        }
-
         try
         {
             return new(
@@ -45,8 +39,8 @@ public static class FractalBounds
         }
         catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
         {
-            // Sub-fractals have no bounds of their own where maps don't shrink or have no inverse.
-            return whole.Box;
+            // There is no hierarchy where maps flatten space, or where too many levels don't shrink.
+            return LevelBoxes.ComputeBox(fractal);
         }
 
         double Support(Vector direction) =>

@@ -24,11 +24,6 @@ internal readonly record struct SphereAndBox(BoundingSphere Sphere, BoundingBox 
         return new(new(centre, radius), mesh.Bounds);
     }
 
-    /// <summary>Combines two volumes of the same content: the smaller sphere with the intersection of the boxes.</summary>
-    public static SphereAndBox Tighter(in SphereAndBox volume1, in SphereAndBox volume2) => new(
-        volume1.Sphere.Radius <= volume2.Sphere.Radius ? volume1.Sphere : volume2.Sphere,
-        new(Vector.Max(volume1.Box.Minimum, volume2.Box.Minimum), Vector.Min(volume1.Box.Maximum, volume2.Box.Maximum)));
-
     /// <summary>Tells whether the box lies within the range of a double.</summary>
     public bool IsFinite() => Box.Size.IsFinite() && Box.Minimum.IsFinite();
 
@@ -54,19 +49,5 @@ internal readonly record struct SphereAndBox(BoundingSphere Sphere, BoundingBox 
         }
 
         return new(new(box.Centre, radius), box);
-    }
-
-    /// <summary>Computes an upper bound of <c>Dot(direction, v)</c> over the image of the content under a map.</summary>
-    public double SupportBound(AffineMap map, Vector direction)
-    {
-        if (double.IsPositiveInfinity(Sphere.Radius))
-        {
-            return double.PositiveInfinity;
-        }
-
-        var local = map.Linear.Transpose() * direction;
-        var sphereSupport = Vector.Dot(local, Sphere.Centre) + (local.Length() * Sphere.Radius);
-        var boxSupport = Vector.Dot(local, Box.Centre) + (0.5 * Vector.Dot(local.Absolute(), Box.Size));
-        return Math.Min(sphereSupport, boxSupport) + Vector.Dot(direction, map.Translation);
     }
 }

@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using System.Numerics;
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals;
@@ -11,7 +12,13 @@ public sealed class TransformationSet : FractalStep
     public TransformationSet(ImmutableArray<Transformation> transformations)
     {
         Transformations = transformations;
-        Maps = [.. transformations.Select(transformation => transformation.ToAffineMap())];
+        var maps = new AffineMap[transformations.Length];
+        for (var i = 0; i < maps.Length; i++)
+        {
+            maps[i] = transformations[i].ToAffineMap();
+        }
+
+        Maps = ImmutableCollectionsMarshal.AsImmutableArray(maps);
     }
 
     /// <summary>The transformations as they were declared.</summary>

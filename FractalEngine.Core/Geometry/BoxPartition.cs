@@ -3,8 +3,8 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Geometry;
 
 /// <summary>
-/// Partitions boxes into groups that lie apart, by the surface area heuristic (SAH) over bins: the plane with the lowest sum, over both
-/// sides, of the surface area times the number of boxes.
+/// Partitions boxes into groups that lie apart, by the surface area heuristic (SAH) over bins along the longest side of their centres: the
+/// plane with the lowest sum, over both sides, of the size times the number of boxes.
 /// </summary>
 /// <param name="boxes">The boxes, none of them empty.</param>
 internal sealed class BoxPartition(BoundingBox[] boxes)
@@ -23,13 +23,13 @@ internal sealed class BoxPartition(BoundingBox[] boxes)
     /// <remarks>Costs time in proportion to the number of boxes times the logarithm of the number of ranges.</remarks>
     public List<Range> Split(Range range, int maxRanges, int enough)
     {
-        List<(Range Range, double HalfArea)> parts = [(range, HalfArea(BoundsOf(range)))];
+        List<(Range Range, double Size)> parts = [(range, SizeOf(BoundsOf(range)))];
         while (parts.Count < maxRanges)
         {
             var largest = -1;
             for (var i = 0; i < parts.Count; i++)
             {
-                if (CountOf(parts[i].Range) > enough && (largest < 0 || parts[i].HalfArea > parts[largest].HalfArea))
+                if (CountOf(parts[i].Range) > enough && (largest < 0 || parts[i].Size > parts[largest].Size))
                 {
                     largest = i;
                 }
@@ -41,8 +41,8 @@ internal sealed class BoxPartition(BoundingBox[] boxes)
             }
 
             var (left, right) = SplitInTwo(parts[largest].Range);
-            parts[largest] = (left, HalfArea(BoundsOf(left)));
-            parts.Insert(largest + 1, (right, HalfArea(BoundsOf(right))));
+            parts[largest] = (left, SizeOf(BoundsOf(left)));
+            parts.Insert(largest + 1, (right, SizeOf(BoundsOf(right))));
         }
 
         return [.. parts.Select(part => part.Range)];
@@ -63,37 +63,59 @@ internal sealed class BoxPartition(BoundingBox[] boxes)
         return bounds;
     }
 
-    private (Range Left, Range Right) SplitInTwo(Range range)
+    /// <summary>Splits a range of at least two boxes in two by the heuristic, or by number where all centres are equal.</summary>
+    public (Range Left, Range Right) SplitInTwo(Range range)
     {
         var indices = _order.AsSpan(range);
-        var start = range.Start.Value;
-        var centreBounds = BoundingBox.Empty;
-        foreach (var index in indices)
-        {
-            centreBounds = centreBounds.Including(boxes[index].Centre);
-        }
-
-        var bestCost = double.PositiveInfinity;
-        var bestAxis = -1;
-        var bestBin = -1;
-        for (var axis = 0; axis < 3; axis++)
-        {
-            if (Component(centreBounds.Size, axis) > 0)
-            {
-                FindBestBin(indices, centreBounds, axis, ref bestCost, ref bestAxis, ref bestBin);
-            }
-        }
-
-        var middle = bestAxis < 0 ? indices.Length / 2 : Reorder(indices, centreBounds, bestAxis, bestBin);
-        return (new(start, start + middle), new(start + middle, range.End));
+        var centreBounds = CentreBoundsOf(indices);
+        var axis = LongestAxis(centreBounds);
+        var bestBin = Component(centreBounds.Size, axis) > 0 ? FindBestBin(indices, centreBounds, axis) : -1;
+        var middle = bestBin < 0 ? indices.Length / 2 : Reorder(indices, centreBounds, axis, bestBin);
+        return SplitAt(range, middle);
     }
 
-    private void FindBestBin(
-        ReadOnlySpan<int> indices, BoundingBox centreBounds, int axis, ref double bestCost, ref int bestAxis, ref int bestBin)
+    /// <summary>Splits a range in two by the order of the centres along the longest side of their box.</summary>
+    /// <param name="range">The range to split.</param>
+    /// <param name="leftCount">Number of boxes on the left side.</param>
+    public (Range Left, Range Right) SplitInOrder(Range range, int leftCount)
     {
-        Span<BoundingBox> bounds = new BoundingBox[BinCount];
+        var indices = _order.AsSpan(range);
+        var axis = LongestAxis(CentreBoundsOf(indices));
+        indices.Sort((index1, index2) => (Component(boxes[index1].Centre, axis), index1).CompareTo(
+            (Component(boxes[index2].Centre, axis), index2)));
+        return SplitAt(range, leftCount);
+    }
+
+    private static (Range Left, Range Right) SplitAt(Range range, int leftCount)
+    {
+        var middle = range.Start.Value + leftCount;
+        return (new(range.Start, middle), new(middle, range.End));
+    }
+
+    private BoundingBox CentreBoundsOf(ReadOnlySpan<int> indices)
+    {
+        var bounds = BoundingBox.Empty;
+        foreach (var index in indices)
+        {
+            bounds = bounds.Including(boxes[index].Centre);
+        }
+
+        return bounds;
+    }
+
+    private static int LongestAxis(BoundingBox box)
+    {
+        var (x, y, z) = box.Size;
+        return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    }
+
+    /// <summary>Finds the last bin on the left side of the cheapest plane; −1 where no plane has a finite cost.</summary>
+    private int FindBestBin(ReadOnlySpan<int> indices, BoundingBox centreBounds, int axis)
+    {
+        Span<BoundingBox> bounds = stackalloc BoundingBox[BinCount];
         Span<int> counts = stackalloc int[BinCount];
         bounds.Fill(BoundingBox.Empty);
+        counts.Clear();
         foreach (var index in indices)
         {
             var bin = BinOf(boxes[index], centreBounds, axis);
@@ -108,23 +130,26 @@ internal sealed class BoxPartition(BoundingBox[] boxes)
         {
             rightBounds = BoundingBox.Union(rightBounds, bounds[bin]);
             rightCount += counts[bin];
-            rightCosts[bin] = rightCount == 0 ? double.PositiveInfinity : rightCount * HalfArea(rightBounds);
+            rightCosts[bin] = rightCount == 0 ? double.PositiveInfinity : rightCount * SizeOf(rightBounds);
         }
 
+        var bestBin = -1;
+        var bestCost = double.PositiveInfinity;
         var leftBounds = BoundingBox.Empty;
         var leftCount = 0;
         for (var bin = 0; bin < BinCount - 1; bin++)
         {
             leftBounds = BoundingBox.Union(leftBounds, bounds[bin]);
             leftCount += counts[bin];
-            var cost = leftCount == 0 ? double.PositiveInfinity : (leftCount * HalfArea(leftBounds)) + rightCosts[bin + 1];
+            var cost = leftCount == 0 ? double.PositiveInfinity : (leftCount * SizeOf(leftBounds)) + rightCosts[bin + 1];
             if (cost < bestCost)
             {
                 bestCost = cost;
-                bestAxis = axis;
                 bestBin = bin;
             }
         }
+
+        return bestBin;
     }
 
     /// <summary>Moves the boxes of the first bins to the front.</summary>
@@ -156,11 +181,14 @@ internal sealed class BoxPartition(BoundingBox[] boxes)
         return Math.Clamp((int)(BinCount * (offset / Component(centreBounds.Size, axis))), 0, BinCount - 1);
     }
 
-    // Halves keep boxes of any finite size within the range of a double.
-    private static double HalfArea(BoundingBox box)
+    /// <summary>
+    /// The size of a box for estimates of how often it is visited: like the surface area, but above zero for lines and planes as well.
+    /// </summary>
+    public static double SizeOf(BoundingBox box)
     {
         var (x, y, z) = box.Size;
-        return (x * y) + (y * z) + (z * x);
+        var sum = x + y + z;
+        return sum * sum;
     }
 
     private static double Component(Vector v, int axis) => axis switch

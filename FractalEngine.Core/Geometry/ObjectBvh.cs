@@ -41,7 +41,7 @@ internal sealed class ObjectBvh
     /// <param name="leaves">At least one; the leaf with the index i at i.</param>
     public static ObjectBvh Build(ReadOnlySpan<ObjectBvhLeaf> leaves)
     {
-        var root = new ObjectBvhBuilder(leaves).Build();
+        var root = ObjectBvhBuilder.Build(leaves);
         var paths = new ulong[leaves.Length];
         var size = 0.0;
         Survey(root, 0, 0, paths, ref size);
@@ -61,16 +61,6 @@ internal sealed class ObjectBvh
     public void CopyTo<TLeaf>(Span<TLeaf> leaves)
         where TLeaf : ObjectBvhLeaf
         => CopyTo(Root, leaves);
-
-    /// <summary>
-    /// The size of a box for estimates of how often it is visited: like the surface area, but above zero for lines and planes as well.
-    /// </summary>
-    public static double SizeOf(BoundingBox box)
-    {
-        var (x, y, z) = box.Size;
-        var sum = x + y + z;
-        return sum * sum;
-    }
 
     private static void CopyTo<TLeaf>(ObjectBvhNode node, Span<TLeaf> leaves)
         where TLeaf : ObjectBvhLeaf
@@ -97,7 +87,7 @@ internal sealed class ObjectBvh
             var childPath = path | ((ulong)slot << (BitsPerLevel * depth));
             if (node[slot] is ObjectBvhNode child)
             {
-                var childSize = SizeOf(node.BoxOf(slot));
+                var childSize = BoxPartition.SizeOf(node.BoxOf(slot));
                 size += double.IsFinite(childSize) ? childSize : 0;
                 Survey(child, depth + 1, childPath, paths, ref size);
             }
@@ -118,11 +108,11 @@ internal sealed class ObjectBvh
 
         var replaced = Replace(child, path >> BitsPerLevel, leaf, ref size);
         var box = replaced.Box;
-        var oldSize = SizeOf(node.BoxOf(slot));
+        var oldSize = BoxPartition.SizeOf(node.BoxOf(slot));
         if (double.IsFinite(oldSize))
         {
             // An object that has left all bounds needs a new hierarchy, which keeps it apart.
-            var newSize = SizeOf(box);
+            var newSize = BoxPartition.SizeOf(box);
             size += double.IsFinite(newSize) ? newSize - oldSize : double.PositiveInfinity;
         }
 

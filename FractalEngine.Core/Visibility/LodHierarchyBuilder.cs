@@ -17,40 +17,30 @@ internal static class LodHierarchyBuilder
 
     private static LodHierarchy BuildAffine(Fractal fractal)
     {
-        var builder = new FractalHierarchyBuilder(fractal, doublesPowers: false);
-        builder.AddAllSteps();
-        var regions = builder.Regions.ToArray();
-        var nodes = new LodNode[builder.SubFractals.Count];
-        foreach (var region in regions)
+        var hierarchy = fractal.HierarchyBySets;
+        var levels = hierarchy.AllLevels;
+        var nodes = new LodNode[levels.Length];
+        for (var i = 0; i < nodes.Length; i++)
         {
-            for (var i = 0; i < region.Period; i++)
-            {
-                nodes[region.FirstIndex + i] = BuildNode(builder, region.FirstLevel + i);
-            }
+            // The first level is the base mesh.
+            nodes[i] = BuildNode(levels[i], levels[0].Box);
         }
 
-        return new(nodes, regions, builder.Levels, fractal.BaseMesh);
+        return new(nodes, hierarchy.Regions.ToArray(), hierarchy.Levels, fractal.BaseMesh);
     }
 
-    private static LodNode BuildNode(FractalHierarchyBuilder builder, long remainingLevels)
+    private static LodNode BuildNode(HierarchyLevel level, BoundingBox baseBox)
     {
         var children = new List<LodChild>();
-        foreach (var edge in builder.EdgesAt(remainingLevels))
+        foreach (var (edge, box) in level.Edges.Zip(level.EdgeBoxes))
         {
-            var volume = builder.VolumeAt(edge.RemainingLevels(remainingLevels));
-            if (!volume.Box.IsEmpty)
+            if (!box.IsEmpty)
             {
-                children.Add(new(
-                    edge.Map,
-                    volume.TransformedBox(edge.Map, edge.OperatorNormBound),
-                    edge.LevelStep,
-                    edge.Map == AffineMap.Identity ? -1 : edge.MapIndex));
+                children.Add(new(edge.Map, box, edge.LevelStep, edge.Map == AffineMap.Identity ? -1 : edge.MapIndex));
             }
         }
 
-        var baseBox = builder.VolumeAt(0).Box;
-        var box = builder.VolumeAt(remainingLevels).Box;
-        return new(box, ComputeProxyMap(baseBox, box), [.. children]);
+        return new(level.Box, ComputeProxyMap(baseBox, level.Box), [.. children]);
     }
 
     /// <summary>Computes the map under which the base mesh is the proxy of what a box holds.</summary>

@@ -28,13 +28,13 @@ public class FractalBoundsTests
     }
 
     [Fact]
-    public void LevelBounds_OfRoundsOfManyMaps_DoNotMultiplyThemOut() => Seeded.Run(1, random =>
+    public void LevelBoxes_OfRoundsOfManyMaps_DoNotMultiplyThemOut() => Seeded.Run(1, random =>
     {
         // Multiplied out they would be nine million products of 96 bytes.
         var set = new TransformationSet([.. Enumerable.Range(0, 3000).Select(_ => random.Transformation())]);
         var fractal = new Fractal(new([new Repetition([set, set], 3)]), Samples.Triangle);
         var before = GC.GetAllocatedBytesForCurrentThread();
-        Assert.True(LevelBounds.Compute(fractal).At(0).IsFinite());
+        Assert.True(LevelBoxes.ComputeBox(fractal).Size.IsFinite());
         Assert.InRange(GC.GetAllocatedBytesForCurrentThread() - before, 0, 10_000_000);
     });
 

@@ -12,9 +12,9 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// child on its way back. This search then begins again, limited by what was found. It ends when it has met the limit of work, and leaves
 /// open what it did not visit.
 /// </remarks>
-/// <param name="table">The sub-fractals.</param>
+/// <param name="hierarchy">The sub-fractals.</param>
 /// <param name="bvh">The hierarchy of the base mesh.</param>
-internal sealed class BestFirstSearch(FractalHierarchy table, TriangleBvh bvh)
+internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh bvh)
 {
     // Beyond so many nodes children are visited depth first, so that memory stays within about 30 MB.
     private const int MaxNodes = 100_000;
@@ -28,7 +28,7 @@ internal sealed class BestFirstSearch(FractalHierarchy table, TriangleBvh bvh)
         var simdPosition = SimdAffineMap.ToVector256(position);
         var expandedChildren = search.ExpandedChildren;
         expandedChildren.Clear();
-        Expand(new(table.Root, table.Levels, new(map), new(map.Inverse()), -1, 0, 0), simdPosition, expandedChildren, ref search);
+        Expand(new(hierarchy.Root, hierarchy.Levels, new(map), new(map.Inverse()), -1, 0, 0), simdPosition, expandedChildren, ref search);
         while (expandedChildren.TryTake(out var expandedChild))
         {
             var cutoffSquared = search.CutoffSquared / search.BoundFactor;
@@ -53,7 +53,7 @@ internal sealed class BestFirstSearch(FractalHierarchy table, TriangleBvh bvh)
         var child = parent.SubFractal.Children[expandedChild.ChildIndex];
         var remainingLevels = child.RemainingLevels(parent.RemainingLevels);
         SearchNode node = new(
-            table.At(child, remainingLevels),
+            hierarchy.At(child, remainingLevels),
             remainingLevels,
             SimdAffineMap.Compose(in parent.Map, in child.SimdMap),
             SimdAffineMap.Compose(in child.InverseSimdMap, in parent.Inverse),

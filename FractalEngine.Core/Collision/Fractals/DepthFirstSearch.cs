@@ -8,9 +8,9 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// the closest triangle so far.
 /// </summary>
 /// <typeparam name="TFrame">How bounds and positions are compared; a struct, so that the search is compiled for it.</typeparam>
-/// <param name="table">The sub-fractals.</param>
+/// <param name="hierarchy">The sub-fractals.</param>
 /// <param name="bvh">The hierarchy of the base mesh.</param>
-internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy table, TriangleBvh bvh)
+internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, TriangleBvh bvh)
     where TFrame : struct, ISearchFrame<TFrame>
 {
     private const double MinRefinedBound = 0.01;
@@ -20,7 +20,7 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy table, TriangleB
     /// <summary>Searches the whole fractal.</summary>
     /// <param name="frame">The frame of the whole fractal.</param>
     /// <param name="search">The state of the search.</param>
-    public void Run(TFrame frame, ref FractalSearchState search) => Visit(table.Root, table.Levels, ref frame, 0, 0, ref search);
+    public void Run(TFrame frame, ref FractalSearchState search) => Visit(hierarchy.Root, hierarchy.Levels, ref frame, 0, 0, ref search);
 
     /// <summary>Searches a sub-fractal and its children.</summary>
     /// <param name="subFractal">The sub-fractal.</param>
@@ -48,7 +48,7 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy table, TriangleB
         {
             var lanes = subFractal.Lanes!;
             var queue = new FloatChildQueue(search.ScratchSlice(offset, lanes.PaddedCount), frame.FloatError(lanes));
-            frame.FillQueue(table, lanes, remainingLevels, cutoffSquared, in queue);
+            frame.FillQueue(hierarchy, lanes, remainingLevels, cutoffSquared, in queue);
             search.BoundTests += subFractal.Children.Length;
             // One bit for each child whose bound is the best there is.
             var refined = lanes.IsComplete && !search.NeedsTightBounds ? ulong.MaxValue : 0;
@@ -83,7 +83,7 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy table, TriangleB
         {
             var child = children[closestChild];
             var childLevels = child.RemainingLevels(remainingLevels);
-            var childSubFractal = table.At(child, childLevels);
+            var childSubFractal = hierarchy.At(child, childLevels);
             var childFrame = frame.Enter(child);
             // While nothing excludes any child, a child around the position is visited as it is.
             if ((refined & (1UL << closestChild)) == 0
@@ -128,7 +128,7 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy table, TriangleB
 
             var child = subFractal.Children[i];
             var childFrame = frame.Enter(child);
-            var childSubFractal = table.At(child, child.RemainingLevels(remainingLevels));
+            var childSubFractal = hierarchy.At(child, child.RemainingLevels(remainingLevels));
             queue.Refine(i, frame.RefinedBoundSquared(subFractal, child, childSubFractal, ref childFrame, cutoffSquared, ref search));
         }
     }

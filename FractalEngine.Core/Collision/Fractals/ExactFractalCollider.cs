@@ -32,7 +32,7 @@ public sealed class ExactFractalCollider : Collider
     private static readonly AffineMap Identity = AffineMap.Identity;
 
     private readonly Fractal _fractal;
-    private readonly FractalHierarchy _table;
+    private readonly FractalHierarchy _hierarchy;
     private readonly TriangleBvh _baseBvh;
     private readonly double _precisionRadius;
     private readonly double _rootMagnitude;
@@ -57,20 +57,20 @@ public sealed class ExactFractalCollider : Collider
         }
 
         _fractal = fractal;
-        _table = fractal.Hierarchy;
+        _hierarchy = fractal.Hierarchy;
         _baseBvh = new(fractal.BaseMesh);
-        _precisionRadius = PrecisionRadius(_table.Root);
-        _rootMagnitude = BoundingVolume.MaxAbsCoordinate(_table.Root.Box);
-        _similaritySearch = new(_table, _baseBvh);
-        _affineSearch = new(_table, _baseBvh);
-        _bestFirstSearch = new(_table, _baseBvh);
+        _precisionRadius = PrecisionRadius(_hierarchy.Root);
+        _rootMagnitude = BoundingVolume.MaxAbsCoordinate(_hierarchy.Root.Box);
+        _similaritySearch = new(_hierarchy, _baseBvh);
+        _affineSearch = new(_hierarchy, _baseBvh);
+        _bestFirstSearch = new(_hierarchy, _baseBvh);
     }
 
     /// <inheritdoc/>
     public override bool IsExact => true;
 
     /// <inheritdoc/>
-    public override long StorageBytes => _table.StorageBytes + _baseBvh.StorageBytes;
+    public override long StorageBytes => _hierarchy.StorageBytes + _baseBvh.StorageBytes;
 
     /// <inheritdoc/>
     internal override bool SupportsTransformedQueries => true;
@@ -81,20 +81,21 @@ public sealed class ExactFractalCollider : Collider
         FindClosestInImage(in position, in map, isSimilarity: false, maxDistance, epsilon, context, out closest);
 
     /// <inheritdoc/>
-    internal override ShapeTree CreateShapeTree() => new(_fractal.BaseMesh, _baseBvh, this, _table, RelativePrecision * _precisionRadius);
+    internal override ShapeTree CreateShapeTree() =>
+        new(_fractal.BaseMesh, _baseBvh, this, _hierarchy, RelativePrecision * _precisionRadius);
 
     /// <inheritdoc/>
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest) =>
         IsFarther(in position, maxDistance, context, out closest) ? false
-        : FindClosestInImage(in position, in Identity, _table.HasOnlySimilarities, maxDistance, epsilon, context, out closest);
+        : FindClosestInImage(in position, in Identity, _hierarchy.HasOnlySimilarities, maxDistance, epsilon, context, out closest);
 
     /// <summary>Tells whether all of the fractal is beyond a radius, at the cost of one box.</summary>
     private bool IsFarther(in Vector position, double maxDistance, QueryContext context, out ClosestPoint closest)
     {
         Unsafe.SkipInit(out closest);
         var limit = maxDistance + (FractalSearchState.ChainError * (position.MaxAbsComponent() + _rootMagnitude));
-        if (!(_table.Root.BoxDistanceSquared(SimdAffineMap.ToVector256(position)) > DistanceCutoff.FromRadius(limit)))
+        if (!(_hierarchy.Root.BoxDistanceSquared(SimdAffineMap.ToVector256(position)) > DistanceCutoff.FromRadius(limit)))
         {
             return false;
         }
@@ -119,14 +120,14 @@ public sealed class ExactFractalCollider : Collider
     {
         context.ClearPath();
         Unsafe.SkipInit(out closest);
-        if (_fractal.BaseMesh.FaceCount == 0 || _table.Root.Box.IsEmpty)
+        if (_fractal.BaseMesh.FaceCount == 0 || _hierarchy.Root.Box.IsEmpty)
         {
             closest = default;
             return false;
         }
 
         var positionMagnitude = position.MaxAbsComponent();
-        var box = isSimilarity ? _table.Root.Box : _table.Root.Box.Transform(map);
+        var box = isSimilarity ? _hierarchy.Root.Box : _hierarchy.Root.Box.Transform(map);
         var magnitude = Math.Max(positionMagnitude, isSimilarity ? _rootMagnitude : BoundingVolume.MaxAbsCoordinate(box));
         if (magnitude is < MinMagnitude or > MaxMagnitude && double.IsFinite(magnitude) && magnitude > 0)
         {
@@ -185,7 +186,7 @@ public sealed class ExactFractalCollider : Collider
     {
         // Where most of the fractal is far smaller than all of it, a result is as precise as its own coordinates.
         var minRadius = RelativePrecision
-            * (_table.Root.Clusters is null ? _precisionRadius : Math.Max(_precisionRadius, position.MaxAbsComponent()));
+            * (_hierarchy.Root.Clusters is null ? _precisionRadius : Math.Max(_precisionRadius, position.MaxAbsComponent()));
         var minRadiusSquared = minRadius * minRadius;
         if (isSimilarity)
         {
@@ -230,9 +231,9 @@ public sealed class ExactFractalCollider : Collider
     {
         var map = new SimdAffineMap(rootMap);
         var maxTranslation = Vector256.Abs(map.Translation);
-        var remainingLevels = _table.Levels;
+        var remainingLevels = _hierarchy.Levels;
         var exponent = 0L;
-        var subFractal = _table.Root;
+        var subFractal = _hierarchy.Root;
         foreach (var childIndex in path)
         {
             var child = subFractal.Children[childIndex];
@@ -248,7 +249,7 @@ public sealed class ExactFractalCollider : Collider
             {
                 context.AppendToPath(mapIndices);
                 remainingLevels = child.RemainingLevels(remainingLevels);
-                subFractal = _table.At(remainingLevels);
+                subFractal = _hierarchy.At(remainingLevels);
                 continue;
             }
 
@@ -273,7 +274,7 @@ public sealed class ExactFractalCollider : Collider
                 // Levels that are skipped take their identity.
                 for (var level = remainingLevels; level > (isIdentity ? childLevels : childLevels + 1); level--)
                 {
-                    context.AppendToPath(_table.MapSetAt(level)!.IdentityIndex);
+                    context.AppendToPath(_hierarchy.MapSetAt(level)!.IdentityIndex);
                 }
 
                 if (!isIdentity)
@@ -284,7 +285,7 @@ public sealed class ExactFractalCollider : Collider
                 remainingLevels = childLevels;
             }
 
-            subFractal = _table.At(remainingLevels);
+            subFractal = _hierarchy.At(remainingLevels);
         }
 
         reach = SimdAffineMap.ToVector(maxTranslation).MaxAbsComponent();

@@ -12,33 +12,33 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// <param name="mesh">The base mesh.</param>
 /// <param name="bvh">The hierarchy of the base mesh; null where it is one leaf of all faces.</param>
 /// <param name="fractal">Names the instances of the fractal; null for a mesh.</param>
-/// <param name="table">The levels of the fractal; null for a mesh.</param>
+/// <param name="hierarchy">The levels of the fractal; null for a mesh.</param>
 /// <param name="minRadius">The radius, in the fractal's frame, at which a sub-fractal is replaced by the base mesh.</param>
 internal sealed class ShapeTree(
-    Mesh mesh, TriangleBvh? bvh, ExactFractalCollider? fractal = null, FractalHierarchy? table = null, double minRadius = 0)
+    Mesh mesh, TriangleBvh? bvh, ExactFractalCollider? fractal = null, FractalHierarchy? hierarchy = null, double minRadius = 0)
 {
     private readonly int[] _allFaces = bvh is null ? [.. Enumerable.Range(0, mesh.FaceCount)] : [];
 
     /// <summary>True when the shape has no faces.</summary>
-    public bool IsEmpty => mesh.FaceCount == 0 || (table is not null && table.Root.Box.IsEmpty);
+    public bool IsEmpty => mesh.FaceCount == 0 || (hierarchy is not null && hierarchy.Root.Box.IsEmpty);
 
     /// <summary>True for the levels of a fractal, whose coordinates are rounded along chains of maps.</summary>
-    public bool IsFractal => table is not null;
+    public bool IsFractal => hierarchy is not null;
 
     /// <summary>The mesh that every instance shows.</summary>
     public Mesh Mesh => mesh;
 
     /// <summary>A box around the shape in its own frame.</summary>
-    public BoundingBox Box => table?.Root.Box ?? mesh.Bounds;
+    public BoundingBox Box => hierarchy?.Root.Box ?? mesh.Bounds;
 
     /// <summary>The same shape with a hierarchy of its base mesh.</summary>
-    public ShapeTree WithHierarchy() => bvh is not null ? this : new(mesh, new(mesh), fractal, table, minRadius);
+    public ShapeTree WithHierarchy() => bvh is not null ? this : new(mesh, new(mesh), fractal, hierarchy, minRadius);
 
     /// <summary>The node of the whole shape, which must not be empty.</summary>
     /// <param name="map">From the shape's frame to that of the query.</param>
-    public ShapeNode Root(in AffineMap map) => table is null
+    public ShapeNode Root(in AffineMap map) => hierarchy is null
         ? CreateBase(null, in map, 0)
-        : Create(table.Root, table.Levels, in map, MinRadiusSquared(in map), 0, 0);
+        : Create(hierarchy.Root, hierarchy.Levels, in map, MinRadiusSquared(in map), 0, 0);
 
     /// <summary>Square of the radius in the frame of the query at which a sub-fractal is replaced by the base mesh; 0 for a mesh.</summary>
     /// <param name="map">From the shape's frame to that of the query.</param>
@@ -67,7 +67,7 @@ internal sealed class ShapeTree(
 
         var instance = node.SubFractal!.Children[index];
         var levels = instance.RemainingLevels(node.RemainingLevels);
-        var subFractal = table!.At(instance, levels);
+        var subFractal = hierarchy!.At(instance, levels);
         if (subFractal.Box.IsEmpty)
         {
             child = default;

@@ -30,7 +30,7 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
     /// <summary>Computes the bounds of a mesh.</summary>
     public static BoundingVolume FromMesh(Mesh mesh) => mesh.FaceCount == 0
         ? Empty
-        : FromVertices(mesh.Bounds, [.. mesh.VertexIndices.Distinct().Select(mesh.Vertex)], 0);
+        : FromVertices(mesh.Bounds, UsedVertices(mesh), 0);
 
     /// <summary>Computes the bounds of the union of several volumes.</summary>
     /// <param name="box">Contains all volumes.</param>
@@ -100,10 +100,32 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
     private static BoundingBox Intersection(BoundingBox box1, BoundingBox box2) =>
         new(Vector.Max(box1.Minimum, box2.Minimum), Vector.Min(box1.Maximum, box2.Maximum));
 
+    /// <summary>Lists the vertices of all faces, each once, by their first use.</summary>
+    private static Vector[] UsedVertices(Mesh mesh)
+    {
+        var isUsed = new bool[mesh.Positions.Length / 3];
+        var vertices = new List<Vector>(isUsed.Length);
+        foreach (var index in mesh.VertexIndices.AsSpan())
+        {
+            if (!isUsed[index])
+            {
+                isUsed[index] = true;
+                vertices.Add(mesh.Vertex(index));
+            }
+        }
+
+        return vertices.ToArray();
+    }
+
     /// <summary>The same volume with a box that is no larger than that of the hull.</summary>
     private BoundingVolume WithTightBox()
     {
-        var hullBox = Hull!.Vertices.Aggregate(BoundingBox.Empty, (box, vertex) => box.Including(vertex));
+        var hullBox = BoundingBox.Empty;
+        foreach (var vertex in Hull!.Vertices)
+        {
+            hullBox = hullBox.Including(vertex);
+        }
+
         return this with { Box = Intersection(Box, Inflate(hullBox, Margin)) };
     }
 }

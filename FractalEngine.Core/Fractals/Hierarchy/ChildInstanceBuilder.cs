@@ -20,7 +20,9 @@ internal sealed class ChildInstanceBuilder
     /// <summary>Maximum number of rounds of a repetition between a sub-fractal and its children.</summary>
     public const int MaxExpandedLevels = 16;
 
-    private readonly Dictionary<ChildEdge[], ChildInstance> _instances = new(new EdgeSequenceComparer());
+    private readonly Dictionary<ChildEdge[], ChildInstance> _instances = new(EdgeSequenceComparer.Instance);
+
+    private readonly HashSet<ChildEdge[]> _sharedEdges = new(EdgeSequenceComparer.Instance);
 
     /// <summary>
     /// Lists the edges of a level. First come its own maps; then, where its identity lets it be skipped, the maps that the next levels of
@@ -60,32 +62,48 @@ internal sealed class ChildInstanceBuilder
         }
     }
 
+    /// <summary>Returns the edges of an earlier level where they are equal: most levels share theirs.</summary>
+    public ChildEdge[] Share(ChildEdge[] edges)
+    {
+        if (_sharedEdges.TryGetValue(edges, out var shared))
+        {
+            return shared;
+        }
+
+        _sharedEdges.Add(edges);
+        return edges;
+    }
+
     /// <summary>Builds the children of a level: its edges, expanded by the edges of the levels they lead to while these are few.</summary>
     /// <param name="level">Remaining levels of the parent.</param>
     /// <param name="edges">The edges of the level.</param>
     /// <param name="edgesAt">Gives the edges of a lower level by its remaining levels; it is never called for the base, at 0.</param>
     public ChildInstance[] ExpandChildren(long level, ChildEdge[] edges, Func<long, ChildEdge[]> edgesAt)
     {
-        List<EdgeChain> chains = [.. edges.Select(edge => new EdgeChain([edge], edge.RemainingLevels(level)))];
+        var chains = new List<EdgeChain>(edges.Length);
+        foreach (var edge in edges)
+        {
+            chains.Add(new([edge], edge.RemainingLevels(level)));
+        }
+
         var best = chains;
         var bestHasSameLevel = HaveSameLevel(chains);
         for (var expandedLevels = 1; expandedLevels < MaxExpandedLevels; expandedLevels++)
         {
             // The highest level is expanded first, so that all chains come to end at the same level and few levels are ever visited.
-            var highestLevel = chains.Select(chain => chain.RemainingLevels).DefaultIfEmpty().Max();
+            var highestLevel = HighestLevel(chains);
             if (highestLevel == 0)
             {
                 break;
             }
 
             var nextEdges = edgesAt(highestLevel);
-            var nextCount = chains.Sum(chain => chain.RemainingLevels == highestLevel ? nextEdges.Length : 1);
-            if (nextCount > MaxChildrenForSameLevel || !chains.All(chain => chain.CanGrow()))
+            if (!CanExpand(chains, highestLevel, nextEdges.Length))
             {
                 break;
             }
 
-            chains = [.. chains.SelectMany(chain => chain.RemainingLevels < highestLevel ? [chain] : nextEdges.Select(chain.Append))];
+            chains = Expand(chains, highestLevel, nextEdges);
             var haveSameLevel = HaveSameLevel(chains);
             if (chains.Count <= MaxChildren ? haveSameLevel || !bestHasSameLevel : haveSameLevel && !bestHasSameLevel)
             {
@@ -94,12 +112,78 @@ internal sealed class ChildInstanceBuilder
             }
         }
 
-        return [.. best.Select(chain => GetOrCreate(chain.Edges))];
+        var children = new ChildInstance[best.Count];
+        for (var i = 0; i < children.Length; i++)
+        {
+            children[i] = GetOrCreate(best[i].Edges);
+        }
+
+        return children;
+    }
+
+    private static long HighestLevel(List<EdgeChain> chains)
+    {
+        var highest = 0L;
+        foreach (var chain in chains)
+        {
+            highest = Math.Max(highest, chain.RemainingLevels);
+        }
+
+        return highest;
+    }
+
+    private static List<EdgeChain> Expand(List<EdgeChain> chains, long level, ChildEdge[] nextEdges)
+    {
+        var expanded = new List<EdgeChain>(chains.Count + nextEdges.Length);
+        foreach (var chain in chains)
+        {
+            if (chain.RemainingLevels < level)
+            {
+                expanded.Add(chain);
+                continue;
+            }
+
+            foreach (var edge in nextEdges)
+            {
+                expanded.Add(chain.Append(edge));
+            }
+        }
+
+        return expanded;
+    }
+
+    /// <summary>Tells whether the chains to a level may be followed by the edges of that level.</summary>
+    private static bool CanExpand(List<EdgeChain> chains, long level, int edgeCount)
+    {
+        var count = 0L;
+        foreach (var chain in chains)
+        {
+            count += chain.RemainingLevels == level ? edgeCount : 1;
+            if (count > MaxChildrenForSameLevel || !chain.CanGrow())
+            {
+                return false;
+            }
+        }
+
+        return true;
     }
 
     /// <summary>True when all chains that don't lead to the base end at the same level.</summary>
-    private static bool HaveSameLevel(List<EdgeChain> chains) =>
-        chains.Where(chain => chain.RemainingLevels > 0).Select(chain => chain.RemainingLevels).Distinct().Count() <= 1;
+    private static bool HaveSameLevel(List<EdgeChain> chains)
+    {
+        var commonLevel = 0L;
+        foreach (var chain in chains)
+        {
+            if (chain.RemainingLevels > 0 && commonLevel > 0 && chain.RemainingLevels != commonLevel)
+            {
+                return false;
+            }
+
+            commonLevel = Math.Max(commonLevel, chain.RemainingLevels);
+        }
+
+        return true;
+    }
 
     private static void AddEdges(List<ChildEdge> edges, HashSet<AffineMap> offeredMaps, MapSet set, long levelsDown)
     {
@@ -149,8 +233,19 @@ internal sealed class ChildInstanceBuilder
 
     private sealed class EdgeSequenceComparer : IEqualityComparer<ChildEdge[]>
     {
+        public static EdgeSequenceComparer Instance { get; } = new();
+
         public bool Equals(ChildEdge[]? edges1, ChildEdge[]? edges2) => edges1.AsSpan().SequenceEqual(edges2);
 
-        public int GetHashCode(ChildEdge[] edges) => edges.Aggregate(0, HashCode.Combine);
+        public int GetHashCode(ChildEdge[] edges)
+        {
+            var hash = 0;
+            foreach (ref readonly var edge in edges.AsSpan())
+            {
+                hash = HashCode.Combine(hash, edge.MapIndex, edge.LevelStep.GetHashCode());
+            }
+
+            return hash;
+        }
     }
 }

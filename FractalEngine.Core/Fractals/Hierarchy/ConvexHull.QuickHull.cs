@@ -38,24 +38,41 @@ internal sealed partial class ConvexHull
                 AssignToFacet(point, 0);
             }
 
-            while (_vertices.Count < maxVertices && _facets.MaxBy(facet => facet.FarthestHeight) is { FirstPoint: >= 0 } highest)
+            while (_vertices.Count < maxVertices && FindHighest() is { FirstPoint: >= 0 } highest)
             {
                 AddVertex(highest.FarthestPoint);
             }
 
-            foreach (var facet in _facets)
+            var facets = new HullFacet[_facets.Count];
+            for (var i = 0; i < facets.Length; i++)
             {
+                var facet = _facets[i];
+                facets[i] = new(points[facet.A], points[facet.B], points[facet.C]);
                 for (var point = facet.FirstPoint; point >= 0; point = _nextPoint[point])
                 {
                     TrackOutsidePoint(point, facet);
                 }
             }
 
-            return new ConvexHull(
-                [.. _vertices.Select(vertex => points[vertex])],
-                [.. MergePlanes()],
-                _maxOutsideDistance,
-                [.. _facets.Select(facet => (points[facet.A], points[facet.B], points[facet.C]))]).WithConservativeOffsets();
+            var vertices = new Vector[_vertices.Count];
+            for (var i = 0; i < vertices.Length; i++)
+            {
+                vertices[i] = points[_vertices[i]];
+            }
+
+            return new ConvexHull(vertices, MergePlanes(), _maxOutsideDistance, facets).WithConservativeOffsets();
+        }
+
+        /// <summary>The first facet that has a point farthest above it.</summary>
+        private Facet FindHighest()
+        {
+            var highest = _facets[0];
+            foreach (var facet in _facets)
+            {
+                highest = facet.FarthestHeight > highest.FarthestHeight ? facet : highest;
+            }
+
+            return highest;
         }
 
         [MethodImpl(MethodImplOptions.AggressiveOptimization)]
@@ -63,25 +80,41 @@ internal sealed partial class ConvexHull
         {
             var apex = points[apexIndex];
             var visible = new List<Facet>();
-            var visibleEdges = new HashSet<(int, int)>();
-            foreach (var facet in _facets)
+            var keptCount = 0;
+            for (var i = 0; i < _facets.Count; i++)
             {
+                var facet = _facets[i];
                 if (Vector.Dot(facet.Normal, apex) - facet.Offset > tolerance)
                 {
                     visible.Add(facet);
-                    visibleEdges.UnionWith([(facet.A, facet.B), (facet.B, facet.C), (facet.C, facet.A)]);
+                }
+                else
+                {
+                    _facets[keptCount++] = facet;
                 }
             }
 
-            _facets.RemoveAll(visible.Contains);
+            _facets.RemoveRange(keptCount, _facets.Count - keptCount);
             var firstNew = _facets.Count;
-            foreach (var (start, end) in visibleEdges)
+            foreach (var facet in visible)
             {
                 // An edge of the horizon belongs to one visible facet.
-                if (!visibleEdges.Contains((end, start)))
+                AddFacetAtHorizon(facet.A, facet.B);
+                AddFacetAtHorizon(facet.B, facet.C);
+                AddFacetAtHorizon(facet.C, facet.A);
+            }
+
+            void AddFacetAtHorizon(int start, int end)
+            {
+                foreach (var facet in visible)
                 {
-                    _facets.Add(CreateFacet(start, end, apexIndex));
+                    if (facet.HasEdge(end, start))
+                    {
+                        return;
+                    }
                 }
+
+                _facets.Add(CreateFacet(start, end, apexIndex));
             }
 
             _vertices.Add(apexIndex);
@@ -144,7 +177,7 @@ internal sealed partial class ConvexHull
 
         /// <summary>Joins facets of the same plane, and orders the planes by descending area.</summary>
         [MethodImpl(MethodImplOptions.AggressiveOptimization)]
-        private IEnumerable<HullPlane> MergePlanes()
+        private HullPlane[] MergePlanes()
         {
             var planes = new List<HullPlane>();
             foreach (var facet in _facets)
@@ -169,7 +202,21 @@ internal sealed partial class ConvexHull
                 }
             }
 
-            return planes.OrderByDescending(plane => plane.Area);
+            // Few planes: insertion keeps the order of equal areas.
+            var ordered = planes.ToArray();
+            for (var i = 1; i < ordered.Length; i++)
+            {
+                var plane = ordered[i];
+                var place = i;
+                for (; place > 0 && ordered[place - 1].Area < plane.Area; place--)
+                {
+                    ordered[place] = ordered[place - 1];
+                }
+
+                ordered[place] = plane;
+            }
+
+            return ordered;
         }
     }
 
@@ -185,6 +232,10 @@ internal sealed partial class ConvexHull
         public Vector Normal { get; } = normal;
 
         public double Offset { get; } = offset;
+
+        /// <summary>Tells whether the facet has a directed edge.</summary>
+        public bool HasEdge(int start, int end) =>
+            (A == start && B == end) || (B == start && C == end) || (C == start && A == end);
 
         /// <summary>Index of the first point above the facet; −1 for none.</summary>
         public int FirstPoint { get; set; } = -1;

@@ -1,4 +1,3 @@
-using System.Collections.Immutable;
 using System.Runtime.CompilerServices;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
@@ -25,13 +24,13 @@ internal sealed partial class ConvexHull
     // Shorter transformed normals have lost their direction to rounding.
     private const double MinNormalLength = 1e-30;
 
-    private readonly ImmutableArray<(Vector A, Vector B, Vector C)> _facets;
+    private readonly HullFacet[] _facets;
 
     private ConvexHull(
-        ImmutableArray<Vector> vertices,
-        ImmutableArray<HullPlane> planes,
+        Vector[] vertices,
+        HullPlane[] planes,
         double maxOutsideDistance,
-        ImmutableArray<(Vector A, Vector B, Vector C)> facets)
+        HullFacet[] facets)
     {
         Vertices = vertices;
         Planes = planes;
@@ -40,10 +39,10 @@ internal sealed partial class ConvexHull
     }
 
     /// <summary>The vertices, which are some of the points.</summary>
-    public ImmutableArray<Vector> Vertices { get; }
+    public Vector[] Vertices { get; }
 
     /// <summary>The planes of the facets by descending area; the hull lies below each. None for a segment or a point.</summary>
-    public ImmutableArray<HullPlane> Planes { get; }
+    public HullPlane[] Planes { get; }
 
     /// <summary>Upper bound of the distance of the points from the hull of <see cref="Vertices"/>.</summary>
     public double MaxOutsideDistance { get; }
@@ -63,14 +62,14 @@ internal sealed partial class ConvexHull
         var (i0, i1) = FindFarthestPair(points);
         if (points[i0] == points[i1])
         {
-            return new([points[i0]], [], 0, [(points[i0], points[i0], points[i0])]);
+            return new([points[i0]], [], 0, [new(points[i0], points[i0], points[i0])]);
         }
 
         var direction = (points[i1] - points[i0]).UnitVector();
         var i2 = FindFarthest(points, points[i0], (point, origin) => Vector.Cross(direction, point - origin).Length(), out var width);
         if (!(width > CoplanarTolerance * size))
         {
-            return new([points[i0], points[i1]], [], width, [(points[i0], points[i1], points[i1])]);
+            return new([points[i0], points[i1]], [], width, [new(points[i0], points[i1], points[i1])]);
         }
 
         var normal = TriangleKernel.UnitNormal(points[i0], points[i1], points[i2]);
@@ -90,29 +89,45 @@ internal sealed partial class ConvexHull
         var linear = (1 / map.Linear.MaxAbsEntry()) * map.Linear;
         var normalMatrix = linear.Cofactors();
         var orientation = linear.Determinant() < 0 ? -1 : 1;
-        Vector[] normals = [.. Planes.Select(plane => orientation * (normalMatrix * plane.Normal))];
-        ImmutableArray<Vector> vertices = [.. Vertices.Select(vertex => map * vertex)];
-        if (!normals.All(normal => normal.MaxAbsComponent() is > MinNormalLength and < double.PositiveInfinity))
+        var vertices = new Vector[Vertices.Length];
+        for (var i = 0; i < vertices.Length; i++)
         {
-            // The map flattens the hull, or shrinks it to a segment or a point.
-            return Build(vertices.AsSpan(), Math.Max(4, vertices.Length));
+            vertices[i] = map * Vertices[i];
         }
 
-        var planes = Planes.Zip(normals, (plane, normal) => plane with
+        var planes = new HullPlane[Planes.Length];
+        for (var i = 0; i < planes.Length; i++)
         {
-            Normal = normal.UnitVector(),
-            Offset = double.NegativeInfinity,
-        });
-        return new ConvexHull(
-            vertices,
-            [.. planes],
-            0,
-            [.. _facets.Select(facet => (map * facet.A, map * facet.B, map * facet.C))]).WithConservativeOffsets();
+            var normal = orientation * (normalMatrix * Planes[i].Normal);
+            if (!(normal.MaxAbsComponent() is > MinNormalLength and < double.PositiveInfinity))
+            {
+                // The map flattens the hull, or shrinks it to a segment or a point.
+                return Build(vertices, Math.Max(4, vertices.Length));
+            }
+
+            planes[i] = new(normal.UnitVector(), double.NegativeInfinity, Planes[i].Area);
+        }
+
+        var facets = new HullFacet[_facets.Length];
+        for (var i = 0; i < facets.Length; i++)
+        {
+            facets[i] = new(map * _facets[i].A, map * _facets[i].B, map * _facets[i].C);
+        }
+
+        return new ConvexHull(vertices, planes, 0, facets).WithConservativeOffsets();
     }
 
     /// <summary>Computes the volume in cubic scene units; 0 where the hull is flat.</summary>
-    public double Volume() =>
-        Math.Abs(_facets.Sum(facet => Vector.Dot(facet.A - Vertices[0], Vector.Cross(facet.B - Vertices[0], facet.C - Vertices[0])))) / 6;
+    public double Volume()
+    {
+        var sum = 0.0;
+        foreach (var (a, b, c) in _facets)
+        {
+            sum += Vector.Dot(a - Vertices[0], Vector.Cross(b - Vertices[0], c - Vertices[0]));
+        }
+
+        return Math.Abs(sum) / 6;
+    }
 
     /// <summary>Computes the support of the hull: the largest product of a direction with a vertex.</summary>
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
@@ -128,9 +143,11 @@ internal sealed partial class ConvexHull
     }
 
     /// <summary>Computes an upper bound of a point's distance from the solid hull; 0 inside.</summary>
-    public double DistanceUpperBound(Vector point)
+    /// <param name="point">The point.</param>
+    /// <param name="enough">The method may return early any bound that is no larger than this.</param>
+    public double DistanceUpperBound(Vector point, double enough = 0)
     {
-        if (Planes.Length > 0 && Planes.All(plane => Vector.Dot(plane.Normal, point) <= plane.Offset))
+        if (Planes.Length > 0 && IsBelowAllPlanes(point))
         {
             return 0;
         }
@@ -139,9 +156,26 @@ internal sealed partial class ConvexHull
         foreach (var (a, b, c) in _facets)
         {
             distanceSquared = Math.Min(distanceSquared, TriangleKernel.ClosestPoint(point, a, b, c).DistanceSquared);
+            if (Math.Sqrt(distanceSquared) <= enough)
+            {
+                break;
+            }
         }
 
         return Math.Sqrt(distanceSquared);
+    }
+
+    private bool IsBelowAllPlanes(Vector point)
+    {
+        foreach (ref readonly var plane in Planes.AsSpan())
+        {
+            if (!(Vector.Dot(plane.Normal, point) <= plane.Offset))
+            {
+                return false;
+            }
+        }
+
+        return true;
     }
 
     /// <summary>Finds the farthest two of the points with the smallest and largest coordinates.</summary>
@@ -228,9 +262,13 @@ internal sealed partial class ConvexHull
             }
         }
 
-        var facets = Enumerable.Range(1, Math.Max(1, vertices.Count - 2))
-            .Select(i => (vertices[0], vertices[i % vertices.Count], vertices[(i + 1) % vertices.Count]));
-        return new ConvexHull([.. vertices], [.. planes], maxOutsideDistance, [.. facets]).WithConservativeOffsets();
+        var facets = new HullFacet[Math.Max(1, vertices.Count - 2)];
+        for (var i = 0; i < facets.Length; i++)
+        {
+            facets[i] = new(vertices[0], vertices[(i + 1) % vertices.Count], vertices[(i + 2) % vertices.Count]);
+        }
+
+        return new ConvexHull(vertices.ToArray(), planes.ToArray(), maxOutsideDistance, facets).WithConservativeOffsets();
     }
 
     private static List<Vector> FindFlatHullVertices(ReadOnlySpan<Vector> points, Vector along, Vector across, int maxVertices)
@@ -261,10 +299,18 @@ internal sealed partial class ConvexHull
         return vertices;
     }
 
-    /// <summary>The same hull with planes raised so that rounding puts no vertex above them.</summary>
-    private ConvexHull WithConservativeOffsets() => new(
-        Vertices,
-        [.. Planes.Select(plane => plane with { Offset = Math.Max(plane.Offset, Support(plane.Normal)) })],
-        MaxOutsideDistance,
-        _facets);
+    /// <summary>Raises the planes of a new hull so that rounding puts no vertex above them.</summary>
+    private ConvexHull WithConservativeOffsets()
+    {
+        for (var i = 0; i < Planes.Length; i++)
+        {
+            var (normal, offset, area) = Planes[i];
+            Planes[i] = new(normal, Math.Max(offset, Support(normal)), area);
+        }
+
+        return this;
+    }
+
+    /// <summary>A triangle of the hull.</summary>
+    private readonly record struct HullFacet(Vector A, Vector B, Vector C);
 }

@@ -4,7 +4,7 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 
 /// <summary>
 /// The sub-fractals of a fractal, one for each number of remaining levels. Deep repetitions share those of one round once their bounds have
-/// converged, so the table takes kilobytes at any depth.
+/// converged, so the hierarchy takes kilobytes at any depth.
 /// </summary>
 internal sealed class FractalHierarchy
 {
@@ -12,25 +12,26 @@ internal sealed class FractalHierarchy
     private const int MaxLowestLevel = 63;
 
     private readonly SubFractal?[] _subFractals;
-    private readonly MapSet?[] _mapSets;
+    private readonly HierarchyLevel[] _levels;
     private readonly LevelRegion[] _regions;
     private readonly SubFractal?[] _lowest;
 
     private FractalHierarchy(FractalHierarchyBuilder builder)
     {
-        _regions = [.. builder.Regions];
-        Levels = builder.Levels;
-        var isReachable = FindReachable(builder.SubFractals);
-        // Levels that every path skips are never visited.
-        _subFractals = [.. builder.SubFractals.Select((subFractal, i) => isReachable[i] ? subFractal : null)];
+        var built = builder.Built;
+        _regions = [.. built.Regions];
+        _levels = [.. built.Levels];
+        Levels = built.Top;
+        var isReachable = ReachableLevels.Find(built.SubFractals, _regions, Levels);
+        _subFractals = [.. built.SubFractals.Select((subFractal, i) => isReachable[i] ? subFractal : null)];
         _lowest = new SubFractal?[Math.Min(Levels, MaxLowestLevel) + 1];
         for (var level = 0; level < _lowest.Length; level++)
         {
             _lowest[level] = _subFractals[LevelRegion.FindIndex(_regions, level)];
         }
 
-        _mapSets = [.. builder.SubFractals.Select(subFractal => subFractal.Set)];
         HasOnlySimilarities = builder.HasOnlySimilarities;
+        HasDoubledPowers = builder.HasDoubledPowers;
         Root = At(Levels);
         RadiusSquared = 0.25 * Root.Box.Size.LengthSquared();
     }
@@ -47,16 +48,29 @@ internal sealed class FractalHierarchy
     /// <summary>True when all maps are similarities, so that they multiply distances by their scale.</summary>
     public bool HasOnlySimilarities { get; }
 
-    /// <summary>Number of bytes of everything in the table.</summary>
+    /// <summary>True when levels stand for doubled powers of one map, see <see cref="MapPowers"/>.</summary>
+    public bool HasDoubledPowers { get; }
+
+    /// <summary>The runs of levels, the lowest first.</summary>
+    public ReadOnlySpan<LevelRegion> Regions => _regions;
+
+    /// <summary>All levels in the order of <see cref="Regions"/>, also those that searches skip.</summary>
+    public ReadOnlySpan<HierarchyLevel> AllLevels => _levels;
+
+    /// <summary>Number of bytes of everything in the hierarchy.</summary>
     public long StorageBytes => _subFractals.Sum(subFractal => subFractal?.StorageBytes ?? 0)
         + _subFractals.SelectMany(subFractal => subFractal?.AllChildren() ?? []).Distinct().Sum(child => child.StorageBytes)
-        + _mapSets.Distinct().Sum(set => set?.StorageBytes ?? 0) + (16 * (long)_subFractals.Length) + (8 * _lowest.Length);
+        + _levels.Sum(level => level.StorageBytes) + _levels.Select(level => level.Edges).Distinct().Sum(edges => 24L * edges.Length)
+        + _levels.Select(level => level.Set).Distinct().Sum(set => set?.StorageBytes ?? 0) + (16 * (long)_subFractals.Length)
+        + (8 * _lowest.Length);
 
-    /// <summary>Builds the table of a fractal in affine composition.</summary>
+    /// <summary>Builds the hierarchy of a fractal in affine composition.</summary>
+    /// <param name="fractal">The fractal.</param>
+    /// <param name="doublesPowers">False for one level for each set of the fractal, see <see cref="MapPowers"/>.</param>
     /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
-    public static FractalHierarchy Build(Fractal fractal)
+    public static FractalHierarchy Build(Fractal fractal, bool doublesPowers = true)
     {
-        var builder = new FractalHierarchyBuilder(fractal, doublesPowers: true);
+        var builder = new FractalHierarchyBuilder(fractal, doublesPowers);
         builder.AddAllSteps();
         return new(builder);
     }
@@ -74,34 +88,5 @@ internal sealed class FractalHierarchy
     public SubFractal At(ChildInstance child, long remainingLevels) => child.Group ?? At(remainingLevels);
 
     /// <summary>The set on top of the sub-fractal with a number of remaining levels, visited or not; null for the base.</summary>
-    public MapSet? MapSetAt(long remainingLevels) => _mapSets[LevelRegion.FindIndex(_regions, remainingLevels)];
-
-    /// <summary>Determines which sub-fractals a search can visit; all, where finding that out would take long.</summary>
-    private bool[] FindReachable(IReadOnlyList<SubFractal> subFractals)
-    {
-        const int maxChainLength = 256;
-        var isReachable = new bool[subFractals.Count];
-        var seen = new HashSet<long>();
-        var next = new HashSet<long> { Levels };
-        for (var chainLength = 0; next.Count > 0; chainLength++)
-        {
-            if (chainLength == maxChainLength)
-            {
-                Array.Fill(isReachable, true);
-                break;
-            }
-
-            var current = next.Where(seen.Add).ToArray();
-            next.Clear();
-            foreach (var level in current)
-            {
-                var index = LevelRegion.FindIndex(_regions, level);
-                isReachable[index] = true;
-                next.UnionWith(subFractals[index].AllChildren().Where(child => child.Group is null)
-                    .Select(child => child.RemainingLevels(level)));
-            }
-        }
-
-        return isReachable;
-    }
+    public MapSet? MapSetAt(long remainingLevels) => _levels[LevelRegion.FindIndex(_regions, remainingLevels)].Set;
 }

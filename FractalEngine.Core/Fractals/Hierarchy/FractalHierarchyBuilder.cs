@@ -1,4 +1,3 @@
-using System.Runtime.InteropServices;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -15,24 +14,15 @@ internal sealed class FractalHierarchyBuilder
     // More mean that the bounds grow or shrink too slowly to converge.
     private const int MaxSubFractals = 4000;
 
-    // A hull that fills its box bounds no better than the box.
-    private const double MaxHullFillRatio = 0.95;
-
     // Stands for infinitely many rounds: no search descends so many levels.
     private const long EndlessRounds = 1L << 40;
 
-    // A map whose translation or scale is so many times the median of its set throws instances far away from the others.
-    private const double OutlierFactor = 30;
-
     private readonly Fractal _fractal;
-    private readonly bool _hasOutliers;
     private readonly bool _doublesPowers;
+    private readonly OutlierClusters _clusters;
+    private readonly SubFractalFactory _subFractalFactory;
     private readonly Dictionary<TransformationSet, MapSet> _sets = new(ReferenceEqualityComparer.Instance);
-    private readonly List<SubFractal> _subFractals = [];
-    private readonly List<BoundingVolume> _volumes = [];
-    private readonly List<ChildEdge[]> _edges = [];
     private readonly ChildInstanceBuilder _childBuilder = new();
-    private readonly List<LevelRegion> _regions = [];
 
     /// <summary>Begins with the base mesh, which has no remaining levels.</summary>
     /// <param name="fractal">Fractal in affine composition.</param>
@@ -44,23 +34,20 @@ internal sealed class FractalHierarchyBuilder
         _fractal = fractal;
         _doublesPowers = doublesPowers;
         HasOnlySimilarities = fractal.Description.Steps.All(HasOnlySimilarMaps);
-        _hasOutliers = fractal.Description.Steps.Any(step => HasOutliers(step, fractal.BaseMesh.Bounds.Diagonal));
-        var volume = BoundingVolume.FromMesh(fractal.BaseMesh);
-        var baseSubFractal = new SubFractal(null, [], [], volume.Box, volume.Box, CreateHullBound(volume), null, CreateSolid(volume), null);
-        AppendLevels(1, new BuiltLevel(baseSubFractal, volume, []));
+        _clusters = new(fractal);
+        _subFractalFactory = new(fractal.BaseMesh, HasOnlySimilarities);
+        var volume = _subFractalFactory.BaseVolume;
+        Built.Add(_subFractalFactory.CreateBase(), volume, new(null, volume.Box, [], []));
     }
 
-    /// <summary>The sub-fractals that were built, in the order of <see cref="Regions"/>.</summary>
-    public IReadOnlyList<SubFractal> SubFractals => _subFractals;
-
-    /// <summary>The runs of levels that were built, the lowest first.</summary>
-    public IReadOnlyList<LevelRegion> Regions => _regions;
+    /// <summary>The levels that were built.</summary>
+    public BuiltLevels Built { get; } = new();
 
     /// <summary>True when all maps are similarities.</summary>
     public bool HasOnlySimilarities { get; }
 
-    /// <summary>Number of levels that were built.</summary>
-    public long Levels { get; private set; } = -1;
+    /// <summary>True when levels stand for doubled powers of one map.</summary>
+    public bool HasDoubledPowers { get; private set; }
 
     /// <summary>Adds the levels of all steps, the innermost first.</summary>
     /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
@@ -72,66 +59,24 @@ internal sealed class FractalHierarchyBuilder
         }
     }
 
-    /// <summary>The bounds of the sub-fractal with a number of remaining levels.</summary>
-    public BoundingVolume VolumeAt(long remainingLevels) => _volumes[FindIndex(remainingLevels)];
-
-    /// <summary>
-    /// The edges of the sub-fractal with a number of remaining levels, see <see cref="ChildInstanceBuilder.EdgesAt"/>.
-    /// </summary>
-    public ChildEdge[] EdgesAt(long remainingLevels) => _edges[FindIndex(remainingLevels)];
-
     private static bool HasOnlySimilarMaps(FractalStep step) => step switch
     {
         Repetition repetition => repetition.Body.All(HasOnlySimilarMaps),
-        TransformationSet set => set.Maps.All(map => Similarity.IsSimilarity(map.Linear)),
+        TransformationSet set => HasOnlySimilarMaps(set.Maps.AsSpan()),
         _ => throw new ArgumentException($"{step.GetType().Name} is no step of a fractal", nameof(step)),
     };
 
-    private static bool HasOutliers(FractalStep step, double baseDiagonal)
+    private static bool HasOnlySimilarMaps(ReadOnlySpan<AffineMap> maps)
     {
-        if (step is Repetition repetition)
+        foreach (ref readonly var map in maps)
         {
-            return repetition.Body.Any(inner => HasOutliers(inner, baseDiagonal));
+            if (!Similarity.IsSimilarity(map.Linear))
+            {
+                return false;
+            }
         }
 
-        var maps = ((TransformationSet)step).Maps;
-        if (maps.Length < 2)
-        {
-            return false;
-        }
-
-        double[] reaches = [.. maps.Select(map => MapReach(map, baseDiagonal)).Order()];
-        return reaches[^1] > OutlierFactor * reaches[(maps.Length - 1) / 2];
-    }
-
-    private static double MapReach(AffineMap map, double baseDiagonal) =>
-        map.Translation.MaxAbsComponent() + (map.Linear.MaxAbsEntry() * baseDiagonal);
-
-    private int FindIndex(long remainingLevels) => LevelRegion.FindIndex(CollectionsMarshal.AsSpan(_regions), remainingLevels);
-
-    private MapSet MapSetAt(long remainingLevels) => _subFractals[FindIndex(remainingLevels)].Set!;
-
-    /// <summary>Appends a run of levels that recur with the period of those given.</summary>
-    private void AppendLevels(long count, params ReadOnlySpan<BuiltLevel> builtLevels)
-    {
-        // Levels that don't recur join the run before, so that most fractals have one or two runs.
-        if (count == builtLevels.Length && _regions is [.., var last] && last.LevelCount == last.Period)
-        {
-            _regions[^1] = last with { LevelCount = last.LevelCount + count, Period = last.Period + builtLevels.Length };
-        }
-        else
-        {
-            _regions.Add(new(Levels + 1, count, _subFractals.Count, builtLevels.Length));
-        }
-
-        foreach (var (subFractal, volume, edges) in builtLevels)
-        {
-            _subFractals.Add(subFractal);
-            _volumes.Add(volume);
-            _edges.Add(edges);
-        }
-
-        Levels += count;
+        return true;
     }
 
     private void AddStep(FractalStep step)
@@ -139,12 +84,13 @@ internal sealed class FractalHierarchyBuilder
         var repetition = step as Repetition ?? new([step], 1);
         if (_doublesPowers && MapPowers.TryCreate(repetition) is { } powers)
         {
-            powers.AddLevels(Levels, AddLevel);
+            HasDoubledPowers = true;
+            powers.AddLevels(Built.Top, AddLevel);
             return;
         }
 
         var hasOnlySets = repetition.Body.All(inner => inner is TransformationSet);
-        var levelsBelowRepetition = Levels;
+        var levelsBelowRepetition = Built.Top;
         var period = hasOnlySets ? repetition.Body.Length : int.MaxValue;
         // Two rounds are built in any case: children may skip a round of levels, and must meet the same sets there.
         var nextAttempt = 2;
@@ -170,11 +116,11 @@ internal sealed class FractalHierarchyBuilder
                 else
                 {
                     AddStep(inner);
-                    levelsBelowRepetition = Levels;
+                    levelsBelowRepetition = Built.Top;
                 }
             }
 
-            levelsBelowRepetition = hasOnlySets ? levelsBelowRepetition : Levels;
+            levelsBelowRepetition = hasOnlySets ? levelsBelowRepetition : Built.Top;
         }
     }
 
@@ -184,11 +130,11 @@ internal sealed class FractalHierarchyBuilder
     /// <param name="set">The set of the level.</param>
     private void AddLevel(long levelsBelowRepetition, int period, TransformationSet set)
     {
-        if (_subFractals.Count > MaxSubFractals)
+        if (Built.Levels.Count > MaxSubFractals)
         {
             throw new FractalLimitException(
                 "exact search needs transformations that shrink, or less depth: "
-                + $"{Levels} levels above the base the fractal's bounds still change");
+                + $"{Built.Top} levels above the base the fractal's bounds still change");
         }
 
         if (!_sets.TryGetValue(set, out var mapSet))
@@ -197,30 +143,34 @@ internal sealed class FractalHierarchyBuilder
             _sets[set] = mapSet;
         }
 
-        AddLevel(ChildInstanceBuilder.EdgesAt(Levels + 1, levelsBelowRepetition, period, mapSet, MapSetAt), mapSet);
+        var edges = ChildInstanceBuilder.EdgesAt(Built.Top + 1, levelsBelowRepetition, period, mapSet, Built.MapSetAt);
+        AddLevel(_childBuilder.Share(edges), mapSet);
     }
 
     /// <summary>Adds one level with given edges to the chain.</summary>
     private void AddLevel(ChildEdge[] edges, MapSet mapSet)
     {
-        var level = Levels + 1;
-        var collapsedEdges = edges.Select(edge => CollapsedEdge.Collapse(edge, level, EdgesAt))
-            .Where(edge => !VolumeAt(edge.RemainingLevels).Box.IsEmpty).ToArray();
-        if (!collapsedEdges.All(HasFiniteBox))
+        var level = Built.Top + 1;
+        var collapsedEdges = new List<CollapsedEdge>(edges.Length);
+        foreach (var edge in edges)
         {
-            throw new FractalLimitException($"the bounds of the fractal are beyond the range of a double {level} levels above its base");
+            var collapsed = CollapsedEdge.Collapse(edge, level, Built.EdgesAt);
+            if (!Built.VolumeAt(collapsed.RemainingLevels).Box.IsEmpty)
+            {
+                collapsedEdges.Add(collapsed);
+            }
         }
 
-        var volume = ComputeUnion(collapsedEdges);
-        var children = _childBuilder.ExpandChildren(level, edges, EdgesAt);
-        var childVolumes = children.Select(child => VolumeAt(child.RemainingLevels(level)));
-        AppendLevels(1, new BuiltLevel(CreateSubFractal(mapSet, children, childVolumes, volume), volume, edges));
-    }
+        var volume = ComputeUnion(collapsedEdges.ToArray(), level);
+        var children = _childBuilder.ExpandChildren(level, edges, Built.EdgesAt);
+        var childVolumes = new BoundingVolume[children.Length];
+        for (var i = 0; i < children.Length; i++)
+        {
+            childVolumes[i] = Built.VolumeAt(children[i].RemainingLevels(level));
+        }
 
-    private bool HasFiniteBox(CollapsedEdge edge)
-    {
-        var box = VolumeAt(edge.RemainingLevels).TransformedBox(edge.Map, edge.OperatorNormBound);
-        return box.Minimum.IsFinite() && box.Size.IsFinite();
+        var subFractal = _subFractalFactory.Create(mapSet, children, childVolumes, volume);
+        Built.Add(subFractal, volume, new(mapSet, volume.Box, edges, ComputeEdgeBoxes(edges, level, Built.VolumeAt)));
     }
 
     /// <summary>Replaces all remaining rounds by one that is inflated a little, if it can be proved to contain them.</summary>
@@ -230,7 +180,7 @@ internal sealed class FractalHierarchyBuilder
     /// <param name="toleranceFactor">See <see cref="PeriodicBound"/>.</param>
     private bool TryRepeatRound(long levelsBelowRepetition, int period, long levelCount, double toleranceFactor)
     {
-        var periodicBound = new PeriodicBound(Levels, period, VolumeAt, EdgesAt, toleranceFactor);
+        var periodicBound = new PeriodicBound(Built.Top, period, Built.VolumeAt, Built.EdgesAt, toleranceFactor);
         if (!periodicBound.HasConverged())
         {
             return false;
@@ -243,13 +193,13 @@ internal sealed class FractalHierarchyBuilder
                 level,
                 levelsBelowRepetition,
                 period,
-                MapSetAt(periodicBound.EquivalentLevel(level)),
-                lower => MapSetAt(periodicBound.EquivalentLevel(lower)));
-            return _childBuilder.ExpandChildren(level, edges, lower => EdgesAt(periodicBound.EquivalentLevel(lower)));
+                Built.MapSetAt(periodicBound.EquivalentLevel(level)),
+                lower => Built.MapSetAt(periodicBound.EquivalentLevel(lower)));
+            return _childBuilder.ExpandChildren(level, edges, lower => Built.EdgesAt(periodicBound.EquivalentLevel(lower)));
         }
 
         var children = Enumerable.Range(0, period).Select(phase => ChildrenAt(periodicBound.InductionLevel + phase)).ToArray();
-        for (var level = Levels + 1; level < periodicBound.InductionLevel; level++)
+        for (var level = Built.Top + 1; level < periodicBound.InductionLevel; level++)
         {
             if (!ChildrenAt(level).SequenceEqual(children[periodicBound.PhaseOf(level)]))
             {
@@ -262,118 +212,94 @@ internal sealed class FractalHierarchyBuilder
             return false;
         }
 
-        var builtLevels = new BuiltLevel[period];
+        var round = new BuiltLevels.Entry[period];
         for (var phase = 0; phase < period; phase++)
         {
             var level = periodicBound.FirstLevel + phase;
             var parentLevels = periodicBound.InductionLevel + phase;
-            var childVolumes = children[phase].Select(child => periodicBound.VolumeAt(volumes, child.RemainingLevels(parentLevels)));
-            var subFractal = CreateSubFractal(MapSetAt(level), children[phase], childVolumes, volumes[phase]);
-            builtLevels[phase] = new(subFractal, volumes[phase], EdgesAt(level));
+            BoundingVolume RepeatedVolumeAt(long remainingLevels) => periodicBound.VolumeAt(volumes, remainingLevels);
+            var childVolumes = children[phase].Select(child => RepeatedVolumeAt(child.RemainingLevels(parentLevels))).ToArray();
+            var set = Built.MapSetAt(level);
+            var edges = Built.EdgesAt(level);
+            var edgeBoxes = ComputeEdgeBoxes(edges, parentLevels, RepeatedVolumeAt);
+            round[phase] = new(
+                _subFractalFactory.Create(set, children[phase], childVolumes, volumes[phase]),
+                volumes[phase],
+                new(set, volumes[phase].Box, edges, edgeBoxes));
         }
 
-        AppendLevels(levelCount, builtLevels);
+        Built.Add(levelCount, round);
         return true;
     }
 
+    private static BoundingBox[] ComputeEdgeBoxes(ChildEdge[] edges, long level, Func<long, BoundingVolume> volumeAt)
+    {
+        var boxes = new BoundingBox[edges.Length];
+        for (var i = 0; i < boxes.Length; i++)
+        {
+            var volume = volumeAt(edges[i].RemainingLevels(level));
+            boxes[i] = volume.Box.IsEmpty ? BoundingBox.Empty : volume.TransformedBox(edges[i].Map, edges[i].OperatorNormBound);
+        }
+
+        return boxes;
+    }
+
     /// <summary>Computes the bounds of the union of some parts, none of them empty.</summary>
-    private BoundingVolume ComputeUnion(CollapsedEdge[] edges)
+    /// <param name="edges">The parts.</param>
+    /// <param name="level">Remaining levels of the union.</param>
+    private BoundingVolume ComputeUnion(CollapsedEdge[] edges, long level)
     {
         if (edges is [])
         {
             return BoundingVolume.Empty;
         }
 
-        var clusters = ComputeClusters(edges);
+        var box = BoundingBox.Empty;
+        foreach (var edge in edges)
+        {
+            var part = Built.VolumeAt(edge.RemainingLevels).TransformedBox(edge.Map, edge.OperatorNormBound);
+            if (!part.Minimum.IsFinite() || !part.Size.IsFinite())
+            {
+                throw new FractalLimitException(
+                    $"the bounds of the fractal are beyond the range of a double {level} levels above its base");
+            }
+
+            box = BoundingBox.Union(box, part);
+        }
+
+        var clusters = _clusters.Compute(edges, Built.VolumeAt);
         if (edges is [var only])
         {
-            return VolumeAt(only.RemainingLevels).Transform(only.Map, only.OperatorNormBound) with { Clusters = clusters };
+            return Built.VolumeAt(only.RemainingLevels).Transform(only.Map, only.OperatorNormBound) with { Clusters = clusters };
         }
 
-        var volumes = edges.Select(edge => VolumeAt(edge.RemainingLevels)).ToArray();
-        var box = edges.Zip(volumes, (edge, volume) => volume.TransformedBox(edge.Map, edge.OperatorNormBound))
-            .Aggregate(BoundingBox.Union);
-        var vertices = volumes.All(volume => volume.Hull is not null)
-            ? edges.Zip(volumes).SelectMany(pair => pair.Second.Hull!.Vertices.Select(vertex => pair.First.Map * vertex)).ToArray()
-            : null;
-        var margin = edges.Zip(volumes, (edge, volume) => edge.OperatorNormBound * volume.Margin).Max();
-        return BoundingVolume.FromVertices(box, vertices, margin) with { Clusters = clusters };
-    }
-
-    /// <summary>Computes the clusters of the union of some parts: the bulk, then what outliers throw away, the farthest first.</summary>
-    /// <remarks>
-    /// Outliers of the parts surround the parts in the same arrangement, so those of one rank form one cluster. The nearest join the bulk
-    /// when there are too many.
-    /// </remarks>
-    private BoundingBox[] ComputeClusters(CollapsedEdge[] edges)
-    {
-        if (!_hasOutliers || edges is [])
+        var hasHulls = true;
+        var vertexCount = 0;
+        var margin = 0.0;
+        foreach (var edge in edges)
         {
-            return [];
+            var volume = Built.VolumeAt(edge.RemainingLevels);
+            hasHulls &= volume.Hull is not null;
+            vertexCount += volume.Hull?.Vertices.Length ?? 0;
+            margin = Math.Max(margin, edge.OperatorNormBound * volume.Margin);
         }
 
-        var reaches = edges.Select(edge => MapReach(edge.Map, _volumes[0].Box.Diagonal)).ToArray();
-        var maxReach = OutlierFactor * reaches.Order().ElementAt((reaches.Length - 1) / 2);
-        List<BoundingBox> clusters = [BoundingBox.Empty];
-        clusters.AddRange(edges.Where((_, i) => reaches[i] > maxReach)
-            .Select(edge => VolumeAt(edge.RemainingLevels).Box.Transform(edge.Map)));
-        var outlierCount = clusters.Count - 1;
-        foreach (var edge in edges.Where((_, i) => reaches[i] <= maxReach))
+        if (!hasHulls)
         {
-            foreach (var (rank, box) in VolumeAt(edge.RemainingLevels).TransformedClusters(edge.Map).Index())
+            return BoundingVolume.FromVertices(box, null, margin) with { Clusters = clusters };
+        }
+
+        var vertices = new Vector[vertexCount];
+        var next = 0;
+        foreach (var edge in edges)
+        {
+            foreach (var vertex in Built.VolumeAt(edge.RemainingLevels).Hull!.Vertices)
             {
-                var target = rank == 0 ? 0 : rank + outlierCount;
-                if (target == clusters.Count)
-                {
-                    clusters.Add(BoundingBox.Empty);
-                }
-
-                clusters[target] = BoundingBox.Union(clusters[target], box);
+                vertices[next++] = edge.Map * vertex;
             }
         }
 
-        while (clusters.Count > ClusterBounds.MaxBoxes)
-        {
-            clusters[0] = BoundingBox.Union(clusters[0], clusters[^1]);
-            clusters.RemoveAt(clusters.Count - 1);
-        }
-
-        return [.. clusters.Where(cluster => !cluster.IsEmpty)];
+        return BoundingVolume.FromVertices(box, vertices, margin) with { Clusters = clusters };
     }
 
-    private SubFractal CreateSubFractal(MapSet set, ChildInstance[] children, IEnumerable<BoundingVolume> volumes, BoundingVolume volume)
-    {
-        BoundingVolume[] childVolumes = [.. volumes];
-        BoundingBox[] childBoxes =
-            [.. children.Zip(childVolumes, (child, childVolume) => childVolume.TransformedBox(child.Map, child.OperatorNormBound))];
-        var childHull = childVolumes.Length > 0 ? CreateHullBound(childVolumes[0]) : null;
-        if (children.Length > ChildGroups.MaxUngroupedChildren)
-        {
-            var parentBox = BoundingBox.Union(volume.Box, _volumes[0].Box);
-            (children, childBoxes) = ChildGroups.Create(set, children, childBoxes, parentBox, childHull);
-            childHull = null;
-        }
-
-        var hull = CreateHullBound(volume);
-        return new(set, children, childBoxes, volume.Box, _volumes[0].Box, hull, childHull, CreateSolid(volume), CreateClusters(volume));
-    }
-
-    private static ClusterBounds? CreateClusters(BoundingVolume volume) => volume.Clusters.Length > 1 ? new(volume.Clusters) : null;
-
-    private static ConvexSolid? CreateSolid(BoundingVolume volume) => volume switch
-    {
-        { Box.IsEmpty: true } => null,
-        { Hull: { } hull } => new(hull.Vertices.AsSpan(), volume.Margin),
-        _ => ConvexSolid.FromBox(volume.Box),
-    };
-
-    private HullBound? CreateHullBound(BoundingVolume volume)
-    {
-        var (x, y, z) = volume.Box.Size;
-        return volume.Hull is null || volume.Hull.Volume() > MaxHullFillRatio * x * y * z
-            ? null
-            : new(volume.Hull, volume.Box, volume.Margin, includeAxisPlanes: !HasOnlySimilarities);
-    }
-
-    private readonly record struct BuiltLevel(SubFractal SubFractal, BoundingVolume Volume, ChildEdge[] Edges);
 }

@@ -3,7 +3,7 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// <summary>A run of levels whose sub-fractals recur with a period.</summary>
 /// <param name="FirstLevel">Remaining levels of the first sub-fractal.</param>
 /// <param name="LevelCount">Number of levels in the run.</param>
-/// <param name="FirstIndex">Index of the first sub-fractal in the table.</param>
+/// <param name="FirstIndex">Index of the first sub-fractal in the hierarchy.</param>
 /// <param name="Period">Number of levels after which the sub-fractals recur.</param>
 internal readonly record struct LevelRegion(long FirstLevel, long LevelCount, int FirstIndex, int Period)
 {

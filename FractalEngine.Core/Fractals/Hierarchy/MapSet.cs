@@ -22,11 +22,20 @@ internal sealed class MapSet
     public MapSet(AffineMap[] maps)
     {
         Maps = maps;
-        Inverses = [.. Maps.Select(map => map.Inverse())];
-        ScalesSquared = [.. Maps.Select(map => map.Linear.V1.LengthSquared())];
-        IdentityIndex = Array.IndexOf(Maps, AffineMap.Identity);
-        OperatorNormBounds = [.. Maps.Select(map => BoundingSphere.OperatorNormBound(map.Linear) * (1 + NormError))];
-        AreSimilarities = Maps.All(map => Similarity.IsSimilarity(map.Linear));
+        Inverses = new AffineMap[maps.Length];
+        ScalesSquared = new double[maps.Length];
+        OperatorNormBounds = new double[maps.Length];
+        IdentityIndex = -1;
+        AreSimilarities = true;
+        for (var i = 0; i < maps.Length; i++)
+        {
+            var map = maps[i];
+            Inverses[i] = map.Inverse();
+            ScalesSquared[i] = map.Linear.V1.LengthSquared();
+            OperatorNormBounds[i] = BoundingSphere.OperatorNormBound(map.Linear) * (1 + NormError);
+            AreSimilarities &= Similarity.IsSimilarity(map.Linear);
+            IdentityIndex = IdentityIndex < 0 && map == AffineMap.Identity ? i : IdentityIndex;
+        }
     }
 
     /// <summary>How a chain of the fractal's own maps replaces the map of this set; null where the set is one of the fractal's.</summary>

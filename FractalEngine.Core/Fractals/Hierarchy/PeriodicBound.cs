@@ -45,7 +45,19 @@ internal sealed class PeriodicBound(
     public long InductionLevel { get; } = topLevel + 1 + (ChildInstanceBuilder.MaxExpandedLevels * (long)period);
 
     /// <summary>Tells whether the bounds of the last two rounds differ little enough.</summary>
-    public bool HasConverged() => MaxRelativeChange() <= ConvergenceThreshold();
+    public bool HasConverged()
+    {
+        var threshold = ConvergenceThreshold();
+        for (var phase = 0; phase < period; phase++)
+        {
+            if (!(RelativeChange(volumeAt(FirstLevel + phase), volumeAt(FirstLevel + phase - period), threshold) <= threshold))
+            {
+                return false;
+            }
+        }
+
+        return true;
+    }
 
     /// <summary>The place of a level in its round, from 0 at the bottom.</summary>
     public int PhaseOf(long level) => (int)((((level - FirstLevel) % period) + period) % period);
@@ -63,12 +75,16 @@ internal sealed class PeriodicBound(
     public BoundingVolume[]? TryProveInvariant(ChildInstance[][] children)
     {
         var coveredLevels = FindCoveredLevels(children);
+        var threshold = ConvergenceThreshold();
         for (var phase = 0; phase < period; phase++)
         {
             var lastVolume = volumeAt(FirstLevel + phase);
-            if (!(coveredLevels[phase].Max(level => RelativeChange(volumeAt(level), lastVolume)) <= ConvergenceThreshold()))
+            foreach (var level in coveredLevels[phase])
             {
-                return null;
+                if (!(RelativeChange(volumeAt(level), lastVolume, threshold) <= threshold))
+                {
+                    return null;
+                }
             }
         }
 
@@ -97,20 +113,29 @@ internal sealed class PeriodicBound(
     /// <summary>
     /// Computes the change of bounds as a part of their size. Hulls that stand for many points change by up to their margins anyway.
     /// </summary>
-    private static double RelativeChange(BoundingVolume volume1, BoundingVolume volume2)
+    /// <param name="volume1">One bound.</param>
+    /// <param name="volume2">The other bound.</param>
+    /// <param name="cutoff">The method may return early any change above this, since boxes take far less time than hulls.</param>
+    private static double RelativeChange(BoundingVolume volume1, BoundingVolume volume2, double cutoff)
     {
         if (volume1.Clusters.Length != volume2.Clusters.Length)
         {
             return 1;
         }
 
-        var boxChange = volume1.Clusters.Zip(volume2.Clusters, RelativeChange).Append(RelativeChange(volume1.Box, volume2.Box)).Max();
-        if (volume1.Hull is not { } hull1 || volume2.Hull is not { } hull2)
+        var boxChange = RelativeChange(volume1.Box, volume2.Box);
+        for (var i = 0; i < volume1.Clusters.Length; i++)
+        {
+            boxChange = Math.Max(boxChange, RelativeChange(volume1.Clusters[i], volume2.Clusters[i]));
+        }
+
+        if (boxChange > cutoff || volume1.Hull is not { } hull1 || volume2.Hull is not { } hull2)
         {
             return boxChange;
         }
 
-        var change = Math.Max(MaxDistanceOutside(volume1, hull2.Vertices), MaxDistanceOutside(volume2, hull1.Vertices))
+        var margin = volume1.Margin + volume2.Margin;
+        var change = Math.Max(MaxDistanceOutside(volume1, hull2.Vertices, margin), MaxDistanceOutside(volume2, hull1.Vertices, margin))
             - volume1.Margin - volume2.Margin - (BoxError * Magnitude(volume1.Box));
         return change <= 0 ? boxChange : Math.Max(boxChange, change / volume1.Box.Diagonal);
     }
@@ -130,18 +155,42 @@ internal sealed class PeriodicBound(
     private static BoundingVolume[] WithoutHulls(BoundingVolume[] volumes) =>
         [.. volumes.Select(volume => volume with { Hull = null, Margin = 0 })];
 
-    private static double MaxDistanceOutside(BoundingVolume outerVolume, IEnumerable<Vector> points) =>
-        points.Max(outerVolume.Hull!.DistanceUpperBound);
+    /// <summary>Computes the largest distance of some points from a hull; any value up to a floor if that is no larger.</summary>
+    private static double MaxDistanceOutside(BoundingVolume outerVolume, Vector[] points, double floor)
+    {
+        var maxDistance = double.NegativeInfinity;
+        foreach (var point in points)
+        {
+            maxDistance = Math.Max(maxDistance, outerVolume.Hull!.DistanceUpperBound(point, Math.Max(floor, maxDistance)));
+        }
+
+        return maxDistance;
+    }
 
     private double ConvergenceThreshold()
     {
-        var minRelativeMargin = Enumerable.Range(0, period).Select(phase => volumeAt(FirstLevel + phase))
-            .Min(volume => volume.Margin / volume.Box.Diagonal);
+        var minRelativeMargin = double.PositiveInfinity;
+        for (var phase = 0; phase < period; phase++)
+        {
+            var volume = volumeAt(FirstLevel + phase);
+            // NaN, of a volume without size, is smaller than all.
+            minRelativeMargin = Math.Min(minRelativeMargin, volume.Margin / volume.Box.Diagonal);
+        }
+
         return Math.Max(ConvergenceTolerance, Math.Min(1, toleranceFactor * MarginTolerance) * minRelativeMargin);
     }
 
-    private double MaxRelativeChange() => Enumerable.Range(0, period)
-        .Max(phase => RelativeChange(volumeAt(FirstLevel + phase), volumeAt(FirstLevel + phase - period)));
+    private double MaxRelativeChange()
+    {
+        var maxChange = 0.0;
+        for (var phase = 0; phase < period; phase++)
+        {
+            var change = RelativeChange(volumeAt(FirstLevel + phase), volumeAt(FirstLevel + phase - period), double.PositiveInfinity);
+            maxChange = Math.Max(maxChange, change);
+        }
+
+        return maxChange;
+    }
 
     /// <summary>
     /// Lists the levels that the bounds of each phase must contain: that of the last round, and lower ones that have parents in the first
@@ -210,9 +259,9 @@ internal sealed class PeriodicBound(
         }
 
         var margins = coveredLevels.Select((levels, phase) => levels.Select(volumeAt).Where(volume => volume.Hull is not null)
-            .Max(volume => volume.Margin + MaxDistanceOutside(volumes[phase], volume.Hull!.Vertices))).ToArray();
+            .Max(volume => volume.Margin + MaxDistanceOutside(volumes[phase], volume.Hull!.Vertices, 0))).ToArray();
         var vertexDistances = edges.Select(item => VolumeAt(volumes, item.Edge.RemainingLevels).Hull is { } hull
-            ? MaxDistanceOutside(volumes[item.Phase], hull.Vertices.Select(vertex => item.Edge.Map * vertex))
+            ? MaxDistanceOutside(volumes[item.Phase], [.. hull.Vertices.Select(vertex => item.Edge.Map * vertex)], 0)
             : double.NegativeInfinity).ToArray();
         for (var iteration = 0; iteration < MaxMarginIterations; iteration++)
         {

@@ -59,7 +59,7 @@ internal static class QueryShapes
             {
                 0 => AdversarialFractals.All[Adversarial[random.Next(Adversarial.Length)]](),
                 1 => RandomFractals.Create(random),
-                _ => NastyFractals.Create(random),
+                _ => RandomAdversarialFractals.Create(random),
             };
             if (fractal.FaceCount <= maxTriangles)
             {

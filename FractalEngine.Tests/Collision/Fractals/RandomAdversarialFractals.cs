@@ -9,7 +9,7 @@ namespace FractalEngine.Tests.Collision.Fractals;
 /// Creates random fractals of few instances with all that breaks bounds: skew, mirrors, maps close to singular, overlaps, identities,
 /// several sets a level, huge and tiny scales and translations, faces without area, wide sets.
 /// </summary>
-internal static class NastyFractals
+internal static class RandomAdversarialFractals
 {
     private const int MaxChains = 400;
 

@@ -7,7 +7,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.Collision.Fractals;
 
 /// <summary>Tests the exact search on random fractals of every sort against an expansion in exact arithmetic.</summary>
-public class NastyFractalTests
+public class RandomAdversarialFractalTests
 {
     private const int PositionsPerFractal = 12;
 
@@ -18,11 +18,11 @@ public class NastyFractalTests
     private const long MaxBoundTests = 1_000_100;
 
     [Fact]
-    public void TryFindClosest_OfNastyFractals_EqualsTheExactExpansion() => CheckAll(500);
+    public void TryFindClosest_OfAdversarialFractals_EqualsTheExactExpansion() => CheckAll(500);
 
     [Fact]
     [Trait("Category", "Soak")]
-    public void TryFindClosest_OfManyNastyFractals_EqualsTheExactExpansion() => CheckAll(20_000);
+    public void TryFindClosest_OfManyAdversarialFractals_EqualsTheExactExpansion() => CheckAll(20_000);
 
     private static void CheckAll(int fractals)
     {
@@ -34,7 +34,7 @@ public class NastyFractalTests
     /// <summary>Checks queries of one fractal, and counts those whose error bound is loose.</summary>
     private static int CheckOne(Random random)
     {
-        var fractal = NastyFractals.Create(random);
+        var fractal = RandomAdversarialFractals.Create(random);
         var expansion = new ExactExpansion(fractal);
         var collider = new ExactFractalCollider(fractal);
         var context = new QueryContext();

@@ -1,0 +1,26 @@
+using FractalEngine.Core.Geometry;
+
+namespace FractalEngine.Core.Fractals.Hierarchy;
+
+/// <summary>One level of a <see cref="FractalHierarchy"/>, whether a search visits it or skips it: its edges and their boxes.</summary>
+/// <param name="set">The set of the level; null for the base.</param>
+/// <param name="box">A box around the sub-fractal with this level on top, in its frame.</param>
+/// <param name="edges">The edges to lower levels; none for the base.</param>
+/// <param name="edgeBoxes">A box around what each edge leads to, in the same frame; empty where that is.</param>
+internal sealed class HierarchyLevel(MapSet? set, BoundingBox box, ChildEdge[] edges, BoundingBox[] edgeBoxes)
+{
+    /// <summary>The set of the level; null for the base.</summary>
+    public MapSet? Set { get; } = set;
+
+    /// <summary>A box around the sub-fractal with this level on top, in its frame.</summary>
+    public BoundingBox Box { get; } = box;
+
+    /// <summary>The edges to lower levels; none for the base.</summary>
+    public ChildEdge[] Edges { get; } = edges;
+
+    /// <summary>A box around what each edge leads to, in the frame of the level; empty where that is.</summary>
+    public BoundingBox[] EdgeBoxes { get; } = edgeBoxes;
+
+    /// <summary>Number of bytes of the boxes. Most levels share their edges.</summary>
+    public long StorageBytes => (48 * (long)EdgeBoxes.Length) + 80;
+}

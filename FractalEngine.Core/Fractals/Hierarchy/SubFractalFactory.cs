@@ -1,0 +1,61 @@
+using FractalEngine.Core.Geometry;
+
+namespace FractalEngine.Core.Fractals.Hierarchy;
+
+/// <summary>Prepares sub-fractals for searches from their bounds, while a <see cref="FractalHierarchy"/> is built.</summary>
+/// <param name="mesh">The base mesh.</param>
+/// <param name="hasOnlySimilarities">True when all maps of the fractal are similarities.</param>
+internal sealed class SubFractalFactory(Mesh mesh, bool hasOnlySimilarities)
+{
+    // A hull that fills its box bounds no better than the box.
+    private const double MaxHullFillRatio = 0.95;
+
+    /// <summary>The bounds of the base mesh.</summary>
+    public BoundingVolume BaseVolume { get; } = BoundingVolume.FromMesh(mesh);
+
+    /// <summary>Creates the sub-fractal without levels: the base mesh.</summary>
+    public SubFractal CreateBase() => new(
+        null, [], [], BaseVolume.Box, BaseVolume.Box, CreateHullBound(BaseVolume), null, CreateSolid(BaseVolume), null);
+
+    /// <summary>Creates the sub-fractal of a level.</summary>
+    /// <param name="set">The set of the level.</param>
+    /// <param name="children">The children.</param>
+    /// <param name="childVolumes">The bounds of the children, in their frames.</param>
+    /// <param name="volume">The bounds of the sub-fractal.</param>
+    public SubFractal Create(MapSet set, ChildInstance[] children, BoundingVolume[] childVolumes, BoundingVolume volume)
+    {
+        var childBoxes = new BoundingBox[children.Length];
+        for (var i = 0; i < children.Length; i++)
+        {
+            childBoxes[i] = childVolumes[i].TransformedBox(children[i].Map, children[i].OperatorNormBound);
+        }
+
+        var childHull = childVolumes.Length > 0 ? CreateHullBound(childVolumes[0]) : null;
+        if (children.Length > ChildGroups.MaxUngroupedChildren)
+        {
+            var parentBox = BoundingBox.Union(volume.Box, BaseVolume.Box);
+            (children, childBoxes) = ChildGroups.Create(set, children, childBoxes, parentBox, childHull);
+            childHull = null;
+        }
+
+        var hull = CreateHullBound(volume);
+        return new(set, children, childBoxes, volume.Box, BaseVolume.Box, hull, childHull, CreateSolid(volume), CreateClusters(volume));
+    }
+
+    private static ClusterBounds? CreateClusters(BoundingVolume volume) => volume.Clusters.Length > 1 ? new(volume.Clusters) : null;
+
+    private static ConvexSolid? CreateSolid(BoundingVolume volume) => volume switch
+    {
+        { Box.IsEmpty: true } => null,
+        { Hull: { } hull } => new(hull.Vertices.AsSpan(), volume.Margin),
+        _ => ConvexSolid.FromBox(volume.Box),
+    };
+
+    private HullBound? CreateHullBound(BoundingVolume volume)
+    {
+        var (x, y, z) = volume.Box.Size;
+        return volume.Hull is null || volume.Hull.Volume() > MaxHullFillRatio * x * y * z
+            ? null
+            : new(volume.Hull, volume.Box, volume.Margin, includeAxisPlanes: !hasOnlySimilarities);
+    }
+}

@@ -1,0 +1,81 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Geometry;
+
+namespace FractalEngine.Core.Fractals;
+
+/// <summary>
+/// Bounds the levels of a fractal one after another, from the base mesh outwards, by a box and a sphere. The boxes are exact where all maps
+/// keep boxes axis-aligned; elsewhere they grow with each level, and the <see cref="Hierarchy.FractalHierarchy"/> bounds better.
+/// </summary>
+/// <param name="mesh">The base mesh.</param>
+/// <param name="maxRounds">Maximum number of rounds of a repetition; those of an infinite one are never more than 100,000.</param>
+internal sealed class LevelBoxes(Mesh mesh, int maxRounds = int.MaxValue)
+{
+    private const int MaxInfiniteRounds = 100_000;
+
+    private const double ConvergenceTolerance = 1e-15;
+
+    /// <summary>Bounds of the levels so far; all of space where they don't converge, or leave the range of a double.</summary>
+    public SphereAndBox Volume { get; private set; } = SphereAndBox.FromMesh(mesh);
+
+    /// <summary>Tells whether all maps of some steps keep boxes axis-aligned.</summary>
+    public static bool AreExact(ImmutableArray<FractalStep> steps) => steps.All(step => step is Repetition repetition
+        ? AreExact(repetition.Body)
+        : ((TransformationSet)step).Maps.All(map => map.Linear.KeepsBoxesAxisAligned()));
+
+    /// <summary>Computes the box of a fractal in affine composition; all of space where it has no bounds.</summary>
+    public static BoundingBox ComputeBox(Fractal fractal)
+    {
+        var boxes = new LevelBoxes(fractal.BaseMesh);
+        _ = boxes.Ascend(fractal.Description.Steps).LastOrDefault();
+        return boxes.Volume.Box;
+    }
+
+    /// <summary>
+    /// Lists the sets of some steps, the innermost first. While a set is listed, <see cref="Volume"/> bounds the level below it. The rounds
+    /// of a repetition end once they no longer change it.
+    /// </summary>
+    /// <remarks>Cost: one step for each map and level.</remarks>
+    public IEnumerable<TransformationSet> Ascend(ImmutableArray<FractalStep> steps) => steps.Reverse().SelectMany(step => step switch
+    {
+        TransformationSet set => AscendSet(set),
+        Repetition repetition => AscendRepetition(repetition),
+        _ => throw new ArgumentException($"{step.GetType().Name} is no step of a fractal", nameof(steps)),
+    });
+
+    private IEnumerable<TransformationSet> AscendSet(TransformationSet set)
+    {
+        yield return set;
+        var volume = Volume.UnionOfTransformed(set.Maps.AsSpan());
+        Volume = volume.IsFinite() ? volume : SphereAndBox.Unbounded;
+    }
+
+    private IEnumerable<TransformationSet> AscendRepetition(Repetition repetition)
+    {
+        var count = repetition.Count ?? int.MaxValue;
+        var roundCount = Math.Min(count, Math.Min(maxRounds, repetition.Count is null ? MaxInfiniteRounds : int.MaxValue));
+        for (var round = 0; round < roundCount; round++)
+        {
+            var previous = Volume;
+            foreach (var set in Ascend(repetition.Body))
+            {
+                yield return set;
+            }
+
+            if (!Volume.IsFinite() || HasConverged(previous, Volume))
+            {
+                yield break;
+            }
+        }
+
+        Volume = roundCount < count ? SphereAndBox.Unbounded : Volume;
+    }
+
+    private static bool HasConverged(in SphereAndBox previous, in SphereAndBox current)
+    {
+        var minimumChange = (previous.Box.Minimum - current.Box.Minimum).MaxAbsComponent();
+        var maximumChange = (previous.Box.Maximum - current.Box.Maximum).MaxAbsComponent();
+        var radiusChange = Math.Abs(previous.Sphere.Radius - current.Sphere.Radius);
+        return Math.Max(radiusChange, Math.Max(minimumChange, maximumChange)) <= ConvergenceTolerance * current.Box.Size.MaxAbsComponent();
+    }
+}
