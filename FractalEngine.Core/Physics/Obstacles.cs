@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Physics;
 /// Everything that one mover can collide with: static surfaces, nearby bodies and the character. Set up anew for each mover and step. A
 /// mover is one sphere, or several at fixed offsets from its position.
 /// </summary>
-internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext queryContext)
+internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, QueryContext queryContext)
 {
     // Room for so many bodies near a mover; beyond it the list grows.
     private const int InitialCandidateCapacity = 256;
@@ -62,7 +62,7 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
             box = BoundingBox.Union(box, new(box.Minimum + sphere, box.Maximum + sphere));
         }
 
-        grid.CollectOverlaps(in box, _radius * ContactTolerances.NeighbourRadiusFactor, excludedIndex, _candidates);
+        nearbyBodies.CollectOverlaps(in box, _radius * ContactTolerances.NeighbourRadiusFactor, excludedIndex, _candidates);
     }
 
     /// <summary>Largest gap of the mover that rounding cannot tell from 0, see <see cref="ContactTolerances.Touch"/>.</summary>
