@@ -246,12 +246,43 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
             return false;
         }
 
-        var isFound = false;
         var maxCentreDistance = maxDistance + _radius;
+        return _sphereOffsets.Length == 1
+            ? TryFindClosestSurface(position, _sphereOffsets[0], maxCentreDistance, out closestContact)
+            : TryFindClosestSurfaceOfMany(position, maxCentreDistance, out closestContact);
+    }
+
+    /// <summary>Finds the closest surface of a mover of one sphere, unless that is known.</summary>
+    private bool TryFindClosestSurface(Vector position, Vector sphere, double maxCentreDistance, out Contact closestContact)
+    {
+        if (!_safeDistance.TryRecall(position, out var distance, out var point, out var isFlat))
+        {
+            distance = maxCentreDistance + _searchMargin;
+            if (!TryFindClosestPoint(position + sphere, distance, out var closest))
+            {
+                closestContact = default;
+                _safeDistance.Store(position, distance);
+                return false;
+            }
+
+            distance = closest.Distance;
+            point = closest.Point;
+            isFlat = closest.Feature == TriangleFeature.Interior;
+            _safeDistance.StoreClosest(position, distance, point, isFlat);
+        }
+
+        closestContact = new(point, _radius, sphere, Contact.NoBody, isFlat);
+        return distance <= maxCentreDistance;
+    }
+
+    private bool TryFindClosestSurfaceOfMany(Vector position, double maxCentreDistance, out Contact closestContact)
+    {
+        closestContact = default;
+        var isFound = false;
         var searchDistance = maxCentreDistance + _searchMargin;
         foreach (var sphere in _sphereOffsets)
         {
-            if (_staticColliders.Scene.TryFindClosest(position + sphere, searchDistance, queryContext, out var closest, out _))
+            if (TryFindClosestPoint(position + sphere, searchDistance, out var closest))
             {
                 searchDistance = closest.Distance;
                 if (searchDistance <= maxCentreDistance)
