@@ -1,5 +1,4 @@
 using System.Collections.Immutable;
-using System.Runtime.CompilerServices;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -115,7 +114,6 @@ internal sealed partial class ConvexHull
         Math.Abs(_facets.Sum(facet => Vector.Dot(facet.A - Vertices[0], Vector.Cross(facet.B - Vertices[0], facet.C - Vertices[0])))) / 6;
 
     /// <summary>Computes the support of the hull: the largest product of a direction with a vertex.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     public double Support(Vector direction)
     {
         var maxProduct = double.NegativeInfinity;
@@ -145,7 +143,6 @@ internal sealed partial class ConvexHull
     }
 
     /// <summary>Finds the farthest two of the points with the smallest and largest coordinates.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private static (int First, int Second) FindFarthestPair(ReadOnlySpan<Vector> points)
     {
         Span<int> extremes = stackalloc int[6];
