@@ -44,7 +44,9 @@ internal sealed class SafeDistance
         _hasClosest = true;
     }
 
-    /// <summary>Recalls the closest point, if the last query was made at this very position. A body asks again where its last step ended.</summary>
+    /// <summary>
+    /// Recalls the closest point, if the last query was made at this very position. A body asks again where its last step ended.
+    /// </summary>
     /// <param name="position">World space.</param>
     /// <param name="distance">Distance from there to the closest surface.</param>
     /// <param name="point">The closest point, world space.</param>
