@@ -4,9 +4,10 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/eng/setup.sh"
 
 install_packages
-build FractalEngine.App
+build_ready FractalEngine.App
 
-app=("$root/FractalEngine.App/bin/$configuration/net10.0/FractalEngine.App")
+app=("$root/FractalEngine.App/bin/ready/FractalEngine.App")
+[ -e "${app[0]}.dll" ] || app=("$root/FractalEngine.App/bin/$configuration/net10.0/FractalEngine.App")
 [ -x "${app[0]}" ] || app=(dotnet "${app[0]}.dll")
 
 # Drawing needs OpenGL, and OpenGL needs a display. Without one, a virtual one serves for images; a window on it would

@@ -11,6 +11,9 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
     // As a part of the squared scale: more than the rounding error of rotations.
     private const double Tolerance = 1e-13;
 
+    // Found once, since they cost as much as a short search.
+    private readonly Matrix _cofactors = Map.Linear.Cofactors();
+
     /// <summary>The similarity whose frames are the same.</summary>
     public static Similarity Identity { get; } = new(AffineMap.Identity, AffineMap.Identity, 1);
 
@@ -47,7 +50,7 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
     {
         Point = Map * local.Point,
         Distance = Scale * local.Distance,
-        Normal = (Map.Linear.Cofactors() * local.Normal).UnitVector(),
+        Normal = (_cofactors * local.Normal).UnitVector(),
         ErrorBound = (Scale * local.ErrorBound) + (Collider.RoundingError * Map.Translation.MaxAbsComponent()),
     };
 }

@@ -7,6 +7,9 @@ namespace FractalEngine.Core.Physics;
 /// Finds bodies near a path: a hashed grid of cells wide enough for most bodies. Those wider than a cell are kept in a list and always
 /// tested. Allocates only when bodies are added.
 /// </summary>
+/// <remarks>
+/// The grid has a copy of each body's position and radius, since a search visits many bodies once, and would wait for the memory of each.
+/// </remarks>
 internal sealed class BodyGrid
 {
     // Of the number of bodies: at least twice as many buckets, and a power of two of them, for a cheap remainder.
@@ -24,16 +27,22 @@ internal sealed class BodyGrid
 
     private readonly List<int> _largeBodies = [];
     private int[] _heads = [];
-    private int[] _next = [];
     private int[] _previous = [];
-    private int[] _buckets = [];
+    private Entry[] _entries = [];
     private double _cellSize = 1;
     private double _maxGridRadius;
     private List<Body> _bodies = [];
 
+    /// <summary>Changes whenever a body enters another cell, or the grid is built: what was collected before may be out of date.</summary>
+    public long Version { get; private set; }
+
+    /// <summary>The bodies that are in no cell, since they are wider than one.</summary>
+    public List<int> LargeBodies => _largeBodies;
+
     /// <summary>Builds the grid anew for all bodies. Cost O(n·log n).</summary>
     public void Build(List<Body> bodies)
     {
+        Version++;
         _bodies = bodies;
         _largeBodies.Clear();
         var bucketCount = MinBuckets;
@@ -43,9 +52,8 @@ internal sealed class BodyGrid
         }
 
         _heads = new int[bucketCount];
-        _next = new int[bodies.Count];
         _previous = new int[bodies.Count];
-        _buckets = new int[bodies.Count];
+        _entries = new Entry[bodies.Count];
         Array.Fill(_heads, None);
         if (bodies.Count == 0)
         {
@@ -57,107 +65,124 @@ internal sealed class BodyGrid
         _maxGridRadius = 0;
         for (var i = 0; i < bodies.Count; i++)
         {
-            if (2 * bodies[i].Radius > _cellSize)
+            var (position, radius) = (bodies[i].Position, bodies[i].Radius);
+            _entries[i] = new() { Position = position, Radius = radius, Cell = CellAt(position), Bucket = None };
+            if (2 * radius > _cellSize)
             {
                 _largeBodies.Add(i);
-                _buckets[i] = None;
             }
             else
             {
-                _maxGridRadius = Math.Max(_maxGridRadius, bodies[i].Radius);
-                Insert(i, BucketOf(bodies[i].Position));
+                _maxGridRadius = Math.Max(_maxGridRadius, radius);
+                Insert(i, HashOf(_entries[i].Cell));
             }
         }
     }
 
-    /// <summary>Updates the cell of a body that has moved.</summary>
+    /// <summary>Updates position, radius and cell of a body that has moved.</summary>
     public void Update(int index)
     {
-        if (_buckets[index] == None)
+        ref var entry = ref _entries[index];
+        entry.Position = _bodies[index].Position;
+        entry.Radius = _bodies[index].Radius;
+        if (entry.Bucket == None)
         {
             return;
         }
 
-        var bucket = BucketOf(_bodies[index].Position);
-        if (bucket != _buckets[index])
+        var cell = CellAt(entry.Position);
+        if (cell == entry.Cell)
+        {
+            return;
+        }
+
+        Version++;
+        entry.Cell = cell;
+        var bucket = HashOf(cell);
+        if (bucket != entry.Bucket)
         {
             Remove(index);
             Insert(index, bucket);
         }
     }
 
-    /// <summary>Collects the bodies that a moving sphere may meet.</summary>
+    /// <summary>Finds the cells of all bodies that a moving sphere may meet.</summary>
     /// <param name="pathBounds">Box that holds the path of its centre.</param>
     /// <param name="radius">Radius of the sphere, scene units.</param>
-    /// <param name="excludedIndex">Index of the sphere itself, or <see cref="Contact.NoBody"/>.</param>
-    /// <param name="results">Receives the indices, in no particular order, but always in the same.</param>
-    public void CollectOverlaps(in BoundingBox pathBounds, double radius, int excludedIndex, List<int> results)
+    public CellRange CellsAround(in BoundingBox pathBounds, double radius)
     {
-        foreach (var index in _largeBodies)
-        {
-            AddIfOverlapping(index, in pathBounds, radius, excludedIndex, results);
-        }
-
         var margin = (radius + _maxGridRadius) * Vector.One;
-        var minCell = CellAt(pathBounds.Minimum - margin);
-        var maxCell = CellAt(pathBounds.Maximum + margin);
-        var cellCount = (maxCell.X - minCell.X + 1.0) * (maxCell.Y - minCell.Y + 1.0) * (maxCell.Z - minCell.Z + 1.0);
-        if (!(cellCount <= _bodies.Count))
+        return new(CellAt(pathBounds.Minimum - margin), CellAt(pathBounds.Maximum + margin));
+    }
+
+    /// <summary>Collects all bodies of some cells.</summary>
+    /// <param name="cells">The cells.</param>
+    /// <param name="results">Receives the indices: cell by cell in the order of their coordinates, the last to enter a cell first.</param>
+    /// <returns>False where that would take longer than to test all bodies: then nothing is collected.</returns>
+    public bool TryCollect(in CellRange cells, List<int> results)
+    {
+        if (!(cells.Count <= _bodies.Count))
         {
-            CollectFromAllBodies(in pathBounds, radius, excludedIndex, results);
-            return;
+            return false;
         }
 
-        for (var x = minCell.X; x <= maxCell.X; x++)
+        var entries = _entries;
+        for (var x = cells.Min.X; x <= cells.Max.X; x++)
         {
-            for (var y = minCell.Y; y <= maxCell.Y; y++)
+            for (var y = cells.Min.Y; y <= cells.Max.Y; y++)
             {
-                for (var z = minCell.Z; z <= maxCell.Z; z++)
+                for (var z = cells.Min.Z; z <= cells.Max.Z; z++)
                 {
-                    for (var i = _heads[Hash(x, y, z)]; i >= 0; i = _next[i])
+                    for (var i = _heads[Hash(x, y, z)]; i >= 0; i = entries[i].Next)
                     {
                         // Other cells may have the same hash.
-                        if (CellAt(_bodies[i].Position) == (x, y, z))
+                        ref readonly var cell = ref entries[i].Cell;
+                        if (cell.X == x && cell.Y == y && cell.Z == z)
                         {
-                            AddIfOverlapping(i, in pathBounds, radius, excludedIndex, results);
+                            results.Add(i);
                         }
                     }
                 }
             }
         }
+
+        return true;
     }
 
-    private void CollectFromAllBodies(in BoundingBox pathBounds, double radius, int excludedIndex, List<int> results)
+    /// <summary>Collects all bodies of all cells, in the order of their indices.</summary>
+    public void CollectAll(List<int> results)
     {
-        for (var i = 0; i < _bodies.Count; i++)
+        for (var i = 0; i < _entries.Length; i++)
         {
-            if (_buckets[i] != None)
+            if (_entries[i].Bucket != None)
             {
-                AddIfOverlapping(i, in pathBounds, radius, excludedIndex, results);
+                results.Add(i);
             }
         }
     }
 
-    private void AddIfOverlapping(int index, in BoundingBox pathBounds, double radius, int excludedIndex, List<int> results)
+    /// <summary>Tells whether a body is in one of some cells.</summary>
+    /// <param name="index">Index of a body that is in a cell.</param>
+    /// <param name="cells">The cells.</param>
+    public bool IsWithin(int index, in CellRange cells) => cells.Contains(in _entries[index].Cell);
+
+    /// <summary>Tells whether a moving sphere may meet a body.</summary>
+    /// <param name="index">Index of the body.</param>
+    /// <param name="pathBounds">Box that holds the path of the sphere's centre.</param>
+    /// <param name="radius">Radius of the sphere, scene units.</param>
+    public bool Overlaps(int index, in BoundingBox pathBounds, double radius)
     {
-        var maxDistance = radius + _bodies[index].Radius;
-        if (index != excludedIndex && pathBounds.DistanceSquared(_bodies[index].Position) <= maxDistance * maxDistance)
-        {
-            results.Add(index);
-        }
+        ref readonly var entry = ref _entries[index];
+        var maxDistance = radius + entry.Radius;
+        return pathBounds.DistanceSquared(entry.Position) <= maxDistance * maxDistance;
     }
 
-    private (long X, long Y, long Z) CellAt(Vector position) =>
-        (CellCoordinate(position.X), CellCoordinate(position.Y), CellCoordinate(position.Z));
+    private Cell CellAt(Vector position) => new(CellCoordinate(position.X), CellCoordinate(position.Y), CellCoordinate(position.Z));
 
     private long CellCoordinate(double coordinate) =>
         (long)Math.Clamp(Math.Floor(coordinate / _cellSize), -MaxCellCoordinate, MaxCellCoordinate);
 
-    private int BucketOf(Vector position)
-    {
-        var (x, y, z) = CellAt(position);
-        return Hash(x, y, z);
-    }
+    private int HashOf(in Cell cell) => Hash(cell.X, cell.Y, cell.Z);
 
     // Three primes spread the coordinates; a multiplication by 2^64 divided by the golden ratio mixes the bits.
     private int Hash(long x, long y, long z) =>
@@ -166,8 +191,8 @@ internal sealed class BodyGrid
     private void Insert(int index, int bucket)
     {
         var head = _heads[bucket];
-        _buckets[index] = bucket;
-        _next[index] = head;
+        _entries[index].Bucket = bucket;
+        _entries[index].Next = head;
         _previous[index] = None;
         _heads[bucket] = index;
         if (head >= 0)
@@ -178,20 +203,49 @@ internal sealed class BodyGrid
 
     private void Remove(int index)
     {
-        var next = _next[index];
+        var next = _entries[index].Next;
         var previous = _previous[index];
         if (previous >= 0)
         {
-            _next[previous] = next;
+            _entries[previous].Next = next;
         }
         else
         {
-            _heads[_buckets[index]] = next;
+            _heads[_entries[index].Bucket] = next;
         }
 
         if (next >= 0)
         {
             _previous[next] = previous;
         }
+    }
+
+    /// <summary>Integer coordinates of a cell.</summary>
+    internal readonly record struct Cell(long X, long Y, long Z);
+
+    /// <summary>All cells between two corners.</summary>
+    /// <param name="Min">The cell with the smallest coordinates.</param>
+    /// <param name="Max">The cell with the largest coordinates.</param>
+    internal readonly record struct CellRange(Cell Min, Cell Max)
+    {
+        /// <summary>Number of cells; a double, since it may exceed a long.</summary>
+        public double Count => (Max.X - Min.X + 1.0) * (Max.Y - Min.Y + 1.0) * (Max.Z - Min.Z + 1.0);
+
+        /// <summary>Tells whether a cell is one of these.</summary>
+        public bool Contains(in Cell cell) =>
+            cell.X >= Min.X && cell.X <= Max.X && cell.Y >= Min.Y && cell.Y <= Max.Y && cell.Z >= Min.Z && cell.Z <= Max.Z;
+
+        /// <summary>Tells whether all cells of another range are among these.</summary>
+        public bool Contains(in CellRange other) => Contains(other.Min) && Contains(other.Max);
+    }
+
+    /// <summary>What a search needs of a body: 64 bytes, a line of the cache.</summary>
+    private struct Entry
+    {
+        public Vector Position;
+        public double Radius;
+        public Cell Cell;
+        public int Bucket;
+        public int Next;
     }
 }

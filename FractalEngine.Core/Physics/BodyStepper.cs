@@ -18,16 +18,19 @@ internal sealed class BodyStepper
 
     private readonly PhysicsSettings _settings;
     private readonly BodyGrid _grid;
+    private readonly NearbyBodies _nearbyBodies;
     private readonly Obstacles _obstacles;
     private readonly SleepIslands _islands;
     private readonly QueryContext _queryContext;
     private readonly BodyMover _mover;
 
     public BodyStepper(
-        PhysicsSettings settings, List<Body> bodies, BodyGrid grid, Obstacles obstacles, SleepIslands islands, QueryContext queryContext)
+        PhysicsSettings settings, List<Body> bodies, BodyGrid grid, NearbyBodies nearbyBodies, Obstacles obstacles, SleepIslands islands,
+        QueryContext queryContext)
     {
         _settings = settings;
         _grid = grid;
+        _nearbyBodies = nearbyBodies;
         _obstacles = obstacles;
         _islands = islands;
         _queryContext = queryContext;
@@ -59,8 +62,10 @@ internal sealed class BodyStepper
             body.Velocity *= Math.Exp(-description.Damping * stepLength);
         }
 
-        var maxTravel = new Motion(body.Position, body.Velocity, acceleration).MaxTravelDistance(stepLength);
+        var motion = new Motion(body.Position, body.Velocity, acceleration);
+        var maxTravel = motion.MaxTravelDistance(stepLength);
         _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 2 * maxTravel, character);
+        _nearbyBodies.Prepare(motion.SweptBox(stepLength), body.Radius * ContactTolerances.NeighbourRadiusFactor);
         var accelerationMagnitude = acceleration.Length();
         var restitutionThreshold =
             _settings.RestitutionThreshold ?? RestitutionThresholdFraction * accelerationMagnitude * stepLength;
@@ -72,10 +77,11 @@ internal sealed class BodyStepper
                 CultureInfo.InvariantCulture, $"body {body.Name} has left the range of a double in step {stepIndex}: {state}"));
         }
 
-        _grid.Update(body.Index);
         body.FaceTests = _queryContext.Statistics.FaceTests - faceTestsBefore;
         body.BoundTests = _queryContext.Statistics.BoundTests - boundTestsBefore;
         var sleepSpeed = _settings.SleepSpeed ?? SleepSpeedFraction * Math.Sqrt(accelerationMagnitude * body.Radius);
         _islands.Update(body, sleepSpeed, _settings.TimeBeforeSleep, stepLength);
+        // Last, so that what was collected for this body serves its islands too.
+        _grid.Update(body.Index);
     }
 }

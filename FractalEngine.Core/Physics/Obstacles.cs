@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Physics;
 /// Everything that one mover can collide with: static surfaces, nearby bodies and the character. Set up anew for each mover and step. A
 /// mover is one sphere, or several at fixed offsets from its position.
 /// </summary>
-internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext queryContext)
+internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, QueryContext queryContext)
 {
     // Room for so many bodies near a mover; beyond it the list grows.
     private const int InitialCandidateCapacity = 256;
@@ -62,7 +62,7 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
             box = BoundingBox.Union(box, new(box.Minimum + sphere, box.Maximum + sphere));
         }
 
-        grid.CollectOverlaps(in box, _radius * ContactTolerances.NeighbourRadiusFactor, excludedIndex, _candidates);
+        nearbyBodies.CollectOverlaps(in box, _radius * ContactTolerances.NeighbourRadiusFactor, excludedIndex, _candidates);
     }
 
     /// <summary>Largest gap of the mover that rounding cannot tell from 0, see <see cref="ContactTolerances.Touch"/>.</summary>
@@ -246,12 +246,43 @@ internal sealed class Obstacles(List<Body> bodies, BodyGrid grid, QueryContext q
             return false;
         }
 
-        var isFound = false;
         var maxCentreDistance = maxDistance + _radius;
+        return _sphereOffsets.Length == 1
+            ? TryFindClosestSurface(position, _sphereOffsets[0], maxCentreDistance, out closestContact)
+            : TryFindClosestSurfaceOfMany(position, maxCentreDistance, out closestContact);
+    }
+
+    /// <summary>Finds the closest surface of a mover of one sphere, unless that is known.</summary>
+    private bool TryFindClosestSurface(Vector position, Vector sphere, double maxCentreDistance, out Contact closestContact)
+    {
+        if (!_safeDistance.TryRecall(position, out var distance, out var point, out var isFlat))
+        {
+            distance = maxCentreDistance + _searchMargin;
+            if (!TryFindClosestPoint(position + sphere, distance, out var closest))
+            {
+                closestContact = default;
+                _safeDistance.Store(position, distance);
+                return false;
+            }
+
+            distance = closest.Distance;
+            point = closest.Point;
+            isFlat = closest.Feature == TriangleFeature.Interior;
+            _safeDistance.StoreClosest(position, distance, point, isFlat);
+        }
+
+        closestContact = new(point, _radius, sphere, Contact.NoBody, isFlat);
+        return distance <= maxCentreDistance;
+    }
+
+    private bool TryFindClosestSurfaceOfMany(Vector position, double maxCentreDistance, out Contact closestContact)
+    {
+        closestContact = default;
+        var isFound = false;
         var searchDistance = maxCentreDistance + _searchMargin;
         foreach (var sphere in _sphereOffsets)
         {
-            if (_staticColliders.Scene.TryFindClosest(position + sphere, searchDistance, queryContext, out var closest, out _))
+            if (TryFindClosestPoint(position + sphere, searchDistance, out var closest))
             {
                 searchDistance = closest.Distance;
                 if (searchDistance <= maxCentreDistance)

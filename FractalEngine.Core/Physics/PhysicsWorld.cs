@@ -62,9 +62,10 @@ public sealed partial class PhysicsWorld
         _gravity = scene.Scene.Gravity;
         Settings = settings ?? new();
         Settings.Validate();
-        _islands = new(_bodies, _grid);
-        _obstacles = new(_bodies, _grid, _queryContext);
-        _stepper = new(Settings, _bodies, _grid, _obstacles, _islands, _queryContext);
+        var nearbyBodies = new NearbyBodies(_grid);
+        _islands = new(_bodies, nearbyBodies);
+        _obstacles = new(_bodies, nearbyBodies, _queryContext);
+        _stepper = new(Settings, _bodies, _grid, nearbyBodies, _obstacles, _islands, _queryContext);
         _staticOfObject = new StaticObject?[scene.Objects.Length];
         for (var i = 0; i < scene.Objects.Length; i++)
         {

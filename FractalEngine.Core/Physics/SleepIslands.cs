@@ -3,7 +3,7 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>Puts slow bodies to sleep, and wakes whole islands: a body with all that touch it, directly or through others.</summary>
-internal sealed class SleepIslands(List<Body> bodies, BodyGrid grid)
+internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
 {
     // Initial capacity of the lists of neighbours; beyond it they grow.
     private const int InitialNeighbourCapacity = 256;
@@ -43,7 +43,7 @@ internal sealed class SleepIslands(List<Body> bodies, BodyGrid grid)
         while (_stack.TryPop(out var next))
         {
             _neighbours.Clear();
-            grid.CollectOverlaps(
+            nearbyBodies.CollectOverlaps(
                 new(next.Position, next.Position), next.Radius * ContactTolerances.NeighbourRadiusFactor, next.Index, _neighbours);
             foreach (var index in _neighbours)
             {
@@ -63,7 +63,7 @@ internal sealed class SleepIslands(List<Body> bodies, BodyGrid grid)
     public void WakeOverlapping(Vector centre, double radius, int excludedIndex = Contact.NoBody)
     {
         _candidates.Clear();
-        grid.CollectOverlaps(new(centre, centre), radius * ContactTolerances.NeighbourRadiusFactor, excludedIndex, _candidates);
+        nearbyBodies.CollectOverlaps(new(centre, centre), radius * ContactTolerances.NeighbourRadiusFactor, excludedIndex, _candidates);
         foreach (var index in _candidates)
         {
             if (bodies[index].IsAsleep)

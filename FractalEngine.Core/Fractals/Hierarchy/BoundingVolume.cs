@@ -1,4 +1,3 @@
-using System.Runtime.CompilerServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -65,7 +64,6 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
     /// <summary>Computes a box around this volume's image under a map.</summary>
     /// <param name="map">From the frame of this volume to that of the image.</param>
     /// <param name="operatorNormBound">Upper bound of the factor by which the map lengthens vectors.</param>
-    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     public BoundingBox TransformedBox(AffineMap map, double operatorNormBound)
     {
         var transformedBox = Box.Transform(map);

@@ -1,4 +1,3 @@
-using System.Runtime.CompilerServices;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Maths;
 
@@ -75,7 +74,6 @@ internal sealed partial class ConvexHull
             return highest;
         }
 
-        [MethodImpl(MethodImplOptions.AggressiveOptimization)]
         private void AddVertex(int apexIndex)
         {
             var apex = points[apexIndex];
@@ -135,7 +133,6 @@ internal sealed partial class ConvexHull
         }
 
         /// <summary>Assigns a point to the facet that it is farthest above, if it is above any.</summary>
-        [MethodImpl(MethodImplOptions.AggressiveOptimization)]
         private void AssignToFacet(int point, int firstFacet)
         {
             Facet? highest = null;
@@ -176,7 +173,6 @@ internal sealed partial class ConvexHull
             Math.Sqrt(TriangleKernel.ClosestPoint(points[point], points[facet.A], points[facet.B], points[facet.C]).DistanceSquared));
 
         /// <summary>Joins facets of the same plane, and orders the planes by descending area.</summary>
-        [MethodImpl(MethodImplOptions.AggressiveOptimization)]
         private HullPlane[] MergePlanes()
         {
             var planes = new List<HullPlane>();

@@ -1,4 +1,3 @@
-using System.Runtime.CompilerServices;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -130,7 +129,6 @@ internal sealed partial class ConvexHull
     }
 
     /// <summary>Computes the support of the hull: the largest product of a direction with a vertex.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     public double Support(Vector direction)
     {
         var maxProduct = double.NegativeInfinity;
@@ -179,7 +177,6 @@ internal sealed partial class ConvexHull
     }
 
     /// <summary>Finds the farthest two of the points with the smallest and largest coordinates.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private static (int First, int Second) FindFarthestPair(ReadOnlySpan<Vector> points)
     {
         Span<int> extremes = stackalloc int[6];

@@ -1,0 +1,69 @@
+using FractalEngine.Core.Geometry;
+
+namespace FractalEngine.Core.Physics;
+
+/// <summary>
+/// Finds the bodies that one mover may meet. What the cells around it hold is collected once; each search then tests these bodies only,
+/// as long as it stays within the cells.
+/// </summary>
+internal sealed class NearbyBodies(BodyGrid grid)
+{
+    // Room for so many bodies near a mover; beyond it the list grows.
+    private const int InitialCapacity = 256;
+
+    private readonly List<int> _inCells = new(InitialCapacity);
+    private BodyGrid.CellRange _cells;
+    private long _version = -1;
+
+    /// <summary>Collects what the cells about a box hold, if they are few enough, so that searches within it are fast.</summary>
+    /// <param name="pathBounds">Box in which the centre of the mover is likely to stay.</param>
+    /// <param name="radius">Radius of the mover's spheres, scene units.</param>
+    public void Prepare(in BoundingBox pathBounds, double radius) => TryCollect(grid.CellsAround(in pathBounds, radius));
+
+    /// <summary>Collects the bodies that a moving sphere may meet.</summary>
+    /// <param name="pathBounds">Box that holds the path of its centre.</param>
+    /// <param name="radius">Radius of the sphere, scene units.</param>
+    /// <param name="excludedIndex">Index of the sphere itself, or <see cref="Contact.NoBody"/>.</param>
+    /// <param name="results">Receives the indices, in no particular order, but always in the same.</param>
+    public void CollectOverlaps(in BoundingBox pathBounds, double radius, int excludedIndex, List<int> results)
+    {
+        foreach (var index in grid.LargeBodies)
+        {
+            if (index != excludedIndex && grid.Overlaps(index, in pathBounds, radius))
+            {
+                results.Add(index);
+            }
+        }
+
+        var cells = grid.CellsAround(in pathBounds, radius);
+        var isCollected = (_version == grid.Version && _cells.Contains(in cells)) || TryCollect(in cells);
+        if (!isCollected)
+        {
+            _inCells.Clear();
+            _version = -1;
+            grid.CollectAll(_inCells);
+        }
+
+        foreach (var index in _inCells)
+        {
+            if (index != excludedIndex && (!isCollected || grid.IsWithin(index, in cells)) && grid.Overlaps(index, in pathBounds, radius))
+            {
+                results.Add(index);
+            }
+        }
+    }
+
+    private bool TryCollect(in BodyGrid.CellRange cells)
+    {
+        _inCells.Clear();
+        _version = -1;
+        if (!grid.TryCollect(in cells, _inCells))
+        {
+            return false;
+        }
+
+        _cells = cells;
+        _version = grid.Version;
+        return true;
+    }
+}
