@@ -7,7 +7,8 @@ namespace FractalEngine.Core.Collision;
 /// <remarks>
 /// They are the three axes of the box, the normal of the triangle, and the nine products of their edges (Akenine-Möller 2001). Along the
 /// axes of the box coordinates are compared as they are. Along the others a gap counts from 4e-15 of the largest coordinate on, which is
-/// more than rounding makes. So no face that meets the box is missed, and one that is closer than that may count.
+/// more than rounding makes. So no face that meets the box is missed, and one that is closer than that may count. Beyond the tip of a
+/// needle, gaps along all axes may be smaller than the distance; that is why the ball around the box is tested, too.
 /// </remarks>
 internal static class TriangleBoxTest
 {
@@ -51,7 +52,8 @@ internal static class TriangleBoxTest
         return !Separates(Vector.Cross(ab, -ca), a, b, c, halfSize, rounding)
             && !SeparatesAlongEdge(ab, a, b, c, halfSize, rounding)
             && !SeparatesAlongEdge(bc, a, b, c, halfSize, rounding)
-            && !SeparatesAlongEdge(ca, a, b, c, halfSize, rounding);
+            && !SeparatesAlongEdge(ca, a, b, c, halfSize, rounding)
+            && IsInReach(a, b, c, halfSize, rounding);
     }
 
     /// <summary>Tests the products of an edge with the axes of the box.</summary>
@@ -59,6 +61,13 @@ internal static class TriangleBoxTest
         Separates(new(0, -edge.Z, edge.Y), a, b, c, halfSize, rounding)
         || Separates(new(edge.Z, 0, -edge.X), a, b, c, halfSize, rounding)
         || Separates(new(-edge.Y, edge.X, 0), a, b, c, halfSize, rounding);
+
+    /// <summary>Tells whether a triangle meets the ball around the box, whose centre is the origin.</summary>
+    private static bool IsInReach(Vector a, Vector b, Vector c, Vector halfSize, double rounding)
+    {
+        var distance = Math.Sqrt(TriangleKernel.ClosestPoint(Vector.Zero, a, b, c).DistanceSquared);
+        return !(distance > halfSize.Length() + (2 * rounding));
+    }
 
     private static bool Separates(Vector axis, Vector a, Vector b, Vector c, Vector halfSize, double rounding)
     {

@@ -50,7 +50,7 @@ internal readonly struct SimdAffineMap
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Vector256<double> Apply(Vector256<double> point) => ApplyLinear(point) + Translation;
 
-    /// <summary>Maps a point.</summary>
+    /// <summary>Maps a point as the <see cref="AffineMap"/> does.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Vector Apply(Vector point) => ToVector(Apply(ToVector256(point)));
 

@@ -20,6 +20,7 @@ internal static class BoxDistance
     {
         var fromCentre = (position - VectorX4.Load(ref rows, first, paddedCount)).Absolute();
         centreDistances = fromCentre.LengthSquared();
-        return VectorX4.MaxNative(fromCentre - VectorX4.Load(ref rows, (3 * paddedCount) + first, paddedCount), VectorX4.Zero).LengthSquared();
+        var halfSize = VectorX4.Load(ref rows, (3 * paddedCount) + first, paddedCount);
+        return VectorX4.MaxNative(fromCentre - halfSize, VectorX4.Zero).LengthSquared();
     }
 }

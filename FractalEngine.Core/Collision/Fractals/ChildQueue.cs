@@ -8,8 +8,8 @@ namespace FractalEngine.Core.Collision.Fractals;
 
 /// <summary>The queue of children anywhere, in double precision.</summary>
 /// <remarks>
-/// Keys keep all their digits. Small children of a distant sub-fractal differ in the last ones only, and a search that visits them in another
-/// order first creeps towards the closest.
+/// Keys keep all their digits. Small children of a distant sub-fractal differ in the last ones only, and a search that visits them in
+/// another order creeps towards the closest.
 /// </remarks>
 /// <param name="values">Memory of the queue, [2 × padded children]: bounds and keys.</param>
 internal readonly ref struct ChildQueue(Span<double> values) : IChildQueue

@@ -13,6 +13,7 @@ namespace FractalEngine.Core.Collision.Fractals;
 internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, TriangleBvh bvh)
     where TFrame : struct, ISearchFrame<TFrame>
 {
+    // As a part of a child's squared radius: one that is closer is nearly around the position.
     private const double MinRefinedBound = 0.01;
 
     private readonly int _baseFaceCount = bvh.FaceCount;
@@ -50,7 +51,6 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
             var queue = new FloatChildQueue(search.ScratchSlice(offset, lanes.PaddedCount), frame.FloatError(lanes));
             frame.FillQueue(hierarchy, lanes, remainingLevels, cutoffSquared, in queue);
             search.BoundTests += subFractal.Children.Length;
-            // One bit for each child whose bound is the best there is.
             var refined = lanes.IsComplete && !search.NeedsTightBounds ? ulong.MaxValue : 0;
             VisitChildren(subFractal, remainingLevels, ref frame, depth, offset + lanes.PaddedCount, queue, refined, ref search);
         }
@@ -71,6 +71,15 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
     }
 
     /// <summary>Searches the children in a queue.</summary>
+    /// <typeparam name="TQueue">The kind of queue; a struct, so that the search is compiled for it.</typeparam>
+    /// <param name="subFractal">The sub-fractal.</param>
+    /// <param name="remainingLevels">Its remaining levels.</param>
+    /// <param name="frame">Its frame.</param>
+    /// <param name="depth">Number of child instances that lead to it.</param>
+    /// <param name="offset">Where free scratch memory begins.</param>
+    /// <param name="queue">The children with their bounds.</param>
+    /// <param name="refined">One bit for each child whose bound is the best there is.</param>
+    /// <param name="search">The state of the search.</param>
     private void VisitChildren<TQueue>(
         SubFractal subFractal, long remainingLevels, ref TFrame frame, int depth, int offset, TQueue queue, ulong refined,
         ref FractalSearchState search)
@@ -85,10 +94,10 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
             var childLevels = child.RemainingLevels(remainingLevels);
             var childSubFractal = hierarchy.At(child, childLevels);
             var childFrame = frame.Enter(child);
-            // While nothing excludes any child, a child around the position is visited as it is.
-            if ((refined & (1UL << closestChild)) == 0
-                && (cutoffSquared < double.PositiveInfinity
-                    || queue.BoundOf(closestChild) > MinRefinedBound * child.ScaleSquared * childSubFractal.RadiusSquared)
+            // While nothing excludes any child, one that is nearly around the position is visited as it is.
+            var isWorthwhile = cutoffSquared < double.PositiveInfinity
+                || queue.BoundOf(closestChild) > MinRefinedBound * child.ScaleSquared * childSubFractal.RadiusSquared;
+            if (isWorthwhile && (refined & (1UL << closestChild)) == 0
                 && frame.CanRefine(subFractal, childSubFractal, childLevels, _baseFaceCount, in search))
             {
                 // The child's own bounds are tighter than the box around its image. Only children that seem closest are refined.

@@ -13,6 +13,9 @@ internal ref struct FractalSearchState
     // So many bounds suffice for most queries. What needs more has many sub-fractals at nearly the same distance.
     private const int MaxRoughBoundTests = 500;
 
+    // Suffices for some twenty levels.
+    private const int InitialScratchLength = 1024;
+
     // An upper bound of the rounding error of coordinates along a chain of maps, as a part of the largest of them.
     public const double ChainError = 4e-15;
 
@@ -41,7 +44,7 @@ internal ref struct FractalSearchState
         _context = context;
         _path = context.PathBuffer(MaxStackDepth);
         _closestPath = context.BestPathBuffer(MaxStackDepth);
-        _scratch = context.ScratchBuffer(1);
+        _scratch = context.ScratchBuffer(InitialScratchLength);
         _tolerance = ChainError * magnitude;
         BoundFactor = (1 + Math.Min(epsilon, MaxEpsilon)) * (1 + Math.Min(epsilon, MaxEpsilon));
         InverseBoundFactor = 1 / BoundFactor;
@@ -61,7 +64,7 @@ internal ref struct FractalSearchState
     /// <summary>Limit for squared bounds, where the error that the caller allows is taken off.</summary>
     public readonly double BoundCutoffSquared => CutoffSquared * InverseBoundFactor;
 
-    /// <summary>1 ÷ <see cref="BoundFactor"/>.</summary>
+    /// <summary>Squared bounds are compared with limits times this: 1/(1 + ε)².</summary>
     public double InverseBoundFactor { get; }
 
     /// <summary>True when a depth-first search has given up.</summary>

@@ -88,7 +88,8 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
     public bool CanRefine(
         SubFractal parent, SubFractal childSubFractal, long remainingLevels, int baseFaceCount, in FractalSearchState search) =>
         (remainingLevels > 0 || baseFaceCount > MaxFacesWithoutHull)
-        && (parent.HasRotatedChildren || childSubFractal.Hull is not null || childSubFractal.Clusters is not null || search.NeedsTightBounds);
+        && (parent.HasRotatedChildren || childSubFractal.Hull is not null || childSubFractal.Clusters is not null
+            || search.NeedsTightBounds);
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

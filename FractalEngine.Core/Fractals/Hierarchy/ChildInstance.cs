@@ -71,7 +71,7 @@ internal sealed class ChildInstance
     /// <summary>Square of the factor by which the map lengthens vectors; meaningful for similarities only.</summary>
     public double ScaleSquared { get; }
 
-    /// <summary>1 ÷ <see cref="ScaleSquared"/>, rounded.</summary>
+    /// <summary>Square of the factor by which the inverse map lengthens vectors; meaningful for similarities only.</summary>
     public double InverseScaleSquared { get; }
 
     /// <summary>Upper bound of the factor by which the map lengthens vectors.</summary>
