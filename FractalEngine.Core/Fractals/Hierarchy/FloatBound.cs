@@ -116,7 +116,9 @@ internal sealed class FloatBound
                     + (Vector256.Create(Unsafe.Add(ref vertex, i + 2)) * dz));
         }
 
-        var separation = ((fromCentreSquared - support) / Vector256.Sqrt(fromCentreSquared + Vector256.Create(float.Epsilon))) - Vector256.Create(_margin);
+        // The summand keeps 0 ÷ 0 away from a position at the centre.
+        var length = Vector256.Sqrt(fromCentreSquared + Vector256.Create(float.Epsilon));
+        var separation = ((fromCentreSquared - support) / length) - Vector256.Create(_margin);
         separation = Vector256.MaxNative(separation, zero);
         return Vector256.MaxNative(squared, separation * separation * scaleSquared);
     }

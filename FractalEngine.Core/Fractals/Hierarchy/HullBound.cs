@@ -82,7 +82,8 @@ internal sealed class HullBound
 
     /// <summary>The vertices of the hull, in front of the margin.</summary>
     public Vector[] CopyVertices() =>
-        [.. Enumerable.Range(0, _hullVertexCount).Select(i => new Vector(_vertices[i], _vertices[_vertexCount + i], _vertices[(2 * _vertexCount) + i]))];
+        [.. Enumerable.Range(0, _hullVertexCount).Select(
+            i => new Vector(_vertices[i], _vertices[_vertexCount + i], _vertices[(2 * _vertexCount) + i]))];
 
     /// <summary>How far the solid reaches beyond its vertices.</summary>
     public double Margin => _margin;
