@@ -1,0 +1,521 @@
+using System.Buffers;
+using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.Parsing.Meshes;
+
+/// <summary>
+/// The fast kernel of <see cref="ObjParser"/>: reads the plain lines of a block of bytes, and stops at the first line that is not plain,
+/// be it wrong or only unusual.
+/// </summary>
+/// <remarks>
+/// Plain are elements with finite numbers and existing indices, in ASCII, without joined lines; comments; and all statements with names,
+/// which are only found here. What comes before the block need not be known: whether an index exists is told by
+/// <see cref="Required"/>. One instance is used for one block after the other.
+/// </remarks>
+internal sealed class ObjScanner : IDisposable
+{
+    private readonly List<ObjStatement> _statements = [];
+    private double[] _positions = [];
+    private double[] _textureCoordinates = [];
+    private double[] _normals = [];
+    private int[] _positionIndices = [];
+    private int[] _textureIndices = [];
+    private int[] _normalIndices = [];
+    private ushort[] _polygonSizes = [];
+
+    private int _end;
+    private int _positionCount;
+    private int _textureCoordinateCount;
+    private int _normalCount;
+    private int _cornerCount;
+    private int _polygonCount;
+    private int _faceCount;
+
+    // Corners below have entries in the arrays of texture coordinates and normals; 0 until a corner has any.
+    private int _textureIndexCount;
+    private int _normalIndexCount;
+    private bool _hasPolygonSizes;
+    private bool _hasRelativeIndices;
+    private int _requiredPositions;
+    private int _requiredTextureCoordinates;
+    private int _requiredNormals;
+
+    /// <summary>Statements with names, in order.</summary>
+    public IReadOnlyList<ObjStatement> Statements => _statements;
+
+    /// <summary>Whether there is a line that declares something, other than <see cref="Statements"/>.</summary>
+    public bool HasDeclaration { get; private set; }
+
+    /// <summary>Number of line breaks before the end of the scanned lines.</summary>
+    public int LineCount { get; private set; }
+
+    /// <summary>Numbers of elements that must come before the block, or some index does not exist.</summary>
+    public ObjCounts Required => new(_requiredPositions, _requiredTextureCoordinates, _requiredNormals, 0);
+
+    /// <summary>Reads the plain lines at the beginning of a block.</summary>
+    /// <param name="bytes">The block, and behind it a line feed and the padding of <see cref="Utf8NumberReader"/>.</param>
+    /// <param name="length">Length of the block.</param>
+    /// <returns>Offset of the first line that is not plain, or the length of the block.</returns>
+    public int Scan(byte[] bytes, int length)
+    {
+        Restart(length);
+        var stopped = (int)ScanLines(ref MemoryMarshal.GetArrayDataReference(bytes));
+        HasDeclaration |= _positionCount > 0 || _textureCoordinateCount > 0 || _normalCount > 0 || _polygonCount > 0;
+        return Math.Min(stopped, length);
+    }
+
+    /// <summary>Creates a block of all elements that were read.</summary>
+    public ObjBlock ToBlock()
+    {
+        FillIndices(_textureIndices, ref _textureIndexCount);
+        FillIndices(_normalIndices, ref _normalIndexCount);
+        return new()
+        {
+            Counts = new(_positionCount, _textureCoordinateCount, _normalCount, _faceCount),
+            Positions = Copy(_positions, 3 * _positionCount),
+            TextureCoordinates = Copy(_textureCoordinates, 2 * _textureCoordinateCount),
+            Normals = Copy(_normals, 3 * _normalCount),
+            PositionIndices = Copy(_positionIndices, _cornerCount),
+            TextureIndices = Copy(_textureIndices, _textureIndexCount),
+            NormalIndices = Copy(_normalIndices, _normalIndexCount),
+            PolygonSizes = Copy(_polygonSizes, _hasPolygonSizes ? _polygonCount : 0),
+            HasRelativeIndices = _hasRelativeIndices,
+        };
+    }
+
+    /// <summary>Returns the buffers to their pool.</summary>
+    public void Dispose()
+    {
+        Resize(ref _positions, 0);
+        Resize(ref _textureCoordinates, 0);
+        Resize(ref _normals, 0);
+        Resize(ref _positionIndices, 0);
+        Resize(ref _textureIndices, 0);
+        Resize(ref _normalIndices, 0);
+        Resize(ref _polygonSizes, 0);
+    }
+
+    private static T[] Copy<T>(T[] buffer, int length)
+    {
+        if (length == 0)
+        {
+            return [];
+        }
+
+        var array = GC.AllocateUninitializedArray<T>(length);
+        buffer.AsSpan(0, length).CopyTo(array);
+        return array;
+    }
+
+    /// <summary>Makes a buffer large enough; what it holds is lost. Length 0 returns it to its pool.</summary>
+    private static void Resize<T>(ref T[] buffer, int length)
+    {
+        if (length > 0 && buffer.Length >= length)
+        {
+            return;
+        }
+
+        if (buffer.Length > 0)
+        {
+            ArrayPool<T>.Shared.Return(buffer);
+        }
+
+        buffer = length == 0 ? [] : ArrayPool<T>.Shared.Rent(length);
+    }
+
+    /// <summary>Clears all counts, and makes room for the largest number of elements that so many bytes can hold.</summary>
+    private void Restart(int length)
+    {
+        // The shortest lines are "v 0 0 0", "vt 0", "vn 0 0 0" and "f 1 1 1" with a line break, the shortest corner " 1".
+        Resize(ref _positions, 3 * ((length / 8) + 2));
+        Resize(ref _textureCoordinates, 2 * ((length / 5) + 2));
+        Resize(ref _normals, 3 * ((length / 9) + 2));
+        Resize(ref _positionIndices, (length / 2) + 2);
+        Resize(ref _textureIndices, (length / 2) + 2);
+        Resize(ref _normalIndices, (length / 2) + 2);
+        Resize(ref _polygonSizes, (length / 8) + 2);
+        _statements.Clear();
+        _end = length;
+        HasDeclaration = _hasPolygonSizes = _hasRelativeIndices = false;
+        LineCount = 0;
+        _positionCount = _textureCoordinateCount = _normalCount = 0;
+        _cornerCount = _polygonCount = _faceCount = _textureIndexCount = _normalIndexCount = 0;
+        _requiredPositions = _requiredTextureCoordinates = _requiredNormals = 0;
+    }
+
+    /// <summary>Reads lines, and returns the position of the first that is not plain, or one that is not before the end.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+    private nint ScanLines(ref byte text)
+    {
+        nint end = _end;
+        nint line = 0;
+        while (line < end)
+        {
+            var start = line;
+            while (Unsafe.Add(ref text, start) is (byte)' ' or (byte)'\t')
+            {
+                start++;
+            }
+
+            uint first = Unsafe.Add(ref text, start);
+            uint second = Unsafe.Add(ref text, start + 1);
+            nint next;
+            if (first == 'v' && IsBlank(second))
+            {
+                next = ScanPosition(ref text, start + 1);
+            }
+            else if (first == 'f' && IsBlank(second))
+            {
+                next = ScanFace(ref text, start + 1);
+            }
+            else if (first == 'v' && second == 't' && IsBlank(Unsafe.Add(ref text, start + 2)))
+            {
+                next = ScanTextureCoordinate(ref text, start + 2);
+            }
+            else if (first == 'v' && second == 'n' && IsBlank(Unsafe.Add(ref text, start + 2)))
+            {
+                next = ScanNormal(ref text, start + 2);
+            }
+            else
+            {
+                next = ScanOther(ref text, line, start);
+            }
+
+            if (next == Utf8NumberReader.None)
+            {
+                return line;
+            }
+
+            LineCount++;
+            line = next;
+        }
+
+        return line;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static bool IsBlank(uint character) => character is ' ' or '\t';
+
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+    private nint ScanPosition(ref byte text, nint position)
+    {
+        ref var target = ref Unsafe.Add(ref MemoryMarshal.GetArrayDataReference(_positions), (nint)3 * _positionCount);
+        position = ScanThreeNumbers(ref text, position, ref target);
+        if (position == Utf8NumberReader.None)
+        {
+            return Utf8NumberReader.None;
+        }
+
+        position = Unsafe.Add(ref text, position) == '\n' ? position + 1 : ScanOptionalNumbers(ref text, position);
+        _positionCount += position == Utf8NumberReader.None ? 0 : 1;
+        return position;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+    private nint ScanNormal(ref byte text, nint position)
+    {
+        ref var target = ref Unsafe.Add(ref MemoryMarshal.GetArrayDataReference(_normals), (nint)3 * _normalCount);
+        position = ScanThreeNumbers(ref text, position, ref target);
+        if (position == Utf8NumberReader.None)
+        {
+            return Utf8NumberReader.None;
+        }
+
+        position = ScanEndOfLine(ref text, position);
+        _normalCount += position == Utf8NumberReader.None ? 0 : 1;
+        return position;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+    private nint ScanTextureCoordinate(ref byte text, nint position)
+    {
+        ref var target = ref Unsafe.Add(ref MemoryMarshal.GetArrayDataReference(_textureCoordinates), (nint)2 * _textureCoordinateCount);
+        position = Utf8NumberReader.Read(ref text, SkipBlanks(ref text, position), ref target);
+        if (position == Utf8NumberReader.None)
+        {
+            return Utf8NumberReader.None;
+        }
+
+        // A missing second coordinate is 0.
+        target = ref Unsafe.Add(ref target, 1);
+        target = 0;
+        if (IsBlank(Unsafe.Add(ref text, position)) && IsNumberStart(Unsafe.Add(ref text, SkipBlanks(ref text, position))))
+        {
+            position = Utf8NumberReader.Read(ref text, SkipBlanks(ref text, position), ref target);
+            if (position == Utf8NumberReader.None)
+            {
+                return Utf8NumberReader.None;
+            }
+        }
+
+        position = Unsafe.Add(ref text, position) == '\n' ? position + 1 : ScanOptionalNumbers(ref text, position);
+        _textureCoordinateCount += position == Utf8NumberReader.None ? 0 : 1;
+        return position;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static nint ScanThreeNumbers(ref byte text, nint position, ref double target)
+    {
+        position = Utf8NumberReader.Read(ref text, SkipBlanks(ref text, position), ref target);
+        if (position == Utf8NumberReader.None || !IsBlank(Unsafe.Add(ref text, position)))
+        {
+            return Utf8NumberReader.None;
+        }
+
+        position = Utf8NumberReader.Read(ref text, SkipBlanks(ref text, position), ref Unsafe.Add(ref target, 1));
+        if (position == Utf8NumberReader.None || !IsBlank(Unsafe.Add(ref text, position)))
+        {
+            return Utf8NumberReader.None;
+        }
+
+        return Utf8NumberReader.Read(ref text, SkipBlanks(ref text, position), ref Unsafe.Add(ref target, 2));
+    }
+
+    /// <summary>Skips blanks behind one blank.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static nint SkipBlanks(ref byte text, nint position)
+    {
+        do
+        {
+            position++;
+        }
+        while (IsBlank(Unsafe.Add(ref text, position)));
+        return position;
+    }
+
+    private static bool IsNumberStart(uint character) => character - '0' <= 9 || character is '-' or '+' or '.';
+
+    /// <summary>Skips further numbers of a line and its end, and returns the position of the next line or none.</summary>
+    private nint ScanOptionalNumbers(ref byte text, nint position)
+    {
+        var ignored = 0.0;
+        while (IsBlank(Unsafe.Add(ref text, position)))
+        {
+            var next = SkipBlanks(ref text, position);
+            if (!IsNumberStart(Unsafe.Add(ref text, next)))
+            {
+                break;
+            }
+
+            position = Utf8NumberReader.Read(ref text, next, ref ignored);
+            if (position == Utf8NumberReader.None)
+            {
+                return Utf8NumberReader.None;
+            }
+        }
+
+        return ScanEndOfLine(ref text, position);
+    }
+
+    /// <summary>Skips blanks, a comment and a line break, and returns the position of the next line or none.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private nint ScanEndOfLine(ref byte text, nint position) =>
+        Unsafe.Add(ref text, position) == '\n' ? position + 1 : ScanUnusualEndOfLine(ref text, position);
+
+    private nint ScanUnusualEndOfLine(ref byte text, nint position)
+    {
+        while (IsBlank(Unsafe.Add(ref text, position)))
+        {
+            position++;
+        }
+
+        return (char)Unsafe.Add(ref text, position) switch
+        {
+            '\n' => position + 1,
+            '\r' => SkipLineBreak(ref text, position),
+            '#' => SkipLineBreak(ref text, FindLineBreak(ref text, position)),
+            _ => Utf8NumberReader.None,
+        };
+    }
+
+    private nint FindLineBreak(ref byte text, nint position)
+    {
+        var rest = MemoryMarshal.CreateReadOnlySpan(ref Unsafe.Add(ref text, position), _end - (int)position);
+        var length = rest.IndexOfAny((byte)'\n', (byte)'\r');
+        return length < 0 ? _end : position + length;
+    }
+
+    private static nint SkipLineBreak(ref byte text, nint position) =>
+        position + (Unsafe.Add(ref text, position) == '\r' && Unsafe.Add(ref text, position + 1) == '\n' ? 2 : 1);
+
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+    private nint ScanFace(ref byte text, nint position)
+    {
+        ref var indices = ref MemoryMarshal.GetArrayDataReference(_positionIndices);
+        var firstCorner = _cornerCount;
+        var corner = firstCorner;
+        var (textureIndexCount, normalIndexCount) = (_textureIndexCount, _normalIndexCount);
+        var (maxPosition, maxTexture, maxNormal) = (0, 0, 0);
+        while (true)
+        {
+            while (IsBlank(Unsafe.Add(ref text, position)))
+            {
+                position++;
+            }
+
+            var next = ScanIndex(ref text, position, _positionCount, ref maxPosition, out Unsafe.Add(ref indices, corner));
+            if (next == Utf8NumberReader.None)
+            {
+                break;
+            }
+
+            position = next;
+            uint separator = Unsafe.Add(ref text, position);
+            if (separator == '/')
+            {
+                position = ScanOptionalIndices(ref text, position + 1, corner, ref maxTexture, ref maxNormal);
+                if (position == Utf8NumberReader.None)
+                {
+                    break;
+                }
+
+                separator = Unsafe.Add(ref text, position);
+            }
+
+            corner++;
+            if (!IsBlank(separator))
+            {
+                break;
+            }
+        }
+
+        var size = corner - firstCorner;
+        position = position == Utf8NumberReader.None ? position : ScanEndOfLine(ref text, position);
+        if (position == Utf8NumberReader.None || size is < 3 or > ParsingLimits.MaxPolygonCorners)
+        {
+            (_textureIndexCount, _normalIndexCount) = (textureIndexCount, normalIndexCount);
+            return Utf8NumberReader.None;
+        }
+
+        _requiredPositions = Math.Max(_requiredPositions, maxPosition - _positionCount);
+        _requiredTextureCoordinates = Math.Max(_requiredTextureCoordinates, maxTexture - _textureCoordinateCount);
+        _requiredNormals = Math.Max(_requiredNormals, maxNormal - _normalCount);
+        AddPolygon(size);
+        return position;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private void AddPolygon(int size)
+    {
+        if (size != 3 && !_hasPolygonSizes)
+        {
+            _polygonSizes.AsSpan(0, _polygonCount).Fill(3);
+            _hasPolygonSizes = true;
+        }
+
+        if (_hasPolygonSizes)
+        {
+            _polygonSizes[_polygonCount] = (ushort)size;
+        }
+
+        _polygonCount++;
+        _cornerCount += size;
+        _faceCount += size - 2;
+    }
+
+    /// <summary>Reads what may follow the first slash of a corner: <c>vt</c>, <c>vt/vn</c> or <c>/vn</c>.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private nint ScanOptionalIndices(ref byte text, nint position, int corner, ref int maxTexture, ref int maxNormal)
+    {
+        if (Unsafe.Add(ref text, position) != '/')
+        {
+            FillIndices(_textureIndices, ref _textureIndexCount, corner);
+            position = ScanIndex(ref text, position, _textureCoordinateCount, ref maxTexture,
+                out Unsafe.Add(ref MemoryMarshal.GetArrayDataReference(_textureIndices), corner));
+            if (position == Utf8NumberReader.None)
+            {
+                return Utf8NumberReader.None;
+            }
+        }
+
+        if (Unsafe.Add(ref text, position) == '/')
+        {
+            FillIndices(_normalIndices, ref _normalIndexCount, corner);
+            position = ScanIndex(ref text, position + 1, _normalCount, ref maxNormal,
+                out Unsafe.Add(ref MemoryMarshal.GetArrayDataReference(_normalIndices), corner));
+        }
+
+        return position;
+    }
+
+    /// <summary>Reads the number of an element, and returns the position behind it or none.</summary>
+    /// <param name="text">Text of the block.</param>
+    /// <param name="position">Position of the number.</param>
+    /// <param name="count">Number of such elements in the block so far.</param>
+    /// <param name="maxNumber">Becomes at least the absolute value of the number.</param>
+    /// <param name="index">Receives the index as <see cref="ObjBlock"/> has it.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private nint ScanIndex(ref byte text, nint position, int count, ref int maxNumber, out int index)
+    {
+        var isRelative = Unsafe.Add(ref text, position) == '-';
+        position = Utf8NumberReader.ReadInteger(ref text, position + (isRelative ? 1 : 0), out var number);
+        index = number - 1;
+        maxNumber = Math.Max(maxNumber, number);
+        if (isRelative)
+        {
+            index = ObjBlock.BlockStart + count - number;
+            _hasRelativeIndices = true;
+        }
+
+        return number == 0 ? Utf8NumberReader.None : position;
+    }
+
+    /// <summary>Marks the corners before one that has an index as corners without one, and counts that corner.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static void FillIndices(int[] indices, ref int count, int corner)
+    {
+        if (count != corner)
+        {
+            indices.AsSpan(count, corner - count).Fill(ObjCorner.None);
+        }
+
+        count = corner + 1;
+    }
+
+    private void FillIndices(int[] indices, ref int count)
+    {
+        if (count > 0)
+        {
+            FillIndices(indices, ref count, _cornerCount);
+            count = _cornerCount;
+        }
+    }
+
+    /// <summary>Skips an empty line, a comment or a statement, and returns the position of the next line or none.</summary>
+    private nint ScanOther(ref byte text, nint line, nint start)
+    {
+        var first = (char)Unsafe.Add(ref text, start);
+        if (!char.IsAsciiLetter(first))
+        {
+            return ScanUnusualEndOfLine(ref text, start);
+        }
+
+        var end = FindLineBreak(ref text, start);
+        var keyword = start + 1;
+        while (Unsafe.Add(ref text, keyword) is var c && (char.IsAsciiLetterOrDigit((char)c) || c == '_'))
+        {
+            keyword++;
+        }
+
+        // The line may be joined with the next, and the keyword may continue in another alphabet.
+        if (Unsafe.Add(ref text, end - 1) == '\\' || Unsafe.Add(ref text, keyword) >= 0x80)
+        {
+            return Utf8NumberReader.None;
+        }
+
+        var next = SkipLineBreak(ref text, end);
+        switch (MemoryMarshal.CreateReadOnlySpan(ref Unsafe.Add(ref text, start), (int)(keyword - start)))
+        {
+            case [(byte)'v' or (byte)'f'] or [(byte)'v', (byte)'t' or (byte)'n']:
+                return Utf8NumberReader.None;
+            case [(byte)'l' or (byte)'p']:
+                HasDeclaration = true;
+                return next;
+            default:
+                _statements.Add(new((int)line, (int)(Math.Min(next, _end) - line), LineCount, _faceCount));
+                return next;
+        }
+    }
+}
