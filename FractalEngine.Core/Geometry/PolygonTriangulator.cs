@@ -43,6 +43,7 @@ public sealed class PolygonTriangulator
     /// (3, 0, 1) and (1, 2, 3), so that callers with many quadrilaterals need not call it.
     /// </summary>
     /// <returns>False also where sizes overflow.</returns>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static bool IsConvex(Vector a, Vector b, Vector c, Vector d)
     {
         var (toB, toC, toD) = (b - a, c - a, d - a);
@@ -167,6 +168,7 @@ public sealed class PolygonTriangulator
     }
 
     /// <summary>Computes twice the signed area of a triangle, positive when it is wound as the polygon.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static double TwiceSignedArea((double X, double Y) a, (double X, double Y) b, (double X, double Y) c) =>
         ((b.X - a.X) * (c.Y - a.Y)) - ((b.Y - a.Y) * (c.X - a.X));
 }

@@ -8,9 +8,6 @@ namespace FractalEngine.Parsing.Meshes;
 /// <summary>Writes the polygons of one block as triangles into the arrays of a mesh.</summary>
 internal sealed class ObjFaceWriter
 {
-    // The triangles of a convex quadrilateral, as PolygonTriangulator cuts it.
-    private static readonly int[] ConvexQuadCorners = [3, 0, 1, 1, 2, 3];
-
     private readonly ObjBlock _block;
     private readonly double[] _positions;
     private readonly int[] _positionIndices;
@@ -85,35 +82,56 @@ internal sealed class ObjFaceWriter
         var target = 3 * _block.Before.Faces;
         foreach (int size in _block.PolygonSizes)
         {
-            var triangles = size == 3 ? [0, 1, 2]
-                : size == 4 && IsConvexQuad(corner) ? ConvexQuadCorners
-                : Triangulate(corner, size);
-            WriteCorners(triangles, corner, target, _block.PositionIndices, _positionIndices);
-            WriteCorners(triangles, corner, target, _block.TextureIndices, _textureIndices);
-            WriteCorners(triangles, corner, target, _block.NormalIndices, _normalIndices);
+            if (size == 3)
+            {
+                WriteTriangle(target, corner, corner + 1, corner + 2);
+            }
+            else if (size == 4 && IsConvexQuad(corner))
+            {
+                // As PolygonTriangulator cuts it.
+                WriteTriangle(target, corner + 3, corner, corner + 1);
+                WriteTriangle(target + 3, corner + 1, corner + 2, corner + 3);
+            }
+            else
+            {
+                WritePolygon(target, corner, size);
+            }
+
             corner += size;
-            target += triangles.Length;
+            target += 3 * (size - 2);
         }
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static void WriteCorners(ReadOnlySpan<int> triangles, int corner, int target, int[] from, int[] to)
+    private void WriteTriangle(int target, int corner1, int corner2, int corner3)
     {
-        if (to.Length == 0)
+        WriteIndices(_block.PositionIndices, _positionIndices, target, corner1, corner2, corner3);
+        if (_textureIndices.Length > 0)
         {
-            return;
+            WriteIndices(_block.TextureIndices, _textureIndices, target, corner1, corner2, corner3);
         }
 
-        for (var i = 0; i < triangles.Length; i++)
+        if (_normalIndices.Length > 0)
         {
-            to[target + i] = from.Length == 0 ? ObjCorner.None : from[corner + triangles[i]];
+            WriteIndices(_block.NormalIndices, _normalIndices, target, corner1, corner2, corner3);
         }
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static void WriteIndices(int[] from, int[] to, int target, int corner1, int corner2, int corner3)
+    {
+        var triangle = to.AsSpan(target, 3);
+        var hasIndices = from.Length > 0;
+        triangle[2] = hasIndices ? from[corner3] : ObjCorner.None;
+        triangle[1] = hasIndices ? from[corner2] : ObjCorner.None;
+        triangle[0] = hasIndices ? from[corner1] : ObjCorner.None;
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private bool IsConvexQuad(int corner) => PolygonTriangulator.IsConvex(
         PositionOf(corner), PositionOf(corner + 1), PositionOf(corner + 2), PositionOf(corner + 3));
 
-    private ReadOnlySpan<int> Triangulate(int corner, int size)
+    private void WritePolygon(int target, int corner, int size)
     {
         _polygon.Clear();
         _triangleCorners.Clear();
@@ -123,7 +141,10 @@ internal sealed class ObjFaceWriter
         }
 
         _triangulator.Triangulate(CollectionsMarshal.AsSpan(_polygon), _triangleCorners);
-        return CollectionsMarshal.AsSpan(_triangleCorners);
+        for (var i = 0; i < _triangleCorners.Count; i += 3)
+        {
+            WriteTriangle(target + i, corner + _triangleCorners[i], corner + _triangleCorners[i + 1], corner + _triangleCorners[i + 2]);
+        }
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -449,17 +449,17 @@ internal sealed class ObjScanner : IDisposable
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private nint ScanIndex(ref byte text, nint position, int count, ref int maxNumber, out int index)
     {
-        var isRelative = Unsafe.Add(ref text, position) == '-';
-        position = Utf8NumberReader.ReadInteger(ref text, position + (isRelative ? 1 : 0), out var number);
+        var end = Utf8NumberReader.ReadInteger(ref text, position, out var number);
         index = number - 1;
-        maxNumber = Math.Max(maxNumber, number);
-        if (isRelative)
+        if (end == Utf8NumberReader.None && Unsafe.Add(ref text, position) == '-')
         {
+            end = Utf8NumberReader.ReadInteger(ref text, position + 1, out number);
             index = ObjBlock.BlockStart + count - number;
             _hasRelativeIndices = true;
         }
 
-        return number == 0 ? Utf8NumberReader.None : position;
+        maxNumber = Math.Max(maxNumber, number);
+        return number == 0 ? Utf8NumberReader.None : end;
     }
 
     /// <summary>Marks the corners before one that has an index as corners without one, and counts that corner.</summary>
