@@ -190,6 +190,7 @@ public sealed class Mesh : IEquatable<Mesh>
         Require(AreWithin(indices.AsSpan(), minIndex, count - 1), name, "indices of elements that exist");
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private static bool AreWithin(ReadOnlySpan<int> indices, int minIndex, int maxIndex)
     {
         var vectors = MemoryMarshal.Cast<int, Vector256<int>>(indices);
@@ -210,6 +211,7 @@ public sealed class Mesh : IEquatable<Mesh>
     }
 
     /// <summary>Computes the box of positions; it has NaN where a coordinate is NaN.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private static BoundingBox BoundsOf(ReadOnlySpan<double> positions)
     {
         // Three vectors hold four positions. Each of their lanes is always the same coordinate.

@@ -12,10 +12,10 @@ internal sealed class ObjContents
     private readonly HashSet<string> _knownLibraries = [];
     private readonly Dictionary<string, SourcePosition> _materialPositions = [];
     private int _unknownLineCount;
-    private SourcePosition _firstUnknownLine;
+    private SourcePosition? _firstUnknownLine;
     private string _firstUnknownKeyword = "";
     private int _invalidIndexCount;
-    private SourcePosition _firstInvalidIndex;
+    private SourcePosition? _firstInvalidIndex;
     private string _firstInvalidIndexMessage = "";
 
     /// <summary>Numbers of elements in all blocks so far.</summary>
@@ -51,7 +51,8 @@ internal sealed class ObjContents
     /// <summary>Counts a line with an unknown keyword.</summary>
     public void AddUnknownLine(SourcePosition position, string keyword)
     {
-        if (_unknownLineCount++ == 0)
+        _unknownLineCount++;
+        if (_firstUnknownLine is null)
         {
             _firstUnknownLine = position;
             _firstUnknownKeyword = keyword;
@@ -61,7 +62,8 @@ internal sealed class ObjContents
     /// <summary>Counts an index of a normal or texture coordinate that does not exist.</summary>
     public void AddInvalidIndex(SourcePosition position, string message)
     {
-        if (_invalidIndexCount++ == 0)
+        _invalidIndexCount++;
+        if (_firstInvalidIndex is null)
         {
             _firstInvalidIndex = position;
             _firstInvalidIndexMessage = message;
@@ -70,25 +72,27 @@ internal sealed class ObjContents
 
     /// <summary>Creates the mesh of all that was added.</summary>
     /// <param name="threadCount">Number of threads that merge the blocks, at least one.</param>
-    public ParsedObj Complete(int threadCount) =>
+    /// <param name="byteCount">Size of the file in bytes.</param>
+    public ParsedObj Complete(int threadCount, long byteCount) =>
         new(ObjMeshAssembler.Assemble(_blocks, Counts, threadCount).WithGroups(Groups.Complete(Counts.Faces), [.. _materialLibraries]),
             CreateWarnings())
         {
             MaterialLibraryPositions = [.. _libraryPositions],
             MaterialPositions = _materialPositions.ToImmutableDictionary(),
+            ByteCount = byteCount,
         };
 
     private ImmutableArray<Diagnostic> CreateWarnings()
     {
         var warnings = ImmutableArray.CreateBuilder<Diagnostic>();
-        if (_unknownLineCount > 0)
+        if (_firstUnknownLine is not null)
         {
             var totalNote = _unknownLineCount == 1 ? "" : $" ({_unknownLineCount} lines with unknown keywords in all)";
             var message = $"unknown keyword {_firstUnknownKeyword} skipped{totalNote}";
             warnings.Add(_firstUnknownLine.Diagnose(message, DiagnosticSeverity.Warning));
         }
 
-        if (_invalidIndexCount > 0)
+        if (_firstInvalidIndex is not null)
         {
             var totalNote = _invalidIndexCount == 1 ? "" : $" ({_invalidIndexCount} such corners in all)";
             var message = $"{_firstInvalidIndexMessage}: the index is ignored{totalNote}";

@@ -6,8 +6,8 @@ namespace FractalEngine.Parsing.Meshes;
 /// <summary>Merges the blocks of an OBJ file into one mesh: each block knows where its elements go.</summary>
 internal sealed class ObjMeshAssembler
 {
-    private readonly IReadOnlyList<ObjBlock> _blocks;
-    private readonly ParallelOptions _options;
+    private readonly List<ObjBlock> _blocks;
+    private readonly int _threadCount;
     private readonly double[] _positions;
     private readonly double[] _textureCoordinates;
     private readonly double[] _normals;
@@ -15,13 +15,18 @@ internal sealed class ObjMeshAssembler
     private readonly int[] _textureIndices;
     private readonly int[] _normalIndices;
 
-    private ObjMeshAssembler(IReadOnlyList<ObjBlock> blocks, ObjCounts counts, int threadCount)
+    private ObjMeshAssembler(List<ObjBlock> blocks, ObjCounts counts, int threadCount)
     {
         _blocks = blocks;
-        _options = new() { MaxDegreeOfParallelism = threadCount };
+        _threadCount = Math.Min(threadCount, blocks.Count);
         // Elements that no face refers to are no part of a mesh, except for its vertices.
-        var hasTextures = blocks.Any(block => block.TextureIndices.Length > 0);
-        var hasNormals = blocks.Any(block => block.NormalIndices.Length > 0);
+        var (hasTextures, hasNormals) = (false, false);
+        foreach (var block in blocks)
+        {
+            hasTextures |= block.TextureIndices.Length > 0;
+            hasNormals |= block.NormalIndices.Length > 0;
+        }
+
         _positions = Allocate<double>(3 * counts.Positions);
         _textureCoordinates = Allocate<double>(hasTextures ? 2 * counts.TextureCoordinates : 0);
         _normals = Allocate<double>(hasNormals ? 3 * counts.Normals : 0);
@@ -34,7 +39,7 @@ internal sealed class ObjMeshAssembler
     /// <param name="blocks">Blocks in the order of the file.</param>
     /// <param name="counts">Numbers of elements in all of them.</param>
     /// <param name="threadCount">Number of threads that work on it, at least one.</param>
-    public static Mesh Assemble(IReadOnlyList<ObjBlock> blocks, ObjCounts counts, int threadCount)
+    public static Mesh Assemble(List<ObjBlock> blocks, ObjCounts counts, int threadCount)
     {
         if (blocks is [{ IsResolved: true } single])
         {
@@ -70,17 +75,14 @@ internal sealed class ObjMeshAssembler
 
     private void ForEachBlock(Action<ObjBlock> write)
     {
-        if (_options.MaxDegreeOfParallelism == 1)
+        var next = -1;
+        Workers.Run(_threadCount, _ =>
         {
-            foreach (var block in _blocks)
+            for (var i = Interlocked.Increment(ref next); i < _blocks.Count; i = Interlocked.Increment(ref next))
             {
-                write(block);
+                write(_blocks[i]);
             }
-        }
-        else
-        {
-            Parallel.ForEach(_blocks, _options, write);
-        }
+        });
     }
 
     private void CopyElements(ObjBlock block)

@@ -37,7 +37,7 @@ public sealed class ObjParser : Parser
         var contents = new ObjContents();
         ParseLines(source, contents, progress);
         progress?.Report(1);
-        return contents.HasDeclaration ? contents.Complete(threadCount: 1) with { ByteCount = source.ByteCount } : throw EmptyError(source);
+        return contents.HasDeclaration ? contents.Complete(threadCount: 1, source.ByteCount) : throw EmptyError(source);
     }
 
     /// <summary>Parses some lines and adds what they declare.</summary>

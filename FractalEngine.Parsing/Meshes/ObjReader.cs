@@ -29,7 +29,6 @@ public sealed class ObjReader
     private readonly int _threadCount;
     private readonly ObjBlockReader _blocks;
     private readonly ObjContents _contents = new();
-    private readonly ObjElements _statementElements = new();
 
     // Guards all fields below, and the contents.
     private readonly object _turn = new();
@@ -37,6 +36,7 @@ public sealed class ObjReader
     private int _line = 1;
     private long _addedEnd;
     private SourceText _firstLine;
+    private ObjElements? _statementElements;
     private Exception? _failure;
     private bool _isStopped;
 
@@ -75,9 +75,7 @@ public sealed class ObjReader
     /// <summary>Reads the whole file. Returns null if it is not of the encoding.</summary>
     private ParsedObj? TryRead()
     {
-        var others = Enumerable.Range(1, _threadCount - 1).Select(_ => Task.Run(() => ReadBlocks(null))).ToArray();
-        ReadBlocks(_progress);
-        Task.WaitAll(others);
+        Workers.Run(_threadCount, isCaller => ReadBlocks(isCaller ? _progress : null));
         if (_failure is not null && IsRestOfEncoding())
         {
             ExceptionDispatchInfo.Throw(_failure);
@@ -90,7 +88,7 @@ public sealed class ObjReader
 
         _progress?.Report(1);
         return _contents.HasDeclaration
-            ? _contents.Complete(_threadCount) with { ByteCount = _blocks.Length }
+            ? _contents.Complete(_threadCount, _blocks.Length)
             : throw ObjParser.EmptyError(_firstLine);
     }
 
@@ -98,7 +96,7 @@ public sealed class ObjReader
     private void ReadBlocks(IProgress<double>? progress)
     {
         var buffer = _blocks.RentBuffer();
-        using var scanner = new ObjScanner();
+        var scanner = new ObjScanner();
         var nextReport = (long)ProgressInterval;
         try
         {
@@ -187,6 +185,7 @@ public sealed class ObjReader
         foreach (var statement in scanner.Statements)
         {
             var source = Excerpt(buffer, statement.Start, statement.Length, _line + statement.Line);
+            _statementElements ??= new();
             _statementElements.Before = _contents.Counts with { Faces = _contents.Counts.Faces + statement.FaceCount };
             ObjParser.ParseStatement(source, _contents, _statementElements);
         }

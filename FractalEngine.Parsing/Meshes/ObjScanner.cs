@@ -1,4 +1,3 @@
-using System.Buffers;
 using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using FractalEngine.Parsing.Text;
@@ -14,9 +13,8 @@ namespace FractalEngine.Parsing.Meshes;
 /// which are only found here. What comes before the block need not be known: whether an index exists is told by
 /// <see cref="Required"/>. One instance is used for one block after the other.
 /// </remarks>
-internal sealed class ObjScanner : IDisposable
+internal sealed class ObjScanner
 {
-    private readonly List<ObjStatement> _statements = [];
     private double[] _positions = [];
     private double[] _textureCoordinates = [];
     private double[] _normals = [];
@@ -43,7 +41,7 @@ internal sealed class ObjScanner : IDisposable
     private int _requiredNormals;
 
     /// <summary>Statements with names, in order.</summary>
-    public IReadOnlyList<ObjStatement> Statements => _statements;
+    public List<ObjStatement> Statements { get; } = [];
 
     /// <summary>Whether there is a line that declares something, other than <see cref="Statements"/>.</summary>
     public bool HasDeclaration { get; private set; }
@@ -85,18 +83,6 @@ internal sealed class ObjScanner : IDisposable
         };
     }
 
-    /// <summary>Returns the buffers to their pool.</summary>
-    public void Dispose()
-    {
-        Resize(ref _positions, 0);
-        Resize(ref _textureCoordinates, 0);
-        Resize(ref _normals, 0);
-        Resize(ref _positionIndices, 0);
-        Resize(ref _textureIndices, 0);
-        Resize(ref _normalIndices, 0);
-        Resize(ref _polygonSizes, 0);
-    }
-
     private static T[] Copy<T>(T[] buffer, int length)
     {
         if (length == 0)
@@ -109,20 +95,13 @@ internal sealed class ObjScanner : IDisposable
         return array;
     }
 
-    /// <summary>Makes a buffer large enough; what it holds is lost. Length 0 returns it to its pool.</summary>
+    /// <summary>Makes a buffer large enough; what it holds is lost.</summary>
     private static void Resize<T>(ref T[] buffer, int length)
     {
-        if (length > 0 && buffer.Length >= length)
+        if (buffer.Length < length)
         {
-            return;
+            buffer = GC.AllocateUninitializedArray<T>(length);
         }
-
-        if (buffer.Length > 0)
-        {
-            ArrayPool<T>.Shared.Return(buffer);
-        }
-
-        buffer = length == 0 ? [] : ArrayPool<T>.Shared.Rent(length);
     }
 
     /// <summary>Clears all counts, and makes room for the largest number of elements that so many bytes can hold.</summary>
@@ -136,7 +115,7 @@ internal sealed class ObjScanner : IDisposable
         Resize(ref _textureIndices, (length / 2) + 2);
         Resize(ref _normalIndices, (length / 2) + 2);
         Resize(ref _polygonSizes, (length / 8) + 2);
-        _statements.Clear();
+        Statements.Clear();
         _end = length;
         HasDeclaration = _hasPolygonSizes = _hasRelativeIndices = false;
         LineCount = 0;
@@ -514,7 +493,7 @@ internal sealed class ObjScanner : IDisposable
                 HasDeclaration = true;
                 return next;
             default:
-                _statements.Add(new((int)line, (int)(Math.Min(next, _end) - line), LineCount, _faceCount));
+                Statements.Add(new((int)line, (int)(Math.Min(next, _end) - line), LineCount, _faceCount));
                 return next;
         }
     }

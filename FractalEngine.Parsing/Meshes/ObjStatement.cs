@@ -5,4 +5,4 @@ namespace FractalEngine.Parsing.Meshes;
 /// <param name="Length">Length of the line with its break, in bytes.</param>
 /// <param name="Line">Number of lines of the block before it.</param>
 /// <param name="FaceCount">Number of triangles of the block before it.</param>
-internal readonly record struct ObjStatement(int Start, int Length, int Line, int FaceCount);
+internal sealed record ObjStatement(int Start, int Length, int Line, int FaceCount);
