@@ -16,13 +16,13 @@ internal sealed class ObjBlock
     /// <summary>Numbers of elements in this block.</summary>
     public required ObjCounts Counts { get; init; }
 
-    /// <summary>Coordinates, [vertices × 3].</summary>
+    /// <summary>Coordinates of the vertices in the block, [vertices × 3].</summary>
     public required double[] Positions { get; init; }
 
-    /// <summary>Texture coordinates, [n × 2].</summary>
+    /// <summary>Texture coordinates in the block, [n × 2].</summary>
     public required double[] TextureCoordinates { get; init; }
 
-    /// <summary>Normals, [n × 3].</summary>
+    /// <summary>Normals in the block, of any length, [n × 3].</summary>
     public required double[] Normals { get; init; }
 
     /// <summary>Index of the position of each corner of each polygon.</summary>

@@ -29,10 +29,10 @@ internal sealed class ObjElements
     /// <summary>Number of triangles in the file so far.</summary>
     public int FaceCount => Before.Faces + _faceCount;
 
-    /// <summary>Adds a vertex.</summary>
+    /// <summary>Adds the position of a vertex.</summary>
     public void AddPosition(Vector position) => Add(_positions, position);
 
-    /// <summary>Adds a normal.</summary>
+    /// <summary>Adds a normal of any length.</summary>
     public void AddNormal(Vector normal) => Add(_normals, normal);
 
     /// <summary>Adds a texture coordinate.</summary>

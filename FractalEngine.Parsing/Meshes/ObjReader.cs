@@ -95,11 +95,12 @@ public sealed class ObjReader
     /// <summary>Reads blocks until none is left, on any thread.</summary>
     private void ReadBlocks(IProgress<double>? progress)
     {
-        var buffer = _blocks.RentBuffer();
-        var scanner = new ObjScanner();
+        byte[] buffer = [];
         var nextReport = (long)ProgressInterval;
         try
         {
+            buffer = _blocks.RentBuffer();
+            var scanner = new ObjScanner();
             while (TryTake(ref buffer, out var block))
             {
                 var kind = ObjBlockReader.Classify(buffer.AsSpan(0, block.Length));
@@ -217,7 +218,8 @@ public sealed class ObjReader
         new(_fileName, _encoding.GetString(buffer, start, length)) { FirstLine = line };
 
     /// <summary>
-    /// Returns whether the bytes behind an error are of the encoding. That a file is no text, or can't be read, comes before all errors in it.
+    /// Returns whether the bytes behind an error are of the encoding. That a file is no text, or can't be read, comes before all errors
+    /// in it.
     /// </summary>
     private bool IsRestOfEncoding()
     {

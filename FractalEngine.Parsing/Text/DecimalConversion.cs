@@ -83,7 +83,9 @@ internal static class DecimalConversion
     /// <summary>Rounds a mantissa with one extra bit to a subnormal number, or to the smallest normal one.</summary>
     private static ulong RoundSubnormal(ulong mantissa, int shift) => shift >= 64 ? 0 : ((mantissa >> shift) + 1) >> 1;
 
-    /// <summary>Returns the upper 128 bits of the product of a normalised integer and a power of five, as exactly as rounding needs.</summary>
+    /// <summary>
+    /// Returns the upper 128 bits of the product of a normalised integer and a power of five, as exactly as rounding needs.
+    /// </summary>
     private static (ulong High, ulong Low) Multiply(ulong digits, int exponent)
     {
         var (powerHigh, powerLow) = PowersOfFive.Get(exponent);

@@ -38,7 +38,8 @@ internal static class Utf8NumberReader
     {
         // The other characters among the first sixteen say where the parts end. The first may be a sign.
         var characters = Vector128.LoadUnsafe(ref text, (nuint)position);
-        var others = Vector128.GreaterThan(characters - Vector128.Create((byte)'0'), Vector128.Create((byte)9)).ExtractMostSignificantBits();
+        var digitValues = characters - Vector128.Create((byte)'0');
+        var others = Vector128.GreaterThan(digitValues, Vector128.Create((byte)9)).ExtractMostSignificantBits();
         var sign = (int)(others & 1);
         others &= ~1u;
         var point = BitOperations.TrailingZeroCount(others);
