@@ -16,7 +16,7 @@ internal sealed record ObjSample(string Name, int? Decimals, bool HasAttributes 
         new("v+f", 6), new("v/vt/vn", 6, HasAttributes: true), new("quads", 6, HasQuads: true), new("17 digits", null),
     ];
 
-    /// <summary>Writes a file.</summary>
+    /// <summary>Creates or replaces a file of this form.</summary>
     /// <param name="path">Path of the file.</param>
     /// <param name="side">Number of squares along each side.</param>
     public void Write(string path, int side)

@@ -67,6 +67,7 @@ public sealed class ObjReader
         Stream stream, string fileName, IProgress<double>? progress = null, int blockSize = DefaultBlockSize, int threadCount = 0)
     {
         threadCount = threadCount > 0 ? threadCount : Math.Min(Environment.ProcessorCount, MaxThreads);
+        progress = progress is null ? null : new IncreasingProgress(progress);
         // A file is UTF-8 unless any of its bytes says otherwise.
         return new ObjReader(stream, fileName, Encoding.UTF8, progress, blockSize, threadCount).TryRead()
             ?? new ObjReader(stream, fileName, Encoding.Latin1, progress, blockSize, threadCount).TryRead()!;
@@ -240,5 +241,20 @@ public sealed class ObjReader
 
         ArrayPool<byte>.Shared.Return(buffer);
         return isOfEncoding;
+    }
+
+    /// <summary>Passes on what is larger than all before: a file that turns out to be Latin-1 is read again.</summary>
+    private sealed class IncreasingProgress(IProgress<double> progress) : IProgress<double>
+    {
+        private double _last;
+
+        public void Report(double value)
+        {
+            if (value > _last)
+            {
+                _last = value;
+                progress.Report(value);
+            }
+        }
     }
 }

@@ -46,13 +46,14 @@ internal static class Utf8NumberReader
         var end = BitOperations.TrailingZeroCount(others & (others - 1));
         var count = end - 1 - sign;
         var first = (uint)Unsafe.Add(ref text, position);
-        if ((uint)(count - 1) > 7 || Unsafe.Add(ref text, position + point) != '.' || (sign != 0 && !IsSign(first))
+        if (count > 8 || end == point + 1 || Unsafe.Add(ref text, position + point) != '.' || (sign != 0 && !IsSign(first))
             || (Unsafe.Add(ref text, position + end) | 0x20) == 'e')
         {
             return ReadLong(ref text, position, ref value);
         }
 
-        // Both parts together are one integer of up to eight digits. The bytes behind the last digit are shifted out.
+        // Both parts together are one integer of up to eight digits, at least one of them behind the point. The bytes behind the last
+        // digit are shifted out.
         var wholeBits = 8 * (point - sign);
         var whole = LoadDigits(ref text, position + sign) & ((1UL << wholeBits) - 1);
         var fraction = LoadDigits(ref text, position + point + 1) << wholeBits;
