@@ -39,6 +39,7 @@ public sealed class ObjReader
     private ObjElements? _statementElements;
     private Exception? _failure;
     private bool _isStopped;
+    private bool _isBinary;
 
     private ObjReader(
         Stream stream, string fileName, Encoding encoding, IProgress<double>? progress, int blockSize, int threadCount)
@@ -77,7 +78,7 @@ public sealed class ObjReader
     private ParsedObj? TryRead()
     {
         Workers.Run(_threadCount, isCaller => ReadBlocks(isCaller ? _progress : null));
-        if (_failure is not null && IsRestOfEncoding())
+        if (_failure is not null && (_isBinary || IsRestOfEncoding()))
         {
             ExceptionDispatchInfo.Throw(_failure);
         }
@@ -165,6 +166,7 @@ public sealed class ObjReader
         _addedEnd = block.End;
         if (kind == ObjTextKind.Binary)
         {
+            _isBinary = true;
             lock (_blocks)
             {
                 throw _blocks.CreateNulError(block.Position + buffer.AsSpan(0, block.Length).IndexOf((byte)0));

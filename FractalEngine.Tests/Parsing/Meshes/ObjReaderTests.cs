@@ -98,6 +98,11 @@ public sealed class ObjReaderTests : IDisposable
         () => Read("v x\n" + string.Concat(Enumerable.Repeat("v 1 2 3\n", 2000)) + "\r#\n# \0\0\n" + Square));
 
     [Fact]
+    public void Read_OfNulsInManyBlocks_NamesTheFirst() => Errors.AssertMessage(
+        "test.obj:2:1: error: the file is binary (it has a NUL byte), expected UTF-8 text",
+        () => Read("v 1 2 3\n" + string.Concat(Enumerable.Repeat("\0\n", 5000))));
+
+    [Fact]
     public void Read_OfLatin1BehindAName_ReadsTheNameAsLatin1()
     {
         byte[] bytes = [.. "o gr\u00FC\u00DFe\n"u8, .. ManyVertices, .. "f 1 2 3\n# "u8, 0xFC];
