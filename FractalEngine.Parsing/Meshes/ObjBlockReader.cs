@@ -1,7 +1,4 @@
 using System.Buffers;
-using System.Numerics;
-using System.Runtime.CompilerServices;
-using System.Runtime.InteropServices;
 using System.Text.Unicode;
 using FractalEngine.Parsing.Text;
 
@@ -87,9 +84,7 @@ internal sealed class ObjBlockReader
 
     /// <summary>Tells whether bytes are text: without NUL, and of which encoding.</summary>
     public static ObjTextKind Classify(ReadOnlySpan<byte> bytes) =>
-        IsAsciiWithoutNul(bytes) ? ObjTextKind.Utf8
-        : bytes.Contains((byte)0) ? ObjTextKind.Binary
-        : Utf8.IsValid(bytes) ? ObjTextKind.Utf8 : ObjTextKind.Latin1;
+        bytes.Contains((byte)0) ? ObjTextKind.Binary : Utf8.IsValid(bytes) ? ObjTextKind.Utf8 : ObjTextKind.Latin1;
 
     /// <summary>Creates the error of the first NUL byte of the file. Reads all before it once more.</summary>
     /// <param name="position">Position of the byte in the file.</param>
@@ -144,29 +139,6 @@ internal sealed class ObjBlockReader
         }
 
         return 0;
-    }
-
-    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
-    private static bool IsAsciiWithoutNul(ReadOnlySpan<byte> bytes)
-    {
-        var vectors = MemoryMarshal.Cast<byte, Vector<sbyte>>(bytes);
-        foreach (var vector in vectors)
-        {
-            if (!Vector.GreaterThanAll(vector, Vector<sbyte>.Zero))
-            {
-                return false;
-            }
-        }
-
-        foreach (var last in bytes[(vectors.Length * Vector<sbyte>.Count)..])
-        {
-            if ((sbyte)last <= 0)
-            {
-                return false;
-            }
-        }
-
-        return true;
     }
 
     private void Keep(ReadOnlySpan<byte> bytes)
