@@ -106,7 +106,7 @@ public sealed class ObjReader
             while (TryTake(ref buffer, out var block))
             {
                 var kind = ObjBlockReader.Classify(buffer.AsSpan(0, block.Length));
-                var scannedLength = scanner.Scan(buffer, block.Length);
+                scanner.Scan(buffer, block.Length);
                 var elements = scanner.ToBlock();
                 lock (_turn)
                 {
@@ -117,7 +117,7 @@ public sealed class ObjReader
 
                     if (!_isStopped)
                     {
-                        Add(buffer, block, kind, scanner, elements, scannedLength);
+                        Add(buffer, block, kind, scanner, elements);
                     }
 
                     _addedCount++;
@@ -161,7 +161,7 @@ public sealed class ObjReader
     }
 
     /// <summary>Adds a block to the contents, all before it being there.</summary>
-    private void Add(byte[] buffer, ObjBlockBytes block, ObjTextKind kind, ObjScanner scanner, ObjBlock elements, int scannedLength)
+    private void Add(byte[] buffer, ObjBlockBytes block, ObjTextKind kind, ObjScanner scanner, ObjBlock elements)
     {
         _addedEnd = block.End;
         if (kind == ObjTextKind.Binary)
@@ -179,13 +179,26 @@ public sealed class ObjReader
             return;
         }
 
-        if (!scanner.Required.AreWithin(_contents.Counts))
+        if (scanner.Required.AreWithin(_contents.Counts))
+        {
+            AddScanned(buffer, block.Length, scanner, elements);
+        }
+        else
         {
             // Some index does not exist. The grammar finds it.
             ParseRest(buffer, 0, block.Length);
-            return;
         }
 
+        if (block.Index == 0 && !_contents.HasDeclaration)
+        {
+            var length = buffer.AsSpan(0, block.Length).IndexOfAny((byte)'\n', (byte)'\r');
+            _firstLine = Excerpt(buffer, 0, length < 0 ? block.Length : length, 1);
+        }
+    }
+
+    /// <summary>Adds what the kernel has read, and lets the grammar read the rest.</summary>
+    private void AddScanned(byte[] buffer, int length, ObjScanner scanner, ObjBlock elements)
+    {
         foreach (var statement in scanner.Statements)
         {
             var source = Excerpt(buffer, statement.Start, statement.Length, _line + statement.Line);
@@ -197,15 +210,9 @@ public sealed class ObjReader
         _contents.HasDeclaration |= scanner.HasDeclaration;
         _contents.Add(elements);
         _line += scanner.LineCount;
-        if (scannedLength < block.Length)
+        if (scanner.ScannedLength < length)
         {
-            ParseRest(buffer, scannedLength, block.Length);
-        }
-
-        if (block.Index == 0 && !_contents.HasDeclaration)
-        {
-            var length = buffer.AsSpan(0, block.Length).IndexOfAny((byte)'\n', (byte)'\r');
-            _firstLine = Excerpt(buffer, 0, length < 0 ? block.Length : length, 1);
+            ParseRest(buffer, scanner.ScannedLength, length);
         }
     }
 

@@ -9,9 +9,9 @@ namespace FractalEngine.Parsing.Meshes;
 /// be it wrong or only unusual.
 /// </summary>
 /// <remarks>
-/// Plain are elements with finite numbers and existing indices, in ASCII, without joined lines; comments; and all statements with names,
-/// which are only found here. What comes before the block need not be known: whether an index exists is told by
-/// <see cref="Required"/>. One instance is used for one block after the other.
+/// Plain are elements with finite numbers, in ASCII, without joined lines; comments; and all statements with names, which are only found
+/// here. What comes before the block need not be known: <see cref="Required"/> tells which indices exist. One instance is used for one
+/// block after the other.
 /// </remarks>
 internal sealed partial class ObjScanner
 {
@@ -40,6 +40,9 @@ internal sealed partial class ObjScanner
     private int _requiredTextureCoordinates;
     private int _requiredNormals;
 
+    /// <summary>Offset of the first line that is not plain, or the length of the block.</summary>
+    public int ScannedLength { get; private set; }
+
     /// <summary>Statements with names, in order.</summary>
     public List<ObjStatement> Statements { get; } = [];
 
@@ -55,13 +58,11 @@ internal sealed partial class ObjScanner
     /// <summary>Reads the plain lines at the beginning of a block.</summary>
     /// <param name="bytes">The block, and behind it a line feed and the padding of <see cref="Utf8NumberReader"/>.</param>
     /// <param name="length">Length of the block.</param>
-    /// <returns>Offset of the first line that is not plain, or the length of the block.</returns>
-    public int Scan(byte[] bytes, int length)
+    public void Scan(byte[] bytes, int length)
     {
         Restart(length);
-        var stopped = (int)ScanLines(ref MemoryMarshal.GetArrayDataReference(bytes));
+        ScannedLength = Math.Min((int)ScanLines(ref MemoryMarshal.GetArrayDataReference(bytes)), length);
         HasDeclaration |= _positionCount > 0 || _textureCoordinateCount > 0 || _normalCount > 0 || _polygonCount > 0;
-        return Math.Min(stopped, length);
     }
 
     /// <summary>Creates a block of all elements that were read.</summary>
