@@ -19,7 +19,8 @@ namespace FractalEngine.App;
 /// <param name="DistinctInstances">Number of instances without duplicates; null where it is unknown.</param>
 /// <param name="Bounds">Bounding box of the scene in world space, scene units.</param>
 /// <param name="StorageBytes">Size of the files in bytes.</param>
-/// <param name="LoadTime">Time from opening the file until its scene could be drawn.</param>
+/// <param name="LoadTime">Time of parsing and checking all files, and of finding the bounds.</param>
+/// <param name="PrepareTime">Further time until the scene could be drawn; null where it was not prepared.</param>
 internal sealed record FileSummary(
     string Kind,
     BigInteger? Vertices,
@@ -28,10 +29,11 @@ internal sealed record FileSummary(
     BigInteger? DistinctInstances,
     BoundingBox Bounds,
     long StorageBytes,
-    TimeSpan LoadTime)
+    TimeSpan LoadTime,
+    TimeSpan? PrepareTime)
 {
     /// <summary>Counts the contents of a loaded file. A model counts once per object that shows it.</summary>
-    public static FileSummary Of(LoadedFile file, TimeSpan loadTime)
+    public static FileSummary Of(LoadedFile file, TimeSpan loadTime, TimeSpan? prepareTime)
     {
         var models = file.Scene.Objects.Select(placed => placed.Model).ToArray();
         var distinctCounts = file.Scene.Models.ToDictionary(model => model, CountDistinctInstances);
@@ -43,7 +45,8 @@ internal sealed record FileSummary(
             Sum(models, model => distinctCounts[model]),
             file.Scene.Bounds,
             file.StorageBytes,
-            loadTime);
+            loadTime,
+            prepareTime);
     }
 
     /// <summary>Counts the faces of a loaded file, null for infinitely many. Unlike the whole summary it enumerates nothing.</summary>
@@ -54,7 +57,7 @@ internal sealed record FileSummary(
     public string ToJson() => "{" + string.Join(", ", Fields(FormatJson).Select(field => $"\"{field.Name}\": {field.Value}")) + "}";
 
     /// <summary>Formats the summary as text with one field per line.</summary>
-    public string ToText() => string.Join('\n', Fields(FormatPlain).Select(field => $"{field.Name,-18}{field.Value}"));
+    public string ToText() => string.Join('\n', Fields(FormatPlain).Select(field => $"{field.Name,-20}{field.Value}"));
 
     private IEnumerable<(string Name, string Value)> Fields(Func<object?, string> format) =>
     [
@@ -67,8 +70,12 @@ internal sealed record FileSummary(
         ("boundsMin", format(Bounds.IsEmpty ? null : Bounds.Minimum)),
         ("boundsMax", format(Bounds.IsEmpty ? null : Bounds.Maximum)),
         ("storageBytes", format(StorageBytes)),
-        ("loadMilliseconds", format(Math.Round(LoadTime.TotalMilliseconds, 3))),
+        ("loadMilliseconds", FormatTime(LoadTime, format)),
+        ("prepareMilliseconds", FormatTime(PrepareTime, format)),
     ];
+
+    private static string FormatTime(TimeSpan? time, Func<object?, string> format) =>
+        format(time is { } known ? Math.Round(known.TotalMilliseconds, 3) : null);
 
     private static string FormatCount(BigInteger? count, Func<object?, string> format) =>
         count is { } number ? DecimalText.Format(number) : format(null);

@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
+using System.Runtime.Intrinsics;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Geometry;
@@ -20,11 +21,12 @@ public sealed class Mesh : IEquatable<Mesh>
     public Mesh(ImmutableArray<double> positions, ImmutableArray<int> vertexIndices)
     {
         Require(positions.Length % 3 == 0, nameof(positions), "three coordinates a vertex");
-        Require(AreFinite(positions.AsSpan()), nameof(positions), "finite coordinates");
+        Bounds = BoundsOf(positions.AsSpan());
+        // A minimum or maximum with NaN is NaN, so that the bounds of other coordinates are never finite.
+        Require(positions.IsEmpty || (Bounds.Minimum.IsFinite() && Bounds.Maximum.IsFinite()), nameof(positions), "finite coordinates");
         Positions = positions;
         VertexIndices = vertexIndices;
         RequireIndices(vertexIndices, vertexIndices.Length, positions.Length / 3, 0, nameof(vertexIndices));
-        Bounds = BoundsOf(positions.AsSpan());
     }
 
     /// <summary>The mesh without vertices.</summary>
@@ -182,37 +184,71 @@ public sealed class Mesh : IEquatable<Mesh>
     private static bool HaveSameBits(ImmutableArray<double> numbers1, ImmutableArray<double> numbers2) =>
         MemoryMarshal.AsBytes(numbers1.AsSpan()).SequenceEqual(MemoryMarshal.AsBytes(numbers2.AsSpan()));
 
-    private static bool AreFinite(ReadOnlySpan<double> numbers)
+    private static void RequireIndices(ImmutableArray<int> indices, int length, int count, int minIndex, string name)
     {
-        foreach (var number in numbers)
-        {
-            if (!double.IsFinite(number))
-            {
-                return false;
-            }
-        }
-
-        return true;
+        Require(indices.Length % 3 == 0 && indices.Length == length, name, "three indices a face");
+        Require(AreWithin(indices.AsSpan(), minIndex, count - 1), name, "indices of elements that exist");
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+    private static bool AreWithin(ReadOnlySpan<int> indices, int minIndex, int maxIndex)
+    {
+        var vectors = MemoryMarshal.Cast<int, Vector256<int>>(indices);
+        var (min, max) = (Vector256.Create(minIndex), Vector256.Create(maxIndex));
+        var outside = Vector256<int>.Zero;
+        foreach (var vector in vectors)
+        {
+            outside |= Vector256.LessThan(vector, min) | Vector256.GreaterThan(vector, max);
+        }
+
+        var areWithin = outside == Vector256<int>.Zero;
+        foreach (var index in indices[(vectors.Length * Vector256<int>.Count)..])
+        {
+            areWithin &= index >= minIndex && index <= maxIndex;
+        }
+
+        return areWithin;
+    }
+
+    /// <summary>Computes the box of positions; it has NaN where a coordinate is NaN.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private static BoundingBox BoundsOf(ReadOnlySpan<double> positions)
     {
+        // Three vectors hold four positions. Each of their lanes is always the same coordinate.
+        const int Period = 12;
+        var wholeLength = positions.Length - (positions.Length % Period);
+        var vectors = MemoryMarshal.Cast<double, Vector256<double>>(positions[..wholeLength]);
+        var infinity = Vector256.Create(double.PositiveInfinity);
+        var (min0, min1, min2) = (infinity, infinity, infinity);
+        var (max0, max1, max2) = (-infinity, -infinity, -infinity);
+        for (var i = 0; i + 2 < vectors.Length; i += 3)
+        {
+            min0 = Vector256.Min(min0, vectors[i]);
+            max0 = Vector256.Max(max0, vectors[i]);
+            min1 = Vector256.Min(min1, vectors[i + 1]);
+            max1 = Vector256.Max(max1, vectors[i + 1]);
+            min2 = Vector256.Min(min2, vectors[i + 2]);
+            max2 = Vector256.Max(max2, vectors[i + 2]);
+        }
+
+        Span<Vector256<double>> extremes = [min0, min1, min2, max0, max1, max2];
         var box = BoundingBox.Empty;
+        if (wholeLength > 0)
+        {
+            box = IncludeAll(box, MemoryMarshal.Cast<Vector256<double>, double>(extremes));
+        }
+
+        return IncludeAll(box, positions[wholeLength..]);
+    }
+
+    private static BoundingBox IncludeAll(BoundingBox box, ReadOnlySpan<double> positions)
+    {
         for (var i = 0; i + 2 < positions.Length; i += 3)
         {
             box = box.Including(new(positions[i], positions[i + 1], positions[i + 2]));
         }
 
         return box;
-    }
-
-    private static void RequireIndices(ImmutableArray<int> indices, int length, int count, int minIndex, string name)
-    {
-        Require(indices.Length % 3 == 0 && indices.Length == length, name, "three indices a face");
-        foreach (var index in indices)
-        {
-            Require(index >= minIndex && index < count, name, "indices of elements that exist");
-        }
     }
 
     private static void Require(bool condition, string name, string what)

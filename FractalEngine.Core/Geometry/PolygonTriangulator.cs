@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
 
@@ -37,6 +38,28 @@ public sealed class PolygonTriangulator
         ClipEars(corners.Length, triangles);
     }
 
+    /// <summary>
+    /// Tells whether a quadrilateral is convex without straight corners. <see cref="Triangulate"/> then cuts it into the triangles
+    /// (3, 0, 1) and (1, 2, 3), so that callers with many quadrilaterals need not call it.
+    /// </summary>
+    /// <returns>False also where sizes overflow.</returns>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static bool IsConvex(Vector a, Vector b, Vector c, Vector d)
+    {
+        var (toB, toC, toD) = (b - a, c - a, d - a);
+        var normal = Vector.Cross(toB, toC) + Vector.Cross(toC, toD);
+        if (!normal.IsFinite())
+        {
+            return false;
+        }
+
+        var size = normal.Absolute();
+        var (p0, p1) = (Project(Vector.Zero, normal, size), Project(toB, normal, size));
+        var (p2, p3) = (Project(toC, normal, size), Project(toD, normal, size));
+        return TwiceSignedArea(p3, p0, p1) > 0 && TwiceSignedArea(p0, p1, p2) > 0 && TwiceSignedArea(p1, p2, p3) > 0
+            && TwiceSignedArea(p2, p3, p0) > 0;
+    }
+
     /// <summary>Projects the corners along the longest axis of the polygon's normal (by Newell's sums), keeping the winding.</summary>
     private void Project(ReadOnlySpan<Vector> corners)
     {
@@ -51,12 +74,16 @@ public sealed class PolygonTriangulator
         _points.Clear();
         foreach (var corner in corners)
         {
-            var (x, y, z) = corner - origin;
-            _points.Add(size.X >= size.Y && size.X >= size.Z ? (normal.X >= 0 ? (y, z) : (z, y))
-                : size.Y >= size.Z ? (normal.Y >= 0 ? (z, x) : (x, z))
-                : normal.Z >= 0 ? (x, y) : (y, x));
+            _points.Add(Project(corner - origin, normal, size));
         }
     }
+
+    /// <summary>Projects a vector along the longest axis of a normal, whose absolute components are its size.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static (double X, double Y) Project(Vector v, Vector normal, Vector size) =>
+        size.X >= size.Y && size.X >= size.Z ? (normal.X >= 0 ? (v.Y, v.Z) : (v.Z, v.Y))
+        : size.Y >= size.Z ? (normal.Y >= 0 ? (v.Z, v.X) : (v.X, v.Z))
+        : normal.Z >= 0 ? (v.X, v.Y) : (v.Y, v.X);
 
     private void LinkCorners(int count)
     {
@@ -141,6 +168,7 @@ public sealed class PolygonTriangulator
     }
 
     /// <summary>Computes twice the signed area of a triangle, positive when it is wound as the polygon.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private static double TwiceSignedArea((double X, double Y) a, (double X, double Y) b, (double X, double Y) c) =>
         ((b.X - a.X) * (c.Y - a.Y)) - ((b.Y - a.Y) * (c.X - a.X));
 }

@@ -177,16 +177,16 @@ public sealed class AssetLoader
         }
 
         var bytesBefore = StorageBytes;
-        var source = ReadText(fullPath, displayName, ParsingLimits.MaxObjBytes, acceptLatin1: true);
-        var parsed = ObjParser.Parse(source, _progress is null ? null : new FileProgress(displayName, _progress));
+        var parsed = ObjReader.Read(fullPath, displayName, _progress is null ? null : new FileProgress(displayName, _progress));
+        _textBytes += parsed.ByteCount;
         _warnings.AddRange(parsed.Warnings);
-        var materials = _materials.Load(parsed, source, fullPath);
+        var materials = _materials.Load(parsed, fullPath);
         return _meshes[fullPath] = new(parsed.Mesh, materials, StorageBytes - bytesBefore);
     }
 
-    private SourceText ReadText(string fullPath, string displayName, long maxBytes, bool acceptLatin1 = false)
+    private SourceText ReadText(string fullPath, string displayName, long maxBytes)
     {
-        var source = SourceText.Read(fullPath, displayName, maxBytes, acceptLatin1);
+        var source = SourceText.Read(fullPath, displayName, maxBytes);
         _textBytes += source.ByteCount;
         return source;
     }

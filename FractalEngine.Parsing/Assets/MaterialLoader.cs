@@ -30,9 +30,8 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
 
     /// <summary>Loads the materials that the groups of a mesh name; missing ones are not in the result.</summary>
     /// <param name="mesh">Parsed mesh with names of material files.</param>
-    /// <param name="source">Text of the mesh.</param>
     /// <param name="fullPath">Full path of the mesh's file.</param>
-    public ImmutableDictionary<string, Material> Load(ParsedObj mesh, SourceText source, string fullPath)
+    public ImmutableDictionary<string, Material> Load(ParsedObj mesh, string fullPath)
     {
         var names = mesh.Mesh.Groups.Select(group => group.Material).Where(name => name.Length > 0).Distinct().ToArray();
         if (names.Length == 0 || mesh.Mesh.MaterialLibraries.IsEmpty)
@@ -40,7 +39,7 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
             return ImmutableDictionary<string, Material>.Empty;
         }
 
-        var libraries = LoadLibraries(mesh, source, fullPath, out var isComplete);
+        var libraries = LoadLibraries(mesh, fullPath, out var isComplete);
         var materials = ImmutableDictionary.CreateBuilder<string, Material>();
         foreach (var name in names)
         {
@@ -55,19 +54,19 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
         if (unknownMaterials.Length > 0 && isComplete)
         {
             var totalNote = unknownMaterials.Length == 1 ? "" : $" ({unknownMaterials.Length} such materials in all)";
-            Warn(source.Diagnose(mesh.MaterialOffsets[unknownMaterials[0]],
+            Warn(mesh.MaterialPositions[unknownMaterials[0]].Diagnose(
                 $"no material file declares \"{unknownMaterials[0]}\": drawn in the object's own colour{totalNote}"));
         }
 
         return materials.ToImmutable();
     }
 
-    private List<(ParsedMtl File, string FullPath)> LoadLibraries(ParsedObj mesh, SourceText source, string fullPath, out bool isComplete)
+    private List<(ParsedMtl File, string FullPath)> LoadLibraries(ParsedObj mesh, string fullPath, out bool isComplete)
     {
         var libraries = new List<(ParsedMtl File, string FullPath)>();
         Diagnostic? firstFault = null;
         var faultCount = 0;
-        foreach (var (names, offset) in mesh.Mesh.MaterialLibraries.Zip(mesh.MaterialLibraryOffsets))
+        foreach (var (names, position) in mesh.Mesh.MaterialLibraries.Zip(mesh.MaterialLibraryPositions))
         {
             foreach (var name in references.Exists(fullPath, names) ? [names] : MaterialFileNames.Split(names))
             {
@@ -80,7 +79,7 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
 
                 try
                 {
-                    var (path, displayName) = references.Resolve(source, offset, fullPath, name);
+                    var (path, displayName) = references.Resolve(position.Source, position.Offset, fullPath, name);
                     if (ReadMaterialFile(path, displayName) is { } file)
                     {
                         libraries.Add((file, path));

@@ -17,7 +17,7 @@ public static class MeshFile
     public static Mesh Read(string path)
     {
         FileKinds.Require(path, FileKind.Mesh);
-        return ObjParser.Parse(SourceText.Read(path, path, ParsingLimits.MaxObjBytes, acceptLatin1: true)).Mesh;
+        return ObjReader.Read(path, path).Mesh;
     }
 
     /// <summary>Creates or replaces the file of a mesh, every number bit for bit.</summary>

@@ -1,4 +1,3 @@
-using System.Collections.Immutable;
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
@@ -6,35 +5,60 @@ using FractalEngine.Parsing.Text;
 namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>
-/// Reads Wavefront OBJ meshes (paper §4.1.1): vertices, texture coordinates, normals, polygons of any size, names,
+/// The grammar of Wavefront OBJ meshes (paper §4.1.1): vertices, texture coordinates, normals, polygons of any size, names,
 /// groups and materials. Lines, points and unknown keywords are ignored, the latter with one warning.
 /// </summary>
-/// <remarks>Coordinates are used as written: no axis is flipped. Cost: about a second per 100 MB.</remarks>
+/// <remarks>
+/// Coordinates are used as written: no axis is flipped. Cost: about a second per 100 MB. For files there is <see cref="ObjReader"/>, whose
+/// kernel reads plain lines, and which calls this parser for all others.
+/// </remarks>
 public sealed class ObjParser : Parser
 {
     // Characters between two reports of progress, at least.
     private const int ProgressInterval = 1 << 20;
 
-    private readonly ObjMeshBuilder _builder = new();
+    private readonly ObjContents _contents;
+    private readonly ObjElements _elements;
     private readonly List<ObjCorner> _corners = [];
-    private readonly List<int> _libraryOffsets = [];
-    private readonly Dictionary<string, int> _materialOffsets = [];
-    private bool _hasDeclaration;
-    private int _unknownLineCount;
-    private Cursor? _firstUnknownKeyword;
-    private int _invalidIndexCount;
-    private (Cursor Place, string What)? _firstInvalidIndex;
 
-    private ObjParser(SourceText source)
+    private ObjParser(SourceText source, ObjContents contents, ObjElements elements)
         : base(source)
     {
+        _contents = contents;
+        _elements = elements;
     }
 
     /// <summary>Parses a whole OBJ file.</summary>
     /// <param name="source">Text of the file.</param>
     /// <param name="progress">Receives the fraction that is done, from 0 to 1.</param>
     /// <exception cref="SourceException">The text is not an OBJ file, or refers to elements that don't exist.</exception>
-    public static ParsedObj Parse(SourceText source, IProgress<double>? progress = null) => new ObjParser(source).ParseFile(progress);
+    public static ParsedObj Parse(SourceText source, IProgress<double>? progress = null)
+    {
+        var contents = new ObjContents();
+        ParseLines(source, contents, progress);
+        progress?.Report(1);
+        return contents.HasDeclaration ? contents.Complete(threadCount: 1, source.ByteCount) : throw EmptyError(source);
+    }
+
+    /// <summary>Parses some lines and adds what they declare.</summary>
+    internal static void ParseLines(SourceText source, ObjContents contents, IProgress<double>? progress = null)
+    {
+        var elements = new ObjElements { Before = contents.Counts };
+        new ObjParser(source, contents, elements).ParseLines(progress);
+        contents.Add(elements.ToBlock());
+    }
+
+    /// <summary>Parses a line that has no vertex, texture coordinate, normal or face.</summary>
+    /// <param name="source">Text of the line.</param>
+    /// <param name="contents">Receives what the line declares.</param>
+    /// <param name="elements">Has the number of faces before the line.</param>
+    internal static void ParseStatement(SourceText source, ObjContents contents, ObjElements elements) =>
+        new ObjParser(source, contents, elements).ParseLines(null);
+
+    /// <summary>Creates the error of a file that declares nothing.</summary>
+    /// <param name="source">The beginning of the file: at least its first line.</param>
+    internal static SourceException EmptyError(SourceText source) =>
+        source.Error(0, "the file declares nothing: it has no vertex, face, group or material");
 
     /// <inheritdoc/>
     /// <remarks>A backslash before a line break joins two lines.</remarks>
@@ -49,7 +73,7 @@ public sealed class ObjParser : Parser
         return true;
     }
 
-    private ParsedObj ParseFile(IProgress<double>? progress)
+    private void ParseLines(IProgress<double>? progress)
     {
         var nextReport = ProgressInterval;
         for (var cursor = Source.Start; !cursor.IsAtEnd;)
@@ -65,37 +89,6 @@ public sealed class ObjParser : Parser
                 nextReport = cursor.Offset + ProgressInterval;
             }
         }
-
-        progress?.Report(1);
-        if (!_hasDeclaration)
-        {
-            throw Error(Source.Start, "the file declares nothing: it has no vertex, face, group or material");
-        }
-
-        return new(_builder.Build(), CreateWarnings())
-        {
-            MaterialLibraryOffsets = [.. _libraryOffsets],
-            MaterialOffsets = _materialOffsets.ToImmutableDictionary(),
-        };
-    }
-
-    private ImmutableArray<Diagnostic> CreateWarnings()
-    {
-        var warnings = ImmutableArray.CreateBuilder<Diagnostic>();
-        if (_firstUnknownKeyword is { } keyword)
-        {
-            var totalNote = _unknownLineCount == 1 ? "" : $" ({_unknownLineCount} lines with unknown keywords in all)";
-            warnings.Add(
-                Source.Diagnose(keyword.Offset, $"unknown keyword {Describe(keyword)} skipped{totalNote}", DiagnosticSeverity.Warning));
-        }
-
-        if (_firstInvalidIndex is var (cursor, message))
-        {
-            var totalNote = _invalidIndexCount == 1 ? "" : $" ({_invalidIndexCount} such corners in all)";
-            warnings.Add(Source.Diagnose(cursor.Offset, $"{message}: the index is ignored{totalNote}", DiagnosticSeverity.Warning));
-        }
-
-        return warnings.ToImmutable();
     }
 
     private bool ParseLine(Cursor cursor, out Cursor rest)
@@ -126,8 +119,8 @@ public sealed class ObjParser : Parser
 
         return keyword switch
         {
-            "o" => ParseRestOfLine(rest, out var name, out rest) && MarkDeclared(() => _builder.ObjectName = name),
-            "g" => ParseRestOfLine(rest, out var name, out rest) && MarkDeclared(() => _builder.GroupName = name),
+            "o" => ParseObjectName(rest, out rest) && MarkDeclared(),
+            "g" => ParseGroupName(rest, out rest) && MarkDeclared(),
             "usemtl" => ParseMaterial(rest, out rest) && MarkDeclared(),
             "mtllib" => ParseMaterialLibrary(rest, out rest) && MarkDeclared(),
             "s" => ParseSmoothingGroup(rest, out rest) && MarkDeclared(),
@@ -139,6 +132,28 @@ public sealed class ObjParser : Parser
         };
     }
 
+    private bool ParseObjectName(Cursor cursor, out Cursor rest)
+    {
+        if (!ParseRestOfLine(cursor, out var name, out rest))
+        {
+            return false;
+        }
+
+        _contents.Groups.ChangeObject(name, _elements.FaceCount);
+        return true;
+    }
+
+    private bool ParseGroupName(Cursor cursor, out Cursor rest)
+    {
+        if (!ParseRestOfLine(cursor, out var name, out rest))
+        {
+            return false;
+        }
+
+        _contents.Groups.ChangeGroup(name, _elements.FaceCount);
+        return true;
+    }
+
     private bool ParseMaterial(Cursor cursor, out Cursor rest)
     {
         ParseBlanks(cursor, out var start);
@@ -147,8 +162,8 @@ public sealed class ObjParser : Parser
             return false;
         }
 
-        _materialOffsets.TryAdd(name, start.Offset);
-        _builder.Material = name;
+        _contents.AddMaterial(name, PositionOf(start));
+        _contents.Groups.ChangeMaterial(name, _elements.FaceCount);
         return true;
     }
 
@@ -160,24 +175,17 @@ public sealed class ObjParser : Parser
             return false;
         }
 
-        if (_builder.AddMaterialLibrary(file))
-        {
-            _libraryOffsets.Add(start.Offset);
-        }
-
+        _contents.AddMaterialLibrary(file, PositionOf(start));
         return true;
     }
 
-    private bool MarkDeclared(Action? effect = null)
-    {
-        effect?.Invoke();
-        return _hasDeclaration = true;
-    }
+    private bool MarkDeclared() => _contents.HasDeclaration = true;
+
+    private SourcePosition PositionOf(Cursor cursor) => new(Source, cursor.Offset);
 
     private bool SkipUnknown(Cursor start, out Cursor rest)
     {
-        _firstUnknownKeyword ??= start;
-        _unknownLineCount++;
+        _contents.AddUnknownLine(PositionOf(start), Describe(start));
         return ParseRestOfLine(start, out _, out rest);
     }
 
@@ -188,7 +196,7 @@ public sealed class ObjParser : Parser
 
     private bool AddPosition(Vector position)
     {
-        _builder.AddPosition(position);
+        _elements.AddPosition(position);
         return true;
     }
 
@@ -199,7 +207,7 @@ public sealed class ObjParser : Parser
             return false;
         }
 
-        _builder.AddNormal(normal);
+        _elements.AddNormal(normal);
         return true;
     }
 
@@ -218,7 +226,7 @@ public sealed class ObjParser : Parser
             ParseOptionalNumbers(rest, out rest);
         }
 
-        _builder.AddTextureCoordinate(u, v);
+        _elements.AddTextureCoordinate(u, v);
         return ParseCommentAndEndOfLine(rest, out rest);
     }
 
@@ -275,7 +283,7 @@ public sealed class ObjParser : Parser
                 isLimitExceeded: true);
         }
 
-        _builder.AddPolygon(CollectionsMarshal.AsSpan(_corners));
+        _elements.AddPolygon(CollectionsMarshal.AsSpan(_corners));
         return ParseCommentAndEndOfLine(rest, out rest);
     }
 
@@ -285,7 +293,7 @@ public sealed class ObjParser : Parser
         var texture = ObjCorner.None;
         var normal = ObjCorner.None;
         corner = default;
-        if (!ParseIndex(cursor, "vertex", _builder.PositionCount, isRequired: true, out var position, out rest))
+        if (!ParseIndex(cursor, "vertex", _elements.PositionCount, isRequired: true, out var position, out rest))
         {
             return false;
         }
@@ -294,13 +302,13 @@ public sealed class ObjParser : Parser
         {
             rest = rest.Advance(1);
             if (rest.Current != '/'
-                && !ParseIndex(rest, "texture coordinate", _builder.TextureCoordinateCount, isRequired: false, out texture, out rest))
+                && !ParseIndex(rest, "texture coordinate", _elements.TextureCoordinateCount, isRequired: false, out texture, out rest))
             {
                 return false;
             }
 
             if (rest.Current == '/'
-                && !ParseIndex(rest.Advance(1), "normal", _builder.NormalCount, isRequired: false, out normal, out rest))
+                && !ParseIndex(rest.Advance(1), "normal", _elements.NormalCount, isRequired: false, out normal, out rest))
             {
                 return false;
             }
@@ -341,8 +349,7 @@ public sealed class ObjParser : Parser
         }
 
         // A face can do without normals or texture coordinates, and some programs write numbers of ones that they omit.
-        _firstInvalidIndex ??= (cursor, message);
-        _invalidIndexCount++;
+        _contents.AddInvalidIndex(PositionOf(cursor), message);
         index = ObjCorner.None;
         return true;
     }
@@ -354,7 +361,7 @@ public sealed class ObjParser : Parser
             || ParseWord(rest, "on", out next))
         {
             var isOn = rest.Current == 'o' && rest.Peek(1) == 'n';
-            _builder.SmoothingGroup = isOn ? 1 : number;
+            _contents.Groups.ChangeSmoothing(isOn ? 1 : number, _elements.FaceCount);
             return ParseCommentAndEndOfLine(next, out rest);
         }
 

@@ -9,9 +9,13 @@ namespace FractalEngine.Parsing.Meshes;
 /// <param name="Warnings">At most one about unknown keywords, and one about normals or texture coordinates that don't exist.</param>
 public sealed record ParsedObj(Mesh Mesh, ImmutableArray<Diagnostic> Warnings)
 {
-    /// <summary>Offsets of the names of the mesh's material files in the text, for messages.</summary>
-    public ImmutableArray<int> MaterialLibraryOffsets { get; init; } = [];
+    /// <summary>Positions of the names of the mesh's material files, for messages.</summary>
+    public ImmutableArray<SourcePosition> MaterialLibraryPositions { get; init; } = [];
 
-    /// <summary>Offset of the first use of each material in the text, for messages.</summary>
-    public ImmutableDictionary<string, int> MaterialOffsets { get; init; } = ImmutableDictionary<string, int>.Empty;
+    /// <summary>Position of the first use of each material, for messages.</summary>
+    public ImmutableDictionary<string, SourcePosition> MaterialPositions { get; init; } =
+        ImmutableDictionary<string, SourcePosition>.Empty;
+
+    /// <summary>Size of the file that was read, in bytes; 0 for a text that comes from no file.</summary>
+    public long ByteCount { get; init; }
 }

@@ -5,23 +5,9 @@ namespace FractalEngine.Parsing.Text;
 /// <summary>
 /// Reads decimal numbers independently of the culture, correctly rounded: always the same bits as <see cref="double.Parse(string)"/>.
 /// </summary>
-/// <remarks>
-/// Nearly all numbers have a mantissa of at most 2⁵³ and a small exponent. These take one exact multiplication or division
-/// (W. D. Clinger, "How to read floating point numbers accurately", 1990). The framework reads all others.
-/// </remarks>
+/// <remarks>The framework reads numbers of more than 19 digits, and exponents of more than six.</remarks>
 public static class NumberReader
 {
-    // A double represents powers of ten up to 10²² and integers up to 2⁵³ exactly.
-    private const int MaxExactPower = 22;
-    private const ulong MaxExactInteger = 1UL << 53;
-    private const int MaxMantissaDigits = 18;
-
-    private static readonly double[] PowersOfTen =
-    [
-        1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11,
-        1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
-    ];
-
     /// <summary>Reads a number at the start of a text: sign, digits, point, digits and exponent.</summary>
     /// <param name="text">Text that may continue behind the number.</param>
     /// <param name="value">Closest double; infinite if the number is out of range.</param>
@@ -53,10 +39,9 @@ public static class NumberReader
 
         var isExponentUsable = TryReadExponent(text, ref position, ref exponent);
         length = position;
-        if (digitCount <= MaxMantissaDigits && isExponentUsable && mantissa <= MaxExactInteger
-            && exponent is >= -MaxExactPower and <= MaxExactPower)
+        if (digitCount <= DecimalConversion.MaxDigits && isExponentUsable)
         {
-            value = exponent < 0 ? mantissa / PowersOfTen[-exponent] : mantissa * PowersOfTen[exponent];
+            value = DecimalConversion.ToDouble(mantissa, exponent);
             value = text[0] == '-' ? -value : value;
             return true;
         }
@@ -69,7 +54,7 @@ public static class NumberReader
     {
         for (; position < text.Length && (uint)(text[position] - '0') <= 9; position++)
         {
-            // Overflow is harmless: mantissas of more than 18 digits are not used.
+            // Overflow is harmless: mantissas of more than 19 digits are not used.
             mantissa = unchecked((mantissa * 10) + (ulong)(text[position] - '0'));
         }
     }

@@ -2,7 +2,7 @@ using System.Text;
 
 namespace FractalEngine.Parsing.Text;
 
-/// <summary>Text of a file together with the name that messages use for it.</summary>
+/// <summary>Text of a file, or some lines of it, together with the name that messages use for it.</summary>
 public sealed class SourceText
 {
     private static readonly UTF8Encoding StrictUtf8 = new(encoderShouldEmitUTF8Identifier: false, throwOnInvalidBytes: true);
@@ -22,6 +22,9 @@ public sealed class SourceText
     /// <summary>Characters of the text, without a byte order mark.</summary>
     public string Text { get; }
 
+    /// <summary>Number in the file, from 1, of the line that the text begins with: more than 1 for an excerpt.</summary>
+    internal int FirstLine { get; init; } = 1;
+
     /// <summary>Size of the file that was read or decoded, in bytes; 0 for a text that comes from no file.</summary>
     public long ByteCount { get; private init; }
 
@@ -37,28 +40,23 @@ public sealed class SourceText
     /// <param name="maxBytes">Size limit; larger files are refused before anything is read.</param>
     /// <param name="acceptLatin1">Whether text that is not UTF-8 is read as Latin-1, which old exporters wrote in comments.</param>
     /// <exception cref="SourceException">The file is missing, unreadable, too large or not text of that encoding.</exception>
-    public static SourceText Read(string path, string fileName, long maxBytes, bool acceptLatin1 = false) =>
-        Decode(ReadBytes(path, fileName, maxBytes), fileName, acceptLatin1);
+    public static SourceText Read(string path, string fileName, long maxBytes, bool acceptLatin1 = false)
+    {
+        using var stream = OpenFile(path, fileName, maxBytes);
+        return Decode(Access(fileName, () => ReadAll(stream)), fileName, acceptLatin1);
+    }
 
     /// <summary>Decodes the bytes of a text file, with the rules of <see cref="Read"/>.</summary>
     /// <exception cref="SourceException">The bytes are not text of that encoding.</exception>
     public static SourceText Decode(ReadOnlySpan<byte> bytes, string fileName, bool acceptLatin1 = false)
     {
-        if (bytes.StartsWith((ReadOnlySpan<byte>)[0xFF, 0xFE]) || bytes.StartsWith((ReadOnlySpan<byte>)[0xFE, 0xFF]))
-        {
-            throw new SourceException(fileName, "the file is UTF-16 text, expected UTF-8: save it in that encoding");
-        }
-
         var byteCount = bytes.Length;
-        if (bytes.StartsWith((ReadOnlySpan<byte>)[0xEF, 0xBB, 0xBF]))
-        {
-            bytes = bytes[3..];
-        }
-
+        bytes = bytes[MeasureByteOrderMark(bytes, fileName)..];
         // Text has no NUL bytes; UTF-16 without a byte order mark and all binary formats do.
         if (bytes.IndexOf((byte)0) is >= 0 and var position)
         {
-            throw BinaryFileError(bytes, position, fileName, "the file is binary (it has a NUL byte), expected UTF-8 text");
+            var before = bytes[..position];
+            throw NulError(fileName, before.Count((byte)'\n'), position - before.LastIndexOf((byte)'\n'));
         }
 
         try
@@ -71,9 +69,55 @@ public sealed class SourceText
         }
         catch (DecoderFallbackException exception)
         {
-            throw BinaryFileError(bytes, Math.Max(exception.Index, 0), fileName, "the file has a byte that is no UTF-8 text");
+            var before = bytes[..Math.Max(exception.Index, 0)];
+            throw new SourceException(new Diagnostic(fileName, 1 + before.Count((byte)'\n'), before.Length - before.LastIndexOf((byte)'\n'),
+                DiagnosticSeverity.Error, "the file has a byte that is no UTF-8 text"));
         }
     }
+
+    /// <summary>Opens a file for reading, with the errors of <see cref="Read"/>. The stream has a length and can seek.</summary>
+    /// <param name="path">Path of the file, absolute or relative to the current directory.</param>
+    /// <param name="fileName">Name of the file in messages.</param>
+    /// <param name="maxBytes">Size limit; larger files are refused.</param>
+    internal static FileStream OpenFile(string path, string fileName, long maxBytes) =>
+        Access(fileName, () => Open(path, fileName, maxBytes));
+
+    /// <summary>Accesses a file, and turns what the system reports into the errors of <see cref="Read"/>.</summary>
+    internal static T Access<T>(string fileName, Func<T> access)
+    {
+        try
+        {
+            return access();
+        }
+        catch (Exception exception) when (exception is FileNotFoundException or DirectoryNotFoundException)
+        {
+            throw new SourceException(fileName, "file not found");
+        }
+        catch (Exception exception)
+            when (exception is IOException or UnauthorizedAccessException or NotSupportedException or ArgumentException)
+        {
+            throw new SourceException(fileName, $"the file can't be read: {exception.Message}");
+        }
+    }
+
+    /// <summary>Returns the length in bytes of the UTF-8 mark that a file begins with, or 0.</summary>
+    /// <exception cref="SourceException">The file begins with a mark of UTF-16.</exception>
+    internal static int MeasureByteOrderMark(ReadOnlySpan<byte> bytes, string fileName)
+    {
+        if (bytes.StartsWith((ReadOnlySpan<byte>)[0xFF, 0xFE]) || bytes.StartsWith((ReadOnlySpan<byte>)[0xFE, 0xFF]))
+        {
+            throw new SourceException(fileName, "the file is UTF-16 text, expected UTF-8: save it in that encoding");
+        }
+
+        return bytes.StartsWith((ReadOnlySpan<byte>)[0xEF, 0xBB, 0xBF]) ? 3 : 0;
+    }
+
+    /// <summary>Creates the error of a file with a NUL byte.</summary>
+    /// <param name="fileName">Name of the file in messages.</param>
+    /// <param name="lineFeeds">Number of LF bytes before the NUL byte.</param>
+    /// <param name="column">Number of the NUL byte behind the last of them, from 1.</param>
+    internal static SourceException NulError(string fileName, int lineFeeds, int column) => new(new Diagnostic(
+        fileName, 1 + lineFeeds, column, DiagnosticSeverity.Error, "the file is binary (it has a NUL byte), expected UTF-8 text"));
 
     /// <summary>Returns the line break that a text uses: CR LF if it occurs anywhere, else LF.</summary>
     internal static string LineBreakOf(string text) => text.Contains("\r\n", StringComparison.Ordinal) ? "\r\n" : "\n";
@@ -102,7 +146,7 @@ public sealed class SourceText
 
     private int FindLine(int offset, out int lineStart)
     {
-        var line = 1;
+        var line = FirstLine;
         lineStart = 0;
         for (var i = 0; i < offset; i++)
         {
@@ -117,22 +161,21 @@ public sealed class SourceText
         return line;
     }
 
-    private static byte[] ReadBytes(string path, string fileName, long maxBytes)
+    private static FileStream Open(string path, string fileName, long maxBytes)
     {
+        if (Directory.Exists(path))
+        {
+            throw new SourceException(fileName, "this is a directory, expected a file");
+        }
+
+        if (new FileInfo(path) is { Exists: true, Length: 0 } && IsPipe(path))
+        {
+            throw new SourceException(fileName, "this is a pipe or a device, expected a file");
+        }
+
+        var stream = new FileStream(path, FileMode.Open, FileAccess.Read, FileShare.Read, bufferSize: 0, FileOptions.SequentialScan);
         try
         {
-            if (Directory.Exists(path))
-            {
-                throw new SourceException(fileName, "this is a directory, expected a file");
-            }
-
-            if (new FileInfo(path) is { Exists: true, Length: 0 } && IsPipe(path))
-            {
-                throw new SourceException(fileName, "this is a pipe or a device, expected a file");
-            }
-
-            using var stream = new FileStream(path, FileMode.Open, FileAccess.Read, FileShare.Read, bufferSize: 0,
-                FileOptions.SequentialScan);
             if (stream.CanSeek && stream.Length > maxBytes)
             {
                 throw new SourceException(fileName, $"the file has {stream.Length} bytes, more than the limit of {maxBytes}",
@@ -141,16 +184,12 @@ public sealed class SourceText
 
             return stream.Length == 0 && stream.ReadByte() >= 0
                 ? throw new SourceException(fileName, "this is a pipe or a device, expected a file")
-                : ReadAll(stream);
+                : stream;
         }
-        catch (Exception exception) when (exception is FileNotFoundException or DirectoryNotFoundException)
+        catch
         {
-            throw new SourceException(fileName, "file not found");
-        }
-        catch (Exception exception)
-            when (exception is IOException or UnauthorizedAccessException or NotSupportedException or ArgumentException)
-        {
-            throw new SourceException(fileName, $"the file can't be read: {exception.Message}");
+            stream.Dispose();
+            throw;
         }
     }
 
@@ -177,12 +216,5 @@ public sealed class SourceText
         var bytes = new byte[stream.Length];
         stream.ReadExactly(bytes);
         return bytes;
-    }
-
-    private static SourceException BinaryFileError(ReadOnlySpan<byte> bytes, int position, string fileName, string message)
-    {
-        var before = bytes[..position];
-        return new(new Diagnostic(
-            fileName, 1 + before.Count((byte)'\n'), position - before.LastIndexOf((byte)'\n'), DiagnosticSeverity.Error, message));
     }
 }

@@ -36,6 +36,16 @@ public sealed class CommandLineTests : IDisposable
             .Select(number => number.GetDouble()));
         // However fast or busy the machine is, loading takes some time.
         Assert.True(info.RootElement.GetProperty("loadMilliseconds").GetDouble() > 0);
+        Assert.Equal(JsonValueKind.Null, info.RootElement.GetProperty("prepareMilliseconds").ValueKind);
+    }
+
+    [Fact]
+    public void Info_WithPrepare_MeasuresThatToo()
+    {
+        var (exitCode, output, _) = Run("info", "row.fdo", "--json", "--prepare");
+        Assert.Equal(0, exitCode);
+        using var info = JsonDocument.Parse(output);
+        Assert.True(info.RootElement.GetProperty("prepareMilliseconds").GetDouble() > 0);
     }
 
     [Fact]

@@ -45,6 +45,38 @@ public class MeshTests
         Assert.Throws<ArgumentException>(() => Samples.Triangle.WithNormals([0, 0, 1], [0, 0, 0, 0, 0, 0]));
 
     [Fact]
+    public void Mesh_WithOneWrongNumberAnywhere_IsRefused()
+    {
+        // More than four vectors of each kind, and some numbers behind them.
+        var positions = Enumerable.Range(0, 57).Select(i => (double)i).ToArray();
+        int[] indices = [.. Enumerable.Range(0, 57).Select(i => i % 19)];
+        _ = new Mesh([.. positions], [.. indices]);
+        for (var i = 0; i < positions.Length; i++)
+        {
+            foreach (var wrong in (double[])[double.NaN, double.PositiveInfinity, double.NegativeInfinity])
+            {
+                Assert.Throws<ArgumentException>(() => new Mesh([.. positions[..i], wrong, .. positions[(i + 1)..]], [.. indices]));
+            }
+
+            foreach (var wrong in (int[])[-1, 19, int.MinValue, int.MaxValue])
+            {
+                Assert.Throws<ArgumentException>(() => new Mesh([.. positions], [.. indices[..i], wrong, .. indices[(i + 1)..]]));
+            }
+        }
+    }
+
+    [Fact]
+    public void Bounds_OfAnyNumberOfVertices_AreThoseOfEachInTurn() => Seeded.Run(200, random =>
+    {
+        var vertices = Enumerable.Range(0, random.Next(1, 40))
+            .Select(_ => random.Next(3) == 0 ? new Vector(0.0, -0.0, random.Next(-1, 2)) : random.Vector()).ToArray();
+        var expected = vertices.Aggregate(BoundingBox.Empty, (box, vertex) => box.Including(vertex));
+        var bounds = new Mesh([.. vertices.SelectMany(v => (double[])[v.X, v.Y, v.Z])], []).Bounds;
+        // The text tells −0 from 0.
+        Assert.Equal(expected.ToString(), bounds.ToString());
+    });
+
+    [Fact]
     public void Bounds_ContainUnusedVerticesToo() => Assert.Equal(
         new BoundingBox(new(-5, 0, 0), new(1, 1, 9)), new Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0, -5, 0, 9], [0, 1, 2]).Bounds);
 

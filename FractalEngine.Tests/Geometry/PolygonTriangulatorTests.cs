@@ -82,6 +82,40 @@ public class PolygonTriangulatorTests
     });
 
     [Fact]
+    public void IsConvex_OfAQuadrilateral_TellsHowItIsCut()
+    {
+        var convexCount = 0;
+        Seeded.Run(2000, random =>
+        {
+            Vector[] corners = random.Next(3) == 0
+                ? [random.Vector(), random.Vector(), random.Vector(), random.Vector()]
+                : [.. CreateNearlySquare(random)];
+            if (PolygonTriangulator.IsConvex(corners[0], corners[1], corners[2], corners[3]))
+            {
+                Assert.Equal([3, 0, 1, 1, 2, 3], Triangulate(corners).SelectMany(triangle => triangle));
+                convexCount++;
+            }
+        });
+        Assert.InRange(convexCount, 500, 1900);
+    }
+
+    [Theory]
+    [InlineData(0, 0, 1, 0, 2, 0, 1, 1)]
+    [InlineData(0, 0, 4, 2, 0, 4, 1, 2)]
+    [InlineData(0, 0, 1, 0, 0, 1, 1, 1)]
+    [InlineData(0, 0, 0, 0, 1, 0, 1, 1)]
+    [InlineData(-1e308, 0, 1e308, 0, 1e308, 1, -1e308, 1)]
+    public void IsConvex_OfOthers_IsFalse(double x1, double y1, double x2, double y2, double x3, double y3, double x4, double y4) =>
+        Assert.False(PolygonTriangulator.IsConvex(new(x1, y1, 0), new(x2, y2, 0), new(x3, y3, 0), new(x4, y4, 0)));
+
+    private static IEnumerable<Vector> CreateNearlySquare(Random random)
+    {
+        var axes = random.Degrees().LocalAxesFromDegrees();
+        Vector[] square = [Vector.Zero, Vector.I, Vector.I + Vector.J, Vector.J];
+        return square.Select(corner => axes * (corner + random.Vector(0.4)));
+    }
+
+    [Fact]
     public void Triangulate_ALargeCircle_TakesNoQuadraticTime()
     {
         var angles = Enumerable.Range(0, 20_000).Select(i => i * 2 * Math.PI / 20_000);

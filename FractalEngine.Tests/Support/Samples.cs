@@ -65,7 +65,7 @@ internal static class Samples
     public static ParsedFractal ParseFractalBytes(string text) =>
         FractalParser.Parse(SourceText.Decode(Encoding.UTF8.GetBytes(text), "test.fdo"));
 
-    public static ParsedObj ParseObj(string text) => ObjParser.Parse(new SourceText("test.obj", text));
+    public static ParsedObj ParseObj(string text) => ObjOutcome.ParseChecked(text);
 
     public static Fractal AppendixBAt(int depth, Composition composition = Composition.Affine) =>
         new(ParseFractal(AppendixB).Description.WithDepth(depth) with { Composition = composition }, Triangle);

@@ -1,0 +1,101 @@
+using System.Runtime.InteropServices;
+using FractalEngine.Core.Geometry;
+
+namespace FractalEngine.Parsing.Meshes;
+
+/// <summary>Merges the blocks of an OBJ file into one mesh: each block knows where its elements go.</summary>
+internal sealed class ObjMeshAssembler
+{
+    private readonly List<ObjBlock> _blocks;
+    private readonly int _threadCount;
+    private readonly double[] _positions;
+    private readonly double[] _textureCoordinates;
+    private readonly double[] _normals;
+    private readonly int[] _positionIndices;
+    private readonly int[] _textureIndices;
+    private readonly int[] _normalIndices;
+
+    private ObjMeshAssembler(List<ObjBlock> blocks, ObjCounts counts, int threadCount)
+    {
+        _blocks = blocks;
+        _threadCount = Math.Min(threadCount, blocks.Count);
+        // Elements that no face refers to are no part of a mesh, except for its vertices.
+        var (hasTextures, hasNormals) = (false, false);
+        foreach (var block in blocks)
+        {
+            hasTextures |= block.TextureIndices.Length > 0;
+            hasNormals |= block.NormalIndices.Length > 0;
+        }
+
+        _positions = Allocate<double>(3 * counts.Positions);
+        _textureCoordinates = Allocate<double>(hasTextures ? 2 * counts.TextureCoordinates : 0);
+        _normals = Allocate<double>(hasNormals ? 3 * counts.Normals : 0);
+        _positionIndices = Allocate<int>(3 * counts.Faces);
+        _textureIndices = Allocate<int>(hasTextures ? _positionIndices.Length : 0);
+        _normalIndices = Allocate<int>(hasNormals ? _positionIndices.Length : 0);
+    }
+
+    /// <summary>Creates the mesh of all blocks, without names.</summary>
+    /// <param name="blocks">Blocks in the order of the file.</param>
+    /// <param name="counts">Numbers of elements in all of them.</param>
+    /// <param name="threadCount">Number of threads that work on it, at least one.</param>
+    public static Mesh Assemble(List<ObjBlock> blocks, ObjCounts counts, int threadCount)
+    {
+        if (blocks is [{ IsResolved: true } single])
+        {
+            return CreateMesh(single.Positions, single.PositionIndices, single.TextureCoordinates, single.TextureIndices, single.Normals,
+                single.NormalIndices);
+        }
+
+        var assembler = new ObjMeshAssembler(blocks, counts, threadCount);
+        assembler.ForEachBlock(assembler.CopyElements);
+        // Cutting a polygon needs the positions of all blocks.
+        assembler.ForEachBlock(block => new ObjFaceWriter(
+            block, assembler._positions, assembler._positionIndices, assembler._textureIndices, assembler._normalIndices).Write());
+        return CreateMesh(assembler._positions, assembler._positionIndices, assembler._textureCoordinates, assembler._textureIndices,
+            assembler._normals, assembler._normalIndices);
+    }
+
+    private static T[] Allocate<T>(int length) => GC.AllocateUninitializedArray<T>(length);
+
+    private static Mesh CreateMesh(
+        double[] positions, int[] positionIndices, double[] textureCoordinates, int[] textureIndices, double[] normals, int[] normalIndices)
+    {
+        var mesh = new Mesh(ImmutableCollectionsMarshal.AsImmutableArray(positions),
+            ImmutableCollectionsMarshal.AsImmutableArray(positionIndices));
+        if (textureIndices.Length > 0)
+        {
+            mesh = mesh.WithTextureCoordinates(ImmutableCollectionsMarshal.AsImmutableArray(textureCoordinates),
+                ImmutableCollectionsMarshal.AsImmutableArray(textureIndices));
+        }
+
+        return normalIndices.Length == 0 ? mesh : mesh.WithNormals(ImmutableCollectionsMarshal.AsImmutableArray(normals),
+            ImmutableCollectionsMarshal.AsImmutableArray(normalIndices));
+    }
+
+    private void ForEachBlock(Action<ObjBlock> write)
+    {
+        var next = -1;
+        Workers.Run(_threadCount, _ =>
+        {
+            for (var i = Interlocked.Increment(ref next); i < _blocks.Count; i = Interlocked.Increment(ref next))
+            {
+                write(_blocks[i]);
+            }
+        });
+    }
+
+    private void CopyElements(ObjBlock block)
+    {
+        block.Positions.CopyTo(_positions, 3 * block.Before.Positions);
+        if (_textureIndices.Length > 0)
+        {
+            block.TextureCoordinates.CopyTo(_textureCoordinates, 2 * block.Before.TextureCoordinates);
+        }
+
+        if (_normalIndices.Length > 0)
+        {
+            block.Normals.CopyTo(_normals, 3 * block.Before.Normals);
+        }
+    }
+}

@@ -1,0 +1,4 @@
+using System.Runtime.CompilerServices;
+
+[assembly: InternalsVisibleTo("FractalEngine.Tests")]
+[assembly: InternalsVisibleTo("FractalEngine.Benchmarks")]

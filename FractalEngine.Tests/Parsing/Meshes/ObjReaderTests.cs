@@ -1,0 +1,193 @@
+using System.Text;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Parsing;
+using FractalEngine.Parsing.Meshes;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Parsing.Meshes;
+
+/// <summary>The reader of files against the grammar. What the language is, the tests of the grammar tell, which run both too.</summary>
+public sealed class ObjReaderTests : IDisposable
+{
+    private const string Square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+    private readonly TemporaryFolder _folder = new();
+
+    private static string[] AssetFiles { get; } = Directory.GetFiles(Repository.Full("assets"), "*.obj", SearchOption.AllDirectories);
+
+    public void Dispose() => _folder.Dispose();
+
+    [Fact]
+    public void Read_OfEveryAsset_IsWhatTheGrammarReads() =>
+        Assert.All(AssetFiles, path => Assert.True(ObjOutcome.AssertSame(File.ReadAllBytes(path))));
+
+    [SkippableFact]
+    public void Read_OfEveryRealFile_IsWhatTheGrammarReads()
+    {
+        Skip.If(SharedModels.Folder is null, "there is no folder of real models beside the checkout");
+        Assert.All(Directory.GetFiles(SharedModels.Folder!, "*.obj", SearchOption.AllDirectories),
+            path => ObjOutcome.AssertSame(File.ReadAllBytes(path)));
+    }
+
+    [Fact]
+    public void Read_OfMutatedFiles_IsWhatTheGrammarReads() => CheckMutated(3_000);
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void Read_OfAHundredThousandMutatedFiles_IsWhatTheGrammarReads() => CheckMutated(100_000);
+
+    private static void CheckMutated(int cases)
+    {
+        byte[][] originals = [.. AssetFiles.Select(File.ReadAllBytes)];
+        var meshCount = 0;
+        Parallel.For(1, cases + 1, seed => Seeded.RunOne(seed, random =>
+        {
+            var original = seed % 2 == 0 ? ObjMutation.CreateFile(random) : originals[random.Next(originals.Length)];
+            if (ObjOutcome.AssertSame(ObjMutation.Mutate(original, random)))
+            {
+                Interlocked.Increment(ref meshCount);
+            }
+        }));
+        // Both outcomes are frequent.
+        Assert.InRange(meshCount, cases / 10, cases * 9 / 10);
+    }
+
+    [Theory]
+    [InlineData("f 1 2 3\n")]
+    [InlineData("f -4 -3 -2\n")]
+    [InlineData("f 1 2 3 4\n")]
+    [InlineData("f 1/1 2/2 3/3\nf 1 2 3\nf 1//1 2//1 3//1 4//1\n")]
+    [InlineData("f 1 2 3\nf 1/-1/-1 2/-2/-1 3//-1 4/1\n")]
+    [InlineData("usemtl a\nf 1 2 3\nusemtl b\ng x\nf 1 2 3 4\ns 1\no y\n")]
+    [InlineData("v 1 2 3 # comment\nv 1 2 3 .5 .5 .5\r\nv 1 2 \\\n3\nunknown line\nl 1 2\rp 1\n\n")]
+    public void Read_OfBlockBorders_AtAnyPlace_ChangesNothing(string lines)
+    {
+        var random = new Random(1);
+        var text = new StringBuilder(Square + "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n");
+        while (text.Length < 3 * ObjOutcome.SmallBlock)
+        {
+            text.Append(lines).Append("v 1.25 -2.5 3\n", 0, random.Next(2) * 14).Append('#', random.Next(3)).Append('\n');
+        }
+
+        Assert.True(ObjOutcome.AssertSame(Encoding.UTF8.GetBytes(text.ToString())));
+    }
+
+    [Theory]
+    [InlineData(1)]
+    [InlineData(2)]
+    [InlineData(5)]
+    public void Read_OnAnyNumberOfThreads_GivesTheSame(int threadCount)
+    {
+        using var stream = new MemoryStream();
+        ObjMeshWriter.Write(Shapes.Sphere(4), stream, "sphere");
+        var bytes = stream.ToArray();
+        Assert.Equal(ObjOutcome.OfReader(bytes), ObjOutcome.OfReader(bytes, ObjOutcome.SmallBlock, threadCount));
+    }
+
+    [Fact]
+    public void Read_OfAFaultInALaterBlock_PointsAtIt()
+    {
+        var text = string.Concat(Enumerable.Repeat("v 1 2 3\n", 10_000));
+        Errors.AssertMessage("test.obj:10001:7: error: vertex 10001 of 10000 so far: it is beyond the last\n  f 1 2 10001\n        ^",
+            () => Read(text + "f 1 2 10001\nf 1 2 10002\nv x\n"));
+    }
+
+    [Fact]
+    public void Read_OfAFaultAndANulBehindIt_NamesTheNul() => Errors.AssertMessage(
+        "test.obj:2003:3: error: the file is binary (it has a NUL byte), expected UTF-8 text",
+        () => Read("v x\n" + string.Concat(Enumerable.Repeat("v 1 2 3\n", 2000)) + "\r#\n# \0\0\n" + Square));
+
+    [Fact]
+    public void Read_OfNulsInManyBlocks_NamesTheFirst() => Errors.AssertMessage(
+        "test.obj:2:1: error: the file is binary (it has a NUL byte), expected UTF-8 text",
+        () => Read("v 1 2 3\n" + string.Concat(Enumerable.Repeat("\0\n", 5000))));
+
+    [Fact]
+    public void Read_OfLatin1BehindAName_ReadsTheNameAsLatin1()
+    {
+        byte[] bytes = [.. "o gr\u00FC\u00DFe\n"u8, .. ManyVertices, .. "f 1 2 3\n# "u8, 0xFC];
+        Assert.True(ObjOutcome.AssertSame(bytes));
+        Assert.Equal("gr\u00C3\u00BC\u00C3\u009Fe", ObjOutcome.OfReader(bytes, ObjOutcome.SmallBlock).Mesh!.Groups.Single().ObjectName);
+    }
+
+    [Fact]
+    public void Read_OfAFaultBeforeLatin1_ShowsItsLineAsLatin1()
+    {
+        byte[] bytes = [.. "v 1 2 gr\u00FCn\n"u8, .. ManyVertices, .. "# "u8, 0xFC];
+        Assert.False(ObjOutcome.AssertSame(bytes));
+        Assert.Contains("gr\u00C3\u00BCn", ObjOutcome.OfReader(bytes, ObjOutcome.SmallBlock).Messages, StringComparison.Ordinal);
+    }
+
+    [Theory]
+    [InlineData("\\\n")]
+    [InlineData("\\\r\n")]
+    [InlineData("\\\r")]
+    public void Read_OfALineLongerThanABlock_JoinsIt(string lineBreak)
+    {
+        var face = "f" + string.Concat(Enumerable.Range(0, 2000).Select(i => $" {1 + (i % 4)}{(i % 3 == 0 ? " " + lineBreak : "")}"));
+        Assert.True(ObjOutcome.AssertSame(Encoding.UTF8.GetBytes($"{Square}{face}\n{Square}f 5 6 7\n")));
+    }
+
+    [Fact]
+    public void Read_OfAByteOrderMark_IgnoresIt() =>
+        Assert.Equal(1, ObjReader.Read(_folder.Write("a.obj", "\uFEFFv 1 2 3"), "a").Mesh.VertexCount);
+
+    [Fact]
+    public void Read_OfUtf16_NamesTheEncoding() => Errors.AssertMessage(
+        "test.obj:1:1: error: the file is UTF-16 text, expected UTF-8: save it in that encoding",
+        () => ObjReader.Read(new MemoryStream([0xFF, 0xFE, .. Encoding.Unicode.GetBytes("v 1 2 3\n")]), "test.obj"));
+
+    [Fact]
+    public void Read_OfAFileThatShrinksMeanwhile_SaysThatItCannotBeRead() => Assert.StartsWith(
+        "test.obj:1:1: error: the file can't be read: ",
+        Errors.MessageOf(() => ObjReader.Read(new ShrinkingStream(Encoding.UTF8.GetBytes(Square)), "test.obj")), StringComparison.Ordinal);
+
+    [Fact]
+    public void Read_BeyondTheLimit_NamesIt()
+    {
+        using (var file = File.Create(_folder["a.obj"]))
+        {
+            file.SetLength(ParsingLimits.MaxObjBytes + 1);
+        }
+
+        const long limit = ParsingLimits.MaxObjBytes;
+        Errors.AssertMessage($"a:1:1: error: the file has {limit + 1} bytes, more than the limit of {limit}",
+            () => ObjReader.Read(_folder["a.obj"], "a"));
+    }
+
+    [Fact]
+    public void Progress_NeverRunsBackwards()
+    {
+        List<double> reports = [];
+        // Latin-1 at the end makes the reader begin again.
+        byte[] bytes = [.. Encoding.UTF8.GetBytes(string.Concat(Enumerable.Repeat("v 1 2 3\n", 600_000))), (byte)'#', 0xFC];
+        ObjReader.Read(new MemoryStream(bytes), "test.obj", new Recorder(reports), threadCount: 2);
+        Assert.Equal(reports.Order(), reports);
+        Assert.Equal(1, reports[^1]);
+        Assert.All(reports, report => Assert.InRange(report, 0, 1));
+    }
+
+    [Fact]
+    public void Read_OfAMillionVertices_TakesTwiceTheMemoryOfItsArrays()
+    {
+        var bytes = Encoding.UTF8.GetBytes(string.Concat(Enumerable.Repeat("v 1.25 -2.5 3.75\n", 1_000_000)));
+        // Twice 24 MB, and the buffers of one block.
+        Assert.Equal(1_000_000, Allocation.RunWithin(
+            55_000_000, () => ObjReader.Read(new MemoryStream(bytes), "test.obj", threadCount: 1).Mesh.VertexCount));
+    }
+
+    private static byte[] ManyVertices => Encoding.UTF8.GetBytes(string.Concat(Enumerable.Repeat(Square, 200)));
+
+    private static ParsedObj Read(string text) =>
+        ObjReader.Read(new MemoryStream(Encoding.UTF8.GetBytes(text)), "test.obj", null, ObjOutcome.SmallBlock, threadCount: 2);
+
+    private sealed class ShrinkingStream(byte[] bytes) : MemoryStream(bytes)
+    {
+        public override long Length => base.Length + 100;
+    }
+
+    private sealed class Recorder(List<double> reports) : IProgress<double>
+    {
+        public void Report(double value) => reports.Add(value);
+    }
+}
