@@ -81,7 +81,8 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public bool CanRefine(
-        SubFractal parent, SubFractal childSubFractal, long remainingLevels, int baseFaceCount, in FractalSearchState search) => true;
+        SubFractal parent, SubFractal childSubFractal, long remainingLevels, int baseFaceCount, bool isUrgent,
+        in FractalSearchState search) => !isUrgent;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -46,25 +46,35 @@ internal readonly ref struct ChildQueue(Span<double> values) : IChildQueue
     public bool TryPeek(double cutoffSquared, out int child)
     {
         var cutoffs = Vector256.Create(cutoffSquared);
-        var smallestKeys = Vector256.Create(double.PositiveInfinity);
-        var smallestIndices = Vector256<long>.Zero;
-        var indices = Vector256.Create(0L, 1, 2, 3);
+        var infinity = Vector256.Create(double.PositiveInfinity);
+        var smallestKey = infinity;
         for (var i = 0; i < _paddedCount; i += VectorX4.Count)
         {
-            var keys = Vector256.LoadUnsafe(ref _values, (nuint)(_paddedCount + i));
             var isBelow = Vector256.LessThan(Vector256.LoadUnsafe(ref _values, (nuint)i), cutoffs);
-            var isSmaller = isBelow & Vector256.LessThan(keys, smallestKeys);
-            smallestKeys = Vector256.ConditionalSelect(isSmaller, keys, smallestKeys);
-            smallestIndices = Vector256.ConditionalSelect(isSmaller.AsInt64(), indices, smallestIndices);
-            indices += Vector256.Create((long)VectorX4.Count);
+            var key = Vector256.ConditionalSelect(isBelow, Vector256.LoadUnsafe(ref _values, (nuint)(_paddedCount + i)), infinity);
+            smallestKey = Vector256.MinNative(smallestKey, key);
         }
 
-        var pair = Vector128.MinNative(smallestKeys.GetLower(), smallestKeys.GetUpper());
-        var smallestKey = Vector128.MinNative(pair, Vector128.Shuffle(pair.AsInt64(), Vector128.Create(1L, 0)).AsDouble())[0];
-        var lane = BitOperations.TrailingZeroCount(
-            Vector256.Equals(smallestKeys, Vector256.Create(smallestKey)).ExtractMostSignificantBits());
-        child = (int)smallestIndices.GetElement(lane & (VectorX4.Count - 1));
-        return smallestKey < double.PositiveInfinity;
+        var pair = Vector128.MinNative(smallestKey.GetLower(), smallestKey.GetUpper());
+        pair = Vector128.MinNative(pair, Vector128.Shuffle(pair.AsInt64(), Vector128.Create(1L, 0)).AsDouble());
+        child = -1;
+        if (!(pair[0] < double.PositiveInfinity))
+        {
+            return false;
+        }
+
+        smallestKey = Vector256.Create(pair[0]);
+        for (var i = 0; ; i += VectorX4.Count)
+        {
+            var isSmallest = Vector256.Equals(Vector256.LoadUnsafe(ref _values, (nuint)(_paddedCount + i)), smallestKey)
+                & Vector256.LessThan(Vector256.LoadUnsafe(ref _values, (nuint)i), cutoffs);
+            var bits = isSmallest.ExtractMostSignificantBits();
+            if (bits != 0)
+            {
+                child = i + BitOperations.TrailingZeroCount(bits);
+                return true;
+            }
+        }
     }
 
     /// <inheritdoc/>

@@ -13,9 +13,6 @@ namespace FractalEngine.Core.Collision.Fractals;
 internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, TriangleBvh bvh)
     where TFrame : struct, ISearchFrame<TFrame>
 {
-    // As a part of a child's squared radius: one that is closer is nearly around the position.
-    private const double MinRefinedBound = 0.01;
-
     private readonly int _baseFaceCount = bvh.FaceCount;
 
     /// <summary>Searches the whole fractal.</summary>
@@ -94,11 +91,10 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
             var childLevels = child.RemainingLevels(remainingLevels);
             var childSubFractal = hierarchy.At(child, childLevels);
             var childFrame = frame.Enter(child);
-            // While nothing excludes any child, one that is nearly around the position is visited as it is.
-            var isWorthwhile = cutoffSquared < double.PositiveInfinity
-                || queue.BoundOf(closestChild) > MinRefinedBound * child.ScaleSquared * childSubFractal.RadiusSquared;
-            if (isWorthwhile && (refined & (1UL << closestChild)) == 0
-                && frame.CanRefine(subFractal, childSubFractal, childLevels, _baseFaceCount, in search))
+            // While nothing excludes any child, one around the position is visited as it is.
+            var isUrgent = !(cutoffSquared < double.PositiveInfinity) && queue.BoundOf(closestChild) <= 0;
+            if ((refined & (1UL << closestChild)) == 0
+                && frame.CanRefine(subFractal, childSubFractal, childLevels, _baseFaceCount, isUrgent, in search))
             {
                 // The child's own bounds are tighter than the box around its image. Only children that seem closest are refined.
                 var refinedBound = frame.RefinedBoundSquared(

@@ -42,9 +42,11 @@ internal interface ISearchFrame<TSelf>
     /// <param name="childSubFractal">The sub-fractal of the child.</param>
     /// <param name="remainingLevels">Remaining levels of the child.</param>
     /// <param name="baseFaceCount">Number of faces of the base mesh.</param>
+    /// <param name="isUrgent">True while nothing excludes a child that is around the position.</param>
     /// <param name="search">The state of the search.</param>
     bool CanRefine(
-        SubFractal parent, SubFractal childSubFractal, long remainingLevels, int baseFaceCount, in FractalSearchState search);
+        SubFractal parent, SubFractal childSubFractal, long remainingLevels, int baseFaceCount, bool isUrgent,
+        in FractalSearchState search);
 
     /// <summary>Computes the best bound of a child there is: from the child's own box and hull.</summary>
     /// <param name="parent">The sub-fractal of this frame.</param>

@@ -86,8 +86,9 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public bool CanRefine(
-        SubFractal parent, SubFractal childSubFractal, long remainingLevels, int baseFaceCount, in FractalSearchState search) =>
-        (remainingLevels > 0 || baseFaceCount > MaxFacesWithoutHull)
+        SubFractal parent, SubFractal childSubFractal, long remainingLevels, int baseFaceCount, bool isUrgent,
+        in FractalSearchState search) =>
+        !isUrgent && (remainingLevels > 0 || baseFaceCount > MaxFacesWithoutHull)
         && (parent.HasRotatedChildren || childSubFractal.Hull is not null || childSubFractal.Clusters is not null
             || search.NeedsTightBounds);
 
@@ -133,7 +134,7 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
         }
     }
 
-    /// <summary>Computes the bounds of the clusters, and of the solid in long searches.</summary>
+    /// <summary>Computes the bounds of the clusters, and of the solid in long searches. The distance of a box is exact already.</summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static double TightBoundSquared(
         SubFractal subFractal, in SimilarityFrame frame, double cutoffSquared, ref FractalSearchState search)
@@ -145,7 +146,7 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
             search.BoundTests++;
         }
 
-        if (search.NeedsTightBounds && bound < cutoffSquared && subFractal.Solid is { } solid)
+        if (search.NeedsTightBounds && bound < cutoffSquared && subFractal.Solid is { IsBox: false } solid)
         {
             bound = Math.Max(bound, solid.LowerBoundSquared(frame._position, in SimdAffineMap.Identity, cutoffSquared));
             search.BoundTests++;

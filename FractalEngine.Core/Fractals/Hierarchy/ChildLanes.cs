@@ -16,7 +16,7 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 internal sealed class ChildLanes
 {
     /// <summary>Positions so many radii of the parent away are left to double precision, where bounds tell small children apart.</summary>
-    public const double MaxDistanceFactor = 64;
+    public const double MaxDistanceFactor = 24;
 
     private const int LaneCount = FloatChildQueue.LaneCount;
 

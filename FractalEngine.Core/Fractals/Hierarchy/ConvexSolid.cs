@@ -51,6 +51,9 @@ internal sealed class ConvexSolid
     /// <summary>How far the solid reaches beyond the hull of the vertices, in scene units.</summary>
     public double Margin => _margin;
 
+    /// <summary>True for a solid that is a box parallel to the axes.</summary>
+    public bool IsBox { get; private init; }
+
     /// <summary>Creates the solid box.</summary>
     public static ConvexSolid FromBox(BoundingBox box)
     {
@@ -63,7 +66,7 @@ internal sealed class ConvexSolid
                 (i & 4) == 0 ? box.Minimum.Z : box.Maximum.Z);
         }
 
-        return new(corners, 0);
+        return new(corners, 0) { IsBox = true };
     }
 
     /// <summary>Computes the squared distance of a position from the solid's image under a map, or a little less.</summary>

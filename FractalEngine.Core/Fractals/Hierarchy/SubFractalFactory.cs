@@ -10,6 +10,9 @@ internal sealed class SubFractalFactory(Mesh mesh, bool hasOnlySimilarities)
     // A hull that fills its box bounds no better than the box.
     private const double MaxHullFillRatio = 0.95;
 
+    // A hull that fills all of its box is the box.
+    private const double MaxSolidFillRatio = 1 - 1e-6;
+
     /// <summary>The bounds of the base mesh.</summary>
     public BoundingVolume BaseVolume { get; } = BoundingVolume.FromMesh(mesh);
 
@@ -47,14 +50,19 @@ internal sealed class SubFractalFactory(Mesh mesh, bool hasOnlySimilarities)
     private static ConvexSolid? CreateSolid(BoundingVolume volume) => volume switch
     {
         { Box.IsEmpty: true } => null,
-        { Hull: { } hull } => new(hull.Vertices.AsSpan(), volume.Margin),
+        { Hull: { } hull } when hull.Volume() < MaxSolidFillRatio * BoxVolume(volume.Box) => new(hull.Vertices.AsSpan(), volume.Margin),
         _ => ConvexSolid.FromBox(volume.Box),
     };
 
+    private static double BoxVolume(BoundingBox box)
+    {
+        var (x, y, z) = box.Size;
+        return x * y * z;
+    }
+
     private HullBound? CreateHullBound(BoundingVolume volume)
     {
-        var (x, y, z) = volume.Box.Size;
-        return volume.Hull is null || volume.Hull.Volume() > MaxHullFillRatio * x * y * z
+        return volume.Hull is null || volume.Hull.Volume() > MaxHullFillRatio * BoxVolume(volume.Box)
             ? null
             : new(volume.Hull, volume.Box, volume.Margin, includeAxisPlanes: !hasOnlySimilarities);
     }
