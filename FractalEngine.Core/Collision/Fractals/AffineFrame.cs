@@ -59,6 +59,9 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
     public bool IsNear(SubFractal subFractal) => false;
 
     /// <inheritdoc/>
+    public bool IsAmong(SubFractal subFractal) => false;
+
+    /// <inheritdoc/>
     public float FloatError(ChildLanes lanes) => throw new NotSupportedException();
 
     /// <inheritdoc/>

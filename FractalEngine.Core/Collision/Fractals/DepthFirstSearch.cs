@@ -13,6 +13,8 @@ namespace FractalEngine.Core.Collision.Fractals;
 internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, TriangleBvh bvh)
     where TFrame : struct, ISearchFrame<TFrame>
 {
+    private const int MaxUrgentLevels = 12;
+
     private readonly int _baseFaceCount = bvh.FaceCount;
 
     /// <summary>Searches the whole fractal.</summary>
@@ -48,7 +50,7 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
             var queue = new FloatChildQueue(search.ScratchSlice(offset, lanes.PaddedCount), frame.FloatError(lanes));
             frame.FillQueue(hierarchy, lanes, remainingLevels, cutoffSquared, in queue);
             search.BoundTests += subFractal.Children.Length;
-            var refined = lanes.IsComplete && !search.NeedsTightBounds ? ulong.MaxValue : 0;
+            var refined = lanes.IsComplete && !search.NeedsTightBounds && frame.IsAmong(subFractal) ? ulong.MaxValue : 0;
             VisitChildren(subFractal, remainingLevels, ref frame, depth, offset + lanes.PaddedCount, queue, refined, ref search);
         }
         else
@@ -91,8 +93,8 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
             var childLevels = child.RemainingLevels(remainingLevels);
             var childSubFractal = hierarchy.At(child, childLevels);
             var childFrame = frame.Enter(child);
-            // While nothing excludes any child, one around the position is visited as it is.
-            var isUrgent = !(cutoffSquared < double.PositiveInfinity) && queue.BoundOf(closestChild) <= 0;
+            // While nothing excludes any child, one around the position is visited as it is; but not from far above the faces.
+            var isUrgent = childLevels < MaxUrgentLevels && !(cutoffSquared < double.PositiveInfinity) && queue.BoundOf(closestChild) <= 0;
             if ((refined & (1UL << closestChild)) == 0
                 && frame.CanRefine(subFractal, childSubFractal, childLevels, _baseFaceCount, isUrgent, in search))
             {

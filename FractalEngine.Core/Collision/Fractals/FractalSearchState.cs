@@ -11,7 +11,7 @@ internal ref struct FractalSearchState
     private const int MaxWork = 1_000_000;
 
     // So many bounds suffice for most queries. What needs more has many sub-fractals at nearly the same distance.
-    private const int MaxRoughBoundTests = 500;
+    private const int MaxRoughBoundTests = 2500;
 
     // Suffices for some twenty levels.
     private const int InitialScratchLength = 1024;

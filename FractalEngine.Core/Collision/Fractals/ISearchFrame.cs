@@ -17,6 +17,9 @@ internal interface ISearchFrame<TSelf>
     /// <summary>True where floats tell the children of a sub-fractal apart.</summary>
     bool IsNear(SubFractal subFractal);
 
+    /// <summary>True for a position among the children of a sub-fractal, where the planes of their hulls bound best.</summary>
+    bool IsAmong(SubFractal subFractal);
+
     /// <summary>An upper bound of the rounding error of the children's distances in single precision.</summary>
     float FloatError(ChildLanes lanes);
 

@@ -54,6 +54,14 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public bool IsAmong(SubFractal subFractal)
+    {
+        var direction = _position - subFractal.Centre;
+        return Vector256.Dot(direction, direction) < subFractal.RadiusSquared;
+    }
+
+    /// <inheritdoc/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public float FloatError(ChildLanes lanes) => lanes.DistanceError(_position);
 
     /// <inheritdoc/>
