@@ -127,7 +127,7 @@ public sealed class ObjParser : Parser
             "l" or "p" => ParseRestOfLine(rest, out _, out rest) && MarkDeclared(),
             // These keywords come here only without a blank behind them, since ParseLine handles all others.
             "v" or "vn" or "vt" => ParseComponents(rest, out _, out rest),
-            "f" => ParseFace(start, out rest),
+            "f" => ParseFace(start, out rest) && MarkDeclared(),
             _ => SkipUnknown(start, out rest),
         };
     }
@@ -248,12 +248,27 @@ public sealed class ObjParser : Parser
     private bool ParseOptionalNumbers(Cursor cursor, out Cursor rest)
     {
         rest = cursor;
-        while (ParseBlanks(rest, out var next) && IsNumberStart(next) && ParseNumber(next, out _, out next))
+        while (ParseBlanks(rest, out var next)
+            && (ParseUndefinedNumber(next, out next) || (IsNumberStart(next) && ParseNumber(next, out _, out next))))
         {
             rest = next;
         }
 
         return true;
+    }
+
+    /// <summary>Parses what programs write for an undefined number: <c>nan</c>, <c>-inf</c> or <c>-nan(ind)</c>.</summary>
+    private static bool ParseUndefinedNumber(Cursor cursor, out Cursor rest)
+    {
+        var start = cursor.Advance(cursor.Current is '-' or '+' ? 1 : 0);
+        var length = start.Rest.IndexOfAny(" \t\r\n#\\");
+        var word = length < 0 ? start.Rest : start.Rest[..length];
+        var isUndefined = word.Equals("nan", StringComparison.OrdinalIgnoreCase)
+            || word.Equals("inf", StringComparison.OrdinalIgnoreCase)
+            || word.Equals("infinity", StringComparison.OrdinalIgnoreCase)
+            || (word.StartsWith("nan(", StringComparison.OrdinalIgnoreCase) && word.EndsWith(")"));
+        rest = isUndefined ? start.Advance(word.Length) : cursor;
+        return isUndefined;
     }
 
     private static bool IsNumberStart(Cursor cursor) => char.IsAsciiDigit(cursor.Current) || cursor.Current is '-' or '+' or '.';
@@ -274,7 +289,8 @@ public sealed class ObjParser : Parser
 
         if (_corners.Count < 3)
         {
-            throw Error(start, $"a face needs at least three corners, this one has {_corners.Count}");
+            _contents.AddShortFace(PositionOf(start), _corners.Count);
+            return ParseCommentAndEndOfLine(rest, out rest);
         }
 
         if (_corners.Count > ParsingLimits.MaxPolygonCorners)
@@ -287,7 +303,9 @@ public sealed class ObjParser : Parser
         return ParseCommentAndEndOfLine(rest, out rest);
     }
 
-    /// <summary>Parses one corner of a face: <c>v</c>, <c>v/vt</c>, <c>v//vn</c> or <c>v/vt/vn</c>.</summary>
+    /// <summary>
+    /// Parses one corner of a face: <c>v</c>, <c>v/vt</c>, <c>v//vn</c> or <c>v/vt/vn</c>. Nothing behind a slash means none.
+    /// </summary>
     private bool ParseCorner(Cursor cursor, out ObjCorner corner, out Cursor rest)
     {
         var texture = ObjCorner.None;
@@ -301,22 +319,28 @@ public sealed class ObjParser : Parser
         if (rest.Current == '/')
         {
             rest = rest.Advance(1);
-            if (rest.Current != '/'
+            if (rest.Current != '/' && !IsAtEndOfCorner(rest)
                 && !ParseIndex(rest, "texture coordinate", _elements.TextureCoordinateCount, isRequired: false, out texture, out rest))
             {
                 return false;
             }
 
-            if (rest.Current == '/'
-                && !ParseIndex(rest.Advance(1), "normal", _elements.NormalCount, isRequired: false, out normal, out rest))
+            if (rest.Current == '/')
             {
-                return false;
+                rest = rest.Advance(1);
+                if (!IsAtEndOfCorner(rest)
+                    && !ParseIndex(rest, "normal", _elements.NormalCount, isRequired: false, out normal, out rest))
+                {
+                    return false;
+                }
             }
         }
 
         corner = new(position, texture, normal);
-        return IsAtEndOfLine(rest) || rest.Current is ' ' or '\t' or '#' or '\\' || Fail(rest, "a blank");
+        return IsAtEndOfCorner(rest) || Fail(rest, "a blank");
     }
+
+    private static bool IsAtEndOfCorner(Cursor cursor) => IsAtEndOfLine(cursor) || cursor.Current is ' ' or '\t' or '#' or '\\';
 
     /// <summary>Parses the number of an element: from 1 upwards, or from −1 backwards. The resulting index counts from 0.</summary>
     private bool ParseIndex(Cursor cursor, string elementName, int count, bool isRequired, out int index, out Cursor rest)
