@@ -3,15 +3,24 @@ namespace FractalEngine.Parsing.Assets;
 /// <summary>Tells the kinds of files apart by the endings of their names.</summary>
 internal static class FileKinds
 {
+    private const string CompressedEnding = ".gz";
+
     /// <summary>Returns the kind of a file; null if the ending of its name is unknown.</summary>
     /// <param name="name">Name or path; upper and lower case are alike.</param>
     public static FileKind? FromName(string name) => Path.GetExtension(name).ToUpperInvariant() switch
     {
-        ".OBJ" => FileKind.Mesh,
+        ".OBJ" or ".PLY" or ".STL" => FileKind.Mesh,
+        ".GZ" when Path.GetExtension(RemoveCompression(name)).Equals(".obj", StringComparison.OrdinalIgnoreCase) => FileKind.Mesh,
         ".FDO" => FileKind.Fractal,
         ".SDO" => FileKind.Scene,
         _ => null,
     };
+
+    /// <summary>Returns whether a name ends in <c>.gz</c>: the file is compressed.</summary>
+    public static bool IsCompressed(string name) => name.EndsWith(CompressedEnding, StringComparison.OrdinalIgnoreCase);
+
+    /// <summary>Returns a name without <c>.gz</c>.</summary>
+    public static string RemoveCompression(string name) => IsCompressed(name) ? name[..^CompressedEnding.Length] : name;
 
     /// <summary>Requires the path of a caller to have the ending of a kind.</summary>
     /// <exception cref="ArgumentException">The path has another ending.</exception>
