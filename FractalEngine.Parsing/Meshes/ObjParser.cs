@@ -1,3 +1,4 @@
+using System.Buffers;
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
@@ -16,6 +17,8 @@ public sealed class ObjParser : Parser
 {
     // Characters between two reports of progress, at least.
     private const int ProgressInterval = 1 << 20;
+
+    private static readonly SearchValues<char> WordEnds = SearchValues.Create(" \t\r\n#\\");
 
     private readonly ObjContents _contents;
     private readonly ObjElements _elements;
@@ -257,17 +260,12 @@ public sealed class ObjParser : Parser
         return true;
     }
 
-    /// <summary>Parses what programs write for an undefined number: <c>nan</c>, <c>-inf</c> or <c>-nan(ind)</c>.</summary>
     private static bool ParseUndefinedNumber(Cursor cursor, out Cursor rest)
     {
-        var start = cursor.Advance(cursor.Current is '-' or '+' ? 1 : 0);
-        var length = start.Rest.IndexOfAny(" \t\r\n#\\");
-        var word = length < 0 ? start.Rest : start.Rest[..length];
-        var isUndefined = word.Equals("nan", StringComparison.OrdinalIgnoreCase)
-            || word.Equals("inf", StringComparison.OrdinalIgnoreCase)
-            || word.Equals("infinity", StringComparison.OrdinalIgnoreCase)
-            || (word.StartsWith("nan(", StringComparison.OrdinalIgnoreCase) && word.EndsWith(")"));
-        rest = isUndefined ? start.Advance(word.Length) : cursor;
+        var length = cursor.Rest.IndexOfAny(WordEnds);
+        length = length < 0 ? cursor.Rest.Length : length;
+        var isUndefined = NumberReader.IsUndefined(cursor.Rest[..length]);
+        rest = isUndefined ? cursor.Advance(length) : cursor;
         return isUndefined;
     }
 
