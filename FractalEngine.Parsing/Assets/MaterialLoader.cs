@@ -169,8 +169,16 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
                 : material.WithoutTexture();
         }
 
-        return _materials[(file, name)] = material;
+        return _materials[(file, name)] = material with
+        {
+            BumpTexture = FindUndrawnTexture(material.BumpTexture, fullPath),
+            NormalTexture = FindUndrawnTexture(material.NormalTexture, fullPath),
+        };
     }
+
+    /// <summary>Returns a texture with its full path; null if there is none. As it is not drawn, a missing file needs no message.</summary>
+    private MaterialTexture? FindUndrawnTexture(MaterialTexture? texture, string fullPath) =>
+        texture is not null && references.FindForeign(fullPath, texture.Path) is { } path ? texture with { Path = path } : null;
 
     private string? FindTextureFile(SourceText source, int offset, string referrer, string file)
     {
