@@ -3,6 +3,9 @@ namespace FractalEngine.Parsing.Assets;
 /// <summary>Tells the kinds of files apart by the endings of their names.</summary>
 internal static class FileKinds
 {
+    /// <summary>The endings of meshes, for messages.</summary>
+    public const string MeshEndings = ".obj, .obj.gz, .ply, .stl";
+
     private const string CompressedEnding = ".gz";
 
     /// <summary>Returns the kind of a file; null if the ending of its name is unknown.</summary>
@@ -32,9 +35,22 @@ internal static class FileKinds
         }
     }
 
+    /// <summary>Returns whether a name is one of an OBJ file that is not compressed, the only format of meshes that is written.</summary>
+    public static bool IsPlainObj(string name) => name.EndsWith(".obj", StringComparison.OrdinalIgnoreCase);
+
+    /// <summary>Requires the path of a caller to be one of an OBJ file that is not compressed.</summary>
+    /// <exception cref="ArgumentException">The path has another ending.</exception>
+    public static void RequirePlainObj(string path)
+    {
+        if (!IsPlainObj(path))
+        {
+            throw new ArgumentException("expected the name of a .obj file", nameof(path));
+        }
+    }
+
     private static string Ending(FileKind kind) => kind switch
     {
-        FileKind.Mesh => ".obj",
+        FileKind.Mesh => MeshEndings,
         FileKind.Fractal => ".fdo",
         _ => ".sdo",
     };
