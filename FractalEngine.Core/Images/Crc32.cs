@@ -5,8 +5,8 @@ using System.Runtime.InteropServices;
 namespace FractalEngine.Core.Images;
 
 /// <summary>
-/// The checksum of PNG chunks and gzip files: CRC-32 with the reflected polynomial EDB88320 (PNG, third edition, annex D). Sixteen tables take sixteen
-/// bytes a step (slicing, Kounavis and Berry 2005), since a loop over bytes takes as long as decompression. 3 GB/s.
+/// The checksum of PNG chunks and gzip files: CRC-32 with the reflected polynomial EDB88320 (PNG, third edition, annex D). Sixteen tables
+/// take sixteen bytes a step (slicing, Kounavis and Berry 2005), since a loop over bytes takes as long as decompression. 3 GB/s.
 /// </summary>
 public static class Crc32
 {

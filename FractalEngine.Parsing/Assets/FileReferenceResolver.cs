@@ -46,7 +46,9 @@ internal sealed class FileReferenceResolver(AssetFolder folder, bool allowOutsid
     public (string FullPath, string DisplayName) ResolveForeign(SourceText source, int offset, string referrer, string file) =>
         Resolve(source, offset, referrer, FindForeign(referrer, file) ?? file);
 
-    /// <summary>Returns the full path of a file by a name that another program wrote; null if it does not exist or is not allowed.</summary>
+    /// <summary>
+    /// Returns the full path of a file by a name that another program wrote; null if it does not exist or is not allowed.
+    /// </summary>
     /// <param name="referrer">Full path of the file with the reference.</param>
     /// <param name="file">Name as written there.</param>
     public string? FindForeign(string referrer, string file) => _foreignNames.Find(Path.GetDirectoryName(referrer)!, file);

@@ -26,7 +26,7 @@ internal sealed class ForeignFileNames(Func<string, bool> isAllowed)
 
         var plainName = RemoveQuotes(name).Replace('\\', '/').Trim();
         return plainName.Length == 0 ? null
-            : FindExact(folder, plainName)
+            : (plainName == name ? null : FindExact(folder, plainName))
             ?? FindInAnyCase(folder, plainName)
             ?? FindInAnyCase(folder, plainName[(plainName.LastIndexOf('/') + 1)..]);
     }

@@ -66,7 +66,9 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
         return materials.ToImmutable();
     }
 
-    /// <summary>Adds the material file beside a mesh that has the mesh's name, for meshes that name none. False without such a file.</summary>
+    /// <summary>
+    /// Adds the material file beside a mesh that has the mesh's name, for meshes that name none. False without such a file.
+    /// </summary>
     private bool TryAddOwnLibrary(List<(ParsedMtl File, string FullPath)> libraries, SourcePosition use, string fullPath)
     {
         var name = Path.ChangeExtension(FileKinds.RemoveCompression(Path.GetFileName(fullPath)), ".mtl");

@@ -35,7 +35,7 @@ internal sealed class MeshBytes
     /// <summary>The bytes of the file.</summary>
     public ReadOnlySpan<byte> Contents => Buffer.AsSpan(0, Length);
 
-    /// <summary>Reads a whole file.</summary>
+    /// <summary>Reads a whole file into memory.</summary>
     /// <param name="path">Path of the file.</param>
     /// <param name="fileName">Name of the file in messages.</param>
     /// <exception cref="SourceException">The file is missing, unreadable or too large.</exception>

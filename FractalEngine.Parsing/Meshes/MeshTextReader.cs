@@ -25,7 +25,7 @@ internal sealed class MeshTextReader(MeshBytes bytes)
         return Position >= bytes.Length;
     }
 
-    /// <summary>Reads the next word.</summary>
+    /// <summary>Reads the next word, whatever it is.</summary>
     /// <param name="expected">What the word should be, for the message.</param>
     /// <exception cref="SourceException">The text ends before it.</exception>
     public ReadOnlySpan<byte> ReadWord(string expected)
@@ -44,7 +44,7 @@ internal sealed class MeshTextReader(MeshBytes bytes)
         return isKeyword;
     }
 
-    /// <summary>Reads a given word.</summary>
+    /// <summary>Reads a given word, which must follow.</summary>
     /// <exception cref="SourceException">Another one follows.</exception>
     public void ReadKeyword(string keyword)
     {

@@ -14,7 +14,7 @@ internal sealed class PlyHeaderParser
 
     private PlyHeaderParser(MeshBytes bytes) => _text = new(bytes);
 
-    /// <summary>Parses the header.</summary>
+    /// <summary>Parses the header at the beginning of a file.</summary>
     /// <exception cref="SourceException">The file does not begin with a header of PLY.</exception>
     public static PlyHeader Parse(MeshBytes bytes) => new PlyHeaderParser(bytes).Parse();
 

@@ -35,7 +35,7 @@ internal sealed class PlyMeshBuilder
         _textureCoordinates.EnsureCapacity(_hasTextureCoordinates ? 2 * VertexCount : 0);
     }
 
-    /// <summary>Adds a vertex.</summary>
+    /// <summary>Adds a vertex behind all others.</summary>
     /// <param name="values">Value of each role.</param>
     public void AddVertex(ReadOnlySpan<double> values)
     {

@@ -24,7 +24,7 @@ public sealed class PlyReader
         _values = PlyValues.Create(bytes, _header);
     }
 
-    /// <summary>Reads a file.</summary>
+    /// <summary>Reads a PLY file as a mesh.</summary>
     /// <param name="path">Path of the file, absolute or relative to the current directory.</param>
     /// <param name="fileName">Name of the file in messages.</param>
     /// <exception cref="SourceException">
@@ -33,7 +33,7 @@ public sealed class PlyReader
     /// </exception>
     public static ParsedObj Read(string path, string fileName) => Read(MeshBytes.Read(path, fileName));
 
-    /// <summary>Reads the contents of a file.</summary>
+    /// <summary>Reads the contents of a PLY file.</summary>
     internal static ParsedObj Read(MeshBytes bytes) => new PlyReader(bytes).Read();
 
     private ParsedObj Read()

@@ -18,7 +18,7 @@ internal abstract class PlyValues
     /// <summary>Creates the error of the number read last.</summary>
     public abstract SourceException Error(string message, bool isLimitExceeded = false);
 
-    /// <summary>Creates values of a format.</summary>
+    /// <summary>Creates the reader of a format.</summary>
     /// <param name="bytes">The file.</param>
     /// <param name="header">Its header, behind which the numbers begin.</param>
     public static PlyValues Create(MeshBytes bytes, PlyHeader header) => header.Format == PlyFormat.Text

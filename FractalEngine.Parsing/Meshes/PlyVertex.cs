@@ -15,7 +15,7 @@ internal static class PlyVertex
     /// <summary>Role of the first texture coordinate, which the second follows.</summary>
     public const int U = 6;
 
-    /// <summary>Number of roles.</summary>
+    /// <summary>Number of roles that are not ignored.</summary>
     public const int RoleCount = 8;
 
     private static readonly string[][] Names =
@@ -24,7 +24,7 @@ internal static class PlyVertex
         ["u", "s", "texture_u", "texture_s"], ["v", "t", "texture_v", "texture_t"],
     ];
 
-    /// <summary>Returns the role of a property.</summary>
+    /// <summary>Returns the role of a property by its name.</summary>
     public static int RoleOf(string name) => Array.FindIndex(Names, names => names.Contains(name));
 
     /// <summary>Returns the name of a coordinate that no property has; null if there is none.</summary>

@@ -28,6 +28,6 @@ internal sealed class StlMeshBuilder
         _indices.Add(vertex);
     }
 
-    /// <summary>Creates the mesh.</summary>
+    /// <summary>Creates the mesh of all triangles.</summary>
     public Mesh Complete() => new Mesh([.. _positions], [.. _indices]).WithGroups(_groups.Complete(_indices.Count / 3), []);
 }

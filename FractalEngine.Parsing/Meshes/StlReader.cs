@@ -26,7 +26,7 @@ public sealed class StlReader
         _text = new(bytes);
     }
 
-    /// <summary>Reads a file.</summary>
+    /// <summary>Reads an STL file as a mesh.</summary>
     /// <param name="path">Path of the file, absolute or relative to the current directory.</param>
     /// <param name="fileName">Name of the file in messages.</param>
     /// <exception cref="SourceException">
@@ -35,7 +35,7 @@ public sealed class StlReader
     /// </exception>
     public static ParsedObj Read(string path, string fileName) => Read(MeshBytes.Read(path, fileName));
 
-    /// <summary>Reads the contents of a file.</summary>
+    /// <summary>Reads the contents of an STL file.</summary>
     internal static ParsedObj Read(MeshBytes bytes)
     {
         var reader = new StlReader(bytes);
@@ -51,7 +51,9 @@ public sealed class StlReader
         return new(reader._mesh.Complete(), []) { ByteCount = bytes.Length };
     }
 
-    /// <summary>Tells the formats apart. Some programs begin binary files with the word that text begins with: then the size decides.</summary>
+    /// <summary>
+    /// Tells the formats apart. Some programs begin binary files with the word that text begins with: then the size decides.
+    /// </summary>
     private bool IsBinary()
     {
         var isText = _text.TryReadKeyword("solid");
