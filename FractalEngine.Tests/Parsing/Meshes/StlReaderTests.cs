@@ -1,6 +1,7 @@
 using System.Text;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing.Meshes;
+using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Parsing.Meshes;
@@ -63,6 +64,34 @@ public class StlReaderTests
     {
         Assert.Equal(4, Parse(Binary("", 2, [.. Corners.Select(number => number == 0 ? -0f : number)])).VertexCount);
         Assert.Equal(4, Parse(Binary("", 2, [-0f, .. Corners[1..]])).VertexCount);
+    }
+
+    [Fact]
+    public void Read_OfMutatedFiles_EndsInAMeshOrOneProperError()
+    {
+        byte[][] originals = [Binary("", 2, Corners), Encoding.UTF8.GetBytes($"solid\n{Text(Corners)}endsolid\n")];
+        var parsedCount = 0;
+        Seeded.Run(2000, random =>
+        {
+            var bytes = originals[random.Next(2)].ToList();
+            for (var change = random.Next(1, 4); change > 0; change--)
+            {
+                var offset = random.Next(bytes.Count);
+                bytes[offset] = (byte)(random.Next(2) == 0 ? random.Next(256) : "0123456789 -\n"[random.Next(13)]);
+                bytes.RemoveRange(offset, random.Next(5) == 0 ? Math.Min(random.Next(6), bytes.Count - offset - 1) : 0);
+            }
+
+            try
+            {
+                StlReader.Read(new("test.stl", bytes.ToArray()));
+                parsedCount++;
+            }
+            catch (SourceException error)
+            {
+                Assert.Matches(@"^test\.stl:[1-9]\d*:[1-9]\d*: error: \S", error.Message);
+            }
+        });
+        Assert.InRange(parsedCount, 100, 1900);
     }
 
     private static void AssertByteError(int position, string message, byte[] contents) => Errors.AssertMessage(

@@ -113,6 +113,10 @@ public sealed class SceneFileTests : IDisposable
         {
             Ambient = new(0.5, 0.25, 0),
             Texture = new(_folder["3 d.tga"]) { IsClamped = true, Scale = (2, 1.0 / 3), Offset = (0.1, -0.5) },
+            BumpTexture = new(_folder["3 d.tga"]) { BumpFactor = 0.3 },
+            NormalTexture = new(_folder["3 d.tga"]) { IsClamped = true },
+            Roughness = 0,
+            Metalness = 0.75,
         };
         var mesh = new Mesh(Samples.Triangle.Positions, [0, 1, 2, 2, 1, 0])
             .WithGroups([new(0, 1, "", "", "dark red", 0), new(1, 1, "", "", "wood", 0)], ["gone.mtl"]);
@@ -130,7 +134,11 @@ public sealed class SceneFileTests : IDisposable
 
             newmtl wood
             Ka 0.5 0.25 0
+            Pr 0
+            Pm 0.75
             map_Kd -clamp on -s 2 0.3333333333333333 1 -o 0.1 -0.5 0 3 d.tga
+            map_Bump -bm 0.3 3 d.tga
+            norm -clamp on 3 d.tga
 
             """, File.ReadAllText(_folder["world-mesh.mtl"]));
     }
