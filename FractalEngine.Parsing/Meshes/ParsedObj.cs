@@ -4,7 +4,7 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Meshes;
 
-/// <summary>Contents of a parsed OBJ file, with warnings about what was ignored.</summary>
+/// <summary>Contents of a parsed mesh file of any format, with warnings about what was ignored.</summary>
 /// <param name="Mesh">Geometry, groups and names of material files.</param>
 /// <param name="Warnings">
 /// At most one about unknown keywords, one about normals or texture coordinates that don't exist, and one about faces that are too short.
