@@ -3,7 +3,7 @@ namespace FractalEngine.Parsing;
 /// <summary>Limits on the input of all parsers. Each bounds time or memory and is named in the error that it causes.</summary>
 public static class ParsingLimits
 {
-    /// <summary>Largest size of a mesh file in bytes: 1 GiB. Reading takes up to twice the memory of the mesh.</summary>
+    /// <summary>Largest size of a mesh file in bytes, decompressed: 1 GiB. Reading takes up to twice the memory of the mesh.</summary>
     public const long MaxObjBytes = 1L << 30;
 
     /// <summary>Largest size of a scene or fractal file in bytes: 16 MiB, far beyond what anyone writes.</summary>

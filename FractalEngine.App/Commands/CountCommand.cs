@@ -1,10 +1,9 @@
 using System.CommandLine;
-using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Meshes;
 
 namespace FractalEngine.App.Commands;
 
-/// <summary>The command <c>count FILE</c>, which writes the face count into the head of a mesh file (paper §4.1.1).</summary>
+/// <summary>The command <c>count FILE</c>, which writes the face count into the head of an OBJ file (paper §4.1.1).</summary>
 internal static class CountCommand
 {
     /// <summary>Creates the command with its arguments and options.</summary>
@@ -22,10 +21,10 @@ internal static class CountCommand
     private static int Run(string path)
     {
         var file = ConsoleLoader.Load(path, new());
-        if (file.Kind != FileKind.Mesh)
+        if (!path.EndsWith(".obj", StringComparison.OrdinalIgnoreCase))
         {
             throw new UsageException(
-                $"{path} is not a mesh (.obj), and only meshes have a count at their head; use 'info' to count the faces of other files");
+                $"{path} is not an OBJ file (.obj), and only these have a count at their head; use 'info' to count the faces of others");
         }
 
         var faces = file.Scene.Objects[0].Model.Mesh.FaceCount;

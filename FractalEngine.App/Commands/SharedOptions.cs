@@ -16,7 +16,7 @@ internal sealed class SharedOptions
     public static (int Width, int Height) DefaultResolution => (1280, 720);
 
     /// <summary>The input file of a command.</summary>
-    public Argument<string> File { get; } = FileArgument("A mesh (.obj), a fractal (.fdo) or a scene (.sdo).");
+    public Argument<string> File { get; } = FileArgument("A mesh (.obj, .obj.gz, .ply, .stl), a fractal (.fdo) or a scene (.sdo).");
 
     /// <summary>The option that lifts the restriction of <see cref="AssetFolder"/>.</summary>
     public Option<bool> AllowOutside { get; } = new("--allow-outside")

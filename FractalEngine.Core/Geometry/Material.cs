@@ -25,6 +25,18 @@ public sealed record Material(string Name)
     /// <summary><c>map_Kd</c>: the diffuse texture; null where there is none.</summary>
     public MaterialTexture? Texture { get; init; }
 
+    /// <summary><c>map_Bump</c>: a texture of heights; null where there is none. It is kept, and not drawn yet.</summary>
+    public MaterialTexture? BumpTexture { get; init; }
+
+    /// <summary><c>norm</c>: a texture of normals in tangent space; null where there is none. It is kept, and not drawn yet.</summary>
+    public MaterialTexture? NormalTexture { get; init; }
+
+    /// <summary><c>Pr</c>: the roughness, from 0 (smooth) to 1; null where there is none. It is kept, and not drawn yet.</summary>
+    public double? Roughness { get; init; }
+
+    /// <summary><c>Pm</c>: the share of metal, from 0 to 1; null where there is none. It is kept, and not drawn yet.</summary>
+    public double? Metalness { get; init; }
+
     /// <summary>Whether the material has specular highlights.</summary>
     public bool IsGlossy => Specular != Colour.Black;
 

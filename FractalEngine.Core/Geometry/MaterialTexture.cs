@@ -18,4 +18,7 @@ public sealed record MaterialTexture(string Path)
 
     /// <summary><c>-o</c>: the offset of the texture coordinates.</summary>
     public (double U, double V) Offset { get; init; }
+
+    /// <summary><c>-bm</c>: the factor of the heights of a bump map.</summary>
+    public double BumpFactor { get; init; } = 1;
 }

@@ -5,10 +5,10 @@ using System.Runtime.InteropServices;
 namespace FractalEngine.Core.Images;
 
 /// <summary>
-/// The checksum of PNG chunks: CRC-32 with the reflected polynomial EDB88320 (PNG, third edition, annex D). Sixteen tables take sixteen
-/// bytes a step (slicing, Kounavis and Berry 2005), since a loop over bytes takes as long as decompression. 3 GB/s.
+/// The checksum of PNG chunks and gzip files: CRC-32 with the reflected polynomial EDB88320 (PNG, third edition, annex D). Sixteen tables
+/// take sixteen bytes a step (slicing, Kounavis and Berry 2005), since a loop over bytes takes as long as decompression. 3 GB/s.
 /// </summary>
-internal static class Crc32
+public static class Crc32
 {
     private const int Slices = 16;
 

@@ -47,7 +47,7 @@ public sealed class AssetLoader
     private long StorageBytes => _textBytes + _materials.StorageBytes;
 
     /// <summary>Loads a file and everything that it refers to.</summary>
-    /// <param name="path">Path that ends in .obj, .fdo or .sdo.</param>
+    /// <param name="path">Path that ends in .obj, .obj.gz, .ply, .stl, .fdo or .sdo.</param>
     /// <param name="options">Options for loading; null for the defaults.</param>
     /// <param name="progress">Receives the progress of each large file.</param>
     /// <exception cref="SourceException">The file, or one that it refers to, can't be loaded: the first error.</exception>
@@ -60,7 +60,7 @@ public sealed class AssetLoader
     }
 
     /// <summary>Loads a file only to find its faults.</summary>
-    /// <param name="path">Path that ends in .obj, .fdo or .sdo.</param>
+    /// <param name="path">Path that ends in .obj, .obj.gz, .ply, .stl, .fdo or .sdo.</param>
     /// <param name="options">Options for loading; null for the defaults.</param>
     /// <returns>Errors of all files that it refers to, one per file, then the warnings.</returns>
     public static ImmutableArray<Diagnostic> Check(string path, LoadOptions? options = null)
@@ -85,7 +85,7 @@ public sealed class AssetLoader
         FileKind.Mesh => CreateSingleObjectFile(FileKind.Mesh, LoadMesh(_fullPath, _path)),
         // A missing file is reported as missing first, whatever its name is.
         _ when !Path.Exists(_fullPath) => throw new SourceException(_path, "file not found"),
-        _ => throw new SourceException(_path, "the ending says nothing of the contents, expected .obj, .fdo or .sdo"),
+        _ => throw new SourceException(_path, $"the ending says nothing of the contents, expected {FileKinds.MeshEndings}, .fdo or .sdo"),
     };
 
     private LoadedFile CreateSingleObjectFile(FileKind kind, Model model)
@@ -177,7 +177,7 @@ public sealed class AssetLoader
         }
 
         var bytesBefore = StorageBytes;
-        var parsed = ObjReader.Read(fullPath, displayName, _progress is null ? null : new FileProgress(displayName, _progress));
+        var parsed = MeshReader.Read(fullPath, displayName, _progress is null ? null : new FileProgress(displayName, _progress));
         _textBytes += parsed.ByteCount;
         _warnings.AddRange(parsed.Warnings);
         var materials = _materials.Load(parsed, fullPath);

@@ -7,6 +7,8 @@ namespace FractalEngine.Parsing.Assets;
 /// <param name="allowOutsideFiles">Whether references may lead out of that folder.</param>
 internal sealed class FileReferenceResolver(AssetFolder folder, bool allowOutsideFiles)
 {
+    private readonly ForeignFileNames _foreignNames = new(path => allowOutsideFiles || folder.Contains(path));
+
     /// <summary>Returns the full path of a file that another one refers to, and its name in messages.</summary>
     /// <param name="source">Text that holds the reference.</param>
     /// <param name="offset">Offset of the reference in that text.</param>
@@ -34,6 +36,22 @@ internal sealed class FileReferenceResolver(AssetFolder folder, bool allowOutsid
         var isRooted = Path.IsPathRooted(source.FileName);
         return (fullPath, isRooted ? fullPath : Path.GetRelativePath(Directory.GetCurrentDirectory(), fullPath));
     }
+
+    /// <summary>Likewise for a name that another program wrote, see <see cref="ForeignFileNames"/>.</summary>
+    /// <param name="source">Text that holds the reference.</param>
+    /// <param name="offset">Offset of the reference in that text.</param>
+    /// <param name="referrer">Full path of the file with that text.</param>
+    /// <param name="file">Name as written there.</param>
+    /// <exception cref="SourceException">The file lies outside the asset folder or does not exist.</exception>
+    public (string FullPath, string DisplayName) ResolveForeign(SourceText source, int offset, string referrer, string file) =>
+        Resolve(source, offset, referrer, FindForeign(referrer, file) ?? file);
+
+    /// <summary>
+    /// Returns the full path of a file by a name that another program wrote; null if it does not exist or is not allowed.
+    /// </summary>
+    /// <param name="referrer">Full path of the file with the reference.</param>
+    /// <param name="file">Name as written there.</param>
+    public string? FindForeign(string referrer, string file) => _foreignNames.Find(Path.GetDirectoryName(referrer)!, file);
 
     /// <summary>Returns whether a file exists that the referrer may refer to.</summary>
     /// <param name="referrer">Full path of the file with the reference.</param>

@@ -34,12 +34,17 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
     public ImmutableDictionary<string, Material> Load(ParsedObj mesh, string fullPath)
     {
         var names = mesh.Mesh.Groups.Select(group => group.Material).Where(name => name.Length > 0).Distinct().ToArray();
-        if (names.Length == 0 || mesh.Mesh.MaterialLibraries.IsEmpty)
+        if (names.Length == 0)
         {
             return ImmutableDictionary<string, Material>.Empty;
         }
 
         var libraries = LoadLibraries(mesh, fullPath, out var isComplete);
+        if (mesh.Mesh.MaterialLibraries.IsEmpty && !TryAddOwnLibrary(libraries, mesh.MaterialPositions[names[0]], fullPath))
+        {
+            return ImmutableDictionary<string, Material>.Empty;
+        }
+
         var materials = ImmutableDictionary.CreateBuilder<string, Material>();
         foreach (var name in names)
         {
@@ -61,6 +66,26 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
         return materials.ToImmutable();
     }
 
+    /// <summary>
+    /// Adds the material file beside a mesh that has the mesh's name, for meshes that name none. False without such a file.
+    /// </summary>
+    private bool TryAddOwnLibrary(List<(ParsedMtl File, string FullPath)> libraries, SourcePosition use, string fullPath)
+    {
+        var name = Path.ChangeExtension(FileKinds.RemoveCompression(Path.GetFileName(fullPath)), ".mtl");
+        if (references.FindForeign(fullPath, name) is null)
+        {
+            return false;
+        }
+
+        var (path, displayName) = references.ResolveForeign(use.Source, use.Offset, fullPath, name);
+        if (ReadMaterialFile(path, displayName) is { } file)
+        {
+            libraries.Add((file, path));
+        }
+
+        return libraries.Count > 0;
+    }
+
     private List<(ParsedMtl File, string FullPath)> LoadLibraries(ParsedObj mesh, string fullPath, out bool isComplete)
     {
         var libraries = new List<(ParsedMtl File, string FullPath)>();
@@ -71,7 +96,7 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
             foreach (var name in references.Exists(fullPath, names) ? [names] : MaterialFileNames.Split(names))
             {
                 // A message costs a search through the whole text: one is enough.
-                if (firstFault is not null && !references.Exists(fullPath, name))
+                if (firstFault is not null && references.FindForeign(fullPath, name) is null)
                 {
                     faultCount++;
                     continue;
@@ -79,7 +104,7 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
 
                 try
                 {
-                    var (path, displayName) = references.Resolve(position.Source, position.Offset, fullPath, name);
+                    var (path, displayName) = references.ResolveForeign(position.Source, position.Offset, fullPath, name);
                     if (ReadMaterialFile(path, displayName) is { } file)
                     {
                         libraries.Add((file, path));
@@ -146,19 +171,27 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
                 : material.WithoutTexture();
         }
 
-        return _materials[(file, name)] = material;
+        return _materials[(file, name)] = material with
+        {
+            BumpTexture = FindUndrawnTexture(material.BumpTexture, fullPath),
+            NormalTexture = FindUndrawnTexture(material.NormalTexture, fullPath),
+        };
     }
+
+    /// <summary>Returns a texture with its full path; null if there is none. As it is not drawn, a missing file needs no message.</summary>
+    private MaterialTexture? FindUndrawnTexture(MaterialTexture? texture, string fullPath) =>
+        texture is not null && references.FindForeign(fullPath, texture.Path) is { } path ? texture with { Path = path } : null;
 
     private string? FindTextureFile(SourceText source, int offset, string referrer, string file)
     {
-        if (_textureWarningCount >= MaxTextureWarnings && !references.Exists(referrer, file))
+        if (_textureWarningCount >= MaxTextureWarnings && references.FindForeign(referrer, file) is null)
         {
             return null;
         }
 
         try
         {
-            var (fullPath, _) = references.Resolve(source, offset, referrer, file);
+            var (fullPath, _) = references.ResolveForeign(source, offset, referrer, file);
             if (!_textureFiles.TryGetValue(fullPath, out var isUsable))
             {
                 _textureFiles[fullPath] = false;

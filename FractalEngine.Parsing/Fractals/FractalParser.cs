@@ -221,10 +221,10 @@ public sealed partial class FractalParser : Parser
 
     private bool ParseBaseFile(Cursor cursor, out DeclaredObject value, out Cursor rest)
     {
-        var success = ParseString(cursor, "the name of a .obj file in quotes", out var file, out rest);
+        var success = ParseString(cursor, "the name of a mesh in quotes", out var file, out rest);
         value = new(file, cursor.Offset, []);
         return success && FileKinds.FromName(file) != FileKind.Mesh
-            ? throw Error(cursor, "expected the name of a .obj file: the base of a fractal is a mesh")
+            ? throw Error(cursor, $"expected the name of a mesh ({FileKinds.MeshEndings}): that is the base of a fractal")
             : success;
     }
 

@@ -37,7 +37,7 @@ public sealed class FractalWriter
 
     /// <summary>Returns the text of a fractal file.</summary>
     /// <param name="description">Steps and composition of the fractal.</param>
-    /// <param name="baseFile">Name of the base mesh's file, relative to the fractal file; it ends in <c>.obj</c>.</param>
+    /// <param name="baseFile">Name of the base mesh's file, relative to the fractal file; that of a mesh.</param>
     /// <exception cref="FractalEngineException">
     /// The language can't express the fractal: a number is not finite, a scale is singular, steps follow an infinite repetition, or a
     /// limit is exceeded.

@@ -14,7 +14,7 @@ public static class MeshCountHeader
     /// Writes the comment into a file or corrects an existing one. All other bytes are kept. A file with the right comment is not
     /// written.
     /// </summary>
-    /// <param name="path">Path of an OBJ file in any encoding that extends ASCII.</param>
+    /// <param name="path">Path of an OBJ file in UTF-16 with a byte order mark, or in any encoding that extends ASCII.</param>
     /// <param name="faceCount">Number of triangles to record, not negative.</param>
     /// <returns>True if the file was changed.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The number is negative.</exception>
@@ -23,14 +23,16 @@ public static class MeshCountHeader
     {
         ArgumentOutOfRangeException.ThrowIfNegative(faceCount);
         // Latin-1 maps bytes to characters one to one, whatever the encoding of the file.
-        var text = Encoding.Latin1.GetString(File.ReadAllBytes(path));
+        var bytes = File.ReadAllBytes(path);
+        var encoding = Utf16Text.FindEncoding(bytes) ?? Encoding.Latin1;
+        var text = encoding.GetString(bytes);
         var updated = WithHeader(text, faceCount);
         if (updated == text)
         {
             return false;
         }
 
-        AtomicFile.Write(path, stream => stream.Write(Encoding.Latin1.GetBytes(updated)));
+        AtomicFile.Write(path, stream => stream.Write(encoding.GetBytes(updated)));
         return true;
     }
 
@@ -39,10 +41,12 @@ public static class MeshCountHeader
 
     private static string WithHeader(string text, int faceCount)
     {
+        // The mark of UTF-8 as Latin-1 characters.
         const string byteOrderMark = "\u00EF\u00BB\u00BF";
         var header = Format(faceCount);
         var lineBreak = SourceText.LineBreakOf(text);
-        var position = text.StartsWith(byteOrderMark, StringComparison.Ordinal) ? byteOrderMark.Length : 0;
+        var position = text.StartsWith(byteOrderMark, StringComparison.Ordinal) ? byteOrderMark.Length
+            : text.StartsWith('\uFEFF') ? 1 : 0;
         while (position < text.Length && text[position] == '#')
         {
             var lineLength = text.AsSpan(position).IndexOfAny('\r', '\n');
@@ -57,7 +61,7 @@ public static class MeshCountHeader
         }
 
         // The last comment at the head may end the file without a line break.
-        var separator = position > 0 && text[position - 1] is not ('\n' or '\r' or '\u00BF') ? lineBreak : "";
+        var separator = position > 0 && text[position - 1] is not ('\n' or '\r' or '\u00BF' or '\uFEFF') ? lineBreak : "";
         return text[..position] + separator + header + lineBreak + text[position..];
     }
 }

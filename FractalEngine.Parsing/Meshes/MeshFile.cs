@@ -7,17 +7,17 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Meshes;
 
-/// <summary>Reads and writes meshes as Wavefront files (<c>.obj</c>); what is written reads back as an equal mesh.</summary>
+/// <summary>Reads mesh files, and writes Wavefront files (<c>.obj</c>); what is written reads back as an equal mesh.</summary>
 public static class MeshFile
 {
     /// <summary>Reads a mesh without its materials.</summary>
-    /// <param name="path">Path of a file that ends in <c>.obj</c>.</param>
-    /// <exception cref="ArgumentException">The path does not end in <c>.obj</c>.</exception>
+    /// <param name="path">Path of a file that ends in <c>.obj</c>, <c>.obj.gz</c>, <c>.ply</c> or <c>.stl</c>.</param>
+    /// <exception cref="ArgumentException">The path has another ending.</exception>
     /// <exception cref="SourceException">The file can't be loaded.</exception>
     public static Mesh Read(string path)
     {
         FileKinds.Require(path, FileKind.Mesh);
-        return ObjReader.Read(path, path).Mesh;
+        return MeshReader.Read(path, path).Mesh;
     }
 
     /// <summary>Creates or replaces the file of a mesh, every number bit for bit.</summary>
@@ -28,7 +28,7 @@ public static class MeshFile
     /// <exception cref="IOException">The file can't be written. Then an existing file stays as it was.</exception>
     public static void Write(string path, Mesh mesh)
     {
-        FileKinds.Require(path, FileKind.Mesh);
+        FileKinds.RequirePlainObj(path);
         AtomicFile.Write(path, stream => WriteChecked(mesh, stream));
     }
 

@@ -4,12 +4,25 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Meshes;
 
-/// <content>Parses the statement <c>map_Kd</c>: options, each with its arguments, then the name of an image file.</content>
+/// <content>Parses the statements of textures: options, each with its arguments, then the name of an image file.</content>
 public sealed partial class MtlParser
 {
-    private bool ParseTexture(Cursor statement, Cursor cursor)
+    private bool ParseDiffuseTexture(Cursor statement, Cursor cursor) => ParseTexture(cursor, out var texture, out var nameOffset)
+        && UpdateMaterial(statement, material =>
+        {
+            // The first of several materials with the same name wins, see CommitMaterial.
+            if (!_materials.ContainsKey(material.Name))
+            {
+                _textureNameOffsets[material.Name] = nameOffset;
+            }
+
+            return material with { Texture = texture };
+        });
+
+    private bool ParseTexture(Cursor cursor, out MaterialTexture texture, out int nameOffset)
     {
-        var texture = new MaterialTexture("");
+        texture = new("");
+        nameOffset = 0;
         var rest = cursor;
         while (rest.Current == '-')
         {
@@ -28,16 +41,9 @@ public sealed partial class MtlParser
             return Fail(rest, "a file name");
         }
 
-        return UpdateMaterial(statement, material =>
-        {
-            // The first of several materials with the same name wins, see CommitMaterial.
-            if (!_materials.ContainsKey(material.Name))
-            {
-                _textureNameOffsets[material.Name] = rest.Offset;
-            }
-
-            return material with { Texture = texture with { Path = file } };
-        });
+        texture = texture with { Path = file };
+        nameOffset = rest.Offset;
+        return true;
     }
 
     private bool ParseTextureOption(Cursor cursor, ref MaterialTexture texture, out Cursor rest)
@@ -64,7 +70,11 @@ public sealed partial class MtlParser
                 return isOffsetParsed;
             case "-t":
                 return ParseUpToThreeNumbers(arguments, Vector.Zero, out _, out rest);
-            case "-bm" or "-boost" or "-texres":
+            case "-bm":
+                var isFactorParsed = ParseNumber(arguments, out var factor, out rest);
+                texture = texture with { BumpFactor = factor };
+                return isFactorParsed;
+            case "-boost" or "-texres":
                 return ParseNumber(arguments, out _, out rest);
             case "-mm":
                 return ParseNumber(arguments, out _, out rest) && ParseBlanks(rest, out rest) && ParseNumber(rest, out _, out rest);

@@ -5,7 +5,8 @@ using FractalEngine.Parsing.Text;
 namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>
-/// Reads Wavefront material files: <c>newmtl</c>, <c>Kd</c>, <c>Ka</c>, <c>Ks</c>, <c>Ns</c>, <c>d</c>, <c>Tr</c>, <c>map_Kd</c>.
+/// Reads Wavefront material files: <c>newmtl</c>, <c>Kd</c>, <c>Ka</c>, <c>Ks</c>, <c>Ns</c>, <c>d</c>, <c>Tr</c>, <c>map_Kd</c>; and
+/// <c>map_Bump</c>, <c>norm</c>, <c>Pr</c>, <c>Pm</c>, which are not drawn yet and give one warning per file.
 /// </summary>
 /// <remarks>
 /// Other statements are ignored. Faulty ones are ignored with one warning per file: a surface of the wrong colour is better than none.
@@ -21,6 +22,8 @@ public sealed partial class MtlParser : Parser
     private bool _hasOpacity;
     private Diagnostic? _firstFault;
     private int _faultCount;
+    private (Cursor Statement, string Keyword)? _firstUndrawn;
+    private int _undrawnCount;
 
     private MtlParser(SourceText source)
         : base(source)
@@ -48,8 +51,21 @@ public sealed partial class MtlParser : Parser
         }
 
         CommitMaterial();
-        ImmutableArray<Diagnostic> warnings = _firstFault is null ? [] : [CreateWarning(_firstFault)];
-        return new(Source, _materials.ToImmutable(), _textureNameOffsets.ToImmutable(), warnings);
+        return new(Source, _materials.ToImmutable(), _textureNameOffsets.ToImmutable(), [.. CreateWarnings()]);
+    }
+
+    private IEnumerable<Diagnostic> CreateWarnings()
+    {
+        if (_firstFault is not null)
+        {
+            yield return CreateWarning(_firstFault);
+        }
+
+        if (_firstUndrawn is var (statement, keyword))
+        {
+            var totalNote = _undrawnCount == 1 ? "" : $" ({_undrawnCount} such statements in all)";
+            yield return Source.Diagnose(statement.Offset, $"{keyword} is kept but not drawn{totalNote}", DiagnosticSeverity.Warning);
+        }
     }
 
     private void RecordFault(SourceException fault)
@@ -98,7 +114,15 @@ public sealed partial class MtlParser : Parser
             "Ns" => ParseScalar(start, rest, static (material, number) => material with { SpecularExponent = number }),
             "d" => ParseOpacity(start, rest),
             "Tr" => ParseTransparency(start, rest),
-            "map_Kd" => ParseTexture(start, rest),
+            "map_Kd" => ParseDiffuseTexture(start, rest),
+            "map_Bump" or "map_bump" or "bump" => ParseTexture(rest, out var heights, out _)
+                && KeepUndrawn(start, keyword, material => material with { BumpTexture = heights }),
+            "norm" => ParseTexture(rest, out var normals, out _)
+                && KeepUndrawn(start, keyword, material => material with { NormalTexture = normals }),
+            "Pr" => ParseScalar(rest, out var roughness)
+                && KeepUndrawn(start, keyword, material => material with { Roughness = roughness }),
+            "Pm" => ParseScalar(rest, out var metalness)
+                && KeepUndrawn(start, keyword, material => material with { Metalness = metalness }),
             _ => true,
         };
     }
@@ -142,8 +166,19 @@ public sealed partial class MtlParser : Parser
     }
 
     private bool ParseScalar(Cursor statement, Cursor cursor, Func<Material, double, Material> update) =>
-        ParseNumber(cursor, out var number, out var rest) && ParseEndOfStatement(rest)
-        && UpdateMaterial(statement, material => update(material, number));
+        ParseScalar(cursor, out var number) && UpdateMaterial(statement, material => update(material, number));
+
+    private bool ParseScalar(Cursor cursor, out double number) =>
+        ParseNumber(cursor, out number, out var rest) && ParseEndOfStatement(rest);
+
+    /// <summary>Updates the material by a statement that makes no difference to frames yet.</summary>
+    private bool KeepUndrawn(Cursor statement, string keyword, Func<Material, Material> update)
+    {
+        UpdateMaterial(statement, update);
+        _firstUndrawn ??= (statement, keyword);
+        _undrawnCount++;
+        return true;
+    }
 
     /// <summary>
     /// Parses an opacity. <c>d</c> overrides <c>Tr</c> in any order, because programs disagree about the meaning of <c>Tr</c>.

@@ -22,10 +22,9 @@ internal static class MtlWriter
             Require(isNameWritable, material, "its name is empty, or has a line break or a comment");
             text.Append(text.Length > 0 ? "\n" : "").Append("newmtl ").Append(material.Name).Append('\n');
             AppendSurface(text, material);
-            if (material.Texture is { } texture)
-            {
-                AppendTexture(text, material, texture, fullPath);
-            }
+            AppendTexture(text, "map_Kd", material, material.Texture, fullPath);
+            AppendTexture(text, "map_Bump", material, material.BumpTexture, fullPath);
+            AppendTexture(text, "norm", material, material.NormalTexture, fullPath);
         }
 
         return text.ToString();
@@ -41,6 +40,8 @@ internal static class MtlWriter
         AppendNumber(text, "Ns", material, material.SpecularExponent, defaults.SpecularExponent);
         Require(material.Opacity is >= 0 and <= 1, material, "its opacity is not between 0 and 1");
         AppendNumber(text, "d", material, material.Opacity, defaults.Opacity);
+        AppendNumber(text, "Pr", material, material.Roughness);
+        AppendNumber(text, "Pm", material, material.Metalness);
     }
 
     private static void AppendColour(StringBuilder text, string keyword, Material material, Colour colour, Colour defaultValue)
@@ -58,12 +59,27 @@ internal static class MtlWriter
         text.Append(number.Equals(defaultValue) ? "" : FormattableString.Invariant($"{keyword} {number:R}\n"));
     }
 
-    private static void AppendTexture(StringBuilder text, Material material, MaterialTexture texture, string fullPath)
+    private static void AppendNumber(StringBuilder text, string keyword, Material material, double? number)
     {
+        if (number is { } value)
+        {
+            AppendNumber(text, keyword, material, value, double.NaN);
+        }
+    }
+
+    private static void AppendTexture(StringBuilder text, string keyword, Material material, MaterialTexture? texture, string fullPath)
+    {
+        if (texture is null)
+        {
+            return;
+        }
+
         var name = FileReference.Create(fullPath, texture.Path);
         // Backslashes are read as slashes, since programs on Windows write them.
         Require(WritableNames.IsRestOfLine(name) && !name.Contains('\\'), material, "the name of its texture can't be expressed");
-        text.Append("map_Kd ").Append(texture.IsClamped ? "-clamp on " : "");
+        text.Append(keyword).Append(' ').Append(texture.IsClamped ? "-clamp on " : "");
+        Require(double.IsFinite(texture.BumpFactor), material, "a number of -bm is not finite");
+        text.Append(texture.BumpFactor.Equals(1) ? "" : FormattableString.Invariant($"-bm {texture.BumpFactor:R} "));
         // All three numbers are written, since a name may begin with a digit.
         AppendPair(text, "-s", material, texture.Scale, (1, 1), 1);
         AppendPair(text, "-o", material, texture.Offset, (0, 0), 0);

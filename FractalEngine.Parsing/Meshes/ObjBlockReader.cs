@@ -23,7 +23,7 @@ internal sealed class ObjBlockReader
     /// <param name="stream">Stream with a length, which can seek.</param>
     /// <param name="fileName">Name of the file in messages.</param>
     /// <param name="blockSize">Usual size of blocks in bytes; a longer line makes a larger one.</param>
-    /// <exception cref="SourceException">The file is UTF-16 text, or can't be read.</exception>
+    /// <exception cref="SourceException">The file can't be read.</exception>
     public ObjBlockReader(Stream stream, string fileName, int blockSize)
     {
         _stream = stream;
@@ -33,7 +33,7 @@ internal sealed class ObjBlockReader
         stream.Position = 0;
         var mark = new byte[Math.Min(3, Length)];
         ReadExactly(mark, 0, mark.Length);
-        _start = SourceText.MeasureByteOrderMark(mark, fileName);
+        _start = SourceText.MeasureByteOrderMark(mark);
         Seek(_start);
     }
 

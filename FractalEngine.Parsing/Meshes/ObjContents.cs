@@ -17,6 +17,9 @@ internal sealed class ObjContents
     private int _invalidIndexCount;
     private SourcePosition? _firstInvalidIndex;
     private string _firstInvalidIndexMessage = "";
+    private int _shortFaceCount;
+    private SourcePosition? _firstShortFace;
+    private int _firstShortFaceSize;
 
     /// <summary>Numbers of elements in all blocks so far.</summary>
     public ObjCounts Counts { get; private set; }
@@ -70,6 +73,17 @@ internal sealed class ObjContents
         }
     }
 
+    /// <summary>Counts a face with fewer than three corners, which is skipped.</summary>
+    public void AddShortFace(SourcePosition position, int cornerCount)
+    {
+        _shortFaceCount++;
+        if (_firstShortFace is null)
+        {
+            _firstShortFace = position;
+            _firstShortFaceSize = cornerCount;
+        }
+    }
+
     /// <summary>Creates the mesh of all that was added.</summary>
     /// <param name="threadCount">Number of threads that merge the blocks, at least one.</param>
     /// <param name="byteCount">Size of the file in bytes.</param>
@@ -97,6 +111,13 @@ internal sealed class ObjContents
             var totalNote = _invalidIndexCount == 1 ? "" : $" ({_invalidIndexCount} such corners in all)";
             var message = $"{_firstInvalidIndexMessage}: the index is ignored{totalNote}";
             warnings.Add(_firstInvalidIndex.Diagnose(message, DiagnosticSeverity.Warning));
+        }
+
+        if (_firstShortFace is not null)
+        {
+            var totalNote = _shortFaceCount == 1 ? "" : $" ({_shortFaceCount} such faces in all)";
+            var message = $"a face needs at least three corners, this one has {_firstShortFaceSize}: skipped{totalNote}";
+            warnings.Add(_firstShortFace.Diagnose(message, DiagnosticSeverity.Warning));
         }
 
         return warnings.ToImmutable();

@@ -1,3 +1,4 @@
+using System.Buffers;
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
@@ -16,6 +17,8 @@ public sealed class ObjParser : Parser
 {
     // Characters between two reports of progress, at least.
     private const int ProgressInterval = 1 << 20;
+
+    private static readonly SearchValues<char> WordEnds = SearchValues.Create(" \t\r\n#\\");
 
     private readonly ObjContents _contents;
     private readonly ObjElements _elements;
@@ -127,7 +130,7 @@ public sealed class ObjParser : Parser
             "l" or "p" => ParseRestOfLine(rest, out _, out rest) && MarkDeclared(),
             // These keywords come here only without a blank behind them, since ParseLine handles all others.
             "v" or "vn" or "vt" => ParseComponents(rest, out _, out rest),
-            "f" => ParseFace(start, out rest),
+            "f" => ParseFace(start, out rest) && MarkDeclared(),
             _ => SkipUnknown(start, out rest),
         };
     }
@@ -248,12 +251,22 @@ public sealed class ObjParser : Parser
     private bool ParseOptionalNumbers(Cursor cursor, out Cursor rest)
     {
         rest = cursor;
-        while (ParseBlanks(rest, out var next) && IsNumberStart(next) && ParseNumber(next, out _, out next))
+        while (ParseBlanks(rest, out var next)
+            && (ParseUndefinedNumber(next, out next) || (IsNumberStart(next) && ParseNumber(next, out _, out next))))
         {
             rest = next;
         }
 
         return true;
+    }
+
+    private static bool ParseUndefinedNumber(Cursor cursor, out Cursor rest)
+    {
+        var length = cursor.Rest.IndexOfAny(WordEnds);
+        length = length < 0 ? cursor.Rest.Length : length;
+        var isUndefined = NumberReader.IsUndefined(cursor.Rest[..length]);
+        rest = isUndefined ? cursor.Advance(length) : cursor;
+        return isUndefined;
     }
 
     private static bool IsNumberStart(Cursor cursor) => char.IsAsciiDigit(cursor.Current) || cursor.Current is '-' or '+' or '.';
@@ -274,7 +287,8 @@ public sealed class ObjParser : Parser
 
         if (_corners.Count < 3)
         {
-            throw Error(start, $"a face needs at least three corners, this one has {_corners.Count}");
+            _contents.AddShortFace(PositionOf(start), _corners.Count);
+            return ParseCommentAndEndOfLine(rest, out rest);
         }
 
         if (_corners.Count > ParsingLimits.MaxPolygonCorners)
@@ -287,7 +301,9 @@ public sealed class ObjParser : Parser
         return ParseCommentAndEndOfLine(rest, out rest);
     }
 
-    /// <summary>Parses one corner of a face: <c>v</c>, <c>v/vt</c>, <c>v//vn</c> or <c>v/vt/vn</c>.</summary>
+    /// <summary>
+    /// Parses one corner of a face: <c>v</c>, <c>v/vt</c>, <c>v//vn</c> or <c>v/vt/vn</c>. Nothing behind a slash means none.
+    /// </summary>
     private bool ParseCorner(Cursor cursor, out ObjCorner corner, out Cursor rest)
     {
         var texture = ObjCorner.None;
@@ -301,22 +317,28 @@ public sealed class ObjParser : Parser
         if (rest.Current == '/')
         {
             rest = rest.Advance(1);
-            if (rest.Current != '/'
+            if (rest.Current != '/' && !IsAtEndOfCorner(rest)
                 && !ParseIndex(rest, "texture coordinate", _elements.TextureCoordinateCount, isRequired: false, out texture, out rest))
             {
                 return false;
             }
 
-            if (rest.Current == '/'
-                && !ParseIndex(rest.Advance(1), "normal", _elements.NormalCount, isRequired: false, out normal, out rest))
+            if (rest.Current == '/')
             {
-                return false;
+                rest = rest.Advance(1);
+                if (!IsAtEndOfCorner(rest)
+                    && !ParseIndex(rest, "normal", _elements.NormalCount, isRequired: false, out normal, out rest))
+                {
+                    return false;
+                }
             }
         }
 
         corner = new(position, texture, normal);
-        return IsAtEndOfLine(rest) || rest.Current is ' ' or '\t' or '#' or '\\' || Fail(rest, "a blank");
+        return IsAtEndOfCorner(rest) || Fail(rest, "a blank");
     }
+
+    private static bool IsAtEndOfCorner(Cursor cursor) => IsAtEndOfLine(cursor) || cursor.Current is ' ' or '\t' or '#' or '\\';
 
     /// <summary>Parses the number of an element: from 1 upwards, or from −1 backwards. The resulting index counts from 0.</summary>
     private bool ParseIndex(Cursor cursor, string elementName, int count, bool isRequired, out int index, out Cursor rest)

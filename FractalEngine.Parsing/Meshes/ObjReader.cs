@@ -1,6 +1,7 @@
 using System.Buffers;
 using System.Runtime.ExceptionServices;
 using System.Text;
+using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Meshes;
@@ -53,25 +54,46 @@ public sealed class ObjReader
     }
 
     /// <summary>Reads an OBJ file without its materials.</summary>
-    /// <param name="path">Path of the file, absolute or relative to the current directory.</param>
+    /// <param name="path">Path of the file, absolute or relative to the current directory; one that ends in .gz is decompressed.</param>
     /// <param name="fileName">Name of the file in messages.</param>
     /// <param name="progress">Receives the fraction that is done, from 0 to 1, on the calling thread.</param>
     /// <exception cref="SourceException">The file can't be read, is not an OBJ file, or refers to elements that don't exist.</exception>
     public static ParsedObj Read(string path, string fileName, IProgress<double>? progress = null)
     {
-        using var stream = SourceText.OpenFile(path, fileName, ParsingLimits.MaxObjBytes);
-        return Read(stream, fileName, progress);
+        using var file = SourceText.OpenFile(path, fileName, ParsingLimits.MaxObjBytes);
+        if (!FileKinds.IsCompressed(path))
+        {
+            return Read(file, fileName, progress);
+        }
+
+        using var contents = CompressedFile.Decompress(file, fileName, ParsingLimits.MaxObjBytes);
+        return Read(contents, fileName, progress) with { ByteCount = file.Length };
     }
 
     /// <summary>Reads an OBJ file from a stream that can seek.</summary>
     internal static ParsedObj Read(
         Stream stream, string fileName, IProgress<double>? progress = null, int blockSize = DefaultBlockSize, int threadCount = 0)
     {
+        if (SourceText.Access(fileName, () => FindUtf16(stream)) is { } utf16)
+        {
+            using var text = SourceText.Access(fileName, () => Utf16Text.ToUtf8(stream, utf16));
+            return Read(text, fileName, progress, blockSize, threadCount) with { ByteCount = stream.Length };
+        }
+
         threadCount = threadCount > 0 ? threadCount : Math.Min(Environment.ProcessorCount, MaxThreads);
         progress = progress is null ? null : new IncreasingProgress(progress);
         // A file is UTF-8 unless any of its bytes says otherwise.
         return new ObjReader(stream, fileName, Encoding.UTF8, progress, blockSize, threadCount).TryRead()
             ?? new ObjReader(stream, fileName, Encoding.Latin1, progress, blockSize, threadCount).TryRead()!;
+    }
+
+    private static Encoding? FindUtf16(Stream stream)
+    {
+        var mark = new byte[Utf16Text.MarkLength];
+        stream.Position = 0;
+        var length = stream.ReadAtLeast(mark, mark.Length, throwOnEndOfStream: false);
+        stream.Position = 0;
+        return Utf16Text.FindEncoding(mark.AsSpan(0, length));
     }
 
     /// <summary>Reads the whole file. Returns null if it is not of the encoding.</summary>

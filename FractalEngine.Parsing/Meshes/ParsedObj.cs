@@ -4,9 +4,11 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Meshes;
 
-/// <summary>Contents of a parsed OBJ file, with warnings about what was ignored.</summary>
+/// <summary>Contents of a parsed mesh file of any format, with warnings about what was ignored.</summary>
 /// <param name="Mesh">Geometry, groups and names of material files.</param>
-/// <param name="Warnings">At most one about unknown keywords, and one about normals or texture coordinates that don't exist.</param>
+/// <param name="Warnings">
+/// At most one about unknown keywords, one about normals or texture coordinates that don't exist, and one about faces that are too short.
+/// </param>
 public sealed record ParsedObj(Mesh Mesh, ImmutableArray<Diagnostic> Warnings)
 {
     /// <summary>Positions of the names of the mesh's material files, for messages.</summary>

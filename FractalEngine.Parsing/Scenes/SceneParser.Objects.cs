@@ -47,7 +47,8 @@ public sealed partial class SceneParser
             return false;
         }
 
-        Require(FileKinds.FromName(file) is FileKind.Mesh or FileKind.Fractal, cursor, "expected the name of a .obj or .fdo file");
+        Require(FileKinds.FromName(file) is FileKind.Mesh or FileKind.Fractal, cursor,
+            $"expected the name of a mesh or fractal ({FileKinds.MeshEndings}, .fdo)");
         _fileNameOffset = cursor.Offset;
         return ParseOptionalSeparator(rest, out rest);
     }

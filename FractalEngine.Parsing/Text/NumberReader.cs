@@ -50,6 +50,16 @@ public static class NumberReader
         return true;
     }
 
+    /// <summary>Returns whether a word is that of an undefined number: <c>nan</c>, <c>-inf</c> or <c>-nan(ind)</c>.</summary>
+    internal static bool IsUndefined(ReadOnlySpan<char> word)
+    {
+        word = word.Length > 0 && word[0] is '-' or '+' ? word[1..] : word;
+        return word.Equals("nan", StringComparison.OrdinalIgnoreCase)
+            || word.Equals("inf", StringComparison.OrdinalIgnoreCase)
+            || word.Equals("infinity", StringComparison.OrdinalIgnoreCase)
+            || (word.StartsWith("nan(", StringComparison.OrdinalIgnoreCase) && word.EndsWith(")"));
+    }
+
     private static void ReadDigits(ReadOnlySpan<char> text, ref int position, ref ulong mantissa)
     {
         for (; position < text.Length && (uint)(text[position] - '0') <= 9; position++)

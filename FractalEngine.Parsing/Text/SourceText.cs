@@ -34,7 +34,7 @@ public sealed class SourceText
     /// <summary>Position before the first character.</summary>
     public Cursor Start => new(Text, 0);
 
-    /// <summary>Reads a file that holds UTF-8 text.</summary>
+    /// <summary>Reads a file that holds UTF-8 text, or UTF-16 behind a byte order mark.</summary>
     /// <param name="path">Path of the file, absolute or relative to the current directory.</param>
     /// <param name="fileName">Name of the file in messages.</param>
     /// <param name="maxBytes">Size limit; larger files are refused before anything is read.</param>
@@ -51,7 +51,12 @@ public sealed class SourceText
     public static SourceText Decode(ReadOnlySpan<byte> bytes, string fileName, bool acceptLatin1 = false)
     {
         var byteCount = bytes.Length;
-        bytes = bytes[MeasureByteOrderMark(bytes, fileName)..];
+        if (Utf16Text.FindEncoding(bytes) is { } utf16)
+        {
+            bytes = DecodeUtf16(bytes, fileName, utf16, acceptLatin1);
+        }
+
+        bytes = bytes[MeasureByteOrderMark(bytes)..];
         // Text has no NUL bytes; UTF-16 without a byte order mark and all binary formats do.
         if (bytes.IndexOf((byte)0) is >= 0 and var position)
         {
@@ -101,16 +106,8 @@ public sealed class SourceText
     }
 
     /// <summary>Returns the length in bytes of the UTF-8 mark that a file begins with, or 0.</summary>
-    /// <exception cref="SourceException">The file begins with a mark of UTF-16.</exception>
-    internal static int MeasureByteOrderMark(ReadOnlySpan<byte> bytes, string fileName)
-    {
-        if (bytes.StartsWith((ReadOnlySpan<byte>)[0xFF, 0xFE]) || bytes.StartsWith((ReadOnlySpan<byte>)[0xFE, 0xFF]))
-        {
-            throw new SourceException(fileName, "the file is UTF-16 text, expected UTF-8: save it in that encoding");
-        }
-
-        return bytes.StartsWith((ReadOnlySpan<byte>)[0xEF, 0xBB, 0xBF]) ? 3 : 0;
-    }
+    internal static int MeasureByteOrderMark(ReadOnlySpan<byte> bytes) =>
+        bytes.StartsWith((ReadOnlySpan<byte>)[0xEF, 0xBB, 0xBF]) ? 3 : 0;
 
     /// <summary>Creates the error of a file with a NUL byte.</summary>
     /// <param name="fileName">Name of the file in messages.</param>
@@ -143,6 +140,18 @@ public sealed class SourceText
     /// <summary>Creates an exception for a position in this text.</summary>
     public SourceException Error(int offset, string message, bool isLimitExceeded = false) =>
         new(Diagnose(offset, message) with { IsLimitExceeded = isLimitExceeded });
+
+    private static byte[] DecodeUtf16(ReadOnlySpan<byte> bytes, string fileName, Encoding encoding, bool acceptFaults)
+    {
+        try
+        {
+            return Utf16Text.ToUtf8(bytes, encoding, acceptFaults);
+        }
+        catch (DecoderFallbackException)
+        {
+            throw new SourceException(fileName, "the file has a character that is no UTF-16 text");
+        }
+    }
 
     private int FindLine(int offset, out int lineStart)
     {

@@ -1,3 +1,4 @@
+using System.IO.Compression;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
@@ -81,6 +82,40 @@ public sealed class AssetLoaderTests : IDisposable
     }
 
     [Theory]
+    [InlineData("a.ply")]
+    [InlineData("a.stl")]
+    [InlineData("A.STL")]
+    [InlineData("a.obj.gz")]
+    public void Load_OfEveryMeshFormat_OpensItAloneInAFractalAndInAScene(string name)
+    {
+        WriteTriangle(name);
+        _folder.Write("f.fdo", $"v 0.5 0.5 0.5\nt.a. (#, #, a)\nx. \"{name}\"\nz<x>. [#, t.1] x\n<$>. z 3\n");
+        _folder.Write("s.sdo", $"o \"{name}\" #\no \"f.fdo\" #\n");
+        var mesh = AssetLoader.Load(_folder[name]);
+        Assert.Equal((FileKind.Mesh, new FileInfo(_folder[name]).Length), (mesh.Kind, mesh.StorageBytes));
+        Assert.Equal(1, mesh.Scene.Objects[0].Model.FaceCount);
+        Assert.Equal(8, AssetLoader.Load(_folder["f.fdo"]).Scene.Objects[0].Model.FaceCount);
+        Assert.Equal(2, AssetLoader.Load(_folder["s.sdo"]).Scene.Objects.Length);
+    }
+
+    private void WriteTriangle(string name)
+    {
+        const string vertices = "0 0 0\n1 0 0\n0 1 0\n";
+        if (name.EndsWith(".gz", StringComparison.Ordinal))
+        {
+            using var stream = new GZipStream(File.Create(_folder[name]), CompressionLevel.Fastest);
+            stream.Write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"u8);
+            return;
+        }
+
+        _folder.Write(name, name.EndsWith(".ply", StringComparison.Ordinal)
+            ? "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+                + $"property list uchar int vertex_indices\nend_header\n{vertices}3 0 1 2\n"
+            : $"solid\nfacet normal 0 0 1\nouter loop\nvertex {vertices.TrimEnd().Replace("\n", "\nvertex ", StringComparison.Ordinal)}\n"
+                + "endloop\nendfacet\nendsolid\n");
+    }
+
+    [Theory]
     [InlineData("f.fdo", "v 1 2 3\nx. \"missing.obj\"\n<$>. x\n",
         "f.fdo:2:4: error: the file \"missing.obj\" is not found\n  x. \"missing.obj\"\n     ^")]
     [InlineData("s.sdo", "# a\no \"missing.obj\" #\n",
@@ -103,7 +138,7 @@ public sealed class AssetLoaderTests : IDisposable
     [InlineData("missing.obj", "missing.obj:1:1: error: file not found")]
     [InlineData("missing.sdo", "missing.sdo:1:1: error: file not found")]
     [InlineData("missing", "missing:1:1: error: file not found")]
-    [InlineData("a.txt", "a.txt:1:1: error: the ending says nothing of the contents, expected .obj, .fdo or .sdo")]
+    [InlineData("a.txt", "a.txt:1:1: error: the ending says nothing of the contents, expected .obj, .obj.gz, .ply, .stl, .fdo or .sdo")]
     [InlineData("d.sdo", "d.sdo:1:1: error: this is a directory, expected a file")]
     public void Load_OfAPathThatIsNoSuchFile_SaysWhy(string file, string expected)
     {

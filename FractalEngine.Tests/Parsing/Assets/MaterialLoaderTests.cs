@@ -72,6 +72,104 @@ public sealed class MaterialLoaderTests : IDisposable
         Assert.Equal(["blue", "red"], loaded.Scene.Objects[0].Model.Materials.Keys.Order());
     }
 
+    [Theory]
+    [InlineData("images\\wood.png")]
+    [InlineData(".\\images\\WOOD.PNG")]
+    [InlineData("\"images/wood.png\"")]
+    [InlineData("'Images/Wood.png'")]
+    [InlineData("../sub/Images/./wood.png")]
+    [InlineData("C:\\Users\\me\\My models\\Beside.png")]
+    [InlineData("/home/me/beside.png")]
+    [InlineData("//server/textures/beside.png")]
+    [InlineData("textures/beside.png")]
+    [InlineData("../../beside.png")]
+    public void Load_OfAnImageNamedAsOnAnotherSystem_FindsIt(string name)
+    {
+        WritePngHeader("sub/images/wood.png", 2, 2);
+        WritePngHeader("sub/beside.png", 2, 2);
+        _folder.Write("sub/a.mtl", $"newmtl wood\nmap_Kd {name}\n");
+        var loaded = Load("mtllib sub/a.mtl\nusemtl wood\nf 1 2 3\n");
+        Assert.Empty(loaded.Warnings);
+        Assert.Equal(_folder[name.Contains("eside", StringComparison.Ordinal) ? "sub/beside.png" : "sub/images/wood.png"],
+            MaterialOf(loaded).Texture!.Path);
+    }
+
+    [Theory]
+    [InlineData("mtllib Sub\\A.mtl")]
+    [InlineData("mtllib \"sub/a.mtl\"")]
+    [InlineData("mtllib \"gone.mtl\" \"sub/a.MTL\"")]
+    public void Load_OfAMaterialFileNamedAsOnAnotherSystem_FindsIt(string library)
+    {
+        _folder.Write("sub/a.mtl", "newmtl red\n");
+        Assert.Equal("red", MaterialOf(Load($"{library}\nusemtl red\nf 1 2 3\n")).Name);
+    }
+
+    [SkippableFact]
+    public void Load_OfANameInTwoCases_TakesTheExactOneThenTheFirstInOrdinalOrder()
+    {
+        WritePngHeader("WOOD.png", 2, 2);
+        WritePngHeader("Wood.png", 2, 2);
+        WritePngHeader("wood.png", 2, 2);
+        Skip.If(Directory.GetFiles(Path.GetDirectoryName(_folder["wood.png"])!, "*.png").Length < 3, "names have no case here");
+        foreach (var (name, expected) in new[] { ("wood.png", "wood.png"), ("Wood.png", "Wood.png"), ("wooD.png", "WOOD.png") })
+        {
+            _folder.Write("a.mtl", $"newmtl wood\nmap_Kd {name}\n");
+            Assert.Equal(_folder[expected], MaterialOf(Load("mtllib a.mtl\nusemtl wood\nf 1 2 3\n")).Texture!.Path);
+        }
+    }
+
+    [Theory]
+    [InlineData("../Outside.png")]
+    [InlineData("..\\outside.png")]
+    [InlineData("../scene/../OUTSIDE.png")]
+    public void Load_OfANameInAnotherCaseOutsideTheFolder_DoesNotFindIt(string name)
+    {
+        WritePngHeader("outside.png", 2, 2);
+        _folder.Write("scene/a.mtl", $"newmtl m\nmap_Kd {name}\n");
+        var path = _folder.Write("scene/a.obj", $"mtllib a.mtl\n{Triangle}usemtl m\nf 1 2 3\n");
+        Assert.Null(MaterialOf(AssetLoader.Load(path)).Texture);
+        Assert.Equal(_folder["outside.png"], MaterialOf(AssetLoader.Load(path, new() { AllowOutsideFiles = true })).Texture!.Path);
+    }
+
+    [Fact]
+    public void Load_OfALinkToAFolderOutside_DoesNotListIt()
+    {
+        WritePngHeader("outside/wood.png", 2, 2);
+        _folder.Write("scene/a.mtl", "newmtl m\nmap_Kd link/WOOD.png\n");
+        Directory.CreateSymbolicLink(_folder["scene/link"], _folder["outside"]);
+        var path = _folder.Write("scene/a.obj", $"mtllib a.mtl\n{Triangle}usemtl m\nf 1 2 3\n");
+        Assert.Null(MaterialOf(AssetLoader.Load(path)).Texture);
+    }
+
+    [Theory]
+    [InlineData("a.mtl")]
+    [InlineData("A.MTL")]
+    public void Load_OfAMeshThatNamesNoMaterialFile_TriesItsOwnName(string file)
+    {
+        _folder.Write(file, "newmtl red\n");
+        var loaded = Load("usemtl red\nf 1 2 3\n");
+        Assert.Empty(loaded.Warnings);
+        Assert.Equal("red", MaterialOf(loaded).Name);
+    }
+
+    [Fact]
+    public void Load_OfAMeshThatNamesNoMaterialFile_WithoutOne_IsSilent()
+    {
+        var loaded = Load("usemtl red\nf 1 2 3\n");
+        Assert.Empty(loaded.Warnings);
+        Assert.Empty(loaded.Scene.Objects[0].Model.Materials);
+    }
+
+    [Fact]
+    public void Load_OfTexturesThatAreNotDrawn_FindsThemOrForgetsThem()
+    {
+        _folder.Write("images/heights.png", "any file");
+        _folder.Write("a.mtl", "newmtl m\nmap_Bump Images\\Heights.png\nnorm gone.png\nPr 0.5\n");
+        var loaded = Load("mtllib a.mtl\nusemtl m\nf 1 2 3\n");
+        Assert.Equal(new Material("m") { BumpTexture = new(_folder["images/heights.png"]), Roughness = 0.5 }, MaterialOf(loaded));
+        Assert.Equal("map_Bump is kept but not drawn (3 such statements in all)", Assert.Single(loaded.Warnings).Message);
+    }
+
     [Fact]
     public void Load_WithoutItsMaterialFile_WarnsOnceAndLoads()
     {

@@ -231,7 +231,7 @@ public class FractalParserErrorTests
     [InlineData("x. \"Base\"")]
     [InlineData("x. \"\"")]
     public void BaseFile_ThatIsNoMesh_IsRefused(string line) => Fails(line + "\n<$>. x", $"""
-        test.fdo:1:4: error: expected the name of a .obj file: the base of a fractal is a mesh
+        test.fdo:1:4: error: expected the name of a mesh (.obj, .obj.gz, .ply, .stl): that is the base of a fractal
           {line}
              ^
         """);

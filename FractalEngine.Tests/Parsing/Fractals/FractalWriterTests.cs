@@ -196,7 +196,8 @@ public class FractalWriterTests
 
     [Fact]
     public void Write_OfABaseThatIsNoMesh_IsRefused() => Fails(
-        ErrorKind.Input, "expected the name of a .obj file: the base of a fractal is a mesh", () => FractalWriter.Write(new([]), "a.fdo"));
+        ErrorKind.Input, "expected the name of a mesh (.obj, .obj.gz, .ply, .stl): that is the base of a fractal",
+        () => FractalWriter.Write(new([]), "a.fdo"));
 
     [Theory]
     [InlineData(double.NaN)]

@@ -27,6 +27,19 @@ public sealed class MeshCountHeaderTests : IDisposable
         Assert.Equal(Encoding.UTF8.GetBytes(after), File.ReadAllBytes(path));
     }
 
+    [Fact]
+    public void Update_OfUtf16_KeepsTheEncoding()
+    {
+        foreach (var encoding in new[] { Encoding.Unicode, Encoding.BigEndianUnicode })
+        {
+            File.WriteAllText(_folder["a.obj"], "# \u4E00\r\nv 1 2 3", encoding);
+            Assert.True(MeshCountHeader.Update(_folder["a.obj"], 7));
+            Assert.Equal([.. encoding.GetPreamble(), .. encoding.GetBytes("# \u4E00\r\n# Mesh count: 7\r\nv 1 2 3")],
+                File.ReadAllBytes(_folder["a.obj"]));
+            Assert.False(MeshCountHeader.Update(_folder["a.obj"], 7));
+        }
+    }
+
     [Theory]
     [InlineData("v 1 2 3\n")]
     [InlineData("# Monitor\r\nv 1 2 3")]

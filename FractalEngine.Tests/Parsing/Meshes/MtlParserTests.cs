@@ -40,6 +40,27 @@ public class MtlParserTests
             file.Materials["red paint"]);
     }
 
+    [Theory]
+    [InlineData("map_Bump")]
+    [InlineData("map_bump")]
+    [InlineData("bump")]
+    public void StatementsThatAreNotDrawn_AreKeptWithOneWarning(string keyword)
+    {
+        var file = Parse($"newmtl a\n{keyword} -bm 0.25 -s 2 2 2 a\\heights.png\nnorm normals.png\nPr 0.5\nPm 1 # all\n");
+        Assert.Equal(
+            new Material("a")
+            {
+                BumpTexture = new("a/heights.png") { BumpFactor = 0.25, Scale = (2, 2) },
+                NormalTexture = new("normals.png"),
+                Roughness = 0.5,
+                Metalness = 1,
+            },
+            file.Materials["a"]);
+        Assert.StartsWith($"test.mtl:2:1: warning: {keyword} is kept but not drawn (4 such statements in all)\n",
+            Assert.Single(file.Warnings).ToString(), StringComparison.Ordinal);
+        Assert.Empty(file.TextureNameOffsets);
+    }
+
     [Fact]
     public void Material_WithoutStatements_IsWhiteMattAndOpaque() => Assert.Equal(
         new Material("m") { Diffuse = Colour.White, Ambient = Colour.White, Specular = Colour.Black, SpecularExponent = 1, Opacity = 1,
@@ -158,7 +179,7 @@ public class MtlParserTests
     [Theory]
     [InlineData("")]
     [InlineData("\n\n# Blender\n")]
-    [InlineData("illum\nKe 1\nnorm -bm 2 x.png\nmap_d -foo\n$ 1\n123\nbump -")]
+    [InlineData("illum\nKe 1\ndisp -bm 2 x.png\nmap_d -foo\n$ 1\n123\nrefl -")]
     public void File_WithoutMaterials_IsEmptyWithoutAWarning(string text)
     {
         var file = Parse(text);

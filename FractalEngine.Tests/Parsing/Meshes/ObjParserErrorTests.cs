@@ -28,7 +28,9 @@ public class ObjParserErrorTests
     [InlineData("f 1 2 -0", 7, "vertex number 0: numbers start at 1")]
     [InlineData("f 1 2 x", 7, "unexpected 'x', expected a vertex number")]
     [InlineData("f 1 2 3/x", 9, "unexpected 'x', expected a texture coordinate number")]
-    [InlineData("f 1 2", 1, "a face needs at least three corners, this one has 2")]
+    [InlineData("f 1 9", 5, "vertex 9 of 3 so far: it is beyond the last")]
+    [InlineData("f 1/ /", 6, "unexpected '/', expected a vertex number")]
+    [InlineData("v 1 2 3 nano", 9, "unexpected 'nano', expected the end of the line")]
     [InlineData("f 1 2 1.5", 8, "unexpected '.', expected a blank")]
     [InlineData("v 1 2 nan", 7, "unexpected 'nan', expected a number")]
     [InlineData("v 1 2 1e400", 7, "the number 1e400 is beyond the range of a double")]
@@ -39,8 +41,8 @@ public class ObjParserErrorTests
         () => Samples.ParseObj($"{Triangle}{line}\nv 9 9 9\n"));
 
     [Theory]
-    [InlineData("f", 1)]
-    [InlineData("f 1", 1)]
+    [InlineData("f x", 3)]
+    [InlineData("f 1/2/3/4 2 3", 8)]
     [InlineData("v 1 x 3", 5)]
     [InlineData("v 1,5 2,5 3,5", 4)]
     [InlineData("vt x", 4)]

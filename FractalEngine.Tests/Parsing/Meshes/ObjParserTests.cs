@@ -28,6 +28,9 @@ public class ObjParserTests
     [InlineData("v 1 2 3 0.1 0.2 0.3 0.4")]
     [InlineData("  v   1\t2 3  ")]
     [InlineData("v 1.0e0 +2 3.")]
+    [InlineData("v 1 2 3 nan nan nan")]
+    [InlineData("v 1 2 3 1.0 -nan(ind) 0 NaN # colour")]
+    [InlineData("v 1 2 3 inf -INF +Infinity\\\n 1")]
     [InlineData("v 1 2 3 # trailing")]
     [InlineData("v 1 2 3#trailing")]
     [InlineData("v 1 \\\n 2 \\\n3")]
@@ -43,12 +46,30 @@ public class ObjParserTests
     [InlineData("f -4 -3 -2", new int[0], new int[0])]
     [InlineData("f -4/-3/-2 -3/-2/-1 -2/-1/-2", new[] { 0, 1, 2 }, new[] { 0, 1, 0 })]
     [InlineData("f 1/-3 -3//2 3/3/-2", new[] { 0, -1, 2 }, new[] { -1, 1, 0 })]
+    [InlineData("f 1// 2// 3//", new int[0], new int[0])]
+    [InlineData("f 1/ 2/2/ 3//#none", new[] { -1, 1, -1 }, new int[0])]
+    [InlineData("f 1//2 2// 3/3/\\\n", new[] { -1, -1, 2 }, new[] { 1, -1, -1 })]
     public void Face_InEveryIndexForm_IsRead(string line, int[] textures, int[] normals)
     {
         var mesh = Parse(Attributes + line);
         Assert.Equal([0, 1, 2], mesh.VertexIndices.ToArray());
         Assert.Equal(textures, mesh.TextureIndices.ToArray());
         Assert.Equal(normals, mesh.NormalIndices.ToArray());
+    }
+
+    [Theory]
+    [InlineData("f\n", 0, "")]
+    [InlineData("f 1\n", 1, "")]
+    [InlineData("f 1/1 -1//1 # two\n", 2, "")]
+    [InlineData("f 1 2\nf\nf 1\n", 2, " (3 such faces in all)")]
+    public void Face_OfFewerThanThreeCorners_IsSkippedWithOneWarning(string lines, int cornerCount, string total)
+    {
+        var file = Samples.ParseObj($"{Attributes}{lines}f 1 2 3\n");
+        Assert.Equal([0, 1, 2], file.Mesh.VertexIndices.ToArray());
+        var firstLine = lines[..lines.IndexOf('\n', StringComparison.Ordinal)];
+        Assert.Equal(
+            $"test.obj:10:1: warning: a face needs at least three corners, this one has {cornerCount}: skipped{total}\n  {firstLine}\n  ^",
+            Assert.Single(file.Warnings).ToString());
     }
 
     [Fact]

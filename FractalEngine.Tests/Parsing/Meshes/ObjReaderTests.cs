@@ -1,7 +1,9 @@
+using System.IO.Compression;
 using System.Text;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Meshes;
+using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Parsing.Meshes;
@@ -132,10 +134,75 @@ public sealed class ObjReaderTests : IDisposable
     public void Read_OfAByteOrderMark_IgnoresIt() =>
         Assert.Equal(1, ObjReader.Read(_folder.Write("a.obj", "\uFEFFv 1 2 3"), "a").Mesh.VertexCount);
 
+    [Theory]
+    [InlineData(Square + "o gr\u00FC\u00DFe \u4E00\r\nf 1 2 3 4\n", true)]
+    [InlineData(Square + "# \u4E00\nf 1 2 \u4E00 5\n", false)]
+    [InlineData("\uFEFF" + Square, false)]
+    [InlineData(Square + "\n#\0", false)]
+    [InlineData("", false)]
+    public void Read_OfUtf16_IsWhatTheGrammarReads(string text, bool isMesh)
+    {
+        foreach (var encoding in new[] { Encoding.Unicode, Encoding.BigEndianUnicode })
+        {
+            byte[] bytes = [.. encoding.GetPreamble(), .. encoding.GetBytes(text)];
+            Assert.Equal(isMesh, ObjOutcome.AssertSame(bytes));
+            // A half of a character at the end.
+            ObjOutcome.AssertSame([.. bytes, (byte)'\n']);
+        }
+    }
+
     [Fact]
-    public void Read_OfUtf16_NamesTheEncoding() => Errors.AssertMessage(
-        "test.obj:1:1: error: the file is UTF-16 text, expected UTF-8: save it in that encoding",
-        () => ObjReader.Read(new MemoryStream([0xFF, 0xFE, .. Encoding.Unicode.GetBytes("v 1 2 3\n")]), "test.obj"));
+    public void Read_OfUtf16_IsWhatUtf8Gives()
+    {
+        byte[] utf16 = [0xFF, 0xFE, .. Encoding.Unicode.GetBytes(Square + "g \u4E00\nf 1 2 3 4\n")];
+        Assert.Equal(ObjOutcome.OfReader(Encoding.UTF8.GetBytes(Square + "g \u4E00\nf 1 2 3 4\n")).Mesh, ObjOutcome.OfReader(utf16).Mesh);
+    }
+
+    [Fact]
+    public void Read_OfACompressedFile_IsWhatItsContentsGive()
+    {
+        var text = string.Concat(Enumerable.Repeat(Square + "f -4 -3 -2 -1\n", 10_000));
+        var parsed = ObjReader.Read(Compress("a.obj.gz", text), "a");
+        Assert.Equal(ObjReader.Read(_folder.Write("a.obj", text), "a").Mesh, parsed.Mesh);
+        Assert.Equal(new FileInfo(_folder["a.obj.gz"]).Length, parsed.ByteCount);
+    }
+
+    [Fact]
+    public void Read_OfAFaultInACompressedFile_PointsAtIt() => Errors.AssertMessage(
+        "a:5:7: error: vertex 9 of 4 so far: it is beyond the last\n  f 1 2 9\n        ^",
+        () => ObjReader.Read(Compress("a.OBJ.GZ", Square + "f 1 2 9\n"), "a"));
+
+    [Fact]
+    public void Read_OfADamagedCompressedFile_SaysSo()
+    {
+        var bytes = File.ReadAllBytes(Compress("a.obj.gz", string.Concat(Enumerable.Range(0, 5000).Select(i => $"v {i} 2 3\n"))));
+        byte[][] damaged = [[], [.. "v 1 2 3\nv 1 2 3\nv 1 2 3\n"u8], bytes[..^1], bytes[..^9], bytes[..(bytes.Length / 2)],
+            [.. bytes[..100], (byte)(bytes[100] ^ 1), .. bytes[101..]], [.. bytes[..^6], (byte)(bytes[^6] ^ 1), .. bytes[^5..]]];
+        Assert.All(damaged, contents =>
+        {
+            File.WriteAllBytes(_folder["b.obj.gz"], contents);
+            Errors.AssertMessage("b:1:1: error: the file is damaged or not compressed by gzip",
+                () => ObjReader.Read(_folder["b.obj.gz"], "b"));
+        });
+    }
+
+    [Fact]
+    public void Decompress_BeyondTheLimit_NamesIt()
+    {
+        using var file = File.OpenRead(Compress("a.obj.gz", new string('#', 100_001)));
+        var error = Errors.ThrownBy(() => CompressedFile.Decompress(file, "a", 100_000));
+        Assert.Equal("a:1:1: error: the file has more than the limit of 100000 bytes when decompressed", error.Message);
+        Assert.True(error.Diagnostic.IsLimitExceeded);
+        file.Position = 0;
+        Assert.Equal(100_001, CompressedFile.Decompress(file, "a", 100_001).Length);
+    }
+
+    private string Compress(string name, string text)
+    {
+        using var stream = new GZipStream(File.Create(_folder[name]), CompressionLevel.Fastest);
+        stream.Write(Encoding.UTF8.GetBytes(text));
+        return _folder[name];
+    }
 
     [Fact]
     public void Read_OfAFileThatShrinksMeanwhile_SaysThatItCannotBeRead() => Assert.StartsWith(

@@ -113,6 +113,10 @@ public sealed class SceneFileTests : IDisposable
         {
             Ambient = new(0.5, 0.25, 0),
             Texture = new(_folder["3 d.tga"]) { IsClamped = true, Scale = (2, 1.0 / 3), Offset = (0.1, -0.5) },
+            BumpTexture = new(_folder["3 d.tga"]) { BumpFactor = 0.3 },
+            NormalTexture = new(_folder["3 d.tga"]) { IsClamped = true },
+            Roughness = 0,
+            Metalness = 0.75,
         };
         var mesh = new Mesh(Samples.Triangle.Positions, [0, 1, 2, 2, 1, 0])
             .WithGroups([new(0, 1, "", "", "dark red", 0), new(1, 1, "", "", "wood", 0)], ["gone.mtl"]);
@@ -130,7 +134,11 @@ public sealed class SceneFileTests : IDisposable
 
             newmtl wood
             Ka 0.5 0.25 0
+            Pr 0
+            Pm 0.75
             map_Kd -clamp on -s 2 0.3333333333333333 1 -o 0.1 -0.5 0 3 d.tga
+            map_Bump -bm 0.3 3 d.tga
+            norm -clamp on 3 d.tga
 
             """, File.ReadAllText(_folder["world-mesh.mtl"]));
     }
@@ -188,7 +196,8 @@ public sealed class SceneFileTests : IDisposable
         Fails("the clip planes must satisfy 0 < near < far", row with { Clip = (2, 1) });
         Fails("the components of a colour must lie between 0 and 1", row with { Background = new(2, 0, 0) });
         Fails("unexpected 'NaN', expected a number", row with { Gravity = new(0, double.NaN, 0) });
-        Fails("expected the name of a .obj or .fdo file", Of(new SceneObject("a.png", Transformation.Identity)));
+        Fails("expected the name of a mesh or fractal (.obj, .obj.gz, .ply, .stl, .fdo)",
+            Of(new SceneObject("a.png", Transformation.Identity)));
         Fails("unexpected 'NaN', expected a number", Of(new PhysicsObject(Model.Of(Row())) { Shrinkage = double.NaN }));
         Assert.Empty(Files);
     }

@@ -49,9 +49,31 @@ public sealed class SourceTextTests : IDisposable
     [Theory]
     [InlineData(false)]
     [InlineData(true)]
-    public void Read_OfUtf16_NamesTheEncoding(bool bigEndian) => Errors.AssertMessage(
-        "named:1:1: error: the file is UTF-16 text, expected UTF-8: save it in that encoding",
-        () => Read([.. new UnicodeEncoding(bigEndian, true).GetPreamble(), .. new UnicodeEncoding(bigEndian, true).GetBytes("v 1 2 3\n")]));
+    public void Read_OfUtf16_DecodesIt(bool bigEndian)
+    {
+        var source = Read(Utf16("# Größe \u4E00 \U0001F600\r\nv 1 2 3", bigEndian));
+        Assert.Equal(("# Größe \u4E00 \U0001F600\r\nv 1 2 3", 44), (source.Text, source.ByteCount));
+    }
+
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Read_OfFaultyUtf16_IsRefusedOrReplaced(bool bigEndian)
+    {
+        byte[] half = [.. Utf16("ab", bigEndian), 0x20];
+        Errors.AssertMessage("named:1:1: error: the file has a character that is no UTF-16 text", () => Read(half));
+        Assert.Equal("ab\uFFFD", Read(half, acceptLatin1: true).Text);
+    }
+
+    [Fact]
+    public void Read_OfUtf16WithANul_IsRefusedAtIt() => Errors.AssertMessage(
+        "named:2:2: error: the file is binary (it has a NUL byte), expected UTF-8 text", () => Read(Utf16("a\nb\0", false)));
+
+    private static byte[] Utf16(string text, bool bigEndian)
+    {
+        var encoding = new UnicodeEncoding(bigEndian, byteOrderMark: true);
+        return [.. encoding.GetPreamble(), .. encoding.GetBytes(text)];
+    }
 
     [Fact]
     public void Read_OfUtf16WithoutAMark_IsRefusedAtItsFirstNul()
