@@ -44,7 +44,7 @@ internal sealed class ObjectsPass : IDisposable
         _buffers = buffers;
         _transforms = transforms;
         _meshPass = new(context);
-        _lightBlock = new(_resources, scene.Source.Scene.Lights, scene.Source.Bounds);
+        _lightBlock = new(_resources, scene.Source);
         _objectBlocks = [.. scene.Objects.Select(item => new ObjectBlock(_resources, item.Name))];
         _transparentOrder = TransparentOrder.Create(scene);
     }

@@ -1,5 +1,5 @@
 #version 330 core
-// The colour of the visible face. Front faces are wound clockwise on the screen, since the world is left-handed.
+// The colour of the visible face. Front faces are wound clockwise on the screen in a left-handed scene, the other way in a right-handed one.
 // PER_PIXEL, TEXTURED, GLOSSY and FRONT_FACES_ONLY are defined where they apply.
 
 #include "material.glsl"
