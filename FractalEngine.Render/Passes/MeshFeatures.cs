@@ -23,4 +23,7 @@ internal enum MeshFeatures
 
     /// <summary>Back faces are culled and need no lighting.</summary>
     FrontFacesOnly = 16,
+
+    /// <summary>Colours of the vertices, which multiply that of the surface.</summary>
+    VertexColours = 32,
 }

@@ -17,6 +17,7 @@ internal sealed class MeshProgram : IDisposable
         (MeshFeatures.Glossy, "GLOSSY"),
         (MeshFeatures.CameraRelative, "CAMERA_RELATIVE"),
         (MeshFeatures.FrontFacesOnly, "FRONT_FACES_ONLY"),
+        (MeshFeatures.VertexColours, "VERTEX_COLOURS"),
     ];
 
     private readonly RedundancyFilter _filter;

@@ -188,7 +188,8 @@ internal sealed class ObjectsPass : IDisposable
 
     private MeshFeatures FeaturesOf(int index, CullFace culledFace) =>
         (_buffers.Culler.SelectsInstances(index) ? MeshFeatures.CameraRelative : MeshFeatures.None)
-        | (culledFace == CullFace.Back ? MeshFeatures.FrontFacesOnly : MeshFeatures.None);
+        | (culledFace == CullFace.Back ? MeshFeatures.FrontFacesOnly : MeshFeatures.None)
+        | (_scene.Objects[index].Model.Colours.IsEmpty ? MeshFeatures.None : MeshFeatures.VertexColours);
 
     /// <summary>Returns the face of an object's triangles that is certainly invisible; none where both may be seen.</summary>
     private CullFace FaceToCull(int index, in FrameView frame)

@@ -44,6 +44,9 @@ public sealed class DrawableModel
     /// <summary>(u, v) of each vertex with v upwards, [vertices × 2]; empty where no material has a texture.</summary>
     public ReadOnlyMemory<float> TextureCoordinates { get; init; }
 
+    /// <summary>Colour of each vertex, linear light, [vertices × 3]; empty where the mesh has none.</summary>
+    public ReadOnlyMemory<float> Colours { get; init; }
+
     /// <summary>Number of the mesh's triangles that were removed since they have no area.</summary>
     public int DegenerateTriangleCount { get; init; }
 

@@ -36,7 +36,7 @@ internal static class ModelPreparation
         var origin = CentreOrOrigin(model.Bounds);
         var meshOrigin = CentreOrOrigin(mesh.Bounds);
         var batches = FaceBatches.ByMaterial(model, textures, settings.RemoveDegenerateTriangles);
-        var (vertices, textureCoordinates, indices) = DrawableMeshBuilder.Build(mesh, meshOrigin, settings.CreaseAngle, batches);
+        var (vertices, textureCoordinates, colours, indices) = DrawableMeshBuilder.Build(mesh, meshOrigin, settings.CreaseAngle, batches);
         var testsSolidity = hierarchy is not null
             ? model is FractalModel || mesh.FaceCount <= MaxFacesForSolidTest
             : maps.Length >= MinInstancesForSolidTest;
@@ -51,6 +51,7 @@ internal static class ModelPreparation
             LodHierarchy = hierarchy,
             MeshOrigin = meshOrigin,
             TextureCoordinates = textureCoordinates,
+            Colours = colours,
             Batches = batches.Batches,
             DegenerateTriangleCount = batches.DegenerateTriangleCount,
             MeshWindingSign = meshWindingSign,
@@ -70,7 +71,7 @@ internal static class ModelPreparation
 
         var mesh = CreateBoxMesh(bounds);
         var batches = FaceBatches.SingleBatch(mesh);
-        var (vertices, _, indices) = DrawableMeshBuilder.Build(mesh, bounds.Centre, 0, batches);
+        var (vertices, _, _, indices) = DrawableMeshBuilder.Build(mesh, bounds.Centre, 0, batches);
         var instances = ToInstanceRows([AffineMap.Identity], bounds.Centre, bounds.Centre);
         return new(name, bounds.Centre, bounds, vertices, indices, instances) { Batches = batches.Batches, IsPlaceholder = true };
     }

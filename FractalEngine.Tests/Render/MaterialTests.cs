@@ -85,6 +85,37 @@ public sealed class MaterialTests : IDisposable
         AssertLinear(Linear(200 / 255.0), image[100, 100].Blue);
     }
 
+    [SkippableTheory]
+    [InlineData(Shading.PerVertex)]
+    [InlineData(Shading.PerPixel)]
+    public void VertexColours_AreMultipliedInLinearLight(Shading shading)
+    {
+        var (red, green) = (new Colour(1, 0.25, 0.5), new Colour(0.5, 1, 0));
+        var colours = (Colour[])[red, green, red, green];
+        var texture = _scenes.CreateTexture("even.png", 4, 4, (_, _) => (200, 200, 200, 255));
+        var plain = TexturedScenes.TexturedSquare(1).WithColours([.. colours.SelectMany(c => (double[])[c.Red, c.Green, c.Blue])]);
+        foreach (var material in (Material?[])[null, new("m") { Diffuse = new(0.5, 1, 1) }, new("m") { Texture = texture }])
+        {
+            var model = material is null ? RenderScenes.Model(plain) : TexturedScenes.WithMaterial(plain, material);
+            var image = Draw(RenderScenes.Scene(FullLightOnBlack, (model, Transformation.Identity, null)), shading);
+            var surface = material is null ? 1 : material.Texture is null ? Linear(0.5) : Linear(200 / 255.0);
+            // A quarter and three quarters of the way from the left to the right edge.
+            AssertLinear(surface * ((0.75 * 1) + (0.25 * Linear(0.5))), image[50, 100].Red);
+            AssertLinear(surface * ((0.25 * 1) + (0.75 * Linear(0.5))), image[150, 100].Red);
+        }
+    }
+
+    [SkippableFact]
+    public void VertexColours_OfAFractalBeyondTheRange_AreLimitedAndTinted()
+    {
+        var mesh = RenderScenes.Square(1).WithColours([2, -1, 0.5, 2, -1, 0.5, 2, -1, 0.5, 2, -1, 0.5]);
+        var set = new TransformationSet([Transformation.Identity with { Scale = new(0.5, 0.5, 0.5) }]);
+        var fractal = new FractalModel(new(new([set]), mesh)) { SourcePath = "f.fdo" };
+        var image = Draw(
+            RenderScenes.Scene(FullLightOnBlack, (fractal, Transformation.Identity, new Colour(0.5, 1, 1))), Shading.PerVertex);
+        AssertNear((128, 0, 128, 255), image[100, 100]);
+    }
+
     [SkippableFact]
     public void Texture_Undecodable_IsGreyWithANotice()
     {
