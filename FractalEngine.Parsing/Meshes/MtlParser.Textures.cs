@@ -1,13 +1,16 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Meshes;
 
-/// <content>Parses the statement <c>map_Kd</c>: options, each with its arguments, then the name of an image file.</content>
+/// <content>Parses the statements <c>map_Kd</c> and <c>map_d</c>: options with their arguments, then the name of an image.</content>
 public sealed partial class MtlParser
 {
-    private bool ParseTexture(Cursor statement, Cursor cursor)
+    private bool ParseTexture(
+        Cursor statement, Cursor cursor, ImmutableDictionary<string, int>.Builder nameOffsets,
+        Func<Material, MaterialTexture, Material> update)
     {
         var texture = new MaterialTexture("");
         var rest = cursor;
@@ -33,10 +36,10 @@ public sealed partial class MtlParser
             // The first of several materials with the same name wins, see CommitMaterial.
             if (!_materials.ContainsKey(material.Name))
             {
-                _textureNameOffsets[material.Name] = rest.Offset;
+                nameOffsets[material.Name] = rest.Offset;
             }
 
-            return material with { Texture = texture with { Path = file } };
+            return update(material, texture with { Path = file });
         });
     }
 

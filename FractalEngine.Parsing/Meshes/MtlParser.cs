@@ -5,7 +5,8 @@ using FractalEngine.Parsing.Text;
 namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>
-/// Reads Wavefront material files: <c>newmtl</c>, <c>Kd</c>, <c>Ka</c>, <c>Ks</c>, <c>Ns</c>, <c>d</c>, <c>Tr</c>, <c>map_Kd</c>.
+/// Reads Wavefront material files: <c>newmtl</c>, <c>Kd</c>, <c>Ka</c>, <c>Ks</c>, <c>Ke</c>, <c>Ns</c>, <c>d</c>, <c>Tr</c>,
+/// <c>map_Kd</c>, <c>map_d</c>.
 /// </summary>
 /// <remarks>
 /// Other statements are ignored. Faulty ones are ignored with one warning per file: a surface of the wrong colour is better than none.
@@ -17,6 +18,7 @@ public sealed partial class MtlParser : Parser
 
     private readonly ImmutableDictionary<string, Material>.Builder _materials = ImmutableDictionary.CreateBuilder<string, Material>();
     private readonly ImmutableDictionary<string, int>.Builder _textureNameOffsets = ImmutableDictionary.CreateBuilder<string, int>();
+    private readonly ImmutableDictionary<string, int>.Builder _opacityNameOffsets = ImmutableDictionary.CreateBuilder<string, int>();
     private Material? _current;
     private bool _hasOpacity;
     private Diagnostic? _firstFault;
@@ -49,7 +51,10 @@ public sealed partial class MtlParser : Parser
 
         CommitMaterial();
         ImmutableArray<Diagnostic> warnings = _firstFault is null ? [] : [CreateWarning(_firstFault)];
-        return new(Source, _materials.ToImmutable(), _textureNameOffsets.ToImmutable(), warnings);
+        return new(Source, _materials.ToImmutable(), _textureNameOffsets.ToImmutable(), warnings)
+        {
+            OpacityTextureNameOffsets = _opacityNameOffsets.ToImmutable(),
+        };
     }
 
     private void RecordFault(SourceException fault)
@@ -95,10 +100,14 @@ public sealed partial class MtlParser : Parser
             "Kd" => ParseColour(start, rest, static (material, colour) => material with { Diffuse = colour }),
             "Ka" => ParseColour(start, rest, static (material, colour) => material with { Ambient = colour }),
             "Ks" => ParseColour(start, rest, static (material, colour) => material with { Specular = colour }),
+            "Ke" => ParseColour(start, rest, static (material, colour) => material with { Emission = colour }),
             "Ns" => ParseScalar(start, rest, static (material, number) => material with { SpecularExponent = number }),
             "d" => ParseOpacity(start, rest),
             "Tr" => ParseTransparency(start, rest),
-            "map_Kd" => ParseTexture(start, rest),
+            "map_Kd" => ParseTexture(
+                start, rest, _textureNameOffsets, static (material, texture) => material with { Texture = texture }),
+            "map_d" => ParseTexture(
+                start, rest, _opacityNameOffsets, static (material, texture) => material with { OpacityTexture = texture }),
             _ => true,
         };
     }

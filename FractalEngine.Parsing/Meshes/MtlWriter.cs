@@ -24,7 +24,12 @@ internal static class MtlWriter
             AppendSurface(text, material);
             if (material.Texture is { } texture)
             {
-                AppendTexture(text, material, texture, fullPath);
+                AppendTexture(text, "map_Kd", material, texture, fullPath);
+            }
+
+            if (material.OpacityTexture is { } opacity)
+            {
+                AppendTexture(text, "map_d", material, opacity, fullPath);
             }
         }
 
@@ -38,6 +43,7 @@ internal static class MtlWriter
         AppendColour(text, "Kd", material, material.Diffuse, defaults.Diffuse);
         AppendColour(text, "Ka", material, material.Ambient, defaults.Ambient);
         AppendColour(text, "Ks", material, material.Specular, defaults.Specular);
+        AppendColour(text, "Ke", material, material.Emission, defaults.Emission);
         AppendNumber(text, "Ns", material, material.SpecularExponent, defaults.SpecularExponent);
         Require(material.Opacity is >= 0 and <= 1, material, "its opacity is not between 0 and 1");
         AppendNumber(text, "d", material, material.Opacity, defaults.Opacity);
@@ -58,12 +64,13 @@ internal static class MtlWriter
         text.Append(number.Equals(defaultValue) ? "" : FormattableString.Invariant($"{keyword} {number:R}\n"));
     }
 
-    private static void AppendTexture(StringBuilder text, Material material, MaterialTexture texture, string fullPath)
+    private static void AppendTexture(
+        StringBuilder text, string keyword, Material material, MaterialTexture texture, string fullPath)
     {
         var name = FileReference.Create(fullPath, texture.Path);
         // Backslashes are read as slashes, since programs on Windows write them.
         Require(WritableNames.IsRestOfLine(name) && !name.Contains('\\'), material, "the name of its texture can't be expressed");
-        text.Append("map_Kd ").Append(texture.IsClamped ? "-clamp on " : "");
+        text.Append(keyword).Append(' ').Append(texture.IsClamped ? "-clamp on " : "");
         // All three numbers are written, since a name may begin with a digit.
         AppendPair(text, "-s", material, texture.Scale, (1, 1), 1);
         AppendPair(text, "-o", material, texture.Offset, (0, 0), 0);

@@ -26,4 +26,10 @@ internal enum MeshFeatures
 
     /// <summary>Colours of the vertices, which multiply that of the surface.</summary>
     VertexColours = 32,
+
+    /// <summary>Holes where the texture has less than half the opacity, opaque elsewhere.</summary>
+    CutOut = 64,
+
+    /// <summary>Light that the surface emits.</summary>
+    Emissive = 128,
 }

@@ -18,6 +18,8 @@ internal sealed class MeshProgram : IDisposable
         (MeshFeatures.CameraRelative, "CAMERA_RELATIVE"),
         (MeshFeatures.FrontFacesOnly, "FRONT_FACES_ONLY"),
         (MeshFeatures.VertexColours, "VERTEX_COLOURS"),
+        (MeshFeatures.CutOut, "CUT_OUT"),
+        (MeshFeatures.Emissive, "EMISSIVE"),
     ];
 
     private readonly RedundancyFilter _filter;

@@ -56,6 +56,9 @@ public sealed class DrawableModel
     /// <summary>True where any batch is transparent, and drawn after the opaque ones.</summary>
     public bool HasTransparentBatches => Batches.Any(static batch => batch.IsTransparent);
 
+    /// <summary>True where what is behind shows through any batch, or through holes in it.</summary>
+    public bool IsSeeThrough => !Batches.All(static batch => batch.IsSolid);
+
     /// <summary>Maps from the mesh to the model by rows, [<see cref="InstanceCount"/> × 12].</summary>
     public ReadOnlyMemory<float> Instances { get; }
 

@@ -40,9 +40,9 @@ internal static class ModelPreparation
         var testsSolidity = hierarchy is not null
             ? model is FractalModel || mesh.FaceCount <= MaxFacesForSolidTest
             : maps.Length >= MinInstancesForSolidTest;
-        // The inner sides of a solid are visible through transparent faces.
-        var hasTransparentBatches = batches.Batches.Any(static batch => batch.IsTransparent);
-        var meshWindingSign = testsSolidity && !hasTransparentBatches && ClosedSurface.IsSolid(mesh) ? 1 : 0;
+        // The inner sides of a solid are visible through transparent faces and holes.
+        var isSeeThrough = !batches.Batches.All(static batch => batch.IsSolid);
+        var meshWindingSign = testsSolidity && !isSeeThrough && ClosedSurface.IsSolid(mesh) ? 1 : 0;
         var instanceSign = hierarchy is null ? CommonOrientation(name, maps) : OrientationOfInstances(model);
         // The instances of a fractal with a hierarchy are selected for each frame.
         var instances = hierarchy is null || model is MeshModel ? ToInstanceRows(maps, meshOrigin, origin) : [];
