@@ -13,6 +13,7 @@ namespace FractalEngine.App;
 /// The facts that <c>info</c> prints about a file. Counts are exact, of the scene with all fractals expanded.
 /// </summary>
 /// <param name="Kind">The kind of file: mesh, fractal or scene.</param>
+/// <param name="Handedness">How the file's coordinates are shown.</param>
 /// <param name="Vertices">Number of vertices; null where it is infinite.</param>
 /// <param name="Faces">Number of faces; null where it is infinite.</param>
 /// <param name="Instances">Number of base mesh instances; null where it is infinite.</param>
@@ -23,6 +24,7 @@ namespace FractalEngine.App;
 /// <param name="PrepareTime">Further time until the scene could be drawn; null where it was not prepared.</param>
 internal sealed record FileSummary(
     string Kind,
+    Handedness Handedness,
     BigInteger? Vertices,
     BigInteger? Faces,
     BigInteger? Instances,
@@ -39,6 +41,7 @@ internal sealed record FileSummary(
         var distinctCounts = file.Scene.Models.ToDictionary(model => model, CountDistinctInstances);
         return new(
             file.Kind.ToString().ToLowerInvariant(),
+            file.Scene.Scene.Handedness,
             Sum(models, model => model.VertexCount),
             CountFaces(file),
             Sum(models, model => model.InstanceCount),
@@ -62,6 +65,7 @@ internal sealed record FileSummary(
     private IEnumerable<(string Name, string Value)> Fields(Func<object?, string> format) =>
     [
         ("kind", format(Kind)),
+        ("handed", format(Handedness.ToString().ToLowerInvariant())),
         ("vertices", FormatCount(Vertices, format)),
         ("faces", FormatCount(Faces, format)),
         ("instances", FormatCount(Instances, format)),

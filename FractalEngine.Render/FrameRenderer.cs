@@ -1,5 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Passes;
 using FractalEngine.Render.Ui;
@@ -63,7 +64,7 @@ public sealed class FrameRenderer : IDisposable
         GL.Enable(EnableCap.FramebufferSrgb);
         GL.Enable(EnableCap.DepthTest);
         GL.DepthFunc(_context.HasReversedDepth ? DepthFunction.Greater : DepthFunction.Less);
-        GL.FrontFace(FrontFaceDirection.Cw);
+        GL.FrontFace(view.Camera.Handedness == Handedness.Left ? FrontFaceDirection.Cw : FrontFaceDirection.Ccw);
         scene.Draw(in frame, nextView is null ? null : FrameView.Create(nextView, width, height, bounds), settings);
         if (view.DeepZoom is null)
         {

@@ -50,12 +50,17 @@ public sealed record View(Camera Camera, Projection Projection)
     /// <summary>Creates the view that a scene declares, with defaults for what it leaves open.</summary>
     /// <param name="scene">Scene that gives projection, clip planes, aspect ratio and bounds.</param>
     /// <param name="frameAspect">Width divided by height of the window or image. A default camera frames the scene for it.</param>
-    /// <param name="camera">Camera that replaces the scene's own; null for none.</param>
+    /// <param name="camera">Camera that replaces the scene's own, and takes its handedness; null for none.</param>
     /// <exception cref="ArgumentException">The scene's aspect ratio or clip planes are out of range.</exception>
     public static View Of(LoadedScene scene, double frameAspect, Camera? camera = null)
     {
         var settings = scene.Scene;
-        camera ??= settings.Camera ?? CameraFraming.Default(scene.Bounds, settings.Aspect ?? frameAspect);
+        camera ??= settings.Camera ?? CameraFraming.Default(scene.Bounds, settings.Aspect ?? frameAspect, settings.Handedness);
+        if (camera.Handedness != settings.Handedness)
+        {
+            camera = camera with { Handedness = settings.Handedness };
+        }
+
         return new(camera, settings.Projection)
         {
             OrthographicHeight = settings.OrthographicHeight ?? DefaultOrthographicHeight(camera, scene.Bounds),

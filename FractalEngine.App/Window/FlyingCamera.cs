@@ -150,7 +150,7 @@ internal sealed class FlyingCamera
     public void FrameScene(double aspect) => FrameScene(Camera, aspect);
 
     /// <summary>Moves the camera so that the whole scene is visible in another direction.</summary>
-    /// <param name="direction">The direction in which the camera looks, world space.</param>
+    /// <param name="direction">The direction in which the camera looks, in the axes of a camera without rotation.</param>
     /// <param name="aspect">Width divided by height of the frame.</param>
     public void LookAlong(Vector direction, double aspect) =>
         FrameScene(Camera with { Rotation = CameraFraming.LookRotation(direction) }, aspect);

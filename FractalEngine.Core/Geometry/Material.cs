@@ -16,6 +16,9 @@ public sealed record Material(string Name)
     /// <summary><c>Ks</c>: the factor of specular highlights, for each component of linear light.</summary>
     public Colour Specular { get; init; } = Colour.Black;
 
+    /// <summary><c>Ke</c>: the light that the surface emits, for each component of linear light; it may exceed 1.</summary>
+    public Colour Emission { get; init; } = Colour.Black;
+
     /// <summary><c>Ns</c>: the specular exponent; a larger one makes a smaller and sharper highlight.</summary>
     public double SpecularExponent { get; init; } = 1;
 
@@ -36,6 +39,14 @@ public sealed record Material(string Name)
 
     /// <summary><c>Pm</c>: the share of metal, from 0 to 1; null where there is none. It is kept, and not drawn yet.</summary>
     public double? Metalness { get; init; }
+
+    /// <summary>
+    /// <c>map_d</c>: an image of the opacity, its alpha where any pixel is transparent, otherwise its lightness; null where there is none.
+    /// </summary>
+    public MaterialTexture? OpacityTexture { get; init; }
+
+    /// <summary>Whether drawing the material needs texture coordinates.</summary>
+    public bool IsTextured => Texture is not null || OpacityTexture is not null;
 
     /// <summary>Whether the material has specular highlights.</summary>
     public bool IsGlossy => Specular != Colour.Black;

@@ -38,6 +38,9 @@ public sealed class Mesh : IEquatable<Mesh>
     /// <summary>Indices of vertices from 0, [<see cref="FaceCount"/> × 3].</summary>
     public ImmutableArray<int> VertexIndices { get; }
 
+    /// <summary>Colours of the vertices, sRGB from 0 to 1, [<see cref="VertexCount"/> × 3]; empty when the mesh has none.</summary>
+    public ImmutableArray<double> Colours { get; private init; } = [];
+
     /// <summary>Texture coordinates (u, v), v upwards, [n × 2]; empty when the mesh has none.</summary>
     public ImmutableArray<double> TextureCoordinates { get; private init; } = [];
 
@@ -64,6 +67,15 @@ public sealed class Mesh : IEquatable<Mesh>
 
     /// <summary>The box of all vertices, unused ones included.</summary>
     public BoundingBox Bounds { get; }
+
+    /// <summary>Makes the same mesh with colours of its vertices.</summary>
+    /// <param name="colours">sRGB, [vertices × 3]. Drawing limits them to the range from 0 to 1.</param>
+    /// <exception cref="ArgumentException">There are not three components a vertex.</exception>
+    public Mesh WithColours(ImmutableArray<double> colours)
+    {
+        Require(colours.Length == Positions.Length, nameof(colours), "three components a vertex");
+        return new(this) { Colours = colours };
+    }
 
     /// <summary>Makes the same mesh with texture coordinates.</summary>
     /// <param name="coordinates">(u, v), [n × 2].</param>
@@ -120,6 +132,7 @@ public sealed class Mesh : IEquatable<Mesh>
 
         return new(positions.MoveToImmutable(), VertexIndices)
         {
+            Colours = Colours,
             TextureCoordinates = TextureCoordinates,
             TextureIndices = TextureIndices,
             Groups = Groups,
@@ -157,7 +170,7 @@ public sealed class Mesh : IEquatable<Mesh>
     /// <summary>Tells whether all arrays of both meshes are equal, each number bit for bit.</summary>
     public bool Equals(Mesh? other) => ReferenceEquals(this, other) || (other is not null
         && HaveSameBits(Positions, other.Positions) && VertexIndices.AsSpan().SequenceEqual(other.VertexIndices.AsSpan())
-        && HaveSameBits(TextureCoordinates, other.TextureCoordinates)
+        && HaveSameBits(Colours, other.Colours) && HaveSameBits(TextureCoordinates, other.TextureCoordinates)
         && TextureIndices.AsSpan().SequenceEqual(other.TextureIndices.AsSpan())
         && HaveSameBits(Normals, other.Normals) && NormalIndices.AsSpan().SequenceEqual(other.NormalIndices.AsSpan())
         && Groups.AsSpan().SequenceEqual(other.Groups.AsSpan()) && MaterialLibraries.SequenceEqual(other.MaterialLibraries));
@@ -173,6 +186,7 @@ public sealed class Mesh : IEquatable<Mesh>
         Positions = other.Positions;
         VertexIndices = other.VertexIndices;
         Bounds = other.Bounds;
+        Colours = other.Colours;
         TextureCoordinates = other.TextureCoordinates;
         TextureIndices = other.TextureIndices;
         Normals = other.Normals;

@@ -11,6 +11,7 @@ public sealed record Camera
     private readonly Vector _position;
     private readonly Vector _rotation;
     private readonly double _fieldOfView;
+    private readonly Handedness _handedness;
 
     /// <summary>Makes a camera from its position, rotation and angle of view.</summary>
     /// <param name="position">World space, scene units.</param>
@@ -22,14 +23,15 @@ public sealed record Camera
     public Camera(Vector position, Vector rotation, double fieldOfView) =>
         (Position, Rotation, FieldOfView) = (position, rotation, fieldOfView);
 
-    /// <summary>A camera five units before the origin, looking along the z axis.</summary>
+    /// <summary>A camera of a left-handed scene, five units before the origin and looking along the z axis.</summary>
     public static Camera Default { get; } = new(new(0, 0, -5), Vector.Zero, 60);
 
     /// <summary>Makes the camera that shows all of a scene, from the right, above and before it.</summary>
     /// <param name="scene">With its models loaded; a camera of its own is ignored.</param>
     /// <param name="aspect">Width divided by height of the image.</param>
     /// <exception cref="FractalEngineException">An object names a file that is not loaded.</exception>
-    public static Camera Framing(Scene scene, double aspect = 16 / 9.0) => CameraFraming.Default(LoadedScene.Of(scene).Bounds, aspect);
+    public static Camera Framing(Scene scene, double aspect = 16 / 9.0) =>
+        CameraFraming.Default(LoadedScene.Of(scene).Bounds, aspect, scene.Handedness);
 
     /// <summary>Position in world space, scene units.</summary>
     /// <exception cref="ArgumentException">A coordinate is NaN or infinite.</exception>
@@ -47,8 +49,22 @@ public sealed record Camera
         init
         {
             _rotation = value.IsFinite() ? value : throw new ArgumentException("expected a finite rotation", nameof(Rotation));
-            LocalAxes = value.LocalAxes();
-            LocalAxesInverse = LocalAxes.Inverse();
+            (LocalAxes, LocalAxesInverse) = ComputeAxes(value, _handedness);
+        }
+    }
+
+    /// <summary>How the scene's coordinates are shown; left unless stated otherwise. A scene sets it for its own camera.</summary>
+    /// <remarks>
+    /// A right-handed camera sees the scene mirrored in z, as a left-handed camera of the same rotation would see the mirrored scene.
+    /// Without rotation it looks along −z.
+    /// </remarks>
+    public Handedness Handedness
+    {
+        get => _handedness;
+        init
+        {
+            _handedness = value;
+            (LocalAxes, LocalAxesInverse) = ComputeAxes(_rotation, value);
         }
     }
 
@@ -62,7 +78,7 @@ public sealed record Camera
             : throw new ArgumentException("expected an angle of view between 0 and 180 degrees", nameof(FieldOfView));
     }
 
-    /// <summary>Columns: the camera's right, up and forward axes in world space.</summary>
+    /// <summary>Columns: the camera's right, up and forward axes in world space. The determinant is −1 in a right-handed scene.</summary>
     public Matrix LocalAxes { get; private init; }
 
     /// <summary>The inverse of <see cref="LocalAxes"/>: maps world directions to (right, up, depth).</summary>
@@ -79,8 +95,16 @@ public sealed record Camera
 
     /// <inheritdoc/>
     public bool Equals(Camera? other) =>
-        other is not null && Position == other.Position && Rotation == other.Rotation && FieldOfView.Equals(other.FieldOfView);
+        other is not null && Position == other.Position && Rotation == other.Rotation
+        && FieldOfView.Equals(other.FieldOfView) && Handedness == other.Handedness;
 
     /// <inheritdoc/>
-    public override int GetHashCode() => HashCode.Combine(Position, Rotation, FieldOfView);
+    public override int GetHashCode() => HashCode.Combine(Position, Rotation, FieldOfView, Handedness);
+
+    private static (Matrix Axes, Matrix Inverse) ComputeAxes(Vector rotation, Handedness handedness)
+    {
+        var (right, up, forward) = rotation.LocalAxes();
+        var axes = new Matrix(handedness.Mirror(right), handedness.Mirror(up), handedness.Mirror(forward));
+        return (axes, axes.Inverse());
+    }
 }

@@ -12,7 +12,9 @@ public static class CameraFraming
     public static Vector DefaultRotation => LookRotation(new(-0.55, -0.42, 1));
 
     /// <summary>Computes the angles (radians) that turn the forward axis to a direction, without roll.</summary>
-    /// <param name="direction">Of any length but 0; straight up and down are allowed.</param>
+    /// <param name="direction">
+    /// In the axes of a camera without rotation: right, up and forward. Of any length but 0; straight up and down are allowed.
+    /// </param>
     public static Vector LookRotation(Vector direction)
     {
         var forward = direction.UnitVector();
@@ -59,6 +61,9 @@ public static class CameraFraming
         select new Vector(x, y, z);
 
     /// <summary>Makes the camera of a scene that names none.</summary>
-    public static Camera Default(BoundingBox box, double aspect) =>
-        Frame(Camera.Default with { Rotation = DefaultRotation }, box, aspect);
+    /// <param name="box">World space.</param>
+    /// <param name="aspect">Width divided by height of the image.</param>
+    /// <param name="handedness">That of the scene.</param>
+    public static Camera Default(BoundingBox box, double aspect, Handedness handedness = Handedness.Left) =>
+        Frame(Camera.Default with { Rotation = DefaultRotation, Handedness = handedness }, box, aspect);
 }

@@ -16,7 +16,7 @@ public static class CameraNavigation
     /// <param name="right">Radians to the right.</param>
     /// <param name="up">Radians upwards; ends just short of the zenith and the nadir.</param>
     public static Camera Turn(Camera camera, double right, double up) =>
-        camera with { Rotation = (ComputeTurn(camera, right, up) * camera.LocalAxes).Orthonormalized().EulerAngles() };
+        camera with { Rotation = (ComputeTurn(camera, right, up) * camera.Rotation.LocalAxes()).Orthonormalized().EulerAngles() };
 
     /// <summary>Moves a camera around a point, which stays where it is in the image.</summary>
     /// <param name="camera">The camera.</param>
@@ -26,7 +26,8 @@ public static class CameraNavigation
     public static Camera Orbit(Camera camera, Vector pivot, double right, double up)
     {
         var turn = ComputeTurn(camera, right, up);
-        return Turn(camera, right, up) with { Position = pivot + (turn * (camera.Position - pivot)) };
+        var offset = turn * camera.Handedness.Mirror(camera.Position - pivot);
+        return Turn(camera, right, up) with { Position = pivot + camera.Handedness.Mirror(offset) };
     }
 
     /// <summary>Moves a camera along its own axes.</summary>
@@ -42,12 +43,14 @@ public static class CameraNavigation
     public static Camera Zoom(Camera camera, Vector pivot, double factor) =>
         camera with { Position = pivot + (factor * (camera.Position - pivot)) };
 
+    /// <summary>Computes a turn in the left-handed space that the rotation of every camera is given in.</summary>
     private static Matrix ComputeTurn(Camera camera, double right, double up)
     {
-        var elevation = Math.Asin(Math.Clamp(camera.LocalAxes.V3.Y, -1, 1));
+        var axes = camera.Rotation.LocalAxes();
+        var elevation = Math.Asin(Math.Clamp(axes.V3.Y, -1, 1));
         var target = Math.Clamp(elevation + up, -MaxElevation, MaxElevation);
         // A camera that starts beyond the limit (the view from the top) is not pulled back by a turn to the side.
         var elevationChange = up == 0 ? 0 : target - elevation;
-        return Matrix.Rotation(Vector.J, right) * Matrix.Rotation(camera.LocalAxes.V1, -elevationChange);
+        return Matrix.Rotation(Vector.J, right) * Matrix.Rotation(axes.V1, -elevationChange);
     }
 }

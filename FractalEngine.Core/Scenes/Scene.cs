@@ -13,8 +13,26 @@ public sealed record Scene
     /// <summary>The acceleration of free fall near the ground, units a second².</summary>
     public static readonly Vector DefaultGravity = new(0, -9.8, 0);
 
-    /// <summary>The camera that shows the scene; null for one that frames it.</summary>
-    public Camera? Camera { get; init; }
+    private readonly Camera? _camera;
+    private readonly Handedness _handedness;
+
+    /// <summary>The camera that shows the scene, with the scene's handedness; null for one that frames it.</summary>
+    public Camera? Camera
+    {
+        get => _camera;
+        init => _camera = WithHandedness(value, _handedness);
+    }
+
+    /// <summary>How the scene's coordinates are shown; left unless stated otherwise. The camera takes it over.</summary>
+    public Handedness Handedness
+    {
+        get => _handedness;
+        init
+        {
+            _handedness = value;
+            _camera = WithHandedness(_camera, value);
+        }
+    }
 
     /// <summary>The projection of the camera; perspective unless stated otherwise.</summary>
     public Projection Projection { get; init; }
@@ -50,9 +68,12 @@ public sealed record Scene
         other is not null && Camera == other.Camera && Projection == other.Projection
         && OrthographicHeight.Equals(other.OrthographicHeight) && Aspect.Equals(other.Aspect) && Clip.Equals(other.Clip)
         && Background == other.Background && Lights.SequenceEqual(other.Lights) && Objects.SequenceEqual(other.Objects)
-        && Gravity == other.Gravity && Player == other.Player;
+        && Gravity == other.Gravity && Player == other.Player && Handedness == other.Handedness;
 
     /// <inheritdoc/>
     public override int GetHashCode() =>
         HashCode.Combine(Camera, Projection, OrthographicHeight, Aspect, Clip, Background, Lights.Length, Objects.Length);
+
+    private static Camera? WithHandedness(Camera? camera, Handedness handedness) =>
+        camera is null || camera.Handedness == handedness ? camera : camera with { Handedness = handedness };
 }

@@ -91,7 +91,9 @@ public sealed class AssetLoader
     private LoadedFile CreateSingleObjectFile(FileKind kind, Model model)
     {
         var declared = new SceneObject(Path.GetFileName(_fullPath), Transformation.Identity) { Model = model };
-        return CreateLoadedFile(kind, LoadedScene.Of(new() { Objects = [declared] }), null);
+        // Meshes come from other tools, which are right-handed; fractals are seen as the paper's figures show them.
+        var handedness = kind == FileKind.Mesh ? Handedness.Right : Handedness.Left;
+        return CreateLoadedFile(kind, LoadedScene.Of(new() { Handedness = handedness, Objects = [declared] }), null);
     }
 
     private LoadedFile CreateLoadedFile(FileKind kind, LoadedScene scene, ParsedScene? parsedScene) =>

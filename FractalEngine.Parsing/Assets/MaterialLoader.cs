@@ -166,9 +166,15 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
         var material = file.Materials[name];
         if (material.Texture is { } texture)
         {
-            material = FindTextureFile(file.Source, file.TextureNameOffsets[name], fullPath, texture.Path) is { } path
+            material = FindTextureFile(file.Source, file.TextureNameOffsets[name], fullPath, texture.Path, "drawn grey") is { } path
                 ? material with { Texture = texture with { Path = path } }
                 : material.WithoutTexture();
+        }
+
+        if (material.OpacityTexture is { } opacity)
+        {
+            var path = FindTextureFile(file.Source, file.OpacityTextureNameOffsets[name], fullPath, opacity.Path, "drawn opaque");
+            material = material with { OpacityTexture = path is null ? null : opacity with { Path = path } };
         }
 
         return _materials[(file, name)] = material with
@@ -182,7 +188,8 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
     private MaterialTexture? FindUndrawnTexture(MaterialTexture? texture, string fullPath) =>
         texture is not null && references.FindForeign(fullPath, texture.Path) is { } path ? texture with { Path = path } : null;
 
-    private string? FindTextureFile(SourceText source, int offset, string referrer, string file)
+    /// <summary>Returns the full path of an image, or null, with a warning about the consequence, if it can't be used.</summary>
+    private string? FindTextureFile(SourceText source, int offset, string referrer, string file, string consequence)
     {
         if (_textureWarningCount >= MaxTextureWarnings && references.FindForeign(referrer, file) is null)
         {
@@ -207,7 +214,7 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
             if (_reportedTextures.Add((source.FileName, file)) && ++_textureWarningCount <= MaxTextureWarnings)
             {
                 var suffix = _textureWarningCount < MaxTextureWarnings ? "" : "; further unusable textures are not reported";
-                Warn(fault.Diagnostic with { Message = $"{fault.Diagnostic.Message}: drawn grey{suffix}" });
+                Warn(fault.Diagnostic with { Message = $"{fault.Diagnostic.Message}: {consequence}{suffix}" });
             }
 
             return null;

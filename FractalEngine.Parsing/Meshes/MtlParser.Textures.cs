@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
@@ -7,16 +8,19 @@ namespace FractalEngine.Parsing.Meshes;
 /// <content>Parses the statements of textures: options, each with its arguments, then the name of an image file.</content>
 public sealed partial class MtlParser
 {
-    private bool ParseDiffuseTexture(Cursor statement, Cursor cursor) => ParseTexture(cursor, out var texture, out var nameOffset)
-        && UpdateMaterial(statement, material =>
+    /// <summary>Parses a texture that is drawn, and records where its name is.</summary>
+    private bool ParseDrawnTexture(
+        Cursor statement, Cursor cursor, ImmutableDictionary<string, int>.Builder nameOffsets,
+        Func<Material, MaterialTexture, Material> update) =>
+        ParseTexture(cursor, out var texture, out var nameOffset) && UpdateMaterial(statement, material =>
         {
             // The first of several materials with the same name wins, see CommitMaterial.
             if (!_materials.ContainsKey(material.Name))
             {
-                _textureNameOffsets[material.Name] = nameOffset;
+                nameOffsets[material.Name] = nameOffset;
             }
 
-            return material with { Texture = texture };
+            return update(material, texture);
         });
 
     private bool ParseTexture(Cursor cursor, out MaterialTexture texture, out int nameOffset)

@@ -5,8 +5,9 @@ using FractalEngine.Parsing.Text;
 namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>
-/// Reads Wavefront material files: <c>newmtl</c>, <c>Kd</c>, <c>Ka</c>, <c>Ks</c>, <c>Ns</c>, <c>d</c>, <c>Tr</c>, <c>map_Kd</c>; and
-/// <c>map_Bump</c>, <c>norm</c>, <c>Pr</c>, <c>Pm</c>, which are not drawn yet and give one warning per file.
+/// Reads Wavefront material files: <c>newmtl</c>, <c>Kd</c>, <c>Ka</c>, <c>Ks</c>, <c>Ke</c>, <c>Ns</c>, <c>d</c>, <c>Tr</c>,
+/// <c>map_Kd</c>, <c>map_d</c>; and <c>map_Bump</c>, <c>norm</c>, <c>Pr</c>, <c>Pm</c>, which are not drawn yet and give one warning per
+/// file.
 /// </summary>
 /// <remarks>
 /// Other statements are ignored. Faulty ones are ignored with one warning per file: a surface of the wrong colour is better than none.
@@ -18,6 +19,7 @@ public sealed partial class MtlParser : Parser
 
     private readonly ImmutableDictionary<string, Material>.Builder _materials = ImmutableDictionary.CreateBuilder<string, Material>();
     private readonly ImmutableDictionary<string, int>.Builder _textureNameOffsets = ImmutableDictionary.CreateBuilder<string, int>();
+    private readonly ImmutableDictionary<string, int>.Builder _opacityNameOffsets = ImmutableDictionary.CreateBuilder<string, int>();
     private Material? _current;
     private bool _hasOpacity;
     private Diagnostic? _firstFault;
@@ -51,7 +53,10 @@ public sealed partial class MtlParser : Parser
         }
 
         CommitMaterial();
-        return new(Source, _materials.ToImmutable(), _textureNameOffsets.ToImmutable(), [.. CreateWarnings()]);
+        return new(Source, _materials.ToImmutable(), _textureNameOffsets.ToImmutable(), [.. CreateWarnings()])
+        {
+            OpacityTextureNameOffsets = _opacityNameOffsets.ToImmutable(),
+        };
     }
 
     private IEnumerable<Diagnostic> CreateWarnings()
@@ -111,10 +116,14 @@ public sealed partial class MtlParser : Parser
             "Kd" => ParseColour(start, rest, static (material, colour) => material with { Diffuse = colour }),
             "Ka" => ParseColour(start, rest, static (material, colour) => material with { Ambient = colour }),
             "Ks" => ParseColour(start, rest, static (material, colour) => material with { Specular = colour }),
+            "Ke" => ParseColour(start, rest, static (material, colour) => material with { Emission = colour }),
             "Ns" => ParseScalar(start, rest, static (material, number) => material with { SpecularExponent = number }),
             "d" => ParseOpacity(start, rest),
             "Tr" => ParseTransparency(start, rest),
-            "map_Kd" => ParseDiffuseTexture(start, rest),
+            "map_Kd" => ParseDrawnTexture(
+                start, rest, _textureNameOffsets, static (material, texture) => material with { Texture = texture }),
+            "map_d" => ParseDrawnTexture(
+                start, rest, _opacityNameOffsets, static (material, texture) => material with { OpacityTexture = texture }),
             "map_Bump" or "map_bump" or "bump" => ParseTexture(rest, out var heights, out _)
                 && KeepUndrawn(start, keyword, material => material with { BumpTexture = heights }),
             "norm" => ParseTexture(rest, out var normals, out _)

@@ -23,6 +23,7 @@ internal static class MtlWriter
             text.Append(text.Length > 0 ? "\n" : "").Append("newmtl ").Append(material.Name).Append('\n');
             AppendSurface(text, material);
             AppendTexture(text, "map_Kd", material, material.Texture, fullPath);
+            AppendTexture(text, "map_d", material, material.OpacityTexture, fullPath);
             AppendTexture(text, "map_Bump", material, material.BumpTexture, fullPath);
             AppendTexture(text, "norm", material, material.NormalTexture, fullPath);
         }
@@ -37,6 +38,7 @@ internal static class MtlWriter
         AppendColour(text, "Kd", material, material.Diffuse, defaults.Diffuse);
         AppendColour(text, "Ka", material, material.Ambient, defaults.Ambient);
         AppendColour(text, "Ks", material, material.Specular, defaults.Specular);
+        AppendColour(text, "Ke", material, material.Emission, defaults.Emission);
         AppendNumber(text, "Ns", material, material.SpecularExponent, defaults.SpecularExponent);
         Require(material.Opacity is >= 0 and <= 1, material, "its opacity is not between 0 and 1");
         AppendNumber(text, "d", material, material.Opacity, defaults.Opacity);

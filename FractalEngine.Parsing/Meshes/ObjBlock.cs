@@ -19,6 +19,9 @@ internal sealed class ObjBlock
     /// <summary>Coordinates of the vertices in the block, [vertices × 3].</summary>
     public required double[] Positions { get; init; }
 
+    /// <summary>Colours of the vertices in the block, sRGB, [vertices × 3]; empty when no vertex has any.</summary>
+    public required double[] Colours { get; init; }
+
     /// <summary>Texture coordinates in the block, [n × 2].</summary>
     public required double[] TextureCoordinates { get; init; }
 

@@ -6,6 +6,7 @@ namespace FractalEngine.Parsing.Meshes;
 internal sealed class ObjElements
 {
     private readonly List<double> _positions = [];
+    private readonly List<double> _colours = [];
     private readonly List<double> _textureCoordinates = [];
     private readonly List<double> _normals = [];
     private readonly List<int> _positionIndices = [];
@@ -31,6 +32,13 @@ internal sealed class ObjElements
 
     /// <summary>Adds the position of a vertex.</summary>
     public void AddPosition(Vector position) => Add(_positions, position);
+
+    /// <summary>Sets the colour of the last vertex.</summary>
+    public void AddColour(ReadOnlySpan<double> colour)
+    {
+        AddMissingColours(_positions.Count - colour.Length);
+        _colours.AddRange(colour);
+    }
 
     /// <summary>Adds a normal of any length.</summary>
     public void AddNormal(Vector normal) => Add(_normals, normal);
@@ -62,10 +70,12 @@ internal sealed class ObjElements
         // The lists end with the last corner that has an index.
         AddMissingIndices(_textureIndices);
         AddMissingIndices(_normalIndices);
+        AddMissingColours(_colours.Count == 0 ? 0 : _positions.Count);
         return new()
         {
             Counts = new(_positions.Count / 3, _textureCoordinates.Count / 2, _normals.Count / 3, _faceCount),
             Positions = [.. _positions],
+            Colours = [.. _colours],
             TextureCoordinates = [.. _textureCoordinates],
             Normals = [.. _normals],
             PositionIndices = [.. _positionIndices],
@@ -97,6 +107,9 @@ internal sealed class ObjElements
 
         indices.Add(index);
     }
+
+    private void AddMissingColours(int componentCount) =>
+        _colours.AddRange(Enumerable.Repeat(ObjColour.Default, componentCount - _colours.Count));
 
     private void AddMissingIndices(List<int> indices)
     {

@@ -9,6 +9,7 @@ internal sealed class ObjMeshAssembler
     private readonly List<ObjBlock> _blocks;
     private readonly int _threadCount;
     private readonly double[] _positions;
+    private readonly double[] _colours;
     private readonly double[] _textureCoordinates;
     private readonly double[] _normals;
     private readonly int[] _positionIndices;
@@ -20,14 +21,16 @@ internal sealed class ObjMeshAssembler
         _blocks = blocks;
         _threadCount = Math.Min(threadCount, blocks.Count);
         // Elements that no face refers to are no part of a mesh, except for its vertices.
-        var (hasTextures, hasNormals) = (false, false);
+        var (hasColours, hasTextures, hasNormals) = (false, false, false);
         foreach (var block in blocks)
         {
+            hasColours |= block.Colours.Length > 0;
             hasTextures |= block.TextureIndices.Length > 0;
             hasNormals |= block.NormalIndices.Length > 0;
         }
 
         _positions = Allocate<double>(3 * counts.Positions);
+        _colours = Allocate<double>(hasColours ? _positions.Length : 0);
         _textureCoordinates = Allocate<double>(hasTextures ? 2 * counts.TextureCoordinates : 0);
         _normals = Allocate<double>(hasNormals ? 3 * counts.Normals : 0);
         _positionIndices = Allocate<int>(3 * counts.Faces);
@@ -43,8 +46,8 @@ internal sealed class ObjMeshAssembler
     {
         if (blocks is [{ IsResolved: true } single])
         {
-            return CreateMesh(single.Positions, single.PositionIndices, single.TextureCoordinates, single.TextureIndices, single.Normals,
-                single.NormalIndices);
+            return WithColours(single.Colours, CreateMesh(single.Positions, single.PositionIndices, single.TextureCoordinates,
+                single.TextureIndices, single.Normals, single.NormalIndices));
         }
 
         var assembler = new ObjMeshAssembler(blocks, counts, threadCount);
@@ -52,11 +55,14 @@ internal sealed class ObjMeshAssembler
         // Cutting a polygon needs the positions of all blocks.
         assembler.ForEachBlock(block => new ObjFaceWriter(
             block, assembler._positions, assembler._positionIndices, assembler._textureIndices, assembler._normalIndices).Write());
-        return CreateMesh(assembler._positions, assembler._positionIndices, assembler._textureCoordinates, assembler._textureIndices,
-            assembler._normals, assembler._normalIndices);
+        return WithColours(assembler._colours, CreateMesh(assembler._positions, assembler._positionIndices, assembler._textureCoordinates,
+            assembler._textureIndices, assembler._normals, assembler._normalIndices));
     }
 
     private static T[] Allocate<T>(int length) => GC.AllocateUninitializedArray<T>(length);
+
+    private static Mesh WithColours(double[] colours, Mesh mesh) =>
+        colours.Length == 0 ? mesh : mesh.WithColours(ImmutableCollectionsMarshal.AsImmutableArray(colours));
 
     private static Mesh CreateMesh(
         double[] positions, int[] positionIndices, double[] textureCoordinates, int[] textureIndices, double[] normals, int[] normalIndices)
@@ -88,6 +94,13 @@ internal sealed class ObjMeshAssembler
     private void CopyElements(ObjBlock block)
     {
         block.Positions.CopyTo(_positions, 3 * block.Before.Positions);
+        if (_colours.Length > 0)
+        {
+            var colours = _colours.AsSpan(3 * block.Before.Positions, block.Positions.Length);
+            colours.Fill(ObjColour.Default);
+            block.Colours.CopyTo(colours);
+        }
+
         if (_textureIndices.Length > 0)
         {
             block.TextureCoordinates.CopyTo(_textureCoordinates, 2 * block.Before.TextureCoordinates);

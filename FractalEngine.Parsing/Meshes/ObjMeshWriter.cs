@@ -37,7 +37,7 @@ public static class ObjMeshWriter
         text.WriteTextureCoordinates(mesh.TextureCoordinates.AsSpan());
         for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
         {
-            text.WriteVector("v", mesh.Vertex(vertex));
+            text.WriteVertex(mesh.Vertex(vertex), mesh, vertex);
         }
 
         for (var i = 0; i < mesh.Normals.Length; i += 3)
@@ -90,6 +90,7 @@ public static class ObjMeshWriter
     private static void RequireNumbers(Mesh mesh)
     {
         Require(mesh.TextureCoordinates.All(double.IsFinite), "a texture coordinate is not finite");
+        Require(mesh.Colours.All(double.IsFinite), "a component of a colour is not finite");
         Require(mesh.Normals.All(double.IsFinite), "a component of a normal is not finite");
         Require(IsUsed(mesh.TextureCoordinates.Length, mesh.TextureIndices), "no face uses the texture coordinates");
         Require(IsUsed(mesh.Normals.Length, mesh.NormalIndices), "no face uses the normals");

@@ -192,15 +192,23 @@ public sealed class ObjParser : Parser
         return ParseRestOfLine(start, out _, out rest);
     }
 
-    /// <summary>Parses x, y and z. A weight, a colour or both may follow and are ignored.</summary>
-    private bool ParsePosition(Cursor cursor, out Cursor rest) =>
-        ParseThreeNumbers(cursor, out var position, out rest) && AddPosition(position) && ParseOptionalNumbers(rest, out rest)
-        && ParseCommentAndEndOfLine(rest, out rest);
-
-    private bool AddPosition(Vector position)
+    /// <summary>Parses x, y and z. A weight, which is ignored, a colour or both may follow.</summary>
+    private bool ParsePosition(Cursor cursor, out Cursor rest)
     {
+        if (!ParseThreeNumbers(cursor, out var position, out rest))
+        {
+            return false;
+        }
+
         _elements.AddPosition(position);
-        return true;
+        Span<double> numbers = stackalloc double[ObjColour.MaxNumbers];
+        ParseOptionalNumbers(rest, numbers, out var count, out rest);
+        if (ObjColour.Find(numbers, count) is { Length: > 0 } colour)
+        {
+            _elements.AddColour(colour);
+        }
+
+        return ParseCommentAndEndOfLine(rest, out rest);
     }
 
     private bool ParseNormal(Cursor cursor, out Cursor rest)
@@ -226,7 +234,7 @@ public sealed class ObjParser : Parser
         var v = 0.0;
         if (ParseBlanks(rest, out var next) && IsNumberStart(next) && ParseNumber(next, out v, out rest))
         {
-            ParseOptionalNumbers(rest, out rest);
+            ParseOptionalNumbers(rest, [0], out _, out rest);
         }
 
         _elements.AddTextureCoordinate(u, v);
@@ -248,16 +256,23 @@ public sealed class ObjParser : Parser
         return true;
     }
 
-    private bool ParseOptionalNumbers(Cursor cursor, out Cursor rest)
+    /// <summary>Parses any number of numbers. The last element of the span receives all that have no other place.</summary>
+    private void ParseOptionalNumbers(Cursor cursor, Span<double> numbers, out int count, out Cursor rest)
     {
         rest = cursor;
-        while (ParseBlanks(rest, out var next)
-            && (ParseUndefinedNumber(next, out next) || (IsNumberStart(next) && ParseNumber(next, out _, out next))))
+        count = 0;
+        while (ParseBlanks(rest, out var next) && ParseOptionalNumber(next, out numbers[Math.Min(count, numbers.Length - 1)], out next))
         {
             rest = next;
+            count++;
         }
+    }
 
-        return true;
+    /// <summary>Parses a number, or one that is undefined, as programs write for colours that they don't know: it counts as 1.</summary>
+    private bool ParseOptionalNumber(Cursor cursor, out double number, out Cursor rest)
+    {
+        number = 1;
+        return ParseUndefinedNumber(cursor, out rest) || (IsNumberStart(cursor) && ParseNumber(cursor, out number, out rest));
     }
 
     private static bool ParseUndefinedNumber(Cursor cursor, out Cursor rest)

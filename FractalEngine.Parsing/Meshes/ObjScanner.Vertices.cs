@@ -17,7 +17,7 @@ internal sealed partial class ObjScanner
             return Utf8NumberReader.None;
         }
 
-        position = Unsafe.Add(ref text, position) == '\n' ? position + 1 : ScanOptionalNumbers(ref text, position);
+        position = Unsafe.Add(ref text, position) == '\n' ? position + 1 : ScanColour(ref text, position);
         _positionCount += position == Utf8NumberReader.None ? 0 : 1;
         return position;
     }
@@ -59,7 +59,7 @@ internal sealed partial class ObjScanner
             }
         }
 
-        position = Unsafe.Add(ref text, position) == '\n' ? position + 1 : ScanOptionalNumbers(ref text, position);
+        position = Unsafe.Add(ref text, position) == '\n' ? position + 1 : SkipOptionalNumbers(ref text, position);
         _textureCoordinateCount += position == Utf8NumberReader.None ? 0 : 1;
         return position;
     }
@@ -96,10 +96,50 @@ internal sealed partial class ObjScanner
 
     private static bool IsNumberStart(uint character) => character - '0' <= 9 || character is '-' or '+' or '.';
 
-    /// <summary>Skips further numbers of a line and its end, and returns the position of the next line or none.</summary>
-    private nint ScanOptionalNumbers(ref byte text, nint position)
+    /// <summary>Reads what follows a position, and returns the position of the next line or none.</summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private nint ScanColour(ref byte text, nint position)
     {
-        var ignored = 0.0;
+        Span<double> numbers = stackalloc double[ObjColour.MaxNumbers];
+        position = ScanOptionalNumbers(ref text, position, numbers, out var count);
+        var colour = ObjColour.Find(numbers, count);
+        if (position != Utf8NumberReader.None && colour.Length > 0)
+        {
+            if (_colours.Length < _positions.Length)
+            {
+                Array.Resize(ref _colours, _positions.Length);
+            }
+
+            _colours.AsSpan(3 * _colourCount, 3 * (_positionCount - _colourCount)).Fill(ObjColour.Default);
+            colour.CopyTo(_colours.AsSpan(3 * _positionCount));
+            _colourCount = _positionCount + 1;
+        }
+
+        return position;
+    }
+
+    /// <summary>Fills the colours of the vertices behind the last one that has any.</summary>
+    private void FillColours()
+    {
+        if (_colourCount > 0)
+        {
+            _colours.AsSpan(3 * _colourCount, 3 * (_positionCount - _colourCount)).Fill(ObjColour.Default);
+            _colourCount = _positionCount;
+        }
+    }
+
+    // Kept out of its callers, so that lines without further numbers don't pay for the space on the stack.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private nint SkipOptionalNumbers(ref byte text, nint position) => ScanOptionalNumbers(ref text, position, [0], out _);
+
+    /// <summary>Reads further numbers of a line and its end, and returns the position of the next line or none.</summary>
+    /// <param name="text">The block.</param>
+    /// <param name="position">Where the numbers begin.</param>
+    /// <param name="numbers">Receives the numbers; its last element receives all that have no other place.</param>
+    /// <param name="count">How many numbers there are.</param>
+    private nint ScanOptionalNumbers(ref byte text, nint position, Span<double> numbers, out int count)
+    {
+        count = 0;
         while (IsBlank(Unsafe.Add(ref text, position)))
         {
             var next = SkipBlanks(ref text, position);
@@ -108,11 +148,13 @@ internal sealed partial class ObjScanner
                 break;
             }
 
-            position = Utf8NumberReader.Read(ref text, next, ref ignored);
+            position = Utf8NumberReader.Read(ref text, next, ref numbers[Math.Min(count, numbers.Length - 1)]);
             if (position == Utf8NumberReader.None)
             {
                 return Utf8NumberReader.None;
             }
+
+            count++;
         }
 
         return ScanEndOfLine(ref text, position);

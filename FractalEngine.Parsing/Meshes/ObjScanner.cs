@@ -16,6 +16,7 @@ namespace FractalEngine.Parsing.Meshes;
 internal sealed partial class ObjScanner
 {
     private double[] _positions = [];
+    private double[] _colours = [];
     private double[] _textureCoordinates = [];
     private double[] _normals = [];
     private int[] _positionIndices = [];
@@ -30,6 +31,9 @@ internal sealed partial class ObjScanner
     private int _cornerCount;
     private int _polygonCount;
     private int _faceCount;
+
+    // Vertices below have entries in the array of colours; 0 until a vertex has any.
+    private int _colourCount;
 
     // Corners below have entries in the arrays of texture coordinates and normals; 0 until a corner has any.
     private int _textureIndexCount;
@@ -68,12 +72,14 @@ internal sealed partial class ObjScanner
     /// <summary>Creates a block of all elements that were read.</summary>
     public ObjBlock ToBlock()
     {
+        FillColours();
         FillIndices(_textureIndices, ref _textureIndexCount);
         FillIndices(_normalIndices, ref _normalIndexCount);
         return new()
         {
             Counts = new(_positionCount, _textureCoordinateCount, _normalCount, _faceCount),
             Positions = Copy(_positions, 3 * _positionCount),
+            Colours = Copy(_colours, 3 * _colourCount),
             TextureCoordinates = Copy(_textureCoordinates, 2 * _textureCoordinateCount),
             Normals = Copy(_normals, 3 * _normalCount),
             PositionIndices = Copy(_positionIndices, _cornerCount),
@@ -120,7 +126,7 @@ internal sealed partial class ObjScanner
         _end = length;
         HasDeclaration = _hasPolygonSizes = _hasRelativeIndices = false;
         LineCount = 0;
-        _positionCount = _textureCoordinateCount = _normalCount = 0;
+        _colourCount = _positionCount = _textureCoordinateCount = _normalCount = 0;
         _cornerCount = _polygonCount = _faceCount = _textureIndexCount = _normalIndexCount = 0;
         _requiredPositions = _requiredTextureCoordinates = _requiredNormals = 0;
     }

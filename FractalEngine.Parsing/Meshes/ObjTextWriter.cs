@@ -1,5 +1,6 @@
 using System.Buffers.Text;
 using System.Text;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Parsing.Meshes;
@@ -35,6 +36,24 @@ internal sealed class ObjTextWriter(Stream stream)
         WriteNumber(vector.X);
         WriteNumber(vector.Y);
         WriteNumber(vector.Z);
+        WriteText("\n");
+    }
+
+    /// <summary>Writes the position of a vertex, and its colour if the mesh has any.</summary>
+    /// <param name="position">Position to write.</param>
+    /// <param name="mesh">Mesh that has the vertex.</param>
+    /// <param name="vertex">Index of the vertex in the mesh, from 0.</param>
+    public void WriteVertex(Vector position, Mesh mesh, int vertex)
+    {
+        WriteText("v");
+        WriteNumber(position.X);
+        WriteNumber(position.Y);
+        WriteNumber(position.Z);
+        foreach (var component in mesh.Colours.IsEmpty ? [] : mesh.Colours.AsSpan(3 * vertex, 3))
+        {
+            WriteNumber(component);
+        }
+
         WriteText("\n");
     }
 

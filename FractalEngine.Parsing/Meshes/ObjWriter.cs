@@ -85,7 +85,7 @@ public sealed class ObjWriter
     {
         for (var vertex = 0; vertex < mesh.VertexCount; vertex++)
         {
-            _text.WriteVector("v", map * mesh.Vertex(vertex));
+            _text.WriteVertex(map * mesh.Vertex(vertex), mesh, vertex);
         }
 
         var isMirrored = map.Linear.Determinant() < 0;

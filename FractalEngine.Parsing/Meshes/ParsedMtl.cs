@@ -13,4 +13,8 @@ public sealed record ParsedMtl(
     SourceText Source,
     ImmutableDictionary<string, Material> Materials,
     ImmutableDictionary<string, int> TextureNameOffsets,
-    ImmutableArray<Diagnostic> Warnings);
+    ImmutableArray<Diagnostic> Warnings)
+{
+    /// <summary>Offset of the opacity texture's name in the text for each material that has one.</summary>
+    public ImmutableDictionary<string, int> OpacityTextureNameOffsets { get; init; } = ImmutableDictionary<string, int>.Empty;
+}

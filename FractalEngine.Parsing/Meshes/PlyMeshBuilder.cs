@@ -2,7 +2,7 @@ using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Parsing.Meshes;
 
-/// <summary>Collects the vertices and polygons of a PLY file. Normals and texture coordinates belong to vertices.</summary>
+/// <summary>Collects the vertices and polygons of a PLY file. Normals, texture coordinates and colours belong to vertices.</summary>
 internal sealed class PlyMeshBuilder
 {
     private static readonly int MaxFaces = Array.MaxLength / 3;
@@ -12,8 +12,10 @@ internal sealed class PlyMeshBuilder
     private readonly List<double> _textureCoordinates = [];
     private readonly List<int> _corners = [];
     private readonly List<ushort> _polygonSizes = [];
+    private readonly List<double> _colours = [];
     private bool _hasNormals;
     private bool _hasTextureCoordinates;
+    private bool _hasColours;
     private int _faceCount;
 
     /// <summary>Number of vertices that the header declares.</summary>
@@ -22,7 +24,7 @@ internal sealed class PlyMeshBuilder
     /// <summary>Number of polygons that were omitted, since they had fewer than three corners.</summary>
     public int ShortFaceCount { get; private set; }
 
-    /// <summary>Number of components of normals and texture coordinates that were not finite.</summary>
+    /// <summary>Number of components of normals, texture coordinates and colours that were not finite.</summary>
     public long UndefinedCount { get; private set; }
 
     /// <summary>Prepares for vertices with some roles, see <see cref="PlyVertex"/>.</summary>
@@ -30,6 +32,8 @@ internal sealed class PlyMeshBuilder
     {
         _hasNormals = PlyVertex.HasAll(roles, PlyVertex.NormalX, 3);
         _hasTextureCoordinates = PlyVertex.HasAll(roles, PlyVertex.U, 2);
+        _hasColours = PlyVertex.HasAll(roles, PlyVertex.Red, 3);
+        _colours.EnsureCapacity(_hasColours ? 3 * VertexCount : 0);
         _positions.EnsureCapacity(3 * VertexCount);
         _normals.EnsureCapacity(_hasNormals ? 3 * VertexCount : 0);
         _textureCoordinates.EnsureCapacity(_hasTextureCoordinates ? 2 * VertexCount : 0);
@@ -47,7 +51,12 @@ internal sealed class PlyMeshBuilder
 
         if (_hasTextureCoordinates)
         {
-            AddFinite(_textureCoordinates, values[PlyVertex.U..]);
+            AddFinite(_textureCoordinates, values[PlyVertex.U..PlyVertex.Red]);
+        }
+
+        if (_hasColours)
+        {
+            AddFinite(_colours, values[PlyVertex.Red..]);
         }
     }
 
@@ -77,6 +86,7 @@ internal sealed class PlyMeshBuilder
         {
             Counts = new(_positions.Count / 3, 0, 0, _faceCount),
             Positions = [.. _positions],
+            Colours = [.. _colours],
             TextureCoordinates = [],
             Normals = [],
             PositionIndices = [.. _corners],

@@ -3,10 +3,11 @@ using FractalEngine.Parsing.Text;
 namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>
-/// Reads meshes of the Polygon File Format, <c>.ply</c>, as text or binary: vertices with normals and texture coordinates, and polygons.
+/// Reads meshes of the Polygon File Format, <c>.ply</c>, as text or binary: vertices with normals, texture
+/// coordinates and colours, and polygons.
 /// </summary>
 /// <remarks>
-/// Colours and all other properties are ignored. Coordinates are used as written. Memory: the file and twice the arrays of the mesh. Cost:
+/// All other properties are ignored. Coordinates are used as written. Memory: the file and twice the arrays of the mesh. Cost:
 /// about a second per 100 MB.
 /// </remarks>
 public sealed class PlyReader
@@ -91,7 +92,8 @@ public sealed class PlyReader
                     continue;
                 }
 
-                var value = _values.Read(element.Properties[property].Type);
+                var value = _values.Read(element.Properties[property].Type)
+                    * PlyVertex.FactorOf(roles[property], element.Properties[property].Type);
                 if (roles[property] <= PlyVertex.Z && !double.IsFinite(value))
                 {
                     throw _values.Error("a coordinate is not finite");

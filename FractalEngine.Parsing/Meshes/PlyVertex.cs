@@ -15,14 +15,26 @@ internal static class PlyVertex
     /// <summary>Role of the first texture coordinate, which the second follows.</summary>
     public const int U = 6;
 
+    /// <summary>Role of the first component of the colour, which two more follow.</summary>
+    public const int Red = 8;
+
     /// <summary>Number of roles that are not ignored.</summary>
-    public const int RoleCount = 8;
+    public const int RoleCount = 11;
 
     private static readonly string[][] Names =
     [
         ["x"], ["y"], ["z"], ["nx", "normal_x"], ["ny", "normal_y"], ["nz", "normal_z"],
         ["u", "s", "texture_u", "texture_s"], ["v", "t", "texture_v", "texture_t"],
+        ["red", "r", "diffuse_red"], ["green", "g", "diffuse_green"], ["blue", "b", "diffuse_blue"],
     ];
+
+    /// <summary>Returns the factor of a property's numbers: integers of colours count from 0 to their largest.</summary>
+    public static double FactorOf(int role, PlyType type) => role < Red ? 1 : type switch
+    {
+        PlyType.UInt8 => 1.0 / byte.MaxValue,
+        PlyType.UInt16 => 1.0 / ushort.MaxValue,
+        _ => 1,
+    };
 
     /// <summary>Returns the role of a property by its name.</summary>
     public static int RoleOf(string name) => Array.FindIndex(Names, names => names.Contains(name));

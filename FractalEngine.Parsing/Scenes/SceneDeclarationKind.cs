@@ -3,6 +3,9 @@ namespace FractalEngine.Parsing.Scenes;
 /// <summary>Kind of declaration on a line of a scene file.</summary>
 public enum SceneDeclarationKind
 {
+    /// <summary>How coordinates are shown: <c>handed left</c> or <c>handed right</c>.</summary>
+    Handedness,
+
     /// <summary>Declaration of the camera: <c>c (x, y, z) (pitch, yaw, roll) fov</c>.</summary>
     Camera,
 

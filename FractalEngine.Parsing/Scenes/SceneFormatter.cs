@@ -21,6 +21,7 @@ internal static class SceneFormatter
     /// <summary>Formats one declaration without its line break; null if the scene does not need it.</summary>
     public static string? Format(Scene scene, SceneDeclarationKind kind, int index) => kind switch
     {
+        SceneDeclarationKind.Handedness => scene.Handedness == Handedness.Right ? "handed right" : null,
         SceneDeclarationKind.Camera => scene.Camera is { } camera
             ? $"c {camera.Position} {camera.Rotation} {FormatNumber(camera.FieldOfView)}" : null,
         SceneDeclarationKind.Projection => scene switch

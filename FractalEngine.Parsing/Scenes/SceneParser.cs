@@ -68,6 +68,7 @@ public sealed partial class SceneParser : SceneValueParser
         ParseDeclaration(cursor, "c", SceneDeclarationKind.Camera, ParseCamera, out kind, out rest)
         || ParseDeclaration(cursor, "o", SceneDeclarationKind.SceneObject, ParseObject, out kind, out rest)
         || ParseDeclaration(cursor, "p", SceneDeclarationKind.SceneObject, ParsePhysicsObject, out kind, out rest)
+        || ParseDeclaration(cursor, "handed", SceneDeclarationKind.Handedness, ParseHandedness, out kind, out rest)
         || ParseDeclaration(cursor, "projection", SceneDeclarationKind.Projection, ParseProjection, out kind, out rest)
         || ParseDeclaration(cursor, "aspect", SceneDeclarationKind.Aspect, ParseAspect, out kind, out rest)
         || ParseDeclaration(cursor, "clip", SceneDeclarationKind.Clip, ParseClip, out kind, out rest)
@@ -110,6 +111,16 @@ public sealed partial class SceneParser : SceneValueParser
 
         Require(fieldOfView is > 0 and < 180, fieldOfViewStart, "the angle of view must lie between 0 and 180 degrees");
         return UpdateScene(_scene with { Camera = new(position, rotation, fieldOfView) });
+    }
+
+    private bool ParseHandedness(Cursor cursor, out Cursor rest)
+    {
+        if (ParseWord(cursor, "left", out rest))
+        {
+            return UpdateScene(_scene with { Handedness = Handedness.Left });
+        }
+
+        return ParseWord(cursor, "right", out rest) && UpdateScene(_scene with { Handedness = Handedness.Right });
     }
 
     private bool ParseProjection(Cursor cursor, out Cursor rest)

@@ -26,13 +26,13 @@ internal sealed class LightBlock : IDisposable
 
     /// <summary>Creates the buffer for the lights of a scene, or for the default ones where it declares none.</summary>
     /// <param name="resources">Resources of the current context.</param>
-    /// <param name="lights">Lights in the order of the scene.</param>
-    /// <param name="bounds">Bounds of the scene, which place the default lights.</param>
-    public LightBlock(GlResources resources, ImmutableArray<Light> lights, BoundingBox bounds)
+    /// <param name="scene">Scene that declares lights, or whose bounds place the default ones.</param>
+    public LightBlock(GlResources resources, LoadedScene scene)
     {
+        var lights = scene.Scene.Lights;
         _uploadFilter = resources.UploadFilter;
         _usesDefaultLights = lights.IsEmpty;
-        var usedLights = _usesDefaultLights ? DefaultLights(bounds) : lights;
+        var usedLights = _usesDefaultLights ? DefaultLights(scene.Bounds, scene.Scene.Handedness) : lights;
         _lights = [.. usedLights.Where(light => light is not AmbientLight).Take(MaxLights)];
         _buffer = new(resources, "lights", BufferTarget.UniformBuffer);
         WriteAmbient(lights);
@@ -43,16 +43,17 @@ internal sealed class LightBlock : IDisposable
     /// Returns a warm key light from the upper left and a weak cool one from the right, so that three sides of a cube differ.
     /// </summary>
     /// <param name="bounds">Bounds of the scene, world space.</param>
+    /// <param name="handedness">How the scene is shown: the lights stand on the same sides of the image in both.</param>
     /// <remarks>The key light is near enough for its falloff to show, so that a large flat face does not look like paper.</remarks>
-    public static ImmutableArray<Light> DefaultLights(BoundingBox bounds)
+    public static ImmutableArray<Light> DefaultLights(BoundingBox bounds, Handedness handedness = Handedness.Left)
     {
-        var key = new Vector(-0.42, 0.80, -0.62).UnitVector();
+        var key = handedness.Mirror(new Vector(-0.42, 0.80, -0.62)).UnitVector();
         var distance = 1.8 * bounds.FiniteDiagonalOr(1);
         return
         [
             // At a tenth of its range, which is the scene's centre, it has its full intensity.
             new PointLight(bounds.Centre + (distance * key), new(1, 0.975, 0.93), 0.80, 10 * distance),
-            new DirectionalLight(new(-0.85, -0.2, 0.35), new(0.86, 0.89, 1), 0.24),
+            new DirectionalLight(handedness.Mirror(new(-0.85, -0.2, 0.35)), new(0.86, 0.89, 1), 0.24),
         ];
     }
 

@@ -9,7 +9,7 @@ namespace FractalEngine.Render.Passes;
 /// </summary>
 internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter filter)
 {
-    private const int VectorCount = 4;
+    private const int VectorCount = 5;
 
     // 0 to the power of 0 is not defined, and with a greater exponent a highlight is smaller than any pixel.
     private const double MinSpecularExponent = 1;
@@ -45,6 +45,7 @@ internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter f
             _data[15] = (float)texture.Offset.V;
         }
 
+        WriteVector(16, ClampNegative(material?.Emission ?? Colour.Black), 0);
         GL.Uniform4(_location, VectorCount, _data);
     }
 

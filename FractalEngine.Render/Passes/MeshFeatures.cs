@@ -23,4 +23,13 @@ internal enum MeshFeatures
 
     /// <summary>Back faces are culled and need no lighting.</summary>
     FrontFacesOnly = 16,
+
+    /// <summary>Colours of the vertices, which multiply that of the surface.</summary>
+    VertexColours = 32,
+
+    /// <summary>Holes where the texture has less than half the opacity, opaque elsewhere.</summary>
+    CutOut = 64,
+
+    /// <summary>Light that the surface emits.</summary>
+    Emissive = 128,
 }

@@ -15,7 +15,7 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     /// <summary>Binding point of the uniform block <c>LightBlock</c>.</summary>
     public const int LightBinding = 1;
 
-    private const int FeatureCombinations = 32;
+    private const int FeatureCombinations = 256;
     private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);
 
     // Indexed by features. Each program is built when it is first needed.
@@ -41,7 +41,8 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     /// <param name="material">Null for the object's own colour.</param>
     /// <param name="tint">Colour that multiplies the material's own, sRGB.</param>
     /// <param name="instanceFeatures">
-    /// Those of <see cref="MeshFeatures.CameraRelative"/> and <see cref="MeshFeatures.FrontFacesOnly"/> that apply.
+    /// Those of <see cref="MeshFeatures.CameraRelative"/>, <see cref="MeshFeatures.FrontFacesOnly"/> and
+    /// <see cref="MeshFeatures.VertexColours"/> that apply.
     /// </param>
     /// <exception cref="InvalidOperationException">No frame was begun.</exception>
     /// <exception cref="GlException">The driver refuses the program.</exception>
@@ -98,5 +99,7 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     private static MeshFeatures FeaturesOf(DrawableMaterial? material, Shading shading) =>
         (shading == Shading.PerPixel ? MeshFeatures.PerPixel : 0)
         | (material?.Texture is not null ? MeshFeatures.Textured : 0)
+        | (material?.IsCutOut == true ? MeshFeatures.CutOut : 0)
+        | (material is not null && material.Material.Emission != Colour.Black ? MeshFeatures.Emissive : 0)
         | (material?.Material.IsGlossy == true ? MeshFeatures.Glossy : 0);
 }

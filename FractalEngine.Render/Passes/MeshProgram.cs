@@ -17,6 +17,9 @@ internal sealed class MeshProgram : IDisposable
         (MeshFeatures.Glossy, "GLOSSY"),
         (MeshFeatures.CameraRelative, "CAMERA_RELATIVE"),
         (MeshFeatures.FrontFacesOnly, "FRONT_FACES_ONLY"),
+        (MeshFeatures.VertexColours, "VERTEX_COLOURS"),
+        (MeshFeatures.CutOut, "CUT_OUT"),
+        (MeshFeatures.Emissive, "EMISSIVE"),
     ];
 
     private readonly RedundancyFilter _filter;

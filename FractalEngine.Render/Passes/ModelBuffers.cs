@@ -11,11 +11,13 @@ internal sealed class ModelBuffers : IDisposable
     private const int NormalLocation = 1;
     private const int InstanceRowsLocation = 2;
     private const int TextureCoordinatesLocation = 6;
+    private const int ColourLocation = 7;
 
     private readonly GlBuffer _vertices;
     private readonly GlBuffer _indices;
     private readonly GlBuffer _instances;
     private readonly GlBuffer? _textureCoordinates;
+    private readonly GlBuffer? _colours;
     private readonly VertexArray _vertexArray;
     private readonly int _indexCount;
     private readonly int _instanceCount;
@@ -33,6 +35,11 @@ internal sealed class ModelBuffers : IDisposable
         if (!model.TextureCoordinates.IsEmpty)
         {
             _textureCoordinates = new(resources, $"texture coordinates of {model.Name}", BufferTarget.ArrayBuffer);
+        }
+
+        if (!model.Colours.IsEmpty)
+        {
+            _colours = new(resources, $"colours of {model.Name}", BufferTarget.ArrayBuffer);
         }
 
         try
@@ -60,6 +67,7 @@ internal sealed class ModelBuffers : IDisposable
         _indices.Dispose();
         _instances.Dispose();
         _textureCoordinates?.Dispose();
+        _colours?.Dispose();
     }
 
     /// <summary>Attaches the mesh to another vertex array, with instances of its own.</summary>
@@ -74,6 +82,11 @@ internal sealed class ModelBuffers : IDisposable
         if (_textureCoordinates is not null)
         {
             vertexArray.Attribute(_textureCoordinates, TextureCoordinatesLocation, 2, 2, 0);
+        }
+
+        if (_colours is not null)
+        {
+            vertexArray.Attribute(_colours, ColourLocation, 3, 3, 0);
         }
 
         for (var row = 0; row < 3; row++)
@@ -91,6 +104,7 @@ internal sealed class ModelBuffers : IDisposable
         _indices.Upload(model.Indices.Span, BufferUsageHint.StaticDraw);
         _instances.Upload(model.Instances.Span, BufferUsageHint.StaticDraw);
         _textureCoordinates?.Upload(model.TextureCoordinates.Span, BufferUsageHint.StaticDraw);
+        _colours?.Upload(model.Colours.Span, BufferUsageHint.StaticDraw);
         Attach(_vertexArray, _instances);
     }
 }

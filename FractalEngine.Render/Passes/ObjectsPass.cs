@@ -44,7 +44,7 @@ internal sealed class ObjectsPass : IDisposable
         _buffers = buffers;
         _transforms = transforms;
         _meshPass = new(context);
-        _lightBlock = new(_resources, scene.Source.Scene.Lights, scene.Source.Bounds);
+        _lightBlock = new(_resources, scene.Source);
         _objectBlocks = [.. scene.Objects.Select(item => new ObjectBlock(_resources, item.Name))];
         _transparentOrder = TransparentOrder.Create(scene);
     }
@@ -188,7 +188,8 @@ internal sealed class ObjectsPass : IDisposable
 
     private MeshFeatures FeaturesOf(int index, CullFace culledFace) =>
         (_buffers.Culler.SelectsInstances(index) ? MeshFeatures.CameraRelative : MeshFeatures.None)
-        | (culledFace == CullFace.Back ? MeshFeatures.FrontFacesOnly : MeshFeatures.None);
+        | (culledFace == CullFace.Back ? MeshFeatures.FrontFacesOnly : MeshFeatures.None)
+        | (_scene.Objects[index].Model.Colours.IsEmpty ? MeshFeatures.None : MeshFeatures.VertexColours);
 
     /// <summary>Returns the face of an object's triangles that is certainly invisible; none where both may be seen.</summary>
     private CullFace FaceToCull(int index, in FrameView frame)

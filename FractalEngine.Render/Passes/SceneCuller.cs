@@ -41,7 +41,7 @@ internal sealed class SceneCuller : IDisposable
             if (model.LodHierarchy is { } hierarchy && !item.IsDynamic)
             {
                 _visibleInstances[i] = new(resources, item.Name, models[model], item.Gradient is not null);
-                culledObjects.Add(new(hierarchy, item.Map, model.MeshOrigin, model.MeshWindingSign, !model.HasTransparentBatches)
+                culledObjects.Add(new(hierarchy, item.Map, model.MeshOrigin, model.MeshWindingSign, !model.IsSeeThrough)
                 {
                     GradientKind = item.Gradient?.Kind ?? GradientKind.None,
                 });

@@ -8,4 +8,7 @@ public readonly record struct DrawableBatch(int FirstIndex, int IndexCount, Draw
 {
     /// <summary>True where the surface behind shows through.</summary>
     public bool IsTransparent => Material is { IsTransparent: true };
+
+    /// <summary>True where nothing behind the triangles can be seen through them.</summary>
+    public bool IsSolid => Material is null or { IsTransparent: false, IsCutOut: false };
 }

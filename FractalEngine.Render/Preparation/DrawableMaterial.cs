@@ -8,5 +8,12 @@ namespace FractalEngine.Render.Preparation;
 public sealed record DrawableMaterial(Material Material, DrawableTexture? Texture)
 {
     /// <summary>True where the surface behind shows through. Such surfaces are drawn last, and blended.</summary>
-    public bool IsTransparent => Material.Opacity < 1 || Texture is { IsTransparent: true };
+    public bool IsTransparent => !IsCutOut && (Material.Opacity < 1 || Texture is { IsTransparent: true });
+
+    /// <summary>
+    /// True where the texture cuts holes, as in foliage: pixels of less than half the opacity are not drawn, all others are opaque. That
+    /// needs no order of drawing.
+    /// </summary>
+    public bool IsCutOut =>
+        Material is { OpacityTexture: not null, Opacity: 1 } && Texture is { IsTransparent: true, HasSoftOpacity: false };
 }

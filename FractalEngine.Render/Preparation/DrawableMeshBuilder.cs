@@ -17,6 +17,7 @@ internal sealed class DrawableMeshBuilder
     private readonly Mesh _meshWithNormals;
     private readonly List<float> _vertices;
     private readonly List<float> _textureCoordinates = [];
+    private readonly List<float> _colours = [];
 
     // Few vertices share a position: each position has a linked list of them, from its first vertex on; −1 ends it.
     private readonly int[] _firstVertexOfPosition;
@@ -41,9 +42,10 @@ internal sealed class DrawableMeshBuilder
     /// <param name="creaseAngle">Crease angle of generated normals, degrees.</param>
     /// <param name="batches">Selection and order of the faces, and whether texture coordinates are needed.</param>
     /// <returns>
-    /// Position and unit normal [vertices × 6], (u, v) [vertices × 2] or nothing, and vertex indices [triangles × 3].
+    /// Position and unit normal [vertices × 6], (u, v) [vertices × 2] or nothing, colours [vertices × 3] or nothing, and vertex indices
+    /// [triangles × 3].
     /// </returns>
-    public static (float[] Vertices, float[] TextureCoordinates, uint[] Indices) Build(
+    public static (float[] Vertices, float[] TextureCoordinates, float[] Colours, uint[] Indices) Build(
         Mesh mesh, Vector origin, double creaseAngle, FaceBatches batches)
     {
         var builder = new DrawableMeshBuilder(mesh, origin, creaseAngle, batches.HasTextures);
@@ -54,7 +56,7 @@ internal sealed class DrawableMeshBuilder
             builder.AddFace(batches.FaceAt(drawIndex), indices.AsSpan(3 * drawIndex, 3));
         }
 
-        return ([.. builder._vertices], [.. builder._textureCoordinates], indices);
+        return ([.. builder._vertices], [.. builder._textureCoordinates], [.. builder._colours], indices);
     }
 
     private void AddFace(int face, Span<uint> indices)
@@ -90,6 +92,11 @@ internal sealed class DrawableMeshBuilder
             _textureCoordinates.Add((float)key.TextureCoordinates.V);
         }
 
+        if (!_mesh.Colours.IsEmpty)
+        {
+            WriteColour(position);
+        }
+
         return first;
     }
 
@@ -123,6 +130,17 @@ internal sealed class DrawableMeshBuilder
         var normal = new Vector(mesh.Normals[3 * index], mesh.Normals[(3 * index) + 1], mesh.Normals[(3 * index) + 2]);
         return normal.IsFinite() && normal != Vector.Zero ? normal.UnitVector() : Vector.Zero;
     }
+
+    private void WriteColour(int position)
+    {
+        var colours = _mesh.Colours.AsSpan(3 * position, 3);
+        var (red, green, blue) = new Colour(Limit(colours[0]), Limit(colours[1]), Limit(colours[2])).ToLinear();
+        _colours.Add((float)red);
+        _colours.Add((float)green);
+        _colours.Add((float)blue);
+    }
+
+    private static double Limit(double component) => Math.Clamp(component, 0, 1);
 
     private void Write(Vector v)
     {

@@ -44,6 +44,9 @@ public sealed class DrawableModel
     /// <summary>(u, v) of each vertex with v upwards, [vertices × 2]; empty where no material has a texture.</summary>
     public ReadOnlyMemory<float> TextureCoordinates { get; init; }
 
+    /// <summary>Colour of each vertex, linear light, [vertices × 3]; empty where the mesh has none.</summary>
+    public ReadOnlyMemory<float> Colours { get; init; }
+
     /// <summary>Number of the mesh's triangles that were removed since they have no area.</summary>
     public int DegenerateTriangleCount { get; init; }
 
@@ -52,6 +55,9 @@ public sealed class DrawableModel
 
     /// <summary>True where any batch is transparent, and drawn after the opaque ones.</summary>
     public bool HasTransparentBatches => Batches.Any(static batch => batch.IsTransparent);
+
+    /// <summary>True where what is behind shows through any batch, or through holes in it.</summary>
+    public bool IsSeeThrough => !Batches.All(static batch => batch.IsSolid);
 
     /// <summary>Maps from the mesh to the model by rows, [<see cref="InstanceCount"/> × 12].</summary>
     public ReadOnlyMemory<float> Instances { get; }

@@ -88,7 +88,9 @@ public sealed class DrawableScene
     private static DrawableObject CreateObject(PlacedModel placed, int index, DrawableModel model)
     {
         var declaration = placed.Declaration;
-        var colour = declaration.Colour ?? ObjectPalette.ColourOf(index);
+        // Colours of vertices are shown as they are, unless the scene gives the object one.
+        var ownColour = placed.Model.Mesh.Colours.IsEmpty ? ObjectPalette.ColourOf(index) : Colour.White;
+        var colour = declaration.Colour ?? ownColour;
         return new(declaration.Name ?? model.Name, model, placed.ObjectToWorld, colour)
         {
             Tint = declaration.Colour ?? Colour.White,

@@ -6,4 +6,8 @@ namespace FractalEngine.Render.Preparation;
 /// <param name="Name">Name of the file, for messages.</param>
 /// <param name="Image">Decoded pixels, sRGB.</param>
 /// <param name="IsTransparent">Whether any pixel is not fully opaque.</param>
-public sealed record DrawableTexture(string Name, PixelImage Image, bool IsTransparent);
+public sealed record DrawableTexture(string Name, PixelImage Image, bool IsTransparent)
+{
+    /// <summary>Whether many pixels are neither opaque nor invisible, so that a cut at half the opacity would look wrong.</summary>
+    public bool HasSoftOpacity { get; init; }
+}

@@ -115,14 +115,14 @@ internal sealed class FaceBatches
                 }
 
                 // A face without texture coordinates is drawn without the texture.
-                var hasTexture = fileMaterial is { Texture: not null } && HasTextureCoordinates(mesh, face);
+                var hasTexture = fileMaterial is { IsTextured: true } && HasTextureCoordinates(mesh, face);
                 if (!materialIndices.TryGetValue((fileMaterial?.Name, hasTexture), out var materialIndex))
                 {
                     materialIndex = materials.Count;
                     materialIndices.Add((fileMaterial?.Name, hasTexture), materialIndex);
                     materials.Add(fileMaterial is null
                         ? null
-                        : textures.GetMaterial(hasTexture ? fileMaterial : fileMaterial with { Texture = null }));
+                        : textures.GetMaterial(hasTexture ? fileMaterial : fileMaterial with { Texture = null, OpacityTexture = null }));
                 }
 
                 materialOfFace[face] = materialIndex;

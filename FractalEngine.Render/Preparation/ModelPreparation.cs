@@ -36,13 +36,13 @@ internal static class ModelPreparation
         var origin = CentreOrOrigin(model.Bounds);
         var meshOrigin = CentreOrOrigin(mesh.Bounds);
         var batches = FaceBatches.ByMaterial(model, textures, settings.RemoveDegenerateTriangles);
-        var (vertices, textureCoordinates, indices) = DrawableMeshBuilder.Build(mesh, meshOrigin, settings.CreaseAngle, batches);
+        var (vertices, textureCoordinates, colours, indices) = DrawableMeshBuilder.Build(mesh, meshOrigin, settings.CreaseAngle, batches);
         var testsSolidity = hierarchy is not null
             ? model is FractalModel || mesh.FaceCount <= MaxFacesForSolidTest
             : maps.Length >= MinInstancesForSolidTest;
-        // The inner sides of a solid are visible through transparent faces.
-        var hasTransparentBatches = batches.Batches.Any(static batch => batch.IsTransparent);
-        var meshWindingSign = testsSolidity && !hasTransparentBatches && ClosedSurface.IsSolid(mesh) ? 1 : 0;
+        // The inner sides of a solid are visible through transparent faces and holes.
+        var isSeeThrough = !batches.Batches.All(static batch => batch.IsSolid);
+        var meshWindingSign = testsSolidity && !isSeeThrough && ClosedSurface.IsSolid(mesh) ? 1 : 0;
         var instanceSign = hierarchy is null ? CommonOrientation(name, maps) : OrientationOfInstances(model);
         // The instances of a fractal with a hierarchy are selected for each frame.
         var instances = hierarchy is null || model is MeshModel ? ToInstanceRows(maps, meshOrigin, origin) : [];
@@ -51,6 +51,7 @@ internal static class ModelPreparation
             LodHierarchy = hierarchy,
             MeshOrigin = meshOrigin,
             TextureCoordinates = textureCoordinates,
+            Colours = colours,
             Batches = batches.Batches,
             DegenerateTriangleCount = batches.DegenerateTriangleCount,
             MeshWindingSign = meshWindingSign,
@@ -70,7 +71,7 @@ internal static class ModelPreparation
 
         var mesh = CreateBoxMesh(bounds);
         var batches = FaceBatches.SingleBatch(mesh);
-        var (vertices, _, indices) = DrawableMeshBuilder.Build(mesh, bounds.Centre, 0, batches);
+        var (vertices, _, _, indices) = DrawableMeshBuilder.Build(mesh, bounds.Centre, 0, batches);
         var instances = ToInstanceRows([AffineMap.Identity], bounds.Centre, bounds.Centre);
         return new(name, bounds.Centre, bounds, vertices, indices, instances) { Batches = batches.Batches, IsPlaceholder = true };
     }

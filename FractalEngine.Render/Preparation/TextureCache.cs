@@ -13,11 +13,18 @@ namespace FractalEngine.Render.Preparation;
 /// <param name="shareTextures">True to share textures between models; false to give each material of each model its own.</param>
 internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool shareTextures)
 {
+    // Each pair of images makes a texture: few files could fill the memory.
+    private const long MaxPixelsWithOpacity = 1L << 27;
+
     private readonly List<DrawableTexture> _decoded = [];
 
     // By path; null for a file that can't be decoded.
     private readonly Dictionary<string, DrawableTexture?> _textures = [];
+    // By the paths of the colours, null for none, and of the opacity; null where an image can't be decoded.
+    private readonly Dictionary<(string? Colour, string Opacity), DrawableTexture?> _texturesWithOpacity = [];
     private readonly Dictionary<Material, DrawableMaterial> _materials = [];
+    private readonly HashSet<string> _undecodable = [];
+    private long _pixelsWithOpacity;
 
     /// <summary>Textures that were decoded so far.</summary>
     public IReadOnlyList<DrawableTexture> Textures => _decoded;
@@ -28,6 +35,14 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
         if (shareTextures && _materials.TryGetValue(material, out var cached))
         {
             return cached;
+        }
+
+        if (material.OpacityTexture is { } opacity)
+        {
+            var combined = LoadWithOpacity(material.Texture?.Path, opacity.Path);
+            return _materials[material] = combined is null
+                ? GetMaterial(material with { OpacityTexture = null })
+                : new(material with { Texture = material.Texture ?? opacity }, combined);
         }
 
         var texture = material.Texture is { Path: var path } ? Load(path) : null;
@@ -43,31 +58,71 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
             return cached;
         }
 
-        try
-        {
-            var image = ImageFile.Load(path);
-            var texture = new DrawableTexture(Path.GetFileName(path), image, HasTransparentPixels(image));
-            _decoded.Add(texture);
-            return _textures[path] = texture;
-        }
-        catch (IOException exception)
-        {
-            notices.Add($"{path}:1:1: warning: the texture can't be decoded, drawn grey: {exception.Message}");
-            return _textures[path] = null;
-        }
+        return _textures[path] = Decode(path, "drawn grey") is { } image ? Add(path, image) : null;
     }
 
-    private static bool HasTransparentPixels(PixelImage image)
+    /// <summary>Returns the texture of an image of colours, or of white, with the opacity of another; null if it can't be made.</summary>
+    private DrawableTexture? LoadWithOpacity(string? colourPath, string opacityPath)
     {
-        // The alpha component is every fourth byte.
-        for (var i = 3; i < image.Pixels.Length; i += 4)
+        if (_texturesWithOpacity.TryGetValue((colourPath, opacityPath), out var cached) && (shareTextures || cached is null))
         {
-            if (image.Pixels[i] < byte.MaxValue)
+            return cached;
+        }
+
+        DrawableTexture? texture = null;
+        if (Decode(opacityPath, "drawn opaque") is { } opacity)
+        {
+            var colours = colourPath is null ? null : Decode(colourPath, "drawn grey");
+            if (colours is not null || colourPath is null)
             {
-                return true;
+                texture = TryCombine(colours, opacity, opacityPath);
             }
         }
 
-        return false;
+        return _texturesWithOpacity[(colourPath, opacityPath)] = texture;
+    }
+
+    private DrawableTexture? TryCombine(PixelImage? colours, PixelImage opacity, string opacityPath)
+    {
+        var size = colours ?? opacity;
+        _pixelsWithOpacity += (long)size.Width * size.Height;
+        if (_pixelsWithOpacity > MaxPixelsWithOpacity)
+        {
+            notices.Add(FormattableString.Invariant(
+                $"{opacityPath}:1:1: warning: textures with opacity have more than {MaxPixelsWithOpacity} pixels, drawn opaque"));
+            return null;
+        }
+
+        return Add(opacityPath, OpacityImage.Combine(colours, opacity));
+    }
+
+    private DrawableTexture Add(string path, PixelImage image)
+    {
+        var texture = new DrawableTexture(Path.GetFileName(path), image, OpacityImage.HasAlpha(image))
+        {
+            HasSoftOpacity = OpacityImage.IsSoft(image),
+        };
+        _decoded.Add(texture);
+        return texture;
+    }
+
+    /// <summary>Decodes an image file. Returns null, with one notice a file, if that fails.</summary>
+    private PixelImage? Decode(string path, string consequence)
+    {
+        if (_undecodable.Contains(path))
+        {
+            return null;
+        }
+
+        try
+        {
+            return ImageFile.Load(path);
+        }
+        catch (IOException exception)
+        {
+            notices.Add($"{path}:1:1: warning: the texture can't be decoded, {consequence}: {exception.Message}");
+            _undecodable.Add(path);
+            return null;
+        }
     }
 }

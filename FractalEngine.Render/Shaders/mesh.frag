@@ -1,6 +1,6 @@
 #version 330 core
-// The colour of the visible face. Front faces are wound clockwise on the screen, since the world is left-handed.
-// PER_PIXEL, TEXTURED, GLOSSY and FRONT_FACES_ONLY are defined where they apply.
+// The colour of the visible face. Front faces are wound clockwise on the screen in a left-handed scene, the other way in a right-handed one.
+// PER_PIXEL, TEXTURED, GLOSSY, FRONT_FACES_ONLY, CUT_OUT and EMISSIVE are defined where they apply.
 
 #include "material.glsl"
 #ifdef PER_PIXEL
@@ -70,8 +70,18 @@ void main()
     // A hole in the texture is a hole in the surface and has no highlight. Clear glass, by its opacity, keeps its highlight.
     vec4 texel = texture(surfaceTexture, pixelTextureCoordinates);
     colour *= texel.rgb;
+#ifdef CUT_OUT
+    if (texel.a < 0.5)
+    {
+        discard;
+    }
+#else
     opacity *= texel.a;
     highlights *= texel.a;
+#endif
+#endif
+#ifdef EMISSIVE
+    colour += material[4].rgb;
 #endif
     fragment = vec4(colour * opacity + highlights, opacity);
 }

@@ -1,6 +1,6 @@
 #version 330 core
 // One vertex of one instance: projected by map(v) = axes^-1 * (v - position), and lit by all lights on both faces, unless pixels are lit.
-// PER_PIXEL, TEXTURED, GLOSSY, CAMERA_RELATIVE and FRONT_FACES_ONLY are defined where they apply.
+// PER_PIXEL, TEXTURED, GLOSSY, CAMERA_RELATIVE, FRONT_FACES_ONLY and VERTEX_COLOURS are defined where they apply.
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -10,6 +10,9 @@ layout(location = 4) in vec4 instanceRow2;
 layout(location = 5) in float tint;  // from the object's colour to the other end of its gradient; 0 without a gradient
 #ifdef TEXTURED
 layout(location = 6) in vec2 textureCoordinates;
+#endif
+#ifdef VERTEX_COLOURS
+layout(location = 7) in vec3 vertexColour; // linear light
 #endif
 
 layout(std140) uniform ObjectBlock
@@ -74,6 +77,9 @@ void main()
 #endif
 
     vec3 surface = mix(mix(colour.rgb, gradientEnd.rgb, tint), material[0].rgb, material[2].w);
+#ifdef VERTEX_COLOURS
+    surface *= vertexColour;
+#endif
 #ifdef TEXTURED
     // Textures are stored from the top, texture coordinates count from the bottom.
     vec2 scaledCoordinates = textureCoordinates * material[3].xy + material[3].zw;

@@ -85,6 +85,37 @@ public sealed class MaterialTests : IDisposable
         AssertLinear(Linear(200 / 255.0), image[100, 100].Blue);
     }
 
+    [SkippableTheory]
+    [InlineData(Shading.PerVertex)]
+    [InlineData(Shading.PerPixel)]
+    public void VertexColours_AreMultipliedInLinearLight(Shading shading)
+    {
+        var (red, green) = (new Colour(1, 0.25, 0.5), new Colour(0.5, 1, 0));
+        var colours = (Colour[])[red, green, red, green];
+        var texture = _scenes.CreateTexture("even.png", 4, 4, (_, _) => (200, 200, 200, 255));
+        var plain = TexturedScenes.TexturedSquare(1).WithColours([.. colours.SelectMany(c => (double[])[c.Red, c.Green, c.Blue])]);
+        foreach (var material in (Material?[])[null, new("m") { Diffuse = new(0.5, 1, 1) }, new("m") { Texture = texture }])
+        {
+            var model = material is null ? RenderScenes.Model(plain) : TexturedScenes.WithMaterial(plain, material);
+            var image = Draw(RenderScenes.Scene(FullLightOnBlack, (model, Transformation.Identity, null)), shading);
+            var surface = material is null ? 1 : material.Texture is null ? Linear(0.5) : Linear(200 / 255.0);
+            // A quarter and three quarters of the way from the left to the right edge.
+            AssertLinear(surface * ((0.75 * 1) + (0.25 * Linear(0.5))), image[50, 100].Red);
+            AssertLinear(surface * ((0.25 * 1) + (0.75 * Linear(0.5))), image[150, 100].Red);
+        }
+    }
+
+    [SkippableFact]
+    public void VertexColours_OfAFractalBeyondTheRange_AreLimitedAndTinted()
+    {
+        var mesh = RenderScenes.Square(1).WithColours([2, -1, 0.5, 2, -1, 0.5, 2, -1, 0.5, 2, -1, 0.5]);
+        var set = new TransformationSet([Transformation.Identity with { Scale = new(0.5, 0.5, 0.5) }]);
+        var fractal = new FractalModel(new(new([set]), mesh)) { SourcePath = "f.fdo" };
+        var image = Draw(
+            RenderScenes.Scene(FullLightOnBlack, (fractal, Transformation.Identity, new Colour(0.5, 1, 1))), Shading.PerVertex);
+        AssertNear((128, 0, 128, 255), image[100, 100]);
+    }
+
     [SkippableFact]
     public void Texture_Undecodable_IsGreyWithANotice()
     {
@@ -293,6 +324,77 @@ public sealed class MaterialTests : IDisposable
         var image = RenderScenes.Draw(scene, Square, 200, 200);
         AssertNear((0, 0, 255, 255), image[100, 100]);
         AssertLinear(0.5, image[20, 20].Red);
+    }
+
+    [SkippableTheory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void OpacityTexture_WithSharpEdges_CutsOutInAnyOrder(bool hasColours)
+    {
+        // The left half is a hole, given by lightness. The nearer leaf is drawn first, and must not hide the farther one behind its hole.
+        var opacity = _scenes.CreateTexture("leaf.png", 16, 16, (x, _) => x < 8 ? ((byte)0, (byte)0, (byte)0, byte.MaxValue)
+            : (byte.MaxValue, byte.MaxValue, byte.MaxValue, byte.MaxValue));
+        var colours = hasColours ? _scenes.CreateTexture("green.png", 4, 4, (_, _) => (0, 255, 0, 255)) : null;
+        var leaf = TexturedScenes.CreateSquare(1, new("leaf")
+        {
+            Diffuse = new(0, 1, 0), Texture = colours, OpacityTexture = opacity, Specular = Colour.White,
+        });
+        var wall = TexturedScenes.CreateSquare(1, new("wall") { Diffuse = new(0, 0, 1) });
+        var scene = RenderScenes.Scene(
+            FullLightOnBlack, (leaf, RenderScenes.TranslatedTo(0, 0, -1), null), (leaf, RenderScenes.TranslatedTo(-1, 0, 0), null),
+            (wall, RenderScenes.TranslatedTo(0, 0, 1), null));
+        var drawable = DrawableScene.Prepare(scene, new());
+        Assert.True(drawable.Models[0].Batches[0].Material is { IsCutOut: true, IsTransparent: false });
+        Assert.True(drawable.Models[0] is { HasTransparentBatches: false, IsSeeThrough: true });
+        var image = RenderScenes.Draw(scene, Square, 200, 200);
+        AssertNear((0, 255, 0, 255), image[150, 100]);
+        AssertNear((0, 255, 0, 255), image[50, 100]); // the farther leaf, whose own hole is beyond the left edge
+        var far = RenderScenes.Scene(
+            FullLightOnBlack, (leaf, RenderScenes.TranslatedTo(0, 0, -1), null), (wall, RenderScenes.TranslatedTo(0, 0, 1), null));
+        AssertNear((0, 0, 255, 255), RenderScenes.Draw(far, Square, 200, 200)[50, 100]);
+    }
+
+    [SkippableTheory]
+    [InlineData(1)]
+    [InlineData(0.5)]
+    public void OpacityTexture_ThatIsSoft_Blends(double opacity)
+    {
+        // An opacity of 128 of 255 by the alpha of the image, whose colours don't count.
+        var soft = _scenes.CreateTexture("smoke.png", 4, 4, (_, _) => (255, 0, 0, 128));
+        var smoke = TexturedScenes.CreateSquare(1, new("smoke") { OpacityTexture = soft, Opacity = opacity });
+        var scene = RenderScenes.Scene(FullLightOnBlack, (smoke, Transformation.Identity, null));
+        Assert.True(DrawableScene.Prepare(scene, new()).Models[0].HasTransparentBatches);
+        AssertLinear(opacity * 128 / 255, RenderScenes.Draw(scene, Square, 200, 200)[100, 100].Green);
+    }
+
+    [SkippableFact]
+    public void OpacityTexture_Undecodable_IsOpaqueWithANotice()
+    {
+        var broken = _scenes.CreateBrokenTexture("broken.png");
+        var model = TexturedScenes.CreateSquare(1, new("m") { OpacityTexture = broken });
+        var scene = RenderScenes.Scene(FullLightOnBlack, (model, Transformation.Identity, null));
+        Assert.StartsWith(
+            $"{broken.Path}:1:1: warning: the texture can't be decoded, drawn opaque: ",
+            Assert.Single(DrawableScene.Prepare(scene, new()).Notices), StringComparison.Ordinal);
+        AssertNear((255, 255, 255, 255), RenderScenes.Draw(scene, Square, 200, 200)[100, 100]);
+    }
+
+    [SkippableTheory]
+    [InlineData(Shading.PerVertex)]
+    [InlineData(Shading.PerPixel)]
+    public void Emission_IsAddedToTheLight_AlsoInTheDark(Shading shading)
+    {
+        var glowing = TexturedScenes.CreateSquare(1, new("m") { Diffuse = new(0.5, 0.5, 0.5), Emission = new(0.25, 0, 7) });
+        foreach (var intensity in (double[])[0, 1])
+        {
+            var scene = RenderScenes.Scene(
+                new() { Lights = [new AmbientLight(Colour.White, intensity)], Background = Colour.Black },
+                (glowing, Transformation.Identity, null));
+            var (red, green, blue, _) = Draw(scene, shading)[100, 100];
+            AssertLinear((intensity * Linear(0.5)) + 0.25, red);
+            AssertLinear(intensity * Linear(0.5), green);
+            Assert.Equal(255, blue);
+        }
     }
 
     [SkippableFact]

@@ -20,6 +20,40 @@ public class CameraNavigationTests
     }
 
     [Fact]
+    public void Controls_OfARightHandedCamera_AreThoseOfTheMirroredLeftHandedOne() => Seeded.Run(100, random =>
+    {
+        Vector Mirror(Vector v) => Handedness.Right.Mirror(v);
+        Camera MirrorCamera(Camera c) => c with { Handedness = Handedness.Right, Position = Mirror(c.Position) };
+        var left = RandomLevelCamera(random);
+        var right = MirrorCamera(left);
+        var pivot = random.Vector(10);
+        var (yaw, pitch) = (random.Between(-1, 1), random.Between(-0.3, 0.3));
+        // The same operations on the same numbers but for signs.
+        Assert.Equal(MirrorCamera(CameraNavigation.Turn(left, yaw, pitch)), CameraNavigation.Turn(right, yaw, pitch));
+        AssertNear(MirrorCamera(CameraNavigation.Orbit(left, pivot, yaw, pitch)),
+            CameraNavigation.Orbit(right, Mirror(pivot), yaw, pitch));
+        AssertNear(MirrorCamera(CameraNavigation.Move(left, new(1, 2, 3))), CameraNavigation.Move(right, new(1, 2, 3)));
+        AssertNear(MirrorCamera(CameraNavigation.Zoom(left, pivot, 0.5)), CameraNavigation.Zoom(right, Mirror(pivot), 0.5));
+    });
+
+    [Theory]
+    [InlineData(Handedness.Left)]
+    [InlineData(Handedness.Right)]
+    public void Turn_ToTheRightAndUp_MovesThingsToTheLeftAndDown(Handedness handedness)
+    {
+        var camera = Camera.Default with { Handedness = handedness };
+        var ahead = camera.Position + camera.LocalAxes.V3;
+        var (right, up, _) = CameraNavigation.Turn(camera, 0.1, 0.1).ToCameraSpace(ahead);
+        Assert.True(right < 0 && up < 0, $"{right} {up}");
+    }
+
+    private static void AssertNear(Camera expected, Camera actual)
+    {
+        Near.Equal(expected.Position, actual.Position, 1e-13 * (1 + expected.Position.MaxAbsComponent()));
+        Assert.Equal((expected.Rotation, expected.Handedness), (actual.Rotation, actual.Handedness));
+    }
+
+    [Fact]
     public void Turn_ToTheRight_RotatesEveryAxisAboutTheWorldsUp() => Seeded.Run(100, random =>
     {
         var camera = RandomLevelCamera(random);

@@ -39,6 +39,26 @@ public class CameraTests
     });
 
     [Fact]
+    public void RightHanded_WithoutRotation_LooksAlongMinusZ()
+    {
+        var camera = new Camera(new(0, 0, 5), Vector.Zero, 60) { Handedness = Handedness.Right };
+        Assert.Equal(new(2, 3, 4), camera.ToCameraSpace(new(2, 3, 1)));
+        Assert.Equal(-Vector.K, camera.LocalAxes.V3);
+    }
+
+    [Fact]
+    public void RightHanded_OfAnyPoint_SeesTheMirroredOneOfTheLeftHandedCamera() => Seeded.Run(100, random =>
+    {
+        var camera = new Camera(random.Vector(10), random.Vector(4), 60);
+        var point = random.Vector(10);
+        var mirrored = camera with { Handedness = Handedness.Right, Position = Handedness.Right.Mirror(camera.Position) };
+        Near.Equal(camera.ToCameraSpace(point), mirrored.ToCameraSpace(Handedness.Right.Mirror(point)), 1e-13);
+        Near.Equal(-1, mirrored.LocalAxes.Determinant(), 1e-13);
+        Assert.Equal(camera.Rotation, mirrored.Rotation);
+        Assert.Equal(camera, (mirrored with { Handedness = Handedness.Left }) with { Position = camera.Position });
+    });
+
+    [Fact]
     public void Rotation_ChangedInACopy_ChangesItsAxes()
     {
         var turned = Camera.Default with { Rotation = new(0.1, 0.2, 0.3) };

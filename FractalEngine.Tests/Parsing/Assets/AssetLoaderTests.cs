@@ -27,6 +27,20 @@ public sealed class AssetLoaderTests : IDisposable
     }
 
     [Fact]
+    public void Load_OfAMeshAlone_IsRightHandedAndAllElseLeftHanded()
+    {
+        var mesh = AssetLoader.Load(_folder.Write("a.obj", Triangle)).Scene;
+        var fractal = AssetLoader.Load(_folder.Write("f.fdo", "<$>. \"a.obj\"")).Scene;
+        var scene = AssetLoader.Load(_folder.Write("s.sdo", "o \"a.obj\" #")).Scene;
+        Assert.Equal(
+            (Handedness.Right, Handedness.Left, Handedness.Left),
+            (mesh.Scene.Handedness, fractal.Scene.Handedness, scene.Scene.Handedness));
+        // Only the image differs: positions and queries are the file's own.
+        Assert.Equal(scene.Bounds, mesh.Bounds);
+        Assert.Equal(scene.Objects[0].ObjectToWorld, mesh.Objects[0].ObjectToWorld);
+    }
+
+    [Fact]
     public void Load_OfAppendixB_CountsItsFacesAndTheBytesOfBothFiles()
     {
         _folder.Write("FractalBase.obj", Triangle);

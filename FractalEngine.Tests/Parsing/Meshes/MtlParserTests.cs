@@ -24,7 +24,9 @@ public class MtlParserTests
             d 0.25
             illum 2
             Ni 1.45
+            Ke 0 0.5 2
             map_Kd wood.png
+            map_d -clamp on holes.png
             """);
         Assert.Empty(file.Warnings);
         Assert.Equal(
@@ -35,7 +37,9 @@ public class MtlParserTests
                 Specular = new(0.7, 0.8, 0.9),
                 SpecularExponent = 96.5,
                 Opacity = 0.25,
+                Emission = new(0, 0.5, 2),
                 Texture = new("wood.png"),
+                OpacityTexture = new("holes.png") { IsClamped = true },
             },
             file.Materials["red paint"]);
     }
@@ -179,7 +183,7 @@ public class MtlParserTests
     [Theory]
     [InlineData("")]
     [InlineData("\n\n# Blender\n")]
-    [InlineData("illum\nKe 1\ndisp -bm 2 x.png\nmap_d -foo\n$ 1\n123\nrefl -")]
+    [InlineData("illum\nmap_Ks -foo\ndisp -bm 2 x.png\n$ 1\n123\nrefl -")]
     public void File_WithoutMaterials_IsEmptyWithoutAWarning(string text)
     {
         var file = Parse(text);
@@ -197,7 +201,8 @@ public class MtlParserTests
     {
         var text =
             new System.Text.StringBuilder(
-                "newmtl a\nKd 1 1 1\nKa 0 0 0\nKs 1 1 1\nNs 10\nd 1\nTr 0\nmap_Kd -clamp on -o 1 1 -s 2 a b.png # c\nillum 2\n");
+                "newmtl a\nKd 1 1 1\nKa 0 0 0\nKs 1 1 1\nNs 10\nd 1\nTr 0\nmap_Kd -clamp on -o 1 1 -s 2 a b.png # c\n"
+                + "map_d -o 1 d.png\nKe 1 1 1\n");
         for (var change = random.Next(1, 6); change > 0; change--)
         {
             const string characters = "\0\t\n\r #,-.019\\KTadesmnpw_§\uD83D";
@@ -211,6 +216,8 @@ public class MtlParserTests
 
         var file = Parse(text.ToString());
         Assert.All(file.Warnings, warning => Assert.Matches(@"^test\.mtl:[1-9]\d*:[1-9]\d*: warning: \S", warning.ToString()));
+        Assert.All(file.Materials.Values,
+            material => Assert.True(material.OpacityTexture is null || file.OpacityTextureNameOffsets.ContainsKey(material.Name)));
         Assert.All(file.Materials.Values,
             material => Assert.True(material.Texture is null || file.TextureNameOffsets.ContainsKey(material.Name)));
         Assert.All(file.Materials.Values, material => Assert.InRange(material.Opacity, 0, 1));

@@ -65,6 +65,11 @@ public class ObjMeshWriterTests
         var vertexCount = random.Next(1, 20);
         var corners = 3 * random.Next(0, 12);
         var mesh = new Mesh(Numbers(random, 3 * vertexCount), Indices(random, corners, 0, vertexCount));
+        if (random.Next(2) == 0)
+        {
+            mesh = mesh.WithColours(Numbers(random, 3 * vertexCount));
+        }
+
         if (corners > 0 && random.Next(2) == 0)
         {
             var count = random.Next(1, 5);

@@ -72,6 +72,26 @@ public class ObjParserTests
             Assert.Single(file.Warnings).ToString());
     }
 
+    [Theory]
+    [InlineData("v 0 0 0\nv 1 0 0\n", new double[0])]
+    [InlineData("v 0 0 0 0.5\n", new double[0])] // a weight
+    [InlineData("v 0 0 0 0.5 0.5\nv 0 0 0 1 2 3 4 5\nv 0 0 0 1 2 3 4 5 6\n", new double[0])] // of no known meaning
+    [InlineData("v 0 0 0 0.25 0.5 1\n", new[] { 0.25, 0.5, 1 })]
+    [InlineData("v 0 0 0 7 .25 0.5 1 # with a weight\r\n", new[] { 0.25, 0.5, 1 })]
+    [InlineData("v 0 0 0\nv 0 0 0 0.25 0.5 0\nv 0 0 0\nv 0 0 0 1\n", new[] { 1, 1, 1, 0.25, 0.5, 0, 1, 1, 1, 1, 1, 1 })]
+    [InlineData("v 0 0 0 \\\n 0.25 0.5 1\n", new[] { 0.25, 0.5, 1 })]
+    public void Colours_OfVertices_AreKeptAndWhiteWhereMissing(string lines, double[] colours) =>
+        Assert.Equal(colours, Parse(lines).Colours);
+
+    [Fact]
+    public void Colours_OfOneBlockOfMany_AreThoseOfItsVertices()
+    {
+        var plain = string.Concat(Enumerable.Repeat("v 1 2 3\n", 1000));
+        var colours = Parse(plain + "v 1 2 3 0 0.5 0\n" + plain).Colours;
+        Assert.Equal((6003, 0, 0.5, 0), (colours.Length, colours[3000], colours[3001], colours[3002]));
+        Assert.Equal(6000, colours.Count(component => component == 1));
+    }
+
     [Fact]
     public void NegativeNumbers_CountBackFromTheirOwnLine() =>
         Assert.Equal([0, 1, 2, 1, 2, 3], Parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 0 1 0\nf -3 -2 -1").VertexIndices.ToArray());

@@ -54,6 +54,19 @@ public class PlyReaderTests
     }
 
     [Theory]
+    [InlineData("uchar", "255 0 51", "0 255 0", "0 0 255", 0.2)]
+    [InlineData("ushort", "65535 0 13107", "0 65535 0", "0 0 65535", 0.2)]
+    [InlineData("float", "1 0 0.2", "0 1 0", "0 0 1", 0.2f)]
+    public void Colours_OfVertices_CountFromZeroToOne(string type, string first, string second, string third, double blue)
+    {
+        var header = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+            + $"property {type} red\nproperty {type} green\nproperty {type} blue\n" + Faces;
+        var mesh = Parse(Text(header, $"0 0 0 {first}\n1 0 0 {second}\n0 1 0 {third}\n3 0 1 2\n"));
+        double[] expected = [1, 0, blue, 0, 1, 0, 0, 0, 1];
+        Assert.Equal(expected, mesh.Colours);
+    }
+
+    [Theory]
     [InlineData(false)]
     [InlineData(true)]
     public void Binary_OfAllTypes_HasTheirValues(bool isBigEndian)

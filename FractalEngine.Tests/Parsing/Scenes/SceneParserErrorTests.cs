@@ -29,7 +29,7 @@ public class SceneParserErrorTests
     [Fact]
     public void Keyword_Unknown_ListsTheKnownOnes() => FailsAt(
         "x \"a.obj\" #", 1,
-        "unexpected 'x', expected 'c', 'o', 'p', 'projection', 'aspect', 'clip', 'background', 'light', 'gravity' or 'player'");
+        "unexpected 'x', expected 'c', 'o', 'p', 'handed', 'projection', 'aspect', 'clip', 'background', 'light', 'gravity' or 'player'");
 
     [Theory]
     [InlineData("c (1, 2, 3) (4, 5, 6)", 22, "unexpected end of file, expected a number")]
@@ -50,6 +50,7 @@ public class SceneParserErrorTests
     [InlineData("p \"a.obj\" # 1.5", 13, "the coefficient of restitution must lie between 0 and 1")]
     [InlineData("p \"a.obj\" # -0.5", 13, "the coefficient of restitution must lie between 0 and 1")]
     [InlineData("p \"a.obj\" # 1 mass 0", 20, "the mass must be positive")]
+    [InlineData("handed up", 8, "unexpected 'up', expected 'left' or 'right'")]
     [InlineData("projection fisheye", 12, "unexpected 'fisheye', expected 'perspective' or 'orthographic'")]
     [InlineData("projection orthographic 0", 25, "the visible height must be positive")]
     [InlineData("aspect 0", 8, "the aspect ratio must lie between 1:100 and 100:1")]
@@ -130,6 +131,7 @@ public class SceneParserErrorTests
 
     [Theory]
     [InlineData("c # # 60")]
+    [InlineData("handed right")]
     [InlineData("projection perspective")]
     [InlineData("aspect 1")]
     [InlineData("clip 1 2")]

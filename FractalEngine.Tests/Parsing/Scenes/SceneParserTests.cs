@@ -127,6 +127,17 @@ public class SceneParserTests
     }
 
     [Theory]
+    [InlineData("c (1, 2, 3) # 60", Handedness.Left)]
+    [InlineData("handed left\nc (1, 2, 3) # 60", Handedness.Left)]
+    [InlineData("handed right\nc (1, 2, 3) # 60", Handedness.Right)]
+    [InlineData("c (1, 2, 3) # 60\n handed  right ", Handedness.Right)]
+    public void Handedness_IsReadAndIsThatOfTheCamera(string text, Handedness handedness)
+    {
+        Assert.Equal((handedness, handedness), (Parse(text).Handedness, Parse(text).Camera!.Handedness));
+        Assert.Equal(new(1, 2, 3), Parse(text).Camera!.Position);
+    }
+
+    [Theory]
     [InlineData("projection perspective", Projection.Perspective, null)]
     [InlineData("projection orthographic", Projection.Orthographic, null)]
     [InlineData("projection orthographic 7.5", Projection.Orthographic, 7.5)]

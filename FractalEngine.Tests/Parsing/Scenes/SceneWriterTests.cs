@@ -94,6 +94,7 @@ public class SceneWriterTests
                 StepHeightOverride = (given & 512) == 0 ? null : sizes,
             },
             Aspect = (given & 3) == 0 ? null : 0.01 + colour.Red,
+            Handedness = (given & 5) == 0 ? Handedness.Right : Handedness.Left,
         };
 
     private static ParsedScene Parse(string text) => SceneParser.Parse(new("test.sdo", text));
@@ -119,6 +120,7 @@ public class SceneWriterTests
     [InlineData("p \"a.obj\" # 0.5 friction 0.5 damping 0.25 shrink 0.1 0.2 collider simple")]
     [InlineData("p \"a.obj\" # 0.5 shrink 0.1")]
     [InlineData("p \"a.obj\" # 0.5 shrink 0 0.5")]
+    [InlineData("handed right")]
     [InlineData("player (0, 0, 0) 0.3 1.8")]
     [InlineData("player (0, 0, 0) 0.3 1.8 speed 4.5 jump 3 slope 45 step 0")]
     public void Write_OfBodiesAndThePlayer_StatesAllButDefaults(string line)
@@ -152,6 +154,17 @@ public class SceneWriterTests
         var written = SceneWriter.Write(original.Scene with { Camera = new(new(0.1, -0.0, 7), new(1, 2, 3), 45) }, original);
         Assert.Equal(original.Source.Text.Replace("c   (1,2,3)   (0,0,0)   60", "c (0.1, -0, 7) (1, 2, 3) 45", StringComparison.Ordinal),
             written);
+    }
+
+    [Theory]
+    [InlineData("handed  left\no \"a.obj\" #\n", Handedness.Left, "handed  left\no \"a.obj\" #\n")]
+    [InlineData("handed  left\no \"a.obj\" #\n", Handedness.Right, "handed right\no \"a.obj\" #\n")]
+    [InlineData("handed  right\no \"a.obj\" #\n", Handedness.Right, "handed  right\no \"a.obj\" #\n")]
+    [InlineData("handed right\no \"a.obj\" #\n", Handedness.Left, "o \"a.obj\" #\n")]
+    public void Write_WithAnotherHandedness_ChangesOnlyItsLine(string text, Handedness handedness, string expected)
+    {
+        var original = Parse(text);
+        Assert.Equal(expected, SceneWriter.Write(original.Scene with { Handedness = handedness }, original));
     }
 
     [Theory]
