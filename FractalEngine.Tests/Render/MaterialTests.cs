@@ -354,6 +354,20 @@ public sealed class MaterialTests : IDisposable
         AssertNear((0, 0, 255, 255), RenderScenes.Draw(far, Square, 200, 200)[50, 100]);
     }
 
+    [SkippableFact]
+    public void OpacityTexture_WithAHole_HidesNothingBehindIt()
+    {
+        var opacity = _scenes.CreateTexture("hole.png", 16, 16, (x, _) => (255, 255, 255, (byte)(x < 8 ? 0 : 255)));
+        var leaf = TexturedScenes.CreateSquare(1, new("leaf") { Diffuse = new(0, 1, 0), OpacityTexture = opacity });
+        var scene = RenderScenes.Scene(
+            FullLightOnBlack, (leaf, RenderScenes.TranslatedTo(0, 0, -2), null), (RenderScenes.Menger(3), Transformation.Identity, null));
+        var culled = RenderScenes.Draw(scene, Square, 200, 200, new() { Culling = new() { MinProjectedSize = 1e-9 } });
+        var whole = RenderScenes.Draw(scene, Square, 200, 200, new() { Culling = null });
+        Assert.Equal(whole.Pixels, culled.Pixels);
+        AssertNear((0, 255, 0, 255), culled[150, 100]);
+        Assert.NotEqual(0, culled[3, 3].Red);
+    }
+
     [SkippableTheory]
     [InlineData(1)]
     [InlineData(0.5)]

@@ -141,6 +141,7 @@ public class ObjMeshWriterTests
     public void Write_OfWhatTheFormatCannotHold_IsRefused()
     {
         Fails("a texture coordinate is not finite", Samples.Triangle.WithTextureCoordinates([1, 1.0 / 0], [0, 0, 0]));
+        Fails("a component of a colour is not finite", Samples.Triangle.WithColours([0, 0, 0, 0, 0, 0, 0, 0, double.NaN]));
         Fails("a component of a normal is not finite", Samples.Triangle.WithNormals([1, -1.0 / 0, 0], [0, 0, 0]));
         Fails("no face uses the texture coordinates", Samples.Triangle.WithTextureCoordinates([1, 1], [-1, -1, -1]));
         Fails("no face uses the normals", Samples.Triangle.WithNormals([1, 1, 1], [-1, -1, -1]));

@@ -109,6 +109,17 @@ public class ObjWriterTests
     }
 
     [Fact]
+    public void Write_OfColours_KeepsThem()
+    {
+        var mesh = Samples.Triangle.WithColours([1, 0, 0, 0, 0.25, 0, 0, 0, 1.0 / 3]);
+        var written = WriteAndParse(Scene(
+            (Model(new(Samples.Repeated(1, Samples.Move(1, 0, 0), Samples.Move(2, 0, 0)).Description, mesh)), Transformation.Identity),
+            (Model(Samples.Repeated(0, Samples.Move(1, 0, 0))), Transformation.Identity)));
+        // Vertices of a mesh without colours are white.
+        Assert.Equal([.. mesh.Colours, .. mesh.Colours, .. Enumerable.Repeat(1.0, 12)], written.Colours.ToArray());
+    }
+
+    [Fact]
     public void Write_StartsWithTheMeshCount()
     {
         var fractal = Samples.Repeated(2, Samples.Move(1, 0, 0), Samples.Move(0, 7, 0));
