@@ -9,6 +9,15 @@ public static class ParsingLimits
     /// <summary>Largest size of a scene or fractal file in bytes: 16 MiB, far beyond what anyone writes.</summary>
     public const long MaxDescriptionBytes = 1L << 24;
 
+    /// <summary>Largest number of transformations in all sets of a fractal file: about 50 MB.</summary>
+    public const int MaxMaps = 200_000;
+
+    /// <summary>Largest number of named objects and transformations of a fractal file: about 50 MB.</summary>
+    public const int MaxNames = 150_000;
+
+    /// <summary>Largest number of steps that all recursives of a fractal file repeat: 8 MB.</summary>
+    public const int MaxRepeatedSteps = 1_000_000;
+
     /// <summary>Largest size of a material file in bytes: 16 MiB.</summary>
     public const long MaxMaterialBytes = 1L << 24;
 
@@ -21,6 +30,6 @@ public static class ParsingLimits
     /// <summary>Largest number of pixels in all images that one loaded file refers to, directly or not: 512 MiB when decoded.</summary>
     public const long MaxTotalImagePixels = 1L << 27;
 
-    /// <summary>Largest number of corners of one polygon. Ear clipping is quadratic at worst: half a second at this limit.</summary>
+    /// <summary>Largest number of corners of one polygon. Cutting it takes a time that is quadratic at worst.</summary>
     public const int MaxPolygonCorners = 20_000;
 }

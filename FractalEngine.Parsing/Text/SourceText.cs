@@ -7,6 +7,9 @@ public sealed class SourceText
 {
     private static readonly UTF8Encoding StrictUtf8 = new(encoderShouldEmitUTF8Identifier: false, throwOnInvalidBytes: true);
 
+    // Many errors of one text come in order: each search goes on where the last one ended.
+    private LineStartPosition? _lastLine;
+
     /// <summary>Wraps a text that need not come from a file.</summary>
     /// <param name="fileName">Name of the file in messages.</param>
     /// <param name="text">Characters without a byte order mark.</param>
@@ -126,7 +129,7 @@ public sealed class SourceText
     /// <param name="offset">Characters before the position; positions behind the end count as the end.</param>
     /// <param name="message">One line of text without a full stop.</param>
     /// <param name="severity">Severity of the diagnostic.</param>
-    /// <remarks>Searches the text for the line: O(offset).</remarks>
+    /// <remarks>Searches the text for the line from the last one that was found: O(offset), but linear for all errors in order.</remarks>
     public Diagnostic Diagnose(int offset, string message, DiagnosticSeverity severity = DiagnosticSeverity.Error)
     {
         offset = Math.Min(offset, Text.Length);
@@ -146,9 +149,10 @@ public sealed class SourceText
 
     private int FindLine(int offset, out int lineStart)
     {
-        var line = FirstLine;
-        lineStart = 0;
-        for (var i = 0; i < offset; i++)
+        var known = _lastLine is { } last && last.LineStart <= offset ? last : new(FirstLine, 0);
+        var line = known.Line;
+        lineStart = known.LineStart;
+        for (var i = lineStart; i < offset; i++)
         {
             // A line ends with \n, \r\n or, on old systems, \r alone.
             if (Text[i] == '\n' || (Text[i] == '\r' && !(i + 1 < Text.Length && Text[i + 1] == '\n')))
@@ -158,8 +162,12 @@ public sealed class SourceText
             }
         }
 
+        _lastLine = new(line, lineStart);
         return line;
     }
+
+    /// <summary>The start of a line.</summary>
+    private sealed record LineStartPosition(int Line, int LineStart);
 
     private static FileStream Open(string path, string fileName, long maxBytes)
     {
