@@ -1,3 +1,5 @@
+using System.Collections.Concurrent;
+
 namespace FractalEngine.Parsing.Assets;
 
 /// <summary>
@@ -11,6 +13,8 @@ public sealed class AssetFolder
 
     // As Linux. The links of a path are counted together: links through links could double their number each time.
     private const int MaxLinks = 40;
+
+    private readonly ConcurrentDictionary<string, string> _resolvedFolders = new();
 
     private AssetFolder(string path) => Path = path;
 
@@ -37,10 +41,24 @@ public sealed class AssetFolder
     /// <param name="file">Full path of the file, which need not exist.</param>
     public bool Contains(string file)
     {
-        var relative = System.IO.Path.GetRelativePath(Path, ResolveLinks(file));
+        var relative = System.IO.Path.GetRelativePath(Path, ResolveFile(file));
         return !System.IO.Path.IsPathRooted(relative)
             && relative != ".."
             && !relative.StartsWith(".." + System.IO.Path.DirectorySeparatorChar, StringComparison.Ordinal);
+    }
+
+    /// <summary>Resolves the folder of a file once for all its files.</summary>
+    private string ResolveFile(string file)
+    {
+        var fullPath = System.IO.Path.GetFullPath(file);
+        if (System.IO.Path.GetDirectoryName(fullPath) is not { } folder)
+        {
+            return fullPath;
+        }
+
+        var inFolder = System.IO.Path.Combine(
+            _resolvedFolders.GetOrAdd(folder, ResolveLinks), System.IO.Path.GetFileName(fullPath));
+        return new FileInfo(inFolder).LinkTarget is null ? inFolder : ResolveLinks(inFolder);
     }
 
     private static string ResolveLinks(string path)

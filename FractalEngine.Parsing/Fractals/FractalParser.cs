@@ -138,6 +138,7 @@ public sealed partial class FractalParser : Parser
         }
 
         RequireLevelLimit(value.Steps.LevelCount, cursor);
+        RequireDigitLimit(value.Steps, cursor);
         _result = (value, cursor.Offset);
         return true;
     }
@@ -297,6 +298,14 @@ public sealed partial class FractalParser : Parser
         if (levelCount > FractalLimits.MaxLevels)
         {
             throw Error(cursor, $"the fractal has more than the limit of {FractalLimits.MaxLevels} levels", isLimitExceeded: true);
+        }
+    }
+
+    private void RequireDigitLimit(DeclaredSteps steps, Cursor cursor)
+    {
+        if (FractalSteps.EstimateDigits(steps.Take(steps.Count)) > FractalLimits.MaxDigits)
+        {
+            throw Error(cursor, $"the number of instances has more than the limit of {FractalLimits.MaxDigits} digits", isLimitExceeded: true);
         }
     }
 

@@ -1,4 +1,5 @@
 using System.Text;
+using FractalEngine.Core.Files;
 
 namespace FractalEngine.Parsing.Text;
 
@@ -176,7 +177,8 @@ public sealed class SourceText
             throw new SourceException(fileName, "this is a directory, expected a file");
         }
 
-        if (new FileInfo(path) is { Exists: true, Length: 0 } && IsPipe(path))
+        // Opening a pipe waits for a writer, perhaps for ever.
+        if (FileTypes.IsSpecial(path))
         {
             throw new SourceException(fileName, "this is a pipe or a device, expected a file");
         }
@@ -198,24 +200,6 @@ public sealed class SourceText
         {
             stream.Dispose();
             throw;
-        }
-    }
-
-    /// <summary>
-    /// Tells pipes and devices from empty files: both report a length of 0. Opening a pipe for reading waits for a writer, perhaps
-    /// for ever; opening it for reading and writing does not wait and leaves an empty file unchanged.
-    /// </summary>
-    private static bool IsPipe(string path)
-    {
-        try
-        {
-            using var stream = new FileStream(path, FileMode.Open, FileAccess.ReadWrite, FileShare.ReadWrite, bufferSize: 0);
-            return !stream.CanSeek;
-        }
-        catch (UnauthorizedAccessException)
-        {
-            // The file is read-only; opening it for reading gives the precise error.
-            return false;
         }
     }
 
