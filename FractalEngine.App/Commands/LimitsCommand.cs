@@ -2,6 +2,7 @@ using System.CommandLine;
 using System.Globalization;
 using FractalEngine.Core;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Physics;
 using FractalEngine.Parsing;
 
 namespace FractalEngine.App.Commands;
@@ -10,7 +11,7 @@ namespace FractalEngine.App.Commands;
 internal static class LimitsCommand
 {
     /// <summary>All limits, those of fractals first.</summary>
-    public static IEnumerable<Limit> All => [.. FractalLimits.All, .. ParsingLimits.All];
+    public static IEnumerable<Limit> All => [.. FractalLimits.All, .. ParsingLimits.All, .. PhysicsLimits.All];
 
     /// <summary>Creates the command.</summary>
     public static Command Create()
