@@ -22,7 +22,7 @@ internal static class TerminationSignal
     /// <summary>Leaves signals to others until <see cref="Resume"/>.</summary>
     public static void Suspend() => Interlocked.Increment(ref _suspensions);
 
-    /// <summary>Ends one <see cref="Suspend"/>.</summary>
+    /// <summary>Takes signals again, once for each <see cref="Suspend"/>.</summary>
     public static void Resume() => Interlocked.Decrement(ref _suspensions);
 
     /// <summary>Deletes unfinished files and ends the process.</summary>

@@ -47,7 +47,8 @@ public static class DisplayText
         var character = text[index];
         return character is not ('\t' or '\n' or '\r') && char.GetUnicodeCategory(character) switch
         {
-            UnicodeCategory.Control or UnicodeCategory.Format or UnicodeCategory.LineSeparator or UnicodeCategory.ParagraphSeparator => true,
+            UnicodeCategory.Control or UnicodeCategory.Format => true,
+            UnicodeCategory.LineSeparator or UnicodeCategory.ParagraphSeparator => true,
             UnicodeCategory.Surrogate => !(
                 (index + 1 < text.Length && char.IsSurrogatePair(text, index)) || (index > 0 && char.IsSurrogatePair(text, index - 1))),
             _ => false,

@@ -28,7 +28,7 @@ public sealed class Limit
     /// <summary>Value unless it is changed.</summary>
     public long Default { get; }
 
-    /// <summary>What is counted.</summary>
+    /// <summary>The things that are counted, in the plural.</summary>
     public string Subject { get; }
 
     /// <summary>Why there is a limit at this value.</summary>

@@ -83,7 +83,7 @@ public static class ParsingLimits
     /// <summary>Largest number of corners of one polygon. Cutting it takes a time that is quadratic at worst.</summary>
     public static int MaxPolygonCorners => (int)PolygonCorners.Value;
 
-    /// <summary>All these limits.</summary>
+    /// <summary>All limits of parsers, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } =
     [
         ObjBytes, DescriptionBytes, PointsBytes, Maps, Names, RepeatedSteps, MaterialBytes, ImageBytes,

@@ -13,7 +13,7 @@ internal static class LimitsCommand
     /// <summary>All limits, those of fractals first.</summary>
     public static IEnumerable<Limit> All => [.. FractalLimits.All, .. ParsingLimits.All, .. PhysicsLimits.All];
 
-    /// <summary>Creates the command.</summary>
+    /// <summary>Creates the command, which has no arguments.</summary>
     public static Command Create()
     {
         var command = new Command("limits", "List all limits with their values, what they count, and why they are there.");

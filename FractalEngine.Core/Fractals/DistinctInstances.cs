@@ -31,7 +31,8 @@ public static class DistinctInstances
         if (fractal.Description.Composition == Composition.Affine)
         {
             return AreProvedDistinct(fractal) ? fractal.InstanceCount
-                : FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances) ? FractalGenerator.Expand(fractal, maxInstances).Length
+                : FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances)
+                    ? FractalGenerator.Expand(fractal, maxInstances).Length
                 : FractalGenerator.TryExpandLevels(fractal, maxInstances)?.Length;
         }
 

@@ -47,7 +47,8 @@ internal static class DistinctMaps
     /// <remarks>Angles are compared as numbers, so 360° differs from 0°.</remarks>
     public static Transformation[]? DeduplicateSums(
         ReadOnlySpan<Transformation> transformations, ReadOnlySpan<Transformation> sums, long maxCount) => DistinctProducts(
-            transformations, sums, static (in Transformation added, in Transformation sum) => Transformation.ComposeComponentwise(sum, added),
+            transformations, sums,
+            static (in Transformation added, in Transformation sum) => Transformation.ComposeComponentwise(sum, added),
             WriteTransformation, maxCount);
 
     private static T[]? DistinctProducts<T>(

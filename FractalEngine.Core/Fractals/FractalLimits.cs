@@ -84,7 +84,7 @@ public static class FractalLimits
     /// <summary>Maximum number of transformations on all levels that a hierarchy is built of: about 500 MB.</summary>
     public static int MaxHierarchyChildren => (int)HierarchyChildren.Value;
 
-    /// <summary>All these limits.</summary>
+    /// <summary>All limits of fractals, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } =
     [
         Depth, Levels, Digits, Steps, Nesting, DrawnInstances, ExportedFaces, EnumeratedInstances,

@@ -232,7 +232,7 @@ internal sealed class EarClipper
         }
     }
 
-    /// <summary>Lets the corners at the same place, and their neighbours, be tested again, since an edge of a corner there has changed.</summary>
+    /// <summary>Lets the corners at the same place, and their neighbours, be tested again after a change of an edge there.</summary>
     private void RepeatTestsAt(int corner)
     {
         for (var twin = _twins[corner]; twin != corner && _repeatedTestsLeft > 0; twin = _twins[twin])

@@ -79,7 +79,7 @@ public sealed class PolygonTriangulator
         }
     }
 
-    /// <summary>Finds the power of two that brings a polygon of extreme size, whose areas would overflow or vanish, to a size of one.</summary>
+    /// <summary>Finds the power of two that brings a polygon, whose areas would overflow or vanish, to a size of one.</summary>
     /// <returns>1 for all others.</returns>
     private static double ScaleFor(ReadOnlySpan<Vector> corners)
     {

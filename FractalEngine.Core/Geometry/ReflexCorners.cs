@@ -46,7 +46,7 @@ internal sealed class ReflexCorners
     /// <summary>Returns the position of a corner, or of the next one behind it that was collected.</summary>
     public int PositionOf(int corner) => _positions[corner];
 
-    /// <summary>Removes a corner.</summary>
+    /// <summary>Removes a corner that is no longer reflex.</summary>
     /// <returns>False if it is none of these.</returns>
     public bool Remove(int corner)
     {

@@ -12,7 +12,7 @@ public static class PhysicsLimits
     /// <summary>Maximum number of bodies whose centres begin within a cube as wide as a radius.</summary>
     public static int MaxBodiesAtOnePlace => (int)BodiesAtOnePlace.Value;
 
-    /// <summary>All these limits.</summary>
+    /// <summary>All limits of physics, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } = [BodiesAtOnePlace];
 
     /// <summary>Throws where more bodies than <see cref="MaxBodiesAtOnePlace"/> begin at one place.</summary>

@@ -305,7 +305,8 @@ public sealed partial class FractalParser : Parser
     {
         if (FractalSteps.EstimateDigits(steps.Take(steps.Count)) > FractalLimits.MaxDigits)
         {
-            throw Error(cursor, $"the number of instances has more than the limit of {FractalLimits.MaxDigits} digits", isLimitExceeded: true);
+            throw Error(
+                cursor, $"the number of instances has more than the limit of {FractalLimits.MaxDigits} digits", isLimitExceeded: true);
         }
     }
 

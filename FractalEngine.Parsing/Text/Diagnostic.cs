@@ -26,7 +26,8 @@ public sealed record Diagnostic(
     public override string ToString()
     {
         var severity = Severity == DiagnosticSeverity.Error ? "error" : "warning";
-        var head = string.Create(CultureInfo.InvariantCulture, $"{DisplayText.Escape(File)}:{Line}:{Column}: {severity}: {DisplayText.Escape(Message)}");
+        var head = string.Create(
+            CultureInfo.InvariantCulture, $"{DisplayText.Escape(File)}:{Line}:{Column}: {severity}: {DisplayText.Escape(Message)}");
         if (string.IsNullOrWhiteSpace(SourceLine))
         {
             return head;
