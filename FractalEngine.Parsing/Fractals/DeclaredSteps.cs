@@ -28,7 +28,7 @@ internal sealed class DeclaredSteps
         LevelCount = inner.LevelCount + outermost.LevelCount;
     }
 
-    /// <summary>Number of steps.</summary>
+    /// <summary>Number of steps, outermost and inner ones.</summary>
     public int Count { get; }
 
     /// <summary>Number of repetitions inside each other.</summary>
