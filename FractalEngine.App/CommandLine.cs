@@ -1,11 +1,14 @@
 using System.CommandLine;
 using FractalEngine.App.Commands;
+using FractalEngine.Core;
 
 namespace FractalEngine.App;
 
 /// <summary>Parses and runs the commands, and turns each error into one message on stderr and an exit code.</summary>
 internal static class CommandLine
 {
+    private static readonly LimitOption Limits = new();
+
     /// <summary>Runs the command that the arguments name.</summary>
     /// <returns>One of <see cref="ExitCode"/>.</returns>
     public static int Run(string[] args)
@@ -16,7 +19,7 @@ internal static class CommandLine
         {
             foreach (var message in result.Errors.Select(error => error.Message).Distinct())
             {
-                Console.Error.WriteLine($"error: {message}");
+                Console.Error.WriteLine($"error: {DisplayText.Escape(message)}");
             }
 
             Console.Error.WriteLine("Run with --help to see the commands and their options.");
@@ -33,11 +36,13 @@ internal static class CommandLine
             + "Without a command, FILE or the gallery is opened in a window.");
         foreach (var command in (Command[])[
             ViewCommand.Create(), RenderCommand.Create(), InfoCommand.Create(), CountCommand.Create(), ExportCommand.Create(),
-            CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create(), QueryCommand.Create(), SimulateCommand.Create()])
+            CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create(), QueryCommand.Create(), SimulateCommand.Create(),
+            LimitsCommand.Create()])
         {
             root.Add(command);
         }
 
+        root.Add(Limits);
         return root;
     }
 
@@ -53,6 +58,7 @@ internal static class CommandLine
     {
         try
         {
+            Limits.Apply(result);
             return result.Invoke(new() { EnableDefaultExceptionHandler = false });
         }
         catch (Exception exception)

@@ -33,7 +33,7 @@ internal sealed record Failure(int ExitCode, string Text)
         _ => App.ExitCode.BadInput,
     };
 
-    private static string Line(string message) => $"error: {message}";
+    private static string Line(string message) => $"error: {DisplayText.Escape(message)}";
 
     /// <summary>Formats the message on one line, with the method that threw in place of a stack trace.</summary>
     private static string OneLine(Exception exception)

@@ -17,15 +17,16 @@ internal sealed class InterruptSignal : IDisposable
     private volatile bool _isRequested;
 
     /// <summary>Registers the signal handlers until the object is disposed.</summary>
-    public InterruptSignal() => _registrations =
-    [
-        PosixSignalRegistration.Create(PosixSignal.SIGINT, OnSignal),
-        PosixSignalRegistration.Create(PosixSignal.SIGTERM, OnSignal),
-        .. IgnoresHangup() ? [] : (PosixSignalRegistration[])[PosixSignalRegistration.Create(PosixSignal.SIGHUP, OnSignal)],
-    ];
-
-    /// <summary>Full path of a file that is deleted if the work does not end in time after a signal; null for none.</summary>
-    public string? UnfinishedFile { get; set; }
+    public InterruptSignal()
+    {
+        TerminationSignal.Suspend();
+        _registrations =
+        [
+            PosixSignalRegistration.Create(PosixSignal.SIGINT, OnSignal),
+            PosixSignalRegistration.Create(PosixSignal.SIGTERM, OnSignal),
+            .. IgnoresHangup() ? [] : (PosixSignalRegistration[])[PosixSignalRegistration.Create(PosixSignal.SIGHUP, OnSignal)],
+        ];
+    }
 
     /// <summary>Throws if a signal has arrived, and acknowledges it.</summary>
     /// <exception cref="OperationCanceledException">A signal has arrived.</exception>
@@ -39,7 +40,11 @@ internal sealed class InterruptSignal : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose() => Array.ForEach(_registrations, static registration => registration.Dispose());
+    public void Dispose()
+    {
+        Array.ForEach(_registrations, static registration => registration.Dispose());
+        TerminationSignal.Resume();
+    }
 
     // Runs on a thread of the runtime. Cancelling the signal keeps the process alive for the work to be undone.
     private void OnSignal(PosixSignalContext context)
@@ -47,21 +52,9 @@ internal sealed class InterruptSignal : IDisposable
         var isFirst = !_isRequested;
         _isRequested = true;
         context.Cancel = isFirst && _acknowledged.Wait(AcknowledgeTimeout);
-        if (!context.Cancel && UnfinishedFile is { } file)
+        if (!context.Cancel)
         {
-            DeleteQuietly(file);
-        }
-    }
-
-    private static void DeleteQuietly(string file)
-    {
-        try
-        {
-            File.Delete(file);
-        }
-        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
-        {
-            // The program is about to end, and can do no more.
+            TerminationSignal.EndProcess();
         }
     }
 

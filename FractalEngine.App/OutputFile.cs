@@ -13,18 +13,6 @@ internal static class OutputFile
     public static void Write(string path, Action<Stream> write)
     {
         using var interruption = new InterruptSignal();
-        Write(path, stream => write(new InterruptibleStream(stream, interruption)), interruption);
+        AtomicFile.Write(path, stream => write(new InterruptibleStream(stream, interruption)));
     }
-
-    /// <summary>Creates or replaces a file whose contents take a signal into account.</summary>
-    /// <param name="path">Path of the file.</param>
-    /// <param name="write">Writes the contents; polls the signal.</param>
-    /// <param name="interruption">Deletes the unfinished file where the signal is not polled for long.</param>
-    public static void Write(string path, Action<Stream> write, InterruptSignal interruption) => AtomicFile.Write(path, stream =>
-    {
-        var name = (stream as FileStream)?.Name;
-        // A device or a pipe has its own name, and is not temporary.
-        interruption.UnfinishedFile = name == Path.GetFullPath(path) ? null : name;
-        write(stream);
-    });
 }

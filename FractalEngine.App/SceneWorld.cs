@@ -14,11 +14,14 @@ internal static class SceneWorld
     /// <param name="scene">The scene, perhaps with another projection.</param>
     /// <param name="settings">Checked by the command line.</param>
     /// <exception cref="SourceException">The scene declares an invalid body, such as one without size.</exception>
+    /// <exception cref="FractalEngineException">More bodies begin at one place than the limit.</exception>
     public static PhysicsWorld Create(LoadedFile file, LoadedScene scene, PhysicsSettings settings)
     {
         try
         {
-            return new(scene, settings);
+            var world = new PhysicsWorld(scene, settings);
+            PhysicsLimits.Require(world.Bodies);
+            return world;
         }
         catch (SceneObjectException exception) when (file.ParsedScene is { } parsed)
         {

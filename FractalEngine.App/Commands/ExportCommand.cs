@@ -15,20 +15,18 @@ internal static class ExportCommand
         var shared = new SharedOptions();
         var output = SharedOptions.OutputOption(".obj", "Mesh to write.");
         var depth = NumberOption.Integer("--depth", "N", 0, int.MaxValue, "Recursion depth, overriding the fractal's file.");
-        var maxFaces = NumberOption.Integer(
-            "--limit", "FACES", 1, int.MaxValue, $"Maximum number of faces to write (default: {FractalLimits.MaxExportedFaces}).");
         var command = new Command("export", "Write all faces of FILE as one flat mesh, with fractals expanded.")
         {
-            output, depth, maxFaces,
+            output, depth,
         };
         shared.AddTo(command);
         command.SetAction(result => Run(
             result.GetRequiredValue(shared.File), shared.LoadOptions(result) with { Depth = result.GetValue(depth) },
-            result.GetRequiredValue(output), result.GetValue(maxFaces) ?? FractalLimits.MaxExportedFaces));
+            result.GetRequiredValue(output)));
         return command;
     }
 
-    private static int Run(string path, LoadOptions options, string output, long maxFaces)
+    private static int Run(string path, LoadOptions options, string output)
     {
         if (options.Depth > FractalLimits.MaxDepth)
         {
@@ -46,7 +44,7 @@ internal static class ExportCommand
             throw new UsageException($"{path} has no recursive fractal, so --depth has no effect");
         }
 
-        OutputFile.Write(output, stream => ObjWriter.Write(file.Scene, stream, maxFaces));
+        OutputFile.Write(output, stream => ObjWriter.Write(file.Scene, stream, FractalLimits.MaxExportedFaces));
         return ExitCode.Done;
     }
 }

@@ -2,6 +2,7 @@ using System.CommandLine;
 using System.Diagnostics;
 using System.Globalization;
 using System.Text;
+using FractalEngine.Core;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -52,7 +53,7 @@ internal static class QueryCommand
         string path, LoadOptions options, string pointsPath, ColliderKind kind, double maxDistance, double epsilon, ResultFormat format)
     {
         var file = ConsoleLoader.Load(path, options);
-        var points = PointsParser.Parse(SourceText.Read(pointsPath, pointsPath, ParsingLimits.MaxObjBytes));
+        var points = PointsParser.Parse(SourceText.Read(pointsPath, pointsPath, ParsingLimits.MaxPointsBytes));
         var clock = Stopwatch.StartNew();
         var collider = BuildCollider(file, kind);
         var buildTime = clock.Elapsed;
@@ -67,6 +68,14 @@ internal static class QueryCommand
 
     private static SceneCollider BuildCollider(LoadedFile file, ColliderKind kind)
     {
+        var bounds = file.Scene.Bounds;
+        if (!bounds.IsEmpty && Math.Max(bounds.Minimum.MaxAbsComponent(), bounds.Maximum.MaxAbsComponent()) > Collider.MaxCoordinate)
+        {
+            throw new FractalEngineException(ErrorKind.Limit, string.Create(
+                CultureInfo.InvariantCulture,
+                $"the scene reaches beyond the limit of {Collider.MaxCoordinate:R} for the coordinates of distances"));
+        }
+
         var collider = new SceneCollider(file.Scene, kind);
         collider.Build();
         return collider;

@@ -3,6 +3,7 @@ using System.Diagnostics;
 using System.Globalization;
 using System.Text;
 using FractalEngine.Core;
+using FractalEngine.Core.Files;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
@@ -73,8 +74,7 @@ internal static class SimulateCommand
             }
             else
             {
-                OutputFile.Write(
-                    output, stream => stepTime = Simulate(path, world, (long)steps, stream, interruption), interruption);
+                AtomicFile.Write(output, stream => stepTime = Simulate(path, world, (long)steps, stream, interruption));
             }
         }
 

@@ -142,6 +142,9 @@ public abstract partial class Collider
     /// </summary>
     private protected static bool NeedsExactRetry(double maxDistance, double epsilon) => epsilon > 0 && double.IsFinite(maxDistance);
 
+    /// <summary>Largest coordinate of a shape or a position for which a distance is sure to be found: squares stay doubles.</summary>
+    public const double MaxCoordinate = 1e150;
+
     /// <summary>Throws when a query's arguments are not allowed.</summary>
     internal static void ThrowIfInvalid(Vector position, double maxDistance, double epsilon)
     {

@@ -1,3 +1,5 @@
+using System.Collections.Concurrent;
+
 namespace FractalEngine.Core.Files;
 
 /// <summary>Writes files completely or not at all: into a temporary file in the same folder, which then replaces the target.</summary>
@@ -7,6 +9,8 @@ public static class AtomicFile
     private const int MaxNumberedNames = 10_000;
 
     private const int BufferBytes = 1 << 16;
+
+    private static readonly ConcurrentDictionary<string, bool> Temporaries = new();
 
     /// <summary>Creates or replaces a file; its folder is created if it is missing.</summary>
     /// <param name="path">
@@ -25,7 +29,7 @@ public static class AtomicFile
         {
             if (FileTypes.IsSpecial(path))
             {
-                using var stream = new FileStream(path, FileMode.Open, FileAccess.Write, FileShare.ReadWrite, BufferBytes);
+                using var stream = FileTypes.OpenForWriting(path, BufferBytes);
                 write(stream);
                 return;
             }
@@ -76,6 +80,22 @@ public static class AtomicFile
 
         isCreated = wasMoved;
         return result;
+    }
+
+    /// <summary>Deletes the temporary files of all unfinished writes, for a process that ends at once.</summary>
+    public static void DeleteUnfinished()
+    {
+        foreach (var temporary in Temporaries.Keys)
+        {
+            try
+            {
+                File.Delete(temporary);
+            }
+            catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
+            {
+                // The process is about to end, and can do no more.
+            }
+        }
     }
 
     /// <summary>Follows a symbolic link to what is to be replaced.</summary>
@@ -180,6 +200,7 @@ public static class AtomicFile
             options.UnixCreateMode = mode;
         }
 
+        Temporaries[temporary] = true;
         try
         {
             using (var stream = new FileStream(temporary, options))
@@ -197,6 +218,7 @@ public static class AtomicFile
         finally
         {
             File.Delete(temporary);
+            Temporaries.TryRemove(temporary, out _);
         }
     }
 }

@@ -4,12 +4,20 @@ using System.Text;
 namespace FractalEngine.Core.Files;
 
 /// <summary>Tells regular files from devices, pipes and sockets, which .NET does not.</summary>
-internal static class FileTypes
+public static class FileTypes
 {
     // Of <sys/stat.h>, with the same values on Linux and macOS.
     private const int TypeMask = 0xF000;
     private const int RegularFile = 0x8000;
     private const int FolderType = 0x4000;
+    private const int PipeType = 0x1000;
+
+    // Of <fcntl.h>: O_WRONLY with O_NONBLOCK.
+    private const int LinuxWriteWithoutWaiting = 0x801;
+    private const int MacWriteWithoutWaiting = 0x5;
+
+    private static readonly TimeSpan ReaderTimeout = TimeSpan.FromSeconds(2);
+    private static readonly TimeSpan ReaderPollInterval = TimeSpan.FromMilliseconds(20);
 
     // Offset of stx_mode in struct statx of Linux, which is the same on every processor.
     private const int LinuxModeOffset = 28;
@@ -42,6 +50,46 @@ internal static class FileTypes
         }
     }
 
+    /// <summary>
+    /// Opens a device or a pipe for writing. Opening a named pipe would wait for a program that reads it, perhaps for ever: it has two
+    /// seconds to appear.
+    /// </summary>
+    /// <param name="path">Path for which <see cref="IsSpecial"/> holds.</param>
+    /// <param name="bufferBytes">Size of the stream's buffer.</param>
+    /// <exception cref="IOException">It can't be opened, or nothing reads the pipe.</exception>
+    internal static FileStream OpenForWriting(string path, int bufferBytes)
+    {
+        if (OperatingSystem.IsWindows() || ReadMode(path) is not { } mode || (mode & TypeMask) != PipeType)
+        {
+            return Open();
+        }
+
+        var deadline = DateTime.UtcNow + ReaderTimeout;
+        var flags = OperatingSystem.IsMacOS() ? MacWriteWithoutWaiting : LinuxWriteWithoutWaiting;
+        int descriptor;
+        while ((descriptor = OpenFile(Encoding.UTF8.GetBytes(path + '\0'), flags)) < 0)
+        {
+            if (DateTime.UtcNow > deadline)
+            {
+                throw new IOException("it is a pipe that nothing reads");
+            }
+
+            Thread.Sleep(ReaderPollInterval);
+        }
+
+        try
+        {
+            // While the first descriptor is open, the reader does not meet the end of the pipe.
+            return Open();
+        }
+        finally
+        {
+            _ = CloseFile(descriptor);
+        }
+
+        FileStream Open() => new(path, FileMode.Open, FileAccess.Write, FileShare.ReadWrite, bufferBytes);
+    }
+
     private static int? ReadMode(string path)
     {
         var name = Encoding.UTF8.GetBytes(path + '\0');
@@ -67,6 +115,14 @@ internal static class FileTypes
     [DllImport("libc", EntryPoint = "statx")]
     [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
     private static extern int ReadLinuxStatus(int folder, byte[] path, int flags, uint mask, byte[] buffer);
+
+    [DllImport("libc", EntryPoint = "open")]
+    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
+    private static extern int OpenFile(byte[] path, int flags);
+
+    [DllImport("libc", EntryPoint = "close")]
+    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
+    private static extern int CloseFile(int descriptor);
 
     [DllImport("libc", EntryPoint = "stat")]
     [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]

@@ -15,25 +15,30 @@ public static class DistinctInstances
 
     /// <summary>Counts the distinct instances of a fractal.</summary>
     /// <param name="fractal">Fractal of any composition and depth.</param>
-    /// <param name="budget">Maximum number of distinct instances of a level that are enumerated, whatever the number of chains.</param>
+    /// <param name="budget">
+    /// Maximum number of distinct instances of a level that are enumerated, whatever the number of chains; null for
+    /// <see cref="FractalLimits.MaxEnumeratedInstances"/>.
+    /// </param>
     /// <returns>The exact number; null for an infinite fractal, or if there are too many to enumerate and no proof succeeds.</returns>
-    public static BigInteger? Count(Fractal fractal, long budget = FractalLimits.MaxEnumeratedInstances)
+    public static BigInteger? Count(Fractal fractal, long? budget = null)
     {
         if (fractal.Description.IsInfinite)
         {
             return null;
         }
 
+        var maxInstances = budget ?? FractalLimits.MaxEnumeratedInstances;
         if (fractal.Description.Composition == Composition.Affine)
         {
             return AreProvedDistinct(fractal) ? fractal.InstanceCount
-                : FractalSteps.HasAtMostInstances(fractal.Description.Steps, budget) ? FractalGenerator.Expand(fractal, budget).Length
-                : FractalGenerator.TryExpandLevels(fractal, budget)?.Length;
+                : FractalSteps.HasAtMostInstances(fractal.Description.Steps, maxInstances)
+                    ? FractalGenerator.Expand(fractal, maxInstances).Length
+                : FractalGenerator.TryExpandLevels(fractal, maxInstances)?.Length;
         }
 
         try
         {
-            return FractalGenerator.ExpandComponentwise(fractal, budget).Length;
+            return FractalGenerator.ExpandComponentwise(fractal, maxInstances).Length;
         }
         catch (FractalLimitException)
         {

@@ -33,7 +33,26 @@ internal static class DistinctMaps
     /// <param name="inner">The maps m2.</param>
     /// <param name="maxCount">Maximum number of distinct products.</param>
     /// <returns>The distinct products; null if there are more.</returns>
-    public static AffineMap[]? DeduplicateProducts(ReadOnlySpan<AffineMap> outer, ReadOnlySpan<AffineMap> inner, long maxCount)
+    public static AffineMap[]? DeduplicateProducts(ReadOnlySpan<AffineMap> outer, ReadOnlySpan<AffineMap> inner, long maxCount) =>
+        DistinctProducts(outer, inner, static (in AffineMap m1, in AffineMap m2) => m1 * m2, WriteMap, maxCount);
+
+    /// <summary>
+    /// Keeps the first of each group of equal componentwise compositions, without an array of all pairs: those of the first transformation
+    /// with all sums, then those of the second, and so on.
+    /// </summary>
+    /// <param name="transformations">The transformations of one level.</param>
+    /// <param name="sums">The sums so far.</param>
+    /// <param name="maxCount">Maximum number of distinct sums.</param>
+    /// <returns>The distinct sums; null if there are more.</returns>
+    /// <remarks>Angles are compared as numbers, so 360° differs from 0°.</remarks>
+    public static Transformation[]? DeduplicateSums(
+        ReadOnlySpan<Transformation> transformations, ReadOnlySpan<Transformation> sums, long maxCount) => DistinctProducts(
+            transformations, sums,
+            static (in Transformation added, in Transformation sum) => Transformation.ComposeComponentwise(sum, added),
+            WriteTransformation, maxCount);
+
+    private static T[]? DistinctProducts<T>(
+        ReadOnlySpan<T> outer, ReadOnlySpan<T> inner, Composer<T> compose, EntryWriter<T> write, long maxCount)
     {
         // All products are multiplied twice, since the tolerance depends on the largest entries.
         Span<double> maxEntries = stackalloc double[EntryCount];
@@ -42,18 +61,18 @@ internal static class DistinctMaps
         {
             foreach (ref readonly var m2 in inner)
             {
-                WriteMap(m1 * m2, entries);
+                write(compose(m1, m2), entries);
                 TakeLarger(maxEntries, entries);
             }
         }
 
         ShareWithinTriples(maxEntries);
-        var grid = new HashGrid<AffineMap>(WriteMap, maxEntries, outer.Length);
+        var grid = new HashGrid<T>(write, maxEntries, Math.Max(outer.Length, inner.Length));
         foreach (ref readonly var m1 in outer)
         {
             foreach (ref readonly var m2 in inner)
             {
-                grid.Add(m1 * m2);
+                grid.Add(compose(m1, m2));
                 if (grid.Count > maxCount)
                 {
                     return null;
@@ -64,16 +83,13 @@ internal static class DistinctMaps
         return grid.ToArray();
     }
 
-    /// <summary>Keeps the first of each group of equal transformations, in order.</summary>
-    /// <remarks>Angles are compared as numbers, so 360° differs from 0°.</remarks>
-    public static Transformation[] Deduplicate(Transformation[] transformations) =>
-        Distinct(transformations, static (in Transformation transformation, Span<double> entries) =>
+    private static void WriteTransformation(in Transformation transformation, Span<double> entries)
     {
         WriteTriple(transformation.Position, entries);
         WriteTriple(transformation.Rotation, entries[3..]);
         WriteTriple(transformation.Scale, entries[6..]);
         WriteTriple(Vector.Zero, entries[9..]);
-    });
+    }
 
     private static void WriteMap(in AffineMap map, Span<double> entries)
     {
@@ -84,6 +100,8 @@ internal static class DistinctMaps
     }
 
     private delegate void EntryWriter<T>(in T item, Span<double> entries);
+
+    private delegate T Composer<T>(in T m1, in T m2);
 
     private static void WriteTriple(Vector v, Span<double> entries)
     {

@@ -17,7 +17,7 @@ public static class FractalBounds
 {
     private const int MaxSearchedNodes = 20_000;
     private const double RelativeTolerance = 1e-13;
-    private const long MaxEnumeratedVertices = 20L * FractalLimits.MaxEnumeratedInstances;
+    private static long MaxEnumeratedVertices => 20L * FractalLimits.MaxEnumeratedInstances;
 
     /// <summary>Computes a box that holds all instances of a fractal, in its own frame.</summary>
     public static BoundingBox ComputeBox(Fractal fractal) => fractal switch

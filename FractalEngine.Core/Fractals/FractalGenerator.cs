@@ -196,35 +196,28 @@ public static class FractalGenerator
 
         maxInstances = Math.Min(maxInstances, FractalLimits.MaxComponentwiseSums);
         Transformation[] sums = [Transformation.Identity];
+        var compared = 0L;
         for (var level = 0L; level < levels; level++)
         {
-            sums = AddLevel(sums, fractal.LevelAt(level).Transformations, maxInstances);
+            var set = fractal.LevelAt(level).Transformations;
+            // A level of the identity alone changes nothing; a recursion of a million levels may consist of them.
+            if (set is [{ IsIdentity: true }])
+            {
+                continue;
+            }
+
+            compared += sums.Length * (long)set.Length;
+            if (compared > FractalLimits.MaxComparedProducts)
+            {
+                throw new FractalLimitException(
+                    $"the sums of all levels are more than the limit of {FractalLimits.MaxComparedProducts} compared ones");
+            }
+
+            sums = DistinctMaps.DeduplicateSums(set.AsSpan(), sums, maxInstances) ?? throw new FractalLimitException(
+                $"componentwise composition of the fractal has more than {maxInstances} distinct sums");
         }
 
         return ImmutableCollectionsMarshal.AsImmutableArray(sums);
-    }
-
-    /// <summary>Adds the transformations of one level to all sums.</summary>
-    /// <remarks>It adds one transformation at a time, so that memory never holds many more sums than there are distinct ones.</remarks>
-    private static Transformation[] AddLevel(Transformation[] sums, ImmutableArray<Transformation> set, long maxInstances)
-    {
-        if (set is [{ IsIdentity: true }])
-        {
-            return sums;
-        }
-
-        Transformation[] extended = [];
-        foreach (var transformation in set)
-        {
-            var added = ConcatenatePair(sums, [transformation], Transformation.ComposeComponentwise);
-            extended = DistinctMaps.Deduplicate([.. extended, .. added]);
-            if (extended.Length > maxInstances)
-            {
-                throw new FractalLimitException($"componentwise composition of the fractal has more than {maxInstances} distinct sums");
-            }
-        }
-
-        return extended;
     }
 
     /// <summary>Composes all pairs of two sets, the paper's concatPair: [m1·m2 | ∀ m1 ∈ set1, ∀ m2 ∈ set2], in that order.</summary>

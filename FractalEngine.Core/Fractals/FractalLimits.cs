@@ -5,36 +5,95 @@ namespace FractalEngine.Core.Fractals;
 /// <summary>The limits of fractals: each bounds time or memory, and is named in the error that it causes.</summary>
 public static class FractalLimits
 {
+    /// <summary>The limit of <see cref="MaxDepth"/>.</summary>
+    public static Limit Depth { get; } = new(
+        "depth", 1_000_000, "repetitions of one recursive", "exact counts stay printable");
+
     /// <summary>Maximum number n of repetitions in <c>z n</c>.</summary>
-    public const int MaxDepth = 1_000_000;
+    public static int MaxDepth => (int)Depth.Value;
+
+    /// <summary>The limit of <see cref="MaxLevels"/>.</summary>
+    public static Limit Levels { get; } = new(
+        "levels", 2_000_000, "sets that a chain passes through", "exact counts stay printable", 1_000_000_000);
 
     /// <summary>Maximum number of sets that a chain passes through, repetitions of repetitions multiplied out.</summary>
     /// <remarks>With 25 maps each, the number of instances then has 2.8 million digits, which take some seconds to write out.</remarks>
-    public const long MaxLevels = 2_000_000;
+    public static long MaxLevels => Levels.Value;
+
+    /// <summary>The limit of <see cref="MaxDigits"/>.</summary>
+    public static Limit Digits { get; } = new(
+        "digits", 3_000_000, "digits of a number of instances", "some seconds to write them out", 1_000_000_000);
+
+    /// <summary>Maximum number of decimal digits of the number of instances.</summary>
+    public static long MaxDigits => Digits.Value;
+
+    /// <summary>The limit of <see cref="MaxSteps"/>.</summary>
+    public static Limit Steps { get; } = new(
+        "steps", 1_000, "steps of an object", "parsing stays linear", 1_000_000);
 
     /// <summary>Maximum number of sets and repetitions, one after the other, of an object.</summary>
-    public const int MaxSteps = 1_000;
+    public static int MaxSteps => (int)Steps.Value;
+
+    /// <summary>The limit of <see cref="MaxNesting"/>.</summary>
+    public static Limit Nesting { get; } = new(
+        "nesting", 32, "recursives inside each other", "each is a call on the stack", 256);
 
     /// <summary>Maximum number of repetitions inside each other.</summary>
-    public const int MaxNesting = 32;
+    public static int MaxNesting => (int)Nesting.Value;
+
+    /// <summary>The limit of <see cref="MaxDrawnInstances"/>.</summary>
+    public static Limit DrawnInstances { get; } = new(
+        "drawn-instances", 4_000_000, "instances drawn of one fractal", "48 bytes each on the GPU");
 
     /// <summary>Maximum number of instances that are drawn, unless stated otherwise.</summary>
     /// <remarks>The paper's Menger sponge of 3.2 million fits; at 48 bytes each they take 192 MB on the GPU.</remarks>
-    public const int MaxDrawnInstances = 4_000_000;
+    public static int MaxDrawnInstances => (int)DrawnInstances.Value;
+
+    /// <summary>The limit of <see cref="MaxExportedFaces"/>.</summary>
+    public static Limit ExportedFaces { get; } = new(
+        "exported-faces", 50_000_000, "faces exported", "about 3 GB of text");
 
     /// <summary>Maximum number of faces that are exported, unless stated otherwise: about 3 GB of text.</summary>
-    public const long MaxExportedFaces = 50_000_000;
+    public static long MaxExportedFaces => ExportedFaces.Value;
+
+    /// <summary>The limit of <see cref="MaxEnumeratedInstances"/>.</summary>
+    public static Limit EnumeratedInstances { get; } = new(
+        "enumerated-instances", 500_000, "distinct instances of a level, where there are more chains", "half a second");
 
     /// <summary>Maximum number of distinct instances of a level that are enumerated where there are more chains.</summary>
-    public const int MaxEnumeratedInstances = 500_000;
+    public static int MaxEnumeratedInstances => (int)EnumeratedInstances.Value;
+
+    /// <summary>The limit of <see cref="MaxComparedProducts"/>.</summary>
+    public static Limit ComparedProducts { get; } = new(
+        "compared-products", 20_000_000, "products of maps compared to find the distinct ones", "some seconds");
 
     /// <summary>Maximum number of products of maps that are compared to find the distinct ones of all levels: some seconds.</summary>
-    public const int MaxComparedProducts = 20_000_000;
+    public static int MaxComparedProducts => (int)ComparedProducts.Value;
+
+    /// <summary>The limit of <see cref="MaxComponentwiseSums"/>.</summary>
+    public static Limit ComponentwiseSums { get; } = new(
+        "componentwise-sums", 1_000_000, "distinct sums in componentwise composition", "about 100 MB");
 
     /// <summary>Maximum number of distinct sums of componentwise composition: about 100 MB.</summary>
-    public const int MaxComponentwiseSums = 1_000_000;
+    public static int MaxComponentwiseSums => (int)ComponentwiseSums.Value;
 
-    /// <summary>Throws for steps beyond <see cref="MaxSteps"/>, <see cref="MaxNesting"/> or <see cref="MaxLevels"/>.</summary>
+    /// <summary>The limit of <see cref="MaxHierarchyChildren"/>.</summary>
+    public static Limit HierarchyChildren { get; } = new(
+        "hierarchy-children", 200_000, "transformations on all levels that exact search and culling build", "about 500 MB");
+
+    /// <summary>Maximum number of transformations on all levels that a hierarchy is built of: about 500 MB.</summary>
+    public static int MaxHierarchyChildren => (int)HierarchyChildren.Value;
+
+    /// <summary>All limits of fractals, in the order of a listing.</summary>
+    public static ImmutableArray<Limit> All { get; } =
+    [
+        Depth, Levels, Digits, Steps, Nesting, DrawnInstances, ExportedFaces, EnumeratedInstances,
+        ComparedProducts, ComponentwiseSums, HierarchyChildren,
+    ];
+
+    /// <summary>
+    /// Throws for steps beyond <see cref="MaxSteps"/>, <see cref="MaxNesting"/>, <see cref="MaxLevels"/> or <see cref="MaxDigits"/>.
+    /// </summary>
     /// <exception cref="FractalLimitException">A limit is exceeded; the message names it.</exception>
     internal static void Require(ImmutableArray<FractalStep> steps)
     {
@@ -42,6 +101,7 @@ public static class FractalLimits
             steps.Length > MaxSteps ? $"{MaxSteps} steps"
             : steps.Any(step => step.NestingDepth > MaxNesting) ? $"{MaxNesting} repetitions inside each other"
             : FractalSteps.LevelCount(steps) > MaxLevels ? $"{MaxLevels} levels"
+            : FractalSteps.EstimateDigits(steps) > MaxDigits ? $"{MaxDigits} digits in its number of instances"
             : null;
         if (fault is not null)
         {

@@ -20,6 +20,16 @@ public static class FractalSteps
         steps.Any(step => step.InstanceCount is { IsZero: true }) ? BigInteger.Zero
         : steps.Aggregate((BigInteger?)BigInteger.One, (product, step) => product * step.InstanceCount);
 
+    /// <summary>Estimates the number of decimal digits of the number of chains, at next to no cost; 0 for infinitely many.</summary>
+    public static double EstimateDigits(ImmutableArray<FractalStep> steps) => steps.Sum(EstimateDigits);
+
+    private static double EstimateDigits(FractalStep step) => step switch
+    {
+        Repetition { Count: { } count } repetition => count * EstimateDigits(repetition.Body),
+        TransformationSet { Transformations.Length: > 0 and var length } => Math.Log10(length),
+        _ => 0,
+    };
+
     /// <summary>Tells whether there are at most <paramref name="limit"/> chains of transformations.</summary>
     /// <remarks>This costs next to nothing, unlike the exact number, which may have millions of digits.</remarks>
     public static bool HasAtMostInstances(ImmutableArray<FractalStep> steps, long limit) => CountUpTo(steps, limit) <= limit;

@@ -1,3 +1,5 @@
+using System.Collections.Concurrent;
+
 namespace FractalEngine.Parsing.Assets;
 
 /// <summary>
@@ -9,7 +11,10 @@ public sealed class AssetFolder
     /// <summary>Name of the marker file that lets all files in its folder and in subfolders refer to each other.</summary>
     public const string MarkerName = ".asset-root";
 
+    // As Linux. The links of a path are counted together: links through links could double their number each time.
     private const int MaxLinks = 40;
+
+    private readonly ConcurrentDictionary<string, string> _resolvedFolders = new();
 
     private AssetFolder(string path) => Path = path;
 
@@ -20,7 +25,7 @@ public sealed class AssetFolder
     /// <param name="file">Full path of the file.</param>
     public static AssetFolder ForFile(string file)
     {
-        var ownFolder = System.IO.Path.GetDirectoryName(ResolveLinks(file, MaxLinks))!;
+        var ownFolder = System.IO.Path.GetDirectoryName(ResolveLinks(file))!;
         for (var folder = ownFolder; folder is not null; folder = System.IO.Path.GetDirectoryName(folder))
         {
             if (File.Exists(System.IO.Path.Combine(folder, MarkerName)))
@@ -36,13 +41,33 @@ public sealed class AssetFolder
     /// <param name="file">Full path of the file, which need not exist.</param>
     public bool Contains(string file)
     {
-        var relative = System.IO.Path.GetRelativePath(Path, ResolveLinks(file, MaxLinks));
+        var relative = System.IO.Path.GetRelativePath(Path, ResolveFile(file));
         return !System.IO.Path.IsPathRooted(relative)
             && relative != ".."
             && !relative.StartsWith(".." + System.IO.Path.DirectorySeparatorChar, StringComparison.Ordinal);
     }
 
-    private static string ResolveLinks(string path, int linksLeft)
+    /// <summary>Resolves the folder of a file once for all its files.</summary>
+    private string ResolveFile(string file)
+    {
+        var fullPath = System.IO.Path.GetFullPath(file);
+        if (System.IO.Path.GetDirectoryName(fullPath) is not { } folder)
+        {
+            return fullPath;
+        }
+
+        var inFolder = System.IO.Path.Combine(
+            _resolvedFolders.GetOrAdd(folder, ResolveLinks), System.IO.Path.GetFileName(fullPath));
+        return new FileInfo(inFolder).LinkTarget is null ? inFolder : ResolveLinks(inFolder);
+    }
+
+    private static string ResolveLinks(string path)
+    {
+        var linksLeft = MaxLinks;
+        return ResolveLinks(path, ref linksLeft);
+    }
+
+    private static string ResolveLinks(string path, ref int linksLeft)
     {
         var fullPath = System.IO.Path.GetFullPath(path);
         var resolved = System.IO.Path.GetPathRoot(fullPath)!;
@@ -52,7 +77,8 @@ public sealed class AssetFolder
             resolved = System.IO.Path.Combine(resolved, segment);
             if (linksLeft > 0 && new FileInfo(resolved) is { LinkTarget: { } target })
             {
-                resolved = ResolveLinks(System.IO.Path.Combine(System.IO.Path.GetDirectoryName(resolved)!, target), linksLeft - 1);
+                linksLeft--;
+                resolved = ResolveLinks(System.IO.Path.Combine(System.IO.Path.GetDirectoryName(resolved)!, target), ref linksLeft);
             }
         }
 

@@ -26,6 +26,7 @@ public sealed class AssetLoader
     private readonly Dictionary<string, Model> _models = [];
     private readonly List<Diagnostic> _warnings = [];
     private readonly List<Diagnostic> _errors = [];
+    private readonly HashSet<Diagnostic> _knownErrors = [];
     private long _textBytes;
 
     private AssetLoader(string path, LoadOptions? options, IProgress<LoadProgress>? progress)
@@ -112,7 +113,7 @@ public sealed class AssetLoader
             catch (SourceException exception)
             {
                 // Loading goes on, so that a check finds the faults of the other files too.
-                if (!_errors.Contains(exception.Diagnostic))
+                if (_knownErrors.Add(exception.Diagnostic))
                 {
                     _errors.Add(exception.Diagnostic);
                 }

@@ -1,13 +1,10 @@
-using System.Collections.Immutable;
-using FractalEngine.Core.Fractals;
-
 namespace FractalEngine.Parsing.Fractals;
 
 /// <summary>Object of a fractal file: a base mesh and the steps applied to it so far (paper §4.2.2).</summary>
 /// <param name="BaseFile">Name of the base mesh's file, as written.</param>
 /// <param name="BaseFileNameOffset">Offset of that name in the text.</param>
 /// <param name="Steps">Steps applied to the base mesh, outermost first.</param>
-internal record DeclaredObject(string BaseFile, int BaseFileNameOffset, ImmutableArray<FractalStep> Steps)
+internal record DeclaredObject(string BaseFile, int BaseFileNameOffset, DeclaredSteps Steps)
 {
     /// <summary>Object that this one was made from; null for a base mesh.</summary>
     public DeclaredObject? Origin { get; init; }

@@ -7,9 +7,9 @@ namespace FractalEngine.Parsing.Fractals;
 /// <param name="Base">Finite object that the recursion starts from.</param>
 /// <param name="IterationSteps">Steps that one iteration adds, outermost first.</param>
 internal sealed record DeclaredRecursive(DeclaredObject Base, ImmutableArray<FractalStep> IterationSteps)
-    : DeclaredObject(Base.BaseFile, Base.BaseFileNameOffset, Base.Steps.Insert(0, new Repetition(IterationSteps, null)))
+    : DeclaredObject(Base.BaseFile, Base.BaseFileNameOffset, Base.Steps.Prepend(new Repetition(IterationSteps, null)))
 {
     /// <summary>Returns the recursion to a finite depth: Sⁿ after the base. Depth 0 is the base itself.</summary>
     public DeclaredObject WithDepth(int depth) =>
-        new(BaseFile, BaseFileNameOffset, Base.Steps.Insert(0, new Repetition(IterationSteps, depth))) { Origin = Base };
+        new(BaseFile, BaseFileNameOffset, Base.Steps.Prepend(new Repetition(IterationSteps, depth))) { Origin = Base };
 }

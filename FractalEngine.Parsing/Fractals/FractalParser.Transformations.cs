@@ -24,6 +24,7 @@ public sealed partial class FractalParser
             return false;
         }
 
+        RequireLimit(_objects.Count + _functions.Count + 1, ParsingLimits.MaxNames, "names", cursor);
         return _functions.TryAdd(name, new(parameters.Count, position, rotation, scale)) ? true
             : throw Error(cursor, $"the transformation '{name}' is declared twice");
     }
@@ -126,6 +127,7 @@ public sealed partial class FractalParser
                 return false;
             }
 
+            RequireLimit(++_mapCount, ParsingLimits.MaxMaps, "transformations in all sets", rest);
             transformations.Add(transformation);
             if (ParseBlanks(rest, out var next) && next.Current == ']')
             {
@@ -133,7 +135,7 @@ public sealed partial class FractalParser
             }
         }
 
-        set = new(transformations.ToImmutable());
+        set = new(transformations.DrainToImmutable());
         return ParseChar(rest, ']', out rest);
     }
 

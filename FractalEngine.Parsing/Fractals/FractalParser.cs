@@ -1,4 +1,3 @@
-using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Assets;
@@ -12,7 +11,7 @@ namespace FractalEngine.Parsing.Fractals;
 /// </summary>
 public sealed partial class FractalParser : Parser
 {
-    private static readonly DeclaredObject EmptyObject = new("", 0, []);
+    private static readonly DeclaredObject EmptyObject = new("", 0, DeclaredSteps.None);
 
     private readonly List<Vector> _vectors = [];
     private readonly Dictionary<string, TransformationFunction> _functions = [];
@@ -20,6 +19,8 @@ public sealed partial class FractalParser : Parser
     private Composition? _composition;
     private (DeclaredObject Object, int Offset)? _result;
     private bool _hasDeclaration;
+    private long _mapCount;
+    private long _repeatedStepCount;
 
     private FractalParser(SourceText source)
         : base(source)
@@ -47,7 +48,7 @@ public sealed partial class FractalParser : Parser
                 : Source.Error(0, "the fractal declares nothing");
         }
 
-        var description = new FractalDescription(result.Object.Steps, _composition ?? Composition.Affine);
+        var description = new FractalDescription(result.Object.Steps.Take(result.Object.Steps.Count), _composition ?? Composition.Affine);
         if (!FractalCheck.IsComposable(description))
         {
             throw Source.Error(result.Offset, FractalCheck.NotComposableMessage);
@@ -136,7 +137,8 @@ public sealed partial class FractalParser : Parser
             throw Error(cursor, $"the result '<$>' is declared twice, first in line {Source.LineOf(first.Offset)}");
         }
 
-        RequireLevelLimit(value.Steps, cursor);
+        RequireLevelLimit(value.Steps.LevelCount, cursor);
+        RequireDigitLimit(value.Steps, cursor);
         _result = (value, cursor.Offset);
         return true;
     }
@@ -158,19 +160,20 @@ public sealed partial class FractalParser : Parser
             throw Error(bodyStart, $"the body of the recursive '{name}' is not built on its base '{baseName}'");
         }
 
-        var iterationSteps = body.Steps[..^baseObject.Steps.Length];
-        if (iterationSteps.Length == 0)
+        var stepCount = body.Steps.Count - baseObject.Steps.Count;
+        if (stepCount == 0)
         {
             throw Error(bodyStart, $"the recursive '{name}' adds no transformations to its base '{baseName}'");
         }
 
-        if (iterationSteps.Any(step => step.LevelCount is null))
+        if (body.Steps.LevelCount is null)
         {
             throw Error(bodyStart, $"the body of the recursive '{name}' is infinite: give the recursive in it a depth");
         }
 
-        RequireLevelLimit(iterationSteps, bodyStart);
-        DeclareObject(cursor, name, new DeclaredRecursive(baseObject, iterationSteps));
+        RequireLevelLimit(body.Steps.LevelCount - baseObject.Steps.LevelCount, bodyStart);
+        RequireLimit(_repeatedStepCount += stepCount, ParsingLimits.MaxRepeatedSteps, "steps in all recursives", bodyStart);
+        DeclareObject(cursor, name, new DeclaredRecursive(baseObject, body.Steps.Take(stepCount)));
         return true;
     }
 
@@ -212,7 +215,8 @@ public sealed partial class FractalParser : Parser
 
         if (sets.Count > 0)
         {
-            value = new(value.BaseFile, value.BaseFileNameOffset, value.Steps.InsertRange(0, sets)) { Origin = value };
+            var steps = sets.AsEnumerable().Reverse().Aggregate(value.Steps, (inner, step) => inner.Prepend(step));
+            value = new(value.BaseFile, value.BaseFileNameOffset, steps) { Origin = value };
         }
 
         RequireStepLimits(value.Steps, cursor);
@@ -222,7 +226,7 @@ public sealed partial class FractalParser : Parser
     private bool ParseBaseFile(Cursor cursor, out DeclaredObject value, out Cursor rest)
     {
         var success = ParseString(cursor, "the name of a mesh in quotes", out var file, out rest);
-        value = new(file, cursor.Offset, []);
+        value = new(file, cursor.Offset, DeclaredSteps.None);
         return success && FileKinds.FromName(file) != FileKind.Mesh
             ? throw Error(cursor, $"expected the name of a mesh ({FileKinds.MeshEndings}): that is the base of a fractal")
             : success;
@@ -274,31 +278,49 @@ public sealed partial class FractalParser : Parser
 
     private void RequireFinite(Cursor cursor, string name, DeclaredObject value)
     {
-        if (value.Steps.Any(step => step.LevelCount is null))
+        if (value.Steps.LevelCount is null)
         {
             throw Error(cursor, $"the base '{name}' is infinite: give it a depth");
         }
     }
 
-    private void RequireStepLimits(ImmutableArray<FractalStep> steps, Cursor cursor)
+    private void RequireStepLimits(DeclaredSteps steps, Cursor cursor)
     {
-        if (steps.Length > FractalLimits.MaxSteps || steps.Any(step => step.NestingDepth > FractalLimits.MaxNesting))
+        if (steps.Count > FractalLimits.MaxSteps || steps.NestingDepth > FractalLimits.MaxNesting)
         {
             var limits = $"{FractalLimits.MaxSteps} steps, or of {FractalLimits.MaxNesting} recursives inside each other";
             throw Error(cursor, $"the object has more than the limit of {limits}", isLimitExceeded: true);
         }
     }
 
-    private void RequireLevelLimit(ImmutableArray<FractalStep> steps, Cursor cursor)
+    private void RequireLevelLimit(long? levelCount, Cursor cursor)
     {
-        if (FractalSteps.LevelCount(steps) > FractalLimits.MaxLevels)
+        if (levelCount > FractalLimits.MaxLevels)
         {
             throw Error(cursor, $"the fractal has more than the limit of {FractalLimits.MaxLevels} levels", isLimitExceeded: true);
         }
     }
 
+    private void RequireDigitLimit(DeclaredSteps steps, Cursor cursor)
+    {
+        if (FractalSteps.EstimateDigits(steps.Take(steps.Count)) > FractalLimits.MaxDigits)
+        {
+            throw Error(
+                cursor, $"the number of instances has more than the limit of {FractalLimits.MaxDigits} digits", isLimitExceeded: true);
+        }
+    }
+
+    private void RequireLimit(long count, long limit, string countedThings, Cursor cursor)
+    {
+        if (count > limit)
+        {
+            throw Error(cursor, $"the file has more than the limit of {limit} {countedThings}", isLimitExceeded: true);
+        }
+    }
+
     private void DeclareObject(Cursor cursor, string name, DeclaredObject value)
     {
+        RequireLimit(_objects.Count + _functions.Count + 1, ParsingLimits.MaxNames, "names", cursor);
         if (!_objects.TryAdd(name, value))
         {
             throw Error(cursor, $"the object '{name}' is declared twice");

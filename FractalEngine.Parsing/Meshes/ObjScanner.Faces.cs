@@ -50,7 +50,7 @@ internal sealed partial class ObjScanner
 
         var size = corner - firstCorner;
         position = position == Utf8NumberReader.None ? position : ScanEndOfLine(ref text, position);
-        if (position == Utf8NumberReader.None || size is < 3 or > ParsingLimits.MaxPolygonCorners)
+        if (position == Utf8NumberReader.None || size < 3 || size > ParsingLimits.MaxPolygonCorners)
         {
             (_textureIndexCount, _normalIndexCount) = (textureIndexCount, normalIndexCount);
             return Utf8NumberReader.None;

@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
 
@@ -36,9 +37,15 @@ public sealed class PointsParser : Parser
         ParseBlanks(cursor, out rest);
         if (!IsAtEndOfLine(rest) && rest.Current != '#')
         {
+            var start = rest;
             if (!ParseComponents(rest, out var point, out rest))
             {
                 return false;
+            }
+
+            if (point.MaxAbsComponent() > Collider.MaxCoordinate)
+            {
+                throw Error(start, $"a coordinate is beyond the limit of {Collider.MaxCoordinate:R} for distances", isLimitExceeded: true);
             }
 
             points.Add(point);

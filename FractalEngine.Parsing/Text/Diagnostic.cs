@@ -1,4 +1,5 @@
 using System.Globalization;
+using FractalEngine.Core;
 
 namespace FractalEngine.Parsing.Text;
 
@@ -25,7 +26,8 @@ public sealed record Diagnostic(
     public override string ToString()
     {
         var severity = Severity == DiagnosticSeverity.Error ? "error" : "warning";
-        var head = string.Create(CultureInfo.InvariantCulture, $"{File}:{Line}:{Column}: {severity}: {Message}");
+        var head = string.Create(
+            CultureInfo.InvariantCulture, $"{DisplayText.Escape(File)}:{Line}:{Column}: {severity}: {DisplayText.Escape(Message)}");
         if (string.IsNullOrWhiteSpace(SourceLine))
         {
             return head;
@@ -34,8 +36,8 @@ public sealed record Diagnostic(
         var caret = Math.Min(Column - 1, SourceLine.Length);
         var start = caret < MaxShownWidth ? 0 : caret - (MaxShownWidth / 2);
         var shown = SourceLine[start..Math.Min(start + MaxShownWidth, SourceLine.Length)];
-        // Tabs stay tabs in both lines, so that the caret keeps its place. Other control characters would spoil the terminal.
-        var line = string.Concat(shown.Select(c => char.IsControl(c) && c != '\t' ? '?' : c));
+        // Tabs stay tabs in both lines, so that the caret keeps its place. Others that would spoil the terminal take one column each.
+        var line = string.Concat(shown.Select((c, i) => c is '\n' or '\r' || DisplayText.IsHidden(shown, i) ? '?' : c));
         var padding = string.Concat(shown.Take(caret - start).Select(c => c == '\t' ? '\t' : ' '));
         return $"{head}\n  {line}\n  {padding}^";
     }

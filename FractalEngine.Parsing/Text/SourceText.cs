@@ -1,4 +1,5 @@
 using System.Text;
+using FractalEngine.Core.Files;
 
 namespace FractalEngine.Parsing.Text;
 
@@ -6,6 +7,9 @@ namespace FractalEngine.Parsing.Text;
 public sealed class SourceText
 {
     private static readonly UTF8Encoding StrictUtf8 = new(encoderShouldEmitUTF8Identifier: false, throwOnInvalidBytes: true);
+
+    // Many errors of one text come in order: each search goes on where the last one ended.
+    private LineStartPosition? _lastLine;
 
     /// <summary>Wraps a text that need not come from a file.</summary>
     /// <param name="fileName">Name of the file in messages.</param>
@@ -123,7 +127,7 @@ public sealed class SourceText
     /// <param name="offset">Characters before the position; positions behind the end count as the end.</param>
     /// <param name="message">One line of text without a full stop.</param>
     /// <param name="severity">Severity of the diagnostic.</param>
-    /// <remarks>Searches the text for the line: O(offset).</remarks>
+    /// <remarks>Searches the text for the line from the last one that was found: O(offset), but linear for all errors in order.</remarks>
     public Diagnostic Diagnose(int offset, string message, DiagnosticSeverity severity = DiagnosticSeverity.Error)
     {
         offset = Math.Min(offset, Text.Length);
@@ -155,9 +159,10 @@ public sealed class SourceText
 
     private int FindLine(int offset, out int lineStart)
     {
-        var line = FirstLine;
-        lineStart = 0;
-        for (var i = 0; i < offset; i++)
+        var known = _lastLine is { } last && last.LineStart <= offset ? last : new(FirstLine, 0);
+        var line = known.Line;
+        lineStart = known.LineStart;
+        for (var i = lineStart; i < offset; i++)
         {
             // A line ends with \n, \r\n or, on old systems, \r alone.
             if (Text[i] == '\n' || (Text[i] == '\r' && !(i + 1 < Text.Length && Text[i + 1] == '\n')))
@@ -167,8 +172,12 @@ public sealed class SourceText
             }
         }
 
+        _lastLine = new(line, lineStart);
         return line;
     }
+
+    /// <summary>The start of a line.</summary>
+    private sealed record LineStartPosition(int Line, int LineStart);
 
     private static FileStream Open(string path, string fileName, long maxBytes)
     {
@@ -177,7 +186,8 @@ public sealed class SourceText
             throw new SourceException(fileName, "this is a directory, expected a file");
         }
 
-        if (new FileInfo(path) is { Exists: true, Length: 0 } && IsPipe(path))
+        // Opening a pipe waits for a writer, perhaps for ever.
+        if (FileTypes.IsSpecial(path))
         {
             throw new SourceException(fileName, "this is a pipe or a device, expected a file");
         }
@@ -199,24 +209,6 @@ public sealed class SourceText
         {
             stream.Dispose();
             throw;
-        }
-    }
-
-    /// <summary>
-    /// Tells pipes and devices from empty files: both report a length of 0. Opening a pipe for reading waits for a writer, perhaps
-    /// for ever; opening it for reading and writing does not wait and leaves an empty file unchanged.
-    /// </summary>
-    private static bool IsPipe(string path)
-    {
-        try
-        {
-            using var stream = new FileStream(path, FileMode.Open, FileAccess.ReadWrite, FileShare.ReadWrite, bufferSize: 0);
-            return !stream.CanSeek;
-        }
-        catch (UnauthorizedAccessException)
-        {
-            // The file is read-only; opening it for reading gives the precise error.
-            return false;
         }
     }
 

@@ -92,6 +92,50 @@ public sealed class CommandLineTests : IDisposable
     }
 
     [Fact]
+    public void Limits_AreListedWithTheirReasons()
+    {
+        var (exitCode, output, _) = Run("limits", "--limit", "depth=7");
+        Assert.Equal(0, exitCode);
+        Assert.Contains("depth                             7  repetitions of one recursive: exact counts stay printable", output,
+            StringComparison.Ordinal);
+    }
+
+    [Theory]
+    [InlineData(3, "depth=2")]
+    [InlineData(0, "depth=3")]
+    [InlineData(2, "depth")]
+    [InlineData(2, "depth=0")]
+    [InlineData(2, "nonsense=1")]
+    public void Info_WithAnotherLimit_KeepsToIt(int exitCode, string limit) =>
+        Assert.Equal(exitCode, Run("info", "row.fdo", "--limit", limit).ExitCode);
+
+    [Theory]
+    [InlineData("1e160 0 0", 3)]
+    [InlineData("1e150 0 0", 0)]
+    public void Query_OfAPointTooFarAway_IsRefused(string point, int exitCode)
+    {
+        _folder.Write("points.txt", point + "\n");
+        Assert.Equal(exitCode, Run("query", "cube.obj", "--points", "points.txt", "--epsilon", "1e308").ExitCode);
+    }
+
+    [Fact]
+    public void Simulate_OfManyBodiesAtOnePlace_IsRefused()
+    {
+        _folder.Write("bodies.sdo", string.Concat(Enumerable.Repeat("p \"cube.obj\" # 0.5\n", 1_001)));
+        var (exitCode, _, error) = Run("simulate", "bodies.sdo", "--seconds", "1");
+        Assert.Equal((3, "error: 1001 bodies begin at one place, more than the limit of 1000"), (exitCode, error.Trim()));
+    }
+
+    [Fact]
+    public void Query_OfAMeshTooFarAway_IsRefused()
+    {
+        _folder.Write("far.obj", "v 0 0 0\nv 1e160 0 0\nv 0 1e160 0\nf 1 2 3\n");
+        _folder.Write("points.txt", "0 0 1\n");
+        var (exitCode, _, error) = Run("query", "far.obj", "--points", "points.txt");
+        Assert.Equal((3, "error: the scene reaches beyond the limit of 1E+150 for the coordinates of distances"), (exitCode, error.Trim()));
+    }
+
+    [Fact]
     public void Count_OfFractal_IsWrongUsage() => Assert.Equal(2, Run("count", "row.fdo").ExitCode);
 
     [Fact]

@@ -37,14 +37,43 @@ public sealed class OutputFileTests : IDisposable
         Assert.Equal(["cube.obj", "row.fdo"], Directory.GetFiles(_folder.Path).Select(Path.GetFileName).Order());
     }
 
-    [Fact]
-    public void Write_OfUnfinishedWork_KnowsItsTemporaryFile()
+    [SkippableTheory]
+    [InlineData("INT")]
+    [InlineData("TERM")]
+    public void Query_EndedByASignal_ExitsWith130AtOnce(string signal)
     {
-        using var interruption = new InterruptSignal();
-        OutputFile.Write(
-            _folder["a"], _ => Assert.Equal(interruption.UnfinishedFile, Assert.Single(Directory.GetFiles(_folder.Path, "*.tmp"))),
-            interruption);
+        Skip.If(OperatingSystem.IsWindows(), "there are no POSIX signals");
+        File.WriteAllLines(_folder["points.txt"], Enumerable.Repeat("1 2 3", 5_000_000));
+        using var process = AppProcess.Start(_folder.Path, [], "query", "cube.obj", "--points", "points.txt", "--collider", "simple");
+        Thread.Sleep(TimeSpan.FromSeconds(1));
+        Process.Start("kill", ["-s", signal, process.Id.ToString(CultureInfo.InvariantCulture)]).WaitForExit();
+        Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
+        Assert.Equal((130, ""), (process.ExitCode, process.StandardError.ReadToEnd()));
     }
+
+    [SkippableFact]
+    public void Export_IntoAPipeThatNothingReads_IsAnErrorInsteadOfAWait()
+    {
+        Skip.If(OperatingSystem.IsWindows() || Shell("mkfifo pipe.obj").ExitCode != 0, "there are no named pipes");
+        var (exitCode, _, error) = AppProcess.Run(_folder.Path, "export", "cube.obj", "--output", "pipe.obj");
+        Assert.Equal((2, "error: pipe.obj can't be written: it is a pipe that nothing reads"), (exitCode, error.Trim()));
+    }
+
+    [SkippableFact]
+    public void Export_IntoAPipe_WritesIntoIt()
+    {
+        Skip.If(OperatingSystem.IsWindows() || Shell("mkfifo pipe.obj").ExitCode != 0, "there are no named pipes");
+        var app = Path.ChangeExtension(typeof(OutputFile).Assembly.Location, ".dll");
+        var result = Shell($"cat pipe.obj >copy.obj & dotnet exec '{app}' export cube.obj --output pipe.obj; wait; test -p pipe.obj");
+        Assert.Equal(0, result.ExitCode);
+        Assert.Equal(12, File.ReadLines(_folder["copy.obj"]).Count(line => line.StartsWith('f')));
+    }
+
+    [Theory]
+    [InlineData("a\u001B[31m.obj", "a\\u001B[31m.obj:1:1: error: file not found")]
+    [InlineData("a\u202Egpj.obj", "a\\u202Egpj.obj:1:1: error: file not found")]
+    public void Messages_WithControlCharacters_ShowThemEscaped(string file, string message) =>
+        Assert.Equal(message, AppProcess.Run(_folder.Path, "info", file).Error.Trim());
 
     [SkippableTheory]
     [InlineData("info nope.obj 2>FULL", 1, "")]

@@ -124,6 +124,72 @@ public class PolygonTriangulatorTests
         Assert.Equal(19_998, ProcessorTime.RunWithin(2, () => Triangulate(circle).Count));
     }
 
+    [Theory]
+    [InlineData("comb")]
+    [InlineData("spiral")]
+    [InlineData("nested fans")]
+    [InlineData("one place")]
+    [InlineData("crossing")]
+    [InlineData("one line")]
+    public void Triangulate_TheHardestOf20000Corners_TakesSecondsAtMost(string name)
+    {
+        const int count = 20_000;
+        var random = new Random(1);
+        Vector[] polygon = name switch
+        {
+            // Thin teeth: each long ear has all reflex corners beside it.
+            "comb" => [.. Enumerable.Range(0, count).Select(i => new Vector(i, i % 2 == 0 ? 0 : 1000 + (i % 7), 0)), new(count, -1, 0)],
+            "spiral" => [.. Spiral(count / 2, 0), .. Spiral(count / 2, 0.1).Reverse()],
+            // A chain that is reflex everywhere, seen from one corner only.
+            "nested fans" => [.. Enumerable.Range(0, count).Select(i => new Vector(i, (double)i * i / count, 0)), new(0, count, 0)],
+            "one place" => [.. Enumerable.Range(0, count).Select(i => i % 2 == 0 ? Vector.Zero : random.Vector())],
+            "crossing" => [.. Enumerable.Range(0, count).Select(_ => random.Vector())],
+            _ => [.. Enumerable.Range(0, count).Select(i => new Vector(i, 0, 0))],
+        };
+        // The test of every corner against every other after each cut would take an hour.
+        Assert.Equal(polygon.Length - 2, ProcessorTime.RunWithin(2, () => Triangulate(polygon).Count));
+
+        static IEnumerable<Vector> Spiral(int corners, double inset) => Enumerable.Range(0, corners)
+            .Select(i => (Angle: i * 0.05, Radius: 1 + (i * 0.05 / (2 * Math.PI)) - inset))
+            .Select(place => new Vector(place.Radius * Math.Cos(place.Angle), place.Radius * Math.Sin(place.Angle), 0));
+    }
+
+    [Fact]
+    public void Triangulate_ASimplePolygon_ClipsTheEarsOfPlainEarClipping() => Seeded.Run(200, random =>
+    {
+        var angles = Enumerable.Range(0, random.Next(4, 60)).Select(_ => random.Between(0, 2 * Math.PI)).Order().ToArray();
+        Vector[] polygon = [.. angles.Select(angle => random.Between(0.2, 3) * new Vector(Math.Cos(angle), Math.Sin(angle), 0))];
+        var plain = PlainEarClipping.Triangulate(polygon);
+        var triangles = Triangulate(polygon);
+        Assert.Equal(plain.SkipLast(1), triangles.SkipLast(1));
+        Assert.Equal(plain[^1].Order(), triangles[^1].Order());
+    });
+
+    [Fact]
+    public void Triangulate_APolygonThatTouchesItself_CoversItAndNothingElse() => Seeded.Run(500, random =>
+    {
+        var polygon = TouchingPolygons.Create(random, random.Next(2, 12));
+        var triangles = Triangulate([.. polygon.Select(p => new Vector(p.X, p.Y, 0))]);
+        var area = Enumerable.Range(0, polygon.Count).Sum(i => Cross(polygon[i], polygon[(i + 1) % polygon.Count])) / 2;
+        (double X, double Y)[] corners = [.. polygon];
+        // Areas are whole numbers or halves, so the sums are exact.
+        Assert.Equal(polygon.Count - 2, triangles.Count);
+        Assert.Equal(area, triangles.Sum(triangle => Area(corners, triangle)));
+        Assert.Equal(area, triangles.Sum(triangle => Math.Abs(Area(corners, triangle))));
+    });
+
+    [Theory]
+    [InlineData(1e160)]
+    [InlineData(1e300)]
+    [InlineData(1e-160)]
+    [InlineData(1e-300)]
+    public void Triangulate_APolygonOfExtremeSize_CutsItAsOneOfUsualSize(double size)
+    {
+        double[] coordinates = [0, 0, 3, 0, 3, 1, 1, 1, 1, 3, 0, 3];
+        var usual = Triangulate([.. ToPoints(coordinates).Select(p => new Vector(p.X, p.Y, 0))]);
+        Assert.Equal(usual, Triangulate([.. ToPoints(coordinates).Select(p => size * new Vector(p.X, p.Y, 0))]));
+    }
+
     [Fact]
     public void Triangulate_IntoAListInUse_Appends()
     {

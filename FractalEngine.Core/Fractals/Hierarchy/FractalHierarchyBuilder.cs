@@ -22,6 +22,7 @@ internal sealed class FractalHierarchyBuilder
     private readonly OutlierClusters _clusters;
     private readonly SubFractalFactory _subFractalFactory;
     private readonly Dictionary<TransformationSet, MapSet> _sets = new(ReferenceEqualityComparer.Instance);
+    private long _childCount;
     private readonly ChildInstanceBuilder _childBuilder = new();
 
     /// <summary>Begins with the base mesh, which has no remaining levels.</summary>
@@ -135,6 +136,13 @@ internal sealed class FractalHierarchyBuilder
             throw new FractalLimitException(
                 "exact search needs transformations that shrink, or less depth: "
                 + $"{Built.Top} levels above the base the fractal's bounds still change");
+        }
+
+        _childCount += set.Maps.Length;
+        if (_childCount > FractalLimits.MaxHierarchyChildren)
+        {
+            throw new FractalLimitException(
+                $"exact search needs more than the limit of {FractalLimits.MaxHierarchyChildren} transformations on all levels together");
         }
 
         if (!_sets.TryGetValue(set, out var mapSet))

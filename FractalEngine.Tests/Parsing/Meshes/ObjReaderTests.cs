@@ -217,7 +217,7 @@ public sealed class ObjReaderTests : IDisposable
             file.SetLength(ParsingLimits.MaxObjBytes + 1);
         }
 
-        const long limit = ParsingLimits.MaxObjBytes;
+        var limit = ParsingLimits.MaxObjBytes;
         Errors.AssertMessage($"a:1:1: error: the file has {limit + 1} bytes, more than the limit of {limit}",
             () => ObjReader.Read(_folder["a.obj"], "a"));
     }

@@ -1,0 +1,52 @@
+namespace FractalEngine.Core;
+
+/// <summary>A limit that bounds time or memory, with its reason. It applies to the whole process.</summary>
+/// <remarks>Limits are changed before anything is loaded. What was loaded before is not tested again.</remarks>
+public sealed class Limit
+{
+    private long _value;
+
+    /// <summary>Makes a limit with its default value.</summary>
+    /// <param name="name">Name on the command line.</param>
+    /// <param name="value">Default value.</param>
+    /// <param name="subject">What is counted.</param>
+    /// <param name="reason">Why there is a limit at this value.</param>
+    /// <param name="maximum">Largest value that the limit can be given.</param>
+    public Limit(string name, long value, string subject, string reason, long maximum = int.MaxValue)
+    {
+        Name = name;
+        Default = value;
+        Subject = subject;
+        Reason = reason;
+        Maximum = maximum;
+        _value = value;
+    }
+
+    /// <summary>Name on the command line.</summary>
+    public string Name { get; }
+
+    /// <summary>Value unless it is changed.</summary>
+    public long Default { get; }
+
+    /// <summary>The things that are counted, in the plural.</summary>
+    public string Subject { get; }
+
+    /// <summary>Why there is a limit at this value.</summary>
+    public string Reason { get; }
+
+    /// <summary>Largest value that the limit can be given.</summary>
+    public long Maximum { get; }
+
+    /// <summary>The value that applies.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">The new value is less than 1 or more than <see cref="Maximum"/>.</exception>
+    public long Value
+    {
+        get => Volatile.Read(ref _value);
+        set
+        {
+            ArgumentOutOfRangeException.ThrowIfLessThan(value, 1);
+            ArgumentOutOfRangeException.ThrowIfGreaterThan(value, Maximum);
+            Volatile.Write(ref _value, value);
+        }
+    }
+}

@@ -1,0 +1,107 @@
+using System.Text;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Parsing;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Robustness;
+
+/// <summary>Small files that once took minutes or gigabytes: each ends soon, or is refused with the name of a limit.</summary>
+public sealed class HostileFileTests : IDisposable
+{
+    private const string Triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+    private readonly TemporaryFolder _folder = new();
+
+    public HostileFileTests() => _folder.Write("t.obj", Triangle);
+
+    public void Dispose() => _folder.Dispose();
+
+    [Theory]
+    [InlineData(4_000)]
+    public void Load_OfManyMissingFiles_IsLinear(int count) => CheckMissingFiles(count);
+
+    [Theory]
+    [InlineData(40_000)]
+    [Trait("Category", "Soak")]
+    public void Load_OfVeryManyMissingFiles_IsLinear(int count) => CheckMissingFiles(count);
+
+    [Theory]
+    [InlineData(10_000)]
+    public void Load_OfManyNamesOverManySteps_SharesTheSteps(int count)
+    {
+        var names = Lines(count, i => $"n{i}. [#] y\n");
+        var text = "x. \"t.obj\"\ny. " + string.Concat(Enumerable.Repeat("[#] ", FractalLimits.MaxSteps - 1)) + "x\n" + names + "<$>. y\n";
+        var before = GC.GetAllocatedBytesForCurrentThread();
+        Samples.ParseFractal(text);
+        // Each name would copy 8 kB of steps, 80 MB in all.
+        Assert.InRange(GC.GetAllocatedBytesForCurrentThread() - before, 0, 20_000_000);
+    }
+
+    [Fact]
+    public void Load_OfMoreMapsThanTheLimit_NamesIt()
+    {
+        var maps = string.Concat(Enumerable.Repeat("#,", ParsingLimits.MaxMaps));
+        var error = Errors.ThrownBy(() => Samples.ParseFractal($"x. \"t.obj\"\ny. [{maps}#] x\n<$>. y\n")).Diagnostic;
+        Assert.True(error.IsLimitExceeded);
+        Assert.Equal($"the file has more than the limit of {ParsingLimits.MaxMaps} transformations in all sets", error.Message);
+    }
+
+    [Fact]
+    public void Load_OfMoreDigitsThanTheLimit_NamesIt()
+    {
+        var maps = string.Concat(Enumerable.Repeat("#,", 9_999));
+        var error =
+            Errors.ThrownBy(() => Samples.ParseFractal($"x. \"t.obj\"\nz<x>. [{maps}#] x\n<$>. z 1000000\n")).Diagnostic;
+        Assert.True(error.IsLimitExceeded);
+        Assert.Equal($"the number of instances has more than the limit of {FractalLimits.MaxDigits} digits", error.Message);
+    }
+
+    [Fact]
+    public void Count_OfAHundredComponentwiseLevels_Ends()
+    {
+        _folder.Write("sums.fdo", """
+            composition componentwise
+            v 1 0 0
+            v 0 1 0
+            v 0 0 1
+            v 0.5 0.25 0.125
+            t.a. (a, #, #)
+            x. "t.obj"
+            z<x>. [#, t.1, t.2, t.3, t.4] x
+            <$>. z 100
+
+            """);
+        var fractal = ((Core.Scenes.FractalModel)AssetLoader.Load(_folder["sums.fdo"]).Scene.Models.Single()).Fractal;
+        // Four million sums are more than are compared: their number is unknown. Each sum took a microsecond for each map.
+        Assert.Null(ProcessorTime.RunWithin(20, () => DistinctInstances.Count(fractal)));
+    }
+
+    [SkippableFact]
+    public void Load_ThroughLinksThatDouble_EndsAtOnce()
+    {
+        Skip.If(OperatingSystem.IsWindows(), "links need rights there");
+        Directory.CreateSymbolicLink(_folder["l0"], ".");
+        for (var i = 1; i < 60; i++)
+        {
+            Directory.CreateSymbolicLink(_folder[$"l{i}"], $"l{i - 1}/l{i - 1}");
+        }
+
+        _folder.Write("links.sdo", "o \"l59/t.obj\" #\n");
+        // Every link of the path would be followed 2^59 times.
+        Assert.IsType<SourceException>(
+            ProcessorTime.RunWithin(2, () => Record.Exception(() => AssetLoader.Load(_folder["links.sdo"]))));
+    }
+
+    private void CheckMissingFiles(int count)
+    {
+        _folder.Write("missing.sdo", Lines(count, i => $"o \"m{i}.obj\" #\n"));
+        // A search through the text and the list for each would take ten times as long for three times as many.
+        var diagnostics = ProcessorTime.RunWithin(5, () => AssetLoader.Check(_folder["missing.sdo"]));
+        Assert.Equal(count, diagnostics.Length);
+    }
+
+    private static string Lines(int count, Func<int, string> line) =>
+        Enumerable.Range(0, count).Aggregate(new StringBuilder(), (text, i) => text.Append(line(i))).ToString();
+}
