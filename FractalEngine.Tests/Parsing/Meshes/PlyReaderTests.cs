@@ -56,7 +56,7 @@ public class PlyReaderTests
     [Theory]
     [InlineData("uchar", "255 0 51", "0 255 0", "0 0 255", 0.2)]
     [InlineData("ushort", "65535 0 13107", "0 65535 0", "0 0 65535", 0.2)]
-    [InlineData("float", "1 0 0.2", "0 1 0", "0 0 1", 0.2f)]
+    [InlineData("float", "1 0 0.2", "0 1 0", "0 0 1", 0.2)]
     public void Colours_OfVertices_CountFromZeroToOne(string type, string first, string second, string third, double blue)
     {
         var header = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
