@@ -94,7 +94,9 @@ public sealed class ExactFractalCollider : Collider
     private bool IsFarther(in Vector position, double maxDistance, QueryContext context, out ClosestPoint closest)
     {
         Unsafe.SkipInit(out closest);
-        var limit = maxDistance + (FractalSearchState.ChainError * (position.MaxAbsComponent() + _rootMagnitude));
+        // The sum is no less than the largest coordinate, and sooner found.
+        var magnitude = Math.Abs(position.X) + Math.Abs(position.Y) + Math.Abs(position.Z) + _rootMagnitude;
+        var limit = maxDistance + (FractalSearchState.ChainError * magnitude);
         if (!(_hierarchy.Root.BoxDistanceSquared(SimdAffineMap.ToVector256(position)) > DistanceCutoff.FromRadius(limit)))
         {
             return false;
