@@ -37,7 +37,7 @@ public sealed class Limit
     /// <summary>Largest value that the limit can be given.</summary>
     public long Maximum { get; }
 
-    /// <summary>The value that applies.</summary>
+    /// <summary>The value that applies now: the default, or what it was changed to.</summary>
     /// <exception cref="ArgumentOutOfRangeException">The new value is less than 1 or more than <see cref="Maximum"/>.</exception>
     public long Value
     {

@@ -33,9 +33,8 @@ internal static class ClosestPointFactory
     /// <param name="position">In the frame of the query.</param>
     public static ClosestPoint OnInstance(Mesh mesh, int face, AffineMap map, Vector position)
     {
-        var (a, b, c) = mesh.Face(face);
-        (a, b, c) = (map * a, map * b, map * c);
-        return Create(a, b, c, face, TriangleKernel.ClosestPoint(position, a, b, c));
+        OnInstance(mesh, face, new SimdAffineMap(map), in position, out var closest);
+        return closest;
     }
 
     /// <summary>Creates the result for a triangle of an instance, which is tested once more in the frame of the query.</summary>

@@ -17,7 +17,7 @@ internal sealed partial class TriangleBvh
     /// <summary>The face indices of all triangles, in the order of the leaves.</summary>
     public ReadOnlySpan<int> AllFaces => _faces;
 
-    /// <summary>Finds a child of a node.</summary>
+    /// <summary>Finds one of the up to eight children of a node by its place.</summary>
     /// <param name="node">A node.</param>
     /// <param name="index">Index of the child, from 0 to 7.</param>
     /// <param name="child">The child: a node or a leaf.</param>

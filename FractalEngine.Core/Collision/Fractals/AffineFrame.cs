@@ -56,18 +56,10 @@ internal readonly struct AffineFrame : ISearchFrame<AffineFrame>
     public double ChildCutoffSquared(in FractalSearchState search) => search.BoundCutoffSquared;
 
     /// <inheritdoc/>
+    public Vector256<double> LocalPosition => _inverse.Apply(_position);
+
+    /// <inheritdoc/>
     public bool IsNear(SubFractal subFractal) => false;
-
-    /// <inheritdoc/>
-    public bool IsAmong(SubFractal subFractal) => false;
-
-    /// <inheritdoc/>
-    public float FloatError(ChildLanes lanes) => throw new NotSupportedException();
-
-    /// <inheritdoc/>
-    public void FillQueue(
-        FractalHierarchy hierarchy, ChildLanes lanes, long remainingLevels, double cutoffSquared, in FloatChildQueue queue) =>
-        throw new NotSupportedException();
 
     /// <inheritdoc/>
     public void FillQueue(SubFractal subFractal, in ChildQueue queue, ref FractalSearchState search)

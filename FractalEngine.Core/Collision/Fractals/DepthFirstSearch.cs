@@ -47,10 +47,12 @@ internal sealed class DepthFirstSearch<TFrame>(FractalHierarchy hierarchy, Trian
         if (frame.IsNear(subFractal))
         {
             var lanes = subFractal.Lanes!;
-            var queue = new FloatChildQueue(search.ScratchSlice(offset, lanes.PaddedCount), frame.FloatError(lanes));
-            frame.FillQueue(hierarchy, lanes, remainingLevels, cutoffSquared, in queue);
+            var position = frame.LocalPosition;
+            var queue = new FloatChildQueue(search.ScratchSlice(offset, lanes.PaddedCount), lanes.DistanceError(position));
+            lanes.FillQueue(hierarchy, remainingLevels, position, cutoffSquared, in queue);
             search.BoundTests += subFractal.Children.Length;
-            var refined = lanes.IsComplete && !search.NeedsTightBounds && frame.IsAmong(subFractal) ? ulong.MaxValue : 0;
+            // Outside all children, their hulls have better bounds than lanes compute.
+            var refined = lanes.IsComplete && !search.NeedsTightBounds && subFractal.IsWithinRadii(position, 1) ? ulong.MaxValue : 0;
             VisitChildren(subFractal, remainingLevels, ref frame, depth, offset + lanes.PaddedCount, queue, refined, ref search);
         }
         else

@@ -129,6 +129,7 @@ public sealed class ExactFractalCollider : Collider
         }
 
         var positionMagnitude = position.MaxAbsComponent();
+        // In the fractal's own frame, its box was tested before.
         var box = isSimilarity ? _hierarchy.Root.Box : _hierarchy.Root.Box.Transform(map);
         var magnitude = Math.Max(positionMagnitude, isSimilarity ? _rootMagnitude : BoundingVolume.MaxAbsCoordinate(box));
         if (magnitude is < MinMagnitude or > MaxMagnitude && double.IsFinite(magnitude) && magnitude > 0)
@@ -138,7 +139,7 @@ public sealed class ExactFractalCollider : Collider
 
         var search = new FractalSearchState(maxDistance, epsilon, positionMagnitude, magnitude, context);
         search.BoundTests++;
-        if (!search.Excludes(box.DistanceSquared(position)))
+        if (isSimilarity || !search.Excludes(box.DistanceSquared(position)))
         {
             SearchLevels(in position, in map, isSimilarity, ref search);
         }

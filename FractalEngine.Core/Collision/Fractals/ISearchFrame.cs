@@ -1,3 +1,4 @@
+using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Fractals.Hierarchy;
 
@@ -14,22 +15,11 @@ internal interface ISearchFrame<TSelf>
     /// <summary>Computes the limit for squared bounds of children, in the units of this frame's bounds.</summary>
     double ChildCutoffSquared(in FractalSearchState search);
 
-    /// <summary>True where floats tell the children of a sub-fractal apart.</summary>
+    /// <summary>The position of the query in the frame of the sub-fractal: x, y, z, 0.</summary>
+    Vector256<double> LocalPosition { get; }
+
+    /// <summary>True where floats tell the children of a sub-fractal apart, so that it has lanes to search.</summary>
     bool IsNear(SubFractal subFractal);
-
-    /// <summary>True for a position among the children of a sub-fractal, where the planes of their hulls bound best.</summary>
-    bool IsAmong(SubFractal subFractal);
-
-    /// <summary>An upper bound of the rounding error of the children's distances in single precision.</summary>
-    float FloatError(ChildLanes lanes);
-
-    /// <summary>Sets bounds for all children of a sub-fractal that is near.</summary>
-    /// <param name="hierarchy">The hierarchy.</param>
-    /// <param name="lanes">The children.</param>
-    /// <param name="remainingLevels">Remaining levels of the sub-fractal.</param>
-    /// <param name="cutoffSquared">Bounds at or above it need not be the best.</param>
-    /// <param name="queue">Receives the bounds.</param>
-    void FillQueue(FractalHierarchy hierarchy, ChildLanes lanes, long remainingLevels, double cutoffSquared, in FloatChildQueue queue);
 
     /// <summary>Sets rough bounds for all children of a sub-fractal.</summary>
     /// <param name="subFractal">The sub-fractal of this frame.</param>

@@ -41,7 +41,7 @@ internal sealed class ShapeNodes
     /// <summary>The boxes around these triangles.</summary>
     public IReadOnlyList<BoundingBox> TriangleBoxes => _triangleBoxes;
 
-    /// <summary>The node with an index.</summary>
+    /// <summary>The node with an index in the order in which nodes were made.</summary>
     public ShapeNode this[int index] => _entries[index].Node;
 
     /// <summary>True for a node without children.</summary>

@@ -49,7 +49,7 @@ internal sealed class ShapeTree(
         : bvh is { HasNodes: true } && node.Part.IsNode ? BvhLayout.BranchingFactor
         : 0;
 
-    /// <summary>Makes a child of a node.</summary>
+    /// <summary>Makes the node for one child of a node, in a sub-fractal or in the base mesh.</summary>
     /// <param name="node">The node, which is no leaf.</param>
     /// <param name="index">Place of the child.</param>
     /// <param name="minRadiusSquared">See <see cref="MinRadiusSquared"/>.</param>

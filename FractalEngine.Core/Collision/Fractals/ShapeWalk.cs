@@ -6,7 +6,7 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// <summary>Visits the faces of a shape that a visitor may look for, depth first.</summary>
 internal static class ShapeWalk
 {
-    /// <summary>Walks over a shape.</summary>
+    /// <summary>Visits the nodes of a shape depth first, the nearest child first, until the visitor has enough.</summary>
     /// <typeparam name="TVisitor">What is looked for; a struct, so that the walk is compiled for it.</typeparam>
     /// <param name="tree">The shape.</param>
     /// <param name="map">From its frame to that of the query.</param>

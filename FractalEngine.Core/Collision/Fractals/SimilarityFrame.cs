@@ -44,31 +44,12 @@ internal readonly struct SimilarityFrame : ISearchFrame<SimilarityFrame>
     public double ChildCutoffSquared(in FractalSearchState search) => search.BoundCutoffSquared * _inverseScaleSquared;
 
     /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public bool IsNear(SubFractal subFractal)
-    {
-        var direction = _position - subFractal.Centre;
-        return subFractal.Lanes is not null && Vector256.Dot(direction, direction)
-            < ChildLanes.MaxDistanceFactor * ChildLanes.MaxDistanceFactor * subFractal.RadiusSquared;
-    }
+    public Vector256<double> LocalPosition => _position;
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public bool IsAmong(SubFractal subFractal)
-    {
-        var direction = _position - subFractal.Centre;
-        return Vector256.Dot(direction, direction) < subFractal.RadiusSquared;
-    }
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public float FloatError(ChildLanes lanes) => lanes.DistanceError(_position);
-
-    /// <inheritdoc/>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void FillQueue(
-        FractalHierarchy hierarchy, ChildLanes lanes, long remainingLevels, double cutoffSquared, in FloatChildQueue queue) =>
-        lanes.FillQueue(hierarchy, remainingLevels, _position, cutoffSquared, in queue);
+    public bool IsNear(SubFractal subFractal) =>
+        subFractal.Lanes is not null && subFractal.IsWithinRadii(_position, ChildLanes.MaxDistanceFactor);
 
     /// <inheritdoc/>
     public void FillQueue(SubFractal subFractal, in ChildQueue queue, ref FractalSearchState search)

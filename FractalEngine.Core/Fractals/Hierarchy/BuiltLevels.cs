@@ -33,7 +33,7 @@ internal sealed class BuiltLevels
     /// <summary>The set of the level with a number of remaining levels, at least 1.</summary>
     public MapSet MapSetAt(long remainingLevels) => _levels[FindIndex(remainingLevels)].Set!;
 
-    /// <summary>Adds one level on top.</summary>
+    /// <summary>Adds one level above all others; levels that don't recur form one run.</summary>
     public void Add(SubFractal subFractal, BoundingVolume volume, HierarchyLevel level) => Add(1, new Entry(subFractal, volume, level));
 
     /// <summary>Adds a run of levels on top, which recur with the period of those given.</summary>
@@ -61,6 +61,6 @@ internal sealed class BuiltLevels
 
     private int FindIndex(long remainingLevels) => LevelRegion.FindIndex(CollectionsMarshal.AsSpan(_regions), remainingLevels);
 
-    /// <summary>One level of a run.</summary>
+    /// <summary>One level of a run: its sub-fractal, bounds and edges.</summary>
     internal readonly record struct Entry(SubFractal SubFractal, BoundingVolume Volume, HierarchyLevel Level);
 }

@@ -16,9 +16,11 @@ internal static class ChildGroups
     /// <param name="childBoxes">Their boxes in the frame of the parent.</param>
     /// <param name="parentBox">A box around the parent and the base mesh: no group is smaller, so that none counts as a point.</param>
     /// <param name="childHull">The hull of the sub-fractal that the first child is an instance of.</param>
+    /// <param name="hasOnlySimilarities">True when all maps of the fractal are similarities.</param>
     /// <returns>The outermost groups and their boxes.</returns>
     public static (ChildInstance[] Groups, BoundingBox[] Boxes) Create(
-        MapSet set, ChildInstance[] children, BoundingBox[] childBoxes, BoundingBox parentBox, HullBound? childHull)
+        MapSet set, ChildInstance[] children, BoundingBox[] childBoxes, BoundingBox parentBox, HullBound? childHull,
+        bool hasOnlySimilarities)
     {
         int[] nonEmpty = [.. Enumerable.Range(0, children.Length).Where(i => !childBoxes[i].IsEmpty)];
         var partition = new BoxPartition([.. nonEmpty.Select(i => childBoxes[i])]);
@@ -39,7 +41,9 @@ internal static class ChildGroups
                 ? CreateGroups(range)
                 : (members.Select(i => children[i]).ToArray(), members.Select(i => childBoxes[i]).ToArray());
             var hasFirstHull = parts[0].Group is null && parts[0].LevelStep == children[0].LevelStep;
-            return new(set, parts, boxes, box, parentBox, null, hasFirstHull ? childHull : null, ConvexSolid.FromBox(box), null);
+            return new(
+                set, parts, boxes, box, parentBox, null, hasFirstHull ? childHull : null, ConvexSolid.FromBox(box), null,
+                hasOnlySimilarities);
         }
     }
 }

@@ -1,7 +1,6 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
-using FractalEngine.Core.Collision;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Geometry;
 
@@ -124,7 +123,7 @@ internal sealed class ChildLanes
         var pz = Vector256.Create(point[2]);
         if (IsComplete)
         {
-            FillByFrames(hierarchy.At(_levelStep.RemainingLevels(remainingLevels)).Floats, px, py, pz, (float)cutoffSquared, in queue);
+            FillByFrames(hierarchy.At(_levelStep.RemainingLevels(remainingLevels)).Floats!, px, py, pz, (float)cutoffSquared, in queue);
         }
         else
         {
@@ -220,7 +219,7 @@ internal sealed class ChildLanes
     {
         foreach (var child in children)
         {
-            if (child.Group is not null || !Similarity.IsSimilarity(child.Map.Linear)
+            if (child.Group is not null
                 || !(child.ScaleSquared > MinChildScale * MinChildScale) || !(child.ScaleSquared < MaxMagnitude))
             {
                 return false;

@@ -308,6 +308,6 @@ internal sealed partial class ConvexHull
         return this;
     }
 
-    /// <summary>A triangle of the hull.</summary>
+    /// <summary>A triangle of the hull's surface, by the coordinates of its corners.</summary>
     private readonly record struct HullFacet(Vector A, Vector B, Vector C);
 }

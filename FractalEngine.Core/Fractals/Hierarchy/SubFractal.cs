@@ -29,6 +29,7 @@ internal sealed class SubFractal
     /// <param name="childHull">The hull of the sub-fractal that the first child is an instance of.</param>
     /// <param name="solid">A convex solid around the sub-fractal; null where it is empty.</param>
     /// <param name="clusters">Boxes that bound better than one; null where they don't.</param>
+    /// <param name="hasOnlySimilarities">True when all maps of the fractal are similarities: only then floats are searched.</param>
     public SubFractal(
         MapSet? set,
         ChildInstance[] children,
@@ -38,7 +39,8 @@ internal sealed class SubFractal
         HullBound? hull,
         HullBound? childHull,
         ConvexSolid? solid,
-        ClusterBounds? clusters)
+        ClusterBounds? clusters,
+        bool hasOnlySimilarities)
     {
         Solid = solid;
         Clusters = clusters;
@@ -48,8 +50,10 @@ internal sealed class SubFractal
         Hull = hull;
         Centre = SimdAffineMap.ToVector256(box.Centre);
         _halfSize = SimdAffineMap.ToVector256((0.5 + HalfSizeError) * box.Size);
-        Floats = hull is null ? new(box, [], [], 0) : new(box, hull.Planes, hull.CopyVertices(), hull.Margin);
-        Lanes = clusters is null ? ChildLanes.CreateOrNull(children, childBoxes, childHull, BoundingBox.Union(box, baseBox)) : null;
+        Floats = !hasOnlySimilarities ? null
+            : hull is null ? new(box, [], [], 0)
+            : new(box, hull.Planes, hull.CopyVertices(), hull.Margin);
+        Lanes = hasOnlySimilarities && clusters is null ? ChildLanes.CreateOrNull(children, childBoxes, childHull, BoundingBox.Union(box, baseBox)) : null;
         PaddedCount = VectorX4.PaddedCount(children.Length);
         ChildBounds = new double[ValuesPerChild * PaddedCount];
         for (var i = 0; i < PaddedCount; i++)
@@ -90,8 +94,8 @@ internal sealed class SubFractal
     /// <summary>The children in single precision; null where that would not bound them well.</summary>
     public ChildLanes? Lanes { get; }
 
-    /// <summary>The bounds in single precision.</summary>
-    public FloatBound Floats { get; }
+    /// <summary>The bounds in single precision; null where not all maps of the fractal are similarities.</summary>
+    public FloatBound? Floats { get; }
 
     /// <summary>A box around the sub-fractal, in its frame.</summary>
     public BoundingBox Box { get; }
@@ -117,11 +121,21 @@ internal sealed class SubFractal
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => Children.Sum(child => child.Group?.StorageBytes ?? 0)
         + (sizeof(double) * ChildBounds.Length) + (UnrotatedBounds?.StorageBytes ?? 0) + (Children.Length * 24) + (Hull?.StorageBytes ?? 0)
-        + (Solid?.StorageBytes ?? 0) + (Lanes?.StorageBytes ?? 0) + Floats.StorageBytes + (Clusters?.StorageBytes ?? 0) + 160;
+        + (Solid?.StorageBytes ?? 0) + (Lanes?.StorageBytes ?? 0) + (Floats?.StorageBytes ?? 0) + (Clusters?.StorageBytes ?? 0) + 160;
 
     /// <summary>Lists the children, and those of groups among them.</summary>
     public IEnumerable<ChildInstance> AllChildren() =>
         Children.SelectMany(child => child.Group is { } group ? [child, .. group.AllChildren()] : (IEnumerable<ChildInstance>)[child]);
+
+    /// <summary>Tells whether a position is within so many radii of the box's centre.</summary>
+    /// <param name="position">In the frame of the sub-fractal: x, y, z, 0.</param>
+    /// <param name="count">Number of radii.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public bool IsWithinRadii(Vector256<double> position, double count)
+    {
+        var direction = position - Centre;
+        return Vector256.Dot(direction, direction) < count * count * RadiusSquared;
+    }
 
     /// <summary>Computes the squared distance of a position from the box.</summary>
     /// <param name="position">In the frame of the sub-fractal: x, y, z, 0.</param>

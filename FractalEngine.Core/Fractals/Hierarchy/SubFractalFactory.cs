@@ -18,7 +18,7 @@ internal sealed class SubFractalFactory(Mesh mesh, bool hasOnlySimilarities)
 
     /// <summary>Creates the sub-fractal without levels: the base mesh.</summary>
     public SubFractal CreateBase() => new(
-        null, [], [], BaseVolume.Box, BaseVolume.Box, CreateHullBound(BaseVolume), null, CreateSolid(BaseVolume), null);
+        null, [], [], BaseVolume.Box, BaseVolume.Box, CreateHullBound(BaseVolume), null, CreateSolid(BaseVolume), null, hasOnlySimilarities);
 
     /// <summary>Creates the sub-fractal of a level.</summary>
     /// <param name="set">The set of the level.</param>
@@ -37,12 +37,14 @@ internal sealed class SubFractalFactory(Mesh mesh, bool hasOnlySimilarities)
         if (children.Length > ChildGroups.MaxUngroupedChildren)
         {
             var parentBox = BoundingBox.Union(volume.Box, BaseVolume.Box);
-            (children, childBoxes) = ChildGroups.Create(set, children, childBoxes, parentBox, childHull);
+            (children, childBoxes) = ChildGroups.Create(set, children, childBoxes, parentBox, childHull, hasOnlySimilarities);
             childHull = null;
         }
 
         var hull = CreateHullBound(volume);
-        return new(set, children, childBoxes, volume.Box, BaseVolume.Box, hull, childHull, CreateSolid(volume), CreateClusters(volume));
+        return new(
+            set, children, childBoxes, volume.Box, BaseVolume.Box, hull, childHull, CreateSolid(volume), CreateClusters(volume),
+            hasOnlySimilarities);
     }
 
     private static ClusterBounds? CreateClusters(BoundingVolume volume) => volume.Clusters.Length > 1 ? new(volume.Clusters) : null;
@@ -50,20 +52,18 @@ internal sealed class SubFractalFactory(Mesh mesh, bool hasOnlySimilarities)
     private static ConvexSolid? CreateSolid(BoundingVolume volume) => volume switch
     {
         { Box.IsEmpty: true } => null,
-        { Hull: { } hull } when hull.Volume() < MaxSolidFillRatio * BoxVolume(volume.Box) => new(hull.Vertices.AsSpan(), volume.Margin),
+        { Hull: { } hull } when !FillsBox(volume, MaxSolidFillRatio) => new(hull.Vertices.AsSpan(), volume.Margin),
         _ => ConvexSolid.FromBox(volume.Box),
     };
 
-    private static double BoxVolume(BoundingBox box)
+    /// <summary>Tells whether a hull fills more than a part of its box; a flat one fills none.</summary>
+    private static bool FillsBox(BoundingVolume volume, double ratio)
     {
-        var (x, y, z) = box.Size;
-        return x * y * z;
+        var (x, y, z) = volume.Box.Size;
+        return volume.Hull!.Volume() > ratio * x * y * z;
     }
 
-    private HullBound? CreateHullBound(BoundingVolume volume)
-    {
-        return volume.Hull is null || volume.Hull.Volume() > MaxHullFillRatio * BoxVolume(volume.Box)
-            ? null
-            : new(volume.Hull, volume.Box, volume.Margin, includeAxisPlanes: !hasOnlySimilarities);
-    }
+    private HullBound? CreateHullBound(BoundingVolume volume) => volume.Hull is null || FillsBox(volume, MaxHullFillRatio)
+        ? null
+        : new(volume.Hull, volume.Box, volume.Margin, includeAxisPlanes: !hasOnlySimilarities);
 }
