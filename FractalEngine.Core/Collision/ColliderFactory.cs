@@ -77,10 +77,17 @@ public static class ColliderFactory
                 + "expected exact, hierarchy, bounding-box or simple");
         }
 
+        return Create(Expand(fractal, toWorld), kind);
+    }
+
+    /// <summary>Expands a fractal into one mesh under a map.</summary>
+    /// <exception cref="FractalLimitException">It has more than <see cref="MaxExpandedFaces"/> faces.</exception>
+    internal static Mesh Expand(Fractal fractal, AffineMap map)
+    {
         // A face uses at most three vertices, but the base mesh may have any number of unused ones, which are expanded too.
         var facesPerInstance = Math.Max(1, Math.Max(fractal.BaseMesh.FaceCount, fractal.BaseMesh.VertexCount / 3));
         var instances = FractalGenerator.Expand(fractal, MaxExpandedFaces / facesPerInstance);
-        return Create(FractalGenerator.Flatten(fractal.BaseMesh, [.. instances.Select(instance => toWorld * instance)]), kind);
+        return FractalGenerator.Flatten(fractal.BaseMesh, [.. instances.Select(instance => map * instance)]);
     }
 
     internal static Collider Create(Mesh mesh, ColliderKind kind) => kind switch

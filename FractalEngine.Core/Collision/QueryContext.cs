@@ -1,6 +1,7 @@
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Collision.Reference;
+using FractalEngine.Core.Rays;
 
 namespace FractalEngine.Core.Collision;
 
@@ -19,6 +20,7 @@ public sealed class QueryContext
     private ExpandedChildren? _expandedChildren;
     private DescentBeam? _descentBeam;
     private ObjectQueue? _objectQueue;
+    private RayStack? _rayStack;
 
     /// <summary>Counts of faces and bounding volumes that the queries of this context tested.</summary>
     public QueryStatistics Statistics { get; } = new();
@@ -43,6 +45,9 @@ public sealed class QueryContext
 
     /// <summary>The queue of searches among many objects, made by the first of them.</summary>
     internal ObjectQueue ObjectQueue => _objectQueue ??= new();
+
+    /// <summary>The sub-fractals that a ray is inside of, made by the first ray.</summary>
+    internal RayStack RayStack => _rayStack ??= new();
 
     /// <summary>Memory for the numbers of a search, kept for the next search.</summary>
     internal Span<double> ScratchBuffer(int length) => _scratch.Length >= length ? _scratch : _scratch = new double[length];

@@ -72,7 +72,8 @@ internal readonly struct SimdAffineMap
     /// <summary>Converts the map back without rounding.</summary>
     public AffineMap ToAffineMap() => new(new(ToVector(V1), ToVector(V2), ToVector(V3)), ToVector(Translation));
 
+    /// <summary>Maps a direction x, y, z, 0.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private Vector256<double> ApplyLinear(Vector256<double> v) =>
+    public Vector256<double> ApplyLinear(Vector256<double> v) =>
         (Vector256.Create(v[0]) * V1) + (Vector256.Create(v[1]) * V2) + (Vector256.Create(v[2]) * V3);
 }

@@ -37,6 +37,9 @@ internal sealed partial class TriangleBvh
     // triangles would have to be decided between.
     private const double FarThreshold = 256;
 
+    // One hierarchy for all colliders and rays of a mesh, as long as any of them is in use.
+    private static readonly ConditionalWeakTable<Mesh, TriangleBvh> Shared = [];
+
     private readonly Mesh _mesh;
     private readonly Vector _origin;
     private readonly double _scale;
@@ -49,6 +52,9 @@ internal sealed partial class TriangleBvh
     private readonly PrecomputedTriangles? _precomputed;
     private readonly bool _isInSafeRange;
     private readonly int _stackSize;
+
+    /// <summary>The hierarchy of a mesh, made by the first who asks.</summary>
+    public static TriangleBvh For(Mesh mesh) => Shared.GetValue(mesh, static key => new(key));
 
     /// <summary>Builds the hierarchy of a mesh. Cost: O(n·log n) for n faces, on all cores where they are many.</summary>
     public TriangleBvh(Mesh mesh)

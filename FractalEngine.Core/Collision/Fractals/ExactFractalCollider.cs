@@ -1,5 +1,4 @@
 using System.Runtime.CompilerServices;
-using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Hierarchy;
@@ -58,7 +57,7 @@ public sealed class ExactFractalCollider : Collider
 
         _fractal = fractal;
         _hierarchy = fractal.Hierarchy;
-        _baseBvh = new(fractal.BaseMesh);
+        _baseBvh = TriangleBvh.For(fractal.BaseMesh);
         _precisionRadius = PrecisionRadius(_hierarchy.Root);
         _rootMagnitude = BoundingVolume.MaxAbsCoordinate(_hierarchy.Root.Box);
         _similaritySearch = new(_hierarchy, _baseBvh);
@@ -82,7 +81,7 @@ public sealed class ExactFractalCollider : Collider
 
     /// <inheritdoc/>
     internal override ShapeTree CreateShapeTree() =>
-        new(_fractal.BaseMesh, _baseBvh, this, _hierarchy, RelativePrecision * _precisionRadius);
+        new(_fractal.BaseMesh, _baseBvh, _hierarchy, RelativePrecision * _precisionRadius);
 
     /// <inheritdoc/>
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
@@ -153,7 +152,7 @@ public sealed class ExactFractalCollider : Collider
                 && FindClosestInImage(in position, in map, isSimilarity, maxDistance, 0, context, out closest);
         }
 
-        var instance = ResolveInstance(search.ClosestPath, in map, context, out var reach);
+        var instance = _hierarchy.ResolveInstance(search.ClosestPath, in map, context, out var reach);
         ClosestPointFactory.OnInstance(_fractal.BaseMesh, search.ClosestFace, in instance, in position, out closest);
         reach = Math.Max(reach, closest.Point.MaxAbsComponent());
         ClosestPoint.SetErrorBound(ref closest, search.ErrorBound(closest.Distance, reach));
@@ -213,6 +212,9 @@ public sealed class ExactFractalCollider : Collider
         }
     }
 
+    /// <summary>Computes the radius below which no further level of a fractal is visited.</summary>
+    internal static double MinRadius(SubFractal root) => RelativePrecision * PrecisionRadius(root);
+
     /// <summary>Computes the radius that <see cref="RelativePrecision"/> is a part of.</summary>
     private static double PrecisionRadius(SubFractal root)
     {
@@ -223,75 +225,5 @@ public sealed class ExactFractalCollider : Collider
 
         var box = root.Clusters?.Bulk ?? root.Box;
         return Math.Max(0.5 * box.Diagonal, MinPrecisionRadius * BoundingVolume.MaxAbsCoordinate(box));
-    }
-
-    /// <summary>Follows the path to the closest triangle: composes its instance's map, and records the map index of each level.</summary>
-    /// <param name="path">Indices of child instances from the root.</param>
-    /// <param name="rootMap">From the frame of the fractal to that of the query.</param>
-    /// <param name="context">Receives the map indices.</param>
-    /// <param name="reach">The largest absolute coordinate of a frame's origin on the way, in the frame of the query.</param>
-    internal SimdAffineMap ResolveInstance(ReadOnlySpan<int> path, in AffineMap rootMap, QueryContext context, out double reach)
-    {
-        var map = new SimdAffineMap(rootMap);
-        var maxTranslation = Vector256.Abs(map.Translation);
-        var remainingLevels = _hierarchy.Levels;
-        var exponent = 0L;
-        var subFractal = _hierarchy.Root;
-        foreach (var childIndex in path)
-        {
-            var child = subFractal.Children[childIndex];
-            if (child.Group is { } group)
-            {
-                subFractal = group;
-                continue;
-            }
-
-            map = SimdAffineMap.Compose(in map, in child.SimdMap);
-            maxTranslation = Vector256.Max(maxTranslation, Vector256.Abs(map.Translation));
-            if (child.MapIndices is { } mapIndices)
-            {
-                context.AppendToPath(mapIndices);
-                remainingLevels = child.RemainingLevels(remainingLevels);
-                subFractal = _hierarchy.At(remainingLevels);
-                continue;
-            }
-
-            foreach (var edge in child.Edges)
-            {
-                var childLevels = edge.RemainingLevels(remainingLevels);
-                if (edge.Set.Power is { } power)
-                {
-                    exponent = power.AppendToPath(context, exponent, childLevels);
-                    remainingLevels = childLevels;
-                    continue;
-                }
-
-                var isIdentity = edge.Set == MapSet.Identity;
-                if (isIdentity && childLevels == 0 && remainingLevels > FractalSearchState.MaxDepth)
-                {
-                    // A path that ends early goes on with identities.
-                    reach = SimdAffineMap.ToVector(maxTranslation).MaxAbsComponent();
-                    return map;
-                }
-
-                // Levels that are skipped take their identity.
-                for (var level = remainingLevels; level > (isIdentity ? childLevels : childLevels + 1); level--)
-                {
-                    context.AppendToPath(_hierarchy.MapSetAt(level)!.IdentityIndex);
-                }
-
-                if (!isIdentity)
-                {
-                    context.AppendToPath(edge.MapIndex);
-                }
-
-                remainingLevels = childLevels;
-            }
-
-            subFractal = _hierarchy.At(remainingLevels);
-        }
-
-        reach = SimdAffineMap.ToVector(maxTranslation).MaxAbsComponent();
-        return map;
     }
 }

@@ -11,11 +11,10 @@ namespace FractalEngine.Core.Collision.Fractals;
 /// </summary>
 /// <param name="mesh">The base mesh.</param>
 /// <param name="bvh">The hierarchy of the base mesh; null where it is one leaf of all faces.</param>
-/// <param name="fractal">Names the instances of the fractal; null for a mesh.</param>
 /// <param name="hierarchy">The levels of the fractal; null for a mesh.</param>
 /// <param name="minRadius">The radius, in the fractal's frame, at which a sub-fractal is replaced by the base mesh.</param>
 internal sealed class ShapeTree(
-    Mesh mesh, TriangleBvh? bvh, ExactFractalCollider? fractal = null, FractalHierarchy? hierarchy = null, double minRadius = 0)
+    Mesh mesh, TriangleBvh? bvh, FractalHierarchy? hierarchy = null, double minRadius = 0)
 {
     private readonly int[] _allFaces = bvh is null ? [.. Enumerable.Range(0, mesh.FaceCount)] : [];
 
@@ -32,7 +31,7 @@ internal sealed class ShapeTree(
     public BoundingBox Box => hierarchy?.Root.Box ?? mesh.Bounds;
 
     /// <summary>The same shape with a hierarchy of its base mesh.</summary>
-    public ShapeTree WithHierarchy() => bvh is not null ? this : new(mesh, new(mesh), fractal, hierarchy, minRadius);
+    public ShapeTree WithHierarchy() => bvh is not null ? this : new(mesh, new(mesh), hierarchy, minRadius);
 
     /// <summary>The node of the whole shape, which must not be empty.</summary>
     /// <param name="map">From the shape's frame to that of the query.</param>
@@ -96,13 +95,13 @@ internal sealed class ShapeTree(
     /// <param name="path">Indices of child instances from the root.</param>
     public int[] InstancePath(ReadOnlySpan<int> path)
     {
-        if (fractal is null)
+        if (hierarchy is null)
         {
             return [];
         }
 
         var context = new QueryContext();
-        fractal.ResolveInstance(path, AffineMap.Identity, context, out _);
+        hierarchy.ResolveInstance(path, AffineMap.Identity, context, out _);
         return context.InstancePath.ToArray();
     }
 

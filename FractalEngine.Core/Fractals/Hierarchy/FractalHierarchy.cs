@@ -6,7 +6,7 @@ namespace FractalEngine.Core.Fractals.Hierarchy;
 /// The sub-fractals of a fractal, one for each number of remaining levels. Deep repetitions share those of one round once their bounds have
 /// converged, so the hierarchy takes kilobytes at any depth.
 /// </summary>
-internal sealed class FractalHierarchy
+internal sealed partial class FractalHierarchy
 {
     // Up to here sub-fractals are found without a search.
     private const int MaxLowestLevel = 63;

@@ -3,6 +3,7 @@ using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Rays;
 
 namespace FractalEngine.Core.Fractals.Hierarchy;
 
@@ -18,6 +19,7 @@ internal sealed class SubFractal
     private static readonly Vector FarAwayPoint = 1e300 * Vector.One;
 
     private readonly Vector256<double> _halfSize;
+    private RayBounds? _rayBounds;
 
     /// <summary>Creates the sub-fractal of a level.</summary>
     /// <param name="set">The set of the level; null for the base.</param>
@@ -128,6 +130,12 @@ internal sealed class SubFractal
     /// <summary>Lists the children, and those of groups among them.</summary>
     public IEnumerable<ChildInstance> AllChildren() =>
         Children.SelectMany(child => child.Group is { } group ? [child, .. group.AllChildren()] : (IEnumerable<ChildInstance>)[child]);
+
+    /// <summary>The bounds for rays, made when the first ray comes.</summary>
+    public RayBounds RayBounds => _rayBounds ??= new(this);
+
+    /// <summary>True for a child without faces, whose box is far from everything.</summary>
+    public bool IsChildEmpty(int child) => ChildBounds[child] == FarAwayPoint.X;
 
     /// <summary>Tells whether a position is within so many radii of the box's centre.</summary>
     /// <param name="position">In the frame of the sub-fractal: x, y, z, 0.</param>

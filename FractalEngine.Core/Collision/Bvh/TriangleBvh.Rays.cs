@@ -1,0 +1,167 @@
+using System.Numerics;
+using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
+using System.Runtime.Intrinsics;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Rays;
+
+namespace FractalEngine.Core.Collision.Bvh;
+
+/// <content>The search along a ray.</content>
+internal sealed partial class TriangleBvh
+{
+    // All triangles of a small mesh for rays, made when the first ray comes.
+    private Vector256<double>[]? _rayQuads;
+    private RayBox? _rayBox;
+
+    private Vector256<double>[] RayQuads => _rayQuads ??= RayTriangles.GatherAll(_mesh, _faces);
+
+    /// <summary>Finds the nearest triangle along a ray, or any.</summary>
+    /// <param name="ray">In the mesh's frame.</param>
+    /// <param name="search">Receives the hit and the cost.</param>
+    /// <returns>True when there is a nearer hit than before.</returns>
+    public bool TryHit(in LocalRay ray, ref RaySearch search) => _faces.Length == 0 ? false
+        : _nodes.Length == 0 ? TryHitAny(in ray, ref search)
+        : TryHitNodes(in ray, ref search);
+
+    private bool TryHitAny(in LocalRay ray, ref RaySearch search)
+    {
+        var triangleRay = new TriangleRay(in ray);
+        var quads = RayQuads;
+        search.FaceTests += _faces.Length;
+        var isHit = false;
+        for (var first = 0; first < _faces.Length; first += RayTriangles.Count)
+        {
+            if (triangleRay.TryHit(ref quads[first / RayTriangles.Count * TriangleRay.VectorsPerQuad], ref search))
+            {
+                search.Face = _faces[Math.Min(first + search.Face, _faces.Length - 1)];
+                isHit = true;
+                if (search.StopsAtFirst)
+                {
+                    return true;
+                }
+            }
+        }
+
+        return isHit;
+    }
+
+    [SkipLocalsInit]
+    private bool TryHitNodes(in LocalRay ray, ref RaySearch search)
+    {
+        var approached = ray;
+        if (!TryApproach(ref approached, search.MaxDistance))
+        {
+            return false;
+        }
+
+        var floatRay = new FloatRay(in approached, SimdAffineMap.ToVector256(_origin), _scale, search.MaxDistance);
+        var triangleRay = new TriangleRay(in approached);
+        var (nearX, farX) = Sides(in floatRay, 0, out var nearOriginX, out var farOriginX);
+        var (nearY, farY) = Sides(in floatRay, 1, out var nearOriginY, out var farOriginY);
+        var (nearZ, farZ) = Sides(in floatRay, 2, out var nearOriginZ, out var farOriginZ);
+        var ix = Vector256.Create(floatRay.InverseDirection[0]);
+        var iy = Vector256.Create(floatRay.InverseDirection[1]);
+        var iz = Vector256.Create(floatRay.InverseDirection[2]);
+        var limit = floatRay.Limit;
+        Span<ulong> stack = stackalloc ulong[_stackSize];
+        Span<Vector256<double>> quad = stackalloc Vector256<double>[TriangleRay.VectorsPerQuad];
+        ref var stackBase = ref MemoryMarshal.GetReference(stack);
+        ref var nodes = ref Node(BvhChild.Root);
+        nint stackCount = 0;
+        var isHit = false;
+        var current = BvhChild.Root;
+        while (true)
+        {
+            if (current.IsNode)
+            {
+                search.BoundTests += BvhLayout.BranchingFactor;
+                ref var node = ref Unsafe.Add(ref nodes, (nint)current.NodeIndex * BvhLayout.VectorsPerNode);
+                var near = Vector256.MaxNative(
+                    Vector256.MaxNative(
+                        (Unsafe.Add(ref node, nearX) - nearOriginX) * ix, (Unsafe.Add(ref node, nearY) - nearOriginY) * iy),
+                    Vector256.MaxNative((Unsafe.Add(ref node, nearZ) - nearOriginZ) * iz, Vector256<float>.Zero));
+                var far = Vector256.MinNative(
+                    Vector256.MinNative(
+                        (Unsafe.Add(ref node, farX) - farOriginX) * ix, (Unsafe.Add(ref node, farY) - farOriginY) * iy),
+                    Vector256.MinNative((Unsafe.Add(ref node, farZ) - farOriginZ) * iz, Vector256.Create(limit)));
+                var hits = Vector256.LessThanOrEqual(near, far);
+                var hitCount = BitOperations.PopCount(hits.ExtractMostSignificantBits());
+                if (hitCount != 0)
+                {
+                    ChildStack.Push(near, hits, Unsafe.Add(ref node, 6).AsUInt32(), ref Unsafe.Add(ref stackBase, stackCount));
+                    stackCount += hitCount - 1;
+                    current = BvhChild.FromBits((uint)Unsafe.Add(ref stackBase, stackCount));
+                    continue;
+                }
+            }
+            else if (TryHitLeaf(current, in triangleRay, quad, ref search))
+            {
+                isHit = true;
+                if (search.StopsAtFirst)
+                {
+                    return true;
+                }
+
+                limit = new FloatRay(in approached, SimdAffineMap.ToVector256(_origin), _scale, search.MaxDistance).Limit;
+            }
+
+            do
+            {
+                if (stackCount == 0)
+                {
+                    return isHit;
+                }
+
+                stackCount--;
+            }
+            while (!(BitConverter.UInt32BitsToSingle((uint)(Unsafe.Add(ref stackBase, stackCount) >> 32)) <= limit));
+            current = BvhChild.FromBits((uint)Unsafe.Add(ref stackBase, stackCount));
+        }
+    }
+
+    private bool TryHitLeaf(BvhChild leaf, in TriangleRay ray, Span<Vector256<double>> quad, ref RaySearch search)
+    {
+        var faces = Faces(leaf);
+        search.FaceTests += faces.Length;
+        var isHit = false;
+        for (var first = 0; first < faces.Length; first += RayTriangles.Count)
+        {
+            var four = faces[first..Math.Min(first + RayTriangles.Count, faces.Length)];
+            RayTriangles.Gather(_mesh, four, ref quad[0]);
+            if (ray.TryHit(ref quad[0], ref search))
+            {
+                search.Face = four[Math.Min(search.Face, four.Length - 1)];
+                isHit = true;
+                if (search.StopsAtFirst)
+                {
+                    break;
+                }
+            }
+        }
+
+        return isHit;
+    }
+
+    /// <summary>Moves the origin of a ray from afar to where it may enter the box of the mesh; false where it misses that.</summary>
+    private bool TryApproach(ref LocalRay ray, double limit)
+    {
+        _rayBox ??= new(_mesh.Bounds);
+        return _rayBox.TryApproach(ref ray, limit);
+    }
+
+    /// <summary>Finds the sides of boxes where a ray enters and leaves them along an axis.</summary>
+    /// <param name="ray">The ray.</param>
+    /// <param name="axis">0 for x, 1 for y, 2 for z.</param>
+    /// <param name="nearOrigin">Its origin, moved so that near sides are widened.</param>
+    /// <param name="farOrigin">Its origin, moved so that far sides are widened.</param>
+    /// <returns>The vectors of a node that hold these sides.</returns>
+    private static (nint Near, nint Far) Sides(
+        in FloatRay ray, int axis, out Vector256<float> nearOrigin, out Vector256<float> farOrigin)
+    {
+        var widening = float.CopySign(ray.Widening, ray.Direction.GetElement(axis));
+        nearOrigin = Vector256.Create(ray.Origin.GetElement(axis) + widening);
+        farOrigin = Vector256.Create(ray.Origin.GetElement(axis) - widening);
+        return widening > 0 ? (axis, axis + 3) : (axis + 3, axis);
+    }
+}

@@ -1,0 +1,80 @@
+using System.Runtime.Intrinsics;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Fractals;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Fractals.Hierarchy;
+
+/// <content>The instance that a path of a search leads to.</content>
+internal sealed partial class FractalHierarchy
+{
+    /// <summary>Follows a path to an instance: composes its map, and records the map index of each level.</summary>
+    /// <param name="path">Indices of child instances from the root.</param>
+    /// <param name="rootMap">From the frame of the fractal to that of the query.</param>
+    /// <param name="context">Receives the map indices.</param>
+    /// <param name="reach">The largest absolute coordinate of a frame's origin on the way, in the frame of the query.</param>
+    public SimdAffineMap ResolveInstance(ReadOnlySpan<int> path, in AffineMap rootMap, QueryContext context, out double reach)
+    {
+        var map = new SimdAffineMap(rootMap);
+        var maxTranslation = Vector256.Abs(map.Translation);
+        var remainingLevels = Levels;
+        var exponent = 0L;
+        var subFractal = Root;
+        foreach (var childIndex in path)
+        {
+            var child = subFractal.Children[childIndex];
+            if (child.Group is { } group)
+            {
+                subFractal = group;
+                continue;
+            }
+
+            map = SimdAffineMap.Compose(in map, in child.SimdMap);
+            maxTranslation = Vector256.Max(maxTranslation, Vector256.Abs(map.Translation));
+            if (child.MapIndices is { } mapIndices)
+            {
+                context.AppendToPath(mapIndices);
+                remainingLevels = child.RemainingLevels(remainingLevels);
+                subFractal = At(remainingLevels);
+                continue;
+            }
+
+            foreach (var edge in child.Edges)
+            {
+                var childLevels = edge.RemainingLevels(remainingLevels);
+                if (edge.Set.Power is { } power)
+                {
+                    exponent = power.AppendToPath(context, exponent, childLevels);
+                    remainingLevels = childLevels;
+                    continue;
+                }
+
+                var isIdentity = edge.Set == MapSet.Identity;
+                if (isIdentity && childLevels == 0 && remainingLevels > FractalSearchState.MaxDepth)
+                {
+                    // A path that ends early goes on with identities.
+                    reach = SimdAffineMap.ToVector(maxTranslation).MaxAbsComponent();
+                    return map;
+                }
+
+                // Levels that are skipped take their identity.
+                for (var level = remainingLevels; level > (isIdentity ? childLevels : childLevels + 1); level--)
+                {
+                    context.AppendToPath(MapSetAt(level)!.IdentityIndex);
+                }
+
+                if (!isIdentity)
+                {
+                    context.AppendToPath(edge.MapIndex);
+                }
+
+                remainingLevels = childLevels;
+            }
+
+            subFractal = At(remainingLevels);
+        }
+
+        reach = SimdAffineMap.ToVector(maxTranslation).MaxAbsComponent();
+        return map;
+    }
+}

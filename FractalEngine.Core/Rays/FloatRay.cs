@@ -1,0 +1,72 @@
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
+
+namespace FractalEngine.Core.Rays;
+
+/// <summary>
+/// A ray in single precision, for tests of many bounds at once. Lengths are in units of what is searched, and the largest component of the
+/// direction is 1.
+/// </summary>
+internal readonly struct FloatRay
+{
+    /// <summary>
+    /// What bounds are widened by so that rounding hides nothing, as a part of the size of what is searched: docs/rays.md.
+    /// </summary>
+    public const float Margin = 4e-6f;
+
+    // Smaller components are this: over the length of what is searched, they matter less than the margin.
+    private const float MinComponent = 1e-12f;
+
+    // The rounding of the parameter and what keys lose.
+    private const double LimitFactor = 1 + 1e-5;
+
+    /// <summary>Converts a ray.</summary>
+    /// <param name="ray">Starts within a few units of the centre.</param>
+    /// <param name="centre">Origin of the float coordinates: x, y, z, 0.</param>
+    /// <param name="inverseSize">Inverse of the unit of length.</param>
+    /// <param name="limit">Largest distance along the ray of the query.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public FloatRay(in LocalRay ray, Vector256<double> centre, double inverseSize, double limit)
+    {
+        var speed = ray.Speed;
+        var origin = (ray.Origin - centre) * Vector256.Create(inverseSize);
+        var direction = ray.Direction / Vector256.Create(speed);
+        PerDistance = speed * inverseSize;
+        Limit = LimitFor(in ray, PerDistance, limit);
+        Widening = Margin + (float)(ray.Error * inverseSize);
+        var narrow = Vector256.Narrow(origin, direction);
+        Origin = narrow.GetLower();
+        var components = narrow.GetUpper();
+        var tiny = Vector128.LessThan(Vector128.Abs(components), Vector128.Create(MinComponent));
+        components = Vector128.ConditionalSelect(
+            tiny, Vector128.Create(MinComponent) | (components & Vector128.Create(-0f)), components);
+        Direction = components;
+        InverseDirection = Vector128<float>.One / components;
+    }
+
+    /// <summary>Converts a distance along the ray of the query to an upper bound of the parameter.</summary>
+    /// <param name="ray">The ray.</param>
+    /// <param name="perDistance">See <see cref="PerDistance"/>.</param>
+    /// <param name="distance">The distance.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static float LimitFor(in LocalRay ray, double perDistance, double distance) =>
+        (float)((distance - ray.Start) * perDistance * LimitFactor) + Margin;
+
+    /// <summary>Where it starts: x, y, z and any fourth lane.</summary>
+    public Vector128<float> Origin { get; }
+
+    /// <summary>Its direction without components of 0.</summary>
+    public Vector128<float> Direction { get; }
+
+    /// <summary>Inverses of the components of the direction.</summary>
+    public Vector128<float> InverseDirection { get; }
+
+    /// <summary>Factor from distances along the ray of the query to the parameter of this one.</summary>
+    public double PerDistance { get; }
+
+    /// <summary>Largest parameter.</summary>
+    public float Limit { get; }
+
+    /// <summary>What bounds are widened by on all sides.</summary>
+    public float Widening { get; }
+}

@@ -1,0 +1,76 @@
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
+using FractalEngine.Core.Fractals.Hierarchy;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Rays;
+
+/// <summary>A box that rays approach from afar, in double precision.</summary>
+internal sealed class RayBox
+{
+    // Farther away, in half sizes, floats tell bounds apart less well than rounding allows.
+    private const double MaxOriginDistance = 4;
+
+    // The rounding of a box and of its distance along a ray, as a part of the largest coordinate.
+    private const double BoxError = 1e-14;
+    private const double MinRelativeComponent = 1e-30;
+
+    private readonly Vector256<double> _halfSize;
+
+    /// <summary>Prepares a box, which is not empty.</summary>
+    public RayBox(BoundingBox box)
+    {
+        var halfSize = 0.5 * box.Size;
+        var error = BoxError * BoundingVolume.MaxAbsCoordinate(box);
+        var size = Math.Max(halfSize.MaxAbsComponent(), error);
+        InverseSize = size > 0 ? 1 / size : 1;
+        Centre = SimdAffineMap.ToVector256(box.Centre);
+        _halfSize = SimdAffineMap.ToVector256(halfSize + (error * Vector.One));
+    }
+
+    /// <summary>The centre: x, y, z, 0.</summary>
+    public Vector256<double> Centre { get; }
+
+    /// <summary>Inverse of half the largest side.</summary>
+    public double InverseSize { get; }
+
+    /// <summary>Moves the origin of a ray to where it may enter the box, if it is far away.</summary>
+    /// <param name="ray">In the frame of the box.</param>
+    /// <param name="limit">Largest distance along the ray of the query.</param>
+    /// <returns>False where a ray from afar misses the box.</returns>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public bool TryApproach(ref LocalRay ray, double limit)
+    {
+        var distance = Vector256.Abs(ray.Origin - Centre) * Vector256.Create(InverseSize);
+        return Vector256.LessThanAll(distance, Vector256.Create(MaxOriginDistance)) || TryApproachFromAfar(ref ray, limit);
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private bool TryApproachFromAfar(ref LocalRay ray, double limit)
+    {
+        var least = Vector256.Create(MinRelativeComponent * ray.Speed);
+        var isTiny = Vector256.LessThan(Vector256.Abs(ray.Direction), least);
+        var direction = Vector256.ConditionalSelect(isTiny, least | (ray.Direction & Vector256.Create(-0.0)), ray.Direction);
+        var inverse = Vector256<double>.One / direction;
+        var toCentre = (Centre - ray.Origin) * inverse;
+        var origin = Vector256.Abs(ray.Origin);
+        var error = ray.Error + (BoxError * (origin[0] + origin[1] + origin[2]));
+        var half = (_halfSize + Vector256.Create(error)) * Vector256.Abs(inverse);
+        var near = toCentre - half;
+        var far = toCentre + half;
+        var entry = Math.Max(Math.Max(near[0], near[1]), near[2]);
+        var exit = Math.Min(Math.Min(far[0], far[1]), far[2]);
+        if (!(entry <= exit && exit >= 0 && entry + ray.Start <= limit))
+        {
+            return false;
+        }
+
+        if (entry > 0)
+        {
+            ray = ray.Advance(entry);
+        }
+
+        return true;
+    }
+}

@@ -1,0 +1,137 @@
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+
+namespace FractalEngine.Core.Rays;
+
+/// <summary>
+/// Finds where rays hit a shape, exactly. Immutable: any number of threads may cast rays at once, each with a context of its own. Rays with
+/// a context allocate nothing.
+/// </summary>
+/// <remarks>
+/// Faces are hit from both sides. Where several faces are hit at the same distance, as on a common edge, one of them is found, the same each
+/// time. A ray through an edge or a vertex of a closed surface never slips through. Triangles that a ray sees edge on, and those without
+/// area, are not hit.
+/// </remarks>
+public abstract class RayCaster
+{
+    private readonly SpareContext _spareContext = new();
+
+    private protected RayCaster()
+    {
+    }
+
+    /// <summary>Bytes that the caster keeps beside the mesh or the fractal it was made from.</summary>
+    public abstract long StorageBytes { get; }
+
+    /// <summary>Makes the caster of a mesh.</summary>
+    /// <remarks>Cost: that of a hierarchy of the mesh, O(n·log n) for n faces.</remarks>
+    public static RayCaster For(Mesh mesh)
+    {
+        ArgumentNullException.ThrowIfNull(mesh);
+        return new MeshRayCaster(mesh);
+    }
+
+    /// <summary>Makes the caster of a fractal of any depth.</summary>
+    /// <exception cref="FractalLimitException">
+    /// The bounds of some level overflow a double or don't converge, or the fractal is composed componentwise and has more than
+    /// <see cref="ColliderFactory.MaxExpandedFaces"/> faces.
+    /// </exception>
+    /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
+    /// <remarks>Cost: microseconds to milliseconds, whatever the depth; componentwise composition is expanded.</remarks>
+    public static RayCaster For(Fractal fractal)
+    {
+        ArgumentNullException.ThrowIfNull(fractal);
+        return fractal.Description.Composition == Composition.Affine
+            ? new FractalRayCaster(fractal)
+            : new MeshRayCaster(ColliderFactory.Expand(fractal, AffineMap.Identity));
+    }
+
+    /// <summary>Makes the caster of a model in its own frame.</summary>
+    /// <exception cref="FractalLimitException">As for a fractal.</exception>
+    public static RayCaster For(Model model)
+    {
+        ArgumentNullException.ThrowIfNull(model);
+        return model is FractalModel { Fractal: var fractal } ? For(fractal) : For(model.Mesh);
+    }
+
+    /// <summary>Finds the nearest face that a ray hits.</summary>
+    /// <param name="ray">In the shape's frame.</param>
+    /// <param name="context">Receives the costs and the instance; one for each thread.</param>
+    /// <param name="hit">The hit, if there is one.</param>
+    /// <param name="minDistance">Smallest distance that counts, scene units, not negative.</param>
+    /// <param name="maxDistance">Largest distance that counts, scene units; may be infinite.</param>
+    /// <returns>False when the ray hits no face between the two distances.</returns>
+    /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
+    /// <remarks>A face at the origin of the ray counts, at a distance of 0; a ray that leaves a surface needs a smallest distance.</remarks>
+    public bool TryFindNearest(
+        Ray ray, QueryContext context, out RayHit hit, double minDistance = 0, double maxDistance = double.PositiveInfinity)
+    {
+        ArgumentNullException.ThrowIfNull(context);
+        var direction = CheckedUnitDirection(in ray, minDistance, maxDistance);
+        return FindNearestCore(ray.Origin, direction, minDistance, maxDistance, context, out hit);
+    }
+
+    /// <summary>Finds the nearest face that a ray hits; null for none.</summary>
+    /// <param name="ray">In the shape's frame.</param>
+    /// <exception cref="ArgumentException">The ray is not finite, or its direction is 0.</exception>
+    public RayHit? FindNearest(Ray ray)
+    {
+        var context = _spareContext.Take();
+        RayHit? result = TryFindNearest(ray, context, out var hit) ? hit : null;
+        _spareContext.Return(context);
+        return result;
+    }
+
+    /// <summary>Tells whether a ray hits any face, which is found sooner than the nearest.</summary>
+    /// <param name="ray">In the shape's frame.</param>
+    /// <param name="context">Receives the costs; one for each thread.</param>
+    /// <param name="minDistance">Smallest distance that counts, scene units, not negative.</param>
+    /// <param name="maxDistance">Largest distance that counts, scene units; may be infinite.</param>
+    /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
+    public bool HitsAny(Ray ray, QueryContext context, double minDistance = 0, double maxDistance = double.PositiveInfinity)
+    {
+        ArgumentNullException.ThrowIfNull(context);
+        var direction = CheckedUnitDirection(in ray, minDistance, maxDistance);
+        return HitsAnyCore(ray.Origin, direction, minDistance, maxDistance, context);
+    }
+
+    /// <summary>Finds the nearest face that a ray hits, whose arguments are checked.</summary>
+    internal abstract bool FindNearestCore(
+        Vector origin, Vector unitDirection, double minDistance, double maxDistance, QueryContext context, out RayHit hit);
+
+    /// <summary>Tells whether a ray hits any face, whose arguments are checked.</summary>
+    internal abstract bool HitsAnyCore(
+        Vector origin, Vector unitDirection, double minDistance, double maxDistance, QueryContext context);
+
+    /// <summary>Checks the arguments of a query, and returns the direction of length 1.</summary>
+    internal static Vector CheckedUnitDirection(in Ray ray, double minDistance, double maxDistance)
+    {
+        if (!ray.Origin.IsFinite())
+        {
+            throw new ArgumentException($"expected finite coordinates, got the origin {ray.Origin}", nameof(ray));
+        }
+
+        var largest = ray.Direction.MaxAbsComponent();
+        if (!(largest > 0) || !ray.Direction.IsFinite())
+        {
+            throw new ArgumentException($"expected a finite direction that is not zero, got {ray.Direction}", nameof(ray));
+        }
+
+        if (!(minDistance >= 0))
+        {
+            throw new ArgumentOutOfRangeException(nameof(minDistance), minDistance, "expected no negative number");
+        }
+
+        if (!(maxDistance >= 0))
+        {
+            throw new ArgumentOutOfRangeException(nameof(maxDistance), maxDistance, "expected no negative number");
+        }
+
+        // Squares of any double stay within range after the division, and components that vanish beside others become 0.
+        var direction = ray.Direction / largest;
+        return direction / direction.Length();
+    }
+}

@@ -1,0 +1,42 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Rays;
+
+/// <summary>Where a ray hits a face.</summary>
+/// <param name="Distance">Along the ray, scene units.</param>
+/// <param name="Point">In the frame of the ray.</param>
+/// <param name="Normal">The unit normal of the face by its winding, in the frame of the ray; not turned towards the ray.</param>
+/// <param name="IsFrontFace">True where the ray hits the side that the normal points to.</param>
+/// <param name="Barycentrics">Weights of the vertices of the face.</param>
+/// <param name="FaceIndex">Index of the face in the mesh, from 0.</param>
+public readonly record struct RayHit(
+    double Distance, Vector Point, Vector Normal, bool IsFrontFace, Vector Barycentrics, int FaceIndex)
+{
+    /// <summary>Interpolates the texture coordinates of the face at the point; null where it has none.</summary>
+    /// <param name="mesh">The mesh that was hit, or the base mesh of the fractal.</param>
+    public (double U, double V)? TextureCoordinates(Mesh mesh)
+    {
+        ArgumentNullException.ThrowIfNull(mesh);
+        if (mesh.TextureIndices.IsEmpty)
+        {
+            return null;
+        }
+
+        var (u, v) = (0.0, 0.0);
+        for (var corner = 0; corner < 3; corner++)
+        {
+            var index = mesh.TextureIndices[(3 * FaceIndex) + corner];
+            if (index < 0)
+            {
+                return null;
+            }
+
+            var weight = corner == 0 ? Barycentrics.X : corner == 1 ? Barycentrics.Y : Barycentrics.Z;
+            u += weight * mesh.TextureCoordinates[2 * index];
+            v += weight * mesh.TextureCoordinates[(2 * index) + 1];
+        }
+
+        return (u, v);
+    }
+}

@@ -1,0 +1,29 @@
+namespace FractalEngine.Core.Rays;
+
+/// <summary>The state of a search along a ray: what counts as a hit, the nearest one so far, and the cost.</summary>
+/// <param name="minDistance">Smallest distance of a hit; a little less than what the caller asks, for rounding.</param>
+/// <param name="maxDistance">Largest distance of a hit.</param>
+/// <param name="stopsAtFirst">True to end at the first hit, whichever it is.</param>
+internal struct RaySearch(double minDistance, double maxDistance, bool stopsAtFirst)
+{
+    /// <summary>Smallest distance of a hit.</summary>
+    public readonly double MinDistance = minDistance;
+
+    /// <summary>True to end at the first hit, whichever it is.</summary>
+    public readonly bool StopsAtFirst = stopsAtFirst;
+
+    /// <summary>Distance of the nearest hit so far, or the largest that counts.</summary>
+    public double MaxDistance = maxDistance;
+
+    /// <summary>Face index of the nearest hit; −1 for none.</summary>
+    public int Face = -1;
+
+    /// <summary>Number of triangles that were tested.</summary>
+    public long FaceTests;
+
+    /// <summary>Number of bounding volumes that were tested.</summary>
+    public long BoundTests;
+
+    /// <summary>True when there is a hit and no nearer one is asked for.</summary>
+    public readonly bool IsDone => StopsAtFirst && Face >= 0;
+}
