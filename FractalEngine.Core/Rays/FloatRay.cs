@@ -4,8 +4,8 @@ using System.Runtime.Intrinsics;
 namespace FractalEngine.Core.Rays;
 
 /// <summary>
-/// A ray in single precision, for tests of many bounds at once. Lengths are in units of what is searched, and the largest component of the
-/// direction is 1.
+/// A ray in single precision, for tests of many bounds at once. Lengths are in units of what is searched, and the direction is of about
+/// the length 1.
 /// </summary>
 internal readonly struct FloatRay
 {
@@ -22,35 +22,27 @@ internal readonly struct FloatRay
 
     /// <summary>Converts a ray.</summary>
     /// <param name="ray">Starts within a few units of the centre.</param>
+    /// <param name="speed">About the length of its direction.</param>
+    /// <param name="inverseSpeed">The inverse of that.</param>
     /// <param name="centre">Origin of the float coordinates: x, y, z, 0.</param>
     /// <param name="inverseSize">Inverse of the unit of length.</param>
-    /// <param name="limit">Largest distance along the ray of the query.</param>
+    /// <param name="search">The limit of the search, and its rounding.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public FloatRay(in LocalRay ray, Vector256<double> centre, double inverseSize, double limit)
+    public FloatRay(
+        in LocalRay ray, double speed, double inverseSpeed, Vector256<double> centre, double inverseSize, in RaySearch search)
     {
-        var speed = ray.Speed;
-        var origin = (ray.Origin - centre) * Vector256.Create(inverseSize);
-        var direction = ray.Direction / Vector256.Create(speed);
         PerDistance = speed * inverseSize;
-        Limit = LimitFor(in ray, PerDistance, limit);
-        Widening = Margin + (float)(ray.Error * inverseSize);
-        var narrow = Vector256.Narrow(origin, direction);
+        Limit = LimitFor(in ray, PerDistance, search.MaxDistance);
+        Widening = Margin + (float)(ray.InverseScale * inverseSize * search.Error);
+        var narrow = Vector256.Narrow(
+            (ray.Origin - centre) * Vector256.Create(inverseSize), ray.Direction * Vector256.Create(inverseSpeed));
         Origin = narrow.GetLower();
         var components = narrow.GetUpper();
-        var tiny = Vector128.LessThan(Vector128.Abs(components), Vector128.Create(MinComponent));
-        components = Vector128.ConditionalSelect(
-            tiny, Vector128.Create(MinComponent) | (components & Vector128.Create(-0f)), components);
-        Direction = components;
-        InverseDirection = Vector128<float>.One / components;
+        var isTiny = Vector128.LessThan(Vector128.Abs(components), Vector128.Create(MinComponent));
+        Direction = Vector128.ConditionalSelect(
+            isTiny, Vector128.Create(MinComponent) | (components & Vector128.Create(-0f)), components);
+        InverseDirection = Vector128<float>.One / Direction;
     }
-
-    /// <summary>Converts a distance along the ray of the query to an upper bound of the parameter.</summary>
-    /// <param name="ray">The ray.</param>
-    /// <param name="perDistance">See <see cref="PerDistance"/>.</param>
-    /// <param name="distance">The distance.</param>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static float LimitFor(in LocalRay ray, double perDistance, double distance) =>
-        (float)((distance - ray.Start) * perDistance * LimitFactor) + Margin;
 
     /// <summary>Where it starts: x, y, z and any fourth lane.</summary>
     public Vector128<float> Origin { get; }
@@ -69,4 +61,12 @@ internal readonly struct FloatRay
 
     /// <summary>What bounds are widened by on all sides.</summary>
     public float Widening { get; }
+
+    /// <summary>Converts a distance along the ray of the query to an upper bound of the parameter.</summary>
+    /// <param name="ray">The ray.</param>
+    /// <param name="perDistance">See <see cref="PerDistance"/>.</param>
+    /// <param name="distance">The distance.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static float LimitFor(in LocalRay ray, double perDistance, double distance) =>
+        (float)((distance - ray.Start) * perDistance * LimitFactor) + Margin;
 }

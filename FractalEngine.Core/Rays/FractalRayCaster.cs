@@ -27,7 +27,8 @@ internal sealed class FractalRayCaster : RayCaster
     private readonly Fractal _fractal;
     private readonly FractalHierarchy _hierarchy;
     private readonly TriangleBvh _bvh;
-    private readonly double _minRadius;
+    private readonly double _minRadiusSquared;
+    private readonly bool _hasOnlySimilarities;
 
     /// <summary>Prepares a fractal in affine composition.</summary>
     public FractalRayCaster(Fractal fractal)
@@ -35,7 +36,9 @@ internal sealed class FractalRayCaster : RayCaster
         _fractal = fractal;
         _hierarchy = fractal.Hierarchy;
         _bvh = TriangleBvh.For(fractal.BaseMesh);
-        _minRadius = ExactFractalCollider.MinRadius(_hierarchy.Root);
+        var minRadius = ExactFractalCollider.MinRadius(_hierarchy.Root);
+        _minRadiusSquared = minRadius * minRadius;
+        _hasOnlySimilarities = _hierarchy.HasOnlySimilarities;
     }
 
     /// <inheritdoc/>
@@ -71,7 +74,8 @@ internal sealed class FractalRayCaster : RayCaster
     {
         context.ClearPath();
         var ray = LocalRay.Of(origin, unitDirection, minDistance);
-        var search = new RaySearch(minDistance - ray.Error, maxDistance, stopsAtFirst);
+        var search = new RaySearch(
+            minDistance, maxDistance, stopsAtFirst, RoundingError(origin, minDistance, _hierarchy.Root.Box));
         pathLength = _hierarchy.Root.Box.IsEmpty ? 0 : Traverse(in ray, ref search, context);
 
         context.Statistics.FaceTests += search.FaceTests;
@@ -86,83 +90,69 @@ internal sealed class FractalRayCaster : RayCaster
         var stack = context.RayStack;
         var pathLength = 0;
         var depth = -1;
-        var local = ray;
-        var subFractal = _hierarchy.Root;
-        var levels = _hierarchy.Levels;
-        var scale = 1.0;
-        while (true)
+        if (IsLeaf(_hierarchy.Root, _hierarchy.Levels, in ray))
         {
-            if (levels == 0 || depth >= FractalSearchState.MaxDepth || scale * subFractal.Radius <= _minRadius
-                || search.BoundTests > MaxBoundTests)
-            {
-                if (TestBase(subFractal, in local, ref search))
-                {
-                    pathLength = depth + 1;
-                    stack.CopyPath(pathLength, context.BestPathBuffer(pathLength));
-                    if (search.StopsAtFirst)
-                    {
-                        return pathLength;
-                    }
-                }
-            }
-            else
-            {
-                TryPush(stack, ref depth, subFractal, levels, in local, scale, ref search);
-            }
-
-            if (!TryTakeChild(stack, ref depth, in search, out subFractal, out levels, out local, out scale))
-            {
-                return pathLength;
-            }
+            TestBase(_hierarchy.Root, in ray, ref search);
         }
-    }
+        else
+        {
+            Push(stack, ref depth, _hierarchy.Root.RayBounds, _hierarchy.Levels, in ray, ref search);
+        }
 
-    /// <summary>Takes the next child of the innermost sub-fractal that has one.</summary>
-    private bool TryTakeChild(
-        RayStack stack, ref int depth, in RaySearch search, out SubFractal subFractal, out long levels, out LocalRay local,
-        out double scale)
-    {
-        Unsafe.SkipInit(out local);
-        for (; depth >= 0; depth--)
+        while (depth >= 0)
         {
             ref var frame = ref stack[depth];
-            var keys = stack.Keys(in frame);
-            while (RayBounds.TryTake(keys, FloatRay.LimitFor(in frame.Ray, frame.PerDistance, search.MaxDistance), out var index, out var entry))
+            var bounds = frame.Bounds;
+            var limit = FloatRay.LimitFor(in frame.Ray, frame.PerDistance, search.MaxDistance);
+            if (!RayBounds.TryTake(ref stack.Keys(in frame), bounds.KeyCount, limit, out var index, out var entry))
             {
-                var child = frame.SubFractal.Children[index];
-                levels = child.RemainingLevels(frame.RemainingLevels);
-                subFractal = _hierarchy.At(child, levels);
-                frame.Child = index;
-                scale = frame.Scale;
-                local = frame.Ray.Advance(entry / frame.PerDistance);
-                if (child.Group is null)
-                {
-                    local = local.Transform(in child.InverseSimdMap, frame.Bounds.InverseNorm(index));
-                    scale *= child.OperatorNormBound;
-                }
+                depth--;
+                continue;
+            }
 
-                return true;
+            var child = bounds.SubFractal.Children[index];
+            var levels = child.RemainingLevels(frame.RemainingLevels);
+            var subFractal = _hierarchy.At(child, levels);
+            frame.Child = index;
+            var local = frame.Ray.Advance(entry * frame.DistancePer);
+            if (child.Group is null)
+            {
+                local = local.Transform(in child.InverseSimdMap, bounds.InverseNorm(index), child.OperatorNormBound);
+            }
+
+            if (!IsLeaf(subFractal, levels, in local) && depth < FractalSearchState.MaxDepth && search.BoundTests < MaxBoundTests)
+            {
+                Push(stack, ref depth, subFractal.RayBounds, levels, in local, ref search);
+            }
+            else if (TestBase(subFractal, in local, ref search))
+            {
+                pathLength = depth + 1;
+                stack.CopyPath(context.BestPathBuffer(pathLength)[..pathLength]);
+                if (search.StopsAtFirst)
+                {
+                    break;
+                }
             }
         }
 
-        subFractal = _hierarchy.Root;
-        levels = 0;
-        scale = 0;
-        return false;
+        return pathLength;
     }
 
-    /// <summary>Pushes a sub-fractal whose children the ray may hit.</summary>
-    private static void TryPush(
-        RayStack stack, ref int depth, SubFractal subFractal, long levels, in LocalRay ray, double scale, ref RaySearch search)
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private bool IsLeaf(SubFractal subFractal, long levels, in LocalRay ray) =>
+        levels == 0 || ray.Scale * ray.Scale * subFractal.RadiusSquared <= _minRadiusSquared;
+
+    /// <summary>Pushes a sub-fractal if the ray may hit it.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private void Push(RayStack stack, ref int depth, RayBounds bounds, long levels, in LocalRay ray, ref RaySearch search)
     {
-        var bounds = subFractal.RayBounds;
         var local = ray;
-        if (!bounds.Box.TryApproach(ref local, search.MaxDistance))
+        if (!bounds.Box.TryApproach(ref local, in search))
         {
             return;
         }
 
-        var floatRay = bounds.ToFloats(in local, search.MaxDistance);
+        var floatRay = ToFloats(bounds, in local, in search);
         if (bounds.HasPlanes)
         {
             search.BoundTests++;
@@ -172,18 +162,27 @@ internal sealed class FractalRayCaster : RayCaster
             }
         }
 
-        search.BoundTests += subFractal.Children.Length;
-        var firstKey = stack.Reserve(depth + 1, bounds.KeyCount);
+        var keyCount = bounds.KeyCount;
+        search.BoundTests += keyCount;
+        var firstKey = depth < 0 ? 0 : stack[depth].FirstKey + stack[depth].Bounds.KeyCount;
         depth++;
+        stack.EnsureRoom(depth, firstKey + keyCount);
         ref var frame = ref stack[depth];
-        frame.SubFractal = subFractal;
         frame.Bounds = bounds;
         frame.Ray = local;
         frame.RemainingLevels = levels;
-        frame.Scale = scale;
         frame.PerDistance = floatRay.PerDistance;
+        frame.DistancePer = 1 / floatRay.PerDistance;
         frame.FirstKey = firstKey;
-        bounds.FillKeys(in floatRay, stack.Keys(in frame));
+        bounds.FillKeys(in floatRay, ref stack.Keys(in frame));
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private FloatRay ToFloats(RayBounds bounds, in LocalRay ray, in RaySearch search)
+    {
+        // Similarities lengthen all directions alike; under other maps the bounds of lengths grow apart from them.
+        var speed = _hasOnlySimilarities ? ray.InverseScale : ray.Speed;
+        return bounds.ToFloats(in ray, speed, _hasOnlySimilarities ? ray.Scale : 1 / speed, in search);
     }
 
     private bool TestBase(SubFractal subFractal, in LocalRay ray, ref RaySearch search)
@@ -192,8 +191,7 @@ internal sealed class FractalRayCaster : RayCaster
         {
             search.BoundTests++;
             var local = ray;
-            if (!bounds.Box.TryApproach(ref local, search.MaxDistance)
-                || !bounds.MayHitPlanes(bounds.ToFloats(in local, search.MaxDistance)))
+            if (!bounds.Box.TryApproach(ref local, in search) || !bounds.MayHitPlanes(ToFloats(bounds, in local, in search)))
             {
                 return false;
             }

@@ -35,7 +35,7 @@ internal sealed class MeshRayCaster(Mesh mesh) : RayCaster
     {
         context.ClearPath();
         var ray = LocalRay.Of(origin, unitDirection, minDistance);
-        var search = new RaySearch(minDistance - ray.Error, maxDistance, stopsAtFirst);
+        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, RoundingError(origin, minDistance, mesh.Bounds));
         _bvh.TryHit(in ray, ref search);
         context.Statistics.FaceTests += search.FaceTests;
         context.Statistics.BoundTests += search.BoundTests;

@@ -30,7 +30,9 @@ internal sealed class RayBounds
     /// <summary>Prepares the bounds of a sub-fractal.</summary>
     public RayBounds(SubFractal subFractal)
     {
+        SubFractal = subFractal;
         Box = new(subFractal.Box);
+        KeyCount = (subFractal.Children.Length + LaneCount - 1) / LaneCount * LaneCount;
         _boxes = CreateBoxes(subFractal, Box.Centre, Box.InverseSize);
         _planes = subFractal.Hull is { } hull ? CreatePlanes(hull, subFractal.Box.Centre, Box.InverseSize) : [];
         _inverseNorms = [.. subFractal.Children.Select(
@@ -38,7 +40,7 @@ internal sealed class RayBounds
     }
 
     /// <summary>Number of keys of the children, those of missing children included.</summary>
-    public int KeyCount => _boxes.Length / BoxRows;
+    public int KeyCount { get; }
 
     /// <summary>True where planes bound the sub-fractal better than its box.</summary>
     public bool HasPlanes => _planes.Length > 0;
@@ -47,14 +49,23 @@ internal sealed class RayBounds
     public long StorageBytes => (4L * (_boxes.Length + _planes.Length)) + (8L * _inverseNorms.Length) + 160;
 
     /// <summary>Upper bound of the factor by which the inverse map of a child lengthens vectors.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public double InverseNorm(int child) => _inverseNorms[child];
+
+    /// <summary>The sub-fractal.</summary>
+    public SubFractal SubFractal { get; }
 
     /// <summary>The box of the sub-fractal.</summary>
     public RayBox Box { get; }
 
     /// <summary>Converts a ray of the sub-fractal's frame for the tests below.</summary>
+    /// <param name="ray">The ray.</param>
+    /// <param name="speed">About the length of its direction.</param>
+    /// <param name="inverseSpeed">The inverse of that.</param>
+    /// <param name="search">The limit of the search, and its rounding.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public FloatRay ToFloats(in LocalRay ray, double limit) => new(in ray, Box.Centre, Box.InverseSize, limit);
+    public FloatRay ToFloats(in LocalRay ray, double speed, double inverseSpeed, in RaySearch search) =>
+        new(in ray, speed, inverseSpeed, Box.Centre, Box.InverseSize, in search);
 
     /// <summary>Tells whether a ray may hit the solid that the planes bound.</summary>
     public bool MayHitPlanes(in FloatRay ray)
@@ -90,8 +101,8 @@ internal sealed class RayBounds
 
     /// <summary>Computes a key for each child: where the ray enters its box at the soonest, with the child's index in the last bits.</summary>
     /// <param name="ray">The ray.</param>
-    /// <param name="keys">Receives the keys; infinite for children that the ray misses.</param>
-    public void FillKeys(in FloatRay ray, Span<float> keys)
+    /// <param name="keys">The first of <see cref="KeyCount"/> keys; infinite for children that the ray misses.</param>
+    public void FillKeys(in FloatRay ray, ref float keys)
     {
         var (ox, oy, oz) = (Vector256.Create(ray.Origin[0]), Vector256.Create(ray.Origin[1]), Vector256.Create(ray.Origin[2]));
         var (ix, iy, iz) = (
@@ -101,8 +112,7 @@ internal sealed class RayBounds
         var limit = Vector256.Create(ray.Limit);
         var indices = Vector256.Create(0, 1, 2, 3, 4, 5, 6, 7);
         ref var row = ref MemoryMarshal.GetArrayDataReference(_boxes);
-        ref var key = ref MemoryMarshal.GetReference(keys);
-        for (nuint first = 0; first < (nuint)keys.Length; first += LaneCount)
+        for (nuint first = 0; first < (nuint)KeyCount; first += LaneCount)
         {
             var (x, y, z) = ((Row(ref row, 0) - ox) * ix, (Row(ref row, 1) - oy) * iy, (Row(ref row, 2) - oz) * iz);
             var halfX = (Row(ref row, 3) + widening) * ax;
@@ -114,25 +124,25 @@ internal sealed class RayBounds
             var values = ((near.AsInt32() & Vector256.Create(~IndexMask)) | indices).AsSingle();
             values = Vector256.ConditionalSelect(
                 Vector256.LessThanOrEqual(near, far), values, Vector256.Create(float.PositiveInfinity));
-            values.StoreUnsafe(ref key, first);
+            values.StoreUnsafe(ref keys, first);
             indices += Vector256.Create(LaneCount);
             row = ref Unsafe.Add(ref row, BoxRows * LaneCount);
         }
     }
 
     /// <summary>Takes the child that the ray enters first.</summary>
-    /// <param name="keys">Its key becomes infinite.</param>
+    /// <param name="keys">The first key; that of the child becomes infinite.</param>
+    /// <param name="count">Number of keys.</param>
     /// <param name="limit">Keys beyond it are not taken.</param>
     /// <param name="child">Index of the child; undefined where there is none.</param>
     /// <param name="entry">Where the ray enters its box at the soonest.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static bool TryTake(Span<float> keys, float limit, out int child, out float entry)
+    public static bool TryTake(ref float keys, int count, float limit, out int child, out float entry)
     {
-        ref var key = ref MemoryMarshal.GetReference(keys);
-        var smallest = Vector256.LoadUnsafe(ref key);
-        for (nuint first = LaneCount; first < (nuint)keys.Length; first += LaneCount)
+        var smallest = Vector256.LoadUnsafe(ref keys);
+        for (nuint first = LaneCount; first < (nuint)count; first += LaneCount)
         {
-            smallest = Vector256.MinNative(smallest, Vector256.LoadUnsafe(ref key, first));
+            smallest = Vector256.MinNative(smallest, Vector256.LoadUnsafe(ref keys, first));
         }
 
         var half = Vector128.MinNative(smallest.GetLower(), smallest.GetUpper());
@@ -147,7 +157,7 @@ internal sealed class RayBounds
             return false;
         }
 
-        Unsafe.Add(ref key, child) = float.PositiveInfinity;
+        Unsafe.Add(ref keys, child) = float.PositiveInfinity;
         return true;
     }
 

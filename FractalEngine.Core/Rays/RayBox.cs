@@ -37,17 +37,17 @@ internal sealed class RayBox
 
     /// <summary>Moves the origin of a ray to where it may enter the box, if it is far away.</summary>
     /// <param name="ray">In the frame of the box.</param>
-    /// <param name="limit">Largest distance along the ray of the query.</param>
+    /// <param name="search">The limit of the search, and its rounding.</param>
     /// <returns>False where a ray from afar misses the box.</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public bool TryApproach(ref LocalRay ray, double limit)
+    public bool TryApproach(ref LocalRay ray, in RaySearch search)
     {
         var distance = Vector256.Abs(ray.Origin - Centre) * Vector256.Create(InverseSize);
-        return Vector256.LessThanAll(distance, Vector256.Create(MaxOriginDistance)) || TryApproachFromAfar(ref ray, limit);
+        return Vector256.LessThanAll(distance, Vector256.Create(MaxOriginDistance)) || TryApproachFromAfar(ref ray, in search);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private bool TryApproachFromAfar(ref LocalRay ray, double limit)
+    private bool TryApproachFromAfar(ref LocalRay ray, in RaySearch search)
     {
         var least = Vector256.Create(MinRelativeComponent * ray.Speed);
         var isTiny = Vector256.LessThan(Vector256.Abs(ray.Direction), least);
@@ -55,13 +55,13 @@ internal sealed class RayBox
         var inverse = Vector256<double>.One / direction;
         var toCentre = (Centre - ray.Origin) * inverse;
         var origin = Vector256.Abs(ray.Origin);
-        var error = ray.Error + (BoxError * (origin[0] + origin[1] + origin[2]));
+        var error = (ray.InverseScale * search.Error) + (BoxError * (origin[0] + origin[1] + origin[2]));
         var half = (_halfSize + Vector256.Create(error)) * Vector256.Abs(inverse);
         var near = toCentre - half;
         var far = toCentre + half;
         var entry = Math.Max(Math.Max(near[0], near[1]), near[2]);
         var exit = Math.Min(Math.Min(far[0], far[1]), far[2]);
-        if (!(entry <= exit && exit >= 0 && entry + ray.Start <= limit))
+        if (!(entry <= exit && exit >= 0 && entry + ray.Start <= search.MaxDistance))
         {
             return false;
         }

@@ -1,5 +1,6 @@
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -17,6 +18,10 @@ namespace FractalEngine.Core.Rays;
 /// </remarks>
 public abstract class RayCaster
 {
+    // Lengths whose squares are accurate.
+    private const double MinLength = 1e-100;
+    private const double MaxLength = 1e100;
+
     private readonly SpareContext _spareContext = new();
 
     private protected RayCaster()
@@ -106,6 +111,13 @@ public abstract class RayCaster
     internal abstract bool HitsAnyCore(
         Vector origin, Vector unitDirection, double minDistance, double maxDistance, QueryContext context);
 
+    /// <summary>An upper bound of how far rounding moves a point of a ray or of a target.</summary>
+    /// <param name="origin">Origin of the ray.</param>
+    /// <param name="start">Distance at which it starts.</param>
+    /// <param name="bounds">Bounds of the shape.</param>
+    internal static double RoundingError(Vector origin, double start, BoundingBox bounds) =>
+        Collider.RoundingError * (origin.MaxAbsComponent() + start + BoundingVolume.MaxAbsCoordinate(bounds));
+
     /// <summary>Checks the arguments of a query, and returns the direction of length 1.</summary>
     internal static Vector CheckedUnitDirection(in Ray ray, double minDistance, double maxDistance)
     {
@@ -131,7 +143,7 @@ public abstract class RayCaster
         }
 
         // Squares of any double stay within range after the division, and components that vanish beside others become 0.
-        var direction = ray.Direction / largest;
-        return direction / direction.Length();
+        var direction = largest is > MinLength and < MaxLength ? ray.Direction : ray.Direction / largest;
+        return (1 / direction.Length()) * direction;
     }
 }

@@ -1,13 +1,17 @@
 namespace FractalEngine.Core.Rays;
 
 /// <summary>The state of a search along a ray: what counts as a hit, the nearest one so far, and the cost.</summary>
-/// <param name="minDistance">Smallest distance of a hit; a little less than what the caller asks, for rounding.</param>
+/// <param name="minDistance">Smallest distance of a hit, but for rounding.</param>
 /// <param name="maxDistance">Largest distance of a hit.</param>
 /// <param name="stopsAtFirst">True to end at the first hit, whichever it is.</param>
-internal struct RaySearch(double minDistance, double maxDistance, bool stopsAtFirst)
+/// <param name="error">Upper bound of how far rounding moves a point of the ray or of a target, in the frame of the query.</param>
+internal struct RaySearch(double minDistance, double maxDistance, bool stopsAtFirst, double error)
 {
     /// <summary>Smallest distance of a hit.</summary>
-    public readonly double MinDistance = minDistance;
+    public readonly double MinDistance = minDistance - error;
+
+    /// <summary>Upper bound of how far rounding moves a point of the ray or of a target, in the frame of the query.</summary>
+    public readonly double Error = error;
 
     /// <summary>True to end at the first hit, whichever it is.</summary>
     public readonly bool StopsAtFirst = stopsAtFirst;

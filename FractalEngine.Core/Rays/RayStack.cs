@@ -1,4 +1,5 @@
-using FractalEngine.Core.Fractals.Hierarchy;
+using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
 
 namespace FractalEngine.Core.Rays;
 
@@ -9,63 +10,41 @@ internal sealed class RayStack
     private float[] _keys = new float[512];
 
     /// <summary>The frame at a depth.</summary>
-    public ref RayFrame this[int depth] => ref _frames[depth];
-
-    /// <summary>The keys of a frame's children.</summary>
-    public Span<float> Keys(in RayFrame frame) => _keys.AsSpan(frame.FirstKey, frame.Bounds.KeyCount);
-
-    /// <summary>Makes room for a frame and for its keys.</summary>
-    /// <returns>Where its keys begin.</returns>
-    public int Reserve(int depth, int keyCount)
+    public ref RayFrame this[int depth]
     {
-        if (depth == _frames.Length)
-        {
-            Array.Resize(ref _frames, 2 * depth);
-        }
-
-        var firstKey = depth == 0 ? 0 : _frames[depth - 1].FirstKey + _frames[depth - 1].Bounds.KeyCount;
-        if (_keys.Length < firstKey + keyCount)
-        {
-            Array.Resize(ref _keys, 2 * (firstKey + keyCount));
-        }
-
-        return firstKey;
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        get => ref Unsafe.Add(ref MemoryMarshal.GetArrayDataReference(_frames), (nint)(uint)depth);
     }
 
-    /// <summary>Copies the indices of the children that lead to the innermost frame and one further.</summary>
-    public void CopyPath(int depth, Span<int> path)
+    /// <summary>The first key of a frame's children.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public ref float Keys(in RayFrame frame) => ref Unsafe.Add(ref MemoryMarshal.GetArrayDataReference(_keys), (nint)(uint)frame.FirstKey);
+
+    /// <summary>Makes room for a frame and for its keys. Frames and keys that were read before may be elsewhere then.</summary>
+    /// <param name="depth">Depth of the frame.</param>
+    /// <param name="lastKey">Number of keys of all frames up to it.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public void EnsureRoom(int depth, int lastKey)
     {
-        for (var i = 0; i < depth; i++)
+        if (depth >= _frames.Length || lastKey > _keys.Length)
+        {
+            Grow(depth, lastKey);
+        }
+    }
+
+    /// <summary>Copies the indices of the children that lead to a child of a frame.</summary>
+    /// <param name="path">As long as there are frames.</param>
+    public void CopyPath(Span<int> path)
+    {
+        for (var i = 0; i < path.Length; i++)
         {
             path[i] = _frames[i].Child;
         }
     }
-}
 
-/// <summary>A sub-fractal whose children a ray is tested against.</summary>
-internal struct RayFrame
-{
-    /// <summary>The sub-fractal.</summary>
-    public SubFractal SubFractal;
-
-    /// <summary>Its bounds.</summary>
-    public RayBounds Bounds;
-
-    /// <summary>The ray in its frame.</summary>
-    public LocalRay Ray;
-
-    /// <summary>Its remaining levels.</summary>
-    public long RemainingLevels;
-
-    /// <summary>Upper bound of the factor from lengths in its frame to those of the query.</summary>
-    public double Scale;
-
-    /// <summary>Factor from distances along the ray of the query to the parameter of keys.</summary>
-    public double PerDistance;
-
-    /// <summary>Where the keys of its children begin.</summary>
-    public int FirstKey;
-
-    /// <summary>Index of the child that was entered last.</summary>
-    public int Child;
+    private void Grow(int depth, int lastKey)
+    {
+        Array.Resize(ref _frames, Math.Max(_frames.Length, 2 * depth));
+        Array.Resize(ref _keys, Math.Max(_keys.Length, 2 * lastKey));
+    }
 }

@@ -33,7 +33,9 @@ internal readonly struct TriangleRay
     private readonly double _start;
 
     /// <summary>Prepares a ray in the frame of the triangles.</summary>
-    public TriangleRay(in LocalRay ray)
+    /// <param name="ray">The ray.</param>
+    /// <param name="error">How far rounding may have moved it, in the frame of the query.</param>
+    public TriangleRay(in LocalRay ray, double error)
     {
         var size = Vector256.Abs(ray.Direction);
         // The axis along which the ray runs fastest; the others in their order, or swapped: winding does not matter.
@@ -47,7 +49,7 @@ internal readonly struct TriangleRay
         _shearX = Vector256.Create(ray.Direction.GetElement(_x) * inverse);
         _shearY = Vector256.Create(ray.Direction.GetElement(_y) * inverse);
         _inverseZ = Vector256.Create(inverse);
-        _widening = Vector256.Create(2 * ray.Error);
+        _widening = Vector256.Create(2 * ray.InverseScale * error);
         _start = ray.Start;
     }
 

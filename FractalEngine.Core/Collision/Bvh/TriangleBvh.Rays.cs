@@ -26,7 +26,7 @@ internal sealed partial class TriangleBvh
 
     private bool TryHitAny(in LocalRay ray, ref RaySearch search)
     {
-        var triangleRay = new TriangleRay(in ray);
+        var triangleRay = new TriangleRay(in ray, search.Error);
         var quads = RayQuads;
         search.FaceTests += _faces.Length;
         var isHit = false;
@@ -50,13 +50,14 @@ internal sealed partial class TriangleBvh
     private bool TryHitNodes(in LocalRay ray, ref RaySearch search)
     {
         var approached = ray;
-        if (!TryApproach(ref approached, search.MaxDistance))
+        if (!TryApproach(ref approached, in search))
         {
             return false;
         }
 
-        var floatRay = new FloatRay(in approached, SimdAffineMap.ToVector256(_origin), _scale, search.MaxDistance);
-        var triangleRay = new TriangleRay(in approached);
+        var speed = ray.Speed;
+        var floatRay = new FloatRay(in approached, speed, 1 / speed, SimdAffineMap.ToVector256(_origin), _scale, in search);
+        var triangleRay = new TriangleRay(in approached, search.Error);
         var (nearX, farX) = Sides(in floatRay, 0, out var nearOriginX, out var farOriginX);
         var (nearY, farY) = Sides(in floatRay, 1, out var nearOriginY, out var farOriginY);
         var (nearZ, farZ) = Sides(in floatRay, 2, out var nearOriginZ, out var farOriginZ);
@@ -103,7 +104,7 @@ internal sealed partial class TriangleBvh
                     return true;
                 }
 
-                limit = new FloatRay(in approached, SimdAffineMap.ToVector256(_origin), _scale, search.MaxDistance).Limit;
+                limit = FloatRay.LimitFor(in approached, floatRay.PerDistance, search.MaxDistance);
             }
 
             do
@@ -144,10 +145,10 @@ internal sealed partial class TriangleBvh
     }
 
     /// <summary>Moves the origin of a ray from afar to where it may enter the box of the mesh; false where it misses that.</summary>
-    private bool TryApproach(ref LocalRay ray, double limit)
+    private bool TryApproach(ref LocalRay ray, in RaySearch search)
     {
         _rayBox ??= new(_mesh.Bounds);
-        return _rayBox.TryApproach(ref ray, limit);
+        return _rayBox.TryApproach(ref ray, in search);
     }
 
     /// <summary>Finds the sides of boxes where a ray enters and leaves them along an axis.</summary>
