@@ -1,6 +1,7 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Rays;
 
 namespace FractalEngine.Core.Geometry;
 
@@ -85,6 +86,34 @@ internal sealed class ObjectBvhNode
         var y = DistancesAlongAxis(_minY, _maxY, position.Y);
         var z = DistancesAlongAxis(_minZ, _maxZ, position.Z);
         return Vector256.Sqrt((x * x) + (y * y) + (z * z));
+    }
+
+    /// <summary>Computes where a ray enters the boxes of all children at the soonest: NaN or infinite for those that it misses.</summary>
+    /// <param name="ray">In world space.</param>
+    /// <param name="search">The limit of the search, and its rounding.</param>
+    public Vector256<double> RayEntries(in LocalRay ray, in RaySearch search)
+    {
+        var near = Vector256<double>.Zero;
+        var far = Vector256.Create(search.MaxDistance - ray.Start);
+        ClipAlongAxis(_minX, _maxX, in ray, 0, search.Error, ref near, ref far);
+        ClipAlongAxis(_minY, _maxY, in ray, 1, search.Error, ref near, ref far);
+        ClipAlongAxis(_minZ, _maxZ, in ray, 2, search.Error, ref near, ref far);
+        return Vector256.ConditionalSelect(
+            Vector256.LessThanOrEqual(near, far), near + Vector256.Create(ray.Start), Vector256.Create(double.NaN));
+    }
+
+    private static void ClipAlongAxis(
+        Vector128<float> minimum, Vector128<float> maximum, in LocalRay ray, int axis, double error,
+        ref Vector256<double> near, ref Vector256<double> far)
+    {
+        // A slower ray than this passes no box within the range of coordinates.
+        const double MinComponent = 1e-30;
+        var component = ray.Direction.GetElement(axis);
+        var inverse = 1 / (Math.Abs(component) < MinComponent ? double.CopySign(MinComponent, component) : component);
+        var low = (Widen(minimum) - Vector256.Create(ray.Origin.GetElement(axis) + error)) * Vector256.Create(inverse);
+        var high = (Widen(maximum) - Vector256.Create(ray.Origin.GetElement(axis) - error)) * Vector256.Create(inverse);
+        near = Vector256.MaxNative(near, inverse > 0 ? low : high);
+        far = Vector256.MinNative(far, inverse > 0 ? high : low);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -4,6 +4,7 @@ using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Hierarchy;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Rays;
@@ -45,59 +46,37 @@ internal sealed class FractalRayCaster : RayCaster
     public override long StorageBytes => _hierarchy.StorageBytes + _bvh.StorageBytes;
 
     /// <inheritdoc/>
-    internal override bool FindNearestCore(
-        Vector origin, Vector unitDirection, double minDistance, double maxDistance, QueryContext context, out RayHit hit)
-    {
-        var search = Search(origin, unitDirection, minDistance, maxDistance, stopsAtFirst: false, context, out var pathLength);
-        if (search.Face < 0)
-        {
-            hit = default;
-            return false;
-        }
+    private protected override BoundingBox Bounds => _hierarchy.Root.Box;
 
-        var path = context.BestPathBuffer(pathLength)[..pathLength];
-        var map = _hierarchy.ResolveInstance(path, AffineMap.Identity, context, out _);
-        var (a, b, c) = _fractal.BaseMesh.Face(search.Face);
-        hit = RayHitFactory.Create(
-            origin, unitDirection, search.MaxDistance, minDistance, maxDistance, (map.Apply(a), map.Apply(b), map.Apply(c)), search.Face);
-        return true;
+    /// <inheritdoc/>
+    internal override (Vector A, Vector B, Vector C) ResolveFace(int face, int pathLength, in AffineMap map, QueryContext context)
+    {
+        context.ClearPath();
+        var instance = _hierarchy.ResolveInstance(context.BestPathBuffer(pathLength)[..pathLength], in map, context, out _);
+        var (a, b, c) = _fractal.BaseMesh.Face(face);
+        return (instance.Apply(a), instance.Apply(b), instance.Apply(c));
     }
 
     /// <inheritdoc/>
-    internal override bool HitsAnyCore(
-        Vector origin, Vector unitDirection, double minDistance, double maxDistance, QueryContext context) =>
-        Search(origin, unitDirection, minDistance, maxDistance, stopsAtFirst: true, context, out _).Face >= 0;
-
-    private RaySearch Search(
-        Vector origin, Vector unitDirection, double minDistance, double maxDistance, bool stopsAtFirst, QueryContext context,
-        out int pathLength)
+    internal override bool TryHit(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
     {
-        context.ClearPath();
-        var ray = LocalRay.Of(origin, unitDirection, minDistance);
-        var search = new RaySearch(
-            minDistance, maxDistance, stopsAtFirst, RoundingError(origin, minDistance, _hierarchy.Root.Box));
-        pathLength = _hierarchy.Root.Box.IsEmpty ? 0 : Traverse(in ray, ref search, context);
+        var root = _hierarchy.Root;
+        if (root.Box.IsEmpty)
+        {
+            return false;
+        }
 
-        context.Statistics.FaceTests += search.FaceTests;
-        context.Statistics.BoundTests += search.BoundTests;
-        return search;
-    }
+        if (IsLeaf(root, _hierarchy.Levels, in ray))
+        {
+            var isRootHit = TestBase(root, in ray, ref search);
+            pathLength = isRootHit ? 0 : pathLength;
+            return isRootHit;
+        }
 
-    /// <summary>Searches all levels.</summary>
-    /// <returns>Number of child instances that lead to the hit, in the context's buffer of the best path.</returns>
-    private int Traverse(in LocalRay ray, ref RaySearch search, QueryContext context)
-    {
         var stack = context.RayStack;
-        var pathLength = 0;
         var depth = -1;
-        if (IsLeaf(_hierarchy.Root, _hierarchy.Levels, in ray))
-        {
-            TestBase(_hierarchy.Root, in ray, ref search);
-        }
-        else
-        {
-            Push(stack, ref depth, _hierarchy.Root.RayBounds, _hierarchy.Levels, in ray, ref search);
-        }
+        var isHit = false;
+        Push(stack, ref depth, root.RayBounds, _hierarchy.Levels, in ray, ref search);
 
         while (depth >= 0)
         {
@@ -126,6 +105,7 @@ internal sealed class FractalRayCaster : RayCaster
             }
             else if (TestBase(subFractal, in local, ref search))
             {
+                isHit = true;
                 pathLength = depth + 1;
                 stack.CopyPath(context.BestPathBuffer(pathLength)[..pathLength]);
                 if (search.StopsAtFirst)
@@ -135,7 +115,7 @@ internal sealed class FractalRayCaster : RayCaster
             }
         }
 
-        return pathLength;
+        return isHit;
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

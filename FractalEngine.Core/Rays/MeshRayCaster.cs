@@ -14,31 +14,25 @@ internal sealed class MeshRayCaster(Mesh mesh) : RayCaster
     public override long StorageBytes => _bvh.StorageBytes;
 
     /// <inheritdoc/>
-    internal override bool FindNearestCore(
-        Vector origin, Vector unitDirection, double minDistance, double maxDistance, QueryContext context, out RayHit hit)
+    private protected override BoundingBox Bounds => mesh.Bounds;
+
+    /// <inheritdoc/>
+    internal override bool TryHit(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
     {
-        var search = Search(origin, unitDirection, minDistance, maxDistance, stopsAtFirst: false, context);
-        hit = search.Face < 0
-            ? default
-            : RayHitFactory.Create(
-                origin, unitDirection, search.MaxDistance, minDistance, maxDistance, mesh.Face(search.Face), search.Face);
-        return search.Face >= 0;
+        if (!_bvh.TryHit(in ray, ref search))
+        {
+            return false;
+        }
+
+        pathLength = 0;
+        return true;
     }
 
     /// <inheritdoc/>
-    internal override bool HitsAnyCore(
-        Vector origin, Vector unitDirection, double minDistance, double maxDistance, QueryContext context) =>
-        Search(origin, unitDirection, minDistance, maxDistance, stopsAtFirst: true, context).Face >= 0;
-
-    private RaySearch Search(
-        Vector origin, Vector unitDirection, double minDistance, double maxDistance, bool stopsAtFirst, QueryContext context)
+    internal override (Vector A, Vector B, Vector C) ResolveFace(int face, int pathLength, in AffineMap map, QueryContext context)
     {
         context.ClearPath();
-        var ray = LocalRay.Of(origin, unitDirection, minDistance);
-        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, RoundingError(origin, minDistance, mesh.Bounds));
-        _bvh.TryHit(in ray, ref search);
-        context.Statistics.FaceTests += search.FaceTests;
-        context.Statistics.BoundTests += search.BoundTests;
-        return search;
+        var (a, b, c) = mesh.Face(face);
+        return (map * a, map * b, map * c);
     }
 }

@@ -22,6 +22,8 @@ public abstract class RayCaster
     private const double MinLength = 1e-100;
     private const double MaxLength = 1e100;
 
+    private static readonly AffineMap Identity = AffineMap.Identity;
+
     private readonly SpareContext _spareContext = new();
 
     private protected RayCaster()
@@ -30,6 +32,9 @@ public abstract class RayCaster
 
     /// <summary>Bytes that the caster keeps beside the mesh or the fractal it was made from.</summary>
     public abstract long StorageBytes { get; }
+
+    /// <summary>A box around the shape.</summary>
+    private protected abstract BoundingBox Bounds { get; }
 
     /// <summary>Makes the caster of a mesh.</summary>
     /// <remarks>Cost: that of a hierarchy of the mesh, O(n·log n) for n faces.</remarks>
@@ -76,7 +81,10 @@ public abstract class RayCaster
     {
         ArgumentNullException.ThrowIfNull(context);
         var direction = CheckedUnitDirection(in ray, minDistance, maxDistance);
-        return FindNearestCore(ray.Origin, direction, minDistance, maxDistance, context, out hit);
+        var search = Search(ray.Origin, direction, minDistance, maxDistance, stopsAtFirst: false, context, out var pathLength);
+        hit = search.Face < 0 ? default : RayHitFactory.Create(
+            ray.Origin, direction, in search, minDistance, maxDistance, ResolveFace(search.Face, pathLength, in Identity, context));
+        return search.Face >= 0;
     }
 
     /// <summary>Finds the nearest face that a ray hits; null for none.</summary>
@@ -100,16 +108,23 @@ public abstract class RayCaster
     {
         ArgumentNullException.ThrowIfNull(context);
         var direction = CheckedUnitDirection(in ray, minDistance, maxDistance);
-        return HitsAnyCore(ray.Origin, direction, minDistance, maxDistance, context);
+        return Search(ray.Origin, direction, minDistance, maxDistance, stopsAtFirst: true, context, out _).Face >= 0;
     }
 
-    /// <summary>Finds the nearest face that a ray hits, whose arguments are checked.</summary>
-    internal abstract bool FindNearestCore(
-        Vector origin, Vector unitDirection, double minDistance, double maxDistance, QueryContext context, out RayHit hit);
+    /// <summary>Searches along a ray.</summary>
+    /// <param name="ray">In the shape's frame.</param>
+    /// <param name="search">Receives the hit and the cost.</param>
+    /// <param name="context">Receives the path to the instance of a hit in its buffer of the best path.</param>
+    /// <param name="pathLength">Length of that path; unchanged where there is no nearer hit.</param>
+    /// <returns>True when there is a nearer hit than before.</returns>
+    internal abstract bool TryHit(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength);
 
-    /// <summary>Tells whether a ray hits any face, whose arguments are checked.</summary>
-    internal abstract bool HitsAnyCore(
-        Vector origin, Vector unitDirection, double minDistance, double maxDistance, QueryContext context);
+    /// <summary>Finds the corners of a face that a search has hit, and records its instance.</summary>
+    /// <param name="face">The face of the search.</param>
+    /// <param name="pathLength">Length of the path of the search.</param>
+    /// <param name="map">From the shape's frame to that of the result.</param>
+    /// <param name="context">Has the path, and receives the instance.</param>
+    internal abstract (Vector A, Vector B, Vector C) ResolveFace(int face, int pathLength, in AffineMap map, QueryContext context);
 
     /// <summary>An upper bound of how far rounding moves a point of a ray or of a target.</summary>
     /// <param name="origin">Origin of the ray.</param>
@@ -145,5 +160,18 @@ public abstract class RayCaster
         // Squares of any double stay within range after the division, and components that vanish beside others become 0.
         var direction = largest is > MinLength and < MaxLength ? ray.Direction : ray.Direction / largest;
         return (1 / direction.Length()) * direction;
+    }
+
+    private RaySearch Search(
+        Vector origin, Vector unitDirection, double minDistance, double maxDistance, bool stopsAtFirst, QueryContext context,
+        out int pathLength)
+    {
+        context.ClearPath();
+        pathLength = 0;
+        var ray = LocalRay.Of(origin, unitDirection, minDistance);
+        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, RoundingError(origin, minDistance, Bounds));
+        TryHit(in ray, ref search, context, ref pathLength);
+        search.AddTo(context.Statistics);
+        return search;
     }
 }

@@ -11,15 +11,15 @@ internal static class RayHitFactory
     /// <summary>Creates the result for a triangle.</summary>
     /// <param name="origin">Origin of the ray.</param>
     /// <param name="direction">Its direction, of length 1.</param>
-    /// <param name="distance">Distance of the hit as the search found it.</param>
+    /// <param name="search">The search that found the triangle.</param>
     /// <param name="minDistance">Smallest distance of a result.</param>
     /// <param name="maxDistance">Largest distance of a result.</param>
     /// <param name="corners">The triangle in the frame of the ray.</param>
-    /// <param name="face">Its face index in the mesh.</param>
     public static RayHit Create(
-        Vector origin, Vector direction, double distance, double minDistance, double maxDistance,
-        (Vector A, Vector B, Vector C) corners, int face)
+        Vector origin, Vector direction, in RaySearch search, double minDistance, double maxDistance,
+        (Vector A, Vector B, Vector C) corners)
     {
+        var distance = search.MaxDistance;
         var (a, b, c) = corners;
         var cross = Vector.Cross(b - a, c - a);
         var length = cross.Length();
@@ -33,7 +33,7 @@ internal static class RayHitFactory
 
         distance = Math.Min(Math.Max(distance, minDistance), maxDistance);
         var point = origin + (distance * direction);
-        return new(distance, point, normal, slope < 0, Barycentrics(point, a, b, c, cross), face);
+        return new(distance, point, normal, slope < 0, Barycentrics(point, a, b, c, cross), search.Face);
     }
 
     /// <summary>Computes the weights of the corners at a point in the triangle, or at the nearest that rounding leaves.</summary>

@@ -1,3 +1,5 @@
+using FractalEngine.Core.Collision;
+
 namespace FractalEngine.Core.Rays;
 
 /// <summary>The state of a search along a ray: what counts as a hit, the nearest one so far, and the cost.</summary>
@@ -28,6 +30,10 @@ internal struct RaySearch(double minDistance, double maxDistance, bool stopsAtFi
     /// <summary>Number of bounding volumes that were tested.</summary>
     public long BoundTests;
 
-    /// <summary>True when there is a hit and no nearer one is asked for.</summary>
-    public readonly bool IsDone => StopsAtFirst && Face >= 0;
+    /// <summary>Adds the cost to that of other queries.</summary>
+    public readonly void AddTo(QueryStatistics statistics)
+    {
+        statistics.FaceTests += FaceTests;
+        statistics.BoundTests += BoundTests;
+    }
 }

@@ -1,0 +1,42 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Rays;
+
+/// <summary>An object of a scene for rays: the caster of its model, and its place in the world.</summary>
+internal sealed class RayInstance : ObjectBvhLeaf
+{
+    // An upper bound of the relative rounding error of a norm.
+    private const double NormError = 1e-15;
+
+    private readonly AffineMap _objectToWorld;
+    private readonly SimdAffineMap _worldToObject;
+    private readonly double _norm;
+    private readonly double _inverseNorm;
+
+    /// <summary>Places the caster of a model.</summary>
+    /// <param name="index">Index of the object in the scene, from 0.</param>
+    /// <param name="caster">In the frame of the model, made at the first ray.</param>
+    /// <param name="objectToWorld">From that frame to world space.</param>
+    /// <param name="bounds">In world space.</param>
+    /// <exception cref="SingularMatrixException">The map has no inverse.</exception>
+    public RayInstance(int index, Lazy<RayCaster> caster, AffineMap objectToWorld, BoundingBox bounds)
+        : base(index, bounds)
+    {
+        Caster = caster;
+        _objectToWorld = objectToWorld;
+        var inverse = objectToWorld.Inverse();
+        _worldToObject = new(inverse);
+        _norm = BoundingSphere.OperatorNormBound(objectToWorld.Linear) * (1 + NormError);
+        _inverseNorm = BoundingSphere.OperatorNormBound(inverse.Linear) * (1 + NormError);
+    }
+
+    /// <summary>In the frame of the model, made at the first ray.</summary>
+    public Lazy<RayCaster> Caster { get; }
+
+    /// <summary>From the frame of the model to world space.</summary>
+    public ref readonly AffineMap ObjectToWorld => ref _objectToWorld;
+
+    /// <summary>Takes a ray to the frame of the model.</summary>
+    public LocalRay ToObject(in LocalRay ray) => ray.Transform(in _worldToObject, _inverseNorm, _norm);
+}
