@@ -57,6 +57,16 @@ public readonly record struct BoundingBox(Vector Minimum, Vector Maximum)
         return new(centre - halfSize, centre + halfSize);
     }
 
+    /// <summary>Computes the scale and translation from one box to another.</summary>
+    /// <remarks>Along an axis where the first box is flat, its size is kept.</remarks>
+    internal static AffineMap MapBoxToBox(BoundingBox from, BoundingBox to)
+    {
+        var (x1, y1, z1) = from.Size;
+        var (x2, y2, z2) = to.Size;
+        var scale = new Vector(x1 > 0 ? x2 / x1 : 1, y1 > 0 ? y2 / y1 : 1, z1 > 0 ? z2 / z1 : 1);
+        return new(Matrix.Diagonal(scale), to.Centre - from.Centre.Stretch(scale));
+    }
+
     /// <summary>Formats both corners in the invariant culture.</summary>
     public override string ToString() => string.Create(CultureInfo.InvariantCulture, $"{Minimum}..{Maximum}");
 }

@@ -49,11 +49,17 @@ internal sealed class FractalRayCaster : RayCaster
     private protected override BoundingBox Bounds => _hierarchy.Root.Box;
 
     /// <inheritdoc/>
-    internal override (Vector A, Vector B, Vector C) ResolveFace(int face, int pathLength, in AffineMap map, QueryContext context)
+    internal override (Vector A, Vector B, Vector C) ResolveFace(
+        in RaySearch search, int pathLength, in AffineMap map, QueryContext context)
     {
         context.ClearPath();
         var instance = _hierarchy.ResolveInstance(context.BestPathBuffer(pathLength)[..pathLength], in map, context, out _);
-        var (a, b, c) = _fractal.BaseMesh.Face(face);
+        if (search.Proxy is { } proxy)
+        {
+            instance = SimdAffineMap.Compose(in instance, in proxy.ProxyMap);
+        }
+
+        var (a, b, c) = _fractal.BaseMesh.Face(search.Face);
         return (instance.Apply(a), instance.Apply(b), instance.Apply(c));
     }
 
@@ -89,6 +95,7 @@ internal sealed class FractalRayCaster : RayCaster
                 continue;
             }
 
+            bool isLeafHit;
             var child = bounds.SubFractal.Children[index];
             var levels = child.RemainingLevels(frame.RemainingLevels);
             var subFractal = _hierarchy.At(child, levels);
@@ -99,11 +106,21 @@ internal sealed class FractalRayCaster : RayCaster
                 local = local.Transform(in child.InverseSimdMap, bounds.InverseNorm(index), child.OperatorNormBound);
             }
 
-            if (!IsLeaf(subFractal, levels, in local) && depth < FractalSearchState.MaxDepth && search.BoundTests < MaxBoundTests)
+            if (levels > 0 && IsBelow(subFractal, in local, in search))
+            {
+                isLeafHit = TestProxy(subFractal.RayBounds, in local, ref search);
+            }
+            else if (!IsLeaf(subFractal, levels, in local) && depth < FractalSearchState.MaxDepth && search.BoundTests < MaxBoundTests)
             {
                 Push(stack, ref depth, subFractal.RayBounds, levels, in local, ref search);
+                continue;
             }
-            else if (TestBase(subFractal, in local, ref search))
+            else
+            {
+                isLeafHit = TestBase(subFractal, in local, ref search);
+            }
+
+            if (isLeafHit)
             {
                 isHit = true;
                 pathLength = depth + 1;
@@ -121,6 +138,14 @@ internal sealed class FractalRayCaster : RayCaster
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private bool IsLeaf(SubFractal subFractal, long levels, in LocalRay ray) =>
         levels == 0 || ray.Scale * ray.Scale * subFractal.RadiusSquared <= _minRadiusSquared;
+
+    /// <summary>Tells whether a sub-fractal is smaller than the ray is wide.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static bool IsBelow(SubFractal subFractal, in LocalRay ray, in RaySearch search)
+    {
+        var radius = search.Footprint.RadiusAt(ray.Start);
+        return ray.Scale * ray.Scale * subFractal.RadiusSquared < radius * radius;
+    }
 
     /// <summary>Pushes a sub-fractal if the ray may hit it.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -165,6 +190,19 @@ internal sealed class FractalRayCaster : RayCaster
         return bounds.ToFloats(in ray, speed, _hasOnlySimilarities ? ray.Scale : 1 / speed, in search);
     }
 
+    /// <summary>Tests the base mesh, stretched to the box of a sub-fractal.</summary>
+    private bool TestProxy(RayBounds bounds, in LocalRay ray, ref RaySearch search)
+    {
+        var local = ray.Transform(in bounds.InverseProxyMap, 1, 1);
+        if (!_bvh.TryHit(in local, ref search))
+        {
+            return false;
+        }
+
+        search.Proxy = bounds;
+        return true;
+    }
+
     private bool TestBase(SubFractal subFractal, in LocalRay ray, ref RaySearch search)
     {
         if (_bvh.FaceCount >= MinFacesWithPlanes && subFractal.Children.Length == 0 && subFractal.RayBounds is { HasPlanes: true } bounds)
@@ -176,9 +214,20 @@ internal sealed class FractalRayCaster : RayCaster
                 return false;
             }
 
-            return _bvh.TryHit(in local, ref search);
+            return TryHitBase(in local, ref search);
         }
 
-        return _bvh.TryHit(in ray, ref search);
+        return TryHitBase(in ray, ref search);
+    }
+
+    private bool TryHitBase(in LocalRay ray, ref RaySearch search)
+    {
+        if (!_bvh.TryHit(in ray, ref search))
+        {
+            return false;
+        }
+
+        search.Proxy = null;
+        return true;
     }
 }

@@ -29,10 +29,11 @@ internal sealed class MeshRayCaster(Mesh mesh) : RayCaster
     }
 
     /// <inheritdoc/>
-    internal override (Vector A, Vector B, Vector C) ResolveFace(int face, int pathLength, in AffineMap map, QueryContext context)
+    internal override (Vector A, Vector B, Vector C) ResolveFace(
+        in RaySearch search, int pathLength, in AffineMap map, QueryContext context)
     {
         context.ClearPath();
-        var (a, b, c) = mesh.Face(face);
+        var (a, b, c) = mesh.Face(search.Face);
         return (map * a, map * b, map * c);
     }
 }

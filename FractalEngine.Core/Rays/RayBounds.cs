@@ -20,27 +20,46 @@ internal sealed class RayBounds
     // The normal, then the offset.
     private const int PlaneRows = 4;
 
+    // As a part of the largest side.
+    private const double MinThickness = 1e-9;
+
     // Of a child, in the last bits of a key.
     private const int IndexMask = 63;
 
     private readonly float[] _boxes;
     private readonly float[] _planes;
     private readonly double[] _inverseNorms;
+    private readonly SimdAffineMap _proxyMap;
+    private readonly SimdAffineMap _inverseProxyMap;
 
     /// <summary>Prepares the bounds of a sub-fractal.</summary>
-    public RayBounds(SubFractal subFractal)
+    /// <param name="subFractal">The sub-fractal.</param>
+    /// <param name="baseBox">The box of the base mesh.</param>
+    public RayBounds(SubFractal subFractal, BoundingBox baseBox)
     {
         SubFractal = subFractal;
         Box = new(subFractal.Box);
         KeyCount = (subFractal.Children.Length + LaneCount - 1) / LaneCount * LaneCount;
         _boxes = CreateBoxes(subFractal, Box.Centre, Box.InverseSize);
         _planes = subFractal.Hull is { } hull ? CreatePlanes(hull, subFractal.Box.Centre, Box.InverseSize) : [];
+        // A flat box stays a little thick, so that the map has an inverse.
+        var box = subFractal.Box;
+        var thickness = MinThickness * Math.Max(box.Size.MaxAbsComponent(), baseBox.Size.MaxAbsComponent()) * Vector.One;
+        var proxyMap = BoundingBox.MapBoxToBox(baseBox, new(box.Minimum - thickness, box.Maximum + thickness));
+        _proxyMap = new(proxyMap);
+        _inverseProxyMap = new(proxyMap.Inverse());
         _inverseNorms = [.. subFractal.Children.Select(
             child => BoundingSphere.OperatorNormBound(child.InverseSimdMap.ToAffineMap().Linear))];
     }
 
     /// <summary>Number of keys of the children, those of missing children included.</summary>
     public int KeyCount { get; }
+
+    /// <summary>Stretches the base mesh to the box of the sub-fractal, so that it can stand for it.</summary>
+    public ref readonly SimdAffineMap ProxyMap => ref _proxyMap;
+
+    /// <summary>The inverse of that.</summary>
+    public ref readonly SimdAffineMap InverseProxyMap => ref _inverseProxyMap;
 
     /// <summary>True where planes bound the sub-fractal better than its box.</summary>
     public bool HasPlanes => _planes.Length > 0;

@@ -73,17 +73,19 @@ public abstract class RayCaster
     /// <param name="hit">The hit, if there is one.</param>
     /// <param name="minDistance">Smallest distance that counts, scene units, not negative.</param>
     /// <param name="maxDistance">Largest distance that counts, scene units; may be infinite.</param>
+    /// <param name="footprint">How wide the ray is; a line unless stated.</param>
     /// <returns>False when the ray hits no face between the two distances.</returns>
     /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
     /// <remarks>A face at the origin of the ray counts, at a distance of 0; a ray that leaves a surface needs a smallest distance.</remarks>
     public bool TryFindNearest(
-        Ray ray, QueryContext context, out RayHit hit, double minDistance = 0, double maxDistance = double.PositiveInfinity)
+        Ray ray, QueryContext context, out RayHit hit, double minDistance = 0, double maxDistance = double.PositiveInfinity,
+        RayFootprint footprint = default)
     {
         ArgumentNullException.ThrowIfNull(context);
         var direction = CheckedUnitDirection(in ray, minDistance, maxDistance);
-        var search = Search(ray.Origin, direction, minDistance, maxDistance, stopsAtFirst: false, context, out var pathLength);
+        var search = Search(ray.Origin, direction, minDistance, maxDistance, stopsAtFirst: false, footprint, context, out var pathLength);
         hit = search.Face < 0 ? default : RayHitFactory.Create(
-            ray.Origin, direction, in search, minDistance, maxDistance, ResolveFace(search.Face, pathLength, in Identity, context));
+            ray.Origin, direction, in search, minDistance, maxDistance, ResolveFace(in search, pathLength, in Identity, context));
         return search.Face >= 0;
     }
 
@@ -103,12 +105,14 @@ public abstract class RayCaster
     /// <param name="context">Receives the costs; one for each thread.</param>
     /// <param name="minDistance">Smallest distance that counts, scene units, not negative.</param>
     /// <param name="maxDistance">Largest distance that counts, scene units; may be infinite.</param>
+    /// <param name="footprint">How wide the ray is; a line unless stated.</param>
     /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
-    public bool HitsAny(Ray ray, QueryContext context, double minDistance = 0, double maxDistance = double.PositiveInfinity)
+    public bool HitsAny(
+        Ray ray, QueryContext context, double minDistance = 0, double maxDistance = double.PositiveInfinity, RayFootprint footprint = default)
     {
         ArgumentNullException.ThrowIfNull(context);
         var direction = CheckedUnitDirection(in ray, minDistance, maxDistance);
-        return Search(ray.Origin, direction, minDistance, maxDistance, stopsAtFirst: true, context, out _).Face >= 0;
+        return Search(ray.Origin, direction, minDistance, maxDistance, stopsAtFirst: true, footprint, context, out _).Face >= 0;
     }
 
     /// <summary>Searches along a ray.</summary>
@@ -120,11 +124,12 @@ public abstract class RayCaster
     internal abstract bool TryHit(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength);
 
     /// <summary>Finds the corners of a face that a search has hit, and records its instance.</summary>
-    /// <param name="face">The face of the search.</param>
+    /// <param name="search">The search with its hit.</param>
     /// <param name="pathLength">Length of the path of the search.</param>
     /// <param name="map">From the shape's frame to that of the result.</param>
     /// <param name="context">Has the path, and receives the instance.</param>
-    internal abstract (Vector A, Vector B, Vector C) ResolveFace(int face, int pathLength, in AffineMap map, QueryContext context);
+    internal abstract (Vector A, Vector B, Vector C) ResolveFace(
+        in RaySearch search, int pathLength, in AffineMap map, QueryContext context);
 
     /// <summary>An upper bound of how far rounding moves a point of a ray or of a target.</summary>
     /// <param name="origin">Origin of the ray.</param>
@@ -163,13 +168,16 @@ public abstract class RayCaster
     }
 
     private RaySearch Search(
-        Vector origin, Vector unitDirection, double minDistance, double maxDistance, bool stopsAtFirst, QueryContext context,
-        out int pathLength)
+        Vector origin, Vector unitDirection, double minDistance, double maxDistance, bool stopsAtFirst, RayFootprint footprint,
+        QueryContext context, out int pathLength)
     {
         context.ClearPath();
         pathLength = 0;
         var ray = LocalRay.Of(origin, unitDirection, minDistance);
-        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, RoundingError(origin, minDistance, Bounds));
+        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, RoundingError(origin, minDistance, Bounds))
+        {
+            Footprint = footprint,
+        };
         TryHit(in ray, ref search, context, ref pathLength);
         search.AddTo(context.Statistics);
         return search;

@@ -18,6 +18,12 @@ internal struct RaySearch(double minDistance, double maxDistance, bool stopsAtFi
     /// <summary>True to end at the first hit, whichever it is.</summary>
     public readonly bool StopsAtFirst = stopsAtFirst;
 
+    /// <summary>What is smaller need not be told apart; nothing unless stated.</summary>
+    public RayFootprint Footprint;
+
+    /// <summary>The sub-fractal whose proxy was hit last; null where it was a face of the fractal itself.</summary>
+    public RayBounds? Proxy;
+
     /// <summary>Distance of the nearest hit so far, or the largest that counts.</summary>
     public double MaxDistance = maxDistance;
 

@@ -82,20 +82,22 @@ public sealed class SceneRayCaster
     /// <param name="objectIndex">Index of the object in the scene; −1 for none.</param>
     /// <param name="minDistance">Smallest distance that counts, scene units, not negative.</param>
     /// <param name="maxDistance">Largest distance that counts, scene units; may be infinite.</param>
+    /// <param name="footprint">How wide the ray is; a line unless stated.</param>
     /// <returns>False when the ray hits no face between the two distances.</returns>
     /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
     /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Model)"/>.</exception>
     public bool TryFindNearest(
         Ray ray, QueryContext context, out RayHit hit, out int objectIndex, double minDistance = 0,
-        double maxDistance = double.PositiveInfinity)
+        double maxDistance = double.PositiveInfinity, RayFootprint footprint = default)
     {
         ArgumentNullException.ThrowIfNull(context);
         var direction = RayCaster.CheckedUnitDirection(in ray, minDistance, maxDistance);
-        var search = Search(ray.Origin, direction, minDistance, maxDistance, stopsAtFirst: false, context, out var found, out var pathLength);
+        var search = Search(
+            ray.Origin, direction, minDistance, maxDistance, stopsAtFirst: false, footprint, context, out var found, out var pathLength);
         objectIndex = found?.Index ?? -1;
         hit = found is null ? default : RayHitFactory.Create(
             ray.Origin, direction, in search, minDistance, maxDistance,
-            found.Caster.Value.ResolveFace(search.Face, pathLength, in found.ObjectToWorld, context));
+            found.Caster.Value.ResolveFace(in search, pathLength, in found.ObjectToWorld, context));
         return found is not null;
     }
 
@@ -104,24 +106,29 @@ public sealed class SceneRayCaster
     /// <param name="context">Receives the costs; one for each thread.</param>
     /// <param name="minDistance">Smallest distance that counts, scene units, not negative.</param>
     /// <param name="maxDistance">Largest distance that counts, scene units; may be infinite.</param>
+    /// <param name="footprint">How wide the ray is; a line unless stated.</param>
     /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
     /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Model)"/>.</exception>
-    public bool HitsAny(Ray ray, QueryContext context, double minDistance = 0, double maxDistance = double.PositiveInfinity)
+    public bool HitsAny(
+        Ray ray, QueryContext context, double minDistance = 0, double maxDistance = double.PositiveInfinity, RayFootprint footprint = default)
     {
         ArgumentNullException.ThrowIfNull(context);
         var direction = RayCaster.CheckedUnitDirection(in ray, minDistance, maxDistance);
-        Search(ray.Origin, direction, minDistance, maxDistance, stopsAtFirst: true, context, out var found, out _);
+        Search(ray.Origin, direction, minDistance, maxDistance, stopsAtFirst: true, footprint, context, out var found, out _);
         return found is not null;
     }
 
     private RaySearch Search(
-        Vector origin, Vector unitDirection, double minDistance, double maxDistance, bool stopsAtFirst, QueryContext context,
-        out RayInstance? found, out int pathLength)
+        Vector origin, Vector unitDirection, double minDistance, double maxDistance, bool stopsAtFirst, RayFootprint footprint,
+        QueryContext context, out RayInstance? found, out int pathLength)
     {
         context.ClearPath();
         found = null;
         pathLength = 0;
-        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, RayCaster.RoundingError(origin, minDistance, _bounds));
+        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, RayCaster.RoundingError(origin, minDistance, _bounds))
+        {
+            Footprint = footprint,
+        };
         if (_objects is not null)
         {
             var ray = LocalRay.Of(origin, unitDirection, minDistance);

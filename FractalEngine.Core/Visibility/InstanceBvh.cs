@@ -39,16 +39,6 @@ internal sealed class InstanceBvh
     /// <summary>Index of the node that holds all instances.</summary>
     public int RootIndex { get; }
 
-    /// <summary>Computes the scale and translation from one box to another.</summary>
-    /// <remarks>Along an axis where the first box is flat, its size is kept.</remarks>
-    public static AffineMap MapBoxToBox(BoundingBox from, BoundingBox to)
-    {
-        var (x1, y1, z1) = from.Size;
-        var (x2, y2, z2) = to.Size;
-        var scale = new Vector(x1 > 0 ? x2 / x1 : 1, y1 > 0 ? y2 / y1 : 1, z1 > 0 ? z2 / z1 : 1);
-        return new(Matrix.Diagonal(scale), to.Centre - from.Centre.Stretch(scale));
-    }
-
     /// <summary>Builds the node of some instances, after those of its children.</summary>
     /// <returns>Index of the node.</returns>
     private int BuildNode(Span<int> instances)
@@ -72,7 +62,7 @@ internal sealed class InstanceBvh
             SplitAtMedian(instances, SplitsPerNode, children);
         }
 
-        _nodes.Add(new(box, MapBoxToBox(_baseBox, box), [.. children]));
+        _nodes.Add(new(box, BoundingBox.MapBoxToBox(_baseBox, box), [.. children]));
         return _nodes.Count - 1;
     }
 

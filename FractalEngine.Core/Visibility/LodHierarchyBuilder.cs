@@ -51,7 +51,7 @@ internal static class LodHierarchyBuilder
     private static AffineMap ComputeProxyMap(BoundingBox baseBox, BoundingBox box) =>
         box.IsEmpty || BoundingBox.Union(box, baseBox).Diagonal <= ContainmentFactor * box.Diagonal
         ? AffineMap.Identity
-        : InstanceBvh.MapBoxToBox(baseBox, box);
+        : BoundingBox.MapBoxToBox(baseBox, box);
 
     /// <summary>Builds the hierarchy of componentwise sums, which have no levels: an <see cref="InstanceBvh"/> groups them.</summary>
     private static LodHierarchy BuildComponentwise(Fractal fractal)

@@ -19,6 +19,7 @@ internal sealed class SubFractal
     private static readonly Vector FarAwayPoint = 1e300 * Vector.One;
 
     private readonly Vector256<double> _halfSize;
+    private readonly BoundingBox _baseBox;
     private RayBounds? _rayBounds;
 
     /// <summary>Creates the sub-fractal of a level.</summary>
@@ -45,6 +46,7 @@ internal sealed class SubFractal
         bool hasOnlySimilarities)
     {
         Solid = solid;
+        _baseBox = baseBox;
         Clusters = clusters;
         Set = set;
         Children = children;
@@ -132,7 +134,7 @@ internal sealed class SubFractal
         Children.SelectMany(child => child.Group is { } group ? [child, .. group.AllChildren()] : (IEnumerable<ChildInstance>)[child]);
 
     /// <summary>The bounds for rays, made when the first ray comes.</summary>
-    public RayBounds RayBounds => _rayBounds ??= new(this);
+    public RayBounds RayBounds => _rayBounds ??= new(this, _baseBox);
 
     /// <summary>True for a child without faces, whose box is far from everything.</summary>
     public bool IsChildEmpty(int child) => ChildBounds[child] == FarAwayPoint.X;
