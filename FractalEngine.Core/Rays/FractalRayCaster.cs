@@ -22,13 +22,15 @@ internal sealed class FractalRayCaster : RayCaster
     // About a fifth of a second.
     private const long MaxBoundTests = 1_000_000;
 
+    private const double MinRadiusInErrors = 8;
+
     // All triangles of a smaller base are tested sooner than the planes around it.
     private const int MinFacesWithPlanes = 9;
 
     private readonly Fractal _fractal;
     private readonly FractalHierarchy _hierarchy;
     private readonly TriangleBvh _bvh;
-    private readonly double _minRadiusSquared;
+    private readonly double _minRadius;
     private readonly bool _hasOnlySimilarities;
 
     /// <summary>Prepares a fractal in affine composition.</summary>
@@ -37,8 +39,7 @@ internal sealed class FractalRayCaster : RayCaster
         _fractal = fractal;
         _hierarchy = fractal.Hierarchy;
         _bvh = TriangleBvh.For(fractal.BaseMesh);
-        var minRadius = ExactFractalCollider.MinRadius(_hierarchy.Root);
-        _minRadiusSquared = minRadius * minRadius;
+        _minRadius = ExactFractalCollider.MinRadius(_hierarchy.Root);
         _hasOnlySimilarities = _hierarchy.HasOnlySimilarities;
     }
 
@@ -72,7 +73,9 @@ internal sealed class FractalRayCaster : RayCaster
             return false;
         }
 
-        if (IsLeaf(root, _hierarchy.Levels, in ray))
+        // Below the rounding of the ray, all that it comes near seems hit.
+        var minRadius = Math.Max(_minRadius, MinRadiusInErrors * search.Error);
+        if (IsLeaf(root, _hierarchy.Levels, in ray, minRadius))
         {
             var isRootHit = TestBase(root, in ray, ref search);
             pathLength = isRootHit ? 0 : pathLength;
@@ -110,7 +113,7 @@ internal sealed class FractalRayCaster : RayCaster
             {
                 isLeafHit = TestProxy(subFractal.RayBounds, in local, ref search);
             }
-            else if (!IsLeaf(subFractal, levels, in local) && depth < FractalSearchState.MaxDepth && search.BoundTests < MaxBoundTests)
+            else if (!IsLeaf(subFractal, levels, in local, minRadius) && depth < FractalSearchState.MaxDepth && search.BoundTests < MaxBoundTests)
             {
                 Push(stack, ref depth, subFractal.RayBounds, levels, in local, ref search);
                 continue;
@@ -136,8 +139,8 @@ internal sealed class FractalRayCaster : RayCaster
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private bool IsLeaf(SubFractal subFractal, long levels, in LocalRay ray) =>
-        levels == 0 || ray.Scale * ray.Scale * subFractal.RadiusSquared <= _minRadiusSquared;
+    private static bool IsLeaf(SubFractal subFractal, long levels, in LocalRay ray, double minRadius) =>
+        levels == 0 || ray.Scale * ray.Scale * subFractal.RadiusSquared <= minRadius * minRadius;
 
     /// <summary>Tells whether a sub-fractal is smaller than the ray is wide.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
