@@ -47,21 +47,18 @@ internal sealed class FractalRayCaster : RayCaster
     public override long StorageBytes => _hierarchy.StorageBytes + _bvh.StorageBytes;
 
     /// <inheritdoc/>
+    internal override Mesh Mesh => _fractal.BaseMesh;
+
+    /// <inheritdoc/>
     private protected override BoundingBox Bounds => _hierarchy.Root.Box;
 
     /// <inheritdoc/>
-    internal override (Vector A, Vector B, Vector C) ResolveFace(
+    internal override SimdAffineMap ResolveInstance(
         in RaySearch search, int pathLength, in AffineMap map, QueryContext context)
     {
         context.ClearPath();
         var instance = _hierarchy.ResolveInstance(context.BestPathBuffer(pathLength)[..pathLength], in map, context, out _);
-        if (search.Proxy is { } proxy)
-        {
-            instance = SimdAffineMap.Compose(in instance, in proxy.ProxyMap);
-        }
-
-        var (a, b, c) = _fractal.BaseMesh.Face(search.Face);
-        return (instance.Apply(a), instance.Apply(b), instance.Apply(c));
+        return search.Proxy is { } proxy ? SimdAffineMap.Compose(in instance, in proxy.ProxyMap) : instance;
     }
 
     /// <inheritdoc/>

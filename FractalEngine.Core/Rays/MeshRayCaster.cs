@@ -14,6 +14,9 @@ internal sealed class MeshRayCaster(Mesh mesh) : RayCaster
     public override long StorageBytes => _bvh.StorageBytes;
 
     /// <inheritdoc/>
+    internal override Mesh Mesh => mesh;
+
+    /// <inheritdoc/>
     private protected override BoundingBox Bounds => mesh.Bounds;
 
     /// <inheritdoc/>
@@ -29,11 +32,9 @@ internal sealed class MeshRayCaster(Mesh mesh) : RayCaster
     }
 
     /// <inheritdoc/>
-    internal override (Vector A, Vector B, Vector C) ResolveFace(
-        in RaySearch search, int pathLength, in AffineMap map, QueryContext context)
+    internal override SimdAffineMap ResolveInstance(in RaySearch search, int pathLength, in AffineMap map, QueryContext context)
     {
         context.ClearPath();
-        var (a, b, c) = mesh.Face(search.Face);
-        return (map * a, map * b, map * c);
+        return new(map);
     }
 }

@@ -85,7 +85,7 @@ public abstract class RayCaster
         var direction = CheckedUnitDirection(in ray, minDistance, maxDistance);
         var search = Search(ray.Origin, direction, minDistance, maxDistance, stopsAtFirst: false, footprint, context, out var pathLength);
         hit = search.Face < 0 ? default : RayHitFactory.Create(
-            ray.Origin, direction, in search, minDistance, maxDistance, ResolveFace(in search, pathLength, in Identity, context));
+            ray.Origin, direction, in search, minDistance, maxDistance, Mesh, ResolveInstance(in search, pathLength, in Identity, context));
         return search.Face >= 0;
     }
 
@@ -123,12 +123,15 @@ public abstract class RayCaster
     /// <returns>True when there is a nearer hit than before.</returns>
     internal abstract bool TryHit(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength);
 
-    /// <summary>Finds the corners of a face that a search has hit, and records its instance.</summary>
+    /// <summary>The mesh that every instance of the shape shows.</summary>
+    internal abstract Mesh Mesh { get; }
+
+    /// <summary>Finds the map of the instance that a search has hit, and records its path.</summary>
     /// <param name="search">The search with its hit.</param>
     /// <param name="pathLength">Length of the path of the search.</param>
     /// <param name="map">From the shape's frame to that of the result.</param>
     /// <param name="context">Has the path, and receives the instance.</param>
-    internal abstract (Vector A, Vector B, Vector C) ResolveFace(
+    internal abstract SimdAffineMap ResolveInstance(
         in RaySearch search, int pathLength, in AffineMap map, QueryContext context);
 
     /// <summary>An upper bound of how far rounding moves a point of a ray or of a target.</summary>

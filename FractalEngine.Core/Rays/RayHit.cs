@@ -13,6 +13,9 @@ namespace FractalEngine.Core.Rays;
 public readonly record struct RayHit(
     double Distance, Vector Point, Vector Normal, bool IsFrontFace, Vector Barycentrics, int FaceIndex)
 {
+    /// <summary>From the frame of the mesh, or of the fractal's base mesh, to that of the ray.</summary>
+    public AffineMap InstanceMap { get; init; }
+
     /// <summary>Interpolates the texture coordinates of the face at the point; null where it has none.</summary>
     /// <param name="mesh">The mesh that was hit, or the base mesh of the fractal.</param>
     public (double U, double V)? TextureCoordinates(Mesh mesh)

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Rays;
@@ -14,13 +15,15 @@ internal static class RayHitFactory
     /// <param name="search">The search that found the triangle.</param>
     /// <param name="minDistance">Smallest distance of a result.</param>
     /// <param name="maxDistance">Largest distance of a result.</param>
-    /// <param name="corners">The triangle in the frame of the ray.</param>
+    /// <param name="mesh">The mesh of the instance.</param>
+    /// <param name="map">From the mesh's frame to that of the ray.</param>
     public static RayHit Create(
         Vector origin, Vector direction, in RaySearch search, double minDistance, double maxDistance,
-        (Vector A, Vector B, Vector C) corners)
+        Mesh mesh, in SimdAffineMap map)
     {
         var distance = search.MaxDistance;
-        var (a, b, c) = corners;
+        var (a, b, c) = mesh.Face(search.Face);
+        (a, b, c) = (map.Apply(a), map.Apply(b), map.Apply(c));
         var cross = Vector.Cross(b - a, c - a);
         var length = cross.Length();
         var normal = length > 0 ? cross / length : Vector.Zero;
@@ -33,7 +36,10 @@ internal static class RayHitFactory
 
         distance = Math.Min(Math.Max(distance, minDistance), maxDistance);
         var point = origin + (distance * direction);
-        return new(distance, point, normal, slope < 0, Barycentrics(point, a, b, c, cross), search.Face);
+        return new(distance, point, normal, slope < 0, Barycentrics(point, a, b, c, cross), search.Face)
+        {
+            InstanceMap = map.ToAffineMap(),
+        };
     }
 
     /// <summary>Computes the weights of the corners at a point in the triangle, or at the nearest that rounding leaves.</summary>

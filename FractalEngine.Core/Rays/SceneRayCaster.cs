@@ -97,7 +97,7 @@ public sealed class SceneRayCaster
         objectIndex = found?.Index ?? -1;
         hit = found is null ? default : RayHitFactory.Create(
             ray.Origin, direction, in search, minDistance, maxDistance,
-            found.Caster.Value.ResolveFace(in search, pathLength, in found.ObjectToWorld, context));
+            found.Caster.Value.Mesh, found.Caster.Value.ResolveInstance(in search, pathLength, in found.ObjectToWorld, context));
         return found is not null;
     }
 
