@@ -138,7 +138,7 @@ public sealed class FrameRenderer : IDisposable
     private static void SetClearColour(Colour colour) =>
         GL.ClearColor((float)colour.Red, (float)colour.Green, (float)colour.Blue, 1);
 
-    private static Colour LetterboxColour(Colour colour) =>
+    internal static Colour LetterboxColour(Colour colour) =>
         new(LetterboxShade * colour.Red, LetterboxShade * colour.Green, LetterboxShade * colour.Blue);
 
     /// <summary>Returns a framebuffer of the requested size, replacing the last one where that differs.</summary>

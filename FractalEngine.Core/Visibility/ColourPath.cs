@@ -1,4 +1,6 @@
 using System.Runtime.CompilerServices;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Visibility;
@@ -19,6 +21,24 @@ public readonly record struct ColourPath(int MapCount, float PathFraction, float
 
     /// <summary>The path of the whole fractal, without any map.</summary>
     public static ColourPath Start => new(0, 0, 1);
+
+    /// <summary>Computes the position of an instance between the two colours of a gradient, from 0 to 1.</summary>
+    /// <param name="fractal">The fractal.</param>
+    /// <param name="gradient">Kind of the gradient; not <see cref="GradientKind.None"/>.</param>
+    /// <param name="instancePath">For each level, the outermost first, the index of the transformation in its set.</param>
+    public static float GradientFactorOf(Fractal fractal, GradientKind gradient, ReadOnlySpan<int> instancePath)
+    {
+        ArgumentNullException.ThrowIfNull(fractal);
+        var path = Start;
+        for (var level = 0; level < instancePath.Length; level++)
+        {
+            var maps = fractal.LevelAt(level).Maps;
+            var index = instancePath[level];
+            path = path.Append(maps[index] == AffineMap.Identity ? -1 : index, index, maps.Length);
+        }
+
+        return path.ComputeGradientFactor(gradient, fractal.LevelCount ?? long.MaxValue);
+    }
 
     /// <summary>Appends one map to the path.</summary>
     /// <param name="mapIndex">Index of the map in its set; −1 for the identity.</param>

@@ -115,9 +115,16 @@ internal sealed class LightBlock : IDisposable
     private static void WriteVector(Vector v, double w, Span<float> target) =>
         (target[0], target[1], target[2], target[3]) = ((float)v.X, (float)v.Y, (float)v.Z, (float)w);
 
-    private void WriteAmbient(ImmutableArray<Light> lights)
+    /// <summary>Adds up the ambient lights that a scene declares. A scene without any light has that of a sky over dry ground.</summary>
+    /// <param name="lights">The lights that the scene declares.</param>
+    /// <returns>Linear light from above and from below; the same unless it is the default.</returns>
+    public static (Vector Sky, Vector Ground) AmbientColours(ImmutableArray<Light> lights)
     {
-        // Declared ambient light is the same from all directions. The default one is that of a sky over dry ground.
+        if (lights.IsEmpty)
+        {
+            return (new(0.23, 0.245, 0.28), new(0.11, 0.10, 0.095));
+        }
+
         var sum = Vector.Zero;
         foreach (var light in lights.OfType<AmbientLight>())
         {
@@ -125,7 +132,13 @@ internal sealed class LightBlock : IDisposable
             sum += light.Intensity * new Vector(red, green, blue);
         }
 
-        WriteVector(_usesDefaultLights ? new(0.23, 0.245, 0.28) : sum, 0, _data);
-        WriteVector(_usesDefaultLights ? new(0.11, 0.10, 0.095) : sum, 0, _data.AsSpan(4));
+        return (sum, sum);
+    }
+
+    private void WriteAmbient(ImmutableArray<Light> lights)
+    {
+        var (sky, ground) = AmbientColours(lights);
+        WriteVector(sky, 0, _data);
+        WriteVector(ground, 0, _data.AsSpan(4));
     }
 }

@@ -85,13 +85,17 @@ public sealed class DrawableScene
             Textures = textures,
         };
 
+    /// <summary>The colour of an object where its material says none.</summary>
+    /// <param name="placed">The object.</param>
+    /// <param name="index">Index of the object in the scene, from 0.</param>
+    internal static Colour ColourOf(PlacedModel placed, int index) =>
+        // Colours of vertices are shown as they are, unless the scene gives the object one.
+        placed.Declaration.Colour ?? (placed.Model.Mesh.Colours.IsEmpty ? ObjectPalette.ColourOf(index) : Colour.White);
+
     private static DrawableObject CreateObject(PlacedModel placed, int index, DrawableModel model)
     {
         var declaration = placed.Declaration;
-        // Colours of vertices are shown as they are, unless the scene gives the object one.
-        var ownColour = placed.Model.Mesh.Colours.IsEmpty ? ObjectPalette.ColourOf(index) : Colour.White;
-        var colour = declaration.Colour ?? ownColour;
-        return new(declaration.Name ?? model.Name, model, placed.ObjectToWorld, colour)
+        return new(declaration.Name ?? model.Name, model, placed.ObjectToWorld, ColourOf(placed, index))
         {
             Tint = declaration.Colour ?? Colour.White,
             Gradient = declaration.Gradient,

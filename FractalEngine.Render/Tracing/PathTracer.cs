@@ -1,0 +1,259 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Rays;
+using FractalEngine.Core.Scenes;
+
+namespace FractalEngine.Render.Tracing;
+
+/// <summary>
+/// Draws a scene by following light backwards from the eye, without a GPU: shadows, light between surfaces, mirrors, glass. The image is
+/// noisy at first, and converges as samples are added.
+/// </summary>
+/// <remarks>
+/// Light is that of drawn frames (<see cref="TracedLights"/>), shadows included: the scene's lights are sampled directly at each hit, and the
+/// ambient light comes from all directions that no surface hides. Paths end by chance, by up to <see cref="MaxBounces"/> surfaces. The same
+/// seed gives the same bits on any number of threads.
+/// </remarks>
+public sealed class PathTracer
+{
+    /// <summary>Largest number of surfaces that a path of light touches.</summary>
+    public const int MaxBounces = 8;
+
+    // From this bounce on, dark paths end by chance.
+    private const int FirstRouletteBounce = 3;
+
+    // Surfaces that a path may pass through.
+    private const int MaxLayers = 64;
+
+    // Parts of a fractal of a smaller radius than so many pixels are traced as one.
+    private const double FootprintPixels = 0.25;
+
+    // How much wider rays of scattered light and rays towards a light become: their images are soft, or far away.
+    private const double ScatteredSpread = 0.03;
+    private const double ShadowSpread = 1e-3;
+
+    private readonly TracedScene _scene;
+    private readonly TracedLights _lights;
+    private readonly TracedCamera _camera;
+    private readonly Vector _background;
+    private readonly Colour _letterbox;
+    private readonly int _seed;
+    private readonly float[] _sums;
+    private readonly int[] _rowSamples;
+
+    /// <summary>Prepares an image.</summary>
+    /// <param name="scene">With its models loaded.</param>
+    /// <param name="view">Camera and projection; without deep zoom.</param>
+    /// <param name="width">Pixels, at least 1.</param>
+    /// <param name="height">Pixels, at least 1.</param>
+    /// <param name="settings">The background where the scene declares none, and the crease angle; the defaults when null.</param>
+    /// <param name="seed">Distinguishes independent images.</param>
+    /// <exception cref="ArgumentOutOfRangeException">Width or height is less than 1.</exception>
+    /// <exception cref="ArgumentException">The view is a deep zoom.</exception>
+    /// <exception cref="SingularMatrixException">The matrix of an object has no inverse.</exception>
+    public PathTracer(LoadedScene scene, View view, int width, int height, RenderSettings? settings = null, int seed = 0)
+    {
+        ArgumentNullException.ThrowIfNull(scene);
+        ArgumentNullException.ThrowIfNull(view);
+        ArgumentOutOfRangeException.ThrowIfLessThan(width, 1);
+        ArgumentOutOfRangeException.ThrowIfLessThan(height, 1);
+        if (view.DeepZoom is not null)
+        {
+            throw new ArgumentException("expected a view in world space, without deep zoom", nameof(view));
+        }
+
+        settings ??= new();
+        _scene = new(scene, settings);
+        _lights = new(scene);
+        _camera = new(view, width, height, FootprintPixels);
+        var background = scene.Scene.Background ?? settings.Background;
+        _background = TracedMaterial.ToLinear(background);
+        _letterbox = FrameRenderer.LetterboxColour(background);
+        _seed = seed;
+        Width = width;
+        Height = height;
+        _sums = new float[3 * width * height];
+        _rowSamples = new int[height];
+    }
+
+    /// <summary>Width of the image in pixels.</summary>
+    public int Width { get; }
+
+    /// <summary>Height of the image in pixels.</summary>
+    public int Height { get; }
+
+    /// <summary>Number of samples that every pixel has.</summary>
+    public int SampleCount => _rowSamples.Min();
+
+    /// <summary>Sentences for the user about textures that can't be decoded.</summary>
+    public ImmutableArray<string> Notices => _scene.Notices;
+
+    /// <summary>Adds one sample to each pixel.</summary>
+    /// <param name="threads">The most threads to use; null for one a core.</param>
+    /// <param name="cancellation">Cancels between two rows; rows then differ by a sample.</param>
+    /// <exception cref="OperationCanceledException">The samples were cancelled.</exception>
+    public void AddSample(int? threads = null, CancellationToken cancellation = default)
+    {
+        var options = new ParallelOptions
+        {
+            MaxDegreeOfParallelism = threads ?? Environment.ProcessorCount,
+            CancellationToken = cancellation,
+        };
+        var sample = SampleCount;
+        var (_, top, _, height) = _camera.Viewport;
+        for (var y = 0; y < Height; y++)
+        {
+            if (y < top || y >= top + height)
+            {
+                _rowSamples[y] = sample + 1;
+            }
+        }
+
+        Parallel.For(top, top + height, options, static () => new QueryContext(), (y, _, context) =>
+        {
+            if (_rowSamples[y] == sample)
+            {
+                AddRow(y, sample, context);
+                _rowSamples[y]++;
+            }
+
+            return context;
+        }, static _ => { });
+    }
+
+    /// <summary>Converts the present image to sRGB.</summary>
+    public PixelImage ToImage()
+    {
+        var pixels = new byte[4 * Width * Height];
+        var (left, top, width, height) = _camera.Viewport;
+        for (var y = 0; y < Height; y++)
+        {
+            for (var x = 0; x < Width; x++)
+            {
+                var target = pixels.AsSpan(4 * ((y * Width) + x), 4);
+                target[3] = byte.MaxValue;
+                if (x < left || x >= left + width || y < top || y >= top + height)
+                {
+                    (target[0], target[1], target[2]) = (ToByte(_letterbox.Red), ToByte(_letterbox.Green), ToByte(_letterbox.Blue));
+                    continue;
+                }
+
+                var sum = _sums.AsSpan(3 * ((y * Width) + x), 3);
+                var scale = 1.0 / Math.Max(1, _rowSamples[y]);
+                for (var i = 0; i < 3; i++)
+                {
+                    target[i] = ToByte(ToSrgb(sum[i] * scale));
+                }
+            }
+        }
+
+        return new(Width, Height, pixels);
+    }
+
+    /// <summary>The mean radiance of a pixel so far, linear light: red, green, blue.</summary>
+    /// <param name="x">From the left, from 0.</param>
+    /// <param name="y">From the top, from 0.</param>
+    public Vector RadianceAt(int x, int y)
+    {
+        var sum = _sums.AsSpan(3 * ((y * Width) + x), 3);
+        return new Vector(sum[0], sum[1], sum[2]) / Math.Max(1, _rowSamples[y]);
+    }
+
+    private static byte ToByte(double component) => (byte)Math.Round(255 * Math.Clamp(component, 0, 1));
+
+    /// <summary>The curve of IEC 61966-2-1, from linear light.</summary>
+    private static double ToSrgb(double linear) =>
+        linear <= 0.0031308 ? 12.92 * linear : (1.055 * Math.Pow(linear, 1 / 2.4)) - 0.055;
+
+    private void AddRow(int y, int sample, QueryContext context)
+    {
+        var (left, _, width, _) = _camera.Viewport;
+        for (var x = left; x < left + width; x++)
+        {
+            var pixel = (y * Width) + x;
+            var samples = new SampleSequence(pixel, sample, _seed);
+            var radiance = Trace(_camera.CreateRay(x, y, samples.Next(), out var footprint), footprint, ref samples, context);
+            _sums[3 * pixel] += (float)radiance.X;
+            _sums[(3 * pixel) + 1] += (float)radiance.Y;
+            _sums[(3 * pixel) + 2] += (float)radiance.Z;
+        }
+    }
+
+    /// <summary>Follows one path, and returns the radiance that comes along it.</summary>
+    private Vector Trace(Ray ray, RayFootprint footprint, ref SampleSequence samples, QueryContext context)
+    {
+        var radiance = Vector.Zero;
+        var throughput = Vector.One;
+        var (minDistance, maxDistance) = _camera.Clip;
+        var layers = 0;
+        for (var bounce = 0; ;)
+        {
+            if (!_scene.TryHit(in ray, footprint, minDistance, maxDistance, context, out var surface))
+            {
+                return radiance + throughput.Stretch(bounce == 0 ? _background : _lights.Surroundings(ray.Direction));
+            }
+
+            var passed = (surface.Position - ray.Origin).Length();
+            if (surface.Opacity < 1 && !(samples.NextNumber() < surface.Opacity))
+            {
+                if (++layers > MaxLayers)
+                {
+                    return radiance;
+                }
+
+                passed += _scene.Offset;
+                ray = ray with { Origin = ray.Origin + (passed * ray.Direction) };
+                footprint = footprint with { Radius = footprint.RadiusAt(passed) };
+                minDistance = Math.Max(0, minDistance - passed);
+                maxDistance -= passed;
+                continue;
+            }
+
+            radiance += throughput.Stretch(surface.Emission);
+            var width = footprint.RadiusAt(passed);
+            var origin = surface.Position + (_scene.Offset * surface.FaceNormal);
+            radiance += throughput.Stretch(DirectLight(in surface, origin, -ray.Direction, width, context));
+            if (++bounce > MaxBounces
+                || !Reflection.TrySample(in surface, -ray.Direction, ref samples, out var direction, out var weight, out var spread))
+            {
+                return radiance;
+            }
+
+            throughput = throughput.Stretch(weight);
+            if (bounce >= FirstRouletteBounce)
+            {
+                var survival = Math.Min(0.95, Math.Max(throughput.X, Math.Max(throughput.Y, throughput.Z)));
+                if (!(samples.NextNumber() < survival))
+                {
+                    return radiance;
+                }
+
+                throughput /= survival;
+            }
+
+            ray = new(origin, direction);
+            footprint = new(width, footprint.Spread + (spread * ScatteredSpread));
+            (minDistance, maxDistance) = (0, double.PositiveInfinity);
+        }
+    }
+
+    /// <summary>Adds up the light that reaches a surface from the scene's lights, and goes on towards the eye.</summary>
+    private Vector DirectLight(in TracedSurface surface, Vector origin, Vector toEye, double width, QueryContext context)
+    {
+        var sum = Vector.Zero;
+        for (var i = 0; i < _lights.Count; i++)
+        {
+            var incoming = _lights.Incoming(i, surface.Position, out var toLight, out var distance);
+            var reflected = incoming.Stretch(Reflection.Evaluate(in surface, toEye, toLight));
+            if (reflected != Vector.Zero)
+            {
+                sum += _scene.Transmittance(new(origin, toLight), new(width, ShadowSpread), distance, context) * reflected;
+            }
+        }
+
+        return sum;
+    }
+}

@@ -1,0 +1,62 @@
+using FractalEngine.Core.Rays;
+using FractalEngine.Core.Scenes;
+
+namespace FractalEngine.Render.Tracing;
+
+/// <summary>Makes the rays of a view's pixels.</summary>
+internal sealed class TracedCamera
+{
+    private readonly Camera _camera;
+    private readonly bool _isPerspective;
+    private readonly double _halfHeight;
+    private readonly double _halfWidth;
+    private readonly double _footprint;
+
+    /// <summary>Prepares a view.</summary>
+    /// <param name="view">Camera and projection.</param>
+    /// <param name="width">Width of the frame in pixels.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
+    /// <param name="footprintPixels">Radius of a ray in pixels.</param>
+    public TracedCamera(View view, int width, int height, double footprintPixels)
+    {
+        _camera = view.Camera;
+        _isPerspective = view.Projection == Projection.Perspective;
+        Viewport = view.Viewport(width, height);
+        _halfHeight = view.HalfHeight;
+        _halfWidth = _halfHeight * view.EffectiveAspect(width, height);
+        _footprint = footprintPixels * 2 * _halfHeight / Viewport.Height;
+        Clip = view.FixedClipPlanes ?? (0, double.PositiveInfinity);
+    }
+
+    /// <summary>The part of the frame that shows the scene, in pixels from the upper left corner.</summary>
+    public (int X, int Y, int Width, int Height) Viewport { get; }
+
+    /// <summary>Smallest and largest distance that is shown.</summary>
+    public (double Near, double Far) Clip { get; }
+
+    /// <summary>Makes a ray near the centre of a pixel.</summary>
+    /// <param name="x">Pixel from the left, from 0.</param>
+    /// <param name="y">Pixel from the top, from 0.</param>
+    /// <param name="point">A point of the unit square, which the filter spreads over the pixel and its neighbours.</param>
+    /// <param name="footprint">How wide the ray is.</param>
+    public Ray CreateRay(int x, int y, (double U, double V) point, out RayFootprint footprint)
+    {
+        var across = (((x + 0.5 + Tent(point.U) - Viewport.X) / Viewport.Width) * 2) - 1;
+        var down = (((y + 0.5 + Tent(point.V) - Viewport.Y) / Viewport.Height) * 2) - 1;
+        var (right, up) = (across * _halfWidth, -down * _halfHeight);
+        var (axisRight, axisUp, forward) = _camera.LocalAxes;
+        if (_isPerspective)
+        {
+            var direction = (right * axisRight) + (up * axisUp) + forward;
+            var length = direction.Length();
+            footprint = new(0, _footprint / length);
+            return new(_camera.Position, direction / length);
+        }
+
+        footprint = new(_footprint, 0);
+        return new(_camera.Position + (right * axisRight) + (up * axisUp), forward);
+    }
+
+    /// <summary>Spreads a number from 0 to 1 over −1 to 1, as densely as a tent is high.</summary>
+    private static double Tent(double number) => number < 0.5 ? Math.Sqrt(2 * number) - 1 : 1 - Math.Sqrt(2 - (2 * number));
+}

@@ -1,0 +1,112 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
+using FractalEngine.Core.Maths;
+using FractalEngine.Render.Images;
+using FractalEngine.Render.Preparation;
+
+namespace FractalEngine.Render.Tracing;
+
+/// <summary>A material as the path tracer needs it: colours in linear light, textures decoded.</summary>
+internal sealed class TracedMaterial
+{
+    // What is not metal reflects about this part of light that falls straight onto it.
+    private const double DielectricReflectance = 0.04;
+
+    // Smoother surfaces are as rough as this: a mirror's highlight of a point of light would never be hit.
+    private const double MinRoughness = 0.02;
+
+    private TracedMaterial()
+    {
+    }
+
+    /// <summary>The surface without a material: the object's own colour, matt.</summary>
+    public static TracedMaterial Default { get; } = new();
+
+    /// <summary>The diffuse colour; null for the object's own.</summary>
+    public Vector? Diffuse { get; private init; }
+
+    /// <summary>The part of light that is mirrored where it falls straight onto the surface.</summary>
+    public Vector Specular { get; private init; }
+
+    /// <summary>The roughness of the mirrored part: α of the distribution of GGX.</summary>
+    public double Roughness { get; private init; } = 1;
+
+    /// <summary>Radiance of the surface itself.</summary>
+    public Vector Emission { get; private init; }
+
+    /// <summary>The opacity, from 0 to 1.</summary>
+    public double Opacity { get; private init; } = 1;
+
+    /// <summary>True where a texture of half the opacity cuts a hole.</summary>
+    public bool IsCutOut { get; private init; }
+
+    /// <summary>Colour and opacity; null for none.</summary>
+    public TracedTexture? Texture { get; private init; }
+
+    /// <summary>Heights; null for none.</summary>
+    public TracedTexture? Bump { get; private init; }
+
+    /// <summary>Normals in tangent space; null for none.</summary>
+    public TracedTexture? Normals { get; private init; }
+
+    /// <summary>True where light may pass.</summary>
+    public bool IsSeeThrough { get; private init; }
+
+    /// <summary>True where texture coordinates are needed.</summary>
+    public bool IsTextured => Texture is not null || Bump is not null || Normals is not null;
+
+    /// <summary>Prepares a material.</summary>
+    /// <param name="drawable">With its decoded texture.</param>
+    /// <param name="notices">Receives a sentence for each texture that can't be decoded.</param>
+    public static TracedMaterial Create(DrawableMaterial drawable, ICollection<string> notices)
+    {
+        var material = drawable.Material;
+        var diffuse = ToLinear(material.Diffuse);
+        var metalness = material.Metalness ?? 0;
+        var isPhysical = material.Roughness is not null || material.Metalness is not null;
+        return new()
+        {
+            Diffuse = (1 - metalness) * diffuse,
+            Specular = isPhysical
+                ? ((1 - metalness) * DielectricReflectance * Vector.One) + (metalness * diffuse)
+                : new(material.Specular.Red, material.Specular.Green, material.Specular.Blue),
+            // An exponent and a roughness with highlights of the same width (Walter and others, EGSR 2007).
+            Roughness = Math.Max(MinRoughness, isPhysical
+                ? Math.Pow(material.Roughness ?? 1, 2)
+                : Math.Sqrt(2 / (Math.Max(0, material.SpecularExponent) + 2))),
+            Emission = new(material.Emission.Red, material.Emission.Green, material.Emission.Blue),
+            Opacity = material.Opacity,
+            IsCutOut = drawable.IsCutOut,
+            IsSeeThrough = drawable.IsTransparent || drawable.IsCutOut,
+            Texture = drawable.Texture is { } texture && material.Texture is { } mapping ? new(texture.Image, mapping) : null,
+            Bump = Load(material.BumpTexture, notices),
+            Normals = Load(material.NormalTexture, notices),
+        };
+    }
+
+    /// <summary>Converts a colour to linear light: red, green, blue.</summary>
+    public static Vector ToLinear(Colour colour)
+    {
+        var (red, green, blue) = colour.ToLinear();
+        return new(red, green, blue);
+    }
+
+    private static TracedTexture? Load(MaterialTexture? texture, ICollection<string> notices)
+    {
+        if (texture is null)
+        {
+            return null;
+        }
+
+        try
+        {
+            PixelImage image = ImageFile.Load(texture.Path);
+            return new(image, texture);
+        }
+        catch (IOException exception)
+        {
+            notices.Add($"{texture.Path}:1:1: warning: the texture can't be decoded, traced without it: {exception.Message}");
+            return null;
+        }
+    }
+}

@@ -1,0 +1,151 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Rays;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility;
+using FractalEngine.Render.Preparation;
+
+namespace FractalEngine.Render.Tracing;
+
+/// <summary>The objects of a scene with all that light needs to know of their surfaces. Immutable: any number of threads may ask.</summary>
+internal sealed class TracedScene
+{
+    // Rays leave a surface by this part of the scene's size: far more than rounding, far less than a pixel.
+    private const double SurfaceOffset = 1e-9;
+
+    private readonly SceneRayCaster _caster;
+    private readonly ImmutableArray<PlacedModel> _objects;
+    private readonly TracedModel[] _models;
+    private readonly Vector[] _colours;
+    private readonly Vector[] _gradientEnds;
+
+    /// <summary>Prepares a scene: its surfaces, and its objects for rays.</summary>
+    /// <param name="scene">With its models loaded.</param>
+    /// <param name="settings">The crease angle.</param>
+    public TracedScene(LoadedScene scene, RenderSettings settings)
+    {
+        _caster = new(scene);
+        _objects = scene.Objects;
+        var notices = ImmutableArray.CreateBuilder<string>();
+        var textures = new TextureCache(notices, shareTextures: true);
+        var models = scene.Models.ToDictionary(
+            static model => model, model => new TracedModel(model, settings.CreaseAngle, textures, notices));
+        _models = [.. _objects.Select(placed => models[placed.Model])];
+        _colours = [.. _objects.Select(static (placed, index) => TracedMaterial.ToLinear(DrawableScene.ColourOf(placed, index)))];
+        _gradientEnds = [.. _objects.Select((placed, index) =>
+            placed.Declaration.Gradient is { } gradient ? TracedMaterial.ToLinear(gradient.EndColour) : _colours[index])];
+        IsSeeThrough = _models.Any(static model => model.IsSeeThrough);
+        Notices = notices.ToImmutable();
+        var bounds = scene.Bounds;
+        Offset = SurfaceOffset * bounds.FiniteDiagonalOr(1);
+    }
+
+    /// <summary>Sentences for the user about textures that can't be decoded.</summary>
+    public ImmutableArray<string> Notices { get; }
+
+    /// <summary>True where light may pass through any surface.</summary>
+    public bool IsSeeThrough { get; }
+
+    /// <summary>How far from a surface rays start that leave it, scene units.</summary>
+    public double Offset { get; }
+
+    /// <summary>Finds the nearest surface along a ray.</summary>
+    public bool TryHit(in Ray ray, RayFootprint footprint, double minDistance, double maxDistance, QueryContext context, out TracedSurface surface)
+    {
+        if (!_caster.TryFindNearest(ray, context, out var hit, out var objectIndex, minDistance, maxDistance, footprint))
+        {
+            surface = default;
+            return false;
+        }
+
+        surface = CreateSurface(ray.Direction, in hit, objectIndex, context);
+        return true;
+    }
+
+    /// <summary>Computes the part of light that reaches a point from a direction, from 0 to 1.</summary>
+    /// <param name="ray">From the point towards the light.</param>
+    /// <param name="footprint">How wide the ray is.</param>
+    /// <param name="distance">Distance of the light.</param>
+    /// <param name="context">Lends its memory.</param>
+    public double Transmittance(Ray ray, RayFootprint footprint, double distance, QueryContext context)
+    {
+        if (!IsSeeThrough)
+        {
+            return _caster.HitsAny(ray, context, 0, distance, footprint) ? 0 : 1;
+        }
+
+        const int MaxLayers = 32;
+        var transmittance = 1.0;
+        for (var layer = 0; transmittance > 0 && TryHit(in ray, footprint, 0, distance, context, out var surface); layer++)
+        {
+            transmittance *= layer < MaxLayers ? 1 - surface.Opacity : 0;
+            var passed = (surface.Position - ray.Origin).Length() + Offset;
+            ray = ray with { Origin = ray.Origin + (passed * ray.Direction) };
+            distance -= passed;
+            if (!(distance > 0))
+            {
+                break;
+            }
+        }
+
+        return transmittance;
+    }
+
+    private TracedSurface CreateSurface(Vector direction, in RayHit hit, int objectIndex, QueryContext context)
+    {
+        var model = _models[objectIndex];
+        var material = model.MaterialOf(hit.FaceIndex);
+        var map = hit.InstanceMap;
+        var faceNormal = hit.IsFrontFace ? hit.Normal : -hit.Normal;
+        var normal = OrientedNormal(
+            map.Linear.Cofactors() * model.InterpolateNormal(hit.FaceIndex, hit.Barycentrics), faceNormal, hit.IsFrontFace, map, direction);
+        var colour = material.Diffuse ?? ObjectColour(objectIndex, context);
+        colour = colour.Stretch(model.InterpolateColour(hit.FaceIndex, hit.Barycentrics));
+        var opacity = material.Opacity;
+        if (material.IsTextured && model.TryGetTextureTriangle(hit.FaceIndex, out var corners, out var coordinates))
+        {
+            var (u, v, _) = (hit.Barycentrics.X * coordinates.A) + (hit.Barycentrics.Y * coordinates.B) + (hit.Barycentrics.Z * coordinates.C);
+            if (material.Texture is { } texture)
+            {
+                var (texel, alpha) = texture.Sample(u, v);
+                colour = colour.Stretch(texel);
+                opacity = material.IsCutOut ? (alpha < 0.5 ? 0 : 1) : opacity * alpha;
+            }
+
+            normal = SurfaceDetail.Apply(material, normal, map.Linear, corners, coordinates, u, v, direction);
+        }
+
+        return new(
+            hit.Point, faceNormal, normal, colour.Stretch(Vector.One - material.Specular), material.Specular, material.Roughness,
+            material.Emission, opacity);
+    }
+
+    /// <summary>Brings an interpolated normal to the side that the ray comes from; the face's own where there is none.</summary>
+    private static Vector OrientedNormal(Vector normal, Vector faceNormal, bool isFrontFace, AffineMap map, Vector direction)
+    {
+        // Under a mirrored map the cofactors keep the side of the mesh, the winding changes it.
+        var length = normal.Length();
+        if (!(length > 0) || !double.IsFinite(length))
+        {
+            return faceNormal;
+        }
+
+        normal /= length;
+        normal = Vector.Dot(normal, faceNormal) < 0 ? -normal : normal;
+        // Seen from behind, an interpolated normal would turn away from the light.
+        return Vector.Dot(normal, direction) < 0 ? normal : faceNormal;
+    }
+
+    private Vector ObjectColour(int objectIndex, QueryContext context)
+    {
+        var placed = _objects[objectIndex];
+        if (placed.Declaration.Gradient is not { Kind: not GradientKind.None and var kind } || placed.Model is not FractalModel { Fractal: var fractal })
+        {
+            return _colours[objectIndex];
+        }
+
+        var factor = ColourPath.GradientFactorOf(fractal, kind, context.InstancePath);
+        return ((1 - factor) * _colours[objectIndex]) + (factor * _gradientEnds[objectIndex]);
+    }
+}
