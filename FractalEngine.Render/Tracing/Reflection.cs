@@ -72,7 +72,10 @@ internal static class Reflection
         direction = axes * new Vector(radius * Math.Cos(angle), radius * Math.Sin(angle), Math.Sqrt(Math.Max(0, 1 - point.U)));
         weight = surface.Diffuse / (1 - probability);
         spread = 1;
-        return scattered > 0 && Vector.Dot(surface.FaceNormal, direction) > 0;
+        // An interpolated normal leans away from the face, and some directions lead below it. Mirrored there, no light is lost.
+        var height = Vector.Dot(surface.FaceNormal, direction);
+        direction -= height < 0 ? 2 * height * surface.FaceNormal : Vector.Zero;
+        return scattered > 0 && height != 0;
     }
 
     /// <summary>The brightness of a colour in linear light, by ITU-R BT.709.</summary>

@@ -1,0 +1,187 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
+using FractalEngine.Render.Tracing;
+using FractalEngine.Tests.Collision;
+
+namespace FractalEngine.Tests.Render.Tracing;
+
+/// <summary>Traced images whose radiance is known in closed form.</summary>
+public class PathTracerTests
+{
+    private static readonly Light WhiteSky = new AmbientLight(Colour.White, 1);
+
+    [Fact]
+    public void AddSample_OfAWhiteSolidUnderAWhiteSky_ShowsNothing()
+    {
+        // The furnace: what reflects all light looks like the surroundings. A convex solid reflects each path once.
+        var tracer = Trace(Scene([WhiteSky], Matt(Shapes.Sphere(3), Colour.White)), Camera.Default, 16, 64);
+
+        for (var y = 0; y < 16; y++)
+        {
+            for (var x = 0; x < 16; x++)
+            {
+                Assert.Equal(1, tracer.RadianceAt(x, y).X, 0.01);
+            }
+        }
+    }
+
+    [Fact]
+    public void AddSample_OfAWhiteSpongeUnderAWhiteSky_LosesLessThanItsLastBounces()
+    {
+        var fractal = AssetFractals.Load("menger", 2);
+        var camera = new Camera(new(0.1, 0.2, -4), Vector.Zero, 30);
+        var tracer = Trace(Scene([WhiteSky], new SceneObject(fractal) { Colour = Colour.White }), camera, 12, 128);
+
+        // Paths that end after eight surfaces are dark: few, in holes.
+        Assert.InRange(Mean(tracer), 0.97, 1.003);
+    }
+
+    [Theory]
+    [InlineData(0.5, 0.5)]
+    [InlineData(0.25, 0.8)]
+    public void AddSample_InAClosedBoxThatGlows_GivesTheSumOfAllReflections(double emission, double albedo)
+    {
+        // Each surface sends e + a·L to every other: L = e/(1 − a), less the paths of more than eight reflections.
+        var box = Matt(Shapes.Box(new(-Vector.One, Vector.One)), FromLinear(albedo), new Colour(emission, emission, emission));
+        var tracer = Trace(Scene([], box), new(new(0.1, 0.2, -0.3), Vector.Zero, 80), 8, 256);
+
+        var expected = emission * (1 - Math.Pow(albedo, PathTracer.MaxBounces + 1)) / (1 - albedo);
+        Assert.Equal(expected, Mean(tracer), 0.01 * expected);
+    }
+
+    [Fact]
+    public void AddSample_OfAFloorBesideAHighBlackWall_SeesHalfTheSkyAndMore()
+    {
+        // At a distance d from a wall of the height h and without ends, the part (1 − d/√(d² + h²))/2 of the sky is hidden.
+        var floor = Matt(Quad(new(-500, 0, -500), new(-500, 0, 500), new(500, 0, 500), new(500, 0, -500)), FromLinear(0.5));
+        var wall = Matt(Quad(new(1, 0, -500), new(1, 3, -500), new(1, 3, 500), new(1, 0, 500)), Colour.Black);
+        var camera = new Camera(new(0, 0.001, 0), Vector.Zero, 2);
+        var tracer = Trace(Scene([WhiteSky], floor, wall), LookingDown(camera), 4, 2048);
+
+        var expected = 0.5 * (1 - (0.5 * (1 - (1 / Math.Sqrt(10)))));
+        Assert.Equal(expected, Mean(tracer), 0.01 * expected);
+    }
+
+    [Fact]
+    public void AddSample_UnderParallelLight_IsDarkInTheShadowAndLitBeside()
+    {
+        var floor = Matt(Quad(new(-50, 0, -50), new(-50, 0, 50), new(50, 0, 50), new(50, 0, -50)), FromLinear(0.5));
+        var lid = Matt(Quad(new(-1, 5, -1), new(-1, 5, 1), new(1, 5, 1), new(1, 5, -1)), Colour.Black);
+        var sun = new DirectionalLight(new(0, -1, 0), Colour.White, 0.8);
+
+        var shadow = Trace(Scene([sun], floor, lid), LookingDown(new(new(0, 1, 0), Vector.Zero, 10)), 4, 16);
+        var beside = Trace(Scene([sun], floor, lid), LookingDown(new(new(3, 1, 0), Vector.Zero, 10)), 4, 16);
+
+        Assert.Equal(0, Mean(shadow), 1e-12);
+        // A surface of the albedo a under light of the intensity i shows a·i, as in drawn frames.
+        Assert.Equal(0.4, Mean(beside), 1e-6);
+    }
+
+    [Fact]
+    public void AddSample_OfGlassBeforeTheSky_LetsItsShareThrough()
+    {
+        var glass = Matt(Quad(new(-5, -5, 0), new(-5, 5, 0), new(5, 5, 0), new(5, -5, 0)), Colour.Black, opacity: 0.25);
+        var scene = Scene([new AmbientLight(Colour.White, 0)], glass) with { Background = Colour.White };
+        var tracer = Trace(scene, Camera.Default, 8, 256);
+
+        Assert.Equal(0.75, Mean(tracer), 0.01);
+    }
+
+    [Fact]
+    public void AddSample_WithTwoSeeds_AgreesInTheMeanAndDiffersInTheNoise()
+    {
+        var sun = new DirectionalLight(new(0.3, -1, 0.5), Colour.White, 0.5);
+        var scene = Scene([WhiteSky, sun], new SceneObject(AssetFractals.Load("menger", 2)));
+        var first = Trace(scene, Camera.Default, 24, 64, seed: 1);
+        var second = Trace(scene, Camera.Default, 24, 64, seed: 2);
+
+        Assert.Equal(Mean(first), Mean(second), 0.005);
+        Assert.NotEqual(first.RadianceAt(12, 12), second.RadianceAt(12, 12));
+    }
+
+    [Fact]
+    public void AddSample_OnAnyNumberOfThreads_GivesTheSameBits()
+    {
+        var scene = Scene([WhiteSky], new SceneObject(AssetFractals.Load("tetrahedron", 4)), Matt(Shapes.Sphere(1), Colour.White));
+
+        var one = Trace(scene, Camera.Default, 20, 4, threads: 1).ToImage();
+        var many = Trace(scene, Camera.Default, 20, 4, threads: 5).ToImage();
+
+        Assert.Equal(one.Pixels, many.Pixels);
+    }
+
+    [Fact]
+    public void AddSample_OfAnInfiniteFractal_Ends()
+    {
+        var fractal = AssetFractals.Load("menger", null);
+        var tracer = Trace(Scene([WhiteSky], new SceneObject(fractal)), new(new(0.2, 0.1, -3), Vector.Zero, 40), 16, 2);
+
+        Assert.InRange(Mean(tracer), 0.01, 1);
+    }
+
+    [Fact]
+    public void AddSample_ThatIsCancelled_ThrowsAndKeepsWhatIsThere()
+    {
+        var tracer = Trace(Scene([WhiteSky], Matt(Shapes.Sphere(1), Colour.White)), Camera.Default, 8, 2);
+        using var cancelled = new CancellationTokenSource();
+        cancelled.Cancel();
+
+        Assert.Throws<OperationCanceledException>(() => tracer.AddSample(cancellation: cancelled.Token));
+
+        Assert.Equal(2, tracer.SampleCount);
+        Assert.Equal(1, Mean(tracer), 0.05);
+    }
+
+    private static PathTracer Trace(Scene scene, Camera camera, int size, int samples, int seed = 0, int? threads = null)
+    {
+        var loaded = LoadedScene.Of(scene with { Camera = camera, Background = scene.Background ?? Colour.White });
+        var tracer = new PathTracer(loaded, View.Of(loaded, 1), size, size, seed: seed);
+        for (var i = 0; i < samples; i++)
+        {
+            tracer.AddSample(threads);
+        }
+
+        return tracer;
+    }
+
+    private static double Mean(PathTracer tracer)
+    {
+        var sum = 0.0;
+        for (var y = 0; y < tracer.Height; y++)
+        {
+            for (var x = 0; x < tracer.Width; x++)
+            {
+                sum += tracer.RadianceAt(x, y).Y;
+            }
+        }
+
+        return sum / (tracer.Width * tracer.Height);
+    }
+
+    private static Scene Scene(ImmutableArray<Light> lights, params ImmutableArray<SceneObject> objects) => new()
+    {
+        Lights = lights.IsEmpty ? [new AmbientLight(Colour.Black, 0)] : lights,
+        Objects = objects,
+    };
+
+    private static SceneObject Matt(Mesh mesh, Colour colour, Colour emission = default, double opacity = 1)
+    {
+        var groups = mesh.WithGroups([new(0, mesh.FaceCount, "", "", "matt", 0)], []);
+        var material = new Material("matt") { Diffuse = colour, Emission = emission, Opacity = opacity };
+        return new(new MeshModel(groups) { Materials = ImmutableDictionary<string, Material>.Empty.Add("matt", material) });
+    }
+
+    private static Mesh Quad(Vector a, Vector b, Vector c, Vector d) =>
+        new([a.X, a.Y, a.Z, b.X, b.Y, b.Z, c.X, c.Y, c.Z, d.X, d.Y, d.Z], [0, 1, 2, 0, 2, 3]);
+
+    private static Camera LookingDown(Camera camera) => camera with { Rotation = new(-0.5 * Math.PI, 0, 0) };
+
+    private static Colour FromLinear(double linear)
+    {
+        var component = (1.055 * Math.Pow(linear, 1 / 2.4)) - 0.055;
+        return new(component, component, component);
+    }
+}
