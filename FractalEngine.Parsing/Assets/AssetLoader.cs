@@ -103,6 +103,7 @@ public sealed class AssetLoader
     private LoadedFile LoadScene()
     {
         var parsed = SceneParser.Parse(ReadText(_fullPath, _path, ParsingLimits.MaxDescriptionBytes));
+        _warnings.AddRange(parsed.Warnings);
         var objects = ImmutableArray.CreateBuilder<SceneObject>();
         foreach (var (declared, offset) in parsed.Scene.Objects.Zip(parsed.FileNameOffsets))
         {
@@ -145,6 +146,7 @@ public sealed class AssetLoader
     private FractalModel LoadFractal(string fullPath, string displayName)
     {
         var parsed = FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.MaxDescriptionBytes));
+        _warnings.AddRange(parsed.Warnings);
         var (basePath, baseDisplayName) = _references.Resolve(parsed.Source, parsed.BaseFileNameOffset, fullPath, parsed.BaseFile);
         var description = ApplyOptions(parsed);
         var contents = ReadMesh(basePath, baseDisplayName);

@@ -1,18 +1,28 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Scenes.Mistakes;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Mistakes;
 
 namespace FractalEngine.Parsing.Scenes;
 
 /// <summary>Reads scene files (paper §4.1.5). Their grammar is in docs/manual.md.</summary>
 public sealed partial class SceneParser : SceneValueParser
 {
+    private static readonly ImmutableArray<TypicalMistake> SceneMistakes =
+    [
+        new CommentBehindDeclaration(), new CommaAsDecimalPoint(), new MissingNumber(), new IncompletePlacement(),
+        new DeclarationSpelledOut(), new MisspelledKeyword(),
+    ];
+
     private readonly Dictionary<SceneDeclarationKind, int> _declarationOffsets = [];
     private readonly List<Light> _lights = [];
     private readonly List<SceneObject> _objects = [];
     private Scene _scene = new();
     private int _fileNameOffset;
+
+    private protected override ImmutableArray<TypicalMistake> TypicalMistakes => SceneMistakes;
 
     private SceneParser(SourceText source)
         : base(source)
@@ -46,7 +56,7 @@ public sealed partial class SceneParser : SceneValueParser
             throw Error(Source.Start, "the scene declares nothing: it has no camera, object or light");
         }
 
-        return new(Source, _scene with { Lights = [.. _lights], Objects = [.. _objects] }, lines.ToImmutable());
+        return new(Source, _scene with { Lights = [.. _lights], Objects = [.. _objects] }, lines.ToImmutable()) { Warnings = Hints };
     }
 
     private int IndexOfLast(SceneDeclarationKind kind) => kind switch
@@ -101,14 +111,15 @@ public sealed partial class SceneParser : SceneValueParser
 
     private bool ParseCamera(Cursor cursor, out Cursor rest)
     {
-        if (!ParseVectorOrDefault(cursor, Vector.Zero, out var position, out rest) || !ParseOptionalSeparator(rest, out rest)
-            || !ParseVectorOrDefault(rest, Vector.Zero, out var rotation, out rest)
+        if (!ParseVectorOrDefault(cursor, Vector.Zero, out var position, out rest) || !ParseOptionalSeparator(rest, out var rotationStart)
+            || !ParseVectorOrDefault(rotationStart, Vector.Zero, out var rotation, out rest)
             || !ParseOptionalSeparator(rest, out var fieldOfViewStart)
             || !ParseNumber(fieldOfViewStart, out var fieldOfView, out rest))
         {
             return false;
         }
 
+        Hint(rotationStart, RotationUnits.DescribeDegrees(rotation));
         Require(fieldOfView is > 0 and < 180, fieldOfViewStart, "the angle of view must lie between 0 and 180 degrees");
         return UpdateScene(_scene with { Camera = new(position, rotation, fieldOfView) });
     }
@@ -137,7 +148,7 @@ public sealed partial class SceneParser : SceneValueParser
 
         ParseBlanks(rest, out var heightStart);
         double? height = null;
-        if (!IsAtEndOfLine(heightStart))
+        if (!IsAtEndOfLine(heightStart) && !Fail(heightStart, SyntaxFailure.EndOfLine))
         {
             if (!ParseNumber(heightStart, out var number, out rest))
             {
@@ -172,7 +183,7 @@ public sealed partial class SceneParser : SceneValueParser
 
     private bool ParseClip(Cursor cursor, out Cursor rest)
     {
-        if (!ParseNumber(cursor, out var near, out rest) || !ParseSeparator(rest, out rest) || !ParseNumber(rest, out var far, out rest))
+        if (!ParseNumber(cursor, out var near, out rest) || !ParseNextNumber(rest, out var far, out rest))
         {
             return false;
         }
