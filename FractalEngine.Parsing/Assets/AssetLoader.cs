@@ -79,7 +79,11 @@ public sealed class AssetLoader
         return [.. loader._errors, .. loader._warnings];
     }
 
-    private LoadedFile LoadFile() => FileKinds.FromName(_path) switch
+    private FileKind? Kind => _options.Text is { } text
+        ? text.Text.Contains("<$>", StringComparison.Ordinal) ? FileKind.Fractal : FileKind.Scene
+        : FileKinds.FromName(_path);
+
+    private LoadedFile LoadFile() => Kind switch
     {
         FileKind.Scene => LoadScene(),
         FileKind.Fractal => CreateSingleObjectFile(FileKind.Fractal, LoadFractal(_fullPath, _path)),
@@ -191,7 +195,7 @@ public sealed class AssetLoader
 
     private SourceText ReadText(string fullPath, string displayName, long maxBytes)
     {
-        var source = SourceText.Read(fullPath, displayName, maxBytes);
+        var source = _options.Text is { } text && fullPath == _fullPath ? text : SourceText.Read(fullPath, displayName, maxBytes);
         _textBytes += source.ByteCount;
         return source;
     }
