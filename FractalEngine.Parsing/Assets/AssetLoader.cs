@@ -79,7 +79,11 @@ public sealed class AssetLoader
         return [.. loader._errors, .. loader._warnings];
     }
 
-    private LoadedFile LoadFile() => FileKinds.FromName(_path) switch
+    private FileKind? Kind => _options.Text is { } text
+        ? text.Text.Contains("<$>", StringComparison.Ordinal) ? FileKind.Fractal : FileKind.Scene
+        : FileKinds.FromName(_path);
+
+    private LoadedFile LoadFile() => Kind switch
     {
         FileKind.Scene => LoadScene(),
         FileKind.Fractal => CreateSingleObjectFile(FileKind.Fractal, LoadFractal(_fullPath, _path)),
@@ -103,6 +107,7 @@ public sealed class AssetLoader
     private LoadedFile LoadScene()
     {
         var parsed = SceneParser.Parse(ReadText(_fullPath, _path, ParsingLimits.MaxDescriptionBytes));
+        _warnings.AddRange(parsed.Warnings);
         var objects = ImmutableArray.CreateBuilder<SceneObject>();
         foreach (var (declared, offset) in parsed.Scene.Objects.Zip(parsed.FileNameOffsets))
         {
@@ -145,6 +150,7 @@ public sealed class AssetLoader
     private FractalModel LoadFractal(string fullPath, string displayName)
     {
         var parsed = FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.MaxDescriptionBytes));
+        _warnings.AddRange(parsed.Warnings);
         var (basePath, baseDisplayName) = _references.Resolve(parsed.Source, parsed.BaseFileNameOffset, fullPath, parsed.BaseFile);
         var description = ApplyOptions(parsed);
         var contents = ReadMesh(basePath, baseDisplayName);
@@ -189,7 +195,7 @@ public sealed class AssetLoader
 
     private SourceText ReadText(string fullPath, string displayName, long maxBytes)
     {
-        var source = SourceText.Read(fullPath, displayName, maxBytes);
+        var source = _options.Text is { } text && fullPath == _fullPath ? text : SourceText.Read(fullPath, displayName, maxBytes);
         _textBytes += source.ByteCount;
         return source;
     }

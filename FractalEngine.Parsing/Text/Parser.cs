@@ -1,4 +1,6 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Maths;
+using FractalEngine.Parsing.Text.Mistakes;
 
 namespace FractalEngine.Parsing.Text;
 
@@ -12,7 +14,11 @@ namespace FractalEngine.Parsing.Text;
 /// </remarks>
 public abstract class Parser
 {
+    private static readonly ImmutableArray<TypicalMistake> CommonMistakes =
+        [new CommentBehindDeclaration(), new CommaAsDecimalPoint(), new MissingNumber(), new MisspelledKeyword()];
+
     private readonly List<string> _expected = [];
+    private readonly ImmutableArray<Diagnostic>.Builder _hints = ImmutableArray.CreateBuilder<Diagnostic>();
     private int _furthestFailure = -1;
 
     /// <summary>Creates a parser for one text.</summary>
@@ -21,6 +27,12 @@ public abstract class Parser
     /// <summary>Text that is being parsed.</summary>
     protected SourceText Source { get; }
 
+    /// <summary>Hints about text that is valid but hardly meant so, in the order in which they were found.</summary>
+    private protected ImmutableArray<Diagnostic> Hints => _hints.ToImmutable();
+
+    /// <summary>The mistakes that messages name, in the order in which they are looked for.</summary>
+    private protected virtual ImmutableArray<TypicalMistake> TypicalMistakes => CommonMistakes;
+
     /// <summary>Creates an exception for text that is well-formed but has no valid meaning.</summary>
     /// <param name="cursor">Position of the faulty text.</param>
     /// <param name="message">One line of text without a full stop.</param>
@@ -28,10 +40,21 @@ public abstract class Parser
     protected SourceException Error(Cursor cursor, string message, bool isLimitExceeded = false) =>
         Source.Error(cursor.Offset, message, isLimitExceeded);
 
-    /// <summary>Creates the exception for the furthest failure: what was found there, and what was expected instead.</summary>
+    /// <summary>
+    /// Creates the exception for the furthest failure: what was found there, and the mistake behind it, or else what was expected instead.
+    /// </summary>
     protected SourceException SyntaxError()
     {
         var failure = new Cursor(Source.Text, Math.Max(_furthestFailure, 0));
+        var syntaxFailure = new SyntaxFailure(failure, _expected);
+        foreach (var mistake in TypicalMistakes)
+        {
+            if (mistake.Explain(syntaxFailure) is { } explanation)
+            {
+                return Source.Error(failure.Offset, $"unexpected {Describe(failure)}: {explanation}");
+            }
+        }
+
         var expected = _expected.Count switch
         {
             0 => "",
@@ -39,6 +62,17 @@ public abstract class Parser
             _ => $", expected {string.Join(", ", _expected.SkipLast(1))} or {_expected[^1]}",
         };
         return Source.Error(failure.Offset, $"unexpected {Describe(failure)}{expected}");
+    }
+
+    /// <summary>
+    /// Records a hint about valid text, which becomes a warning. The first of a file is enough: a mistake of units is in all its lines.
+    /// </summary>
+    private protected void Hint(Cursor cursor, string? message)
+    {
+        if (message is not null && _hints.Count == 0)
+        {
+            _hints.Add(Source.Diagnose(cursor.Offset, message, DiagnosticSeverity.Warning));
+        }
     }
 
     /// <summary>Records what was expected at a position, for the error message. Always returns false.</summary>
@@ -126,7 +160,7 @@ public abstract class Parser
         rest = cursor;
         if (!NumberReader.TryRead(cursor.Rest, out number, out var length))
         {
-            return Fail(cursor, "a number");
+            return Fail(cursor, SyntaxFailure.Number);
         }
 
         rest = cursor.Advance(length);
@@ -190,16 +224,26 @@ public abstract class Parser
             return ParseBlanks(rest.Advance(1), out rest);
         }
 
-        return rest.Offset > cursor.Offset || Fail(cursor, "','");
+        return rest.Offset > cursor.Offset || Fail(cursor, "a blank or ','");
+    }
+
+    /// <summary>Parses a separator and the number behind it.</summary>
+    protected bool ParseNextNumber(Cursor cursor, out double number, out Cursor rest)
+    {
+        number = 0;
+        rest = cursor;
+        // Where a value or a line ends, it is the number that is missing, not the separator before it.
+        return IsAtEndOfLine(cursor) || cursor.Current == ')'
+            ? Fail(cursor, SyntaxFailure.Number)
+            : ParseSeparator(cursor, out var start) && ParseNumber(start, out number, out rest);
     }
 
     /// <summary>Parses three numbers with separators between them.</summary>
     protected bool ParseComponents(Cursor cursor, out Vector vector, out Cursor rest)
     {
         vector = default;
-        if (ParseNumber(cursor, out var x, out rest) && ParseSeparator(rest, out rest)
-            && ParseNumber(rest, out var y, out rest) && ParseSeparator(rest, out rest)
-            && ParseNumber(rest, out var z, out rest))
+        if (ParseNumber(cursor, out var x, out rest) && ParseNextNumber(rest, out var y, out rest)
+            && ParseNextNumber(rest, out var z, out rest))
         {
             vector = new(x, y, z);
             return true;
@@ -223,7 +267,7 @@ public abstract class Parser
         ParseBlanks(cursor, out rest);
         if (!IsAtEndOfLine(rest))
         {
-            return Fail(rest, "the end of the line");
+            return Fail(rest, SyntaxFailure.EndOfLine);
         }
 
         rest = SkipLineBreak(rest);
@@ -299,6 +343,11 @@ public abstract class Parser
         }
 
         var length = 0;
+        if (cursor.Current != '.')
+        {
+            NumberReader.TryRead(cursor.Rest, out _, out length);
+        }
+
         while (IsNameCharacter(cursor.Peek(length)))
         {
             length++;
