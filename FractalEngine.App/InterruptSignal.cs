@@ -14,6 +14,7 @@ internal sealed class InterruptSignal : IDisposable
 
     private readonly PosixSignalRegistration[] _registrations;
     private readonly ManualResetEventSlim _acknowledged = new();
+    private readonly CancellationTokenSource _cancellation = new();
     private volatile bool _isRequested;
 
     /// <summary>Registers the signal handlers until the object is disposed.</summary>
@@ -27,6 +28,12 @@ internal sealed class InterruptSignal : IDisposable
             .. IgnoresHangup() ? [] : (PosixSignalRegistration[])[PosixSignalRegistration.Create(PosixSignal.SIGHUP, OnSignal)],
         ];
     }
+
+    /// <summary>Cancelled when a signal arrives, which the work then acknowledges.</summary>
+    public CancellationToken Token => _cancellation.Token;
+
+    /// <summary>Says that the work has stopped, so that the program ends in its own way.</summary>
+    public void Acknowledge() => _acknowledged.Set();
 
     /// <summary>Throws if a signal has arrived, and acknowledges it.</summary>
     /// <exception cref="OperationCanceledException">A signal has arrived.</exception>
@@ -43,6 +50,7 @@ internal sealed class InterruptSignal : IDisposable
     public void Dispose()
     {
         Array.ForEach(_registrations, static registration => registration.Dispose());
+        _cancellation.Dispose();
         TerminationSignal.Resume();
     }
 
@@ -51,6 +59,7 @@ internal sealed class InterruptSignal : IDisposable
     {
         var isFirst = !_isRequested;
         _isRequested = true;
+        _cancellation.Cancel();
         context.Cancel = isFirst && _acknowledged.Wait(AcknowledgeTimeout);
         if (!context.Cancel)
         {

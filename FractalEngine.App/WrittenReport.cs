@@ -10,6 +10,9 @@ internal sealed class WrittenReport(bool isQuiet, bool isVerbose)
 {
     private readonly Stopwatch _clock = Stopwatch.StartNew();
 
+    /// <summary>Whether nothing is told.</summary>
+    public bool IsQuiet => isQuiet;
+
     /// <summary>Measures a part of the work.</summary>
     /// <param name="part">The word for it.</param>
     /// <param name="work">Does the part.</param>

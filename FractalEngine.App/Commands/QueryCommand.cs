@@ -14,7 +14,8 @@ using FractalEngine.Parsing.Text;
 namespace FractalEngine.App.Commands;
 
 /// <summary>
-/// The command <c>query FILE --points POINTS.txt</c>, which finds the closest surface point for each position of a list.
+/// The command <c>query FILE --points POINTS.txt</c>, which finds the closest surface point for each position of a list; or what the rays
+/// of a list hit.
 /// </summary>
 internal static class QueryCommand
 {
@@ -27,7 +28,11 @@ internal static class QueryCommand
             Description = "Positions to query: three numbers per line, separated by blanks or commas; '#' starts a comment. "
                 + "'-' is the standard input.",
             HelpName = "POINTS.txt",
-            Required = true,
+        };
+        var rays = new Option<string>("--rays")
+        {
+            Description = "Rays to cast instead: origin and direction, six numbers per line. '-' is the standard input.",
+            HelpName = "RAYS.txt",
         };
         var collider = SharedOptions.ColliderOption("Collider that finds the points (default: exact).");
         var maxDistance = NumberOption.NonNegative("--within", "R", "Search radius in scene units (default: unlimited).");
@@ -40,17 +45,28 @@ internal static class QueryCommand
         var json = new Option<bool>("--json") { Description = "Print a JSON array instead of lines." };
         var header = new Option<bool>("--header") { Description = "Print a first line with the names of the columns." };
         var command = new DocumentedCommand(
-            "query", "Find the closest point of FILE's surface for each of many positions.",
+            "query", "Find the closest point of FILE's surface for each of many positions, or what many rays hit.",
             "query assets/fractals/menger.fdo --points assets/points.txt --header",
             "query assets/fractals/tree.fdo --points - --within 2 --json")
         {
-            points, collider, maxDistance, epsilon, errorBound, json, header,
+            points, rays, collider, maxDistance, epsilon, errorBound, json, header,
         };
         shared.AddTo(command);
-        command.SetAction(result => Run(
-            result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetRequiredValue(points),
-            result.GetValue(collider) ?? ColliderKind.Exact, result.GetValue(maxDistance) ?? double.PositiveInfinity,
-            result.GetValue(epsilon) ?? 0, new(result.GetValue(json), result.GetValue(errorBound), result.GetValue(header))));
+        command.SetAction(result =>
+        {
+            var path = result.GetRequiredValue(shared.File);
+            var options = shared.LoadOptions(result);
+            return (result.GetValue(points), result.GetValue(rays)) switch
+            {
+                ({ } pointsPath, null) => Run(
+                    path, options, pointsPath, result.GetValue(collider) ?? ColliderKind.Exact,
+                    result.GetValue(maxDistance) ?? double.PositiveInfinity, result.GetValue(epsilon) ?? 0,
+                    new(result.GetValue(json), result.GetValue(errorBound), result.GetValue(header))),
+                (null, { } raysPath) => RayQueries.Run(
+                    ConsoleLoader.Load(path, options), raysPath, result.GetValue(json), result.GetValue(header)),
+                _ => throw new UsageException("expected either --points or --rays"),
+            };
+        });
         return command;
     }
 

@@ -2,6 +2,7 @@ using System.CommandLine;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.App.Commands;
@@ -18,6 +19,7 @@ internal static class RenderCommand
         var draw = new DrawOptions();
         var camera = new CameraOptions();
         var reference = new ReferenceOptions();
+        var trace = new TraceOptions();
         var report = new ReportOptions();
         var output = SharedOptions.OutputOption(".png", "Image to write.", isText: false);
         var time = NumberOption.Decimal("--time", "SECONDS", 0, MaxTime, "Simulate the physics for this time first (default: 0).");
@@ -25,7 +27,7 @@ internal static class RenderCommand
         var command = new DocumentedCommand(
             "render", "Draw FILE into a PNG image, without a window.",
             "render assets/scenes/gallery.sdo --output out/gallery.png --resolution 1920x1080",
-            "render assets/fractals/menger.fdo --output out/menger.png --view isometric --background transparent")
+            "render assets/scenes/gallery.sdo --output out/traced.png --trace 64")
         {
             output,
         };
@@ -34,6 +36,7 @@ internal static class RenderCommand
         camera.AddTo(command);
         command.Add(background);
         command.Add(time);
+        trace.AddTo(command);
         reference.AddTo(command);
         report.AddTo(command);
         command.SetAction(result =>
@@ -49,7 +52,7 @@ internal static class RenderCommand
                 CreateView = (scene, aspect) => camera.View(result, scene, draw.Projection(result) is not null, aspect),
                 ZoomLevels = camera.Zoom(result),
             };
-            var image = Run(job, path, report.Begin(result));
+            var image = Run(job, trace.Choice(result), path, report.Begin(result));
             return compare?.Invoke(image, path) ?? ExitCode.Done;
         });
         return command;
@@ -57,17 +60,24 @@ internal static class RenderCommand
 
     /// <summary>Draws a file into an image, and writes that.</summary>
     /// <param name="job">What to draw.</param>
+    /// <param name="trace">How it is traced; null to draw it.</param>
     /// <param name="output">Path of the PNG to write.</param>
     /// <param name="report">Tells what was written.</param>
     /// <returns>The image.</returns>
-    public static PixelImage Run(RenderJob job, string output, WrittenReport report)
+    /// <exception cref="OperationCanceledException">A traced image was interrupted; it may be written as far as it was.</exception>
+    public static PixelImage Run(RenderJob job, TracedImage? trace, string output, WrittenReport report)
     {
         var file = report.Measure("load", () => ConsoleLoader.Load(job.Path, job.Load));
         var scene = job.WithProjection(file.Scene);
         // A default camera frames the scene as it is at time 0, so that images of several times show the same view.
         var view = job.CreateView(scene, (double)job.Size.Width / job.Size.Height);
-        var drawable = report.Measure("prepare", () => DrawableScene.Prepare(
-            job.Time > 0 ? Simulate(job.Path, file, scene, job.Time) : scene, job.Settings));
+        scene = job.Time > 0 ? Simulate(job.Path, file, scene, job.Time) : scene;
+        if (trace is not null)
+        {
+            return Trace(scene, view, job, trace, output, report);
+        }
+
+        var drawable = report.Measure("prepare", () => DrawableScene.Prepare(scene, job.Settings));
         foreach (var notice in drawable.Notices)
         {
             Console.Error.WriteLine(notice);
@@ -81,9 +91,27 @@ internal static class RenderCommand
 
         using var renderer = new ImageRenderer(drawable, job.Size, job.Settings, job.Background);
         var image = report.Measure("draw", () => renderer.Draw(view));
+        Write(image, output, report);
+        return image;
+    }
+
+    private static PixelImage Trace(
+        LoadedScene scene, View view, RenderJob job, TracedImage trace, string output, WrittenReport report)
+    {
+        if (job.ZoomLevels > 0)
+        {
+            throw new UsageException("--zoom flies in drawn images: expected no --trace with it");
+        }
+
+        var image = trace.Draw(scene, view, job, report, out var isComplete);
+        Write(image, output, report);
+        return isComplete ? image : throw new OperationCanceledException("interrupted");
+    }
+
+    private static void Write(PixelImage image, string output, WrittenReport report)
+    {
         report.Measure("write", () => OutputFile.Write(output, stream => PngWriter.Write(image, stream)));
         report.Written(output, $"{image.Width}×{image.Height} pixels");
-        return image;
     }
 
     private static LoadedScene Simulate(string path, LoadedFile file, LoadedScene scene, double seconds)

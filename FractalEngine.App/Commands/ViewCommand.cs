@@ -50,7 +50,7 @@ internal static class ViewCommand
 
         var output = Path.Combine("out", Path.GetFileNameWithoutExtension(path) + ".png");
         var job = new RenderJob(path, options.Load, options.Size, options.Projection, options.Settings);
-        RenderCommand.Run(job, output, new(isQuiet: true, isVerbose: false));
+        RenderCommand.Run(job, trace: null, output, new(isQuiet: true, isVerbose: false));
         Console.Error.WriteLine($"there is no display for a window, so {output} was drawn instead");
         return ExitCode.Done;
     }

@@ -1,0 +1,38 @@
+using System.CommandLine;
+
+namespace FractalEngine.App.Commands;
+
+/// <summary>The options of images that are traced instead of drawn.</summary>
+internal sealed class TraceOptions
+{
+    private readonly Option<int?> _samples = NumberOption.Integer(
+        "--trace", "SAMPLES", 1, 1_000_000,
+        "Follow light through the scene instead of drawing it, with so many samples of each pixel: 64 show it, 1024 are smooth.");
+
+    private readonly Option<int?> _seed = NumberOption.Integer("--seed", "N", 0, int.MaxValue, "Seed of a traced image (default: 0).");
+
+    private readonly Option<bool> _keepsPartial = new("--keep-partial")
+    {
+        Description = "Write a traced image that is interrupted as far as it is.",
+    };
+
+    /// <summary>Adds the options to a command.</summary>
+    public void AddTo(Command command)
+    {
+        command.Add(_samples);
+        command.Add(_seed);
+        command.Add(_keepsPartial);
+    }
+
+    /// <summary>How the image is traced; null where it is drawn.</summary>
+    /// <exception cref="UsageException">An option has a meaning for traced images only.</exception>
+    public TracedImage? Choice(ParseResult result)
+    {
+        var samples = result.GetValue(_samples);
+        var seed = result.GetValue(_seed);
+        var keepsPartial = result.GetValue(_keepsPartial);
+        return samples is { } count ? new(count, seed ?? 0, keepsPartial)
+            : seed is not null || keepsPartial ? throw new UsageException("--seed and --keep-partial need --trace")
+            : null;
+    }
+}

@@ -1,0 +1,63 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Collision;
+
+namespace FractalEngine.Core.Rays;
+
+/// <summary>Casts many rays at once, on all cores.</summary>
+public static class RayBatch
+{
+    // Enough for a thread to be worth waking: some hundred microseconds.
+    private const int RaysPerTask = 512;
+
+    /// <summary>Finds the nearest face of a scene that each ray hits.</summary>
+    /// <param name="scene">All its objects are tested.</param>
+    /// <param name="rays">World space.</param>
+    /// <param name="context">Receives the sum of the costs; null where they don't matter.</param>
+    /// <param name="threads">The most threads to use; null for one a core.</param>
+    /// <returns>One result for each ray, in the same order and the same on any number of threads.</returns>
+    /// <exception cref="ArgumentException">A ray is not finite, its direction is 0, or there are no threads.</exception>
+    public static ImmutableArray<RayResult> FindNearest(
+        SceneRayCaster scene, ReadOnlyMemory<Ray> rays, QueryContext? context = null, int? threads = null)
+    {
+        ArgumentNullException.ThrowIfNull(scene);
+        if (threads is { } number)
+        {
+            ArgumentOutOfRangeException.ThrowIfNegativeOrZero(number, nameof(threads));
+        }
+
+        // Before any thread begins, so that the error is the caller's own and names the first.
+        foreach (ref readonly var ray in rays.Span)
+        {
+            RayCaster.CheckedUnitDirection(in ray, 0, double.PositiveInfinity);
+        }
+
+        var results = new RayResult[rays.Length];
+        var totals = context ?? new();
+        var totalsLock = new Lock();
+        Parallel.For(
+            0,
+            (rays.Length + RaysPerTask - 1) / RaysPerTask,
+            new ParallelOptions { MaxDegreeOfParallelism = threads ?? -1 },
+            static () => new QueryContext(),
+            (task, _, threadContext) =>
+            {
+                var end = Math.Min(rays.Length, (task + 1) * RaysPerTask);
+                for (var i = task * RaysPerTask; i < end; i++)
+                {
+                    results[i] = scene.TryFindNearest(rays.Span[i], threadContext, out var hit, out var objectIndex)
+                        ? new(objectIndex, hit, [.. threadContext.InstancePath])
+                        : RayResult.None;
+                }
+
+                return threadContext;
+            },
+            threadContext =>
+            {
+                lock (totalsLock)
+                {
+                    totals.Statistics.Add(threadContext.Statistics);
+                }
+            });
+        return [.. results];
+    }
+}

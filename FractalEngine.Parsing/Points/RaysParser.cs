@@ -1,0 +1,73 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Rays;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.Parsing.Points;
+
+/// <summary>
+/// Reads lists of rays: origin and direction, six numbers per line, separated by blanks or commas. <c>#</c> starts a comment.
+/// </summary>
+public sealed class RaysParser : Parser
+{
+    private RaysParser(SourceText source)
+        : base(source)
+    {
+    }
+
+    /// <summary>Parses a whole file of rays.</summary>
+    /// <returns>Rays in the order of the file; there may be none. Directions have any length but 0.</returns>
+    /// <exception cref="SourceException">A line holds something else, a direction of length 0, or a number out of range.</exception>
+    public static ImmutableArray<Ray> Parse(SourceText source) => new RaysParser(source).ParseFile();
+
+    private ImmutableArray<Ray> ParseFile()
+    {
+        var rays = ImmutableArray.CreateBuilder<Ray>();
+        for (var cursor = Source.Start; !cursor.IsAtEnd;)
+        {
+            if (!ParseLine(cursor, rays, out cursor))
+            {
+                throw SyntaxError();
+            }
+        }
+
+        return rays.ToImmutable();
+    }
+
+    private bool ParseLine(Cursor cursor, ImmutableArray<Ray>.Builder rays, out Cursor rest)
+    {
+        ParseBlanks(cursor, out rest);
+        if (!IsAtEndOfLine(rest) && rest.Current != '#')
+        {
+            var start = rest;
+            if (!ParseComponents(rest, out var origin, out rest))
+            {
+                return false;
+            }
+
+            ParseBlanks(rest, out var directionStart);
+            if (!ParseNextNumber(rest, out var x, out rest) || !ParseNextNumber(rest, out var y, out rest)
+                || !ParseNextNumber(rest, out var z, out rest))
+            {
+                return false;
+            }
+
+            var direction = new Vector(x, y, z);
+
+            if (Math.Max(origin.MaxAbsComponent(), direction.MaxAbsComponent()) > Collider.MaxCoordinate)
+            {
+                throw Error(start, $"a coordinate is beyond the limit of {Collider.MaxCoordinate:R} for distances", isLimitExceeded: true);
+            }
+
+            if (direction == Vector.Zero)
+            {
+                throw Error(directionStart, "a direction of length 0");
+            }
+
+            rays.Add(new(origin, direction));
+        }
+
+        return ParseCommentAndEndOfLine(rest, out rest);
+    }
+}
