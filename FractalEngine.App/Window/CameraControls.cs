@@ -35,7 +35,12 @@ internal sealed class CameraControls(FlyingCamera camera)
     public bool Handle(WindowEvent windowEvent, double aspect)
     {
         var poseBefore = camera.Pose;
-        _heldKeys.Handle(windowEvent);
+        // A letter of a command such as Ctrl+S does not move the camera, even if Ctrl is released before it.
+        if (windowEvent is not KeyPressed { Modifiers: var modifiers } || !modifiers.HasFlag(KeyModifiers.Control))
+        {
+            _heldKeys.Handle(windowEvent);
+        }
+
         switch (windowEvent)
         {
             case KeyPressed pressed:
@@ -70,6 +75,14 @@ internal sealed class CameraControls(FlyingCamera camera)
         }
 
         return camera.Pose != poseBefore;
+    }
+
+    /// <summary>Goes on with the keys and buttons that are held.</summary>
+    public void ContinueFrom(CameraControls other)
+    {
+        _heldKeys.CopyFrom(other._heldKeys);
+        _draggedButton = other._draggedButton;
+        _modifiers = other._modifiers;
     }
 
     /// <summary>Releases all held keys.</summary>

@@ -27,6 +27,9 @@ internal sealed class FlyingCamera
     // Depth of the far plane divided by the distance of the farthest drawn point.
     private const double FarPlaneFactor = 1.01;
 
+    // The addresses of states would fill the memory in deeper zooms. Such a state returns as exactly as a world position can.
+    private const int MaxStateDepth = 10_000;
+
     // Limits the roots that are drawn around the camera. Maps that hardly shrink lead to many ancestors of a similar size.
     private const int MaxAncestors = 1000;
 
@@ -56,6 +59,10 @@ internal sealed class FlyingCamera
 
     /// <summary>The state of the camera, which changes with every movement.</summary>
     public CameraPose Pose { get; private set; }
+
+    /// <summary>The present state, for <see cref="Restore"/>.</summary>
+    public CameraState State =>
+        new(Pose, Camera, FocusDistance, _address is { Depth: > 0 and <= MaxStateDepth } ? _address.Clone() : null);
 
     /// <summary>The camera in world space, as far as double precision can express its position.</summary>
     public Camera Camera =>
@@ -162,6 +169,40 @@ internal sealed class FlyingCamera
         FocusDistance = DistanceToCentre(Pose.Camera);
         ResetFractalAddress();
     }
+
+    /// <summary>Returns to a state of this camera, or of one for the same fractal.</summary>
+    public void Restore(CameraState state)
+    {
+        if (_fractal is null || state.Address is not null)
+        {
+            _address = state.Address?.Clone();
+            FocusDistance = state.FocusDistance;
+        }
+        else
+        {
+            MoveTo(state.WorldCamera);
+        }
+
+        Pose = state.Pose;
+    }
+
+    /// <summary>Shows the same view as a camera for another scene, as exactly as a world position can.</summary>
+    public void ContinueFrom(FlyingCamera other)
+    {
+        if (SharesStatesWith(other))
+        {
+            Restore(other.State);
+        }
+        else
+        {
+            Pose = other.Pose;
+            MoveTo(other.Camera);
+        }
+    }
+
+    /// <summary>Tells whether the states of another camera can be restored here.</summary>
+    public bool SharesStatesWith(FlyingCamera other) =>
+        ReferenceEquals(_fractal?.Hierarchy, other._fractal?.Hierarchy) && _fractal?.ObjectToWorld == other._fractal?.ObjectToWorld;
 
     /// <summary>Continues from another camera in world space.</summary>
     public void MoveTo(Camera camera)

@@ -12,6 +12,8 @@ internal sealed class WindowOverlay
 {
     private static readonly TimeSpan MessageDuration = TimeSpan.FromSeconds(4);
 
+    private static readonly TimeSpan ProblemDuration = TimeSpan.FromSeconds(12);
+
     private static readonly OverlayPanel KeysPanel = OverlayPanel.OfTable(OverlayAnchor.TopRight, "Keys",
     [
         ("W A S D", "fly (or arrows)"),
@@ -34,7 +36,9 @@ internal sealed class WindowOverlay
         ("C V", "next collider, closest points"),
         ("I", "frame statistics"),
         ("F12", "screenshot"),
-        ("Ctrl+S", "save scene and camera"),
+        ("Ctrl+O", "open a file"),
+        ("Ctrl+S", "save (Shift: as a new scene)"),
+        ("Ctrl+Z", "undo a move (Shift: redo)"),
         ("H", "show or hide keys"),
         ("Esc", "close"),
     ]);
@@ -46,8 +50,11 @@ internal sealed class WindowOverlay
     /// <summary>The file being loaded, and the completed fraction from 0 to 1; null while nothing is loaded.</summary>
     public (string Text, double Fraction)? Progress { get; set; }
 
-    /// <summary>The error of a file that can't be shown; null if there is none.</summary>
+    /// <summary>The error of a file that can't be shown, until it is mended; null if there is none.</summary>
     public string? Error { get; set; }
+
+    /// <summary>The open question; null for none.</summary>
+    public OverlayPanel? Prompt { get; set; }
 
     /// <summary>Lines about the bodies of the scene; null if there are none to show.</summary>
     public string? PhysicsStatus { get; set; }
@@ -85,14 +92,15 @@ internal sealed class WindowOverlay
                 panels.AddRange(report.ToPanels(FrameCounts));
             }
 
-            if (Error is { } error)
-            {
-                var lines = error.Split('\n').Select(static line => new OverlayLine(line, null, OverlayTone.Warning));
-                panels.Add(new(OverlayAnchor.Centre, [.. lines]));
-            }
-            else if (_description is { } description)
+            if (_description is { } description)
             {
                 panels.Add(BudgetNotice is { } notice ? description with { Lines = description.Lines.Add(notice) } : description);
+            }
+
+            if (Error is { } error)
+            {
+                // Above the description the last good scene stays in view.
+                panels.Add(OfError(_description is null ? OverlayAnchor.Centre : OverlayAnchor.BottomLeft, error));
             }
 
             if (Progress is { } progress)
@@ -103,6 +111,11 @@ internal sealed class WindowOverlay
             if (_message is { } message)
             {
                 panels.Add(message);
+            }
+
+            if (Prompt is { } prompt)
+            {
+                panels.Add(prompt);
             }
 
             return panels;
@@ -154,6 +167,15 @@ internal sealed class WindowOverlay
         NextExpiry = now + MessageDuration;
     }
 
+    /// <summary>Shows an error for some time, over a scene that stays.</summary>
+    /// <param name="error">Lines for the user.</param>
+    /// <param name="now">The present time.</param>
+    public void ShowProblem(string error, TimeSpan now)
+    {
+        _message = OfError(OverlayAnchor.Bottom, error);
+        NextExpiry = now + ProblemDuration;
+    }
+
     /// <summary>Shows a message for a few seconds, and writes it to stderr.</summary>
     /// <inheritdoc cref="ShowMessage"/>
     public void Report(string message, TimeSpan now)
@@ -161,6 +183,9 @@ internal sealed class WindowOverlay
         Console.Error.WriteLine(message);
         ShowMessage(message, now);
     }
+
+    private static OverlayPanel OfError(OverlayAnchor anchor, string error) =>
+        new(anchor, [.. error.Split('\n').Select(static line => new OverlayLine(line, null, OverlayTone.Warning))]);
 
     /// <summary>Removes the message if its time is over.</summary>
     /// <returns>True when a message was removed.</returns>
