@@ -38,7 +38,8 @@ internal sealed class PromptHost
 
     private bool HandleKey(KeyPressed pressed)
     {
-        if (Current is not { } prompt)
+        // A screenshot of the scene changes nothing that is asked about.
+        if (Current is not { } prompt || pressed.Key == Key.F12)
         {
             return false;
         }
