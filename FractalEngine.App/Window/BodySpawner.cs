@@ -19,10 +19,15 @@ internal static class BodySpawner
     // Fraction of the distance from the camera to the closest surface, so that a new body overlaps nothing.
     private const double FreeDistanceFraction = 0.3;
 
+    // Radii of a dropped sphere that are free around it.
+    private const double FreeRadii = 1.5;
+
+    private const int MaxSearchSteps = 256;
+
     private const double SphereRestitution = 0.6;
     private const double SphereFriction = 0.3;
 
-    /// <summary>Drops a sphere in front of the camera.</summary>
+    /// <summary>Drops a sphere where the camera looks: before the surface in the middle of the view, or in the air beside the scene.</summary>
     /// <param name="world">The world that the sphere is added to.</param>
     /// <param name="sceneSize">The size of the scene in scene units.</param>
     /// <param name="camera">The present camera.</param>
@@ -34,18 +39,60 @@ internal static class BodySpawner
             return problem;
         }
 
-        var radius = Math.Min(SphereRadiusFraction * sceneSize, FreeDistanceFraction * freeDistance);
+        var wantedRadius = SphereRadiusFraction * sceneSize;
+        var place = FindVisiblePlace(world, camera, FreeRadii * wantedRadius, sceneSize);
+        var radius = wantedRadius;
+        if (place is null)
+        {
+            // The camera itself is too close to a surface.
+            radius = Math.Min(wantedRadius, FreeDistanceFraction * freeDistance);
+            place = camera.Position + (2 * radius * camera.LocalAxes.V3);
+        }
+
         if (!(radius > 0))
         {
             return "there is no room for a ball";
         }
 
-        world.Add(new(camera.Position + (2 * radius * camera.LocalAxes.V3), radius)
+        world.Add(new(place.Value, radius)
         {
             Restitution = SphereRestitution,
             Friction = SphereFriction,
         });
         return "dropped a ball";
+    }
+
+    /// <summary>Tells whether a falling player meets something.</summary>
+    /// <param name="world">The world with its player.</param>
+    public static bool HasGround(PhysicsWorld world)
+    {
+        var player = world.Character!;
+        var direction = -player.Up;
+        var position = player.Position;
+        var kind = world.ColliderOverride ?? ColliderKind.Exact;
+        for (var i = 0; i < MaxSearchSteps; i++)
+        {
+            if (!world.TryFindClosest(position, kind, out var closest))
+            {
+                return false;
+            }
+
+            // Nothing is closer than this, so that nothing is passed by.
+            var step = Math.Max(closest.Distance, 0.1 * player.Description.Radius);
+            if (closest.Distance <= player.Description.Radius)
+            {
+                return true;
+            }
+
+            if (Vector.Dot(closest.Point - position, direction) < 0 && IsBeyondAll(world, position, direction))
+            {
+                return false;
+            }
+
+            position += step * direction;
+        }
+
+        return true;
     }
 
     /// <summary>Activates the player: that of the scene, or else a new one at the camera.</summary>
@@ -78,6 +125,56 @@ internal static class BodySpawner
         world.Character!.IsActive = true;
         return true;
     }
+
+    /// <summary>Finds the last place on the line of sight with some room, before it meets a surface or leaves the scene.</summary>
+    /// <returns>Null where there is none.</returns>
+    private static Vector? FindVisiblePlace(PhysicsWorld world, Camera camera, double room, double sceneSize)
+    {
+        var direction = camera.LocalAxes.V3;
+        var kind = world.ColliderOverride ?? ColliderKind.Exact;
+        var closestDistance = double.PositiveInfinity;
+        Vector? place = null;
+        var travelled = 0.0;
+        for (var i = 0; i < MaxSearchSteps; i++)
+        {
+            var position = camera.Position + (travelled * direction);
+            if (!world.TryFindClosest(position, kind, out var closest))
+            {
+                return camera.Position + (sceneSize * direction);
+            }
+
+            if (closest.Distance < room)
+            {
+                break;
+            }
+
+            // Where the line of sight passes everything, the ball falls at the place closest to it.
+            if (closest.Distance < closestDistance)
+            {
+                closestDistance = closest.Distance;
+                place = position;
+            }
+            else if (IsBeyondAll(world, position, direction))
+            {
+                break;
+            }
+
+            travelled += closest.Distance - (0.5 * room);
+        }
+
+        return place;
+    }
+
+    /// <summary>Tells whether all static objects lie behind a position.</summary>
+    private static bool IsBeyondAll(PhysicsWorld world, Vector position, Vector direction) =>
+        world.StaticObjects.All(placed =>
+        {
+            var box = placed.Bounds;
+            var farthest = new Vector(
+                direction.X > 0 ? box.Maximum.X : box.Minimum.X, direction.Y > 0 ? box.Maximum.Y : box.Minimum.Y,
+                direction.Z > 0 ? box.Maximum.Z : box.Minimum.Z);
+            return box.IsEmpty || Vector.Dot(farthest - position, direction) < 0;
+        });
 
     /// <summary>Computes the distance from a position to the closest surface. The first call builds the colliders.</summary>
     private static bool TryFindFreeDistance(

@@ -21,7 +21,11 @@ internal sealed class CameraControls(FlyingCamera camera)
 
     private readonly HeldKeys _heldKeys = new();
     private MouseButton? _draggedButton;
+    private (double X, double Y)? _pointer;
     private KeyModifiers _modifiers;
+
+    /// <summary>The part of the frame that shows the scene, in pixels; null until it is known. The wheel zooms to the pointer in it.</summary>
+    public (int X, int Y, int Width, int Height)? Viewport { get; set; }
 
     /// <summary>True while held keys move the camera, so that <see cref="Advance"/> must be called.</summary>
     public bool IsMoving => !_modifiers.HasFlag(KeyModifiers.Control) && Direction != Vector.Zero;
@@ -39,6 +43,11 @@ internal sealed class CameraControls(FlyingCamera camera)
         if (windowEvent is not KeyPressed { Modifiers: var modifiers } || !modifiers.HasFlag(KeyModifiers.Control))
         {
             _heldKeys.Handle(windowEvent);
+        }
+
+        if (windowEvent is MouseMoved { X: var x, Y: var y })
+        {
+            _pointer = (x, y);
         }
 
         switch (windowEvent)
@@ -66,7 +75,7 @@ internal sealed class CameraControls(FlyingCamera camera)
                 Drag(button, moved.DeltaX, moved.DeltaY, aspect);
                 break;
             case WheelTurned wheel:
-                camera.Zoom(Math.Pow(ZoomPerNotch, wheel.Notches));
+                ZoomToPointer(Math.Pow(ZoomPerNotch, wheel.Notches));
                 break;
             case FocusLost:
                 _draggedButton = null;
@@ -82,6 +91,7 @@ internal sealed class CameraControls(FlyingCamera camera)
     {
         _heldKeys.CopyFrom(other._heldKeys);
         _draggedButton = other._draggedButton;
+        _pointer = other._pointer;
         _modifiers = other._modifiers;
     }
 
@@ -132,6 +142,20 @@ internal sealed class CameraControls(FlyingCamera camera)
                 camera.Reset();
                 break;
         }
+    }
+
+    /// <summary>Zooms to what is under the pointer, or to the middle of the frame where the pointer is unknown.</summary>
+    private void ZoomToPointer(double factor)
+    {
+        if (_pointer is not var (x, y) || Viewport is not { Height: > 0 } viewport)
+        {
+            camera.Zoom(factor);
+            return;
+        }
+
+        var right = (x - viewport.X - (0.5 * viewport.Width)) / (0.5 * viewport.Height);
+        var down = (y - viewport.Y - (0.5 * viewport.Height)) / (0.5 * viewport.Height);
+        camera.Zoom(factor, right, -down);
     }
 
     private void Drag(MouseButton button, double deltaX, double deltaY, double aspect)

@@ -26,7 +26,8 @@ internal sealed class Document : IDisposable
         var scene = file.Scene.Scene;
         var camera = View.Of(file.Scene, window.Aspect).Camera;
         FlyingCamera = new(
-            file.Scene.Bounds, camera, options.Projection ?? scene.Projection, scene.OrthographicHeight, FindFractal(preparation.Scene));
+            file.Scene.Bounds, camera, options.Projection ?? scene.Projection, scene.OrthographicHeight, FindFractal(preparation.Scene),
+            file.Scene);
         CameraControls = new(FlyingCamera);
         Trail = file.Scene.Objects is [{ Model: FractalModel { Fractal: var fractal } }] ? new(fractal, options.TrailLength) : null;
         Physics = new(file.Scene, window.Wake, previous?.Physics, alwaysBuild: !options.Settings.LazyLoading);
@@ -95,6 +96,10 @@ internal sealed class Document : IDisposable
         ? WalkControls.EyeCamera(controller, Physics.InterpolationAlpha)
         : FlyingCamera.Camera;
 
+    /// <summary>Number of levels of the fractal that the present view is in; 0 outside, and for views that show the whole.</summary>
+    public int VisibleDepth =>
+        Physics.IsWalking || IsTrailEnabled || FlyingCamera.Projection != Projection.Perspective ? 0 : FlyingCamera.Depth;
+
     /// <summary>Switches between the paper's zoom into the fractal and that of the engine.</summary>
     public void ToggleTrail()
     {
@@ -126,16 +131,20 @@ internal sealed class Document : IDisposable
     }
 
     /// <summary>Passes an event to the controls of the player or the camera.</summary>
+    /// <param name="windowEvent">Any event of the window.</param>
+    /// <param name="width">Width of the frame in pixels.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
     /// <returns>True when the view has changed.</returns>
-    public bool Handle(WindowEvent windowEvent, double aspect)
+    public bool Handle(WindowEvent windowEvent, int width, int height)
     {
+        CameraControls.Viewport = LatestView?.Viewport(width, height);
         if (windowEvent is KeyPressed { IsRepeat: false } or MousePressed or WheelTurned)
         {
             // A key, a drag and a turn of the wheel each begin a step that can be undone.
             RecordView();
         }
 
-        return Physics.IsWalking ? WalkControls.Handle(windowEvent, Physics.Character!) : CameraControls.Handle(windowEvent, aspect);
+        return Physics.IsWalking ? WalkControls.Handle(windowEvent, Physics.Character!) : CameraControls.Handle(windowEvent, (double)width / height);
     }
 
     /// <summary>Returns to the view before the last change, or makes it again.</summary>

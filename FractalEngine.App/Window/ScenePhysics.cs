@@ -93,9 +93,9 @@ internal sealed class ScenePhysics : IDisposable
             var (faceTests, boundTests) = world.LastStepCost;
             var paused = IsPaused ? " · paused" : "";
             var bodies = FormattableString.Invariant(
-                $"bodies: {world.Bodies.Count:N0}, {awakeCount:N0} awake · collider: {collider}{paused}");
+                $"{Count(world.Bodies.Count, "body", "bodies")}, {awakeCount:N0} awake · collider: {collider}{paused}");
             var cost = FormattableString.Invariant(
-                $"last step: {faceTests:N0} face tests, {boundTests:N0} bound tests, {_stepTime.TotalMilliseconds:F2} ms");
+                $"last step: {Count(faceTests, "face test", "face tests")}, {Count(boundTests, "bound test", "bound tests")}, {_stepTime.TotalMilliseconds:F2} ms");
             return $"{bodies}\n{cost}";
         }
     }
@@ -185,7 +185,7 @@ internal sealed class ScenePhysics : IDisposable
         return "bodies reset";
     }
 
-    /// <summary>Drops a sphere in front of the camera.</summary>
+    /// <summary>Drops a sphere where the camera looks.</summary>
     public string DropSphere(Camera camera) => WhenReady(world => BodySpawner.DropSphere(world, _sceneSize, camera));
 
     /// <summary>Lets the player walk, or the camera fly.</summary>
@@ -204,7 +204,9 @@ internal sealed class ScenePhysics : IDisposable
         }
 
         IsPaused = _isBroken;
-        return "walking: W A S D move, Space jumps, P flies";
+        return BodySpawner.HasGround(world)
+            ? "walking: W A S D move, Space jumps, P flies"
+            : "walking, but there is no ground below: P flies";
     });
 
     /// <summary>Switches all bodies to the next collider that fits the scene.</summary>
@@ -236,6 +238,9 @@ internal sealed class ScenePhysics : IDisposable
         renderer.Spheres = spheres;
         renderer.Lines = ShowsClosestPoints && !_isBroken && World is not null ? ClosestPointLines.Create(world, alpha) : [];
     }
+
+    private static string Count(long number, string one, string many) =>
+        FormattableString.Invariant($"{number:N0} {(number == 1 ? one : many)}");
 
     private static void BuildColliders(PhysicsWorld world, CancellationToken cancellation)
     {

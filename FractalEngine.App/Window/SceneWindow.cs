@@ -193,7 +193,7 @@ internal sealed class SceneWindow : IDisposable
                 break;
         }
 
-        if (Document?.Handle(windowEvent, _window.Aspect) == true)
+        if (Document?.Handle(windowEvent, Math.Max(1, _window.Width), Math.Max(1, _window.Height)) == true)
         {
             _redraw |= Redraw.Scene;
         }
@@ -267,6 +267,7 @@ internal sealed class SceneWindow : IDisposable
             document.FirstSightLoader.Start(_windowRenderer.LatestView!, _window.Aspect);
             var camera = document.FlyingCamera;
             var drawTime = _clock.Elapsed - start;
+            _overlay.ViewText = ViewName.Of(document.Camera, camera.Projection, document.VisibleDepth, camera.Log10Magnification);
             _overlay.SetReport(new(
                 document.Renderer, usedSettings.Culling, drawTime, camera.Depth, camera.Log10Magnification, document.Physics));
         }

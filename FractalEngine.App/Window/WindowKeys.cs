@@ -67,7 +67,7 @@ internal sealed class WindowKeys(RenderWindow window, WindowRenderer renderer, W
         {
             case Key.T when document.Trail is { } trail:
                 document.ToggleTrail();
-                overlay.ShowMessage(document.IsTrailEnabled ? $"paper's zoom: m ← m·t, trail {trail.Length}" : "engine's zoom", now);
+                overlay.ShowMessage(ZoomMessage(document.IsTrailEnabled, trail.Length), now);
                 return Redraw.Scene;
             case Key.F12:
                 var image = renderer.Capture(document, Settings, window.Width, window.Height);
@@ -84,6 +84,10 @@ internal sealed class WindowKeys(RenderWindow window, WindowRenderer renderer, W
         overlay.ShowMessage(message, now);
         return Redraw.Scene;
     }
+
+    private static string ZoomMessage(bool isPapers, int trailLength) => isPapers
+        ? FormattableString.Invariant($"the paper's zoom: the fractal grows about the camera, with {trailLength} earlier levels")
+        : "this engine's zoom: to any depth";
 
     private Redraw ApplySettings(Key key, TimeSpan now)
     {

@@ -1,6 +1,4 @@
 using System.Globalization;
-using System.Numerics;
-using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Ui;
@@ -16,33 +14,28 @@ internal sealed class WindowOverlay
 
     private static readonly OverlayPanel KeysPanel = OverlayPanel.OfTable(OverlayAnchor.TopRight, "Keys",
     [
-        ("W A S D", "fly (or arrows)"),
-        ("E Q", "fly up, down"),
-        ("Shift Alt", "faster, slower"),
-        ("left drag", "orbit"),
-        ("right drag", "look around"),
+        ("W A S D E Q", "fly (Shift: faster, Alt: slower)"),
+        ("left, right drag", "orbit, look around"),
         ("middle drag", "pan (or Shift + left)"),
-        ("wheel", "zoom"),
-        ("F", "frame the scene"),
+        ("wheel", "zoom to the pointer"),
+        ("F, Enter", "frame the scene, back to the start"),
         ("1 3 7", "front, right, top view"),
-        ("5", "switch projection"),
-        ("Enter", "return to the start"),
+        ("5", "perspective, orthographic"),
         ("G X", "grid, wireframe"),
         ("L", "light per vertex, per pixel"),
-        ("T", "the paper's zoom, or ours"),
+        ("T", "the paper's zoom, or this engine's"),
         ("Space N", "pause, single step"),
         ("B R", "drop a ball, reset bodies"),
         ("P", "walk, fly"),
         ("C V", "next collider, closest points"),
-        ("I", "frame statistics"),
-        ("F12", "screenshot"),
+        ("I F12", "frame statistics, screenshot"),
         ("Ctrl+O", "open a file"),
         ("Ctrl+S", "save (Shift: as a new scene)"),
         ("Ctrl+Z", "undo a move (Shift: redo)"),
-        ("H", "show or hide keys"),
-        ("Esc", "close"),
+        ("H, Esc", "this list, close"),
     ]);
 
+    private string _fileText = "";
     private OverlayPanel? _description;
     private OverlayPanel? _message;
     private FrameReport? _report;
@@ -55,6 +48,9 @@ internal sealed class WindowOverlay
 
     /// <summary>The open question; null for none.</summary>
     public OverlayPanel? Prompt { get; set; }
+
+    /// <summary>Names the view, see <see cref="ViewName"/>.</summary>
+    public string ViewText { get; set; } = "";
 
     /// <summary>Lines about the bodies of the scene; null if there are none to show.</summary>
     public string? PhysicsStatus { get; set; }
@@ -94,7 +90,8 @@ internal sealed class WindowOverlay
 
             if (_description is { } description)
             {
-                panels.Add(BudgetNotice is { } notice ? description with { Lines = description.Lines.Add(notice) } : description);
+                var lines = description.Lines.Insert(0, new($"{_fileText}{ViewText} · H: keys", null, OverlayTone.Dim));
+                panels.Add(description with { Lines = BudgetNotice is { } notice ? lines.Add(notice) : lines });
             }
 
             if (Error is { } error)
@@ -147,12 +144,9 @@ internal sealed class WindowOverlay
     {
         _report = null;
         PhysicsStatus = null;
-        var faces = file.Scene.Objects.Aggregate((BigInteger?)BigInteger.Zero, (sum, placed) => sum + placed.Model.FaceCount);
-        _description = new(OverlayAnchor.BottomLeft,
-        [
-            new($"{Path.GetFileName(file.Path)} · {DecimalText.FormatApproximately(faces)} faces · H: keys", null, OverlayTone.Dim),
-            .. drawable.Notices.Select(notice => new OverlayLine(notice, null, OverlayTone.Accent)),
-        ]);
+        _fileText = $"{Path.GetFileName(file.Path)} · {FaceCountText.Of(file.Scene)} · ";
+        _description = new(
+            OverlayAnchor.BottomLeft, [.. drawable.Notices.Select(static notice => new OverlayLine(notice, null, OverlayTone.Accent))]);
     }
 
     /// <summary>Replaces the statistics by those of the last frame.</summary>

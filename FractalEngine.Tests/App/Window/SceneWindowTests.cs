@@ -59,7 +59,8 @@ public sealed class SceneWindowTests : IDisposable
         window.WaitForError("saved scene.sdo");
         var text = File.ReadAllText(_folder["scene.sdo"]);
         var lines = text.Split('\n');
-        Assert.Equal(("# kept", "# kept too", "o \"cube.obj\" #", "projection orthographic"), (lines[0], lines[2], lines[3], lines[4]));
+        Assert.Equal(("# kept", "# kept too", "o \"cube.obj\" #"), (lines[0], lines[2], lines[3]));
+        Assert.StartsWith("projection orthographic ", lines[4], StringComparison.Ordinal);
         // Enter has returned to the camera of the file, so its line is unchanged.
         Assert.Equal(Scene.Split('\n')[1], lines[1]);
         Assert.NotNull(SceneParser.Parse(new("scene.sdo", text)).Scene.Camera);
