@@ -40,13 +40,13 @@ internal static class BodySpawner
         }
 
         var wantedRadius = SphereRadiusFraction * sceneSize;
-        var place = FindVisiblePlace(world, camera, FreeRadii * wantedRadius, sceneSize);
+        var distance = FindVisibleDistance(world, camera, FreeRadii * wantedRadius, sceneSize);
         var radius = wantedRadius;
-        if (place is null)
+        if (distance < 2 * wantedRadius)
         {
-            // The camera itself is too close to a surface.
+            // The camera is too close to a surface for a ball of this size.
             radius = Math.Min(wantedRadius, FreeDistanceFraction * freeDistance);
-            place = camera.Position + (2 * radius * camera.LocalAxes.V3);
+            distance = 2 * radius;
         }
 
         if (!(radius > 0))
@@ -54,7 +54,7 @@ internal static class BodySpawner
             return "there is no room for a ball";
         }
 
-        world.Add(new(place.Value, radius)
+        world.Add(new(camera.Position + (distance * camera.LocalAxes.V3), radius)
         {
             Restitution = SphereRestitution,
             Friction = SphereFriction,
@@ -126,43 +126,44 @@ internal static class BodySpawner
         return true;
     }
 
-    /// <summary>Finds the last place on the line of sight with some room, before it meets a surface or leaves the scene.</summary>
-    /// <returns>Null where there is none.</returns>
-    private static Vector? FindVisiblePlace(PhysicsWorld world, Camera camera, double room, double sceneSize)
+    /// <summary>Finds how far the line of sight has some room around it, before it meets a surface or passes everything.</summary>
+    /// <returns>A distance from the camera in scene units; 0 where there is no room.</returns>
+    private static double FindVisibleDistance(PhysicsWorld world, Camera camera, double room, double sceneSize)
     {
         var direction = camera.LocalAxes.V3;
         var kind = world.ColliderOverride ?? ColliderKind.Exact;
         var closestDistance = double.PositiveInfinity;
-        Vector? place = null;
+        var found = 0.0;
         var travelled = 0.0;
         for (var i = 0; i < MaxSearchSteps; i++)
         {
             var position = camera.Position + (travelled * direction);
             if (!world.TryFindClosest(position, kind, out var closest))
             {
-                return camera.Position + (sceneSize * direction);
+                return sceneSize;
             }
 
             if (closest.Distance < room)
             {
-                break;
+                return found;
             }
 
             // Where the line of sight passes everything, the ball falls at the place closest to it.
             if (closest.Distance < closestDistance)
             {
                 closestDistance = closest.Distance;
-                place = position;
+                found = travelled;
             }
             else if (IsBeyondAll(world, position, direction))
             {
-                break;
+                return found;
             }
 
-            travelled += closest.Distance - (0.5 * room);
+            // The surface may be as near as this, so that the room ends here at the earliest.
+            travelled += Math.Max(closest.Distance - room, 0.1 * room);
         }
 
-        return place;
+        return found;
     }
 
     /// <summary>Tells whether all static objects lie behind a position.</summary>

@@ -250,9 +250,9 @@ internal sealed class FlyingCamera
         var (framed, height) = (CameraFraming.Frame(camera, _sceneBounds, aspect), (double?)null);
         if (_scene is not null)
         {
-            framed = CameraFraming.Frame(camera, _scene, aspect);
+            framed = CameraFraming.FrameScene(camera, _scene, aspect);
             (framed, height) = Projection == Projection.Orthographic
-                ? CameraFraming.FrameOrthographic(framed, _scene, aspect)
+                ? CameraFraming.FrameSceneOrthographic(framed, _scene, aspect)
                 : (framed, null);
         }
 

@@ -16,8 +16,7 @@ internal sealed class WindowOverlay
     [
         ("W A S D E Q", "fly (Shift: faster, Alt: slower)"),
         ("left, right drag", "orbit, look around"),
-        ("middle drag", "pan (or Shift + left)"),
-        ("wheel", "zoom to the pointer"),
+        ("middle drag, wheel", "pan, zoom to the pointer"),
         ("F, Enter", "frame the scene, back to the start"),
         ("1 3 7", "front, right, top view"),
         ("5", "perspective, orthographic"),

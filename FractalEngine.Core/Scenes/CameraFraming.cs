@@ -58,7 +58,7 @@ public static class CameraFraming
     /// <param name="camera">Its rotation and angle of view are kept.</param>
     /// <param name="scene">The scene with its models.</param>
     /// <param name="aspect">Width divided by height of the image.</param>
-    public static Camera Frame(Camera camera, LoadedScene scene, double aspect)
+    public static Camera FrameScene(Camera camera, LoadedScene scene, double aspect)
     {
         ArgumentNullException.ThrowIfNull(scene);
         var points = FramingPoints.Collect(scene);
@@ -66,11 +66,11 @@ public static class CameraFraming
     }
 
     /// <summary>Finds the height of an orthographic view that a camera frames a scene with.</summary>
-    /// <param name="camera">The camera, which <see cref="Frame(Camera, LoadedScene, double)"/> has moved.</param>
+    /// <param name="camera">The camera, which <see cref="FrameScene"/> has moved.</param>
     /// <param name="scene">The scene with its models.</param>
     /// <param name="aspect">Width divided by height of the image.</param>
     /// <returns>The camera in the middle of what is visible, and the visible height in scene units; null for a scene of one point.</returns>
-    public static (Camera Camera, double? Height) FrameOrthographic(Camera camera, LoadedScene scene, double aspect)
+    public static (Camera Camera, double? Height) FrameSceneOrthographic(Camera camera, LoadedScene scene, double aspect)
     {
         ArgumentNullException.ThrowIfNull(scene);
         var points = FramingPoints.Collect(scene);
@@ -176,6 +176,6 @@ public static class CameraFraming
     public static Camera Default(LoadedScene scene, double aspect)
     {
         ArgumentNullException.ThrowIfNull(scene);
-        return Frame(Camera.Default with { Rotation = DefaultRotation, Handedness = scene.Scene.Handedness }, scene, aspect);
+        return FrameScene(Camera.Default with { Rotation = DefaultRotation, Handedness = scene.Scene.Handedness }, scene, aspect);
     }
 }

@@ -96,6 +96,9 @@ internal sealed class OverlayLayout
         var height = titleHeight + (lines.Count * lineHeight) + barHeight + (2 * Padding * 3 / 4);
 
         var (x, y) = AllocatePosition(panel.Anchor, width, height);
+        var fits = x >= 0 && y >= 0 && x + width <= _frameSize.Width && y + height <= _frameSize.Height;
+        // Without room left, a message covers others rather than being cut off.
+        y = Math.Max(0, Math.Min(y, _frameSize.Height - height));
         Quads.Add(new(x, y, width, height, PanelColour, -1, 0.4f * lineHeight));
         var left = x + Padding;
         var top = y + (Padding * 3 / 4);
@@ -117,7 +120,7 @@ internal sealed class OverlayLayout
             AddBar(left, top + (lineHeight / 2), width - (2 * Padding), Math.Max(3, lineHeight / 4), progress);
         }
 
-        return x >= 0 && y >= 0 && x + width <= _frameSize.Width && y + height <= _frameSize.Height;
+        return fits;
     }
 
     private void AddBar(int x, int y, int width, int height, double progress)
@@ -148,7 +151,10 @@ internal sealed class OverlayLayout
             _ => _frameSize.Height - height - Margin,
         };
         // The nearest edges first, so that one pass finds the place.
-        foreach (var other in growsDown ? _panels.OrderBy(static panel => panel.Y) : _panels.OrderByDescending(static panel => panel.Y + panel.Height))
+        var ordered = growsDown
+            ? _panels.OrderBy(static panel => panel.Y)
+            : _panels.OrderByDescending(static panel => panel.Y + panel.Height);
+        foreach (var other in ordered)
         {
             var isBeside = x >= other.X + other.Width || other.X >= x + width;
             if (!isBeside && y < other.Y + other.Height + gap && other.Y < y + height + gap)
