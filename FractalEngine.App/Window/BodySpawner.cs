@@ -27,7 +27,9 @@ internal static class BodySpawner
     private const double SphereRestitution = 0.6;
     private const double SphereFriction = 0.3;
 
-    /// <summary>Drops a sphere where the camera looks: before the surface in the middle of the view, or in the air beside the scene.</summary>
+    /// <summary>
+    /// Drops a sphere where the camera looks: before the surface in the middle of the view, or in the air beside the scene.
+    /// </summary>
     /// <param name="world">The world that the sphere is added to.</param>
     /// <param name="sceneSize">The size of the scene in scene units.</param>
     /// <param name="camera">The present camera.</param>

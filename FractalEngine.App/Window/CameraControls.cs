@@ -24,7 +24,9 @@ internal sealed class CameraControls(FlyingCamera camera)
     private (double X, double Y)? _pointer;
     private KeyModifiers _modifiers;
 
-    /// <summary>The part of the frame that shows the scene, in pixels; null until it is known. The wheel zooms to the pointer in it.</summary>
+    /// <summary>
+    /// The part of the frame that shows the scene, in pixels; null until it is known. The wheel zooms to the pointer in it.
+    /// </summary>
     public (int X, int Y, int Width, int Height)? Viewport { get; set; }
 
     /// <summary>True while held keys move the camera, so that <see cref="Advance"/> must be called.</summary>

@@ -144,7 +144,9 @@ internal sealed class Document : IDisposable
             RecordView();
         }
 
-        return Physics.IsWalking ? WalkControls.Handle(windowEvent, Physics.Character!) : CameraControls.Handle(windowEvent, (double)width / height);
+        return Physics.IsWalking
+            ? WalkControls.Handle(windowEvent, Physics.Character!)
+            : CameraControls.Handle(windowEvent, (double)width / height);
     }
 
     /// <summary>Returns to the view before the last change, or makes it again.</summary>

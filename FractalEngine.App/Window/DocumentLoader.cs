@@ -157,7 +157,9 @@ internal sealed class DocumentLoader(RenderWindow window, WindowOverlay overlay,
         return Redraw.Scene;
     }
 
-    /// <summary>Keeps the document, and says why the file can't be loaded: at once, or after a while if the file may be unfinished.</summary>
+    /// <summary>
+    /// Keeps the document, and says why the file can't be loaded: at once, or after a while if the file may be unfinished.
+    /// </summary>
     private Redraw Refuse(BackgroundLoad load, string error, TimeSpan now)
     {
         var isReload = Document is not null && load.Path == _path;

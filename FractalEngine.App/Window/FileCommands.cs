@@ -17,7 +17,9 @@ namespace FractalEngine.App.Window;
 internal sealed class FileCommands(
     DocumentLoader loader, PromptHost prompts, RecentFiles recent, Action<string> report, Func<RenderSettings> settings, Action close)
 {
-    /// <summary>Saves the changes of the window into the scene's file. A model that is no scene gets one under a name that is asked for.</summary>
+    /// <summary>
+    /// Saves the changes of the window into the scene's file. A model that is no scene gets one under a name that is asked for.
+    /// </summary>
     public void Save() => Save(MergePreference.None, null);
 
     /// <summary>Asks for the name of a new scene file, and saves there.</summary>

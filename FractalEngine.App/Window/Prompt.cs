@@ -20,6 +20,6 @@ internal abstract class Prompt
     {
     }
 
-    /// <summary>Closes the question.</summary>
+    /// <summary>Closes the question once it is answered.</summary>
     protected void Close() => IsClosed = true;
 }

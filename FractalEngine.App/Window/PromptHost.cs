@@ -13,7 +13,7 @@ internal sealed class PromptHost
     /// <summary>Opens a question in place of the one before.</summary>
     public void Open(Prompt prompt) => Current = prompt;
 
-    /// <summary>Processes an event.</summary>
+    /// <summary>Passes an event to the open question.</summary>
     /// <returns>True for a key or text that the scene must not see.</returns>
     public bool Handle(WindowEvent windowEvent)
     {

@@ -19,10 +19,15 @@ internal sealed class RecentFiles(string? path, Action<string> report)
     private bool _isBrokenReported;
 
     /// <summary>Full path of the list of this user; null where the system has no settings folder.</summary>
-    public static string? DefaultPath =>
-        Environment.GetFolderPath(Environment.SpecialFolder.ApplicationData, Environment.SpecialFolderOption.DoNotVerify) is { Length: > 0 } folder
-            ? Path.Combine(folder, "FractalEngine", "recent.txt")
-            : null;
+    public static string? DefaultPath
+    {
+        get
+        {
+            var folder = Environment.GetFolderPath(
+                Environment.SpecialFolder.ApplicationData, Environment.SpecialFolderOption.DoNotVerify);
+            return folder.Length == 0 ? null : Path.Combine(folder, "FractalEngine", "recent.txt");
+        }
+    }
 
     /// <summary>Reads the list. A broken one counts as empty, with one message.</summary>
     public ImmutableArray<string> Read()

@@ -94,8 +94,9 @@ internal sealed class ScenePhysics : IDisposable
             var paused = IsPaused ? " · paused" : "";
             var bodies = FormattableString.Invariant(
                 $"{Count(world.Bodies.Count, "body", "bodies")}, {awakeCount:N0} awake · collider: {collider}{paused}");
+            var tests = $"last step: {Count(faceTests, "face test", "face tests")}";
             var cost = FormattableString.Invariant(
-                $"last step: {Count(faceTests, "face test", "face tests")}, {Count(boundTests, "bound test", "bound tests")}, {_stepTime.TotalMilliseconds:F2} ms");
+                $"{tests}, {Count(boundTests, "bound test", "bound tests")}, {_stepTime.TotalMilliseconds:F2} ms");
             return $"{bodies}\n{cost}";
         }
     }

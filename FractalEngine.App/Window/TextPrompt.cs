@@ -39,7 +39,7 @@ internal sealed class TextPrompt(
                 .. shown.Skip(first).Take(MaxShownSuggestions),
                 .. hiddenCount > 0 ? [new OverlayLine($"  … {hiddenCount} more", null, OverlayTone.Dim)] : (OverlayLine[])[],
                 .. _refusal is { } refusal ? [new OverlayLine(refusal, null, OverlayTone.Warning)] : (OverlayLine[])[],
-                new OverlayLine(suggest is null ? "Enter accepts, Esc cancels" : "Tab completes, Enter accepts, Esc cancels", null, OverlayTone.Dim),
+                new OverlayLine($"{(suggest is null ? "" : "Tab completes, ")}Enter accepts, Esc cancels", null, OverlayTone.Dim),
             ])
             {
                 Title = title,

@@ -12,7 +12,7 @@ internal sealed class UndoHistory<T>(T first)
     private readonly LinkedList<T> _earlier = [];
     private readonly Stack<T> _later = [];
 
-    /// <summary>The present state.</summary>
+    /// <summary>The state that is shown at present.</summary>
     public T Present { get; private set; } = first;
 
     /// <summary>Makes a state the present one. A state that equals the present one is no step.</summary>

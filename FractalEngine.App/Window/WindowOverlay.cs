@@ -72,7 +72,8 @@ internal sealed class WindowOverlay
         get
         {
             var panels = new List<OverlayPanel>();
-            if (PhysicsStatus is { } status)
+            // The list of keys needs all the room that small windows have.
+            if (PhysicsStatus is { } status && !ShowsKeys)
             {
                 panels.Add(new(OverlayAnchor.TopLeft, [new OverlayLine(status, null, OverlayTone.Dim)]));
             }
@@ -82,7 +83,7 @@ internal sealed class WindowOverlay
                 panels.Add(KeysPanel);
             }
 
-            if (ShowsStatistics && _report is { } report)
+            if (ShowsStatistics && !ShowsKeys && _report is { } report)
             {
                 panels.AddRange(report.ToPanels(FrameCounts));
             }

@@ -40,7 +40,7 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
     /// <summary>Finds the node of a child of the current sub-fractal.</summary>
     public LodNode ChildNode(int child) => hierarchy.NodeAt(ChildLevels(Depth, child));
 
-    /// <summary>Copies the path.</summary>
+    /// <summary>Copies the path, so that one of the two can change alone.</summary>
     public FractalPath Clone()
     {
         var copy = new FractalPath(hierarchy);

@@ -69,7 +69,7 @@ public static class CameraFraming
     /// <param name="camera">The camera, which <see cref="FrameScene"/> has moved.</param>
     /// <param name="scene">The scene with its models.</param>
     /// <param name="aspect">Width divided by height of the image.</param>
-    /// <returns>The camera in the middle of what is visible, and the visible height in scene units; null for a scene of one point.</returns>
+    /// <returns>The camera in the middle of what is visible, and the visible height in scene units; null for a point.</returns>
     public static (Camera Camera, double? Height) FrameSceneOrthographic(Camera camera, LoadedScene scene, double aspect)
     {
         ArgumentNullException.ThrowIfNull(scene);

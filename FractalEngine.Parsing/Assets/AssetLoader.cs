@@ -118,7 +118,8 @@ public sealed class AssetLoader
     }
 
     private LoadedFile CreateLoadedFile(FileKind kind, LoadedScene scene, ParsedScene? parsedScene) =>
-        new(_fullPath, kind, scene, parsedScene, StorageBytes, _options.ShareModels && _cache is null ? [.. _warnings] : [.. _warnings.Distinct()]);
+        new(_fullPath, kind, scene, parsedScene, StorageBytes,
+            _options.ShareModels && _cache is null ? [.. _warnings] : [.. _warnings.Distinct()]);
 
     private LoadedFile LoadScene()
     {

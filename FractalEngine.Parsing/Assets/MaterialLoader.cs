@@ -21,7 +21,7 @@ internal sealed class MaterialLoader(
     private const int MaxTextureWarnings = 20;
 
     private readonly Dictionary<string, ParsedMtl?> _materialFiles = [];
-    private readonly Dictionary<(ParsedMtl File, string Name), (Material Material, ImmutableDictionary<string, FileStamp> Files)> _materials = [];
+    private readonly Dictionary<(ParsedMtl File, string Name), ResolvedMaterial> _materials = [];
 
     // Whether each image file that was tested is usable.
     private readonly Dictionary<string, bool> _textureFiles = [];
@@ -205,7 +205,7 @@ internal sealed class MaterialLoader(
             BumpTexture = FindUndrawnTexture(material.BumpTexture, fullPath),
             NormalTexture = FindUndrawnTexture(material.NormalTexture, fullPath),
         };
-        _materials[(file, name)] = (material, record.Since(filesBefore));
+        _materials[(file, name)] = new(material, record.Since(filesBefore));
         return material;
     }
 
@@ -291,6 +291,9 @@ internal sealed class MaterialLoader(
             throw source.Error(offset, $"the image \"{file}\" can't be read: {exception.Message}");
         }
     }
+
+    /// <summary>A material with the image files that it depends on.</summary>
+    private sealed record ResolvedMaterial(Material Material, ImmutableDictionary<string, FileStamp> Files);
 
     private void Warn(Diagnostic diagnostic) => warnings.Add(diagnostic with { Severity = DiagnosticSeverity.Warning });
 }

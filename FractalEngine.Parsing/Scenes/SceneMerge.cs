@@ -106,7 +106,9 @@ public static class SceneMerge
         return lines;
     }
 
-    /// <summary>Length of the byte order mark that a line begins with: as a character, or as bytes of UTF-8 that were read one by one.</summary>
+    /// <summary>
+    /// Length of the byte order mark that a line begins with: as a character, or as bytes of UTF-8 that were read one by one.
+    /// </summary>
     private static int MarkLength(string line) =>
         line.StartsWith('\uFEFF') ? 1 : line.StartsWith("\u00EF\u00BB\u00BF", StringComparison.Ordinal) ? 3 : 0;
 

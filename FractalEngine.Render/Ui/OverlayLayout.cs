@@ -133,7 +133,9 @@ internal sealed class OverlayLayout
         }
     }
 
-    /// <summary>Returns the upper left corner of the next panel at an anchor: the first place from there that covers no other panel.</summary>
+    /// <summary>
+    /// Returns the upper left corner of the next panel at an anchor: the first place from there that covers no other panel.
+    /// </summary>
     private (int X, int Y) AllocatePosition(OverlayAnchor anchor, int width, int height)
     {
         var gap = Margin / 2;

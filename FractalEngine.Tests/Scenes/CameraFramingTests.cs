@@ -70,7 +70,8 @@ public class CameraFramingTests
     {
         // Four cubes of half the size in the corners of a tetrahedron, and so on: its box is much larger than what is seen of it.
         Vector[] corners = [new(1, 1, 1), new(1, -1, -1), new(-1, 1, -1), new(-1, -1, 1)];
-        var fractal = Fractal.Of(Shapes.Cube()).Repeat(corners.Select(corner => new Transformation(0.5 * corner, Vector.Zero, 0.5 * Vector.One)), 12);
+        var maps = corners.Select(corner => new Transformation(0.5 * corner, Vector.Zero, 0.5 * Vector.One));
+        var fractal = Fractal.Of(Shapes.Cube()).Repeat(maps, 12);
         var scene = LoadedScene.Of(new() { Objects = [new SceneObject(fractal)] });
         var camera = CameraFraming.FrameScene(Camera.Default with { Rotation = CameraFraming.LookRotation(-Vector.One) }, scene, 1);
         var points = FractalGenerator.Expand(fractal.WithDepth(6), 1 << 13).Select(map => Project(camera, map.Translation, 1)).ToArray();

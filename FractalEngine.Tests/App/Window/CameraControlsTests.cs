@@ -262,7 +262,8 @@ public class CameraControlsTests
         var (x, y) = (random.Between(10, 410), random.Between(20, 320));
         // The point under the pointer, at the depth of the focus.
         var halfHeight = projection == Projection.Orthographic ? 2 : camera.FocusDistance * Start.HalfHeightAtUnitDepth;
-        var point = Start.Position + (Start.LocalAxes * new Vector((x - 210) / 150 * halfHeight, (170 - y) / 150 * halfHeight, camera.FocusDistance));
+        var offset = new Vector((x - 210) / 150 * halfHeight, (170 - y) / 150 * halfHeight, camera.FocusDistance);
+        var point = Start.Position + (Start.LocalAxes * offset);
         controls.Handle(new MouseMoved(x, y, 0, 0), Aspect);
         controls.Handle(new WheelTurned(random.Between(-5, 5), KeyModifiers.None), Aspect);
         var view = new View(camera.Camera, projection) { OrthographicHeight = camera.OrthographicHeight ?? 1 };

@@ -33,7 +33,8 @@ internal sealed partial class DrivenWindow : IDisposable
         };
         _process.BeginErrorReadLine();
         _window = WaitFor(
-            () => RunXdotool($"search --name {Path.GetFileName(file)}.*FractalEngine").Split('\n', StringSplitOptions.RemoveEmptyEntries).LastOrDefault(),
+            () => RunXdotool($"search --name {Path.GetFileName(file)}.*FractalEngine")
+                .Split('\n', StringSplitOptions.RemoveEmptyEntries).LastOrDefault(),
             "window");
         Send("windowfocus --sync {window}");
     }

@@ -30,11 +30,7 @@ public sealed class PromptTests : IDisposable
     public void TextPrompt_WithSuggestions_CompletesAndPicks()
     {
         var accepted = new List<string>();
-        var prompt = new TextPrompt("", "", text =>
-        {
-            accepted.Add(text);
-            return text.EndsWith('/') ? "a folder" : null;
-        }, text => [.. ((ImmutableArray<string>)["scene-1", "scene-2", "folder/"]).Where(item => item.StartsWith(text, StringComparison.Ordinal))]);
+        var prompt = new TextPrompt("", "", Accept, Suggest);
         prompt.HandleText("s");
         Press(prompt, Key.Tab);
         Assert.Equal("scene-", prompt.Text);
@@ -48,6 +44,15 @@ public sealed class PromptTests : IDisposable
         Press(prompt, Key.Down, Key.Down, Key.Enter);
         Assert.True(prompt.IsClosed);
         Assert.Equal(["folder/", "scene-2"], accepted);
+
+        string? Accept(string text)
+        {
+            accepted.Add(text);
+            return text.EndsWith('/') ? "a folder" : null;
+        }
+
+        static ImmutableArray<string> Suggest(string text) =>
+            [.. ((string[])["scene-1", "scene-2", "folder/"]).Where(item => item.StartsWith(text, StringComparison.Ordinal))];
     }
 
     [Fact]
@@ -97,7 +102,7 @@ public sealed class PromptTests : IDisposable
         }
 
         Assert.Equal(
-            ["/folder/0", "/folder/10", "/folder/9", "/folder/8", "/folder/7", "/folder/6", "/folder/5", "/folder/4", "/folder/3", "/folder/2"],
+            ((int[])[0, 10, 9, 8, 7, 6, 5, 4, 3, 2]).Select(i => $"/folder/{i}"),
             recent.Read().AsEnumerable());
         Assert.Empty(messages);
     }

@@ -30,7 +30,8 @@ public sealed class SavingTests : IDisposable
     {
         using var window = Open("--no-watch");
         window.Send("key 3");
-        var edited = $"# größer{lineBreak}{CameraLine}{lineBreak}# kept  {lineBreak}o \"cube.obj\" #{lineBreak}o \"cube.obj\" ((3, 0, 0), #, #)";
+        var edited = string.Join(
+            lineBreak, "# größer", CameraLine, "# kept  ", "o \"cube.obj\" #", "o \"cube.obj\" ((3, 0, 0), #, #)");
         File.WriteAllText(_folder["scene.sdo"], edited, Encoding.GetEncoding(encoding));
         window.Send("key ctrl+s");
         window.WaitForError("saved scene.sdo");

@@ -105,7 +105,8 @@ public sealed class SceneMergeTests : IDisposable
         editor.Start();
         for (var i = 0; i < 100; i++)
         {
-            SceneFileMerge.Write(path, Original, Original.Replace("(0, 0, 0)", $"({i}, 0, 0)", StringComparison.Ordinal), MergePreference.Mine);
+            var mine = Original.Replace("(0, 0, 0)", $"({i}, 0, 0)", StringComparison.Ordinal);
+            SceneFileMerge.Write(path, Original, mine, MergePreference.Mine);
         }
 
         Volatile.Write(ref isDone, true);
