@@ -232,30 +232,56 @@ internal sealed class Document : IDisposable
     }
 
     /// <summary>
-    /// Continues the view of the previous document. If only the file has changed it, the view follows the file; else that of the window
-    /// stays.
+    /// Continues the view of the previous document. Camera and projection are each those of the window where it has changed them, and
+    /// else those of the file.
     /// </summary>
     private (SceneDraft Draft, UndoHistory<CameraState> History) ContinueView(Document previous)
     {
-        var fileView = SceneView;
-        var hasFileChanged = !HasSameView(File.Scene.Scene, previous.File.Scene.Scene);
-        if (hasFileChanged && !previous.HasChanges && !previous.Physics.IsWalking)
+        var (before, after) = (previous.File.Scene.Scene, File.Scene.Scene);
+        var (saved, mine) = (previous.Draft.SavedView, previous.SceneView);
+        var fileView = new SceneView(FlyingCamera.Camera, FlyingCamera.Projection, FlyingCamera.OrthographicHeight);
+        var followsCamera = before.Camera != after.Camera;
+        var followsProjection = !HaveSameProjection(before, after);
+        // What the lines of the file stand for. A file without a camera stands for what was framed first.
+        var layoutView = previous.Draft.LayoutView;
+        if (followsCamera)
         {
-            return (new(File, fileView), new(FlyingCamera.State));
+            // After a save of the window, the file has the window's own camera, which stays as it is to the last bit.
+            followsCamera = after.Camera != mine.Camera;
+            layoutView = layoutView with { Camera = followsCamera ? fileView.Camera : mine.Camera };
         }
 
-        FlyingCamera.ContinueFrom(previous.FlyingCamera);
+        layoutView = followsProjection
+            ? layoutView with { Projection = fileView.Projection, OrthographicHeight = fileView.OrthographicHeight }
+            : layoutView;
+
+        followsCamera &= mine.Camera == saved.Camera;
+        followsProjection &= mine with { Camera = saved.Camera } == saved;
+        if (followsCamera)
+        {
+            if (!followsProjection)
+            {
+                FlyingCamera.SetProjection(mine.Projection, mine.OrthographicHeight);
+            }
+        }
+        else
+        {
+            FlyingCamera.ContinueFrom(previous.FlyingCamera);
+            if (followsProjection)
+            {
+                FlyingCamera.SetProjection(fileView.Projection, fileView.OrthographicHeight);
+            }
+        }
+
         CameraControls.ContinueFrom(previous.CameraControls);
         WalkControls.ContinueFrom(previous.WalkControls);
         IsTrailEnabled = Trail is not null && previous.IsTrailEnabled;
         var history = FlyingCamera.SharesStatesWith(previous.FlyingCamera) ? previous.History : new(FlyingCamera.State);
-        // A scene without a camera frames what it shows. The window keeps what it framed first, and that is no change of the user's.
-        return (previous.Draft.Rebase(File, hasFileChanged ? fileView : previous.Draft.LayoutView, previous.SceneView), history);
+        return (previous.Draft.Rebase(File, layoutView, mine), history);
     }
 
-    private static bool HasSameView(Scene scene1, Scene scene2) =>
-        scene1.Camera == scene2.Camera && scene1.Projection == scene2.Projection
-        && scene1.OrthographicHeight.Equals(scene2.OrthographicHeight);
+    private static bool HaveSameProjection(Scene scene1, Scene scene2) =>
+        scene1.Projection == scene2.Projection && scene1.OrthographicHeight.Equals(scene2.OrthographicHeight);
 
     /// <summary>Finds the fractal that the camera can enter: the only object of the scene, if that is a fractal.</summary>
     private static FractalLocation? FindFractal(DrawableScene drawable)

@@ -156,6 +156,12 @@ internal sealed class FlyingCamera
         Pose = Pose with { OrthographicHeight = factor * Pose.OrthographicHeight };
     }
 
+    /// <summary>Takes a projection as it is, without moving the camera.</summary>
+    /// <param name="projection">The projection of the view.</param>
+    /// <param name="orthographicHeight">The visible height in scene units; null where it follows the camera.</param>
+    public void SetProjection(Projection projection, double? orthographicHeight) =>
+        Pose = Pose with { Projection = projection, OrthographicHeight = orthographicHeight };
+
     /// <summary>Switches between perspective and orthographic projection. What is in focus keeps its size.</summary>
     public void ToggleProjection()
     {

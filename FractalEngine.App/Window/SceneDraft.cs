@@ -7,7 +7,6 @@ namespace FractalEngine.App.Window;
 internal sealed class SceneDraft
 {
     private readonly ParsedScene? _layout;
-    private SceneView _savedView;
 
     /// <summary>Begins with what a file says.</summary>
     /// <param name="file">The loaded file.</param>
@@ -16,18 +15,21 @@ internal sealed class SceneDraft
     {
         _layout = file.ParsedScene;
         LayoutView = view;
-        _savedView = view;
+        SavedView = view;
         SavedText = file.ParsedScene?.Source.Text ?? "";
     }
 
     /// <summary>The view that the lines of the loaded text stand for.</summary>
     public SceneView LayoutView { get; }
 
+    /// <summary>The view that was loaded or saved last. What differs from it is a change.</summary>
+    public SceneView SavedView { get; private set; }
+
     /// <summary>The text of the file when the window and the file last agreed: what a merge begins with.</summary>
     public string SavedText { get; private set; }
 
     /// <summary>Tells whether a view differs from the one that was loaded or saved. A model that is no scene has nothing to save.</summary>
-    public bool IsChanged(SceneView view) => _layout is not null && view != _savedView;
+    public bool IsChanged(SceneView view) => _layout is not null && view != SavedView;
 
     /// <summary>Returns the text of the scene with a view. Only what differs from the loaded view is written anew.</summary>
     public string Write(SceneView view)
@@ -48,21 +50,17 @@ internal sealed class SceneDraft
     public void MarkSaved(string text, SceneView view)
     {
         SavedText = text;
-        _savedView = view;
+        SavedView = view;
     }
 
     /// <summary>Continues with the same changes after the file has been loaded again.</summary>
     /// <param name="file">The file as it is now.</param>
-    /// <param name="fileView">The view that the file says now.</param>
-    /// <param name="view">The view that the window shows.</param>
-    public SceneDraft Rebase(LoadedFile file, SceneView fileView, SceneView view)
+    /// <param name="layoutView">The view that its lines stand for.</param>
+    /// <param name="view">The view that the window has shown of the file before.</param>
+    public SceneDraft Rebase(LoadedFile file, SceneView layoutView, SceneView view)
     {
-        var rebased = new SceneDraft(file, fileView);
-        if (!IsChanged(view))
-        {
-            rebased._savedView = view;
-        }
-        else if (file.ParsedScene is { } parsed
+        var rebased = new SceneDraft(file, layoutView);
+        if (IsChanged(view) && file.ParsedScene is { } parsed
             && SceneMerge.Merge(SavedText, Write(view), parsed.Source.Text).Conflicts.Length > 0)
         {
             // Both sides have changed the same line. The next save begins where they last agreed, and asks.

@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Fractals;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
 
@@ -14,6 +15,7 @@ public sealed class AssetCache
 {
     private readonly Dictionary<string, (FileStamp Stamp, ParsedObj Contents)> _meshes = [];
     private readonly Dictionary<string, (FileStamp Stamp, ParsedMtl Contents)> _materials = [];
+    private readonly Dictionary<string, (FileStamp Stamp, ParsedFractal Contents)> _fractals = [];
     private readonly Dictionary<string, CachedModel> _models = [];
 
     /// <summary>
@@ -31,6 +33,9 @@ public sealed class AssetCache
     /// <summary>Returns the contents of an unchanged material file; null for one that must be read.</summary>
     internal ParsedMtl? FindMaterials(string path, FileStamp stamp) => Find(_materials, path, stamp);
 
+    /// <summary>Returns the contents of an unchanged fractal file; null for one that must be read.</summary>
+    internal ParsedFractal? FindFractal(string path, FileStamp stamp) => Find(_fractals, path, stamp);
+
     /// <summary>Returns a model of which no file has changed; null for one that must be made again.</summary>
     internal CachedModel? FindModel(string path) =>
         _models.TryGetValue(path, out var cached) && cached.Files.All(static file => FileStamp.Of(file.Key) == file.Value) ? cached : null;
@@ -38,6 +43,8 @@ public sealed class AssetCache
     internal void Store(string path, FileStamp stamp, ParsedObj contents) => _meshes[path] = (stamp, contents);
 
     internal void Store(string path, FileStamp stamp, ParsedMtl contents) => _materials[path] = (stamp, contents);
+
+    internal void Store(string path, FileStamp stamp, ParsedFractal contents) => _fractals[path] = (stamp, contents);
 
     internal void Store(string path, CachedModel model) => _models[path] = model;
 
@@ -49,6 +56,7 @@ public sealed class AssetCache
         {
             Drop(_meshes, files);
             Drop(_materials, files);
+            Drop(_fractals, files);
             Drop(_models, files);
         }
     }

@@ -184,7 +184,7 @@ public sealed class AssetLoader
 
     private FractalModel LoadFractal(string fullPath, string displayName)
     {
-        var parsed = FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.MaxDescriptionBytes));
+        var parsed = ReadOrFindFractal(fullPath, displayName);
         var (basePath, baseDisplayName) = _references.Resolve(parsed.Source, parsed.BaseFileNameOffset, fullPath, parsed.BaseFile);
         var description = ApplyOptions(parsed);
         var contents = ReadMesh(basePath, baseDisplayName);
@@ -227,6 +227,20 @@ public sealed class AssetLoader
         _warnings.AddRange(parsed.Warnings);
         var materials = _materials.Load(parsed, fullPath);
         return _meshes[fullPath] = new(parsed.Mesh, materials, StorageBytes - bytesBefore, _record.Since(filesBefore));
+    }
+
+    private ParsedFractal ReadOrFindFractal(string fullPath, string displayName)
+    {
+        var stamp = _record.Add(fullPath);
+        if (_cache?.FindFractal(fullPath, stamp) is { } known)
+        {
+            _textBytes += known.Source.ByteCount;
+            return known;
+        }
+
+        var parsed = FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.MaxDescriptionBytes));
+        _cache?.Store(fullPath, stamp, parsed);
+        return parsed;
     }
 
     private ParsedObj ReadOrFindMesh(string fullPath, string displayName)

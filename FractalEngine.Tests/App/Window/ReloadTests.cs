@@ -135,6 +135,26 @@ public sealed class ReloadTests : IDisposable
     }
 
     [SkippableFact]
+    public void Reload_AfterTheWindowsOwnSave_ChangesNothingAndClosesWithoutAsking()
+    {
+        using var window = Open();
+        window.Send("key 3 key w key ctrl+s");
+        window.WaitForError("saved scene.sdo");
+        var saved = window.Screenshot();
+        Thread.Sleep(500);
+        Assert.Equal(saved.Pixels, window.Screenshot().Pixels);
+        // The file changes the projection, the window the camera: both stay.
+        window.Send("key 1");
+        var moved = window.Screenshot();
+        File.AppendAllText(_folder["scene.sdo"], "projection orthographic 7\n");
+        WaitForChange(window, moved, "projection of the file");
+        window.Send("key ctrl+s");
+        Polling.WaitUntil(() => window.CountErrors("saved scene.sdo") == 2, "second save");
+        Assert.Equal("projection orthographic 7", File.ReadAllLines(_folder["scene.sdo"])[^1]);
+        Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
+    [SkippableFact]
     public void Reload_WithoutWatching_ShowsNothingNew()
     {
         using var window = Open("--no-watch");
