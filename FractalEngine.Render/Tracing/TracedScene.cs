@@ -28,7 +28,7 @@ internal sealed class TracedScene
         _caster = new(scene);
         _objects = scene.Objects;
         var notices = ImmutableArray.CreateBuilder<string>();
-        var textures = new TextureCache(notices, shareTextures: true);
+        var textures = new TextureCache(notices, shareTextures: true, []);
         var models = scene.Models.ToDictionary(
             static model => model, model => new TracedModel(model, settings.CreaseAngle, textures, notices));
         _models = [.. _objects.Select(placed => models[placed.Model])];
