@@ -46,6 +46,10 @@ internal sealed class WindowKeys(RenderWindow window, WindowRenderer renderer, W
                 var image = renderer.Capture(document, Settings, window.Width, window.Height);
                 overlay.Report(WindowFiles.SaveScreenshot(image, document.File.Path), now);
                 return Redraw.Scene;
+            case Key.C when isControlHeld && pressed.Modifiers.HasFlag(KeyModifiers.Shift):
+                window.ClipboardText = CameraText.Format(document.GetCurrentScene().Camera!);
+                overlay.ShowMessage("the camera is in the clipboard, as a line of a scene", now);
+                return Redraw.Overlay;
             case Key.S when isControlHeld:
                 overlay.Report(WindowFiles.SaveScene(document), now);
                 return Redraw.Overlay;
