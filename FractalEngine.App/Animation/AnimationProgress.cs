@@ -11,7 +11,7 @@ internal sealed class AnimationProgress(int frameCount, bool isQuiet)
     private readonly Stopwatch _clock = Stopwatch.StartNew();
     private readonly bool _isShown = !isQuiet && !Console.IsErrorRedirected;
 
-    /// <summary>Tells that a number of frames are done.</summary>
+    /// <summary>Tells how many frames are done, and the time left.</summary>
     public void Report(int done)
     {
         if (_isShown)
@@ -21,7 +21,7 @@ internal sealed class AnimationProgress(int frameCount, bool isQuiet)
         }
     }
 
-    /// <summary>Clears the line.</summary>
+    /// <summary>Clears the line of the terminal, so that a report can follow.</summary>
     public void End()
     {
         if (_isShown)
