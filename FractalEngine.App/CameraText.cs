@@ -19,6 +19,9 @@ internal static class CameraText
         return Parse(name, $"{handed}c {text}", "(x, y, z) (pitch, yaw, roll) fov").Camera!;
     }
 
+    /// <summary>Formats the camera of a scene as its line <c>c</c>, which reads back to the same bits.</summary>
+    public static string Format(Camera camera) => SceneWriter.Write(new Scene { Camera = camera }).TrimEnd('\n');
+
     /// <summary>Parses a vector: <c>(x, y, z)</c>.</summary>
     /// <exception cref="UsageException">The text is no vector.</exception>
     public static Vector ParseVector(string name, string text) => Parse(name, $"gravity {text}", "(x, y, z)").Gravity;

@@ -30,9 +30,9 @@ internal static class CommandLine
             "Draw, measure and simulate fractals of any size, together with regular meshes. "
             + "Without a command, FILE or the gallery is opened in a window.");
         foreach (var command in (Command[])[
-            ViewCommand.Create(), RenderCommand.Create(), AnimateCommand.Create(), InfoCommand.Create(), CountCommand.Create(), ExportCommand.Create(),
-            CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create(), QueryCommand.Create(), SimulateCommand.Create(),
-            LimitsCommand.Create()])
+            ViewCommand.Create(), RenderCommand.Create(), AnimateCommand.Create(), InfoCommand.Create(), CountCommand.Create(),
+            ExportCommand.Create(), CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create(), QueryCommand.Create(),
+            SimulateCommand.Create(), LimitsCommand.Create()])
         {
             root.Add(command);
         }

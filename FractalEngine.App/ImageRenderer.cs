@@ -17,7 +17,7 @@ internal sealed class ImageRenderer : IDisposable
     private readonly FrameRenderer _frames;
     private readonly SceneRenderer _scene;
 
-    /// <summary>Uploads a scene.</summary>
+    /// <summary>Opens a context and uploads a scene to it.</summary>
     /// <param name="drawable">The scene.</param>
     /// <param name="size">Width and height of the images in pixels.</param>
     /// <param name="settings">Style, budgets and optimisations.</param>

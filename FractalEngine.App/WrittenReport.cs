@@ -13,7 +13,7 @@ internal sealed class WrittenReport(bool isQuiet, bool isVerbose)
     /// <summary>Whether nothing is told.</summary>
     public bool IsQuiet => isQuiet;
 
-    /// <summary>Measures a part of the work.</summary>
+    /// <summary>Does a part of the work and measures its time.</summary>
     /// <param name="part">The word for it.</param>
     /// <param name="work">Does the part.</param>
     public T Measure<T>(string part, Func<T> work)
@@ -43,7 +43,8 @@ internal sealed class WrittenReport(bool isQuiet, bool isVerbose)
         if (!isQuiet)
         {
             var size = path != StandardInput.Name && File.Exists(path) ? $", {FormatBytes(new FileInfo(path).Length)}" : "";
-            Write($"wrote {(path == StandardInput.Name ? "the standard output" : path)}: {contents}{size}, {_clock.Elapsed.TotalSeconds:F1} s");
+            var name = path == StandardInput.Name ? "the standard output" : path;
+            Write($"wrote {name}: {contents}{size}, {_clock.Elapsed.TotalSeconds:F1} s");
         }
     }
 
@@ -54,5 +55,6 @@ internal sealed class WrittenReport(bool isQuiet, bool isVerbose)
         _ => string.Create(CultureInfo.InvariantCulture, $"{bytes / 1e6:F1} MB"),
     };
 
-    private static void Write(FormattableString line) => Console.Error.WriteLine(Core.DisplayText.Escape(FormattableString.Invariant(line)));
+    private static void Write(FormattableString line) =>
+        Console.Error.WriteLine(Core.DisplayText.Escape(FormattableString.Invariant(line)));
 }

@@ -16,7 +16,9 @@ internal sealed class CameraPath
 
     private CameraPath(Camera[] cameras, Handedness handedness) => (_cameras, _handedness) = (cameras, handedness);
 
-    /// <summary>Reads a list: a camera a line, as <c>--camera</c> takes it. A leading <c>c</c> is allowed, and <c>#</c> starts a comment.</summary>
+    /// <summary>
+    /// Reads a list: a camera a line, as <c>--camera</c> takes it. A leading <c>c</c> is allowed, and <c>#</c> starts a comment.
+    /// </summary>
     /// <param name="path">Path of the list.</param>
     /// <param name="handedness">That of the scene.</param>
     /// <exception cref="SourceException">The file can't be read.</exception>

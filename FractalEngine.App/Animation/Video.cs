@@ -14,7 +14,7 @@ internal sealed class Video : AnimationOutput
     private readonly Task<string> _messages;
     private bool _isComplete;
 
-    /// <summary>Starts the encoder.</summary>
+    /// <summary>Starts the program that encodes the video.</summary>
     /// <param name="path">Path of the video, whose ending chooses the format.</param>
     /// <param name="framesPerSecond">Frames a second.</param>
     /// <exception cref="UsageException">ffmpeg is not installed.</exception>

@@ -86,7 +86,7 @@ internal static class AnimateCommand
         var motion = animation.CreateMotion(drawable, job.CreateView(scene, (double)job.Size.Width / job.Size.Height));
         using var renderer = new ImageRenderer(drawable, job.Size, job.Settings, job.Background);
         using var interruption = new InterruptSignal();
-        var progress = new AnimationProgress(animation.FrameCount, isQuiet);
+        var progress = new TerminalProgress("frame", animation.FrameCount, isQuiet);
         var done = 0;
         try
         {

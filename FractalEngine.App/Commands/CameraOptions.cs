@@ -23,7 +23,9 @@ internal sealed class CameraOptions
         HelpName = "\"(x,y,z) (p,y,r) fov\"",
     };
 
-    private readonly Option<string?> _lookFrom = VectorOption("--look-from", "Position of the camera; it looks at the middle of the scene.");
+    private readonly Option<string?> _lookFrom = VectorOption(
+        "--look-from", "Position of the camera, which looks at the middle of the scene unless --look-at names another point.");
+
     private readonly Option<string?> _lookAt = VectorOption("--look-at", "Point that the camera looks at.");
     private readonly Option<string?> _up = VectorOption("--up", "Direction that is up in the image, with --look-from or --look-at.");
 

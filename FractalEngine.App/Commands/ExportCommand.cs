@@ -38,7 +38,8 @@ internal static class ExportCommand
         }
 
         var file = report.Measure("load", () => ConsoleLoader.Load(path, options));
-        if (output != StandardInput.Name && file.Scene.Models.Select(model => model.SourcePath).Append(file.Path).Contains(Path.GetFullPath(output)))
+        if (output != StandardInput.Name
+            && file.Scene.Models.Select(model => model.SourcePath).Append(file.Path).Contains(Path.GetFullPath(output)))
         {
             throw new UsageException($"{output} is one of the files to export, and is not overwritten");
         }

@@ -50,7 +50,7 @@ public sealed class ApngAnimation
         _frames.Add(data.ToArray());
     }
 
-    /// <summary>Writes the animation.</summary>
+    /// <summary>Writes the animation with all images so far.</summary>
     /// <param name="stream">Where to; left open. Need not seek.</param>
     /// <exception cref="InvalidOperationException">There is no image.</exception>
     /// <exception cref="IOException">The stream can't be written.</exception>

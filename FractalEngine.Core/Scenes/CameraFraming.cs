@@ -22,7 +22,9 @@ public static class CameraFraming
     /// </param>
     public static Vector LookRotation(Vector direction) => LookRotation(direction, Vector.J);
 
-    /// <summary>Computes the angles (radians) that turn the forward axis to a direction, and the up axis as far as it goes to another.</summary>
+    /// <summary>
+    /// Computes the angles (radians) that turn the forward axis to a direction, and the up axis to another one as far as that goes.
+    /// </summary>
     /// <param name="direction">In the axes of a camera without rotation: right, up and forward. Of any length but 0.</param>
     /// <param name="up">Likewise. Where it is parallel to the direction, the x axis becomes the right one.</param>
     public static Vector LookRotation(Vector direction, Vector up)

@@ -80,7 +80,8 @@ public sealed partial class SceneParser
         }
 
         ParseOptionalSeparator(rest, out var intensityStart);
-        return IsAtEndOfLine(intensityStart) || Fail(intensityStart, SyntaxFailure.EndOfLine) || ParseIntensity(intensityStart, out intensity, out rest);
+        return IsAtEndOfLine(intensityStart) || Fail(intensityStart, SyntaxFailure.EndOfLine)
+            || ParseIntensity(intensityStart, out intensity, out rest);
     }
 
     private bool ParseColourIntensityAndRange(Cursor cursor, out Colour colour, out double intensity, out double range, out Cursor rest)

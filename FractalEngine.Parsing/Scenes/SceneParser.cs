@@ -60,7 +60,8 @@ public sealed partial class SceneParser : SceneValueParser
             throw Error(Source.Start, "the scene declares nothing: it has no camera, object or light");
         }
 
-        return new(Source, _scene with { Camera = TurnToTarget(_scene.Camera), Lights = [.. _lights], Objects = [.. _objects] }, lines.ToImmutable()) { Warnings = Hints };
+        var scene = _scene with { Camera = TurnToTarget(_scene.Camera), Lights = [.. _lights], Objects = [.. _objects] };
+        return new(Source, scene, lines.ToImmutable()) { Warnings = Hints };
     }
 
     private int IndexOfLast(SceneDeclarationKind kind) => kind switch

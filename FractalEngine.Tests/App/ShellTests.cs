@@ -120,6 +120,24 @@ public sealed class ShellTests : IDisposable
         Assert.Equal([all[0], all[20], all[40], all[60], ""], some);
     }
 
+    [SkippableTheory]
+    [InlineData("0.2", false)]
+    [InlineData("2.5", true)]
+    public void Build_OnATerminal_SaysSoWhenItTakesMoreThanTwoSeconds(string seconds, bool isAnnounced)
+    {
+        Skip.IfNot(File.Exists("/usr/bin/script"), "the program 'script', which makes a terminal, is not installed");
+        var setup = Repository.Full("eng/setup.sh");
+        var start = new ProcessStartInfo(
+            "script", ["-qec", $"bash -c '. {setup}; announce_build App; sleep {seconds}; stop_announcing'", "/dev/null"])
+        {
+            RedirectStandardOutput = true,
+        };
+        using var process = Process.Start(start)!;
+        var output = process.StandardOutput.ReadToEnd();
+        process.WaitForExit();
+        Assert.Equal(isAnnounced, output.Contains("building App", StringComparison.Ordinal));
+    }
+
     private AppResult Run(params string[] arguments) => AppProcess.Run(_folder.Path, arguments);
 
     private AppResult RunWithInput(string input, params string[] arguments)

@@ -11,7 +11,8 @@ internal sealed partial class MissingDot : TypicalMistake
     {
         if (failure.Position.Current == '(' && UnfinishedParameter().Match(failure.Before) is { Success: true } unfinished)
         {
-            return $"a dot is missing behind '{unfinished.Groups[1].Value}': each parameter of a transformation ends with one, as in 't.a.'";
+            var parameter = unfinished.Groups[1].Value;
+            return $"a dot is missing behind '{parameter}': each parameter of a transformation ends with one, as in 't.a.'";
         }
 
         var name = TrailingName().Match(failure.Before).Value;

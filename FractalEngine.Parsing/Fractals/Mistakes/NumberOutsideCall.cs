@@ -15,8 +15,9 @@ internal sealed partial class NumberOutsideCall : TypicalMistake
         }
 
         var call = TrailingCall().Match(failure.Before);
+        var example = $"{call.Groups[1].Value}.{failure.Position.Current}";
         return call.Success
-            ? $"the numbers of a call follow its name with dots and without blanks, as in '{call.Groups[1].Value}.{failure.Position.Current}'"
+            ? $"the numbers of a call follow its name with dots and without blanks, as in '{example}'"
             : "a set holds calls of transformations, as in 't.1', and '#'";
     }
 

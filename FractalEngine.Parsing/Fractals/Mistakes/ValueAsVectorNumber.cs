@@ -10,7 +10,7 @@ internal sealed class ValueAsVectorNumber : TypicalMistake
 
     /// <inheritdoc/>
     public override string? Explain(SyntaxFailure failure) =>
-        failure.Expects(VectorNumber) && (char.IsAsciiDigit(failure.Position.Current) || failure.Position.Current is '(' or '-' or '+' or '.')
-            ? "values stand in a vector of their own, 'v x y z', and here stands the number of that vector"
+        failure.Expects(VectorNumber) && failure.Position.Current is (>= '0' and <= '9') or '(' or '-' or '+' or '.'
+            ? "values stand in a vector 'v x y z', and here stands the number of that vector"
             : null;
 }

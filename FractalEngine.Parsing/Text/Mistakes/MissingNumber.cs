@@ -12,8 +12,10 @@ internal sealed class MissingNumber : TypicalMistake
         }
 
         var numbers = NumberGroup.Before(failure).Split([' ', '\t', ','], StringSplitOptions.RemoveEmptyEntries);
-        return numbers.Length is 1 or 2 && numbers.All(static number => NumberReader.TryRead(number, out _, out var length) && length == number.Length)
+        return numbers.Length is 1 or 2 && numbers.All(IsNumber)
             ? $"a vector has three numbers, and this one has {(numbers.Length == 1 ? "one" : "two")}"
             : null;
     }
+
+    private static bool IsNumber(string text) => NumberReader.TryRead(text, out _, out var length) && length == text.Length;
 }

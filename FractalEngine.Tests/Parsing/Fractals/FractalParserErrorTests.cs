@@ -99,7 +99,8 @@ public class FractalParserErrorTests
     {
         var error = Errors.ThrownBy(() => Samples.ParseFractal(Head + $"<$>. [#, {call}] x")).Diagnostic;
         // A bare name may also be read as a missing dot.
-        Assert.True(error.Message == message || (call == "t" && error.Message.StartsWith("unexpected ']': a dot is missing behind 't'", StringComparison.Ordinal)), error.Message);
+        var isMissingDot = error.Message.StartsWith("unexpected ']': a dot is missing behind 't'", StringComparison.Ordinal);
+        Assert.True(error.Message == message || (call == "t" && isMissingDot), error.Message);
         Assert.Equal(6, error.Line);
     }
 

@@ -179,7 +179,7 @@ public class TypicalMistakeTests
             u.a. (a, #, 0.5)
             """,
             """
-            tree.fdo:6:13: error: unexpected '0.5': values stand in a vector of their own, 'v x y z', and here stands the number of that vector
+            tree.fdo:6:13: error: unexpected '0.5': values stand in a vector 'v x y z', and here stands the number of that vector
               u.a. (a, #, 0.5)
                           ^
             """
@@ -190,7 +190,7 @@ public class TypicalMistakeTests
             u.a. (a, #, (0.5, 0.5, 0.5))
             """,
             """
-            tree.fdo:6:13: error: unexpected '(': values stand in a vector of their own, 'v x y z', and here stands the number of that vector
+            tree.fdo:6:13: error: unexpected '(': values stand in a vector 'v x y z', and here stands the number of that vector
               u.a. (a, #, (0.5, 0.5, 0.5))
                           ^
             """
