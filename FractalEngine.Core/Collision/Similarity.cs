@@ -11,6 +11,10 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
     // As a part of the squared scale: more than the rounding error of rotations.
     private const double Tolerance = 1e-13;
 
+    // Beyond these, the matrix's determinant and cofactors leave the range of a double.
+    private const double MinScaleSquared = 1e-180;
+    private const double MaxScaleSquared = 1e180;
+
     // Found once, since they cost as much as a short search.
     private readonly Matrix _cofactors = Map.Linear.Cofactors();
 
@@ -22,7 +26,7 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
     {
         var scaleSquared = m.V1.LengthSquared();
         var tolerance = Tolerance * scaleSquared;
-        return Math.Abs(m.V2.LengthSquared() - scaleSquared) <= tolerance && Math.Abs(m.V3.LengthSquared() - scaleSquared) <= tolerance
+        return scaleSquared is > MinScaleSquared and < MaxScaleSquared && Math.Abs(m.V2.LengthSquared() - scaleSquared) <= tolerance && Math.Abs(m.V3.LengthSquared() - scaleSquared) <= tolerance
             && Math.Abs(Vector.Dot(m.V1, m.V2)) <= tolerance && Math.Abs(Vector.Dot(m.V1, m.V3)) <= tolerance
             && Math.Abs(Vector.Dot(m.V2, m.V3)) <= tolerance;
     }
