@@ -179,6 +179,7 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
 
         return _materials[(file, name)] = material with
         {
+            EmissionTexture = FindUndrawnTexture(material.EmissionTexture, fullPath),
             BumpTexture = FindUndrawnTexture(material.BumpTexture, fullPath),
             NormalTexture = FindUndrawnTexture(material.NormalTexture, fullPath),
         };
