@@ -22,7 +22,7 @@ internal static class QueryScale
     /// <param name="magnitude">Largest coordinate of position and shape, or an upper bound.</param>
     public static bool IsNeeded(double magnitude) => magnitude is < MinMagnitude or > MaxMagnitude && magnitude > 0;
 
-    /// <summary>The power of two by which coordinates are multiplied, so that products stay within the range of a double: mostly 1.</summary>
+    /// <summary>The power of two by which coordinates are multiplied, so that products stay doubles: mostly 1.</summary>
     /// <param name="magnitude">Largest coordinate of all shapes and positions.</param>
     public static double Of(double magnitude) => IsNeeded(magnitude) ? Math.ScaleB(1, -Exponent(magnitude)) : 1;
 

@@ -26,7 +26,7 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
     {
         var scaleSquared = m.V1.LengthSquared();
         var tolerance = Tolerance * scaleSquared;
-        return scaleSquared is > MinScaleSquared and < MaxScaleSquared && Math.Abs(m.V2.LengthSquared() - scaleSquared) <= tolerance && Math.Abs(m.V3.LengthSquared() - scaleSquared) <= tolerance
+        return Math.Abs(m.V2.LengthSquared() - scaleSquared) <= tolerance && Math.Abs(m.V3.LengthSquared() - scaleSquared) <= tolerance
             && Math.Abs(Vector.Dot(m.V1, m.V2)) <= tolerance && Math.Abs(Vector.Dot(m.V1, m.V3)) <= tolerance
             && Math.Abs(Vector.Dot(m.V2, m.V3)) <= tolerance;
     }
@@ -37,7 +37,7 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
     /// <returns>False for maps that do not keep distances in proportion.</returns>
     public static bool TryCreate(AffineMap map, out Similarity similarity)
     {
-        var isSimilarity = IsSimilarity(map.Linear);
+        var isSimilarity = map.Linear.V1.LengthSquared() is > MinScaleSquared and < MaxScaleSquared && IsSimilarity(map.Linear);
         similarity = isSimilarity ? new(map, map.Inverse(), map.Linear.V1.Length()) : Identity;
         return isSimilarity;
     }

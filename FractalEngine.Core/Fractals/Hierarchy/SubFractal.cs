@@ -53,7 +53,9 @@ internal sealed class SubFractal
         Floats = !hasOnlySimilarities ? null
             : hull is null ? new(box, [], [], 0)
             : new(box, hull.Planes, hull.CopyVertices(), hull.Margin);
-        Lanes = hasOnlySimilarities && clusters is null ? ChildLanes.CreateOrNull(children, childBoxes, childHull, BoundingBox.Union(box, baseBox)) : null;
+        Lanes = hasOnlySimilarities && clusters is null
+            ? ChildLanes.CreateOrNull(children, childBoxes, childHull, BoundingBox.Union(box, baseBox))
+            : null;
         PaddedCount = VectorX4.PaddedCount(children.Length);
         ChildBounds = new double[ValuesPerChild * PaddedCount];
         for (var i = 0; i < PaddedCount; i++)
