@@ -16,6 +16,8 @@ internal readonly struct ProjectedRay
     /// <summary>How far off the distance to a hit may be, as a part of the reach: what the ray casters promise.</summary>
     public const double DistanceError = 1e-12;
 
+    private const double WeightError = 4e-15;
+
     private readonly Vector _across;
     private readonly Vector _up;
 
@@ -60,13 +62,15 @@ internal readonly struct ProjectedRay
             return new(double.NegativeInfinity, double.NaN, double.PositiveInfinity, triangle.Reach);
         }
 
-        // Weights from 0 to 1, so that a corner's error counts once, even where the triangle is a needle.
         var sum = weightA + weightB + weightC;
         var distance = ((weightA * Vector.Dot(a, Direction)) + (weightB * Vector.Dot(b, Direction)) + (weightC * Vector.Dot(c, Direction)))
             / sum;
+        // A corner that is off moves the hit by as much, and by more on a slope. Rounded weights move it along a needle.
         var slope = Vector.Cross(b - a, c - a).Length() / Math.Abs(area);
+        var needle = Math.Max((b - a).LengthSquared(), Math.Max((c - a).LengthSquared(), (c - b).LengthSquared())) / Math.Abs(area);
+        var error = Math.Max(DistanceError, Math.Max(CornerError * slope, WeightError * needle));
         var reach = Math.Max(triangle.Reach, Math.Max(Origin.MaxAbsComponent(), (Origin + (distance * Direction)).MaxAbsComponent()));
-        return new(inside, distance, Math.Max(DistanceError, CornerError * slope) * reach, reach);
+        return new(inside, distance, error * reach, reach);
     }
 
     /// <summary>Finds the distances at which the ray enters and leaves a box; the first is greater where it misses.</summary>

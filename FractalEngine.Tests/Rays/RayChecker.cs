@@ -46,21 +46,28 @@ internal sealed class RayChecker(string name, RayCaster caster, RayOracle oracle
         return !double.IsPositiveInfinity(expected);
     }
 
-    /// <summary>Casts a ray again with limits just around and just before its hit, and beyond it.</summary>
-    public void CheckLimits(Ray ray, QueryContext context)
+    /// <summary>Casts a ray again with limits just around its hit, just before it, and beyond it. Grazing hits have no sharp limits.</summary>
+    /// <returns>True when the hit was certain, so that it was checked.</returns>
+    public bool CheckLimits(Ray ray, QueryContext context)
     {
-        if (!caster.TryFindNearest(ray, context, out var hit))
+        var projected = new ProjectedRay(ray);
+        if (!caster.TryFindNearest(ray, context, out var hit)
+            || projected.Cross(resolve(context.InstancePath.ToArray(), hit.FaceIndex)) is not { IsCertain: true } crossing)
         {
-            return;
+            return false;
         }
 
-        var margin = ProjectedRay.DistanceError * Math.Max(oracle.Magnitude, ray.Origin.MaxAbsComponent());
+        var margin = 2 * crossing.Tolerance;
         var before = hit.Distance - margin;
         var isFound = caster.TryFindNearest(ray, context, out var again, Math.Max(before, 0), hit.Distance + margin);
         ThrowUnless(isFound && Math.Abs(again.Distance - hit.Distance) <= margin, ray, before, hit.Distance + margin,
-            $"{again.Distance:R}, not {hit.Distance:R}");
-        ThrowUnless(before < 0 || !caster.HitsAny(ray, context, 0, before), ray, 0, before, $"a hit before {hit.Distance:R}");
+            $"{(isFound ? again.Distance : double.NaN):R}, not {hit.Distance:R}");
+        // What is uncertain may come first once, and last another time.
+        ThrowUnless(before < 0 || !caster.TryFindNearest(ray, context, out again, 0, before)
+            || !projected.Cross(resolve(context.InstancePath.ToArray(), again.FaceIndex)).IsCertain, ray, 0, before,
+            $"a hit at {again.Distance:R}, before {hit.Distance:R}");
         Check(ray, context, hit.Distance + margin);
+        return true;
     }
 
     /// <summary>
