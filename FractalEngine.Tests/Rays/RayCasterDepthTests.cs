@@ -19,8 +19,8 @@ public class RayCasterDepthTests
     private const double Precision = 1e-11;
     private const int MaxSteps = 400;
 
-    // The holes of this level of the Menger sponge are 2e-11 wide.
-    private const int MaxHole = 22;
+    // A ray down a hole of this level passes up to 3^9 cubes, so that it is still followed to the end.
+    private const int MaxHole = 10;
 
     /// <summary>Assets and depths; null for the infinite fractal.</summary>
     public static TheoryData<string, int?> DeepFractals
@@ -52,7 +52,7 @@ public class RayCasterDepthTests
     [Theory]
     [InlineData(1)]
     [InlineData(7)]
-    [InlineData(20)]
+    [InlineData(9)]
     [InlineData(1000)]
     [InlineData(1_000_000)]
     [InlineData(null)]
@@ -179,7 +179,7 @@ public class RayCasterDepthTests
             });
             return context;
         }, _ => { });
-        Seeded.AssertMost(compared, rays, 0.5);
+        Seeded.AssertMost(compared, rays, 0.25);
     }
 
     /// <summary>The Menger sponge in the cube from 0 to 1.</summary>

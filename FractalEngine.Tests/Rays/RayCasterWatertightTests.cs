@@ -76,6 +76,7 @@ public class RayCasterWatertightTests
         AffineMap[] maps = [AffineMap.Identity, new Transformation(Vector.Zero, new(10, 20, 30), new(0.9, 0.9, -0.9)).ToAffineMap()];
         var context = new QueryContext();
         var centre = mesh.Bounds.Centre;
+        var reach = Math.Max(mesh.Bounds.Minimum.MaxAbsComponent(), mesh.Bounds.Maximum.MaxAbsComponent());
         Seeded.RunOne(seed, random =>
         {
             for (var i = 0; i < rays; i++)
@@ -92,7 +93,6 @@ public class RayCasterWatertightTests
                 var ray = new Ray(origin, (maps[kind] * target) - origin);
                 Assert.True(casters[kind].TryFindNearest(ray, context, out var hit), $"{kind}: {ray} leaks");
                 Assert.True(casters[kind].HitsAny(ray, context), $"{kind}: {ray} leaks");
-                var reach = Math.Max((maps[kind] * target).MaxAbsComponent(), origin.MaxAbsComponent());
                 AssertDistance(ray, hit, reach);
             }
         });

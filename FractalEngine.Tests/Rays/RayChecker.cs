@@ -37,7 +37,7 @@ internal sealed class RayChecker(string name, RayCaster caster, RayOracle oracle
                 $"{hit.Distance:R} on face {hit.FaceIndex} of [{string.Join(", ", path)}], though a hit within {expected:R}");
             ThrowUnless(hit.Distance >= minDistance && hit.Distance <= maxDistance, ray, minDistance, maxDistance,
                 $"{hit.Distance:R} is out of range");
-            var problem = RayHitCheck.FindProblem(in projected, in hit, resolve(path, hit.FaceIndex), oracle.Magnitude);
+            var problem = RayHitCheck.FindProblem(in projected, in hit, Resolve(path, hit));
             ThrowUnless(problem is null, ray, minDistance, maxDistance, $"{hit} on [{string.Join(", ", path)}]: {problem}");
         }
 
@@ -52,7 +52,7 @@ internal sealed class RayChecker(string name, RayCaster caster, RayOracle oracle
     {
         var projected = new ProjectedRay(ray);
         if (!caster.TryFindNearest(ray, context, out var hit)
-            || projected.Cross(resolve(context.InstancePath.ToArray(), hit.FaceIndex)) is not { IsCertain: true } crossing)
+            || projected.Cross(Resolve(context.InstancePath.ToArray(), hit)) is not { IsCertain: true } crossing)
         {
             return false;
         }
@@ -64,7 +64,7 @@ internal sealed class RayChecker(string name, RayCaster caster, RayOracle oracle
             $"{(isFound ? again.Distance : double.NaN):R}, not {hit.Distance:R}");
         // What is uncertain may come first once, and last another time.
         ThrowUnless(before < 0 || !caster.TryFindNearest(ray, context, out again, 0, before)
-            || !projected.Cross(resolve(context.InstancePath.ToArray(), again.FaceIndex)).IsCertain, ray, 0, before,
+            || !projected.Cross(Resolve(context.InstancePath.ToArray(), again)).IsCertain, ray, 0, before,
             $"a hit at {again.Distance:R}, before {hit.Distance:R}");
         Check(ray, context, hit.Distance + margin);
         return true;
@@ -98,6 +98,8 @@ internal sealed class RayChecker(string name, RayCaster caster, RayOracle oracle
             $"{(isFound ? hit.Distance : double.NaN):R}: leaks, all around it hits within {farthest:R}");
         return true;
     }
+
+    private ExpandedTriangle Resolve(int[] path, RayHit hit) => oracle.WithReach(resolve(path, hit.FaceIndex));
 
     private void ThrowUnless(bool condition, Ray ray, double minDistance, double maxDistance, FormattableString message)
     {

@@ -14,11 +14,10 @@ internal static class RayHitCheck
     /// <summary>Finds what is wrong with a hit; null for nothing.</summary>
     /// <param name="ray">The ray.</param>
     /// <param name="hit">What was found.</param>
-    /// <param name="triangle">The triangle of the hit.</param>
-    /// <param name="magnitude">The largest absolute coordinate of the shape.</param>
-    public static string? FindProblem(in ProjectedRay ray, in RayHit hit, in ExpandedTriangle triangle, double magnitude)
+    /// <param name="triangle">The triangle of the hit, with the reach of the shape.</param>
+    public static string? FindProblem(in ProjectedRay ray, in RayHit hit, in ExpandedTriangle triangle)
     {
-        var reach = Math.Max(magnitude, Math.Max(ray.Origin.MaxAbsComponent(), hit.Point.MaxAbsComponent()));
+        var reach = Math.Max(triangle.Reach, Math.Max(ray.Origin.MaxAbsComponent(), hit.Point.MaxAbsComponent()));
         if (Environment.GetEnvironmentVariable("SKIPG") == "1" && !ray.Cross(in triangle).IsCertain) { return null; }
         var tolerance = ProjectedRay.DistanceError * reach;
         var offRay = (ray.Origin + (hit.Distance * ray.Direction) - hit.Point).MaxAbsComponent();

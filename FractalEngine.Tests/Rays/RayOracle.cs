@@ -18,6 +18,12 @@ internal sealed class RayOracle
     {
         _triangles = [.. triangles];
         Magnitude = _triangles.Select(triangle => triangle.Reach).DefaultIfEmpty(1).Max();
+        // A search for the nearest meets the largest coordinate of the shape on its way to any triangle.
+        foreach (ref var triangle in _triangles.AsSpan())
+        {
+            triangle = WithReach(in triangle);
+        }
+
         if (_triangles.Length > 0)
         {
             Build(0, _triangles.Length);
@@ -32,6 +38,9 @@ internal sealed class RayOracle
 
     /// <summary>The largest reach of a triangle.</summary>
     public double Magnitude { get; }
+
+    /// <summary>The triangle with the reach of the shape, which rounding in any search of it is measured against.</summary>
+    public ExpandedTriangle WithReach(in ExpandedTriangle triangle) => triangle with { Reach = Math.Max(triangle.Reach, Magnitude) };
 
     /// <summary>Finds the distance by which the ray has certainly hit something, tolerance included; infinite where it need not hit.</summary>
     public double CertainDistance(in ProjectedRay ray, double minDistance = 0, double maxDistance = double.PositiveInfinity)

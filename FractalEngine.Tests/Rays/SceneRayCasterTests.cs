@@ -26,7 +26,7 @@ public class SceneRayCasterTests
     {
         var different = 0;
         Seeded.Run(30, random => different += CountDifferences(random));
-        Assert.InRange(different, 100, 30 * 200);
+        Assert.InRange(different, 10, 30 * 200);
     }
 
     [Fact]
@@ -119,7 +119,7 @@ public class SceneRayCasterTests
         var context = new QueryContext();
         for (var i = 0; i < 200; i++)
         {
-            var ray = new Ray(random.Vector(5), random.Direction());
+            var ray = new Ray(random.Vector(5), random.Vector(2));
             var isFound = anew.TryFindNearest(ray, context, out var expected, out var expectedIndex);
             Assert.Equal(isFound, caster.TryFindNearest(ray, context, out var actual, out var actualIndex));
             Assert.Equal((expectedIndex, expected), (actualIndex, actual));
@@ -162,7 +162,7 @@ public class SceneRayCasterTests
                 Assert.InRange(hit.Distance, minDistance, Math.Min(maxDistance, expected));
                 var triangle = Place(
                     shapes[index].Resolve(context.InstancePath, hit.FaceIndex), scene.Objects[index].ObjectToWorld);
-                var problem = RayHitCheck.FindProblem(in projected, in hit, in triangle, oracle.Magnitude);
+                var problem = RayHitCheck.FindProblem(in projected, in hit, oracle.WithReach(in triangle));
                 Assert.True(problem is null, FormattableString.Invariant($"{ray}: object {index}, {problem}"));
             }
 
