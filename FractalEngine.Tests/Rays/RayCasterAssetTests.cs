@@ -38,7 +38,7 @@ public class RayCasterAssetTests
     public void TryFindNearest_OnAnAssetForLong_EqualsEveryFace(string name, int depth) =>
         CheckAll(name, depth, 1_000_000, SoakRays / DeeperFractals.Count);
 
-    /// <summary>Half of the rays are aimed at edges, where nothing may leak. At least a tenth of the others hit something for certain.</summary>
+    /// <summary>Half of the rays are aimed at edges, where nothing may leak. At least a tenth of the others certainly hit.</summary>
     private static void CheckAll(string name, int depth, int firstSeed, int rays)
     {
         const int raysPerSeed = 100;

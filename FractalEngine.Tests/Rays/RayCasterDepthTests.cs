@@ -1,10 +1,12 @@
 using FractalEngine.Core;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
 using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Collision.Queries;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Rays;
@@ -117,8 +119,9 @@ public class RayCasterDepthTests
     {
         var fractal = RandomFractals.Create(random, Composition.Componentwise);
         var mesh = FractalGenerator.Flatten(fractal, 1_000_000);
-        var oracle = new RayOracle(new Collision.Queries.ShapeExpansion(Fractal.Of(mesh)).Triangles);
+        var oracle = new RayOracle(new ShapeExpansion(Fractal.Of(mesh)).Triangles);
         var caster = RayCaster.For(fractal);
+        var surface = new HierarchyCollider(mesh);
         var context = new QueryContext();
         var source = new RandomRays(random, oracle);
         for (var i = 0; i < 50; i++)
@@ -129,7 +132,7 @@ public class RayCasterDepthTests
             var isFound = caster.TryFindNearest(ray, context, out var hit);
             Assert.True(isFound || double.IsPositiveInfinity(expected), $"{ray} hits nothing");
             Assert.True(!isFound || hit.Distance <= expected, $"{ray} hits at {hit.Distance:R}");
-            Assert.True(!isFound || new Core.Collision.Bvh.HierarchyCollider(mesh).FindClosest(hit.Point).Distance <= 1e-12 * oracle.Magnitude);
+            Assert.True(!isFound || surface.FindClosest(hit.Point).Distance <= 1e-12 * oracle.Magnitude);
         }
     });
 
@@ -174,7 +177,9 @@ public class RayCasterDepthTests
                     free += length;
                 }
 
-                Assert.True(!isFound || free <= distance + precision, FormattableString.Invariant($"{ray}: {distance:R}, though free to {free:R}"));
+                Assert.True(
+                    !isFound || free <= distance + precision,
+                    FormattableString.Invariant($"{ray}: {distance:R}, though free to {free:R}"));
                 Interlocked.Increment(ref compared);
             });
             return context;
@@ -192,6 +197,7 @@ public class RayCasterDepthTests
                    select Samples.MoveAndScale(x / 3.0, y / 3.0, z / 3.0, 1 / 3.0);
         return Fractal.Of(new(
             [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1],
-            [0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4, 2, 3, 7, 2, 7, 6, 1, 2, 6, 1, 6, 5, 0, 4, 7, 0, 7, 3])).Repeat(maps, depth);
+            [0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4, 2, 3, 7, 2, 7, 6, 1, 2, 6, 1, 6, 5, 0, 4, 7, 0, 7, 3]))
+            .Repeat(maps, depth);
     }
 }

@@ -98,7 +98,7 @@ public class RayCasterWatertightTests
         });
     }
 
-    /// <summary>Fails unless a ray to a target hits there. Seen at a low angle, a coordinate that is off moves the hit along the ray.</summary>
+    /// <summary>Fails unless a ray to a target hits there. At a low angle, a coordinate that is off moves the hit along the ray.</summary>
     private static void AssertDistance(Ray ray, RayHit hit, double reach)
     {
         var sine = Math.Abs(Vector.Dot(hit.Normal, ray.Direction.UnitVector()));

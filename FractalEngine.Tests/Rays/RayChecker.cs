@@ -29,7 +29,8 @@ internal sealed class RayChecker(string name, RayCaster caster, RayOracle oracle
         var projected = new ProjectedRay(ray);
         var isFound = caster.TryFindNearest(ray, context, out var hit, minDistance, maxDistance);
         var expected = oracle.CertainDistance(in projected, minDistance, maxDistance);
-        ThrowUnless(isFound || double.IsPositiveInfinity(expected), ray, minDistance, maxDistance, $"no hit, though one within {expected:R}");
+        ThrowUnless(isFound || double.IsPositiveInfinity(expected), ray, minDistance, maxDistance,
+            $"no hit, though one within {expected:R}");
         if (isFound)
         {
             var path = context.InstancePath.ToArray();
@@ -46,7 +47,7 @@ internal sealed class RayChecker(string name, RayCaster caster, RayOracle oracle
         return !double.IsPositiveInfinity(expected);
     }
 
-    /// <summary>Casts a ray again with limits just around its hit, just before it, and beyond it. Grazing hits have no sharp limits.</summary>
+    /// <summary>Casts a ray again with limits around its hit, just before it, and beyond it. Grazing hits have no sharp limits.</summary>
     /// <returns>True when the hit was certain, so that it was checked.</returns>
     public bool CheckLimits(Ray ray, QueryContext context)
     {
@@ -71,8 +72,8 @@ internal sealed class RayChecker(string name, RayCaster caster, RayOracle oracle
     }
 
     /// <summary>
-    /// Casts a ray at an edge or a vertex. Where all rays on a narrow ring around it certainly hit, the surface has no gap there, and the ray
-    /// itself must hit too.
+    /// Casts a ray at an edge or a vertex. Where all rays on a narrow ring around it certainly hit, the surface has no gap there, and
+    /// the ray itself must hit too.
     /// </summary>
     /// <returns>True when the ring was whole.</returns>
     public bool CheckEdge(Ray ray, QueryContext context)

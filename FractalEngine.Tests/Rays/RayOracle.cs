@@ -42,7 +42,7 @@ internal sealed class RayOracle
     /// <summary>The triangle with the reach of the shape, which rounding in any search of it is measured against.</summary>
     public ExpandedTriangle WithReach(in ExpandedTriangle triangle) => triangle with { Reach = Math.Max(triangle.Reach, Magnitude) };
 
-    /// <summary>Finds the distance by which the ray has certainly hit something, tolerance included; infinite where it need not hit.</summary>
+    /// <summary>Finds the distance by which the ray has certainly hit, tolerance included; infinite where it need not hit.</summary>
     public double CertainDistance(in ProjectedRay ray, double minDistance = 0, double maxDistance = double.PositiveInfinity)
     {
         var nearest = double.PositiveInfinity;
@@ -112,14 +112,12 @@ internal sealed class RayOracle
         if (count > LeafSize)
         {
             var size = maximum - minimum;
-            Func<ExpandedTriangle, double> key = size.X >= size.Y && size.X >= size.Z ? triangle => triangle.A.X + triangle.B.X + triangle.C.X
-                : size.Y >= size.Z ? triangle => triangle.A.Y + triangle.B.Y + triangle.C.Y
-                : triangle => triangle.A.Z + triangle.B.Z + triangle.C.Z;
+            var axis = size.X >= size.Y && size.X >= size.Z ? Vector.I : size.Y >= size.Z ? Vector.J : Vector.K;
             var part = _triangles.AsSpan(first, count);
             var keys = new double[count];
             for (var i = 0; i < count; i++)
             {
-                keys[i] = key(part[i]);
+                keys[i] = Vector.Dot(axis, part[i].A + part[i].B + part[i].C);
             }
 
             keys.AsSpan().Sort(part);

@@ -94,7 +94,8 @@ public class SceneRayCasterTests
     {
         var caster = new SceneRayCaster(new Scene { Objects = [new(Samples.Tetrahedron)] });
         var context = new QueryContext();
-        foreach (var ray in new Ray[] { default, new(new(0, double.NaN, 0), Vector.I), new(Vector.Zero, new(double.PositiveInfinity, 0, 0)) })
+        Ray[] rays = [default, new(new(0, double.NaN, 0), Vector.I), new(Vector.Zero, new(double.PositiveInfinity, 0, 0))];
+        foreach (var ray in rays)
         {
             Assert.ThrowsAny<ArgumentException>(() => caster.HitsAny(ray, context));
             Assert.ThrowsAny<ArgumentException>(() => caster.TryFindNearest(ray, context, out _, out _));
