@@ -13,13 +13,23 @@ public class RayCasterAdversarialTests
 {
     private const int RaysPerFractal = 100;
 
-    /// <summary>Names of fractals that are unusual in one way each.</summary>
-    public static TheoryData<string> Adversarial => [.. AdversarialFractals.All.Keys];
+    /// <summary>Names of fractals that are unusual in one way each, and have up to 50,000 faces.</summary>
+    public static TheoryData<string> Unusual =>
+        [.. AdversarialFractals.All.Where(pair => pair.Value().FaceCount <= 50_000).Select(pair => pair.Key)];
+
+    /// <summary>Names of all of them.</summary>
+    public static TheoryData<string> AllUnusual => [.. AdversarialFractals.All.Keys];
 
     [Theory]
-    [MemberData(nameof(Adversarial))]
+    [MemberData(nameof(Unusual))]
     public void TryFindNearest_OnAnUnusualFractal_EqualsEveryFace(string name) =>
         Seeded.RunOne(1, random => CheckRays(random, name, AdversarialFractals.All[name](), 300));
+
+    [Theory]
+    [MemberData(nameof(AllUnusual))]
+    [Trait("Category", "Soak")]
+    public void TryFindNearest_OnAnUnusualFractalForLong_EqualsEveryFace(string name) =>
+        Seeded.RunOne(2, random => CheckRays(random, name, AdversarialFractals.All[name](), 10_000));
 
     [Theory]
     [MemberData(nameof(CollisionMeshes.Names), MemberType = typeof(CollisionMeshes))]

@@ -44,7 +44,7 @@ public class RayCasterDepthTests
 
     [Theory]
     [MemberData(nameof(DeepFractals))]
-    public void TryFindNearest_AtAnyDepth_IsWhereStepsAlongTheRayEnd(string name, int? depth) => CheckSteps(name, depth, 20);
+    public void TryFindNearest_AtAnyDepth_IsWhereStepsAlongTheRayEnd(string name, int? depth) => CheckSteps(name, depth, 12);
 
     [Theory]
     [MemberData(nameof(DeepFractals))]
