@@ -30,7 +30,7 @@ public class RayCasterDepthTests
         get
         {
             var data = new TheoryData<string, int?>();
-            foreach (var name in new[] { "sierpinski", "menger", "tree", "romanesco", "fern", "appendix-b" })
+            foreach (var name in new[] { "sierpinski", "menger", "tree", "romanesco", "appendix-b" })
             {
                 data.Add(name, 12);
                 data.Add(name, 60);
@@ -38,6 +38,8 @@ public class RayCasterDepthTests
                 data.Add(name, null);
             }
 
+            // Deeper, the exact collider takes seconds for so many steps.
+            data.Add("fern", 12);
             return data;
         }
     }
