@@ -1,3 +1,4 @@
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -6,7 +7,8 @@ namespace FractalEngine.Core.Rays;
 /// <summary>Completes the nearest triangle of a search to the result of a query, in the frame of the ray.</summary>
 internal static class RayHitFactory
 {
-    // Where a ray is closer to a triangle's plane than this, as a sine, the distance of the search is more accurate than the plane's.
+    // Where the plane of a triangle is uncertain, as that of a needle, the distance of the search is more accurate than the plane's. And
+    // where a ray is closer to it than this, as a sine.
     private const double MinSine = 1e-4;
 
     /// <summary>Creates the result for a triangle.</summary>
@@ -24,11 +26,14 @@ internal static class RayHitFactory
         var distance = search.MaxDistance;
         var (a, b, c) = mesh.Face(search.Face);
         (a, b, c) = (map.Apply(a), map.Apply(b), map.Apply(c));
-        var cross = Vector.Cross(b - a, c - a);
-        var length = cross.Length();
-        var normal = length > 0 ? cross / length : Vector.Zero;
+        // In units of the triangle, so that squares stay within the range of a double.
+        var size = Math.Max((b - a).MaxAbsComponent(), (c - a).MaxAbsComponent());
+        var (edgeB, edgeC) = size > 0 ? ((b - a) / size, (c - a) / size) : (Vector.Zero, Vector.Zero);
+        var cross = Vector.Cross(edgeB, edgeC);
+        var normal = TriangleKernel.UnitNormal(a, b, c);
         var slope = Vector.Dot(normal, direction);
-        if (Math.Abs(slope) > MinSine)
+        var isThin = cross.LengthSquared() < TriangleKernel.ThinTriangleSineSquared * edgeB.LengthSquared() * edgeC.LengthSquared();
+        if (!isThin && Math.Abs(slope) > MinSine)
         {
             // From a point near the triangle, so that what a far origin rounds away does not count.
             distance += Vector.Dot(normal, a - (origin + (distance * direction))) / slope;
@@ -36,14 +41,14 @@ internal static class RayHitFactory
 
         distance = Math.Min(Math.Max(distance, minDistance), maxDistance);
         var point = origin + (distance * direction);
-        return new(distance, point, normal, slope < 0, Barycentrics(point, a, b, c, cross), search.Face)
+        return new(distance, point, normal, slope < 0, Barycentrics((point - a) / size, edgeB, edgeC, cross), search.Face)
         {
             InstanceMap = map.ToAffineMap(),
         };
     }
 
     /// <summary>Computes the weights of the corners at a point in the triangle, or at the nearest that rounding leaves.</summary>
-    private static Vector Barycentrics(Vector point, Vector a, Vector b, Vector c, Vector cross)
+    private static Vector Barycentrics(Vector fromA, Vector edgeB, Vector edgeC, Vector cross)
     {
         var squared = cross.LengthSquared();
         if (!(squared > 0))
@@ -51,8 +56,8 @@ internal static class RayHitFactory
             return Vector.I;
         }
 
-        var weightB = Math.Clamp(Vector.Dot(Vector.Cross(point - a, c - a), cross) / squared, 0, 1);
-        var weightC = Math.Clamp(Vector.Dot(Vector.Cross(b - a, point - a), cross) / squared, 0, 1 - weightB);
+        var weightB = Math.Clamp(Vector.Dot(Vector.Cross(fromA, edgeC), cross) / squared, 0, 1);
+        var weightC = Math.Clamp(Vector.Dot(Vector.Cross(edgeB, fromA), cross) / squared, 0, 1 - weightB);
         return new(1 - weightB - weightC, weightB, weightC);
     }
 }

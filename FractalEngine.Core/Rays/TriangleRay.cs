@@ -20,6 +20,9 @@ internal readonly struct TriangleRay
     // The rounding of a coordinate relative to the origin, as a part of it.
     private const double CoordinateError = 1e-15;
 
+    // Areas of rounding alone are less than so many times the product of the rounding of two coordinates.
+    private const double EdgeOnFactor = 4;
+
     private readonly int _x;
     private readonly int _y;
     private readonly int _z;
@@ -107,17 +110,29 @@ internal readonly struct TriangleRay
         var v = (ax * cy) - (ay * cx);
         var w = (bx * ay) - (by * ax);
         var extent = Vector256.Abs(ax) + Vector256.Abs(ay) + Vector256.Abs(bx) + Vector256.Abs(by) + Vector256.Abs(cx) + Vector256.Abs(cy);
-        var slack = (_widening + (Vector256.Create(CoordinateError) * extent)) * extent;
+        var rounding = Vector256.Create(CoordinateError) * extent;
+        var reach = _widening + rounding;
+        var slack = reach * extent;
         var largest = Vector256.MaxNative(Vector256.MaxNative(u, v), w);
         var smallest = Vector256.MinNative(Vector256.MinNative(u, v), w);
         var isHit = Vector256.GreaterThanOrEqual(smallest, -slack) | Vector256.LessThanOrEqual(largest, slack);
-        var area = u + v + w;
-        var depth = ((u * az) + (v * bz) + (w * cz)) / area;
-        // Where the areas are all rounding, the depth still is between those of the vertices.
-        depth = Vector256.MinNative(depth, Vector256.MaxNative(Vector256.MaxNative(az, bz), cz));
-        depth = Vector256.MaxNative(depth, Vector256.MinNative(Vector256.MinNative(az, bz), cz));
-        isHit &= ~Vector256.Equals(area, Vector256<double>.Zero);
+        // A triangle that is seen edge on has no area but rounding, and is not hit. Neither is one without area.
+        isHit &= Vector256.GreaterThan(Vector256.Abs(u + v + w), Vector256.Create(EdgeOnFactor) * rounding * extent);
+        // One that is nearly so is as narrow as the rounding of the ray: areas then tell where it passes, but not that it ends.
+        isHit &= IsWithin(ax, bx, cx, reach) & IsWithin(ay, by, cy, reach);
+        // Beside an edge, within the rounding, the point on the edge counts.
+        var sign = (u + v + w) & Vector256.Create(-0.0);
+        u = Vector256.MaxNative(u ^ sign, Vector256<double>.Zero);
+        v = Vector256.MaxNative(v ^ sign, Vector256<double>.Zero);
+        w = Vector256.MaxNative(w ^ sign, Vector256<double>.Zero);
+        var depth = ((u * az) + (v * bz) + (w * cz)) / (u + v + w);
         var distances = Vector256.Create(_start) + (depth * _inverseZ);
         return Vector256.ConditionalSelect(isHit, distances, Vector256.Create(double.NaN));
     }
+
+    /// <summary>Tells whether the ray, at 0, passes within the range of three coordinates and a little more.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static Vector256<double> IsWithin(Vector256<double> a, Vector256<double> b, Vector256<double> c, Vector256<double> more) =>
+        Vector256.LessThanOrEqual(Vector256.MinNative(Vector256.MinNative(a, b), c), more)
+        & Vector256.GreaterThanOrEqual(Vector256.MaxNative(Vector256.MaxNative(a, b), c), -more);
 }
