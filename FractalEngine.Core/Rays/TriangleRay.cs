@@ -18,10 +18,10 @@ internal readonly struct TriangleRay
     public const int VectorsPerQuad = 9;
 
     // The rounding of a coordinate relative to the origin, as a part of it.
-    private const double CoordinateError = 1e-15;
+    private const double CoordinateError = 4e-15;
 
-    // Areas of rounding alone are less than so many times the product of the rounding of two coordinates.
-    private const double EdgeOnFactor = 4;
+    // The rounding of a direction after some levels of maps, as a part of its length.
+    private const double DirectionError = 1.6e-14;
 
     private readonly int _x;
     private readonly int _y;
@@ -111,28 +111,26 @@ internal readonly struct TriangleRay
         var w = (bx * ay) - (by * ax);
         var extent = Vector256.Abs(ax) + Vector256.Abs(ay) + Vector256.Abs(bx) + Vector256.Abs(by) + Vector256.Abs(cx) + Vector256.Abs(cy);
         var rounding = Vector256.Create(CoordinateError) * extent;
-        var reach = _widening + rounding;
-        var slack = reach * extent;
-        var largest = Vector256.MaxNative(Vector256.MaxNative(u, v), w);
-        var smallest = Vector256.MinNative(Vector256.MinNative(u, v), w);
-        var isHit = Vector256.GreaterThanOrEqual(smallest, -slack) | Vector256.LessThanOrEqual(largest, slack);
-        // A triangle that is seen edge on has no area but rounding, and is not hit. Neither is one without area.
-        isHit &= Vector256.GreaterThan(Vector256.Abs(u + v + w), Vector256.Create(EdgeOnFactor) * rounding * extent);
-        // One that is nearly so is as narrow as the rounding of the ray: areas then tell where it passes, but not that it ends.
-        isHit &= IsWithin(ax, bx, cx, reach) & IsWithin(ay, by, cy, reach);
-        // Beside an edge, within the rounding, the point on the edge counts.
-        var sign = (u + v + w) & Vector256.Create(-0.0);
-        u = Vector256.MaxNative(u ^ sign, Vector256<double>.Zero);
-        v = Vector256.MaxNative(v ^ sign, Vector256<double>.Zero);
-        w = Vector256.MaxNative(w ^ sign, Vector256<double>.Zero);
-        var depth = ((u * az) + (v * bz) + (w * cz)) / (u + v + w);
+        var sum = u + v + w;
+        // Seen edge on, a triangle has no area but that of rounding, also of the direction, and is not hit. Nor is one without area.
+        var depthExtent = Vector256.Abs(az) + Vector256.Abs(bz) + Vector256.Abs(cz);
+        var isSeen = Vector256.GreaterThan(
+            Vector256.Abs(sum), (rounding + (Vector256.Create(DirectionError) * depthExtent)) * extent);
+        // All areas get the sign of a hit; those that have the other one are of edges that the ray passes outside.
+        var sign = sum & Vector256.Create(-0.0);
+        (u, v, w) = (u ^ sign, v ^ sign, w ^ sign);
+        var isInside = Vector256.GreaterThanOrEqual(Vector256.MinNative(Vector256.MinNative(u, v), w), Vector256<double>.Zero);
+        (u, v, w) = (
+            Vector256.MaxNative(u, Vector256<double>.Zero), Vector256.MaxNative(v, Vector256<double>.Zero),
+            Vector256.MaxNative(w, Vector256<double>.Zero));
+        // Beside an edge the point on it counts, if the ray passes it by no more than its rounding.
+        sum = u + v + w;
+        var reach = (_widening + rounding) * sum;
+        var isBeside = Vector256.LessThanOrEqual(Vector256.Abs((u * ax) + (v * bx) + (w * cx)), reach)
+            & Vector256.LessThanOrEqual(Vector256.Abs((u * ay) + (v * by) + (w * cy)), reach);
+        var isHit = isSeen & (isInside | isBeside);
+        var depth = ((u * az) + (v * bz) + (w * cz)) / sum;
         var distances = Vector256.Create(_start) + (depth * _inverseZ);
         return Vector256.ConditionalSelect(isHit, distances, Vector256.Create(double.NaN));
     }
-
-    /// <summary>Tells whether the ray, at 0, passes within the range of three coordinates and a little more.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static Vector256<double> IsWithin(Vector256<double> a, Vector256<double> b, Vector256<double> c, Vector256<double> more) =>
-        Vector256.LessThanOrEqual(Vector256.MinNative(Vector256.MinNative(a, b), c), more)
-        & Vector256.GreaterThanOrEqual(Vector256.MaxNative(Vector256.MaxNative(a, b), c), -more);
 }
