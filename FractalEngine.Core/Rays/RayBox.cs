@@ -35,6 +35,13 @@ internal sealed class RayBox
     /// <summary>Inverse of half the largest side.</summary>
     public double InverseSize { get; }
 
+    /// <summary>Maps the frame of the box to its units: half the largest side, from the centre.</summary>
+    public AffineMap ToUnits =>
+        new(InverseSize * Matrix.Identity, -InverseSize * SimdAffineMap.ToVector(Centre));
+
+    /// <summary>Maps the units of the box to its frame.</summary>
+    public AffineMap FromUnits => new((1 / InverseSize) * Matrix.Identity, SimdAffineMap.ToVector(Centre));
+
     /// <summary>Moves the origin of a ray to where it may enter the box, if it is far away.</summary>
     /// <param name="ray">In the frame of the box.</param>
     /// <param name="search">The limit of the search, and its rounding.</param>
