@@ -100,7 +100,7 @@ internal sealed class FractalRayCaster : RayCaster
         frame.RemainingLevels = _hierarchy.Levels;
         frame.PathLength = 0;
         frame.Set(in approached);
-        if (!TryOpen(ref frame, ref stack.Entries(0), ref search, minRadius))
+        if (!TryOpen(ref frame, hasTestedPlanes: false, ref stack.Entries(0), ref search, minRadius))
         {
             return false;
         }
@@ -155,7 +155,7 @@ internal sealed class FractalRayCaster : RayCaster
             else
             {
                 inner.Bounds = bounds;
-                if (TryOpen(ref inner, ref stack.Entries(depth + 1), ref search, minRadius))
+                if (TryOpen(ref inner, child.HasTestedPlanes, ref stack.Entries(depth + 1), ref search, minRadius))
                 {
                     depth++;
                     stack.EnsureRoom(depth + 1);
@@ -180,16 +180,17 @@ internal sealed class FractalRayCaster : RayCaster
 
     /// <summary>Tests the children of a sub-fractal; false where the ray misses all of them.</summary>
     /// <param name="frame">The ray at the sub-fractal, whose bounds may be exchanged for those of its children themselves.</param>
+    /// <param name="hasTestedPlanes">True where the ray is known to hit the planes of the sub-fractal.</param>
     /// <param name="entries">Receives where the ray enters the children.</param>
     /// <param name="search">Receives the cost.</param>
     /// <param name="minRadius">Sub-fractals of this radius are replaced by the base mesh.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static bool TryOpen(ref RayFrame frame, ref float entries, ref RaySearch search, double minRadius)
+    private static bool TryOpen(ref RayFrame frame, bool hasTestedPlanes, ref float entries, ref RaySearch search, double minRadius)
     {
         var bounds = frame.Bounds;
         var widening = frame.Widening(in search);
         var limit = frame.LimitFor(search.MaxDistance);
-        if (bounds.HasPlanes)
+        if (!hasTestedPlanes && bounds.HasPlanes)
         {
             search.BoundTests++;
             if (!bounds.MayHitPlanes(in frame, widening, limit))

@@ -28,12 +28,17 @@ internal sealed class RayBounds
     // The normal, then the offset.
     private const int PlaneRows = 4;
 
+    // Slopes of rays nearly in a plane are rounding.
+    private const float MinSlope = 1e-7f;
+
     // As a part of the largest side.
     private const double MinThickness = 1e-9;
 
-    private readonly float[] _boxes;
+    private readonly float[] _rows;
+    private readonly int _rowCount;
     private readonly byte[] _order;
     private readonly RayChild[] _children;
+    private readonly RayNormals _normals;
     private readonly float[] _planes;
     private readonly SimdAffineMap _proxyMap;
     private readonly SimdAffineMap _inverseProxyMap;
@@ -41,20 +46,24 @@ internal sealed class RayBounds
     /// <summary>Prepares the bounds of a sub-fractal.</summary>
     /// <param name="subFractal">The sub-fractal.</param>
     /// <param name="baseBox">The box of the base mesh.</param>
-    /// <param name="boxes">Boxes around the children, in the frame of the sub-fractal.</param>
-    /// <param name="children">The children, which may be descendants; none for the base.</param>
+    /// <param name="descendants">The children, or descendants of them; none for the base.</param>
+    /// <param name="children">They for rays.</param>
+    /// <param name="normals">Directions of planes that bound them.</param>
     /// <param name="single">The bounds with the children themselves; null where these are they.</param>
     /// <param name="minInnerRadius">Radius of the smallest sub-fractal between this one and the children; infinite for none.</param>
     public RayBounds(
-        SubFractal subFractal, BoundingBox baseBox, BoundingBox[] boxes, RayChild[] children, RayBounds? single, double minInnerRadius)
+        SubFractal subFractal, BoundingBox baseBox, RayDescendant[] descendants, RayChild[] children, RayNormals normals, RayBounds? single,
+        double minInnerRadius)
     {
         Box = new(subFractal.Box);
         Radius = subFractal.Radius * Box.InverseSize;
         MinInnerRadius = minInnerRadius;
         Single = single ?? this;
         _children = children;
-        LanesPerOctant = (boxes.Length + LaneCount - 1) / LaneCount * LaneCount;
-        (_boxes, _order) = CreateBoxes([.. boxes.Select(box => box.Transform(Box.ToUnits))], LanesPerOctant);
+        _normals = normals;
+        _rowCount = BoxRows + normals.Count;
+        LanesPerOctant = (children.Length + LaneCount - 1) / LaneCount * LaneCount;
+        (_rows, _order) = CreateRows(descendants);
         _planes = subFractal.Hull is { } hull ? CreatePlanes(hull, subFractal.Box.Centre, Box.InverseSize) : [];
         // A flat box stays a little thick, so that the map has an inverse.
         var ownBox = subFractal.Box;
@@ -86,7 +95,7 @@ internal sealed class RayBounds
     public bool HasPlanes => _planes.Length > 0;
 
     /// <summary>Number of bytes of the arrays.</summary>
-    public long StorageBytes => (4L * (_boxes.Length + _planes.Length)) + _order.Length + (_children.Length * (long)Unsafe.SizeOf<RayChild>())
+    public long StorageBytes => (4L * (_rows.Length + _planes.Length)) + _order.Length + (_children.Length * (long)Unsafe.SizeOf<RayChild>())
         + 400 + (Single == this ? 0 : Single.StorageBytes) + _children.Sum(child => child.Group?.StorageBytes ?? 0);
 
     /// <summary>The box of the sub-fractal.</summary>
@@ -113,7 +122,7 @@ internal sealed class RayBounds
         var margin = Vector256.Create(2 * widening);
         var near = Vector256<float>.Zero;
         var far = Vector256.Create(limit);
-        var minSlope = Vector256.Create(1e-7f);
+        var minSlope = Vector256.Create(MinSlope);
         ref var row = ref MemoryMarshal.GetArrayDataReference(_planes);
         for (var i = 0; i < _planes.Length; i += PlaneRows * LaneCount)
         {
@@ -137,25 +146,42 @@ internal sealed class RayBounds
         return HorizontalMax(near) <= -HorizontalMax(-far);
     }
 
-    /// <summary>Finds the children whose boxes a ray may hit.</summary>
+    /// <summary>Finds the children whose bounds a ray may hit.</summary>
     /// <param name="ray">The ray in these units.</param>
     /// <param name="widening">What bounds are widened by on all sides.</param>
     /// <param name="limit">Largest parameter.</param>
     /// <param name="entries">The first of <see cref="LanesPerOctant"/> values: where the ray enters each box at the soonest.</param>
     /// <returns>A bit for each lane of the ray's octant.</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public ulong FindHits(in RayFrame ray, float widening, float limit, ref float entries)
+    public ulong FindHits(in RayFrame ray, float widening, float limit, ref float entries) => _normals.Count == 0
+        ? FindHits(in ray, widening, limit, ref entries, 0)
+        : FindHitsWithPlanes(in ray, widening, limit, ref entries);
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private ulong FindHitsWithPlanes(in RayFrame ray, float widening, float limit, ref float entries) =>
+        FindHits(in ray, widening, limit, ref entries, _normals.Count);
+
+    [SkipLocalsInit]
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private ulong FindHits(in RayFrame ray, float widening, float limit, ref float entries, int planeCount)
     {
+        var origin = ray.FloatOrigin;
         var inverse = ray.InverseDirection;
-        var toOrigin = ray.FloatOrigin * inverse;
+        var toOrigin = origin * inverse;
         var margin = Vector128.Abs(inverse) * Vector128.Create(widening);
         var nearShift = -toOrigin - margin;
         var farShift = margin - toOrigin;
         var (ix, iy, iz) = (Vector256.Create(inverse[0]), Vector256.Create(inverse[1]), Vector256.Create(inverse[2]));
         var (nearX, nearY, nearZ) = (Vector256.Create(nearShift[0]), Vector256.Create(nearShift[1]), Vector256.Create(nearShift[2]));
         var (farX, farY, farZ) = (Vector256.Create(farShift[0]), Vector256.Create(farShift[1]), Vector256.Create(farShift[2]));
+        Unsafe.SkipInit(out PlaneCrossings crossings);
+        if (planeCount > 0)
+        {
+            crossings.Set(_normals, origin, ray.FloatDirection, widening);
+        }
+
         var last = Vector256.Create(limit);
-        ref var row = ref Unsafe.Add(ref MemoryMarshal.GetArrayDataReference(_boxes), (nint)(uint)(ray.Octant * LanesPerOctant * BoxRows));
+        ref var row = ref Unsafe.Add(ref MemoryMarshal.GetArrayDataReference(_rows), (nint)(uint)(ray.Octant * LanesPerOctant * _rowCount));
         var hits = 0ul;
         for (var first = 0; first < LanesPerOctant; first += LaneCount)
         {
@@ -167,40 +193,58 @@ internal sealed class RayBounds
                 Vector256.MinNative(
                     Vector256.FusedMultiplyAdd(Row(ref row, 3), ix, farX), Vector256.FusedMultiplyAdd(Row(ref row, 4), iy, farY)),
                 Vector256.MinNative(Vector256.FusedMultiplyAdd(Row(ref row, 5), iz, farZ), last));
+            row = ref Unsafe.Add(ref row, BoxRows * LaneCount);
+            for (var plane = 0; plane < planeCount; plane++)
+            {
+                crossings.Clip(plane, Row(ref row, 0), ref near, ref far);
+                row = ref Unsafe.Add(ref row, LaneCount);
+            }
+
             near.StoreUnsafe(ref entries, (nuint)first);
             hits |= (ulong)Vector256.LessThanOrEqual(near, far).ExtractMostSignificantBits() << first;
-            row = ref Unsafe.Add(ref row, BoxRows * LaneCount);
         }
 
         return hits;
     }
 
-    private static (float[] Boxes, byte[] Order) CreateBoxes(BoundingBox[] boxes, int laneCount)
+    /// <summary>Lays the bounds of children out for each octant, a vector of lanes a row.</summary>
+    private (float[] Rows, byte[] Order) CreateRows(RayDescendant[] descendants)
     {
-        var rows = new float[OctantCount * laneCount * BoxRows];
-        var order = new byte[OctantCount * laneCount];
+        var boxes = descendants.Select(descendant => descendant.Box.Transform(Box.ToUnits)).ToArray();
+        var rows = new float[OctantCount * LanesPerOctant * _rowCount];
+        var order = new byte[OctantCount * LanesPerOctant];
+        Span<double> values = stackalloc double[_rowCount];
         for (var octant = 0; octant < OctantCount; octant++)
         {
             var signs = new Vector((octant & 1) == 0 ? 1 : -1, (octant & 2) == 0 ? 1 : -1, (octant & 4) == 0 ? 1 : -1);
             int[] sorted = [.. Enumerable.Range(0, boxes.Length).OrderBy(i => Vector.Dot(boxes[i].Centre, signs))];
-            for (var lane = 0; lane < laneCount; lane++)
+            for (var lane = 0; lane < LanesPerOctant; lane++)
             {
+                values.Clear();
                 // Nothing enters a box that ends before it begins.
                 var near = double.PositiveInfinity * signs;
                 var far = -near;
                 if (lane < sorted.Length)
                 {
-                    order[(octant * laneCount) + lane] = (byte)sorted[lane];
+                    var descendant = descendants[sorted[lane]];
+                    order[(octant * LanesPerOctant) + lane] = (byte)sorted[lane];
                     var (centre, halfSize) = (boxes[sorted[lane]].Centre, 0.5 * boxes[sorted[lane]].Size);
                     near = centre - halfSize.Stretch(signs);
                     far = centre + halfSize.Stretch(signs);
+                    for (var plane = 0; plane < _normals.Count; plane++)
+                    {
+                        var offset = descendant.Target.SupportBound(descendant.Map, _normals[plane])
+                            - Vector.Dot(_normals[plane], SimdAffineMap.ToVector(Box.Centre));
+                        values[BoxRows + plane] = offset * Box.InverseSize;
+                    }
                 }
 
-                ReadOnlySpan<double> values = [near.X, near.Y, near.Z, far.X, far.Y, far.Z];
-                var group = (octant * laneCount) + (lane / LaneCount * LaneCount);
-                for (var row = 0; row < BoxRows; row++)
+                (values[0], values[1], values[2]) = near;
+                (values[3], values[4], values[5]) = far;
+                var group = (octant * LanesPerOctant) + (lane / LaneCount * LaneCount);
+                for (var row = 0; row < _rowCount; row++)
                 {
-                    rows[(group * BoxRows) + (row * LaneCount) + (lane % LaneCount)] = (float)values[row];
+                    rows[(group * _rowCount) + (row * LaneCount) + (lane % LaneCount)] = (float)values[row];
                 }
             }
         }
@@ -236,5 +280,42 @@ internal sealed class RayBounds
         var half = Vector128.MaxNative(v.GetLower(), v.GetUpper());
         half = Vector128.MaxNative(half, Vector128.Shuffle(half, Vector128.Create(2, 3, 0, 1)));
         return Math.Max(half[0], half[1]);
+    }
+
+    /// <summary>Where a ray crosses planes of common directions, as functions of their offsets.</summary>
+    [InlineArray(4 * LaneCount)]
+    private struct PlaneCrossings
+    {
+        private float _first;
+
+        /// <summary>Prepares the directions for a ray.</summary>
+        public void Set(RayNormals normals, Vector128<float> origin, Vector128<float> direction, float widening)
+        {
+            var slope = (normals.X * Vector256.Create(direction[0])) + (normals.Y * Vector256.Create(direction[1]))
+                + (normals.Z * Vector256.Create(direction[2]));
+            var originHeight = (normals.X * Vector256.Create(origin[0])) + (normals.Y * Vector256.Create(origin[1]))
+                + (normals.Z * Vector256.Create(origin[2]));
+            var inverse = Vector256<float>.One / slope;
+            var shift = (Vector256.Create(2 * widening) - originHeight) * inverse;
+            var isEntry = Vector256.LessThan(slope, Vector256.Create(-MinSlope));
+            var isExit = Vector256.GreaterThan(slope, Vector256.Create(MinSlope));
+            ref var first = ref _first;
+            (isEntry & inverse).StoreUnsafe(ref first);
+            Vector256.ConditionalSelect(isEntry, shift, Vector256.Create(float.NegativeInfinity)).StoreUnsafe(ref first, LaneCount);
+            (isExit & inverse).StoreUnsafe(ref first, 2 * LaneCount);
+            Vector256.ConditionalSelect(isExit, shift, Vector256.Create(float.PositiveInfinity)).StoreUnsafe(ref first, 3 * LaneCount);
+        }
+
+        /// <summary>Clips the parts of a ray within eight bounds at eight parallel planes.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public readonly void Clip(int plane, Vector256<float> offsets, ref Vector256<float> near, ref Vector256<float> far)
+        {
+            ref var factors = ref Unsafe.Add(ref Unsafe.AsRef(in _first), plane);
+            near = Vector256.MaxNative(near, Vector256.FusedMultiplyAdd(
+                offsets, Vector256.Create(factors), Vector256.Create(Unsafe.Add(ref factors, LaneCount))));
+            far = Vector256.MinNative(far, Vector256.FusedMultiplyAdd(
+                offsets, Vector256.Create(Unsafe.Add(ref factors, 2 * LaneCount)),
+                Vector256.Create(Unsafe.Add(ref factors, 3 * LaneCount))));
+        }
     }
 }

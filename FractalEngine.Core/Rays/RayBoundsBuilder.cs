@@ -12,9 +12,6 @@ internal static class RayBoundsBuilder
     /// <summary>Most generations of children that bounds reach down.</summary>
     public const int MaxGenerations = 3;
 
-    // A bit of a word for each. More cost more tests than they save frames.
-    private const int MaxMergedChildren = 64;
-
     // As a part of the sub-fractal: what rounding widens bounds by must be little for its descendants too.
     private const double MinMergedSize = 1.0 / 64;
 
@@ -25,65 +22,69 @@ internal static class RayBoundsBuilder
     public static RayBounds Build(FractalHierarchy hierarchy, long level, BoundingBox baseBox)
     {
         var subFractal = hierarchy.At(level);
-        var box = new RayBox(subFractal.Box);
-        var generation = RayDescendant.ChildrenOf(subFractal).ToArray();
-        var single = Create(subFractal, generation, null, double.PositiveInfinity);
+        var children = RayDescendant.ChildrenOf(subFractal, level, hierarchy).ToArray();
+        var single = Create(subFractal, children, null, double.PositiveInfinity, hierarchy, baseBox);
         var minInnerRadius = double.PositiveInfinity;
-        for (var i = 1; i < MaxGenerations && TryMerge() is { } merged; i++)
+        for (var i = 1; i < MaxGenerations && TryMerge(children, subFractal.Radius, ref minInnerRadius, hierarchy) is { } merged; i++)
         {
-            generation = merged;
+            children = merged;
         }
 
-        return minInnerRadius < double.PositiveInfinity ? Create(subFractal, generation, single, minInnerRadius * box.InverseSize) : single;
+        return minInnerRadius < double.PositiveInfinity
+            ? Create(subFractal, children, single, minInnerRadius, hierarchy, baseBox)
+            : single;
+    }
 
-        RayDescendant[]? TryMerge()
+    /// <summary>Puts the children of descendants in their place; null where none has children, or where they are too many.</summary>
+    /// <param name="descendants">The descendants.</param>
+    /// <param name="radius">Radius of the sub-fractal.</param>
+    /// <param name="minInnerRadius">Radius of the smallest descendant that was replaced so far.</param>
+    /// <param name="hierarchy">The hierarchy.</param>
+    private static RayDescendant[]? TryMerge(
+        RayDescendant[] descendants, double radius, ref double minInnerRadius, FractalHierarchy hierarchy)
+    {
+        var merged = new List<RayDescendant>();
+        var innerRadius = double.PositiveInfinity;
+        foreach (var descendant in descendants)
         {
-            var merged = new List<RayDescendant>();
-            var innerRadius = minInnerRadius;
-            foreach (var descendant in generation)
+            var size = descendant.Norm * descendant.Target.Radius;
+            if (descendant.IsGroup || descendant.Target.Children.Length == 0 || size < MinMergedSize * radius)
             {
-                var inner = hierarchy.At(descendant.LevelStep.RemainingLevels(level));
-                if (descendant.Group is not null || inner.Children.Length == 0
-                    || descendant.Norm * inner.Radius < MinMergedSize * subFractal.Radius)
-                {
-                    merged.Add(descendant);
-                }
-                else
-                {
-                    innerRadius = Math.Min(innerRadius, descendant.Norm * inner.Radius);
-                    merged.AddRange(RayDescendant.ChildrenOf(inner).Select(child => descendant.Then(child, Target(child, descendant))));
-                }
-
-                if (merged.Count > MaxMergedChildren)
-                {
-                    return null;
-                }
+                merged.Add(descendant);
+            }
+            else
+            {
+                innerRadius = Math.Min(innerRadius, size);
+                merged.AddRange(descendant.Children(hierarchy));
             }
 
-            if (innerRadius == minInnerRadius && minInnerRadius == double.PositiveInfinity)
+            if (merged.Count > RayBounds.MaxChildren)
             {
                 return null;
             }
-
-            minInnerRadius = innerRadius;
-            return [.. merged];
         }
 
-        SubFractal Target(RayDescendant child, RayDescendant parent) => child.Group
-            ?? hierarchy.At(parent.LevelStep.Then(child.LevelStep).RemainingLevels(level));
+        minInnerRadius = Math.Min(minInnerRadius, innerRadius);
+        return innerRadius < double.PositiveInfinity ? [.. merged] : null;
+    }
 
-        RayBounds Create(SubFractal bounded, RayDescendant[] descendants, RayBounds? unmerged, double innerRadius)
+    private static RayBounds Create(
+        SubFractal subFractal, RayDescendant[] descendants, RayBounds? single, double minInnerRadius, FractalHierarchy hierarchy,
+        BoundingBox baseBox)
+    {
+        var box = new RayBox(subFractal.Box);
+        var normals = RayNormals.Of(subFractal, descendants);
+        var children = new RayChild[descendants.Length];
+        for (var i = 0; i < children.Length; i++)
         {
-            var frame = new RayBox(bounded.Box);
-            var children = descendants.Select(descendant =>
-            {
-                var group = descendant.Group is { } members
-                    ? Create(members, [.. RayDescendant.ChildrenOf(members)], null, double.PositiveInfinity)
-                    : null;
-                var entered = group?.Box ?? new RayBox(hierarchy.At(descendant.LevelStep.RemainingLevels(level)).Box);
-                return new RayChild(descendant, frame, entered, group);
-            });
-            return new(bounded, baseBox, [.. descendants.Select(descendant => descendant.Box)], [.. children], unmerged, innerRadius);
+            var (target, level) = (descendants[i].Target, descendants[i].RemainingLevels);
+            var group = descendants[i].IsGroup
+                ? Create(
+                    target, [.. RayDescendant.ChildrenOf(target, level, hierarchy)], null, double.PositiveInfinity, hierarchy, baseBox)
+                : null;
+            children[i] = new(descendants[i], box, group?.Box ?? new(target.Box), group, normals.Contain(descendants[i]));
         }
+
+        return new(subFractal, baseBox, descendants, children, normals, single, minInnerRadius * box.InverseSize);
     }
 }

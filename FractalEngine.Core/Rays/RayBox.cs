@@ -25,12 +25,16 @@ internal sealed class RayBox
         var error = BoxError * BoundingVolume.MaxAbsCoordinate(box);
         var size = Math.Max(halfSize.MaxAbsComponent(), error);
         InverseSize = size > 0 ? 1 / size : 1;
+        Size = 1 / InverseSize;
         Centre = SimdAffineMap.ToVector256(box.Centre);
         _halfSize = SimdAffineMap.ToVector256(halfSize + (error * Vector.One));
     }
 
     /// <summary>The centre: x, y, z, 0.</summary>
     public Vector256<double> Centre { get; }
+
+    /// <summary>Half the largest side.</summary>
+    public double Size { get; }
 
     /// <summary>Inverse of half the largest side.</summary>
     public double InverseSize { get; }
@@ -40,7 +44,7 @@ internal sealed class RayBox
         new(InverseSize * Matrix.Identity, -InverseSize * SimdAffineMap.ToVector(Centre));
 
     /// <summary>Maps the units of the box to its frame.</summary>
-    public AffineMap FromUnits => new((1 / InverseSize) * Matrix.Identity, SimdAffineMap.ToVector(Centre));
+    public AffineMap FromUnits => new(Size * Matrix.Identity, SimdAffineMap.ToVector(Centre));
 
     /// <summary>Moves the origin of a ray to where it may enter the box, if it is far away.</summary>
     /// <param name="ray">In the frame of the box.</param>

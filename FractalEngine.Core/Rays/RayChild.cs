@@ -22,12 +22,14 @@ internal readonly struct RayChild
     /// <param name="parent">The box whose units the ray leaves.</param>
     /// <param name="entered">The box of the sub-fractal.</param>
     /// <param name="group">The bounds of the group that it stands for; null for a sub-fractal.</param>
-    public RayChild(RayDescendant descendant, RayBox parent, RayBox entered, RayBounds? group)
+    /// <param name="hasTestedPlanes">True where the bounds of the parent have the planes of the sub-fractal.</param>
+    public RayChild(RayDescendant descendant, RayBox parent, RayBox entered, RayBounds? group, bool hasTestedPlanes)
     {
         var map = entered.ToUnits * descendant.Inverse * parent.FromUnits;
         _map = new(map);
         _levelStep = descendant.LevelStep;
         Group = group;
+        HasTestedPlanes = hasTestedPlanes;
         PathLength = descendant.Path.Length;
         for (var i = 0; i < PathLength; i++)
         {
@@ -56,6 +58,9 @@ internal readonly struct RayChild
 
     /// <summary>True where a ray that enters the child's bounds may still be far from those of the sub-fractal.</summary>
     public bool MayBeFar { get; }
+
+    /// <summary>True where a ray that enters the child's bounds hits the planes of the sub-fractal too.</summary>
+    public bool HasTestedPlanes { get; }
 
     /// <summary>Upper bound of the factor by which the map lengthens vectors.</summary>
     public double Norm { get; }

@@ -101,15 +101,21 @@ internal struct RayFrame
     public void Set(in LocalRay ray)
     {
         var box = Bounds.Box;
-        var size = 1 / box.InverseSize;
-        var speed = SimdAffineMap.ToVector(ray.Direction).Length();
         Origin = (ray.Origin - box.Centre) * Vector256.Create(box.InverseSize);
         Start = ray.Start;
-        PerDistance = speed * box.InverseSize;
-        DistancePer = size / speed;
-        Scale = ray.Scale * size;
+        PerDistance = box.InverseSize;
+        DistancePer = box.Size;
+        Scale = ray.Scale * box.Size;
         InverseScale = ray.InverseScale * box.InverseSize;
-        SetDirection(ray.Direction * Vector256.Create(1 / speed));
+        // Rays of a query in the frame of the fractal have unit directions.
+        if (ray.Scale == 1 && ray.InverseScale == 1)
+        {
+            SetDirection(ray.Direction);
+        }
+        else
+        {
+            Turn(ray.Direction, box.InverseSize);
+        }
     }
 
     /// <summary>Converts the ray back to the frame of the sub-fractal.</summary>
@@ -117,10 +123,9 @@ internal struct RayFrame
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public readonly LocalRay ToLocal(RayBox box)
     {
-        var size = 1 / box.InverseSize;
         return new(
-            box.Centre + (Origin * Vector256.Create(size)), Direction * Vector256.Create(PerDistance * size), Start,
-            Scale * box.InverseSize, InverseScale * size);
+            box.Centre + (Origin * Vector256.Create(box.Size)), Direction * Vector256.Create(PerDistance * box.Size), Start,
+            Scale * box.InverseSize, InverseScale * box.Size);
     }
 
     /// <summary>Takes the ray of another frame to a child, from where it enters the child's box.</summary>
