@@ -106,9 +106,9 @@ internal sealed class FractalRayCaster : RayCaster
         }
 
         var isHit = false;
+        var hits = frame.Hits;
         while (true)
         {
-            var hits = frame.Hits;
             if (hits == 0)
             {
                 if (--depth < 0)
@@ -117,11 +117,12 @@ internal sealed class FractalRayCaster : RayCaster
                 }
 
                 frame = ref stack[depth];
+                hits = frame.Hits;
                 continue;
             }
 
-            frame.Hits = hits & (hits - 1);
             var lane = BitOperations.TrailingZeroCount(hits);
+            hits &= hits - 1;
             double entry = Unsafe.Add(ref stack.Entries(depth), lane);
             if (frame.Start + (entry * frame.DistancePer) > search.MaxDistance)
             {
@@ -157,6 +158,8 @@ internal sealed class FractalRayCaster : RayCaster
                 inner.Bounds = bounds;
                 if (TryOpen(ref inner, child.HasTestedPlanes, ref stack.Entries(depth + 1), ref search, minRadius))
                 {
+                    frame.Hits = hits;
+                    hits = inner.Hits;
                     depth++;
                     stack.EnsureRoom(depth + 1);
                     frame = ref stack[depth];
@@ -199,8 +202,9 @@ internal sealed class FractalRayCaster : RayCaster
             }
         }
 
+        var innerRadius = frame.Scale * bounds.MinInnerRadius;
         var farthest = frame.Start + (MaxReach * frame.DistancePer);
-        if (frame.Scale * bounds.MinInnerRadius <= Math.Max(minRadius, search.Footprint.RadiusAt(farthest)))
+        if (innerRadius <= minRadius || innerRadius < search.Footprint.RadiusAt(farthest))
         {
             bounds = bounds.Single;
             frame.Bounds = bounds;

@@ -51,7 +51,7 @@ internal struct RayFrame
     /// <summary>The lane of the child that was entered last.</summary>
     public int Lane;
 
-    /// <summary>A bit for each child that the ray has yet to visit.</summary>
+    /// <summary>A bit for each child that the ray has yet to visit, as of when it went on to the last one.</summary>
     public ulong Hits;
 
     /// <summary>Distance of the origin along the ray of the query.</summary>
