@@ -96,7 +96,7 @@ internal sealed class FractalRayCaster : RayCaster
         var stack = context.RayStack;
         var depth = 0;
         ref var frame = ref stack[0];
-        frame.Bounds = rootBounds;
+        frame.SetBounds(rootBounds);
         frame.RemainingLevels = _hierarchy.Levels;
         frame.PathLength = 0;
         frame.Set(in approached);
@@ -155,7 +155,7 @@ internal sealed class FractalRayCaster : RayCaster
             }
             else
             {
-                inner.Bounds = bounds;
+                inner.SetBounds(bounds);
                 if (TryOpen(ref inner, child.HasTestedPlanes, ref stack.Entries(depth + 1), ref search, minRadius))
                 {
                     frame.Hits = hits;
@@ -207,7 +207,7 @@ internal sealed class FractalRayCaster : RayCaster
         if (innerRadius <= minRadius || innerRadius < search.Footprint.RadiusAt(farthest))
         {
             bounds = bounds.Single;
-            frame.Bounds = bounds;
+            frame.SetBounds(bounds);
         }
 
         search.BoundTests += bounds.LanesPerOctant;

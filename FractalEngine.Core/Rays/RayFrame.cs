@@ -96,6 +96,16 @@ internal struct RayFrame
         return Math.Max(reach.Minimum.MaxAbsComponent(), reach.Maximum.MaxAbsComponent()) < MaxOriginDistance;
     }
 
+    /// <summary>Sets the bounds. Those of the last ray are often the same, and to write references costs more than to compare them.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public void SetBounds(RayBounds bounds)
+    {
+        if (Bounds != bounds)
+        {
+            Bounds = bounds;
+        }
+    }
+
     /// <summary>Begins with a ray in the frame of the sub-fractal.</summary>
     /// <param name="ray">Starts near the box.</param>
     public void Set(in LocalRay ray)
