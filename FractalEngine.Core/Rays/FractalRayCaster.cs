@@ -5,7 +5,6 @@ using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Collision.Fractals;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Hierarchy;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using Vector = FractalEngine.Core.Maths.Vector;
 
@@ -32,6 +31,8 @@ internal sealed class FractalRayCaster : RayCaster
     private readonly Fractal _fractal;
     private readonly FractalHierarchy _hierarchy;
     private readonly TriangleBvh _bvh;
+    private readonly bool _isEmpty;
+    private readonly double _radius;
     private readonly double _minRadius;
     private readonly RayLevels _levels;
     private readonly RayPlanes _basePlanes;
@@ -43,6 +44,9 @@ internal sealed class FractalRayCaster : RayCaster
         _hierarchy = fractal.Hierarchy;
         _bvh = TriangleBvh.For(fractal.BaseMesh);
         _minRadius = ExactFractalCollider.MinRadius(_hierarchy.Root);
+        _isEmpty = _hierarchy.Root.Box.IsEmpty;
+        _radius = _hierarchy.Root.Radius;
+        MaxCoordinate = BoundingVolume.MaxAbsCoordinate(_hierarchy.Root.Box);
         _levels = new(_hierarchy);
         _basePlanes = new(fractal.BaseMesh);
     }
@@ -51,7 +55,7 @@ internal sealed class FractalRayCaster : RayCaster
     public override long StorageBytes => _hierarchy.StorageBytes + _bvh.StorageBytes + _levels.StorageBytes + _basePlanes.StorageBytes;
 
     /// <inheritdoc/>
-    private protected override BoundingBox Bounds => _hierarchy.Root.Box;
+    private protected override double MaxCoordinate { get; }
 
     /// <inheritdoc/>
     internal override (Vector A, Vector B, Vector C) ResolveFace(
@@ -71,22 +75,21 @@ internal sealed class FractalRayCaster : RayCaster
     /// <inheritdoc/>
     internal override bool TryHit(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
     {
-        var root = _hierarchy.Root;
-        if (root.Box.IsEmpty)
+        if (_isEmpty)
         {
             return false;
         }
 
         // Below the rounding of the ray, all that it comes near seems hit.
         var minRadius = Math.Max(_minRadius, MinRadiusInErrors * search.Error);
-        var rootBounds = _levels.At(_hierarchy.Levels);
-        if (_hierarchy.Levels == 0 || ray.Scale * root.Radius <= minRadius)
+        if (_hierarchy.Levels == 0 || ray.Scale * _radius <= minRadius)
         {
             var isRootHit = TryHitBase(in ray, ref search);
             pathLength = isRootHit ? 0 : pathLength;
             return isRootHit;
         }
 
+        var rootBounds = _levels.At(_hierarchy.Levels);
         var approached = ray;
         if (!rootBounds.Box.TryApproach(ref approached, in search))
         {
