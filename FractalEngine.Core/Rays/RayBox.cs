@@ -25,6 +25,7 @@ internal sealed class RayBox
         var error = BoxError * BoundingVolume.MaxAbsCoordinate(box);
         var size = Math.Max(halfSize.MaxAbsComponent(), error);
         InverseSize = size > 0 ? 1 / size : 1;
+        Size = 1 / InverseSize;
         Centre = SimdAffineMap.ToVector256(box.Centre);
         _halfSize = SimdAffineMap.ToVector256(halfSize + (error * Vector.One));
     }
@@ -32,8 +33,18 @@ internal sealed class RayBox
     /// <summary>The centre: x, y, z, 0.</summary>
     public Vector256<double> Centre { get; }
 
+    /// <summary>Half the largest side.</summary>
+    public double Size { get; }
+
     /// <summary>Inverse of half the largest side.</summary>
     public double InverseSize { get; }
+
+    /// <summary>Maps the frame of the box to its units: half the largest side, from the centre.</summary>
+    public AffineMap ToUnits =>
+        new(InverseSize * Matrix.Identity, -InverseSize * SimdAffineMap.ToVector(Centre));
+
+    /// <summary>Maps the units of the box to its frame.</summary>
+    public AffineMap FromUnits => new(Size * Matrix.Identity, SimdAffineMap.ToVector(Centre));
 
     /// <summary>Moves the origin of a ray to where it may enter the box, if it is far away.</summary>
     /// <param name="ray">In the frame of the box.</param>

@@ -1,6 +1,5 @@
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -33,8 +32,8 @@ public abstract class RayCaster
     /// <summary>Bytes that the caster keeps beside the mesh or the fractal it was made from.</summary>
     public abstract long StorageBytes { get; }
 
-    /// <summary>A box around the shape.</summary>
-    private protected abstract BoundingBox Bounds { get; }
+    /// <summary>The largest absolute coordinate of the shape.</summary>
+    private protected abstract double MaxCoordinate { get; }
 
     /// <summary>Makes the caster of a mesh.</summary>
     /// <remarks>Cost: that of a hierarchy of the mesh, O(n·log n) for n faces.</remarks>
@@ -137,9 +136,9 @@ public abstract class RayCaster
     /// <summary>An upper bound of how far rounding moves a point of a ray or of a target.</summary>
     /// <param name="origin">Origin of the ray.</param>
     /// <param name="start">Distance at which it starts.</param>
-    /// <param name="bounds">Bounds of the shape.</param>
-    internal static double RoundingError(Vector origin, double start, BoundingBox bounds) =>
-        Collider.RoundingError * (origin.MaxAbsComponent() + start + BoundingVolume.MaxAbsCoordinate(bounds));
+    /// <param name="maxCoordinate">The largest absolute coordinate of the shape.</param>
+    internal static double RoundingError(Vector origin, double start, double maxCoordinate) =>
+        Collider.RoundingError * (origin.MaxAbsComponent() + start + maxCoordinate);
 
     /// <summary>Checks the arguments of a query, and returns the direction of length 1.</summary>
     internal static Vector CheckedUnitDirection(in Ray ray, double minDistance, double maxDistance)
@@ -177,7 +176,7 @@ public abstract class RayCaster
         context.ClearPath();
         pathLength = 0;
         var ray = LocalRay.Of(origin, unitDirection, minDistance);
-        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, RoundingError(origin, minDistance, Bounds))
+        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, RoundingError(origin, minDistance, MaxCoordinate))
         {
             Footprint = footprint,
         };

@@ -2,6 +2,7 @@ using System.Numerics;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -125,7 +126,7 @@ public sealed class SceneRayCaster
         context.ClearPath();
         found = null;
         pathLength = 0;
-        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, RayCaster.RoundingError(origin, minDistance, _bounds))
+        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, RayCaster.RoundingError(origin, minDistance, BoundingVolume.MaxAbsCoordinate(_bounds)))
         {
             Footprint = footprint,
         };
