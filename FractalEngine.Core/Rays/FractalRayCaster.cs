@@ -7,7 +7,6 @@ using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Core.Rays;
 

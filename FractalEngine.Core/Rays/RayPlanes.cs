@@ -71,8 +71,8 @@ internal sealed class RayPlanes
         {
             var (nx, ny, nz) = (_rows[i], _rows[i + 1], _rows[i + 2]);
             var height = _rows[i + 3] + widening - ((nx * ox) + (ny * oy) + (nz * oz));
-            var slope = (nx * dx) + (ny * dy) + (nz * dz);
-            // A ray in a plane is infinitely far on one side of its crossing; the widening exceeds what the sign may hide.
+            // A ray in a plane is infinitely far on one side of its crossing; a slope of −0 would say the other side.
+            var slope = (nx * dx) + (ny * dy) + (nz * dz) + Vector256<double>.Zero;
             var crossing = height / slope;
             var isEntry = Vector256.LessThan(slope, Vector256<double>.Zero);
             near = Vector256.MaxNative(near, Vector256.ConditionalSelect(isEntry, crossing, near));
