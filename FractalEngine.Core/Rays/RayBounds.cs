@@ -101,7 +101,8 @@ internal sealed class RayBounds
 
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => (4L * (_rows.Length + _planes.Length)) + _order.Length
-        + (_children.Length * (long)Unsafe.SizeOf<RayChild>()) + 400 + (Single == this ? 0 : Single.StorageBytes) + _children.Sum(child => child.Group?.StorageBytes ?? 0);
+        + (_children.Length * (long)Unsafe.SizeOf<RayChild>()) + 400 + (Single == this ? 0 : Single.StorageBytes)
+        + _children.Sum(child => child.Group?.StorageBytes ?? 0);
 
     /// <summary>The box of the sub-fractal.</summary>
     public RayBox Box { get; }
