@@ -15,8 +15,8 @@ namespace FractalEngine.Core.Rays;
 /// before the others.
 /// </summary>
 /// <remarks>
-/// Sub-fractals smaller than <see cref="ExactFractalCollider.RelativePrecision"/> of the whole are replaced by the base mesh, and so is what
-/// a ray still has to visit after a million bounds. Why no hit is lost is explained in docs/rays.md.
+/// Sub-fractals smaller than <see cref="ExactFractalCollider.RelativePrecision"/> of the whole are replaced by the base mesh, and so is
+/// what a ray still has to visit after a million bounds. Why no hit is lost is explained in docs/rays.md.
 /// </remarks>
 internal sealed class FractalRayCaster : RayCaster
 {

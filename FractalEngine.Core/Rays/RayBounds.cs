@@ -100,8 +100,9 @@ internal sealed class RayBounds
     public bool HasPlanes => _planes.Length > 0;
 
     /// <summary>Number of bytes of the arrays.</summary>
-    public long StorageBytes => (4L * (_rows.Length + _planes.Length)) + _order.Length + (_children.Length * (long)Unsafe.SizeOf<RayChild>())
-        + 400 + (Single == this ? 0 : Single.StorageBytes) + _children.Sum(child => child.Group?.StorageBytes ?? 0);
+    public long StorageBytes => (4L * (_rows.Length + _planes.Length)) + _order.Length
+        + (_children.Length * (long)Unsafe.SizeOf<RayChild>()) + 400 + (Single == this ? 0 : Single.StorageBytes)
+        + _children.Sum(child => child.Group?.StorageBytes ?? 0);
 
     /// <summary>The box of the sub-fractal.</summary>
     public RayBox Box { get; }
@@ -198,6 +199,7 @@ internal sealed class RayBounds
                 Vector256.MinNative(
                     Vector256.FusedMultiplyAdd(Row(ref row, 3), ix, farX), Vector256.FusedMultiplyAdd(Row(ref row, 4), iy, farY)),
                 Vector256.MinNative(Vector256.FusedMultiplyAdd(Row(ref row, 5), iz, farZ), last));
+            near.StoreUnsafe(ref entries, (nuint)first);
             row = ref Unsafe.Add(ref row, BoxRows * LaneCount);
             for (var plane = 0; plane < planeCount; plane++)
             {
@@ -205,7 +207,6 @@ internal sealed class RayBounds
                 row = ref Unsafe.Add(ref row, LaneCount);
             }
 
-            near.StoreUnsafe(ref entries, (nuint)first);
             hits |= (ulong)Vector256.LessThanOrEqual(near, far).ExtractMostSignificantBits() << first;
         }
 

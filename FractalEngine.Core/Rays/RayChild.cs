@@ -17,7 +17,7 @@ internal readonly struct RayChild
     private readonly LevelStep _levelStep;
     private readonly ulong _path;
 
-    /// <summary>Prepares a child.</summary>
+    /// <summary>Prepares a child for the rays that enter it.</summary>
     /// <param name="descendant">The sub-fractal and how it is reached.</param>
     /// <param name="parent">The box whose units the ray leaves.</param>
     /// <param name="entered">The box of the sub-fractal.</param>

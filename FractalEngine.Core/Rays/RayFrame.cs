@@ -27,7 +27,7 @@ internal struct RayFrame
     /// <summary>The bounds of the sub-fractal.</summary>
     public RayBounds Bounds;
 
-    /// <summary>Its remaining levels.</summary>
+    /// <summary>Remaining levels of the sub-fractal.</summary>
     public long RemainingLevels;
 
     /// <summary>Where the ray starts: x, y, z, 0.</summary>
@@ -96,7 +96,7 @@ internal struct RayFrame
         return Math.Max(reach.Minimum.MaxAbsComponent(), reach.Maximum.MaxAbsComponent()) < MaxOriginDistance;
     }
 
-    /// <summary>Sets the bounds. Those of the last ray are often the same, and to write references costs more than to compare them.</summary>
+    /// <summary>Sets the bounds. Often the last ray left the same, and to write a reference costs more than to compare it.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void SetBounds(RayBounds bounds)
     {

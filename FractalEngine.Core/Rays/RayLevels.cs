@@ -4,7 +4,9 @@ using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Core.Rays;
 
-/// <summary>The bounds for rays of all levels of a fractal, made when the first ray comes to a level. Levels that recur share theirs.</summary>
+/// <summary>
+/// The bounds for rays of all levels of a fractal, made when the first ray comes to a level. Levels that recur share theirs.
+/// </summary>
 internal sealed class RayLevels
 {
     // Up to here levels are found without a search.

@@ -26,19 +26,19 @@ internal sealed class RayNormals
         Z = CreateLanes(normal => normal.Z);
     }
 
-    /// <summary>Number of directions.</summary>
+    /// <summary>Number of directions; 0 where planes are of no use.</summary>
     public int Count => _normals.Length;
 
-    /// <summary>First coordinates; 0 in lanes that are left over.</summary>
+    /// <summary>First coordinates of all directions; 0 in lanes that are left over.</summary>
     public Vector256<float> X { get; }
 
-    /// <summary>Second coordinates.</summary>
+    /// <summary>Second coordinates of all directions.</summary>
     public Vector256<float> Y { get; }
 
-    /// <summary>Third coordinates.</summary>
+    /// <summary>Third coordinates of all directions.</summary>
     public Vector256<float> Z { get; }
 
-    /// <summary>A unit vector.</summary>
+    /// <summary>A direction as a unit vector.</summary>
     public Vector this[int index] => _normals[index];
 
     /// <summary>Finds the directions for the children of a sub-fractal; none where they are of no use.</summary>
