@@ -21,7 +21,10 @@ namespace FractalEngine.Core.Rays;
 internal sealed class FractalRayCaster : RayCaster
 {
     // About a fifth of a second.
-    private const long MaxBoundTests = 1_000_000;
+    public const long MaxBoundTests = 1_000_000;
+
+    // Beyond it, the rounding of a ray in the frame of a sub-fractal may exceed the margin of its bounds.
+    private const double MaxCondition = 1e5;
 
     private const double MinRadiusInErrors = 8;
 
@@ -35,6 +38,7 @@ internal sealed class FractalRayCaster : RayCaster
     private readonly double _radius;
     private readonly double _minRadius;
     private readonly RayLevels _levels;
+    private readonly ShapeTree _tree;
     private readonly RayPlanes _basePlanes;
 
     /// <summary>Prepares a fractal in affine composition.</summary>
@@ -48,6 +52,7 @@ internal sealed class FractalRayCaster : RayCaster
         _radius = _hierarchy.Root.Radius;
         MaxCoordinate = BoundingVolume.MaxAbsCoordinate(_hierarchy.Root.Box);
         _levels = new(_hierarchy);
+        _tree = new(fractal.BaseMesh, _bvh, _hierarchy, _minRadius);
         _basePlanes = new(fractal.BaseMesh);
     }
 
@@ -139,6 +144,17 @@ internal sealed class FractalRayCaster : RayCaster
                 continue;
             }
 
+            if (inner.Scale * inner.InverseScale > MaxCondition)
+            {
+                isHit |= TryHitFlat(in ray, depth, inner.PathLength, ref search, context, ref pathLength);
+                if (isHit && search.StopsAtFirst)
+                {
+                    return true;
+                }
+
+                continue;
+            }
+
             bool isLeafHit;
             var radius = inner.Scale * bounds.Radius;
             if (inner.RemainingLevels == 0)
@@ -213,6 +229,29 @@ internal sealed class FractalRayCaster : RayCaster
         search.BoundTests += bounds.LanesPerOctant;
         frame.Hits = bounds.FindHits(in frame, widening, limit, ref entries);
         return frame.Hits != 0;
+    }
+
+    /// <summary>Searches a sub-fractal that its maps have flattened, in the frame of the whole fractal.</summary>
+    private bool TryHitFlat(
+        in LocalRay ray, int depth, int prefixLength, ref RaySearch search, QueryContext context, ref int pathLength)
+    {
+        var prefix = new int[prefixLength];
+        context.RayStack.CopyPath(depth, prefix);
+        var visitor = new FlatRayVisitor(ray, search);
+        var node = _tree.Node(prefix);
+        ShapeWalk.Run(
+            _tree, node, _tree.MinRadiusSquared(AffineMap.Identity), ref visitor, ref visitor.Search.BoundTests, ref visitor.Search.FaceTests);
+        search = visitor.Search;
+        if (visitor.Path is not { } path)
+        {
+            return false;
+        }
+
+        pathLength = prefixLength + path.Length;
+        var buffer = context.BestPathBuffer(pathLength);
+        prefix.CopyTo(buffer);
+        path.CopyTo(buffer[prefixLength..]);
+        return true;
     }
 
     /// <summary>Tests the base mesh, stretched to the box of a sub-fractal.</summary>

@@ -46,6 +46,28 @@ internal sealed class RayBox
     /// <summary>Maps the units of the box to its frame.</summary>
     public AffineMap FromUnits => new(Size * Matrix.Identity, SimdAffineMap.ToVector(Centre));
 
+    /// <summary>Finds where a ray enters a box.</summary>
+    /// <param name="box">In the frame of the ray.</param>
+    /// <param name="ray">The ray.</param>
+    /// <returns>The distance from its origin, 0 within the box; infinite where the ray misses it.</returns>
+    public static double FindEntry(BoundingBox box, in LocalRay ray)
+    {
+        var (origin, direction) = (SimdAffineMap.ToVector(ray.Origin), SimdAffineMap.ToVector(ray.Direction));
+        var least = MinRelativeComponent * direction.MaxAbsComponent();
+        var (near, far) = (0.0, double.PositiveInfinity);
+        Clip(box.Minimum.X - origin.X, box.Maximum.X - origin.X, direction.X, least, ref near, ref far);
+        Clip(box.Minimum.Y - origin.Y, box.Maximum.Y - origin.Y, direction.Y, least, ref near, ref far);
+        Clip(box.Minimum.Z - origin.Z, box.Maximum.Z - origin.Z, direction.Z, least, ref near, ref far);
+        return near <= far ? near : double.PositiveInfinity;
+    }
+
+    private static void Clip(double minimum, double maximum, double component, double least, ref double near, ref double far)
+    {
+        var inverse = 1 / (Math.Abs(component) < least ? double.CopySign(least, component) : component);
+        near = Math.Max(near, inverse > 0 ? minimum * inverse : maximum * inverse);
+        far = Math.Min(far, inverse > 0 ? maximum * inverse : minimum * inverse);
+    }
+
     /// <summary>Moves the origin of a ray to where it may enter the box, if it is far away.</summary>
     /// <param name="ray">In the frame of the box.</param>
     /// <param name="search">The limit of the search, and its rounding.</param>

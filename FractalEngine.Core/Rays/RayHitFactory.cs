@@ -32,7 +32,7 @@ internal static class RayHitFactory
         var cross = Vector.Cross(edgeB, edgeC);
         var normal = TriangleKernel.UnitNormal(a, b, c);
         var slope = Vector.Dot(normal, direction);
-        var isThin = cross.LengthSquared() < TriangleKernel.ThinTriangleSineSquared * edgeB.LengthSquared() * edgeC.LengthSquared();
+        var isThin = !(cross.LengthSquared() > TriangleKernel.ThinTriangleSineSquared * edgeB.LengthSquared() * edgeC.LengthSquared());
         if (!isThin && Math.Abs(slope) > MinSine)
         {
             // From a point near the triangle, so that what a far origin rounds away does not count.
@@ -41,7 +41,10 @@ internal static class RayHitFactory
 
         distance = Math.Min(Math.Max(distance, minDistance), maxDistance);
         var point = origin + (distance * direction);
-        return new(distance, point, normal, slope < 0, Barycentrics((point - a) / size, edgeB, edgeC, cross), search.Face)
+        var weights = isThin
+            ? TriangleKernel.ClosestPoint(point, a, b, c).Barycentrics
+            : Barycentrics((point - a) / size, edgeB, edgeC, cross);
+        return new(distance, point, normal, slope < 0, weights, search.Face)
         {
             InstanceMap = map.ToAffineMap(),
         };
@@ -51,11 +54,6 @@ internal static class RayHitFactory
     private static Vector Barycentrics(Vector fromA, Vector edgeB, Vector edgeC, Vector cross)
     {
         var squared = cross.LengthSquared();
-        if (!(squared > 0))
-        {
-            return Vector.I;
-        }
-
         var weightB = Math.Clamp(Vector.Dot(Vector.Cross(fromA, edgeC), cross) / squared, 0, 1);
         var weightC = Math.Clamp(Vector.Dot(Vector.Cross(edgeB, fromA), cross) / squared, 0, 1 - weightB);
         return new(1 - weightB - weightC, weightB, weightC);
