@@ -13,7 +13,7 @@ internal sealed class RaySets
 
     private static readonly Vector TowardsSun = new Vector(0.3, 0.8, 0.5).UnitVector();
 
-    /// <summary>Makes the rays.</summary>
+    /// <summary>Makes the three sets of rays.</summary>
     /// <param name="caster">Finds where shadow rays start.</param>
     /// <param name="box">Bounds of the shape.</param>
     /// <param name="count">Number of rays of the camera, and in all directions; a square number.</param>

@@ -51,7 +51,8 @@ internal static class TraceCommand
             object[] row =
             [
                 name, width, height, Math.Round(sampleMilliseconds, 1), Math.Round(drawn, 1), truthSamples,
-                Math.Round(ImageError.PeakSignalToNoiseRatio(after5, image), 2), Math.Round(ImageError.PeakSignalToNoiseRatio(after10, image), 2),
+                Math.Round(ImageError.PeakSignalToNoiseRatio(after5, image), 2),
+                Math.Round(ImageError.PeakSignalToNoiseRatio(after10, image), 2),
             ];
             table.Add(row);
             Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));

@@ -42,7 +42,7 @@ internal struct FlatRayVisitor(LocalRay ray, RaySearch search) : IShapeVisitor
             Vector256.Create(c.X), Vector256.Create(c.Y), Vector256.Create(c.Z),
         ];
         var before = Search.Face;
-        if (!new TriangleRay(in ray, Search.Error + (leaf.Slack * ray.Scale)).TryHit(ref quad[0], ref Search))
+        if (!new TriangleRay(in ray, Search.Error + (leaf.Slack * ray.Scale)).TryIntersect(ref quad[0], ref Search))
         {
             Search.Face = before;
             return true;

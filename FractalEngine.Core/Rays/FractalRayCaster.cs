@@ -75,7 +75,7 @@ internal sealed class FractalRayCaster : RayCaster
     }
 
     /// <inheritdoc/>
-    internal override bool TryHit(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
+    internal override bool TryIntersect(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
     {
         if (_isEmpty)
         {
@@ -86,7 +86,7 @@ internal sealed class FractalRayCaster : RayCaster
         var minRadius = Math.Max(_minRadius, MinRadiusInErrors * search.Error);
         if (_hierarchy.Levels == 0 || ray.Scale * _radius <= minRadius)
         {
-            var isRootHit = TryHitBase(in ray, ref search);
+            var isRootHit = TryIntersectBase(in ray, ref search);
             pathLength = isRootHit ? 0 : pathLength;
             return isRootHit;
         }
@@ -146,7 +146,7 @@ internal sealed class FractalRayCaster : RayCaster
 
             if (inner.Scale * inner.InverseScale > MaxCondition)
             {
-                isHit |= TryHitFlat(in ray, depth, inner.PathLength, ref search, context, ref pathLength);
+                isHit |= TryIntersectFlat(in ray, depth, inner.PathLength, ref search, context, ref pathLength);
                 if (isHit && search.StopsAtFirst)
                 {
                     return true;
@@ -167,7 +167,7 @@ internal sealed class FractalRayCaster : RayCaster
             }
             else if (radius <= minRadius || inner.PathLength >= FractalSearchState.MaxDepth || search.BoundTests >= MaxBoundTests)
             {
-                isLeafHit = TryHitBase(inner.ToLocal(bounds.Box), ref search);
+                isLeafHit = TryIntersectBase(inner.ToLocal(bounds.Box), ref search);
             }
             else
             {
@@ -232,7 +232,7 @@ internal sealed class FractalRayCaster : RayCaster
     }
 
     /// <summary>Searches a sub-fractal that its maps have flattened, in the frame of the whole fractal.</summary>
-    private bool TryHitFlat(
+    private bool TryIntersectFlat(
         in LocalRay ray, int depth, int prefixLength, ref RaySearch search, QueryContext context, ref int pathLength)
     {
         var prefix = new int[prefixLength];
@@ -240,7 +240,8 @@ internal sealed class FractalRayCaster : RayCaster
         var visitor = new FlatRayVisitor(ray, search);
         var node = _tree.Node(prefix);
         ShapeWalk.Run(
-            _tree, node, _tree.MinRadiusSquared(AffineMap.Identity), ref visitor, ref visitor.Search.BoundTests, ref visitor.Search.FaceTests);
+            _tree, node, _tree.MinRadiusSquared(AffineMap.Identity), ref visitor, ref visitor.Search.BoundTests,
+            ref visitor.Search.FaceTests);
         search = visitor.Search;
         if (visitor.Path is not { } path)
         {
@@ -258,7 +259,7 @@ internal sealed class FractalRayCaster : RayCaster
     private bool TestProxy(RayBounds bounds, in LocalRay ray, ref RaySearch search)
     {
         var local = ray.Transform(in bounds.InverseProxyMap, 1, 1);
-        if (!_bvh.TryHit(in local, ref search))
+        if (!_bvh.TryIntersect(in local, ref search))
         {
             return false;
         }
@@ -278,12 +279,12 @@ internal sealed class FractalRayCaster : RayCaster
             }
         }
 
-        return TryHitBase(frame.ToLocal(bounds.Box), ref search);
+        return TryIntersectBase(frame.ToLocal(bounds.Box), ref search);
     }
 
-    private bool TryHitBase(in LocalRay ray, ref RaySearch search)
+    private bool TryIntersectBase(in LocalRay ray, ref RaySearch search)
     {
-        if (!_bvh.TryHit(in ray, ref search))
+        if (!_bvh.TryIntersect(in ray, ref search))
         {
             return false;
         }

@@ -21,9 +21,9 @@ internal sealed class MeshRayCaster(Mesh mesh) : RayCaster
     private protected override double MaxCoordinate { get; } = BoundingVolume.MaxAbsCoordinate(mesh.Bounds);
 
     /// <inheritdoc/>
-    internal override bool TryHit(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
+    internal override bool TryIntersect(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
     {
-        if (!_bvh.TryHit(in ray, ref search))
+        if (!_bvh.TryIntersect(in ray, ref search))
         {
             return false;
         }

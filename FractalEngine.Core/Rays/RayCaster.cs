@@ -11,9 +11,9 @@ namespace FractalEngine.Core.Rays;
 /// a context allocate nothing.
 /// </summary>
 /// <remarks>
-/// Faces are hit from both sides. Where several faces are hit at the same distance, as on a common edge, one of them is found, the same each
-/// time. A ray through an edge or a vertex of a closed surface never slips through. Triangles that a ray sees edge on, and those without
-/// area, are not hit.
+/// Faces are hit from both sides. Where several faces are hit at the same distance, as on a common edge, one of them is found, the same
+/// each time. A ray through an edge or a vertex of a closed surface never slips through. Triangles that a ray sees edge on, and those
+/// without area, are not hit.
 /// </remarks>
 public abstract class RayCaster
 {
@@ -75,7 +75,9 @@ public abstract class RayCaster
     /// <param name="footprint">How wide the ray is; a line unless stated.</param>
     /// <returns>False when the ray hits no face between the two distances.</returns>
     /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
-    /// <remarks>A face at the origin of the ray counts, at a distance of 0; a ray that leaves a surface needs a smallest distance.</remarks>
+    /// <remarks>
+    /// A face at the origin of the ray counts, at a distance of 0; a ray that leaves a surface needs a smallest distance.
+    /// </remarks>
     public bool TryFindNearest(
         Ray ray, QueryContext context, out RayHit hit, double minDistance = 0, double maxDistance = double.PositiveInfinity,
         RayFootprint footprint = default)
@@ -107,7 +109,8 @@ public abstract class RayCaster
     /// <param name="footprint">How wide the ray is; a line unless stated.</param>
     /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
     public bool HitsAny(
-        Ray ray, QueryContext context, double minDistance = 0, double maxDistance = double.PositiveInfinity, RayFootprint footprint = default)
+        Ray ray, QueryContext context, double minDistance = 0, double maxDistance = double.PositiveInfinity,
+        RayFootprint footprint = default)
     {
         ArgumentNullException.ThrowIfNull(context);
         var direction = CheckedUnitDirection(in ray, minDistance, maxDistance);
@@ -120,7 +123,7 @@ public abstract class RayCaster
     /// <param name="context">Receives the path to the instance of a hit in its buffer of the best path.</param>
     /// <param name="pathLength">Length of that path; unchanged where there is no nearer hit.</param>
     /// <returns>True when there is a nearer hit than before.</returns>
-    internal abstract bool TryHit(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength);
+    internal abstract bool TryIntersect(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength);
 
     /// <summary>The mesh that every instance of the shape shows.</summary>
     internal abstract Mesh Mesh { get; }
@@ -180,7 +183,7 @@ public abstract class RayCaster
         {
             Footprint = footprint,
         };
-        TryHit(in ray, ref search, context, ref pathLength);
+        TryIntersect(in ray, ref search, context, ref pathLength);
         search.AddTo(context.Statistics);
         return search;
     }

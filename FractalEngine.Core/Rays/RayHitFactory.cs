@@ -7,9 +7,11 @@ namespace FractalEngine.Core.Rays;
 /// <summary>Completes the nearest triangle of a search to the result of a query, in the frame of the ray.</summary>
 internal static class RayHitFactory
 {
-    // Where the plane of a triangle is uncertain, as that of a needle, the distance of the search is more accurate than the plane's. And
-    // where a ray is closer to it than this, as a sine.
+    // Where a ray is closer to a triangle's plane than this, as a sine, the distance of the search is more accurate than the plane's.
     private const double MinSine = 1e-4;
+
+    // Squared sine of the angle at the first corner below which the weights of the corners lose digits.
+    private const double ThinSineSquared = 1e-2;
 
     /// <summary>Creates the result for a triangle.</summary>
     /// <param name="origin">Origin of the ray.</param>
@@ -32,11 +34,12 @@ internal static class RayHitFactory
         var cross = Vector.Cross(edgeB, edgeC);
         var normal = TriangleKernel.UnitNormal(a, b, c);
         var slope = Vector.Dot(normal, direction);
-        var isThin = !(cross.LengthSquared() > TriangleKernel.ThinTriangleSineSquared * edgeB.LengthSquared() * edgeC.LengthSquared());
-        if (!isThin && Math.Abs(slope) > MinSine)
+        var isThin = !(cross.LengthSquared() > ThinSineSquared * edgeB.LengthSquared() * edgeC.LengthSquared());
+        if (Math.Abs(slope) > MinSine && size > 0)
         {
+            var (anchor, planeNormal) = isThin ? PlaneOfThinTriangle(a, b, c, normal) : (a, normal);
             // From a point near the triangle, so that what a far origin rounds away does not count.
-            distance += Vector.Dot(normal, a - (origin + (distance * direction))) / slope;
+            distance += Vector.Dot(planeNormal, anchor - (origin + (distance * direction))) / Vector.Dot(planeNormal, direction);
         }
 
         distance = Math.Min(Math.Max(distance, minDistance), maxDistance);
@@ -48,6 +51,18 @@ internal static class RayHitFactory
         {
             InstanceMap = map.ToAffineMap(),
         };
+    }
+
+    /// <summary>
+    /// Finds a corner and a normal of the plane of a thin triangle. Rounding may turn the plane about the longest edge, from which no point
+    /// of the triangle is far; about other axes it must not.
+    /// </summary>
+    private static (Vector Corner, Vector Normal) PlaneOfThinTriangle(Vector a, Vector b, Vector c, Vector normal)
+    {
+        var (ab, bc, ca) = ((b - a).LengthSquared(), (c - b).LengthSquared(), (a - c).LengthSquared());
+        var (corner, edge) = ab >= bc && ab >= ca ? (a, b - a) : bc >= ca ? (b, c - b) : (c, a - c);
+        var direction = edge / edge.MaxAbsComponent();
+        return (corner, normal - (Vector.Dot(normal, direction) / direction.LengthSquared() * direction));
     }
 
     /// <summary>Computes the weights of the corners at a point in the triangle, or at the nearest that rounding leaves.</summary>

@@ -5,8 +5,8 @@ namespace FractalEngine.Core.Rays;
 
 /// <summary>
 /// Tests a ray against four triangles at once, in double precision. The triangles are sheared so that the ray is an axis. Then the signs of
-/// three areas tell on which side of each edge it passes: two triangles that share an edge see the same area with opposite signs, so that no
-/// ray passes between them.
+/// three areas tell on which side of each edge it passes: two triangles that share an edge see the same area with opposite signs, so that
+/// no ray passes between them.
 /// </summary>
 /// <remarks>
 /// After Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2013. Edges are widened by the rounding of the ray, so that
@@ -56,12 +56,12 @@ internal readonly struct TriangleRay
         _start = ray.Start;
     }
 
-    /// <summary>Tests four triangles.</summary>
+    /// <summary>Tests four triangles at once.</summary>
     /// <param name="quad">The first of <see cref="VectorsPerQuad"/> vectors.</param>
     /// <param name="search">Receives the nearest hit, with the number of the triangle from 0 to 3 as its face.</param>
     /// <returns>True when there is a nearer hit.</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public bool TryHit(ref Vector256<double> quad, ref RaySearch search)
+    public bool TryIntersect(ref Vector256<double> quad, ref RaySearch search)
     {
         var distances = Distances(ref quad);
         var hits = Vector256.GreaterThanOrEqual(distances, Vector256.Create(search.MinDistance))

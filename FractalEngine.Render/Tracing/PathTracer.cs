@@ -13,7 +13,7 @@ namespace FractalEngine.Render.Tracing;
 /// noisy at first, and converges as samples are added.
 /// </summary>
 /// <remarks>
-/// Light is that of drawn frames (<see cref="TracedLights"/>), shadows included: the scene's lights are sampled directly at each hit, and the
+/// Light is that of drawn frames (<see cref="TracedLights"/>), with shadows: the scene's lights are sampled directly at each hit, and the
 /// ambient light comes from all directions that no surface hides. Paths end by chance, by up to <see cref="MaxBounces"/> surfaces. The same
 /// seed gives the same bits on any number of threads.
 /// </remarks>
@@ -44,7 +44,7 @@ public sealed class PathTracer
     private readonly float[] _sums;
     private readonly int[] _rowSamples;
 
-    /// <summary>Prepares an image.</summary>
+    /// <summary>Prepares an image without samples.</summary>
     /// <param name="scene">With its models loaded.</param>
     /// <param name="view">Camera and projection; without deep zoom.</param>
     /// <param name="width">Pixels, at least 1.</param>
@@ -191,7 +191,7 @@ public sealed class PathTracer
         var layers = 0;
         for (var bounce = 0; ;)
         {
-            if (!_scene.TryHit(in ray, footprint, minDistance, maxDistance, context, out var surface))
+            if (!_scene.TryIntersect(in ray, footprint, minDistance, maxDistance, context, out var surface))
             {
                 return radiance + throughput.Stretch(bounce == 0 ? _background : _lights.Surroundings(ray.Direction));
             }
