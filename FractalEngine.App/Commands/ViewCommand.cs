@@ -21,14 +21,21 @@ internal static class ViewCommand
         shared.File.Arity = ArgumentArity.ZeroOrOne;
         var command = new DocumentedCommand(
             "view", "Open FILE, or the gallery, in a window. This is the default command.",
-            "assets/fractals/menger.fdo", "view assets/scenes/playground.sdo --shading pixel");
+            "assets/fractals/menger.fdo", "view assets/scenes/playground.sdo --shading pixel",
+            "view assets/scenes/gallery.sdo --trace");
         var trailLength = NumberOption.Integer(
             "--trail", "N", 1, 1000, $"Length of the trail of the paper's zoom, key T (default: {DefaultTrailLength}).");
         var noWatch = new Option<bool>("--no-watch") { Description = "Don't load files again when they change." };
+        var trace = NumberOption.Integer(
+            "--trace", "SAMPLES", 1, TraceOptions.MaxSamples,
+            "Follow light through the scene while the view stands still, as key Y does, with so many samples of each pixel"
+            + $" (default: {ProgressiveTrace.DefaultSampleCount}).");
+        trace.Arity = ArgumentArity.ZeroOrOne;
         shared.AddTo(command);
         draw.AddTo(command);
         command.Add(noWatch);
         command.Add(trailLength);
+        command.Add(trace);
         command.SetAction(result => Run(
             result.GetValue(shared.File) ?? FindGallery(),
             new()
@@ -37,6 +44,8 @@ internal static class ViewCommand
                 Settings = draw.Settings(result),
                 Projection = draw.Projection(result),
                 TrailLength = result.GetValue(trailLength) ?? DefaultTrailLength,
+                TraceSampleCount =
+                    result.GetValue(trace) ?? (result.GetResult(trace) is null ? null : ProgressiveTrace.DefaultSampleCount),
                 Size = draw.Resolution(result),
                 WatchesFiles = !result.GetValue(noWatch),
                 RecentFilesPath = RecentFiles.DefaultPath,
