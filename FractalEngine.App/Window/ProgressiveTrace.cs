@@ -52,6 +52,9 @@ internal sealed class ProgressiveTrace(int sampleCount, RenderSettings settings,
     /// <summary>Why the view can't be traced; null unless the trace has failed.</summary>
     public string? Problem { get; private set; }
 
+    /// <summary>True until the background has ended its work, which may be that for a view that is no longer shown.</summary>
+    public bool IsBusy => !_task.IsCompleted;
+
     /// <summary>Starts to trace a view, unless it is the one that is traced already.</summary>
     /// <param name="request">The view; null for none.</param>
     public void Show(TraceRequest? request)
@@ -105,6 +108,16 @@ internal sealed class ProgressiveTrace(int sampleCount, RenderSettings settings,
         }
     }
 
+    /// <summary>Returns how much of an image is shown over the frame, from 0 to 1.</summary>
+    /// <param name="count">Number of samples that each pixel has.</param>
+    /// <param name="maxCount">Number of samples that each pixel gets.</param>
+    internal static double Opacity(int count, int maxCount)
+    {
+        var first = Math.Min(FirstShownSample, maxCount);
+        var full = Math.Min(FullyShownSample, maxCount);
+        return Math.Clamp((count - first + 1.0) / (full - first + 1), 0, 1);
+    }
+
     private void Start(TraceRequest request)
     {
         var cancellation = new CancellationTokenSource();
@@ -131,7 +144,7 @@ internal sealed class ProgressiveTrace(int sampleCount, RenderSettings settings,
                 tracer.AddSample(scheduler: TaskScheduler.Current, cancellation: cancellation);
                 if (count == sampleCount || Stopwatch.GetElapsedTime(start) >= PublishInterval)
                 {
-                    var opacity = OpacityOf(count);
+                    var opacity = Opacity(count, sampleCount);
                     var layer = opacity > 0 ? new ImageLayer(tracer.ToImage(), opacity) : null;
                     Publish(request, count == sampleCount ? TraceState.Done : TraceState.Tracing, count, layer, null);
                     start = Stopwatch.GetTimestamp();
@@ -175,12 +188,5 @@ internal sealed class ProgressiveTrace(int sampleCount, RenderSettings settings,
         }
 
         published();
-    }
-
-    private double OpacityOf(int count)
-    {
-        var first = Math.Min(FirstShownSample, sampleCount);
-        var full = Math.Min(FullyShownSample, sampleCount);
-        return Math.Clamp((count - first + 1.0) / (full - first + 1), 0, 1);
     }
 }
