@@ -21,8 +21,7 @@ internal static class ViewCommand
         shared.File.Arity = ArgumentArity.ZeroOrOne;
         var command = new DocumentedCommand(
             "view", "Open FILE, or the gallery, in a window. This is the default command.",
-            "assets/fractals/menger.fdo", "view assets/scenes/playground.sdo --shading pixel",
-            "view assets/scenes/gallery.sdo --trace");
+            "assets/fractals/menger.fdo", "view assets/scenes/playground.sdo --shading pixel");
         var trailLength = NumberOption.Integer(
             "--trail", "N", 1, 1000, $"Length of the trail of the paper's zoom, key T (default: {DefaultTrailLength}).");
         var noWatch = new Option<bool>("--no-watch") { Description = "Don't load files again when they change." };

@@ -6,10 +6,10 @@ internal enum TraceState
     /// <summary>There is no view to trace.</summary>
     Idle,
 
-    /// <summary>Samples are added.</summary>
+    /// <summary>Samples are added in the background.</summary>
     Tracing,
 
-    /// <summary>All samples are there.</summary>
+    /// <summary>Each pixel has all of its samples.</summary>
     Done,
 
     /// <summary>The view can't be traced.</summary>

@@ -14,7 +14,7 @@ internal sealed class ImagePass : IDisposable
     private SrgbTexture? _texture;
     private PixelImage? _image;
 
-    /// <summary>Builds the program.</summary>
+    /// <summary>Builds the program that draws images.</summary>
     public ImagePass(GlResources resources)
     {
         _resources = resources;
