@@ -12,9 +12,9 @@ namespace FractalEngine.Render;
 /// </summary>
 public sealed class SceneRenderer : IDisposable
 {
-    private readonly ObjectTransforms _transforms;
     private readonly SceneBuffers _buffers;
-    private readonly ObjectsPass _objectsPass;
+    private ObjectTransforms _transforms;
+    private ObjectsPass _objectsPass;
     private readonly EffectiveCulling _effectiveCulling = new();
     private BoundingBox? _bounds;
     private IReadOnlyList<SphereInstance> _spheres = [];
@@ -111,6 +111,24 @@ public sealed class SceneRenderer : IDisposable
         {
             Culler.Move(i, _transforms.ObjectToWorld[i]);
         }
+    }
+
+    /// <summary>Shows another scene, on the context's thread. Models and textures that both scenes have stay on the GPU.</summary>
+    /// <param name="scene">A scene whose objects stand where it declares them.</param>
+    /// <exception cref="Gl.GlException">The GPU's memory does not suffice.</exception>
+    public void Replace(DrawableScene scene)
+    {
+        Context.MakeCurrent();
+        var transforms = new ObjectTransforms(scene);
+        var objectsPass = new ObjectsPass(Context, scene, _buffers, transforms);
+        _objectsPass.Dispose();
+        _objectsPass = objectsPass;
+        _transforms = transforms;
+        Scene = scene;
+        _bounds = null;
+        Spheres = [];
+        Lines = [];
+        _buffers.Upload(scene);
     }
 
     /// <summary>Moves an object of the scene.</summary>

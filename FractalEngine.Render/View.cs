@@ -55,7 +55,7 @@ public sealed record View(Camera Camera, Projection Projection)
     public static View Of(LoadedScene scene, double frameAspect, Camera? camera = null)
     {
         var settings = scene.Scene;
-        camera ??= settings.Camera ?? CameraFraming.Default(scene.Bounds, settings.Aspect ?? frameAspect, settings.Handedness);
+        camera ??= settings.Camera ?? CameraFraming.Default(scene, settings.Aspect ?? frameAspect);
         if (camera.Handedness != settings.Handedness)
         {
             camera = camera with { Handedness = settings.Handedness };

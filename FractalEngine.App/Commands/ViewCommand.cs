@@ -22,8 +22,10 @@ internal static class ViewCommand
         var command = new Command("view", "Open FILE, or the gallery, in a window. This is the default command.");
         var trailLength = NumberOption.Integer(
             "--trail", "N", 1, 1000, $"Length of the trail of the paper's zoom, key T (default: {DefaultTrailLength}).");
+        var noWatch = new Option<bool>("--no-watch") { Description = "Don't load files again when they change." };
         shared.AddTo(command);
         draw.AddTo(command);
+        command.Add(noWatch);
         command.Add(trailLength);
         command.SetAction(result => Run(
             result.GetValue(shared.File) ?? FindGallery(),
@@ -34,6 +36,8 @@ internal static class ViewCommand
                 Projection = draw.Projection(result),
                 TrailLength = result.GetValue(trailLength) ?? DefaultTrailLength,
                 Size = draw.Resolution(result),
+                WatchesFiles = !result.GetValue(noWatch),
+                RecentFilesPath = RecentFiles.DefaultPath,
                 IdleWhenUnchanged = draw.IsEnabled(result, Optimisation.Idle),
             }));
         return command;

@@ -19,10 +19,17 @@ internal static class BodySpawner
     // Fraction of the distance from the camera to the closest surface, so that a new body overlaps nothing.
     private const double FreeDistanceFraction = 0.3;
 
+    // Radii of a dropped sphere that are free around it.
+    private const double FreeRadii = 1.5;
+
+    private const int MaxSearchSteps = 256;
+
     private const double SphereRestitution = 0.6;
     private const double SphereFriction = 0.3;
 
-    /// <summary>Drops a sphere in front of the camera.</summary>
+    /// <summary>
+    /// Drops a sphere where the camera looks: before the surface in the middle of the view, or in the air beside the scene.
+    /// </summary>
     /// <param name="world">The world that the sphere is added to.</param>
     /// <param name="sceneSize">The size of the scene in scene units.</param>
     /// <param name="camera">The present camera.</param>
@@ -34,18 +41,60 @@ internal static class BodySpawner
             return problem;
         }
 
-        var radius = Math.Min(SphereRadiusFraction * sceneSize, FreeDistanceFraction * freeDistance);
+        var wantedRadius = SphereRadiusFraction * sceneSize;
+        var distance = FindVisibleDistance(world, camera, FreeRadii * wantedRadius, sceneSize);
+        var radius = wantedRadius;
+        if (distance < 2 * wantedRadius)
+        {
+            // The camera is too close to a surface for a ball of this size.
+            radius = Math.Min(wantedRadius, FreeDistanceFraction * freeDistance);
+            distance = 2 * radius;
+        }
+
         if (!(radius > 0))
         {
             return "there is no room for a ball";
         }
 
-        world.Add(new(camera.Position + (2 * radius * camera.LocalAxes.V3), radius)
+        world.Add(new(camera.Position + (distance * camera.LocalAxes.V3), radius)
         {
             Restitution = SphereRestitution,
             Friction = SphereFriction,
         });
         return "dropped a ball";
+    }
+
+    /// <summary>Tells whether a falling player meets something.</summary>
+    /// <param name="world">The world with its player.</param>
+    public static bool HasGround(PhysicsWorld world)
+    {
+        var player = world.Character!;
+        var direction = -player.Up;
+        var position = player.Position;
+        var kind = world.ColliderOverride ?? ColliderKind.Exact;
+        for (var i = 0; i < MaxSearchSteps; i++)
+        {
+            if (!world.TryFindClosest(position, kind, out var closest))
+            {
+                return false;
+            }
+
+            // Nothing is closer than this, so that nothing is passed by.
+            var step = Math.Max(closest.Distance, 0.1 * player.Description.Radius);
+            if (closest.Distance <= player.Description.Radius)
+            {
+                return true;
+            }
+
+            if (Vector.Dot(closest.Point - position, direction) < 0 && IsBeyondAll(world, position, direction))
+            {
+                return false;
+            }
+
+            position += step * direction;
+        }
+
+        return true;
     }
 
     /// <summary>Activates the player: that of the scene, or else a new one at the camera.</summary>
@@ -78,6 +127,57 @@ internal static class BodySpawner
         world.Character!.IsActive = true;
         return true;
     }
+
+    /// <summary>Finds how far the line of sight has some room around it, before it meets a surface or passes everything.</summary>
+    /// <returns>A distance from the camera in scene units; 0 where there is no room.</returns>
+    private static double FindVisibleDistance(PhysicsWorld world, Camera camera, double room, double sceneSize)
+    {
+        var direction = camera.LocalAxes.V3;
+        var kind = world.ColliderOverride ?? ColliderKind.Exact;
+        var closestDistance = double.PositiveInfinity;
+        var found = 0.0;
+        var travelled = 0.0;
+        for (var i = 0; i < MaxSearchSteps; i++)
+        {
+            var position = camera.Position + (travelled * direction);
+            if (!world.TryFindClosest(position, kind, out var closest))
+            {
+                return sceneSize;
+            }
+
+            if (closest.Distance < room)
+            {
+                return found;
+            }
+
+            // Where the line of sight passes everything, the ball falls at the place closest to it.
+            if (closest.Distance < closestDistance)
+            {
+                closestDistance = closest.Distance;
+                found = travelled;
+            }
+            else if (IsBeyondAll(world, position, direction))
+            {
+                return found;
+            }
+
+            // The surface may be as near as this, so that the room ends here at the earliest.
+            travelled += Math.Max(closest.Distance - room, 0.1 * room);
+        }
+
+        return found;
+    }
+
+    /// <summary>Tells whether all static objects lie behind a position.</summary>
+    private static bool IsBeyondAll(PhysicsWorld world, Vector position, Vector direction) =>
+        world.StaticObjects.All(placed =>
+        {
+            var box = placed.Bounds;
+            var farthest = new Vector(
+                direction.X > 0 ? box.Maximum.X : box.Minimum.X, direction.Y > 0 ? box.Maximum.Y : box.Minimum.Y,
+                direction.Z > 0 ? box.Maximum.Z : box.Minimum.Z);
+            return box.IsEmpty || Vector.Dot(farthest - position, direction) < 0;
+        });
 
     /// <summary>Computes the distance from a position to the closest surface. The first call builds the colliders.</summary>
     private static bool TryFindFreeDistance(

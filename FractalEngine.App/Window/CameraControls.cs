@@ -21,7 +21,13 @@ internal sealed class CameraControls(FlyingCamera camera)
 
     private readonly HeldKeys _heldKeys = new();
     private MouseButton? _draggedButton;
+    private (double X, double Y)? _pointer;
     private KeyModifiers _modifiers;
+
+    /// <summary>
+    /// The part of the frame that shows the scene, in pixels; null until it is known. The wheel zooms to the pointer in it.
+    /// </summary>
+    public (int X, int Y, int Width, int Height)? Viewport { get; set; }
 
     /// <summary>True while held keys move the camera, so that <see cref="Advance"/> must be called.</summary>
     public bool IsMoving => !_modifiers.HasFlag(KeyModifiers.Control) && Direction != Vector.Zero;
@@ -35,7 +41,17 @@ internal sealed class CameraControls(FlyingCamera camera)
     public bool Handle(WindowEvent windowEvent, double aspect)
     {
         var poseBefore = camera.Pose;
-        _heldKeys.Handle(windowEvent);
+        // A letter of a command such as Ctrl+S does not move the camera, even if Ctrl is released before it.
+        if (windowEvent is not KeyPressed { Modifiers: var modifiers } || !modifiers.HasFlag(KeyModifiers.Control))
+        {
+            _heldKeys.Handle(windowEvent);
+        }
+
+        if (windowEvent is MouseMoved { X: var x, Y: var y })
+        {
+            _pointer = (x, y);
+        }
+
         switch (windowEvent)
         {
             case KeyPressed pressed:
@@ -61,7 +77,7 @@ internal sealed class CameraControls(FlyingCamera camera)
                 Drag(button, moved.DeltaX, moved.DeltaY, aspect);
                 break;
             case WheelTurned wheel:
-                camera.Zoom(Math.Pow(ZoomPerNotch, wheel.Notches));
+                ZoomToPointer(Math.Pow(ZoomPerNotch, wheel.Notches));
                 break;
             case FocusLost:
                 _draggedButton = null;
@@ -70,6 +86,15 @@ internal sealed class CameraControls(FlyingCamera camera)
         }
 
         return camera.Pose != poseBefore;
+    }
+
+    /// <summary>Goes on with the keys and buttons that are held.</summary>
+    public void ContinueFrom(CameraControls other)
+    {
+        _heldKeys.CopyFrom(other._heldKeys);
+        _draggedButton = other._draggedButton;
+        _pointer = other._pointer;
+        _modifiers = other._modifiers;
     }
 
     /// <summary>Releases all held keys.</summary>
@@ -119,6 +144,20 @@ internal sealed class CameraControls(FlyingCamera camera)
                 camera.Reset();
                 break;
         }
+    }
+
+    /// <summary>Zooms to what is under the pointer, or to the middle of the frame where the pointer is unknown.</summary>
+    private void ZoomToPointer(double factor)
+    {
+        if (_pointer is not var (x, y) || Viewport is not { Height: > 0 } viewport)
+        {
+            camera.Zoom(factor);
+            return;
+        }
+
+        var right = (x - viewport.X - (0.5 * viewport.Width)) / (0.5 * viewport.Height);
+        var down = (y - viewport.Y - (0.5 * viewport.Height)) / (0.5 * viewport.Height);
+        camera.Zoom(factor, right, -down);
     }
 
     private void Drag(MouseButton button, double deltaX, double deltaY, double aspect)

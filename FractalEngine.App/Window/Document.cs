@@ -15,18 +15,35 @@ internal sealed class Document : IDisposable
     /// <param name="file">The loaded file.</param>
     /// <param name="preparation">The preparation of the file's scene, with the visible models prepared.</param>
     /// <param name="options">The options of the window.</param>
-    public Document(RenderWindow window, LoadedFile file, ScenePreparation preparation, WindowOptions options)
+    /// <param name="previous">
+    /// The same document before its files were changed, which is replaced by this one; null for none. Its renderer is used further.
+    /// </param>
+    public Document(
+        RenderWindow window, LoadedFile file, ScenePreparation preparation, WindowOptions options, Document? previous = null)
     {
         File = file;
         FirstSightLoader = new(preparation, window.Wake);
         var scene = file.Scene.Scene;
         var camera = View.Of(file.Scene, window.Aspect).Camera;
         FlyingCamera = new(
-            file.Scene.Bounds, camera, options.Projection ?? scene.Projection, scene.OrthographicHeight, FindFractal(preparation.Scene));
+            file.Scene.Bounds, camera, options.Projection ?? scene.Projection, scene.OrthographicHeight, FindFractal(preparation.Scene),
+            file.Scene);
         CameraControls = new(FlyingCamera);
         Trail = file.Scene.Objects is [{ Model: FractalModel { Fractal: var fractal } }] ? new(fractal, options.TrailLength) : null;
-        Renderer = new(window, preparation.Scene);
-        Physics = new(file.Scene, window.Wake, alwaysBuild: !options.Settings.LazyLoading);
+        Physics = new(file.Scene, window.Wake, previous?.Physics, alwaysBuild: !options.Settings.LazyLoading);
+        if (previous is null)
+        {
+            Renderer = new(window, preparation.Scene);
+            Draft = new(file, SceneView);
+            History = new(FlyingCamera.State);
+        }
+        else
+        {
+            previous.FirstSightLoader.Dispose();
+            Renderer = previous.Renderer;
+            Renderer.Replace(preparation.Scene);
+            (Draft, History) = ContinueView(previous);
+        }
     }
 
     /// <summary>The loaded file with its scene.</summary>
@@ -53,6 +70,21 @@ internal sealed class Document : IDisposable
     /// <summary>The paper's zoom into the fractal; null unless the scene is one fractal.</summary>
     public FractalTrail? Trail { get; }
 
+    /// <summary>What the window has changed of the scene.</summary>
+    public SceneDraft Draft { get; }
+
+    /// <summary>The views that the user can return to.</summary>
+    public UndoHistory<CameraState> History { get; private set; }
+
+    /// <summary>The part of the scene that the window changes, as it is now.</summary>
+    public SceneView SceneView => new(Camera, FlyingCamera.Projection, FlyingCamera.OrthographicHeight);
+
+    /// <summary>True when the view differs from the one that was loaded or saved.</summary>
+    public bool HasChanges => Draft.IsChanged(SceneView);
+
+    /// <summary>The view of the last frame; null before the first.</summary>
+    public View? LatestView { get; private set; }
+
     /// <summary>Whether the paper's zoom replaces that of the engine.</summary>
     public bool IsTrailEnabled { get; private set; }
 
@@ -64,6 +96,10 @@ internal sealed class Document : IDisposable
         ? WalkControls.EyeCamera(controller, Physics.InterpolationAlpha)
         : FlyingCamera.Camera;
 
+    /// <summary>Number of levels of the fractal that the present view is in; 0 outside, and for views that show the whole.</summary>
+    public int VisibleDepth =>
+        Physics.IsWalking || IsTrailEnabled || FlyingCamera.Projection != Projection.Perspective ? 0 : FlyingCamera.Depth;
+
     /// <summary>Switches between the paper's zoom into the fractal and that of the engine.</summary>
     public void ToggleTrail()
     {
@@ -74,7 +110,9 @@ internal sealed class Document : IDisposable
     /// <summary>Moves what is drawn to its present place, and returns the view of the present camera.</summary>
     /// <remarks>Bodies move to their interpolated positions, and the fractal to that of the paper's zoom where it is enabled.</remarks>
     /// <param name="aspect">Width divided by height of the frame.</param>
-    public View UpdateView(double aspect)
+    public View UpdateView(double aspect) => LatestView = ComputeView(aspect);
+
+    private View ComputeView(double aspect)
     {
         Physics.ApplyTo(Renderer);
         var view = View.Of(File.Scene with { Scene = GetCurrentScene() }, aspect);
@@ -93,9 +131,60 @@ internal sealed class Document : IDisposable
     }
 
     /// <summary>Passes an event to the controls of the player or the camera.</summary>
+    /// <param name="windowEvent">Any event of the window.</param>
+    /// <param name="width">Width of the frame in pixels.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
     /// <returns>True when the view has changed.</returns>
-    public bool Handle(WindowEvent windowEvent, double aspect) =>
-        Physics.IsWalking ? WalkControls.Handle(windowEvent, Physics.Character!) : CameraControls.Handle(windowEvent, aspect);
+    public bool Handle(WindowEvent windowEvent, int width, int height)
+    {
+        CameraControls.Viewport = LatestView?.Viewport(width, height);
+        if (windowEvent is KeyPressed { IsRepeat: false } or MousePressed or WheelTurned)
+        {
+            // A key, a drag and a turn of the wheel each begin a step that can be undone.
+            RecordView();
+        }
+
+        return Physics.IsWalking
+            ? WalkControls.Handle(windowEvent, Physics.Character!)
+            : CameraControls.Handle(windowEvent, (double)width / height);
+    }
+
+    /// <summary>Returns to the view before the last change, or makes it again.</summary>
+    /// <param name="isRedo">True to make a change again that was undone.</param>
+    /// <returns>A message for the user.</returns>
+    public string Undo(bool isRedo)
+    {
+        if (Physics.IsWalking)
+        {
+            ToggleWalking();
+        }
+
+        RecordView();
+        if (!(isRedo ? History.TryRedo() : History.TryUndo()))
+        {
+            return isRedo ? "nothing to redo" : "nothing to undo";
+        }
+
+        CameraControls.ReleaseKeys();
+        FlyingCamera.Restore(History.Present);
+        return isRedo ? "redone" : "undone";
+    }
+
+    /// <summary>Makes the present view a step that can be undone, unless it is one already.</summary>
+    private void RecordView()
+    {
+        if (!Physics.IsWalking)
+        {
+            History.Record(FlyingCamera.State);
+        }
+    }
+
+    /// <summary>Releases all keys that are held.</summary>
+    public void ReleaseKeys()
+    {
+        CameraControls.ReleaseKeys();
+        WalkControls.ReleaseKeys();
+    }
 
     /// <summary>Advances bodies and camera by a time.</summary>
     /// <returns>True when the view may have changed.</returns>
@@ -137,9 +226,62 @@ internal sealed class Document : IDisposable
     /// <inheritdoc/>
     public void Dispose()
     {
-        FirstSightLoader.Wait();
+        FirstSightLoader.Dispose();
+        Physics.Dispose();
         Renderer.Dispose();
     }
+
+    /// <summary>
+    /// Continues the view of the previous document. Camera and projection are each those of the window where it has changed them, and
+    /// else those of the file.
+    /// </summary>
+    private (SceneDraft Draft, UndoHistory<CameraState> History) ContinueView(Document previous)
+    {
+        var (before, after) = (previous.File.Scene.Scene, File.Scene.Scene);
+        var (saved, mine) = (previous.Draft.SavedView, previous.SceneView);
+        var fileView = new SceneView(FlyingCamera.Camera, FlyingCamera.Projection, FlyingCamera.OrthographicHeight);
+        var followsCamera = before.Camera != after.Camera;
+        var followsProjection = !HaveSameProjection(before, after);
+        // What the lines of the file stand for. A file without a camera stands for what was framed first.
+        var layoutView = previous.Draft.LayoutView;
+        if (followsCamera)
+        {
+            // After a save of the window, the file has the window's own camera, which stays as it is to the last bit.
+            followsCamera = after.Camera != mine.Camera;
+            layoutView = layoutView with { Camera = followsCamera ? fileView.Camera : mine.Camera };
+        }
+
+        layoutView = followsProjection
+            ? layoutView with { Projection = fileView.Projection, OrthographicHeight = fileView.OrthographicHeight }
+            : layoutView;
+
+        followsCamera &= mine.Camera == saved.Camera;
+        followsProjection &= mine with { Camera = saved.Camera } == saved;
+        if (followsCamera)
+        {
+            if (!followsProjection)
+            {
+                FlyingCamera.SetProjection(mine.Projection, mine.OrthographicHeight);
+            }
+        }
+        else
+        {
+            FlyingCamera.ContinueFrom(previous.FlyingCamera);
+            if (followsProjection)
+            {
+                FlyingCamera.SetProjection(fileView.Projection, fileView.OrthographicHeight);
+            }
+        }
+
+        CameraControls.ContinueFrom(previous.CameraControls);
+        WalkControls.ContinueFrom(previous.WalkControls);
+        IsTrailEnabled = Trail is not null && previous.IsTrailEnabled;
+        var history = FlyingCamera.SharesStatesWith(previous.FlyingCamera) ? previous.History : new(FlyingCamera.State);
+        return (previous.Draft.Rebase(File, layoutView, mine), history);
+    }
+
+    private static bool HaveSameProjection(Scene scene1, Scene scene2) =>
+        scene1.Projection == scene2.Projection && scene1.OrthographicHeight.Equals(scene2.OrthographicHeight);
 
     /// <summary>Finds the fractal that the camera can enter: the only object of the scene, if that is a fractal.</summary>
     private static FractalLocation? FindFractal(DrawableScene drawable)

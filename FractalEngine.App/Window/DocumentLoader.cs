@@ -6,86 +6,203 @@ using FractalEngine.Render.Windowing;
 namespace FractalEngine.App.Window;
 
 /// <summary>
-/// Owns the document of a window, and replaces it when another file has been loaded in the background. Progress and errors are shown in
-/// the overlay.
+/// Owns the document of a window, and replaces it when another file, or the same one after a change, has been loaded in the background.
+/// Progress and errors are shown in the overlay. A file that can't be loaded leaves the document as it is.
 /// </summary>
 /// <param name="window">The window that shows the document.</param>
 /// <param name="overlay">The overlay of the window.</param>
 /// <param name="options">The options of the window.</param>
-internal sealed class DocumentLoader(RenderWindow window, WindowOverlay overlay, WindowOptions options) : IDisposable
+/// <param name="opened">Called with the full path of each file that was opened.</param>
+internal sealed class DocumentLoader(RenderWindow window, WindowOverlay overlay, WindowOptions options, Action<string> opened) : IDisposable
 {
+    // A file that is faulty only because it is still being written is mended sooner.
+    private static readonly TimeSpan FaultDelay = TimeSpan.FromSeconds(0.2);
+
+    private readonly FileWatcher? _watcher = options.WatchesFiles ? new(window.Wake) : null;
+    private readonly AssetCache _cache = new();
+    private string _path = "";
     private BackgroundLoad? _load;
+    private Action? _next;
+    private (string Error, TimeSpan Time)? _pendingFault;
 
     /// <summary>The document shown; null until the first file is loaded.</summary>
     public Document? Document { get; private set; }
 
-    /// <summary>The exit code of the last load.</summary>
+    /// <summary>The exit code of the first load.</summary>
     public int ExitCode { get; private set; }
 
-    /// <summary>True while a file is being loaded.</summary>
-    public bool IsLoading => _load is { IsResultTaken: false };
-
     /// <summary>True while anything is loaded or prepared in the background, so that progress must be shown.</summary>
-    public bool IsBusy => IsLoading || Document?.FirstSightLoader.IsRunning == true;
+    public bool IsBusy => _load is not null || _pendingFault is not null || Document?.FirstSightLoader.IsRunning == true;
 
-    /// <summary>Starts to load a file, unless another one is being loaded.</summary>
+    /// <summary>Starts to load a file. If another one is being loaded, it comes next.</summary>
     /// <param name="path">Path of the mesh, fractal or scene.</param>
     /// <param name="settings">The present render settings.</param>
-    public void Open(string path, RenderSettings settings)
+    /// <param name="keepsState">True for the same scene under another name: its camera and bodies go on.</param>
+    public void Open(string path, RenderSettings settings, bool keepsState = false)
     {
-        if (IsLoading)
+        if (_load is not null)
         {
+            _next = () => Open(path, settings, keepsState);
             return;
         }
 
-        window.Title = $"{Path.GetFileName(path)} - FractalEngine";
-        _load = new(path, options.Load, settings, window.Aspect, window.Wake);
+        Start(path, settings, keepsState ? Document : null);
+    }
+
+    /// <summary>Loads the files of the document again that have changed. Camera and unchanged bodies go on.</summary>
+    public void Reload(RenderSettings settings)
+    {
+        if (_load is not null)
+        {
+            _next ??= () => Reload(settings);
+            return;
+        }
+
+        Start(_path, settings, Document);
     }
 
     /// <summary>Takes over the results that are ready. Must be called on the window's thread.</summary>
-    public Redraw Poll() => PollLoad() | PollFirstSight();
+    /// <param name="settings">The present render settings.</param>
+    /// <param name="now">The present time.</param>
+    public Redraw Poll(RenderSettings settings, TimeSpan now)
+    {
+        if (_watcher?.TakeChange() == true)
+        {
+            _pendingFault = null;
+            Reload(settings);
+        }
+
+        return PollLoad(now) | PollFault(now) | PollFirstSight();
+    }
 
     /// <inheritdoc/>
-    public void Dispose() => Document?.Dispose();
-
-    private Redraw PollLoad()
+    public void Dispose()
     {
-        if (_load is not { IsResultTaken: false } load)
+        _watcher?.Dispose();
+        Document?.Dispose();
+    }
+
+    private void Start(string path, RenderSettings settings, Document? previous)
+    {
+        if (Document is null)
+        {
+            _path = path;
+            ShowTitle(path);
+        }
+
+        _load = new(path, options, settings, window.Aspect, _cache, previous, window.Wake);
+    }
+
+    private void ShowTitle(string path) => window.Title = $"{Path.GetFileName(path)} - FractalEngine";
+
+    private Redraw PollLoad(TimeSpan now)
+    {
+        if (_load is not { } load)
         {
             return Redraw.None;
         }
 
         if (!load.IsCompleted)
         {
-            overlay.Progress = load.Progress;
-            return Redraw.Overlay;
+            // Loading again goes on behind the scene that is shown.
+            overlay.Progress = load.Previous is null ? load.Progress : null;
+            return load.Previous is null ? Redraw.Overlay : Redraw.None;
         }
 
+        _load = null;
         overlay.Progress = null;
         var loaded = load.TakeResult(out var exitCode, out var error);
-        ExitCode = exitCode;
-        overlay.Error = error;
-        if (loaded is not var (file, preparation))
+        ExitCode = Document is null ? exitCode : ExitCode;
+        var redraw = loaded is var (file, preparation) ? Show(load, file, preparation) : Refuse(load, error!, now);
+        if (_next is { } next)
         {
-            Console.Error.WriteLine(error);
-            return Redraw.Overlay;
+            _next = null;
+            next();
         }
 
-        Show(file, preparation);
+        return redraw;
+    }
+
+    private Redraw Show(BackgroundLoad load, LoadedFile file, ScenePreparation preparation)
+    {
+        var isSameFile = load.Previous is not null && load.Previous == Document && load.Path == _path;
+        var previous = load.Previous == Document ? load.Previous : null;
+        if (previous is null)
+        {
+            Document?.Dispose();
+            Document = null;
+        }
+
+        var known = previous?.File.Warnings.Select(static warning => warning.ToString()).ToHashSet() ?? [];
+        Document = new(window, file, preparation, options, previous);
+        _path = load.Path;
+        _pendingFault = null;
+        overlay.Error = null;
+        foreach (var message in file.Warnings.Select(static warning => warning.ToString()).Concat(preparation.Scene.Notices))
+        {
+            if (known.Add(message))
+            {
+                Console.Error.WriteLine(message);
+            }
+        }
+
+        ShowTitle(_path);
+        overlay.DescribeFile(file, preparation.Scene);
+        _watcher?.Watch(load.Files);
+        if (!isSameFile)
+        {
+            opened(file.Path);
+        }
+
         return Redraw.Scene;
     }
 
-    private void Show(LoadedFile file, ScenePreparation preparation)
+    /// <summary>
+    /// Keeps the document, and says why the file can't be loaded: at once, or after a while if the file may be unfinished.
+    /// </summary>
+    private Redraw Refuse(BackgroundLoad load, string error, TimeSpan now)
     {
-        Document?.Dispose();
-        Document = null;
-        Document = new(window, file, preparation, options);
-        foreach (var message in file.Warnings.Select(static warning => warning.ToString()).Concat(preparation.Scene.Notices))
+        var isReload = Document is not null && load.Path == _path;
+        if (Document is null || isReload)
         {
-            Console.Error.WriteLine(message);
+            // What is wrong may be mended in any file that the load has come to, or in one that was fine before.
+            _watcher?.Watch(load.Files);
         }
 
-        overlay.DescribeFile(file, preparation.Scene);
+        if (isReload)
+        {
+            _pendingFault = (error, now + FaultDelay);
+            return Redraw.None;
+        }
+
+        Console.Error.WriteLine(error);
+        if (Document is null)
+        {
+            overlay.Error = error;
+        }
+        else
+        {
+            overlay.ShowProblem(error, now);
+        }
+
+        return Redraw.Overlay;
+    }
+
+    private Redraw PollFault(TimeSpan now)
+    {
+        if (_pendingFault is not var (error, time) || now < time)
+        {
+            return Redraw.None;
+        }
+
+        _pendingFault = null;
+        if (overlay.Error != error)
+        {
+            Console.Error.WriteLine(error);
+        }
+
+        overlay.Error = error;
+        return Redraw.Overlay;
     }
 
     private Redraw PollFirstSight()

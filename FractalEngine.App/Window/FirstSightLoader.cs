@@ -1,3 +1,4 @@
+using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 
@@ -6,10 +7,13 @@ namespace FractalEngine.App.Window;
 /// <summary>Prepares models in the background when their objects first become visible.</summary>
 /// <param name="preparation">The preparation of the scene.</param>
 /// <param name="completed">Called on the other thread when models have been prepared.</param>
-internal sealed class FirstSightLoader(ScenePreparation preparation, Action completed)
+internal sealed class FirstSightLoader(ScenePreparation preparation, Action completed) : IDisposable
 {
     private readonly ThrottledProgress _progress = new();
-    private Task? _task;
+    private readonly Lock _lock = new();
+    private CancellationTokenSource _cancellation = new();
+    private volatile Task? _task;
+    private bool _isDisposed;
 
     /// <summary>True from <see cref="Start"/> until <see cref="TakeScene"/> has returned the new scene.</summary>
     public bool IsRunning => _task is not null;
@@ -24,9 +28,25 @@ internal sealed class FirstSightLoader(ScenePreparation preparation, Action comp
     {
         if (_task is null && !preparation.IsComplete && preparation.HasUnpreparedVisibleModels(view, aspect))
         {
+            CancellationToken token;
+            lock (_lock)
+            {
+                _cancellation.Dispose();
+                _cancellation = new();
+                token = _cancellation.Token;
+            }
+
             _task = Task.Run(() =>
             {
-                preparation.PrepareVisible(view, aspect, _progress);
+                try
+                {
+                    preparation.PrepareVisible(view, aspect, _progress, token);
+                }
+                catch (OperationCanceledException)
+                {
+                    // What was prepared before stays.
+                }
+
                 completed();
             });
         }
@@ -46,10 +66,40 @@ internal sealed class FirstSightLoader(ScenePreparation preparation, Action comp
         return preparation.Scene;
     }
 
-    /// <summary>Waits until no preparation is running.</summary>
-    public void Wait()
+    /// <summary>
+    /// Ends the preparation, and returns the scene as far as it is prepared. Waits for the model in progress if that is still needed. May
+    /// be called on any thread.
+    /// </summary>
+    /// <param name="isNeeded">Tells whether a model is needed further on.</param>
+    public DrawableScene Stop(Func<Model, bool> isNeeded)
     {
-        _task?.GetAwaiter().GetResult();
-        _task = null;
+        lock (_lock)
+        {
+            if (!_isDisposed)
+            {
+                _cancellation.Cancel();
+            }
+        }
+
+        if (_task is { } task && preparation.Current is { } current && isNeeded(current))
+        {
+            task.ContinueWith(static _ => { }, TaskScheduler.Default).Wait();
+        }
+
+        return preparation.Scene;
+    }
+
+    /// <summary>Ends the preparation after the model in progress, whose result is dropped.</summary>
+    public void Dispose()
+    {
+        lock (_lock)
+        {
+            if (!_isDisposed)
+            {
+                _isDisposed = true;
+                _cancellation.Cancel();
+                _cancellation.Dispose();
+            }
+        }
     }
 }

@@ -27,9 +27,13 @@ internal sealed class FlyingCamera
     // Depth of the far plane divided by the distance of the farthest drawn point.
     private const double FarPlaneFactor = 1.01;
 
+    // The addresses of states would fill the memory in deeper zooms. Such a state returns as exactly as a world position can.
+    private const int MaxStateDepth = 10_000;
+
     // Limits the roots that are drawn around the camera. Maps that hardly shrink lead to many ancestors of a similar size.
     private const int MaxAncestors = 1000;
 
+    private readonly LoadedScene? _scene;
     private readonly double _sceneSize;
     private readonly BoundingBox _sceneBounds;
     private readonly CameraPose _initialPose;
@@ -42,9 +46,12 @@ internal sealed class FlyingCamera
     /// <param name="projection">The initial projection.</param>
     /// <param name="orthographicHeight">The initial visible height in scene units; null where it follows the camera.</param>
     /// <param name="fractal">The fractal that the camera can enter to any depth; null for none.</param>
+    /// <param name="scene">The scene to frame; null to frame its bounds.</param>
     public FlyingCamera(
-        BoundingBox bounds, Camera camera, Projection projection, double? orthographicHeight, FractalLocation? fractal = null)
+        BoundingBox bounds, Camera camera, Projection projection, double? orthographicHeight, FractalLocation? fractal = null,
+        LoadedScene? scene = null)
     {
+        _scene = scene;
         _fractal = fractal;
         _sceneBounds = bounds.IsEmpty ? new(-Vector.One, Vector.One) : bounds;
         _sceneSize = Math.Max(_sceneBounds.Diagonal, 1e-9 * (1 + _sceneBounds.Centre.MaxAbsComponent()));
@@ -56,6 +63,10 @@ internal sealed class FlyingCamera
 
     /// <summary>The state of the camera, which changes with every movement.</summary>
     public CameraPose Pose { get; private set; }
+
+    /// <summary>The present state, for <see cref="Restore"/>.</summary>
+    public CameraState State =>
+        new(Pose, Camera, FocusDistance, _address is { Depth: > 0 and <= MaxStateDepth } ? _address.Clone() : null);
 
     /// <summary>The camera in world space, as far as double precision can express its position.</summary>
     public Camera Camera =>
@@ -123,9 +134,11 @@ internal sealed class FlyingCamera
     /// <inheritdoc cref="Turn"/>
     public void Orbit(double right, double up) => Apply(CameraNavigation.Orbit(Pose.Camera, Focus, right, up));
 
-    /// <summary>Zooms to the point in focus, or away from it.</summary>
+    /// <summary>Zooms to a point at the depth of the point in focus, or away from it. The point keeps its place in the frame.</summary>
     /// <param name="factor">The new distance of the point divided by the old one, positive.</param>
-    public void Zoom(double factor)
+    /// <param name="right">Place of the point in the frame: 0 in the middle, 1 as far to the right as half the frame is high.</param>
+    /// <param name="up">Likewise upwards.</param>
+    public void Zoom(double factor, double right = 0, double up = 0)
     {
         if (_address is not null)
         {
@@ -134,16 +147,49 @@ internal sealed class FlyingCamera
             FocusDistance = factor > 1 && _address.Depth > 0 ? maxFocusDistance : Math.Min(FocusDistance, maxFocusDistance);
         }
 
-        Apply(CameraNavigation.Zoom(Pose.Camera, Focus, factor));
+        var halfHeight = Projection == Projection.Orthographic && OrthographicHeight is { } height
+            ? 0.5 * height
+            : FocusDistance * Pose.Camera.HalfHeightAtUnitDepth;
+        var pivot = Focus + (Pose.Camera.LocalAxes * new Vector(halfHeight * right, halfHeight * up, 0));
+        Apply(CameraNavigation.Zoom(Pose.Camera, pivot, factor));
         FocusDistance *= factor;
         Pose = Pose with { OrthographicHeight = factor * Pose.OrthographicHeight };
     }
 
-    /// <summary>Switches between perspective and orthographic projection.</summary>
-    public void ToggleProjection() => Pose = Pose with
+    /// <summary>Takes a projection as it is, without moving the camera.</summary>
+    /// <param name="projection">The projection of the view.</param>
+    /// <param name="orthographicHeight">The visible height in scene units; null where it follows the camera.</param>
+    public void SetProjection(Projection projection, double? orthographicHeight) =>
+        Pose = Pose with { Projection = projection, OrthographicHeight = orthographicHeight };
+
+    /// <summary>Switches between perspective and orthographic projection. What is in focus keeps its size.</summary>
+    public void ToggleProjection()
     {
-        Projection = Projection == Projection.Perspective ? Projection.Orthographic : Projection.Perspective,
-    };
+        var heightAtUnitDepth = 2 * Pose.Camera.HalfHeightAtUnitDepth;
+        if (Projection == Projection.Perspective)
+        {
+            // Deep in a fractal, an orthographic view shows the whole from afar.
+            Pose = Pose with
+            {
+                Projection = Projection.Orthographic,
+                OrthographicHeight = Depth > 0 ? null : heightAtUnitDepth * FocusDistance,
+            };
+            return;
+        }
+
+        if (Depth == 0 && OrthographicHeight is { } height)
+        {
+            var distance = height / heightAtUnitDepth;
+            // A difference of a rounding would be a move.
+            if (Math.Abs(distance - FocusDistance) > 1e-9 * distance)
+            {
+                Move(new(0, 0, FocusDistance - distance));
+                FocusDistance = distance;
+            }
+        }
+
+        Pose = Pose with { Projection = Projection.Perspective, OrthographicHeight = null };
+    }
 
     /// <summary>Moves the camera so that the whole scene is visible in the present direction.</summary>
     /// <param name="aspect">Width divided by height of the frame.</param>
@@ -163,6 +209,40 @@ internal sealed class FlyingCamera
         ResetFractalAddress();
     }
 
+    /// <summary>Returns to a state of this camera, or of one for the same fractal.</summary>
+    public void Restore(CameraState state)
+    {
+        if (_fractal is null || state.Address is not null)
+        {
+            _address = state.Address?.Clone();
+            FocusDistance = state.FocusDistance;
+        }
+        else
+        {
+            MoveTo(state.WorldCamera);
+        }
+
+        Pose = state.Pose;
+    }
+
+    /// <summary>Shows the same view as a camera for another scene, as exactly as a world position can.</summary>
+    public void ContinueFrom(FlyingCamera other)
+    {
+        if (SharesStatesWith(other))
+        {
+            Restore(other.State);
+        }
+        else
+        {
+            Pose = other.Pose;
+            MoveTo(other.Camera);
+        }
+    }
+
+    /// <summary>Tells whether the states of another camera can be restored here.</summary>
+    public bool SharesStatesWith(FlyingCamera other) =>
+        ReferenceEquals(_fractal?.Hierarchy, other._fractal?.Hierarchy) && _fractal?.ObjectToWorld == other._fractal?.ObjectToWorld;
+
     /// <summary>Continues from another camera in world space.</summary>
     public void MoveTo(Camera camera)
     {
@@ -173,7 +253,16 @@ internal sealed class FlyingCamera
 
     private void FrameScene(Camera camera, double aspect)
     {
-        Pose = Pose with { Camera = CameraFraming.Frame(camera, _sceneBounds, aspect), OrthographicHeight = null };
+        var (framed, height) = (CameraFraming.Frame(camera, _sceneBounds, aspect), (double?)null);
+        if (_scene is not null)
+        {
+            framed = CameraFraming.FrameScene(camera, _scene, aspect);
+            (framed, height) = Projection == Projection.Orthographic
+                ? CameraFraming.FrameSceneOrthographic(framed, _scene, aspect)
+                : (framed, null);
+        }
+
+        Pose = Pose with { Camera = framed, OrthographicHeight = height };
         FocusDistance = DistanceToCentre(Pose.Camera);
         ResetFractalAddress();
     }

@@ -27,8 +27,6 @@ internal readonly record struct FrameReport(
     private OverlayPanel CostPanel(FrameStatistics statistics)
     {
         var drawTime = DrawTime.TotalMilliseconds;
-        // Adding zero turns a rounded -0 into 0.
-        var magnification = Math.Round(Log10Magnification, 1) + 0.0;
         var cullTime = statistics.CullWaitTime.TotalMilliseconds;
         return OverlayPanel.OfTable(OverlayAnchor.BottomRight, "Last frame",
         [
@@ -37,7 +35,7 @@ internal readonly record struct FrameReport(
             ("triangles", Invariant($"{statistics.TriangleCount:N0}")),
             ("visited nodes", Invariant($"{statistics.Culling.VisitedNodes:N0}")),
             ("proxies", Invariant($"{statistics.Culling.Proxies:N0}")),
-            ("fractal depth", Invariant($"{Depth:N0}, magnified 10^{magnification:F1}")),
+            ("fractal depth", Invariant($"{Depth:N0}, magnified {ViewName.Magnification(Log10Magnification)}")),
             ("culling runs", Invariant($"{statistics.CullCount:N0}")),
             ("uploaded", Invariant($"{statistics.UploadedBytes / 1e6:F1} MB")),
         ]);

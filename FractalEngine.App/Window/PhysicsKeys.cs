@@ -19,7 +19,9 @@ internal static class PhysicsKeys
             case Key.R:
                 return physics.Reset();
             case Key.B:
-                return physics.DropSphere(document.Camera);
+                return document.VisibleDepth > 0
+                    ? "a ball is too large for this depth: zoom out first"
+                    : physics.DropSphere(document.Camera);
             case Key.C:
                 return physics.SwitchCollider();
             case Key.P:

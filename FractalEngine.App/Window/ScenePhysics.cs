@@ -1,4 +1,6 @@
 using System.Diagnostics;
+using FractalEngine.Core;
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Character;
 using FractalEngine.Core.Scenes;
@@ -11,17 +13,23 @@ namespace FractalEngine.App.Window;
 /// The physics of a scene in a window. Colliders are built in the background; until then the commands answer that they are not ready.
 /// </summary>
 /// <remarks>Commands return a message for the user.</remarks>
-internal sealed class ScenePhysics
+internal sealed class ScenePhysics : IDisposable
 {
     private const string OutOfRangeMessage = "a body has left the range of numbers: R resets all bodies";
 
     private readonly LoadedScene _scene;
     private readonly Task<PhysicsWorld> _worldTask;
+    private readonly CancellationTokenSource _cancellation = new();
+    private readonly ColliderCache _colliders;
+
+    // The bodies where an earlier scene left them, drawn until the colliders are built; null for none.
+    private readonly PhysicsWorld? _continued;
     private readonly double _sceneSize;
     private readonly int _colliderCount;
     private TimeSpan _stepTime;
     private string? _problem;
     private bool _isBuildProblemReported;
+    private bool _isDisposed;
 
     // True while a body is out of range: no step can be made until the next reset.
     private bool _isBroken;
@@ -29,18 +37,22 @@ internal sealed class ScenePhysics
     /// <summary>Starts to build the colliders in the background, if the scene has bodies that need them.</summary>
     /// <param name="scene">The loaded scene.</param>
     /// <param name="completed">Called on another thread when the colliders are built.</param>
+    /// <param name="previous">The physics of the scene before it was changed, which ends here; null for none.</param>
     /// <param name="alwaysBuild">Builds the colliders even without bodies, for comparison.</param>
-    public ScenePhysics(LoadedScene scene, Action completed, bool alwaysBuild = false)
+    public ScenePhysics(LoadedScene scene, Action completed, ScenePhysics? previous = null, bool alwaysBuild = false)
     {
         _scene = scene;
         _sceneSize = scene.Bounds.IsEmpty ? 1 : scene.Bounds.Diagonal;
         _colliderCount = scene.StaticModels.Count();
+        _colliders = previous?._colliders ?? new();
+        _continued = previous is null ? null : Continue(previous);
+        var cancellation = _cancellation.Token;
         _worldTask = Task.Run(() =>
         {
-            var world = new PhysicsWorld(scene);
-            if (world.Bodies.Count > 0 || alwaysBuild)
+            var world = _continued ?? new PhysicsWorld(scene, null, _colliders);
+            if (world.Bodies.Count > 0 || world.Character is { IsActive: true } || alwaysBuild)
             {
-                world.BuildColliders();
+                BuildColliders(world, cancellation);
             }
 
             return world;
@@ -58,13 +70,13 @@ internal sealed class ScenePhysics
     public bool IsWalking => Character is { IsActive: true };
 
     /// <summary>The player; null where there is none.</summary>
-    public CharacterController? Character => World?.Character;
+    public CharacterController? Character => (World ?? _continued)?.Character;
 
     /// <summary>Whether closest points and normals are shown as lines.</summary>
     public bool ShowsClosestPoints { get; set; }
 
     /// <summary>The fraction of a step by which frames follow the last step, from 0 to 1; see <see cref="Body.InterpolatedMap"/>.</summary>
-    public double InterpolationAlpha => IsPaused || World is not { } world ? 1 : world.InterpolationAlpha;
+    public double InterpolationAlpha => IsPaused || (World ?? _continued) is not { } world ? 1 : world.InterpolationAlpha;
 
     /// <summary>Two lines about the bodies, their collider and the cost of the last step.</summary>
     public string StatusText
@@ -81,9 +93,10 @@ internal sealed class ScenePhysics
             var (faceTests, boundTests) = world.LastStepCost;
             var paused = IsPaused ? " · paused" : "";
             var bodies = FormattableString.Invariant(
-                $"bodies: {world.Bodies.Count:N0}, {awakeCount:N0} awake · collider: {collider}{paused}");
+                $"{Count(world.Bodies.Count, "body", "bodies")}, {awakeCount:N0} awake · collider: {collider}{paused}");
+            var tests = $"last step: {Count(faceTests, "face test", "face tests")}";
             var cost = FormattableString.Invariant(
-                $"last step: {faceTests:N0} face tests, {boundTests:N0} bound tests, {_stepTime.TotalMilliseconds:F2} ms");
+                $"{tests}, {Count(boundTests, "bound test", "bound tests")}, {_stepTime.TotalMilliseconds:F2} ms");
             return $"{bodies}\n{cost}";
         }
     }
@@ -94,6 +107,17 @@ internal sealed class ScenePhysics
     private PhysicsWorld? World => _worldTask.IsCompletedSuccessfully ? _worldTask.Result : null;
 
     private string NotReadyMessage => _worldTask.IsFaulted ? "there is no physics in this scene" : "the colliders are being built";
+
+    /// <summary>Ends the building of colliders after the one in progress. Those that are built stay for the next scene.</summary>
+    public void Dispose()
+    {
+        if (!_isDisposed)
+        {
+            _isDisposed = true;
+            _cancellation.Cancel();
+            _cancellation.Dispose();
+        }
+    }
 
     /// <summary>Returns the reason why the physics has failed, only once for each failure; null otherwise.</summary>
     public string? TakeProblem()
@@ -162,7 +186,7 @@ internal sealed class ScenePhysics
         return "bodies reset";
     }
 
-    /// <summary>Drops a sphere in front of the camera.</summary>
+    /// <summary>Drops a sphere where the camera looks.</summary>
     public string DropSphere(Camera camera) => WhenReady(world => BodySpawner.DropSphere(world, _sceneSize, camera));
 
     /// <summary>Lets the player walk, or the camera fly.</summary>
@@ -181,7 +205,9 @@ internal sealed class ScenePhysics
         }
 
         IsPaused = _isBroken;
-        return "walking: W A S D move, Space jumps, P flies";
+        return BodySpawner.HasGround(world)
+            ? "walking: W A S D move, Space jumps, P flies"
+            : "walking, but there is no ground below: P flies";
     });
 
     /// <summary>Switches all bodies to the next collider that fits the scene.</summary>
@@ -190,7 +216,7 @@ internal sealed class ScenePhysics
     /// <summary>Moves the drawn bodies to their interpolated positions.</summary>
     public void ApplyTo(SceneRenderer renderer)
     {
-        if (World is not { } world)
+        if ((World ?? _continued) is not { } world)
         {
             return;
         }
@@ -211,7 +237,51 @@ internal sealed class ScenePhysics
         }
 
         renderer.Spheres = spheres;
-        renderer.Lines = ShowsClosestPoints && !_isBroken ? ClosestPointLines.Create(world, alpha) : [];
+        renderer.Lines = ShowsClosestPoints && !_isBroken && World is not null ? ClosestPointLines.Create(world, alpha) : [];
+    }
+
+    private static string Count(long number, string one, string many) =>
+        FormattableString.Invariant($"{number:N0} {(number == 1 ? one : many)}");
+
+    private static void BuildColliders(PhysicsWorld world, CancellationToken cancellation)
+    {
+        try
+        {
+            world.BuildColliders(cancellation);
+        }
+        catch (FractalEngineException) when (world.ColliderOverride is not null)
+        {
+            // The collider that the user chose does not fit the changed scene.
+            world.ColliderOverride = null;
+            world.BuildColliders(cancellation);
+        }
+    }
+
+    /// <summary>Creates the world of the changed scene, with the bodies where they are.</summary>
+    /// <returns>Null where there is nothing to continue, or the scene has no physics.</returns>
+    private PhysicsWorld? Continue(ScenePhysics previous)
+    {
+        previous.Dispose();
+        _colliders.Retain(_scene);
+        IsPaused = previous.IsPaused;
+        ShowsClosestPoints = previous.ShowsClosestPoints;
+        if (previous._isBroken || (previous.World ?? previous._continued) is not { } earlier)
+        {
+            return null;
+        }
+
+        try
+        {
+            var world = new PhysicsWorld(_scene, null, _colliders);
+            world.Continue(earlier);
+            world.ColliderOverride = earlier.ColliderOverride;
+            return world;
+        }
+        catch (FractalEngineException)
+        {
+            // The task that creates the world again reports the error.
+            return null;
+        }
     }
 
     private string WhenReady(Func<PhysicsWorld, string> command) => World is { } world ? command(world) : NotReadyMessage;

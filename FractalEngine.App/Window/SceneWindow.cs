@@ -26,6 +26,8 @@ internal sealed class SceneWindow : IDisposable
     private readonly WindowOverlay _overlay = new();
     private readonly DocumentLoader _loader;
     private readonly WindowKeys _keys;
+    private readonly PromptHost _prompts = new();
+    private readonly FileCommands _files;
     private readonly Stopwatch _clock = Stopwatch.StartNew();
     private TimeSpan _lastAdvance;
     private TimeSpan _lastRefresh;
@@ -39,8 +41,10 @@ internal sealed class SceneWindow : IDisposable
         _window = new("FractalEngine", options.Size.Width, options.Size.Height);
         _frameRenderer = new(_window);
         _windowRenderer = new(_frameRenderer);
-        _loader = new(_window, _overlay, options);
+        var recent = new RecentFiles(options.RecentFilesPath, Report);
+        _loader = new(_window, _overlay, options, recent.Add);
         _keys = new(_window, _windowRenderer, _overlay, options.Settings);
+        _files = new(_loader, _prompts, recent, Report, () => _keys.Settings, () => _isClosing = true);
         _loader.Open(path, options.Settings);
     }
 
@@ -72,7 +76,7 @@ internal sealed class SceneWindow : IDisposable
         {
             foreach (var windowEvent in _window.WaitEvents(WaitTimeout()))
             {
-                Handle(windowEvent);
+                Dispatch(windowEvent);
             }
 
             PollLoader();
@@ -120,10 +124,42 @@ internal sealed class SceneWindow : IDisposable
     private void PollLoader()
     {
         var previousDocument = Document;
-        _redraw |= _loader.Poll();
+        _redraw |= _loader.Poll(_keys.Settings, _clock.Elapsed);
         if (Document != previousDocument)
         {
             _windowRenderer.Reset();
+        }
+    }
+
+    private void Report(string message)
+    {
+        _overlay.Report(message, _clock.Elapsed);
+        _redraw |= Redraw.Overlay;
+    }
+
+    /// <summary>Passes an event to the open question, or else to the scene.</summary>
+    private void Dispatch(WindowEvent windowEvent)
+    {
+        var promptBefore = _prompts.Current;
+        if (!_prompts.Handle(windowEvent))
+        {
+            Handle(windowEvent);
+            if (windowEvent is KeyPressed)
+            {
+                _prompts.KeyHandled();
+            }
+        }
+        else
+        {
+            _redraw |= Redraw.Overlay;
+        }
+
+        _overlay.Prompt = _prompts.Current?.Panel;
+        if (_prompts.Current != promptBefore)
+        {
+            // Keys that are held now are released while the question is open, or were pressed for it.
+            Document?.ReleaseKeys();
+            _redraw |= Redraw.Overlay;
         }
     }
 
@@ -133,7 +169,11 @@ internal sealed class SceneWindow : IDisposable
         switch (windowEvent)
         {
             case CloseRequested or KeyPressed { Key: Key.Escape }:
-                _isClosing = true;
+                if (_prompts.Current is null)
+                {
+                    _files.Close();
+                }
+
                 return;
             case WindowResized:
                 _redraw |= Redraw.Scene;
@@ -146,14 +186,14 @@ internal sealed class SceneWindow : IDisposable
                 _redraw |= Redraw.Overlay;
                 break;
             case FileDropped dropped:
-                _loader.Open(dropped.Path, _keys.Settings);
+                _files.Open(PathText.Shorten(dropped.Path));
                 break;
             case KeyPressed { IsRepeat: false } pressed:
-                _redraw |= _keys.Handle(pressed, Document, _clock.Elapsed);
+                _redraw |= _keys.Handle(pressed, Document, _files, _clock.Elapsed);
                 break;
         }
 
-        if (Document?.Handle(windowEvent, _window.Aspect) == true)
+        if (Document?.Handle(windowEvent, Math.Max(1, _window.Width), Math.Max(1, _window.Height)) == true)
         {
             _redraw |= Redraw.Scene;
         }
@@ -227,6 +267,7 @@ internal sealed class SceneWindow : IDisposable
             document.FirstSightLoader.Start(_windowRenderer.LatestView!, _window.Aspect);
             var camera = document.FlyingCamera;
             var drawTime = _clock.Elapsed - start;
+            _overlay.ViewText = ViewName.Of(document.Camera, camera.Projection, document.VisibleDepth, camera.Log10Magnification);
             _overlay.SetReport(new(
                 document.Renderer, usedSettings.Culling, drawTime, camera.Depth, camera.Log10Magnification, document.Physics));
         }

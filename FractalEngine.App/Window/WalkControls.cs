@@ -18,6 +18,14 @@ internal sealed class WalkControls
     /// <summary>The camera that looks in the player's direction; its position is not used.</summary>
     public Camera Direction { get; set; } = Camera.Default;
 
+    /// <summary>Goes on with the gaze and the keys that are held.</summary>
+    public void ContinueFrom(WalkControls other)
+    {
+        Direction = other.Direction;
+        _heldKeys.CopyFrom(other._heldKeys);
+        _isLooking = other._isLooking;
+    }
+
     /// <summary>Releases all keys and mouse buttons.</summary>
     public void ReleaseKeys()
     {

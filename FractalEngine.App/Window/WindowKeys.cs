@@ -16,9 +16,15 @@ internal sealed class WindowKeys(RenderWindow window, WindowRenderer renderer, W
     /// <summary>Runs the command of a key; keys without a command are ignored.</summary>
     /// <param name="pressed">The key that was pressed.</param>
     /// <param name="document">The document shown, or null.</param>
+    /// <param name="files">Saves and opens files.</param>
     /// <param name="now">The present time.</param>
-    public Redraw Handle(KeyPressed pressed, Document? document, TimeSpan now)
+    public Redraw Handle(KeyPressed pressed, Document? document, FileCommands files, TimeSpan now)
     {
+        if (pressed.Modifiers.HasFlag(KeyModifiers.Control))
+        {
+            return HandleControl(pressed, document, files, now);
+        }
+
         switch (pressed.Key)
         {
             case Key.H:
@@ -33,25 +39,43 @@ internal sealed class WindowKeys(RenderWindow window, WindowRenderer renderer, W
         }
     }
 
+    private Redraw HandleControl(KeyPressed pressed, Document? document, FileCommands files, TimeSpan now)
+    {
+        var isShiftHeld = pressed.Modifiers.HasFlag(KeyModifiers.Shift);
+        switch (pressed.Key)
+        {
+            case Key.O:
+                files.AskForFile();
+                return Redraw.Overlay;
+            case Key.S when isShiftHeld:
+                files.SaveAs();
+                return Redraw.Overlay;
+            case Key.S:
+                files.Save();
+                return Redraw.Overlay;
+            case Key.Z when document is not null:
+                overlay.ShowMessage(document.Undo(isRedo: isShiftHeld), now);
+                return Redraw.Scene;
+            default:
+                return Redraw.None;
+        }
+    }
+
     private Redraw HandleForDocument(KeyPressed pressed, Document document, TimeSpan now)
     {
-        var isControlHeld = pressed.Modifiers.HasFlag(KeyModifiers.Control);
         switch (pressed.Key)
         {
             case Key.T when document.Trail is { } trail:
                 document.ToggleTrail();
-                overlay.ShowMessage(document.IsTrailEnabled ? $"paper's zoom: m ← m·t, trail {trail.Length}" : "engine's zoom", now);
+                overlay.ShowMessage(ZoomMessage(document.IsTrailEnabled, trail.Length), now);
                 return Redraw.Scene;
             case Key.F12:
                 var image = renderer.Capture(document, Settings, window.Width, window.Height);
-                overlay.Report(WindowFiles.SaveScreenshot(image, document.File.Path), now);
+                overlay.Report(Screenshots.Save(image, document.File.Path), now);
                 return Redraw.Scene;
-            case Key.S when isControlHeld:
-                overlay.Report(WindowFiles.SaveScene(document), now);
-                return Redraw.Overlay;
         }
 
-        if (isControlHeld || PhysicsKeys.Apply(document, pressed.Key) is not { } message)
+        if (PhysicsKeys.Apply(document, pressed.Key) is not { } message)
         {
             return Redraw.None;
         }
@@ -60,6 +84,10 @@ internal sealed class WindowKeys(RenderWindow window, WindowRenderer renderer, W
         overlay.ShowMessage(message, now);
         return Redraw.Scene;
     }
+
+    private static string ZoomMessage(bool isPapers, int trailLength) => isPapers
+        ? FormattableString.Invariant($"the paper's zoom: the fractal grows about the camera, with {trailLength} earlier levels")
+        : "this engine's zoom: to any depth";
 
     private Redraw ApplySettings(Key key, TimeSpan now)
     {

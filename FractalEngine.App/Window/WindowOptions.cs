@@ -23,6 +23,12 @@ internal sealed record WindowOptions
     /// <summary>Width and height of the window's contents in pixels.</summary>
     public (int Width, int Height) Size { get; init; } = SharedOptions.DefaultResolution;
 
+    /// <summary>Whether files are loaded again when they change.</summary>
+    public bool WatchesFiles { get; init; } = true;
+
+    /// <summary>Full path of the list of recent files; null to keep none.</summary>
+    public string? RecentFilesPath { get; init; }
+
     /// <summary>
     /// Whether the window draws nothing while nothing has changed or while it is hidden. Otherwise it draws 60 frames a second, for
     /// comparison.

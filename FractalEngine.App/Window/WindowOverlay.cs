@@ -1,6 +1,4 @@
 using System.Globalization;
-using System.Numerics;
-using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Ui;
@@ -12,33 +10,31 @@ internal sealed class WindowOverlay
 {
     private static readonly TimeSpan MessageDuration = TimeSpan.FromSeconds(4);
 
+    private static readonly TimeSpan ProblemDuration = TimeSpan.FromSeconds(12);
+
     private static readonly OverlayPanel KeysPanel = OverlayPanel.OfTable(OverlayAnchor.TopRight, "Keys",
     [
-        ("W A S D", "fly (or arrows)"),
-        ("E Q", "fly up, down"),
-        ("Shift Alt", "faster, slower"),
-        ("left drag", "orbit"),
-        ("right drag", "look around"),
-        ("middle drag", "pan (or Shift + left)"),
-        ("wheel", "zoom"),
-        ("F", "frame the scene"),
+        ("W A S D E Q", "fly (Shift: faster, Alt: slower)"),
+        ("left, right drag", "orbit, look around"),
+        ("middle drag, wheel", "pan, zoom to the pointer"),
+        ("F, Enter", "frame the scene, back to the start"),
         ("1 3 7", "front, right, top view"),
-        ("5", "switch projection"),
-        ("Enter", "return to the start"),
+        ("5", "perspective, orthographic"),
         ("G X", "grid, wireframe"),
         ("L", "light per vertex, per pixel"),
-        ("T", "the paper's zoom, or ours"),
+        ("T", "the paper's zoom, or this engine's"),
         ("Space N", "pause, single step"),
         ("B R", "drop a ball, reset bodies"),
         ("P", "walk, fly"),
         ("C V", "next collider, closest points"),
-        ("I", "frame statistics"),
-        ("F12", "screenshot"),
-        ("Ctrl+S", "save scene and camera"),
-        ("H", "show or hide keys"),
-        ("Esc", "close"),
+        ("I F12", "frame statistics, screenshot"),
+        ("Ctrl+O", "open a file"),
+        ("Ctrl+S", "save (Shift: as a new scene)"),
+        ("Ctrl+Z", "undo a move (Shift: redo)"),
+        ("H, Esc", "this list, close"),
     ]);
 
+    private string _fileText = "";
     private OverlayPanel? _description;
     private OverlayPanel? _message;
     private FrameReport? _report;
@@ -46,8 +42,14 @@ internal sealed class WindowOverlay
     /// <summary>The file being loaded, and the completed fraction from 0 to 1; null while nothing is loaded.</summary>
     public (string Text, double Fraction)? Progress { get; set; }
 
-    /// <summary>The error of a file that can't be shown; null if there is none.</summary>
+    /// <summary>The error of a file that can't be shown, until it is mended; null if there is none.</summary>
     public string? Error { get; set; }
+
+    /// <summary>The open question; null for none.</summary>
+    public OverlayPanel? Prompt { get; set; }
+
+    /// <summary>Names the view, see <see cref="ViewName"/>.</summary>
+    public string ViewText { get; set; } = "";
 
     /// <summary>Lines about the bodies of the scene; null if there are none to show.</summary>
     public string? PhysicsStatus { get; set; }
@@ -70,7 +72,8 @@ internal sealed class WindowOverlay
         get
         {
             var panels = new List<OverlayPanel>();
-            if (PhysicsStatus is { } status)
+            // The list of keys needs all the room that small windows have.
+            if (PhysicsStatus is { } status && !ShowsKeys)
             {
                 panels.Add(new(OverlayAnchor.TopLeft, [new OverlayLine(status, null, OverlayTone.Dim)]));
             }
@@ -80,19 +83,21 @@ internal sealed class WindowOverlay
                 panels.Add(KeysPanel);
             }
 
-            if (ShowsStatistics && _report is { } report)
+            if (ShowsStatistics && !ShowsKeys && _report is { } report)
             {
                 panels.AddRange(report.ToPanels(FrameCounts));
             }
 
+            if (_description is { } description)
+            {
+                var lines = description.Lines.Insert(0, new($"{_fileText}{ViewText} · H: keys", null, OverlayTone.Dim));
+                panels.Add(description with { Lines = BudgetNotice is { } notice ? lines.Add(notice) : lines });
+            }
+
             if (Error is { } error)
             {
-                var lines = error.Split('\n').Select(static line => new OverlayLine(line, null, OverlayTone.Warning));
-                panels.Add(new(OverlayAnchor.Centre, [.. lines]));
-            }
-            else if (_description is { } description)
-            {
-                panels.Add(BudgetNotice is { } notice ? description with { Lines = description.Lines.Add(notice) } : description);
+                // Above the description the last good scene stays in view.
+                panels.Add(OfError(_description is null ? OverlayAnchor.Centre : OverlayAnchor.BottomLeft, error));
             }
 
             if (Progress is { } progress)
@@ -103,6 +108,11 @@ internal sealed class WindowOverlay
             if (_message is { } message)
             {
                 panels.Add(message);
+            }
+
+            if (Prompt is { } prompt)
+            {
+                panels.Add(prompt);
             }
 
             return panels;
@@ -134,12 +144,9 @@ internal sealed class WindowOverlay
     {
         _report = null;
         PhysicsStatus = null;
-        var faces = file.Scene.Objects.Aggregate((BigInteger?)BigInteger.Zero, (sum, placed) => sum + placed.Model.FaceCount);
-        _description = new(OverlayAnchor.BottomLeft,
-        [
-            new($"{Path.GetFileName(file.Path)} · {DecimalText.FormatApproximately(faces)} faces · H: keys", null, OverlayTone.Dim),
-            .. drawable.Notices.Select(notice => new OverlayLine(notice, null, OverlayTone.Accent)),
-        ]);
+        _fileText = $"{Path.GetFileName(file.Path)} · {FaceCountText.Of(file.Scene)} · ";
+        _description = new(
+            OverlayAnchor.BottomLeft, [.. drawable.Notices.Select(static notice => new OverlayLine(notice, null, OverlayTone.Accent))]);
     }
 
     /// <summary>Replaces the statistics by those of the last frame.</summary>
@@ -154,6 +161,15 @@ internal sealed class WindowOverlay
         NextExpiry = now + MessageDuration;
     }
 
+    /// <summary>Shows an error for some time, over a scene that stays.</summary>
+    /// <param name="error">Lines for the user.</param>
+    /// <param name="now">The present time.</param>
+    public void ShowProblem(string error, TimeSpan now)
+    {
+        _message = OfError(OverlayAnchor.Bottom, error);
+        NextExpiry = now + ProblemDuration;
+    }
+
     /// <summary>Shows a message for a few seconds, and writes it to stderr.</summary>
     /// <inheritdoc cref="ShowMessage"/>
     public void Report(string message, TimeSpan now)
@@ -161,6 +177,9 @@ internal sealed class WindowOverlay
         Console.Error.WriteLine(message);
         ShowMessage(message, now);
     }
+
+    private static OverlayPanel OfError(OverlayAnchor anchor, string error) =>
+        new(anchor, [.. error.Split('\n').Select(static line => new OverlayLine(line, null, OverlayTone.Warning))]);
 
     /// <summary>Removes the message if its time is over.</summary>
     /// <returns>True when a message was removed.</returns>

@@ -42,12 +42,22 @@ public sealed partial class SceneCollider
     /// <param name="kind">The collider of all objects, see <see cref="ColliderFactory"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">There is no such kind.</exception>
     public SceneCollider(LoadedScene scene, ColliderKind kind = ColliderKind.Exact)
+        : this(scene, kind, null)
+    {
+    }
+
+    /// <summary>Prepares the colliders of a scene, and takes those of known models from a cache.</summary>
+    /// <inheritdoc cref="SceneCollider(LoadedScene, ColliderKind)"/>
+    /// <param name="scene">With its models.</param>
+    /// <param name="kind">The collider of all objects.</param>
+    /// <param name="cache">Receives the colliders of new models; null for none.</param>
+    internal SceneCollider(LoadedScene scene, ColliderKind kind, ColliderCache? cache)
     {
         ArgumentNullException.ThrowIfNull(scene);
         ColliderFactory.ThrowIfUnknown(kind);
         _kind = kind;
-        _sharedColliders =
-            scene.Models.ToDictionary(model => model, model => new Lazy<Collider>(() => CreateCollider(model)));
+        _sharedColliders = scene.Models.ToDictionary(
+            model => model, model => cache?.GetOrAdd(model, kind, () => CreateCollider(model)) ?? new(() => CreateCollider(model)));
         _objects = SceneObjects.Of([.. scene.Objects.Select((placed, index) => CreateInstance(index, placed))]);
     }
 
@@ -141,10 +151,14 @@ public sealed partial class SceneCollider
     /// <summary>Builds all colliders now instead of at their first query.</summary>
     /// <exception cref="ColliderMismatchException">The kind does not fit a model, which the message names.</exception>
     /// <exception cref="FractalLimitException">A fractal is too large for the kind.</exception>
-    public void Build()
+    public void Build() => Build(CancellationToken.None);
+
+    /// <summary>Builds all colliders now, unless it is cancelled between two of them.</summary>
+    internal void Build(CancellationToken cancellation)
     {
         foreach (var instance in ReadyObjects().ToArray())
         {
+            cancellation.ThrowIfCancellationRequested();
             _ = instance.Collider.Value;
         }
     }

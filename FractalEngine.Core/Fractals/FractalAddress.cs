@@ -62,6 +62,16 @@ public sealed class FractalAddress
         _frameToCamera = new(objectToWorld.Linear, objectToWorld.Translation - cameraPosition);
     }
 
+    private FractalAddress(FractalAddress other)
+    {
+        _hierarchy = other._hierarchy;
+        _search = new(other._hierarchy);
+        _path = other._path.Clone();
+        _frameToCamera = other._frameToCamera;
+        _movesSinceFrameChange = other._movesSinceFrameChange;
+        LogUnit = other.LogUnit;
+    }
+
     /// <summary>Number of child instances that lead to the sub-fractal.</summary>
     public int Depth => _path.Depth;
 
@@ -78,6 +88,9 @@ public sealed class FractalAddress
     public long StorageBytes => _path.StorageBytes;
 
     private double CurrentDiagonal => _path.CurrentNode.Box.Transform(_frameToCamera).Diagonal;
+
+    /// <summary>Copies the address, so that one of the two can move alone. Cost O(depth).</summary>
+    public FractalAddress Clone() => new(this);
 
     /// <summary>Moves the camera, and updates the address.</summary>
     /// <param name="displacement">World axes, in the present unit; finite.</param>

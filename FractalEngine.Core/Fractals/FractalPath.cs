@@ -40,6 +40,16 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
     /// <summary>Finds the node of a child of the current sub-fractal.</summary>
     public LodNode ChildNode(int child) => hierarchy.NodeAt(ChildLevels(Depth, child));
 
+    /// <summary>Copies the path, so that one of the two can change alone.</summary>
+    public FractalPath Clone()
+    {
+        var copy = new FractalPath(hierarchy);
+        copy._children.AddRange(_children);
+        copy._remainingLevels.AddRange(_remainingLevels.Skip(1));
+        copy._mapCounts.AddRange(_mapCounts.Skip(1));
+        return copy;
+    }
+
     /// <summary>Appends a child of the current sub-fractal.</summary>
     public void Enter(int child)
     {

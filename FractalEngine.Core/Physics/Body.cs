@@ -115,6 +115,18 @@ public sealed class Body
         SafeDistance.Invalidate();
     }
 
+    /// <summary>Takes over the movement of a body with the same description, and discards everything that is known of surfaces.</summary>
+    internal void ContinueFrom(Body other)
+    {
+        Position = other.Position;
+        PreviousPosition = other.PreviousPosition;
+        Velocity = other.Velocity;
+        Force = other.Force;
+        Scale = other.Scale;
+        PreviousScale = other.PreviousScale;
+        IsOverlapResolved = false;
+    }
+
     /// <summary>Saves the state before a step, and sets the costs to 0.</summary>
     internal void BeginStep()
     {

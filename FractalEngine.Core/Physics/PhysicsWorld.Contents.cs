@@ -106,11 +106,60 @@ public sealed partial class PhysicsWorld
     /// <remarks>Colliders that exist are kept.</remarks>
     /// <exception cref="ColliderMismatchException">A collider does not fit an object.</exception>
     /// <exception cref="FractalLimitException">A fractal is too large for its collider.</exception>
-    public void BuildColliders()
+    /// <exception cref="OperationCanceledException">It was cancelled between two colliders.</exception>
+    public void BuildColliders(CancellationToken cancellation = default)
     {
         foreach (var kind in _bodies.Select(ColliderKindOf).Append(CharacterColliderKind).Distinct())
         {
-            _statics.CollidersOf(kind)?.Build();
+            _statics.CollidersOf(kind)?.Build(cancellation);
+        }
+    }
+
+    /// <summary>
+    /// Continues another world after its scene was changed. Bodies whose declarations are unchanged go on where they are in the other
+    /// world, as does the character. Bodies that were added to the other world, and are not of its scene, are added here too.
+    /// </summary>
+    /// <param name="previous">A world that is not stepped meanwhile, and no more afterwards. It stays as it is.</param>
+    /// <remarks>All bodies are awake afterwards, since what they rest on may have changed.</remarks>
+    public void Continue(PhysicsWorld previous)
+    {
+        ArgumentNullException.ThrowIfNull(previous);
+        var unmatched = previous._bodies.Take(previous._sceneBodyCount)
+            .ToLookup(body => previous._scene.Objects[body.Description.ObjectIndex!.Value].Declaration)
+            .ToDictionary(static group => group.Key, static group => new Queue<Body>(group));
+        foreach (var body in _bodies)
+        {
+            if (body.Description.ObjectIndex is { } index
+                && unmatched.TryGetValue(_scene.Objects[index].Declaration, out var candidates) && candidates.TryDequeue(out var match))
+            {
+                body.ContinueFrom(match);
+            }
+        }
+
+        foreach (var added in previous._bodies.Skip(previous._sceneBodyCount).Where(static body => body.Description.ObjectIndex is null))
+        {
+            AppendBody(added.Description).ContinueFrom(added);
+        }
+
+        _grid.Build(_bodies);
+        _clock.ContinueFrom(previous._clock);
+        _accumulatedTime = previous._accumulatedTime;
+        if (previous.Character is { } walker)
+        {
+            ContinueCharacter(walker, isOfScene: previous._scene.Scene.Player == walker.Description);
+        }
+    }
+
+    private void ContinueCharacter(CharacterController walker, bool isOfScene)
+    {
+        if (Character is null && !isOfScene)
+        {
+            AddCharacter(walker.Description);
+        }
+
+        if (Character is { } own && own.Description == walker.Description)
+        {
+            own.ContinueFrom(walker);
         }
     }
 

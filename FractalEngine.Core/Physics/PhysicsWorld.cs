@@ -17,7 +17,7 @@ public sealed partial class PhysicsWorld
 {
     private readonly LoadedScene _scene;
     private readonly StaticObject?[] _staticOfObject;
-    private readonly StaticObjectSet _statics = new();
+    private readonly StaticObjectSet _statics;
     private readonly List<Body> _bodies = [];
     private readonly BodyGrid _grid = new();
     private readonly QueryContext _queryContext = new();
@@ -39,7 +39,7 @@ public sealed partial class PhysicsWorld
     }
 
     /// <summary>Creates the world of a scene that was made in code, or loaded from a file.</summary>
-    /// <inheritdoc cref="PhysicsWorld(LoadedScene, PhysicsSettings?)"/>
+    /// <inheritdoc cref="PhysicsWorld(LoadedScene, PhysicsSettings?, ColliderCache?)"/>
     /// <exception cref="FractalEngineException">An object names a file that is not loaded.</exception>
     public PhysicsWorld(Scene scene, PhysicsSettings? settings = null)
         : this(LoadedScene.Of(scene), settings)
@@ -52,13 +52,15 @@ public sealed partial class PhysicsWorld
     /// </summary>
     /// <param name="scene">The scene with its models; it also gives gravity and character.</param>
     /// <param name="settings">Null for the default settings.</param>
+    /// <param name="colliders">Colliders of earlier worlds to use, which receives those of this one; null for none.</param>
     /// <exception cref="ArgumentException">A setting is out of range; the message names it.</exception>
     /// <exception cref="SceneObjectException">No body can be made of a physics object; the message says why.</exception>
     /// <exception cref="FractalEngineException">The scene's player has impossible sizes.</exception>
-    public PhysicsWorld(LoadedScene scene, PhysicsSettings? settings = null)
+    public PhysicsWorld(LoadedScene scene, PhysicsSettings? settings = null, ColliderCache? colliders = null)
     {
         ArgumentNullException.ThrowIfNull(scene);
         _scene = scene;
+        _statics = new(colliders);
         _gravity = scene.Scene.Gravity;
         Settings = settings ?? new();
         Settings.Validate();

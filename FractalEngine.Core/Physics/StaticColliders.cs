@@ -11,10 +11,11 @@ internal sealed class StaticColliders
     /// <summary>Creates the view of a set. No collider is built yet.</summary>
     /// <param name="set">The objects, at least one.</param>
     /// <param name="kind">Kind of all their colliders.</param>
-    public StaticColliders(StaticObjectSet set, ColliderKind kind)
+    /// <param name="cache">Colliders of other worlds; null for none.</param>
+    public StaticColliders(StaticObjectSet set, ColliderKind kind, ColliderCache? cache)
     {
         _set = set;
-        Scene = new(new LoadedScene(new(), [.. set.Objects.Select(static placed => placed.Placed)]), kind);
+        Scene = new(new LoadedScene(new(), [.. set.Objects.Select(static placed => placed.Placed)]), kind, cache);
     }
 
     /// <summary>Answers queries for the closest point, in world space.</summary>
@@ -29,11 +30,12 @@ internal sealed class StaticColliders
     public int WindingSign(int index) => _set.Objects[index].WindingSign;
 
     /// <summary>Builds all colliders now, and finds which objects are solid, instead of at their first queries.</summary>
-    public void Build()
+    public void Build(CancellationToken cancellation)
     {
-        Scene.Build();
+        Scene.Build(cancellation);
         for (var i = 0; i < _set.Objects.Count; i++)
         {
+            cancellation.ThrowIfCancellationRequested();
             IsSolid(i);
         }
     }

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
@@ -5,7 +6,8 @@ using FractalEngine.Core.Scenes;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>The static objects of a world with their colliders, which are built when they are first queried.</summary>
-internal sealed class StaticObjectSet
+/// <param name="cache">Colliders of other worlds; null for none.</param>
+internal sealed class StaticObjectSet(ColliderCache? cache)
 {
     private readonly List<StaticObject> _objects = [];
     private readonly Dictionary<ColliderKind, StaticColliders> _colliders = [];
@@ -63,7 +65,7 @@ internal sealed class StaticObjectSet
 
         if (!_colliders.TryGetValue(kind, out var colliders))
         {
-            colliders = new(this, kind);
+            colliders = new(this, kind, cache);
             _colliders[kind] = colliders;
         }
 

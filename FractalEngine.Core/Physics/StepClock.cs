@@ -31,6 +31,15 @@ internal sealed class StepClock
         StepCount++;
     }
 
+    /// <summary>Sets the clock to another one.</summary>
+    public void ContinueFrom(StepClock other)
+    {
+        _runStartTime = other._runStartTime;
+        _runStepLength = other._runStepLength;
+        _runStepCount = other._runStepCount;
+        StepCount = other.StepCount;
+    }
+
     /// <summary>Sets the clock to the beginning.</summary>
     public void Reset()
     {

@@ -31,7 +31,7 @@ public sealed record Camera
     /// <param name="aspect">Width divided by height of the image.</param>
     /// <exception cref="FractalEngineException">An object names a file that is not loaded.</exception>
     public static Camera Framing(Scene scene, double aspect = 16 / 9.0) =>
-        CameraFraming.Default(LoadedScene.Of(scene).Bounds, aspect, scene.Handedness);
+        CameraFraming.Default(LoadedScene.Of(scene), aspect);
 
     /// <summary>Position in world space, scene units.</summary>
     /// <exception cref="ArgumentException">A coordinate is NaN or infinite.</exception>

@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using FractalEngine.Core.Files;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -20,6 +21,8 @@ public sealed class AssetLoader
     private readonly string _fullPath;
     private readonly LoadOptions _options;
     private readonly IProgress<LoadProgress>? _progress;
+    private readonly AssetCache? _cache;
+    private readonly FileRecord _record = new();
     private readonly FileReferenceResolver _references;
     private readonly MaterialLoader _materials;
     private readonly Dictionary<string, MeshContents> _meshes = [];
@@ -29,7 +32,7 @@ public sealed class AssetLoader
     private readonly HashSet<Diagnostic> _knownErrors = [];
     private long _textBytes;
 
-    private AssetLoader(string path, LoadOptions? options, IProgress<LoadProgress>? progress)
+    private AssetLoader(string path, LoadOptions? options, IProgress<LoadProgress>? progress, AssetCache? cache)
     {
         _path = path;
         _fullPath = Path.GetFullPath(path);
@@ -41,8 +44,9 @@ public sealed class AssetLoader
         }
 
         _progress = progress;
-        _references = new(AssetFolder.ForFile(_fullPath), _options.AllowOutsideFiles);
-        _materials = new(_references, _warnings);
+        _cache = _options.ShareModels ? cache : null;
+        _references = new(AssetFolder.ForFile(_fullPath), _options.AllowOutsideFiles, _record);
+        _materials = new(_references, _warnings, _record, _cache);
     }
 
     private long StorageBytes => _textBytes + _materials.StorageBytes;
@@ -51,13 +55,29 @@ public sealed class AssetLoader
     /// <param name="path">Path that ends in .obj, .obj.gz, .ply, .stl, .fdo or .sdo.</param>
     /// <param name="options">Options for loading; null for the defaults.</param>
     /// <param name="progress">Receives the progress of each large file.</param>
+    /// <param name="cache">What earlier loads with the same options have read, to read only what has changed; null for none.</param>
     /// <exception cref="SourceException">The file, or one that it refers to, can't be loaded: the first error.</exception>
     /// <exception cref="ArgumentOutOfRangeException">The depth of the options is negative or beyond the limit.</exception>
-    public static LoadedFile Load(string path, LoadOptions? options = null, IProgress<LoadProgress>? progress = null)
+    public static LoadedFile Load(
+        string path, LoadOptions? options = null, IProgress<LoadProgress>? progress = null, AssetCache? cache = null)
     {
-        var loader = new AssetLoader(path, options, progress);
-        var file = loader.LoadFile();
-        return loader._errors.Count == 0 ? file : throw new SourceException(loader._errors[0]);
+        var loader = new AssetLoader(path, options, progress, cache);
+        var isSuccessful = false;
+        if (cache is not null)
+        {
+            cache.ReadCount = 0;
+        }
+
+        try
+        {
+            var file = loader.LoadFile();
+            isSuccessful = loader._errors.Count == 0;
+            return isSuccessful ? file : throw new SourceException(loader._errors[0]);
+        }
+        finally
+        {
+            cache?.Finish(loader._record.All, isSuccessful);
+        }
     }
 
     /// <summary>Loads a file only to find its faults.</summary>
@@ -66,7 +86,7 @@ public sealed class AssetLoader
     /// <returns>Errors of all files that it refers to, one per file, then the warnings.</returns>
     public static ImmutableArray<Diagnostic> Check(string path, LoadOptions? options = null)
     {
-        var loader = new AssetLoader(path, options, null);
+        var loader = new AssetLoader(path, options, null, null);
         try
         {
             loader.LoadFile();
@@ -82,8 +102,8 @@ public sealed class AssetLoader
     private LoadedFile LoadFile() => FileKinds.FromName(_path) switch
     {
         FileKind.Scene => LoadScene(),
-        FileKind.Fractal => CreateSingleObjectFile(FileKind.Fractal, LoadFractal(_fullPath, _path)),
-        FileKind.Mesh => CreateSingleObjectFile(FileKind.Mesh, LoadMesh(_fullPath, _path)),
+        FileKind.Fractal => CreateSingleObjectFile(FileKind.Fractal, LoadModel(_fullPath, _path)),
+        FileKind.Mesh => CreateSingleObjectFile(FileKind.Mesh, LoadModel(_fullPath, _path)),
         // A missing file is reported as missing first, whatever its name is.
         _ when !Path.Exists(_fullPath) => throw new SourceException(_path, "file not found"),
         _ => throw new SourceException(_path, $"the ending says nothing of the contents, expected {FileKinds.MeshEndings}, .fdo or .sdo"),
@@ -98,7 +118,8 @@ public sealed class AssetLoader
     }
 
     private LoadedFile CreateLoadedFile(FileKind kind, LoadedScene scene, ParsedScene? parsedScene) =>
-        new(_fullPath, kind, scene, parsedScene, StorageBytes, _options.ShareModels ? [.. _warnings] : [.. _warnings.Distinct()]);
+        new(_fullPath, kind, scene, parsedScene, StorageBytes,
+            _options.ShareModels && _cache is null ? [.. _warnings] : [.. _warnings.Distinct()]);
 
     private LoadedFile LoadScene()
     {
@@ -131,9 +152,28 @@ public sealed class AssetLoader
             return cached;
         }
 
-        return _models[fullPath] = FileKinds.FromName(file) == FileKind.Fractal
+        return _models[fullPath] = LoadModel(fullPath, displayName);
+    }
+
+    /// <summary>Loads a model, or takes it from the cache if none of its files has changed.</summary>
+    private Model LoadModel(string fullPath, string displayName)
+    {
+        if (_cache?.FindModel(fullPath) is { } cached)
+        {
+            _record.AddRange(cached.Files);
+            _warnings.AddRange(cached.Warnings);
+            _textBytes += cached.StorageBytes;
+            return cached.Model;
+        }
+
+        var filesBefore = _record.Position;
+        var warningsBefore = _warnings.Count;
+        var bytesBefore = StorageBytes;
+        Model model = FileKinds.FromName(fullPath) == FileKind.Fractal
             ? LoadFractal(fullPath, displayName)
             : LoadMesh(fullPath, displayName);
+        _cache?.Store(fullPath, new(model, _record.Since(filesBefore), [.. _warnings.Skip(warningsBefore)], StorageBytes - bytesBefore));
+        return model;
     }
 
     private MeshModel LoadMesh(string fullPath, string displayName)
@@ -144,7 +184,7 @@ public sealed class AssetLoader
 
     private FractalModel LoadFractal(string fullPath, string displayName)
     {
-        var parsed = FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.MaxDescriptionBytes));
+        var parsed = ReadOrFindFractal(fullPath, displayName);
         var (basePath, baseDisplayName) = _references.Resolve(parsed.Source, parsed.BaseFileNameOffset, fullPath, parsed.BaseFile);
         var description = ApplyOptions(parsed);
         var contents = ReadMesh(basePath, baseDisplayName);
@@ -176,25 +216,66 @@ public sealed class AssetLoader
     {
         if (_options.ShareModels && _meshes.TryGetValue(fullPath, out var cached))
         {
+            _record.AddRange(cached.Files);
             return cached;
         }
 
+        var filesBefore = _record.Position;
         var bytesBefore = StorageBytes;
-        var parsed = MeshReader.Read(fullPath, displayName, _progress is null ? null : new FileProgress(displayName, _progress));
+        var parsed = ReadOrFindMesh(fullPath, displayName);
         _textBytes += parsed.ByteCount;
         _warnings.AddRange(parsed.Warnings);
         var materials = _materials.Load(parsed, fullPath);
-        return _meshes[fullPath] = new(parsed.Mesh, materials, StorageBytes - bytesBefore);
+        return _meshes[fullPath] = new(parsed.Mesh, materials, StorageBytes - bytesBefore, _record.Since(filesBefore));
+    }
+
+    private ParsedFractal ReadOrFindFractal(string fullPath, string displayName)
+    {
+        var stamp = _record.Add(fullPath);
+        if (_cache?.FindFractal(fullPath, stamp) is { } known)
+        {
+            _textBytes += known.Source.ByteCount;
+            return known;
+        }
+
+        var parsed = FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.MaxDescriptionBytes));
+        _cache?.Store(fullPath, stamp, parsed);
+        return parsed;
+    }
+
+    private ParsedObj ReadOrFindMesh(string fullPath, string displayName)
+    {
+        var stamp = _record.Add(fullPath);
+        if (_cache?.FindMesh(fullPath, stamp) is { } known)
+        {
+            return known;
+        }
+
+        var parsed = MeshReader.Read(fullPath, displayName, _progress is null ? null : new FileProgress(displayName, _progress));
+        if (_cache is not null)
+        {
+            _cache.ReadCount++;
+            _cache.Store(fullPath, stamp, parsed);
+        }
+
+        return parsed;
     }
 
     private SourceText ReadText(string fullPath, string displayName, long maxBytes)
     {
+        _record.Add(fullPath);
         var source = SourceText.Read(fullPath, displayName, maxBytes);
         _textBytes += source.ByteCount;
+        if (_cache is not null)
+        {
+            _cache.ReadCount++;
+        }
+
         return source;
     }
 
-    private sealed record MeshContents(Mesh Mesh, ImmutableDictionary<string, Material> Materials, long ByteCount);
+    private sealed record MeshContents(
+        Mesh Mesh, ImmutableDictionary<string, Material> Materials, long ByteCount, ImmutableDictionary<string, FileStamp> Files);
 
     private sealed class FileProgress(string file, IProgress<LoadProgress> progress) : IProgress<double>
     {

@@ -5,9 +5,10 @@ namespace FractalEngine.Parsing.Assets;
 /// <summary>Resolves references from one file to another and enforces the asset folder.</summary>
 /// <param name="folder">Asset folder of the file that was opened.</param>
 /// <param name="allowOutsideFiles">Whether references may lead out of that folder.</param>
-internal sealed class FileReferenceResolver(AssetFolder folder, bool allowOutsideFiles)
+/// <param name="record">Receives the paths of all files that are looked for, missing ones included.</param>
+internal sealed class FileReferenceResolver(AssetFolder folder, bool allowOutsideFiles, FileRecord record)
 {
-    private readonly ForeignFileNames _foreignNames = new(path => allowOutsideFiles || folder.Contains(path));
+    private readonly ForeignFileNames _foreignNames = new(path => allowOutsideFiles || folder.Contains(path), record);
 
     /// <summary>Returns the full path of a file that another one refers to, and its name in messages.</summary>
     /// <param name="source">Text that holds the reference.</param>
@@ -26,6 +27,7 @@ internal sealed class FileReferenceResolver(AssetFolder folder, bool allowOutsid
                 + $"({nameof(LoadOptions)}.{nameof(LoadOptions.AllowOutsideFiles)})");
         }
 
+        record.Add(fullPath);
         if (!File.Exists(fullPath))
         {
             throw source.Error(offset, Directory.Exists(fullPath)

@@ -9,7 +9,8 @@ namespace FractalEngine.Parsing.Assets;
 /// outside the asset folder is found or listed.
 /// </remarks>
 /// <param name="isAllowed">Tells whether a full path may be referred to.</param>
-internal sealed class ForeignFileNames(Func<string, bool> isAllowed)
+/// <param name="record">Receives the paths of all files that are looked for, and of the folders that are listed.</param>
+internal sealed class ForeignFileNames(Func<string, bool> isAllowed, FileRecord record)
 {
     // Actual names of the entries of each listed folder, by their names in any case.
     private readonly Dictionary<string, Dictionary<string, string>> _folders = [];
@@ -46,7 +47,13 @@ internal sealed class ForeignFileNames(Func<string, bool> isAllowed)
         }
 
         var path = Path.GetFullPath(Path.Combine(folder, name));
-        return isAllowed(path) && File.Exists(path) ? path : null;
+        if (!isAllowed(path))
+        {
+            return null;
+        }
+
+        record.Add(path);
+        return File.Exists(path) ? path : null;
     }
 
     /// <summary>Finds a relative name segment by segment.</summary>
@@ -80,9 +87,15 @@ internal sealed class ForeignFileNames(Func<string, bool> isAllowed)
     /// <summary>Returns the names in a folder by their names in any case; none if it can't be listed.</summary>
     private Dictionary<string, string> ListFolder(string folder)
     {
-        if (_folders.TryGetValue(folder, out var cached))
+        var isKnown = _folders.TryGetValue(folder, out var cached);
+        if (isAllowed(folder))
         {
-            return cached;
+            record.Add(folder);
+        }
+
+        if (isKnown)
+        {
+            return cached!;
         }
 
         var names = new Dictionary<string, string>(StringComparer.OrdinalIgnoreCase);

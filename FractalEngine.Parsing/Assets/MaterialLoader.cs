@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using FractalEngine.Core.Files;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
@@ -11,13 +12,16 @@ namespace FractalEngine.Parsing.Assets;
 /// <remarks>Material problems cause warnings only: the mesh is drawn without what is missing.</remarks>
 /// <param name="references">Resolves the names of files.</param>
 /// <param name="warnings">Receives the warnings.</param>
-internal sealed class MaterialLoader(FileReferenceResolver references, List<Diagnostic> warnings)
+/// <param name="record">Gives the stamps of the files.</param>
+/// <param name="cache">Holds files that were read before; null for none.</param>
+internal sealed class MaterialLoader(
+    FileReferenceResolver references, List<Diagnostic> warnings, FileRecord record, AssetCache? cache)
 {
     // Beyond so many missing textures, one more message helps nobody.
     private const int MaxTextureWarnings = 20;
 
     private readonly Dictionary<string, ParsedMtl?> _materialFiles = [];
-    private readonly Dictionary<(ParsedMtl File, string Name), Material> _materials = [];
+    private readonly Dictionary<(ParsedMtl File, string Name), ResolvedMaterial> _materials = [];
 
     // Whether each image file that was tested is usable.
     private readonly Dictionary<string, bool> _textureFiles = [];
@@ -142,9 +146,8 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
 
         try
         {
-            var source = SourceText.Read(fullPath, displayName, ParsingLimits.MaxMaterialBytes, acceptLatin1: true);
-            var file = MtlParser.Parse(source);
-            StorageBytes += source.ByteCount;
+            var file = ReadOrFind(fullPath, displayName);
+            StorageBytes += file.Source.ByteCount;
             warnings.AddRange(file.Warnings);
             return _materialFiles[fullPath] = file;
         }
@@ -155,14 +158,34 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
         }
     }
 
+    private ParsedMtl ReadOrFind(string fullPath, string displayName)
+    {
+        var stamp = record.Add(fullPath);
+        if (cache?.FindMaterials(fullPath, stamp) is { } known)
+        {
+            return known;
+        }
+
+        var file = MtlParser.Parse(SourceText.Read(fullPath, displayName, ParsingLimits.MaxMaterialBytes, acceptLatin1: true));
+        if (cache is not null)
+        {
+            cache.ReadCount++;
+            cache.Store(fullPath, stamp, file);
+        }
+
+        return file;
+    }
+
     /// <summary>Returns a material with the full path of its texture, or without a texture that can't be used.</summary>
     private Material ResolveMaterial(ParsedMtl file, string fullPath, string name)
     {
         if (_materials.TryGetValue((file, name), out var cached))
         {
-            return cached;
+            record.AddRange(cached.Files);
+            return cached.Material;
         }
 
+        var filesBefore = record.Position;
         var material = file.Materials[name];
         if (material.Texture is { } texture)
         {
@@ -177,11 +200,13 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
             material = material with { OpacityTexture = path is null ? null : opacity with { Path = path } };
         }
 
-        return _materials[(file, name)] = material with
+        material = material with
         {
             BumpTexture = FindUndrawnTexture(material.BumpTexture, fullPath),
             NormalTexture = FindUndrawnTexture(material.NormalTexture, fullPath),
         };
+        _materials[(file, name)] = new(material, record.Since(filesBefore));
+        return material;
     }
 
     /// <summary>Returns a texture with its full path; null if there is none. As it is not drawn, a missing file needs no message.</summary>
@@ -266,6 +291,9 @@ internal sealed class MaterialLoader(FileReferenceResolver references, List<Diag
             throw source.Error(offset, $"the image \"{file}\" can't be read: {exception.Message}");
         }
     }
+
+    /// <summary>A material with the image files that it depends on.</summary>
+    private sealed record ResolvedMaterial(Material Material, ImmutableDictionary<string, FileStamp> Files);
 
     private void Warn(Diagnostic diagnostic) => warnings.Add(diagnostic with { Severity = DiagnosticSeverity.Warning });
 }

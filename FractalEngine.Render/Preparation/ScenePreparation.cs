@@ -20,12 +20,15 @@ public sealed class ScenePreparation
     /// <summary>Creates the scene with placeholders for all models.</summary>
     /// <param name="scene">Scene with its files loaded.</param>
     /// <param name="settings">Settings with the budgets and the crease angle.</param>
-    public ScenePreparation(LoadedScene scene, RenderSettings settings)
+    /// <param name="previous">
+    /// A scene that was prepared with the same settings; null for none. Models that both scenes have are prepared already.
+    /// </param>
+    public ScenePreparation(LoadedScene scene, RenderSettings settings, DrawableScene? previous = null)
     {
         _scene = scene;
         _settings = settings;
         _models = [.. scene.Models];
-        _textures = new(_notices, settings.ShareTextures);
+        _textures = new(_notices, settings.ShareTextures, previous?.Textures ?? []);
         _prepared = new DrawableModel?[_models.Length];
         var lightCount = scene.Scene.Lights.Count(static light => light is not AmbientLight);
         if (lightCount > LightBlock.MaxLights)
@@ -35,10 +38,17 @@ public sealed class ScenePreparation
         }
 
         Scene = DrawableScene.CreateWithPlaceholders(scene, _notices.ToImmutable());
+        if (previous is not null)
+        {
+            TakePrepared(previous);
+        }
     }
 
     /// <summary>Scene as far as it is prepared.</summary>
     public DrawableScene Scene { get; private set; }
+
+    /// <summary>Model that is being prepared on another thread; null for none.</summary>
+    public Model? Current { get; private set; }
 
     /// <summary>True once all models are prepared.</summary>
     public bool IsComplete => Array.TrueForAll(_prepared, static model => model is not null);
@@ -77,6 +87,22 @@ public sealed class ScenePreparation
         return false;
     }
 
+    private void TakePrepared(DrawableScene previous)
+    {
+        var prepared = previous.Source.Models.Zip(previous.Models)
+            .Where(static pair => !pair.Second.IsPlaceholder)
+            .ToDictionary(static pair => pair.First, static pair => pair.Second);
+        for (var i = 0; i < _models.Length; i++)
+        {
+            if (prepared.TryGetValue(_models[i], out var model))
+            {
+                _textures.Adopt(model);
+                _prepared[i] = model;
+                Scene = Scene.WithModel(Scene.Models[i], model, [.. _textures.Textures], _notices.ToImmutable());
+            }
+        }
+    }
+
     private bool IsVisible(Model model, View view, double aspect)
     {
         foreach (var placed in _scene.Objects)
@@ -98,11 +124,13 @@ public sealed class ScenePreparation
             cancellation.ThrowIfCancellationRequested();
             var index = selectedIndices[completed];
             var name = _models[index].Name;
+            Current = _models[index];
             progress?.Report(new(name, (double)completed / selectedIndices.Length));
             var placeholder = Scene.Models[index];
             var prepared = ModelPreparation.Prepare(_models[index], _settings, _textures, _notices);
             _prepared[index] = prepared;
             Scene = Scene.WithModel(placeholder, prepared, [.. _textures.Textures], _notices.ToImmutable());
+            Current = null;
             progress?.Report(new(name, (completed + 1.0) / selectedIndices.Length));
         }
 

@@ -11,12 +11,15 @@ namespace FractalEngine.Render.Preparation;
 /// </summary>
 /// <param name="notices">Receives a sentence for each texture that can't be decoded.</param>
 /// <param name="shareTextures">True to share textures between models; false to give each material of each model its own.</param>
-internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool shareTextures)
+/// <param name="previous">Textures of an earlier preparation, which are used again where their files are unchanged.</param>
+internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool shareTextures, IEnumerable<DrawableTexture> previous)
 {
     // Each pair of images makes a texture: few files could fill the memory.
     private const long MaxPixelsWithOpacity = 1L << 27;
 
     private readonly List<DrawableTexture> _decoded = [];
+    private readonly ILookup<TextureSource, DrawableTexture> _previous = previous
+        .Where(static texture => texture.Source is not null).ToLookup(static texture => texture.Source!);
 
     // By path; null for a file that can't be decoded.
     private readonly Dictionary<string, DrawableTexture?> _textures = [];
@@ -26,8 +29,28 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
     private readonly HashSet<string> _undecodable = [];
     private long _pixelsWithOpacity;
 
-    /// <summary>Textures that were decoded so far.</summary>
+    /// <summary>Textures that are used so far.</summary>
     public IReadOnlyList<DrawableTexture> Textures => _decoded;
+
+    /// <summary>Takes over the textures of a model that is not prepared again.</summary>
+    public void Adopt(DrawableModel model)
+    {
+        foreach (var batch in model.Batches)
+        {
+            if (batch.Material?.Texture is { } texture && !_decoded.Any(known => ReferenceEquals(known, texture)))
+            {
+                _decoded.Add(texture);
+                if (texture.Source is { OpacityPath: null, ColourPath: { } path })
+                {
+                    _textures[path] = texture;
+                }
+                else if (texture.Source is { OpacityPath: { } opacityPath, ColourPath: var colourPath })
+                {
+                    _texturesWithOpacity[(colourPath, opacityPath)] = texture;
+                }
+            }
+        }
+    }
 
     /// <summary>Returns a material with its decoded texture, the same object for equal materials.</summary>
     public DrawableMaterial GetMaterial(Material material)
@@ -58,7 +81,8 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
             return cached;
         }
 
-        return _textures[path] = Decode(path, "drawn grey") is { } image ? Add(path, image) : null;
+        var source = TextureSource.Of(path, null);
+        return _textures[path] = TakePrevious(source) ?? (Decode(path, "drawn grey") is { } image ? Add(path, image, source) : null);
     }
 
     /// <summary>Returns the texture of an image of colours, or of white, with the opacity of another; null if it can't be made.</summary>
@@ -69,20 +93,21 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
             return cached;
         }
 
-        DrawableTexture? texture = null;
-        if (Decode(opacityPath, "drawn opaque") is { } opacity)
+        var source = TextureSource.Of(colourPath, opacityPath);
+        var texture = TakePrevious(source);
+        if (texture is null && Decode(opacityPath, "drawn opaque") is { } opacity)
         {
             var colours = colourPath is null ? null : Decode(colourPath, "drawn grey");
             if (colours is not null || colourPath is null)
             {
-                texture = TryCombine(colours, opacity, opacityPath);
+                texture = TryCombine(colours, opacity, opacityPath, source);
             }
         }
 
         return _texturesWithOpacity[(colourPath, opacityPath)] = texture;
     }
 
-    private DrawableTexture? TryCombine(PixelImage? colours, PixelImage opacity, string opacityPath)
+    private DrawableTexture? TryCombine(PixelImage? colours, PixelImage opacity, string opacityPath, TextureSource source)
     {
         var size = colours ?? opacity;
         _pixelsWithOpacity += (long)size.Width * size.Height;
@@ -93,14 +118,26 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
             return null;
         }
 
-        return Add(opacityPath, OpacityImage.Combine(colours, opacity));
+        return Add(opacityPath, OpacityImage.Combine(colours, opacity), source);
     }
 
-    private DrawableTexture Add(string path, PixelImage image)
+    private DrawableTexture? TakePrevious(TextureSource source)
+    {
+        var texture = shareTextures ? _previous[source].FirstOrDefault() : null;
+        if (texture is not null)
+        {
+            _decoded.Add(texture);
+        }
+
+        return texture;
+    }
+
+    private DrawableTexture Add(string path, PixelImage image, TextureSource source)
     {
         var texture = new DrawableTexture(Path.GetFileName(path), image, OpacityImage.HasAlpha(image))
         {
             HasSoftOpacity = OpacityImage.IsSoft(image),
+            Source = source,
         };
         _decoded.Add(texture);
         return texture;

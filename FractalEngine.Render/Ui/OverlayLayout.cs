@@ -13,7 +13,7 @@ internal sealed class OverlayLayout
 
     private readonly GlyphAtlas _atlas;
     private readonly (int Width, int Height) _frameSize;
-    private readonly Dictionary<OverlayAnchor, int> _stackedHeights = [];
+    private readonly List<(int X, int Y, int Width, int Height)> _panels = [];
 
     private OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width, int height)
     {
@@ -96,6 +96,9 @@ internal sealed class OverlayLayout
         var height = titleHeight + (lines.Count * lineHeight) + barHeight + (2 * Padding * 3 / 4);
 
         var (x, y) = AllocatePosition(panel.Anchor, width, height);
+        var fits = x >= 0 && y >= 0 && x + width <= _frameSize.Width && y + height <= _frameSize.Height;
+        // Without room left, a message covers others rather than being cut off.
+        y = Math.Max(0, Math.Min(y, _frameSize.Height - height));
         Quads.Add(new(x, y, width, height, PanelColour, -1, 0.4f * lineHeight));
         var left = x + Padding;
         var top = y + (Padding * 3 / 4);
@@ -117,7 +120,7 @@ internal sealed class OverlayLayout
             AddBar(left, top + (lineHeight / 2), width - (2 * Padding), Math.Max(3, lineHeight / 4), progress);
         }
 
-        return width + (2 * Margin) <= _frameSize.Width && _stackedHeights[panel.Anchor] <= _frameSize.Height;
+        return fits;
     }
 
     private void AddBar(int x, int y, int width, int height, double progress)
@@ -130,23 +133,39 @@ internal sealed class OverlayLayout
         }
     }
 
-    /// <summary>Returns the upper left corner of the next panel at an anchor, and reserves its place in the stack.</summary>
+    /// <summary>
+    /// Returns the upper left corner of the next panel at an anchor: the first place from there that covers no other panel.
+    /// </summary>
     private (int X, int Y) AllocatePosition(OverlayAnchor anchor, int width, int height)
     {
-        var stackedHeight = _stackedHeights.GetValueOrDefault(anchor, Margin);
-        _stackedHeights[anchor] = stackedHeight + height + (Margin / 2);
+        var gap = Margin / 2;
         var x = anchor switch
         {
             OverlayAnchor.TopLeft or OverlayAnchor.BottomLeft => Margin,
             OverlayAnchor.TopRight or OverlayAnchor.BottomRight => _frameSize.Width - width - Margin,
             _ => (_frameSize.Width - width) / 2,
         };
+        var growsDown = anchor is OverlayAnchor.TopLeft or OverlayAnchor.TopRight or OverlayAnchor.Centre;
         var y = anchor switch
         {
-            OverlayAnchor.TopLeft or OverlayAnchor.TopRight => stackedHeight,
-            OverlayAnchor.Centre => ((_frameSize.Height - height) / 2) + stackedHeight - Margin,
-            _ => _frameSize.Height - height - stackedHeight,
+            OverlayAnchor.TopLeft or OverlayAnchor.TopRight => Margin,
+            OverlayAnchor.Centre => (_frameSize.Height - height) / 2,
+            _ => _frameSize.Height - height - Margin,
         };
+        // The nearest edges first, so that one pass finds the place.
+        var ordered = growsDown
+            ? _panels.OrderBy(static panel => panel.Y)
+            : _panels.OrderByDescending(static panel => panel.Y + panel.Height);
+        foreach (var other in ordered)
+        {
+            var isBeside = x >= other.X + other.Width || other.X >= x + width;
+            if (!isBeside && y < other.Y + other.Height + gap && other.Y < y + height + gap)
+            {
+                y = growsDown ? other.Y + other.Height + gap : other.Y - height - gap;
+            }
+        }
+
+        _panels.Add((x, y, width, height));
         return (x, y);
     }
 

@@ -29,6 +29,7 @@ internal sealed class PlatformWindow : IPlatformWindow
         window.FileDrop += dropped => _pending.AddRange(dropped.FileNames.Select(file => new FileDropped(file)));
         window.KeyDown += key => AddKey(key, isDown: true);
         window.KeyUp += key => AddKey(key, isDown: false);
+        window.TextInput += text => _pending.Add(new TextEntered(text.AsString));
         window.MouseDown += button => AddButton(button, isDown: true);
         window.MouseUp += button => AddButton(button, isDown: false);
         window.MouseMove += AddMove;

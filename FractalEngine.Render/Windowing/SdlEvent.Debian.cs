@@ -6,6 +6,9 @@ namespace FractalEngine.Render.Windowing;
 [StructLayout(LayoutKind.Explicit, Size = 128)]
 internal struct SdlEvent
 {
+    // SDL_TextInputEvent: 32 bytes of UTF-8 that end with 0
+    public const int TextOffset = 12;
+
     [FieldOffset(0)] public uint Type;
     [FieldOffset(8)] public uint WindowId;
 

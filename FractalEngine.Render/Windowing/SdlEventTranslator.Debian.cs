@@ -9,6 +9,7 @@ internal static class SdlEventTranslator
     private const uint WindowChange = 0x200;
     private const uint KeyDown = 0x300;
     private const uint KeyUp = 0x301;
+    private const uint TextInput = 0x303;
     private const uint MouseMotion = 0x400;
     private const uint MouseButtonDown = 0x401;
     private const uint MouseButtonUp = 0x402;
@@ -29,6 +30,7 @@ internal static class SdlEventTranslator
         WindowChange => TranslateWindow(item),
         KeyDown => new KeyPressed(KeyOf(item.KeyCode, item.ScanCode), ModifiersOf(item.Modifiers), item.IsRepeat != 0),
         KeyUp => new KeyReleased(KeyOf(item.KeyCode, item.ScanCode), ModifiersOf(item.Modifiers)),
+        TextInput => TranslateText(item),
         MouseMotion => new MouseMoved(item.MotionX, item.MotionY, item.MotionDeltaX, item.MotionDeltaY),
         MouseButtonDown => new MousePressed(ButtonOf(item.Button), item.ButtonX, item.ButtonY, CurrentModifiers),
         MouseButtonUp => new MouseReleased(ButtonOf(item.Button), item.ButtonX, item.ButtonY, CurrentModifiers),
@@ -101,6 +103,14 @@ internal static class SdlEventTranslator
         14 => new CloseRequested(),
         _ => null,
     };
+
+    private static unsafe TextEntered? TranslateText(in SdlEvent item)
+    {
+        fixed (SdlEvent* address = &item)
+        {
+            return Marshal.PtrToStringUTF8((IntPtr)address + SdlEvent.TextOffset) is { Length: > 0 } text ? new(text) : null;
+        }
+    }
 
     private static FileDropped? TranslateDrop(IntPtr file) =>
         Marshal.PtrToStringUTF8(file) is { Length: > 0 } path ? new(path) : null;

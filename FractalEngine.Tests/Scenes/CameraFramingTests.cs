@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -46,6 +47,38 @@ public class CameraFramingTests
         Assert.InRange(maxExtent, 1.0 / 3, 1);
     });
 
+    [Theory]
+    [InlineData(0.5)]
+    [InlineData(1)]
+    [InlineData(2.5)]
+    public void Frame_OfAScene_FillsFourFifthsInTheMiddle(double aspect) => Seeded.Run(50, random =>
+    {
+        var placement = random.Transformation();
+        var mesh = Shapes.Cube();
+        var scene = LoadedScene.Of(new() { Objects = [new SceneObject(mesh) { Placement = placement }, new SceneObject(mesh)] });
+        var vertices = Enumerable.Range(0, mesh.VertexCount).Select(mesh.Vertex).ToArray();
+        vertices = [.. vertices, .. vertices.Select(vertex => placement.ToAffineMap() * vertex)];
+        var start = new Camera(random.Vector(9), random.Vector(3), random.Between(20, 90));
+        var camera = CameraFraming.FrameScene(start, scene, aspect);
+        AssertFills(vertices.Select(vertex => Project(camera, vertex, aspect)));
+        var (orthographic, height) = CameraFraming.FrameSceneOrthographic(camera, scene, aspect);
+        AssertFills(vertices.Select(orthographic.ToCameraSpace).Select(v => (2 * v.X / (height!.Value * aspect), 2 * v.Y / height.Value)));
+    });
+
+    [Fact]
+    public void Frame_OfAFractal_GoesByItsPartsAndNotItsBox()
+    {
+        // Four cubes of half the size in the corners of a tetrahedron, and so on: its box is much larger than what is seen of it.
+        Vector[] corners = [new(1, 1, 1), new(1, -1, -1), new(-1, 1, -1), new(-1, -1, 1)];
+        var maps = corners.Select(corner => new Transformation(0.5 * corner, Vector.Zero, 0.5 * Vector.One));
+        var fractal = Fractal.Of(Shapes.Cube()).Repeat(maps, 12);
+        var scene = LoadedScene.Of(new() { Objects = [new SceneObject(fractal)] });
+        var camera = CameraFraming.FrameScene(Camera.Default with { Rotation = CameraFraming.LookRotation(-Vector.One) }, scene, 1);
+        var points = FractalGenerator.Expand(fractal.WithDepth(6), 1 << 13).Select(map => Project(camera, map.Translation, 1)).ToArray();
+        // The parts that are framed are boxes around sub-fractals, which are a few hundredths larger than those.
+        Assert.InRange(points.Max(point => Math.Max(Math.Abs(point.X), Math.Abs(point.Y))), 0.7, 0.8);
+    }
+
     [Fact]
     public void Frame_KeepsTheRotationAndTheAngle()
     {
@@ -79,6 +112,25 @@ public class CameraFramingTests
         Assert.True(camera.Position.Y > box.Centre.Y && camera.Position.X > box.Centre.X && camera.Position.Z < box.Centre.Z);
         Near.Equal(0, camera.LocalAxes.V1.Y, 1e-15);
     });
+
+    /// <summary>Projects a point into a frame from −1 to 1.</summary>
+    private static (double X, double Y) Project(Camera camera, Vector point, double aspect)
+    {
+        var (x, y, depth) = camera.ToCameraSpace(point);
+        Assert.True(depth > 0, $"{point} is behind the camera");
+        return (x / (depth * camera.HalfHeightAtUnitDepth * aspect), y / (depth * camera.HalfHeightAtUnitDepth));
+    }
+
+    private static void AssertFills(IEnumerable<(double X, double Y)> projected)
+    {
+        var points = projected.ToArray();
+        var (left, right) = (points.Min(point => point.X), points.Max(point => point.X));
+        var (bottom, top) = (points.Min(point => point.Y), points.Max(point => point.Y));
+        // A vertex behind a farther one in the same direction is not framed, and may stick out by that direction's width.
+        Near.Equal(0, left + right, 0.02);
+        Near.Equal(0, bottom + top, 0.02);
+        Near.Equal(0.8, Math.Max(right, top), 0.02);
+    }
 
     private static BoundingBox RandomBox(Random random) => (random.Vector(10), random.Vector(5).Absolute()) switch
     {

@@ -98,6 +98,17 @@ public sealed class CharacterController
     /// <summary>Returns the character to its initial position, at rest.</summary>
     internal void Reset() => Teleport(Description.Position);
 
+    /// <summary>Takes over the movement of a character with the same description.</summary>
+    internal void ContinueFrom(CharacterController other)
+    {
+        Teleport(other.Position);
+        PreviousPosition = other.PreviousPosition;
+        Velocity = other.Velocity;
+        IsGrounded = other.IsGrounded;
+        MoveInput = other.MoveInput;
+        IsActive = other.IsActive;
+    }
+
     /// <summary>Turns the capsule against the world's gravity.</summary>
     internal void AlignWithGravity() => _capsule.AlignWithGravity();
 

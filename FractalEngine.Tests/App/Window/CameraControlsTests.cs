@@ -252,6 +252,64 @@ public class CameraControlsTests
         }
     });
 
+    [Theory]
+    [InlineData(Projection.Perspective)]
+    [InlineData(Projection.Orthographic)]
+    public void Wheel_AwayFromTheMiddle_KeepsWhatIsUnderThePointer(Projection projection) => Seeded.Run(50, random =>
+    {
+        var camera = new FlyingCamera(new(-Vector.One, Vector.One), Start, projection, projection == Projection.Perspective ? null : 4);
+        var controls = new CameraControls(camera) { Viewport = (10, 20, 400, 300) };
+        var (x, y) = (random.Between(10, 410), random.Between(20, 320));
+        // The point under the pointer, at the depth of the focus.
+        var halfHeight = projection == Projection.Orthographic ? 2 : camera.FocusDistance * Start.HalfHeightAtUnitDepth;
+        var offset = new Vector((x - 210) / 150 * halfHeight, (170 - y) / 150 * halfHeight, camera.FocusDistance);
+        var point = Start.Position + (Start.LocalAxes * offset);
+        controls.Handle(new MouseMoved(x, y, 0, 0), Aspect);
+        controls.Handle(new WheelTurned(random.Between(-5, 5), KeyModifiers.None), Aspect);
+        var view = new View(camera.Camera, projection) { OrthographicHeight = camera.OrthographicHeight ?? 1 };
+        var (right, down, _) = view.Project(point, 400, 300)!.Value;
+        Near.Equal(new Vector(x - 10, y - 20, 0), new(right, down, 0), 1e-6);
+    });
+
+    [Fact]
+    public void Key5_KeepsTheSizeOfWhatIsInFocus()
+    {
+        var camera = new FlyingCamera(new(-Vector.One, Vector.One), Start, Projection.Perspective, null);
+        var controls = new CameraControls(camera);
+        controls.Handle(new WheelTurned(3, KeyModifiers.None), Aspect);
+        var before = camera.Camera;
+        var focus = before.Position + (camera.FocusDistance * before.LocalAxes.V3) + (0.3 * before.LocalAxes.V1);
+        var size = new View(before, Projection.Perspective).Project(focus, 400, 300)!.Value.X;
+        controls.Handle(KeyPress(Key.Digit5), Aspect);
+        var view = new View(camera.Camera, Projection.Orthographic) { OrthographicHeight = camera.OrthographicHeight!.Value };
+        Near.Equal(size, view.Project(focus, 400, 300)!.Value.X, 1e-9);
+        controls.Handle(KeyPress(Key.Digit5), Aspect);
+        Assert.Equal(before, camera.Camera);
+        // The size stays also after zooming in between.
+        controls.Handle(KeyPress(Key.Digit5), Aspect);
+        controls.Handle(new WheelTurned(2, KeyModifiers.None), Aspect);
+        view = new View(camera.Camera, Projection.Orthographic) { OrthographicHeight = camera.OrthographicHeight!.Value };
+        size = view.Project(focus, 400, 300)!.Value.X;
+        controls.Handle(KeyPress(Key.Digit5), Aspect);
+        Near.Equal(size, new View(camera.Camera, Projection.Perspective).Project(focus, 400, 300)!.Value.X, 1e-9);
+    }
+
+    [Fact]
+    public void Restore_FromDeep_ReturnsToTheSamePlaceInTheFractal()
+    {
+        var flight = CreateDeepFlight(150);
+        var state = flight.Camera.State;
+        var (depth, magnification) = (flight.Camera.Depth, flight.Camera.Log10Magnification);
+        flight.Controls.Handle(KeyPress(Key.Enter), Aspect);
+        flight.Camera.Restore(state);
+        Assert.Equal((depth, magnification), (flight.Camera.Depth, flight.Camera.Log10Magnification));
+        Assert.Equal(state, flight.Camera.State);
+        // The state itself does not move with the camera.
+        flight.Controls.Handle(new WheelTurned(50, KeyModifiers.None), Aspect);
+        flight.Camera.Restore(state);
+        Assert.Equal((depth, magnification), (flight.Camera.Depth, flight.Camera.Log10Magnification));
+    }
+
     [Fact]
     public void KeyW_TowardsACorner_IsAsFastAsItsDistance()
     {

@@ -1,4 +1,6 @@
 using System.Diagnostics;
+using System.Runtime.InteropServices;
+using System.Text;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
 using FractalEngine.Tests.Support;
@@ -66,6 +68,24 @@ public sealed class RenderWindowTests
         Assert.Empty(window.WaitEvents(TimeSpan.Zero));
     }
 
+    /// <summary>Queues the event that SDL makes of a dropped file. GLFW has no way to queue one.</summary>
+    [SkippableFact]
+    public void Drop_OfAFile_IsAnEvent()
+    {
+        using var window = Open();
+        Drain(window);
+        Skip.IfNot(
+            typeof(RenderWindow).Assembly.GetReferencedAssemblies().Any(static name => name is { Name: "OpenTK", Version.Major: 1 }),
+            "the window is not one of SDL");
+        const string path = "/folder/größer.sdo";
+        // SDL_DropEvent: its type, then the text at offset 8, then the window, 0 for any.
+        var item = new byte[128];
+        BitConverter.TryWriteBytes(item, 0x1000);
+        BitConverter.TryWriteBytes(item.AsSpan(8), (long)DuplicateText(Encoding.UTF8.GetBytes(path + '\0')));
+        Assert.Equal(1, PushEvent(item));
+        Assert.Equal([new FileDropped(path)], window.WaitEvents(TimeSpan.Zero).OfType<FileDropped>());
+    }
+
     [SkippableFact]
     public void Present_Frame_KeepsIt()
     {
@@ -99,6 +119,14 @@ public sealed class RenderWindowTests
             throw new SkipException(exception.Message);
         }
     }
+
+    [DllImport("libSDL2-2.0.so.0", EntryPoint = "SDL_PushEvent")]
+    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
+    private static extern int PushEvent(byte[] item);
+
+    [DllImport("libSDL2-2.0.so.0", EntryPoint = "SDL_strdup")]
+    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
+    private static extern IntPtr DuplicateText(byte[] text);
 
     /// <summary>Drops the events of opening: shown, exposed, the pointer inside.</summary>
     private static void Drain(RenderWindow window)

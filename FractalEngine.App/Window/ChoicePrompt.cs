@@ -1,0 +1,42 @@
+using System.Collections.Immutable;
+using FractalEngine.Render.Ui;
+using FractalEngine.Render.Windowing;
+
+namespace FractalEngine.App.Window;
+
+/// <summary>A question that is answered by one key. Escape only closes it.</summary>
+/// <param name="title">The question.</param>
+/// <param name="details">Lines below the question.</param>
+/// <param name="choices">The answers.</param>
+internal sealed class ChoicePrompt(string title, IEnumerable<string> details, params ImmutableArray<PromptChoice> choices) : Prompt
+{
+    /// <inheritdoc/>
+    public override OverlayPanel Panel { get; } = new(OverlayAnchor.Centre,
+    [
+        .. details.Select(static line => new OverlayLine(line)),
+        .. choices.Select(static choice => new OverlayLine(choice.Key.ToString(), choice.Text)),
+        new OverlayLine("Esc", "cancel"),
+    ])
+    {
+        Title = title,
+    };
+
+    /// <inheritdoc/>
+    public override void HandleKey(KeyPressed pressed)
+    {
+        if (pressed.IsRepeat)
+        {
+            return;
+        }
+
+        if (pressed.Key == Key.Escape)
+        {
+            Close();
+        }
+        else if (choices.FirstOrDefault(choice => choice.Key == pressed.Key) is { } chosen)
+        {
+            Close();
+            chosen.Run?.Invoke();
+        }
+    }
+}

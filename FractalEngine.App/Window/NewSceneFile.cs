@@ -1,0 +1,65 @@
+using System.Text;
+using FractalEngine.Core.Files;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Scenes;
+
+namespace FractalEngine.App.Window;
+
+/// <summary>Writes scenes under new names. No other file is ever replaced.</summary>
+internal static class NewSceneFile
+{
+    private const string Extension = ".sdo";
+
+    /// <summary>Returns a name for the scene beside a file that no other file has.</summary>
+    /// <param name="file">Full path of a scene, mesh or fractal.</param>
+    public static string Propose(string file)
+    {
+        var stem = Path.Combine(Path.GetDirectoryName(file)!, Path.GetFileName(file).Split('.')[0]);
+        return Enumerable.Range(1, int.MaxValue)
+            .Select(number => number == 1 ? $"{stem}{Extension}" : FormattableString.Invariant($"{stem}-{number}{Extension}"))
+            .First(static candidate => !Path.Exists(candidate));
+    }
+
+    /// <summary>Writes a scene. File names in it become relative to the new place.</summary>
+    /// <param name="file">The file that the scene was loaded from.</param>
+    /// <param name="scene">The scene to write.</param>
+    /// <param name="path">Full path of the new file.</param>
+    /// <exception cref="IOException">The name is taken or has another ending, or the file can't be written.</exception>
+    public static void Write(LoadedFile file, Scene scene, string path)
+    {
+        if (!path.EndsWith(Extension, StringComparison.OrdinalIgnoreCase))
+        {
+            throw new IOException($"the name of a scene ends in {Extension}");
+        }
+
+        if (Path.Exists(path))
+        {
+            throw new IOException($"{Path.GetFileName(path)} exists already, and is not replaced");
+        }
+
+        if (!Directory.Exists(Path.GetDirectoryName(path)))
+        {
+            throw new IOException($"the folder {Path.GetDirectoryName(path)} does not exist");
+        }
+
+        var relocated = SceneRelocation.Relocate(scene, file.Path, path);
+        if (relocated.Objects.Any(static declared => declared.File!.IndexOfAny(['"', '\n', '\r']) >= 0))
+        {
+            throw new IOException("a scene can't refer to a file with a quote or a line break in its path");
+        }
+
+        var text = Encoding.UTF8.GetBytes(SceneWriter.Write(relocated, file.ParsedScene));
+        var written = AtomicFile.WriteWithoutReplacing(path, stream => stream.Write(text), out var isCreated);
+        if (!isCreated || written != path)
+        {
+            // Another program has taken the name just now.
+            if (isCreated)
+            {
+                File.Delete(written);
+            }
+
+            throw new IOException($"{Path.GetFileName(path)} exists already, and is not replaced");
+        }
+    }
+}

@@ -1,0 +1,58 @@
+using FractalEngine.Render.Windowing;
+
+namespace FractalEngine.App.Window;
+
+/// <summary>Holds the question that is open, and passes keys and text to it instead of to the scene.</summary>
+internal sealed class PromptHost
+{
+    private bool _ignoresText;
+
+    /// <summary>The open question; null for none.</summary>
+    public Prompt? Current { get; private set; }
+
+    /// <summary>Opens a question in place of the one before.</summary>
+    public void Open(Prompt prompt) => Current = prompt;
+
+    /// <summary>Passes an event to the open question.</summary>
+    /// <returns>True for a key or text that the scene must not see.</returns>
+    public bool Handle(WindowEvent windowEvent)
+    {
+        switch (windowEvent)
+        {
+            case KeyPressed pressed:
+                return HandleKey(pressed);
+            case TextEntered entered when Current is { } prompt:
+                if (!_ignoresText)
+                {
+                    prompt.HandleText(entered.Text);
+                }
+
+                return true;
+            default:
+                return windowEvent is TextEntered;
+        }
+    }
+
+    /// <summary>Tells that a key which this class did not take has been handled, and may have opened a question.</summary>
+    public void KeyHandled() => _ignoresText = Current is not null;
+
+    private bool HandleKey(KeyPressed pressed)
+    {
+        // A screenshot of the scene changes nothing that is asked about.
+        if (Current is not { } prompt || pressed.Key == Key.F12)
+        {
+            return false;
+        }
+
+        _ignoresText = false;
+        prompt.HandleKey(pressed);
+        if (prompt.IsClosed && Current == prompt)
+        {
+            Current = null;
+        }
+
+        // The text of a key follows the key. It does not belong to a question that the key has opened.
+        _ignoresText = Current is not null && Current != prompt;
+        return true;
+    }
+}

@@ -1,0 +1,64 @@
+namespace FractalEngine.App.Window;
+
+/// <summary>A line of states with a present one. Each step back can be made again until another state is recorded.</summary>
+/// <param name="first">The first state.</param>
+/// <typeparam name="T">Immutable states that are equal where nothing has changed.</typeparam>
+internal sealed class UndoHistory<T>(T first)
+    where T : IEquatable<T>
+{
+    /// <summary>Maximum number of states that are kept, the present one included.</summary>
+    public const int MaxStates = 100;
+
+    private readonly LinkedList<T> _earlier = [];
+    private readonly Stack<T> _later = [];
+
+    /// <summary>The state that is shown at present.</summary>
+    public T Present { get; private set; } = first;
+
+    /// <summary>Makes a state the present one. A state that equals the present one is no step.</summary>
+    public void Record(T state)
+    {
+        if (state.Equals(Present))
+        {
+            return;
+        }
+
+        _earlier.AddLast(Present);
+        if (_earlier.Count > MaxStates - 1)
+        {
+            _earlier.RemoveFirst();
+        }
+
+        _later.Clear();
+        Present = state;
+    }
+
+    /// <summary>Returns to the state before the present one.</summary>
+    /// <returns>False when there is none.</returns>
+    public bool TryUndo()
+    {
+        if (_earlier.Last is not { } last)
+        {
+            return false;
+        }
+
+        _later.Push(Present);
+        Present = last.Value;
+        _earlier.RemoveLast();
+        return true;
+    }
+
+    /// <summary>Returns to the state that the last <see cref="TryUndo"/> left.</summary>
+    /// <returns>False when there is none.</returns>
+    public bool TryRedo()
+    {
+        if (!_later.TryPop(out var next))
+        {
+            return false;
+        }
+
+        _earlier.AddLast(Present);
+        Present = next;
+        return true;
+    }
+}

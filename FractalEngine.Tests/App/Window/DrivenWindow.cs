@@ -1,0 +1,170 @@
+using System.Diagnostics;
+using System.Text.RegularExpressions;
+using FractalEngine.Core.Images;
+using FractalEngine.Render.Images;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.App.Window;
+
+/// <summary>A process of the program whose window xdotool drives.</summary>
+internal sealed partial class DrivenWindow : IDisposable
+{
+    private readonly Process _process;
+    private readonly List<string> _errorLines = [];
+    private readonly string _folder;
+    private readonly string _window;
+
+    private DrivenWindow(string folder, string file, string[] options)
+    {
+        _folder = folder;
+        // The list of recent files is that of the test.
+        var environment = new Dictionary<string, string?>
+        {
+            ["FRACTALENGINE_NO_WINDOW"] = null,
+            ["XDG_CONFIG_HOME"] = Path.Combine(folder, "config"),
+        };
+        _process = AppProcess.Start(folder, environment, ["view", file, "--resolution", "640x480", .. options]);
+        _process.ErrorDataReceived += (_, line) =>
+        {
+            lock (_errorLines)
+            {
+                _errorLines.Add(line.Data ?? "");
+            }
+        };
+        _process.BeginErrorReadLine();
+        _window = WaitFor(
+            () => RunXdotool($"search --name {Path.GetFileName(file)}.*FractalEngine")
+                .Split('\n', StringSplitOptions.RemoveEmptyEntries).LastOrDefault(),
+            "window");
+        Send("windowfocus --sync {window}");
+    }
+
+    /// <summary>Opens a window on a file. Skips the test where no window can be driven.</summary>
+    public static DrivenWindow Open(TemporaryFolder folder, string file, params string[] options)
+    {
+        Skip.If(string.IsNullOrEmpty(Environment.GetEnvironmentVariable("DISPLAY")), "there is no display");
+        Skip.IfNot(IsAvailable, "xdotool is not installed");
+        return new(folder.Path, file, options);
+    }
+
+    private static bool IsAvailable => (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator)
+        .Any(folder => File.Exists(Path.Combine(folder, "xdotool")));
+
+    public TimeSpan ProcessorTime
+    {
+        get
+        {
+            _process.Refresh();
+            return _process.TotalProcessorTime;
+        }
+    }
+
+    /// <summary>Sends input by xdotool, in whose commands {window} is the window.</summary>
+    /// <param name="commands">Commands of xdotool.</param>
+    /// <param name="waits">False to return while the input is still being sent.</param>
+    public void Send(string commands, bool waits = true) =>
+        RunXdotool(commands.Replace("{window}", _window, StringComparison.Ordinal), waits);
+
+    /// <summary>Waits until the program has written a line with this text to stderr.</summary>
+    public void WaitForError(string text) =>
+        WaitFor(() => ErrorLines().FirstOrDefault(line => line.Contains(text, StringComparison.Ordinal)), $"line with '{text}'");
+
+    /// <summary>Takes a screenshot. All earlier input has been handled before.</summary>
+    public PixelImage Screenshot()
+    {
+        var count = SavedImages().Length;
+        Send("key F12");
+        return ImageFile.Load(Path.Combine(_folder, WaitFor(() => SavedImages().ElementAtOrDefault(count), "screenshot")));
+    }
+
+    public int CloseWith(string commands)
+    {
+        Send(commands);
+        return WaitForExit();
+    }
+
+    /// <summary>Waits until the program has ended, and returns its exit code.</summary>
+    public int WaitForExit()
+    {
+        Assert.True(_process.WaitForExit(Polling.Deadline), "the window did not close");
+        return _process.ExitCode;
+    }
+
+    /// <summary>True once the program has ended.</summary>
+    public bool HasExited => _process.HasExited;
+
+    /// <summary>Ends the program at once, as a crash would.</summary>
+    public void Kill()
+    {
+        _process.Kill(entireProcessTree: true);
+        _process.WaitForExit();
+    }
+
+    /// <summary>Types text into the window.</summary>
+    public void Type(string text) => RunXdotool($"type --delay 5 -- \"{text}\"");
+
+    /// <summary>Number of lines with a text that the program has written to stderr.</summary>
+    public int CountErrors(string text) => ErrorLines().Count(line => line.Contains(text, StringComparison.Ordinal));
+
+    /// <summary>Computes the fraction of pixels that differ visibly; it is 1 for images of different sizes.</summary>
+    public static double DifferingFraction(PixelImage image1, PixelImage image2)
+    {
+        if ((image1.Width, image1.Height) != (image2.Width, image2.Height))
+        {
+            return 1;
+        }
+
+        var differing = 0;
+        for (var i = 0; i < image1.Pixels.Length; i += 4)
+        {
+            differing += Enumerable.Range(i, 3).Any(k => Math.Abs(image1.Pixels[k] - image2.Pixels[k]) > 8) ? 1 : 0;
+        }
+
+        return differing / (image1.Pixels.Length / 4.0);
+    }
+
+    public void Dispose()
+    {
+        if (!_process.HasExited)
+        {
+            _process.Kill(entireProcessTree: true);
+        }
+
+        _process.Dispose();
+    }
+
+    private T WaitFor<T>(Func<T?> get, string description)
+        where T : class => Polling.WaitFor(
+            () => get() ?? (_process.HasExited
+                ? throw new InvalidOperationException($"the program ended with {_process.ExitCode}: {string.Join('\n', ErrorLines())}")
+                : null),
+            description);
+
+    private string[] ErrorLines()
+    {
+        lock (_errorLines)
+        {
+            return [.. _errorLines];
+        }
+    }
+
+    private string[] SavedImages() =>
+        [.. ErrorLines().Select(line => SavedImage().Match(line)).Where(match => match.Success).Select(match => match.Groups[1].Value)];
+
+    private static string RunXdotool(string commands, bool waits = true)
+    {
+        var start = new ProcessStartInfo("xdotool", commands) { RedirectStandardOutput = true, RedirectStandardError = true };
+        using var tool = Process.Start(start)!;
+        if (!waits)
+        {
+            return "";
+        }
+
+        var output = tool.StandardOutput.ReadToEnd();
+        tool.WaitForExit();
+        return output;
+    }
+
+    [GeneratedRegex(@"^saved (out\S+\.png)$")]
+    private static partial Regex SavedImage();
+}

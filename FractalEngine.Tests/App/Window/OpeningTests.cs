@@ -1,0 +1,93 @@
+using FractalEngine.Core.Images;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.App.Window;
+
+/// <summary>Opens files from a driven window.</summary>
+[Collection("GL")]
+public sealed class OpeningTests : IDisposable
+{
+    private const string Warning = "missing.mtl";
+    private const string CubeScene = "c (2, 1.5, -3) (0.3, 0.6, 0) 60\no \"cube.obj\" #\n";
+
+    private readonly TemporaryFolder _folder = new();
+
+    public OpeningTests()
+    {
+        _folder.Write("cube.obj", "mtllib missing.mtl\nusemtl missing\n" + SampleFiles.Cube);
+        _folder.Write("scene.sdo", CubeScene);
+        _folder.Write("other.sdo", $"background (0, 1, 0)\n{CubeScene}");
+        _folder.Write("bad.sdo", "o nonsense\n");
+    }
+
+    public void Dispose() => _folder.Dispose();
+
+    [SkippableFact]
+    public void Open_WithCompletion_ShowsTheFileAndRemembersIt()
+    {
+        using var window = Open();
+        window.Send("key ctrl+o");
+        window.Type("ot");
+        window.Send("key Tab key Return");
+        Polling.WaitUntil(() => IsGreen(window.Screenshot()), "other scene");
+        // The first of the recent files is the present one, the second is the one before.
+        window.Send("key ctrl+o key Down key Down key Return");
+        Polling.WaitUntil(() => !IsGreen(window.Screenshot()), "recent scene");
+        Assert.Equal(
+            [_folder["scene.sdo"], _folder["other.sdo"]], File.ReadAllLines(_folder["config/FractalEngine/recent.txt"]));
+        Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
+    [SkippableFact]
+    public void Open_OfABadFile_LeavesTheSceneAsItIs()
+    {
+        using var window = Open();
+        var before = window.Screenshot();
+        window.Send("key ctrl+o");
+        window.Type("bad.sdo");
+        window.Send("key Return");
+        window.WaitForError("bad.sdo:1:");
+        Assert.Equal(before.Pixels, window.Screenshot().Pixels);
+        // The scene is still watched, and saved under its own name.
+        window.Send("key 3 key ctrl+s");
+        window.WaitForError("saved scene.sdo");
+        Assert.Equal("o nonsense\n", File.ReadAllText(_folder["bad.sdo"]));
+        Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
+    [SkippableFact]
+    public void Open_WithUnsavedChanges_AsksFirst()
+    {
+        using var window = Open();
+        window.Send("key 3 key ctrl+o");
+        window.Type("other.sdo");
+        window.Send("key Return");
+        Assert.False(IsGreen(window.Screenshot()));
+        window.Send("key Escape key ctrl+o");
+        window.Type("other.sdo");
+        window.Send("key Return");
+        window.Send("key s");
+        window.WaitForError("saved scene.sdo");
+        Polling.WaitUntil(() => IsGreen(window.Screenshot()), "other scene");
+        Assert.DoesNotContain("c (2, 1.5, -3)", File.ReadAllText(_folder["scene.sdo"]), StringComparison.Ordinal);
+        Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
+    [SkippableFact]
+    public void Window_WithABrokenListOfRecentFiles_SaysSoAndOpens()
+    {
+        _folder.Write("config/FractalEngine/recent.txt", "\0\0");
+        using var window = Open();
+        window.WaitForError("list of recent files is ignored");
+        Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
+    private static bool IsGreen(PixelImage image) => image[0, 0] is (0, 255, 0, _);
+
+    private DrivenWindow Open()
+    {
+        var window = DrivenWindow.Open(_folder, "scene.sdo");
+        window.WaitForError(Warning);
+        return window;
+    }
+}
