@@ -3,6 +3,9 @@
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/eng/setup.sh"
 
+# Help and messages name the program as it was called.
+export FRACTALENGINE_PROGRAM="$0"
+
 install_packages
 build_ready FractalEngine.App
 
@@ -14,7 +17,7 @@ app=("$root/FractalEngine.App/bin/ready/FractalEngine.App")
 # be seen by nobody, so the program is told to draw that into a file.
 if [ -z "${DISPLAY:-}" ] && command -v xvfb-run >/dev/null; then
     case "${1:-}" in
-        info | count | export | check | save | generate | query | simulate | --help | -h | '-?' | --version) ;;
+        info | count | export | check | save | generate | query | simulate | limits | --help | -h | '-?' | --version) ;;
         *) FRACTALENGINE_NO_WINDOW=1 exec xvfb-run -a -s '-screen 0 1280x720x24 -noreset' "${app[@]}" "$@" ;;
     esac
 fi

@@ -1,6 +1,5 @@
 using System.CommandLine;
 using FractalEngine.App.Commands;
-using FractalEngine.Core;
 
 namespace FractalEngine.App;
 
@@ -14,19 +13,15 @@ internal static class CommandLine
     public static int Run(string[] args)
     {
         var root = CreateRootCommand();
-        var result = root.Parse(args.Contains("--version") ? ["--version"] : WithDefaultCommand(root, args));
-        if (result.Errors.Count > 0)
+        if (UsageErrors.ReportUnknownCommand(root, args) is { } exitCode)
         {
-            foreach (var message in result.Errors.Select(error => error.Message).Distinct())
-            {
-                Console.Error.WriteLine($"error: {DisplayText.Escape(message)}");
-            }
-
-            Console.Error.WriteLine("Run with --help to see the commands and their options.");
-            return ExitCode.WrongUsage;
+            return exitCode;
         }
 
-        return Invoke(result);
+        var result = root.Parse(args.Contains("--version") ? ["--version"] : WithDefaultCommand(root, args));
+        return HelpText.IsRequested(result) ? HelpText.Print(result)
+            : result.Errors.Count > 0 ? UsageErrors.Report(result)
+            : Invoke(result);
     }
 
     private static RootCommand CreateRootCommand()
@@ -35,9 +30,9 @@ internal static class CommandLine
             "Draw, measure and simulate fractals of any size, together with regular meshes. "
             + "Without a command, FILE or the gallery is opened in a window.");
         foreach (var command in (Command[])[
-            ViewCommand.Create(), RenderCommand.Create(), InfoCommand.Create(), CountCommand.Create(), ExportCommand.Create(),
-            CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create(), QueryCommand.Create(), SimulateCommand.Create(),
-            LimitsCommand.Create()])
+            ViewCommand.Create(), RenderCommand.Create(), AnimateCommand.Create(), InfoCommand.Create(), CountCommand.Create(),
+            ExportCommand.Create(), CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create(), QueryCommand.Create(),
+            SimulateCommand.Create(), LimitsCommand.Create()])
         {
             root.Add(command);
         }

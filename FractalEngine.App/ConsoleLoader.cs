@@ -10,10 +10,11 @@ internal static class ConsoleLoader
     // A bar that only flickers up would tell less than none.
     private static readonly TimeSpan ProgressBarDelay = TimeSpan.FromSeconds(0.5);
 
-    /// <summary>Loads a file with all files that it refers to.</summary>
+    /// <summary>Loads a file with all files that it refers to. The path <c>-</c> stands for the standard input.</summary>
     /// <exception cref="SourceException">A file is missing or faulty.</exception>
     public static LoadedFile Load(string path, LoadOptions options)
     {
+        options = StandardInput.AddTo(options, path);
         var file = Console.IsErrorRedirected ? AssetLoader.Load(path, options) : LoadWithProgressBar(path, options);
         foreach (var warning in file.Warnings)
         {

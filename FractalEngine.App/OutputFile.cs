@@ -6,13 +6,20 @@ namespace FractalEngine.App;
 internal static class OutputFile
 {
     /// <summary>Creates or replaces a file, see <see cref="AtomicFile.Write"/>.</summary>
-    /// <param name="path">Path of the file.</param>
+    /// <param name="path">Path of the file; <c>-</c> for the standard output.</param>
     /// <param name="write">Writes the contents.</param>
     /// <exception cref="IOException">The file can't be written.</exception>
     /// <exception cref="OperationCanceledException">A signal has arrived.</exception>
     public static void Write(string path, Action<Stream> write)
     {
         using var interruption = new InterruptSignal();
+        if (path == StandardInput.Name)
+        {
+            using var output = new BufferedStream(StandardStreams.OpenOutput());
+            write(new InterruptibleStream(output, interruption));
+            return;
+        }
+
         AtomicFile.Write(path, stream => write(new InterruptibleStream(stream, interruption)));
     }
 }

@@ -32,11 +32,17 @@ internal static class SceneWorld
 
     /// <summary>Advances a world by one step.</summary>
     /// <exception cref="SourceException">A body leaves the range of a double.</exception>
-    public static void Step(string path, PhysicsWorld world)
+    public static void Step(string path, PhysicsWorld world) => Guard(path, world.Step);
+
+    /// <summary>Advances a world by some time, in whole steps; the rest counts for the next time.</summary>
+    /// <exception cref="SourceException">A body leaves the range of a double.</exception>
+    public static void Advance(string path, PhysicsWorld world, double seconds) => Guard(path, () => world.Advance(seconds));
+
+    private static void Guard(string path, Action advance)
     {
         try
         {
-            world.Step();
+            advance();
         }
         catch (InvalidOperationException exception)
         {

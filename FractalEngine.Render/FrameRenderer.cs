@@ -55,7 +55,7 @@ public sealed class FrameRenderer : IDisposable
         target.Bind();
         var bounds = scene is null ? BoundingBox.Empty : LinesPass.BoundsIncludingLines(scene.Bounds, settings);
         var frame = FrameView.Create(view, width, height, bounds);
-        Clear(scene?.Scene.Source.Scene.Background ?? settings.Background, in frame, width, height);
+        Clear(view.Background ?? scene?.Scene.Source.Scene.Background ?? settings.Background, in frame, width, height);
         if (scene is null)
         {
             return;

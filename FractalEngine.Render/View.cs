@@ -31,6 +31,9 @@ public sealed record View(Camera Camera, Projection Projection)
             : throw new ArgumentException("expected a positive and finite aspect ratio", nameof(Aspect));
     }
 
+    /// <summary>Colour behind the scene; null for the scene's own, or for that of the settings where it has none.</summary>
+    public Colour? Background { get; init; }
+
     /// <summary>Object that the camera is deep inside; null where world space is precise enough for the camera's position.</summary>
     public DeepZoom? DeepZoom { get; init; }
 

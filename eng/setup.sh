@@ -71,17 +71,33 @@ run_dotnet() {
     dotnet "$command" "$root/$project" -c "$configuration" -v quiet -nodeReuse:false --disable-build-servers "$@" </dev/null
 }
 
+# Says so on a terminal where a build takes more than two seconds. Stop it by stop_announcing.
+announcer=
+announce_build() {
+    [ -t 2 ] || return 0
+    { sleep 2 && printf 'building %s, which takes up to two minutes the first time ...\n' "$1" >&2; } </dev/null >/dev/null &
+    announcer=$!
+}
+
+stop_announcing() {
+    [ -z "$announcer" ] || kill "$announcer" 2>/dev/null || true
+    announcer=
+}
+
 # Builds a project if a source is newer than its last build.
 build() {
     local project="$1" stamp="$root/$1/obj/built.stamp" log
     is_up_to_date "$stamp" && return 0
     log="$(mktemp)"
     touch "$log"
+    announce_build "$project"
     if ! run_dotnet build "$project" >"$log" 2>&1; then
+        stop_announcing
         cat "$log" >&2
         rm -f "$log"
         fail "the build of $project failed"
     fi
+    stop_announcing
     mkdir -p "$(dirname "$stamp")"
     touch -r "$log" "$stamp"
     rm -f "$log"
@@ -93,11 +109,14 @@ build_ready() {
     local project="$1" stamp="$root/$1/obj/ready.stamp" ready="$root/$1/bin/ready" start
     is_up_to_date "$stamp" && return 0
     start="$(mktemp)"
+    announce_build "$project"
     if ! { rm -rf "$ready" && run_dotnet publish "$project" --use-current-runtime --no-self-contained -p:PublishReadyToRun=true \
         -o "$ready" >/dev/null 2>&1; }; then
+        stop_announcing
         rm -rf "$ready"
         build "$project"
     fi
+    stop_announcing
     mkdir -p "$(dirname "$stamp")"
     touch -r "$start" "$stamp"
     rm -f "$start"

@@ -4,22 +4,52 @@ using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.App.Commands;
 
-/// <summary>The command <c>check FILE</c>, which prints the diagnostics of a file and of all files that it refers to.</summary>
+/// <summary>
+/// The command <c>check FILE…</c>, which prints the diagnostics of files and of all files that they refer to. Of a folder it checks all
+/// meshes, fractals and scenes.
+/// </summary>
 internal static class CheckCommand
 {
+    private static readonly string[] Endings = [".obj", ".obj.gz", ".ply", ".stl", ".fdo", ".sdo"];
+
     /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
         var shared = new SharedOptions();
-        var command = new Command("check", "Parse FILE and all files that it refers to, and print every error and warning.");
-        shared.AddTo(command);
-        command.SetAction(result => Run(result.GetRequiredValue(shared.File), shared.LoadOptions(result)));
+        var files = new Argument<string[]>("FILE")
+        {
+            Description = "Meshes, fractals, scenes, or folders of them; '-' is the standard input.",
+            Arity = ArgumentArity.OneOrMore,
+            Validators =
+            {
+                static result =>
+                {
+                    if (result.Tokens.FirstOrDefault(static token => token.Value is "" or ['-', _, ..]) is { } token)
+                    {
+                        result.AddError(token.Value.Length == 0 ? "the name of the file is empty" : $"unknown option '{token.Value}'");
+                    }
+                },
+            },
+        };
+        var command = new DocumentedCommand(
+            "check", "Parse files and all files that they refer to, and print every error and warning.",
+            "check scene.sdo", "check assets --allow-outside")
+        {
+            files, shared.AllowOutside, shared.Composition,
+        };
+        command.SetAction(result => Run(result.GetRequiredValue(files), shared.LoadOptions(result)));
         return command;
     }
 
-    private static int Run(string file, LoadOptions options)
+    private static int Run(string[] paths, LoadOptions options)
     {
-        var diagnostics = AssetLoader.Check(file, options);
+        var exitCodes = paths.SelectMany(FindFiles).Select(path => Check(path, options)).Distinct().ToArray();
+        return exitCodes.Contains(ExitCode.BadInput) ? ExitCode.BadInput : exitCodes.Max();
+    }
+
+    private static int Check(string path, LoadOptions options)
+    {
+        var diagnostics = AssetLoader.Check(path, StandardInput.AddTo(options, path));
         foreach (var diagnostic in diagnostics)
         {
             Console.Error.WriteLine(diagnostic);
@@ -28,10 +58,26 @@ internal static class CheckCommand
         var errors = diagnostics.Where(diagnostic => diagnostic.Severity == DiagnosticSeverity.Error).ToArray();
         if (errors.Length == 0)
         {
-            Console.WriteLine($"{file}: ok");
+            Console.WriteLine($"{path}: ok");
             return ExitCode.Done;
         }
 
         return errors.All(error => error.IsLimitExceeded) ? ExitCode.OverLimit : ExitCode.BadInput;
+    }
+
+    /// <summary>Returns a file itself, and the files of a folder and its folders in ordinal order.</summary>
+    /// <exception cref="UsageException">The folder has no file that could be checked.</exception>
+    private static IEnumerable<string> FindFiles(string path)
+    {
+        if (!Directory.Exists(path))
+        {
+            return [path];
+        }
+
+        var files = Directory.EnumerateFiles(path, "*", SearchOption.AllDirectories)
+            .Where(static file => Endings.Any(ending => file.EndsWith(ending, StringComparison.OrdinalIgnoreCase)))
+            .Order(StringComparer.Ordinal)
+            .ToArray();
+        return files.Length > 0 ? files : throw new UsageException($"the folder {path} has no mesh, fractal or scene");
     }
 }

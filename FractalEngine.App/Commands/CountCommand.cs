@@ -10,7 +10,9 @@ internal static class CountCommand
     public static Command Create()
     {
         var file = SharedOptions.FileArgument("A mesh (.obj).");
-        var command = new Command("count", "Write or correct the comment '# Mesh count: N' at the head of a mesh file, and print N.")
+        var command = new DocumentedCommand(
+            "count", "Write or correct the comment '# Mesh count: N' at the head of a mesh file, and print N.",
+            "count out/menger.obj", "count model.obj")
         {
             file,
         };

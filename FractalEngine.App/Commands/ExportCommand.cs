@@ -15,26 +15,31 @@ internal static class ExportCommand
         var shared = new SharedOptions();
         var output = SharedOptions.OutputOption(".obj", "Mesh to write.");
         var depth = NumberOption.Integer("--depth", "N", 0, int.MaxValue, "Recursion depth, overriding the fractal's file.");
-        var command = new Command("export", "Write all faces of FILE as one flat mesh, with fractals expanded.")
+        var report = new ReportOptions();
+        var command = new DocumentedCommand(
+            "export", "Write all faces of FILE as one flat mesh, with fractals expanded.",
+            "export assets/fractals/menger-3.fdo --output out/menger.obj", "export assets/fractals/tree.fdo --depth 3 --output -")
         {
             output, depth,
         };
         shared.AddTo(command);
+        report.AddTo(command);
         command.SetAction(result => Run(
             result.GetRequiredValue(shared.File), shared.LoadOptions(result) with { Depth = result.GetValue(depth) },
-            result.GetRequiredValue(output)));
+            result.GetRequiredValue(output), report.Begin(result)));
         return command;
     }
 
-    private static int Run(string path, LoadOptions options, string output)
+    private static int Run(string path, LoadOptions options, string output, WrittenReport report)
     {
         if (options.Depth > FractalLimits.MaxDepth)
         {
             throw new FractalLimitException($"--depth {options.Depth} exceeds the limit of {FractalLimits.MaxDepth}");
         }
 
-        var file = ConsoleLoader.Load(path, options);
-        if (file.Scene.Models.Select(model => model.SourcePath).Append(file.Path).Contains(Path.GetFullPath(output)))
+        var file = report.Measure("load", () => ConsoleLoader.Load(path, options));
+        if (output != StandardInput.Name
+            && file.Scene.Models.Select(model => model.SourcePath).Append(file.Path).Contains(Path.GetFullPath(output)))
         {
             throw new UsageException($"{output} is one of the files to export, and is not overwritten");
         }
@@ -44,7 +49,9 @@ internal static class ExportCommand
             throw new UsageException($"{path} has no recursive fractal, so --depth has no effect");
         }
 
-        OutputFile.Write(output, stream => ObjWriter.Write(file.Scene, stream, FractalLimits.MaxExportedFaces));
+        report.Measure("write", () => OutputFile.Write(
+            output, stream => ObjWriter.Write(file.Scene, stream, FractalLimits.MaxExportedFaces)));
+        report.Written(output, $"{FileSummary.CountFaces(file)} faces");
         return ExitCode.Done;
     }
 }

@@ -19,22 +19,32 @@ internal static class GenerateCommand
             "--seed", "N", ulong.MinValue, ulong.MaxValue, "Seed of the generator; equal seeds give equal meshes (default: 0).");
         var faces = NumberOption.Integer(
             "--faces", "N", 1, MeshGenerators.MaxFaceCount, "Number of faces, or the closest number that the shape allows.");
-        var command = new Command("generate", "Generate a mesh, such as a substitute for one of the paper's regular models.")
+        var report = new ReportOptions();
+        var command = new DocumentedCommand(
+            "generate", "Generate a mesh, such as a substitute for one of the paper's regular models.",
+            "generate terrain --seed 7 --output out/terrain.obj", "generate torus-knot --faces 20000 --output out/knot.obj")
         {
             name, output, seed, faces,
         };
+        report.AddTo(command);
         command.SetAction(result => Run(
-            result.GetRequiredValue(name), result.GetRequiredValue(output), result.GetValue(seed) ?? 0, result.GetValue(faces)));
+            result.GetRequiredValue(name), result.GetRequiredValue(output), result.GetValue(seed) ?? 0, result.GetValue(faces),
+            report.Begin(result)));
         return command;
     }
 
-    private static int Run(string name, string output, ulong seed, int? faces)
+    private static int Run(string name, string output, ulong seed, int? faces, WrittenReport report)
     {
         var generator = MeshGenerators.Find(name)
             ?? throw new UsageException($"unknown mesh '{name}', expected one of: {Names()}");
         var mesh = generator.Create(seed, faces);
         OutputFile.Write(output, stream => ObjMeshWriter.Write(mesh, stream, name));
-        Console.WriteLine(mesh.FaceCount);
+        if (output != StandardInput.Name)
+        {
+            Console.WriteLine(mesh.FaceCount);
+        }
+
+        report.Written(output, $"{mesh.FaceCount} faces");
         return ExitCode.Done;
     }
 

@@ -15,7 +15,12 @@ internal static class InfoCommand
         var shared = new SharedOptions();
         var json = new Option<bool>("--json") { Description = "Print JSON instead of text." };
         var prepare = new Option<bool>("--prepare") { Description = "Prepare everything for drawing, too, and measure that." };
-        var command = new Command("info", "Print exact counts, bounds, storage size and load time of FILE.") { json, prepare };
+        var command = new DocumentedCommand(
+            "info", "Print exact counts, bounds, storage size and load time of FILE.",
+            "info assets/fractals/googol.fdo", "info assets/scenes/gallery.sdo --json --prepare")
+        {
+            json, prepare,
+        };
         shared.AddTo(command);
         command.SetAction(result => Run(
             result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetValue(json), result.GetValue(prepare)));

@@ -16,7 +16,9 @@ internal static class LimitsCommand
     /// <summary>Creates the command, which has no arguments.</summary>
     public static Command Create()
     {
-        var command = new Command("limits", "List all limits with their values, what they count, and why they are there.");
+        var command = new DocumentedCommand(
+            "limits", "List all limits with their values, what they count, and why they are there.",
+            "limits", "limits --limit depth=1000");
         command.SetAction(static _ => Run());
         return command;
     }

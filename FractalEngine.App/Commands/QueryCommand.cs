@@ -24,7 +24,8 @@ internal static class QueryCommand
         var shared = new SharedOptions();
         var points = new Option<string>("--points")
         {
-            Description = "Positions to query: three numbers per line, separated by blanks or commas; '#' starts a comment.",
+            Description = "Positions to query: three numbers per line, separated by blanks or commas; '#' starts a comment. "
+                + "'-' is the standard input.",
             HelpName = "POINTS.txt",
             Required = true,
         };
@@ -37,15 +38,19 @@ internal static class QueryCommand
             Description = "Also print how much farther than the closest point each result may be.",
         };
         var json = new Option<bool>("--json") { Description = "Print a JSON array instead of lines." };
-        var command = new Command("query", "Find the closest point of FILE's surface for each of many positions.")
+        var header = new Option<bool>("--header") { Description = "Print a first line with the names of the columns." };
+        var command = new DocumentedCommand(
+            "query", "Find the closest point of FILE's surface for each of many positions.",
+            "query assets/fractals/menger.fdo --points assets/points.txt --header",
+            "query assets/fractals/tree.fdo --points - --within 2 --json")
         {
-            points, collider, maxDistance, epsilon, errorBound, json,
+            points, collider, maxDistance, epsilon, errorBound, json, header,
         };
         shared.AddTo(command);
         command.SetAction(result => Run(
             result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetRequiredValue(points),
             result.GetValue(collider) ?? ColliderKind.Exact, result.GetValue(maxDistance) ?? double.PositiveInfinity,
-            result.GetValue(epsilon) ?? 0, new(result.GetValue(json), result.GetValue(errorBound))));
+            result.GetValue(epsilon) ?? 0, new(result.GetValue(json), result.GetValue(errorBound), result.GetValue(header))));
         return command;
     }
 
@@ -53,7 +58,9 @@ internal static class QueryCommand
         string path, LoadOptions options, string pointsPath, ColliderKind kind, double maxDistance, double epsilon, ResultFormat format)
     {
         var file = ConsoleLoader.Load(path, options);
-        var points = PointsParser.Parse(SourceText.Read(pointsPath, pointsPath, ParsingLimits.MaxPointsBytes));
+        var points = PointsParser.Parse(StandardInput.IsNamedBy(pointsPath)
+            ? StandardInput.Read(pointsPath, ParsingLimits.MaxPointsBytes)
+            : SourceText.Read(pointsPath, pointsPath, ParsingLimits.MaxPointsBytes));
         var clock = Stopwatch.StartNew();
         var collider = BuildCollider(file, kind);
         var buildTime = clock.Elapsed;
@@ -84,6 +91,11 @@ internal static class QueryCommand
     private static StringBuilder FormatResults(BatchResult[] results, ResultFormat format)
     {
         var text = new StringBuilder(format.Json ? "[" : "");
+        if (format.Header && !format.Json)
+        {
+            text.Append("distance x y z nx ny nz faceTests").Append(format.ErrorBound ? " errorBound\n" : "\n");
+        }
+
         for (var i = 0; i < results.Length; i++)
         {
             var (isFound, closest, faceTests, _) = results[i];
@@ -142,5 +154,6 @@ internal static class QueryCommand
     /// <summary>How results are printed.</summary>
     /// <param name="Json">True for a JSON array, false for lines.</param>
     /// <param name="ErrorBound">True to print the error bound of each.</param>
-    private readonly record struct ResultFormat(bool Json, bool ErrorBound);
+    /// <param name="Header">True to print the names of the columns before lines; JSON names each value itself.</param>
+    private readonly record struct ResultFormat(bool Json, bool ErrorBound, bool Header);
 }

@@ -2,7 +2,6 @@ using System.CommandLine;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.App.Commands;
@@ -17,47 +16,74 @@ internal static class RenderCommand
     {
         var shared = new SharedOptions();
         var draw = new DrawOptions();
-        var output = SharedOptions.OutputOption(".png", "Image to write.");
+        var camera = new CameraOptions();
+        var reference = new ReferenceOptions();
+        var report = new ReportOptions();
+        var output = SharedOptions.OutputOption(".png", "Image to write.", isText: false);
         var time = NumberOption.Decimal("--time", "SECONDS", 0, MaxTime, "Simulate the physics for this time first (default: 0).");
-        var command = new Command("render", "Draw FILE into a PNG image, without a window.") { output };
+        var background = SharedOptions.BackgroundOption();
+        var command = new DocumentedCommand(
+            "render", "Draw FILE into a PNG image, without a window.",
+            "render assets/scenes/gallery.sdo --output out/gallery.png --resolution 1920x1080",
+            "render assets/fractals/menger.fdo --output out/menger.png --view isometric --background transparent")
+        {
+            output,
+        };
         shared.AddTo(command);
         draw.AddTo(command);
+        camera.AddTo(command);
+        command.Add(background);
         command.Add(time);
-        command.SetAction(result => Run(
-            result.GetRequiredValue(shared.File), draw.WithLoadOptions(result, shared.LoadOptions(result)), result.GetRequiredValue(output),
-            draw.Resolution(result), draw.Projection(result), draw.Settings(result), result.GetValue(time) ?? 0));
+        reference.AddTo(command);
+        report.AddTo(command);
+        command.SetAction(result =>
+        {
+            var compare = reference.Load(result);
+            var path = result.GetRequiredValue(output);
+            var job = new RenderJob(
+                result.GetRequiredValue(shared.File), draw.WithLoadOptions(result, shared.LoadOptions(result)), draw.Resolution(result),
+                draw.Projection(result), draw.Settings(result))
+            {
+                Time = result.GetValue(time) ?? 0,
+                Background = BackgroundChoice.Parse(result.GetValue(background)),
+                CreateView = (scene, aspect) => camera.View(result, scene, draw.Projection(result) is not null, aspect),
+                ZoomLevels = camera.Zoom(result),
+            };
+            var image = Run(job, path, report.Begin(result));
+            return compare?.Invoke(image, path) ?? ExitCode.Done;
+        });
         return command;
     }
 
-    /// <summary>Draws a file into an image.</summary>
-    /// <param name="path">Path of the mesh, fractal or scene.</param>
-    /// <param name="options">The load options of the file.</param>
+    /// <summary>Draws a file into an image, and writes that.</summary>
+    /// <param name="job">What to draw.</param>
     /// <param name="output">Path of the PNG to write.</param>
-    /// <param name="size">Width and height in pixels.</param>
-    /// <param name="projection">Overrides the projection of the scene; null keeps it.</param>
-    /// <param name="settings">The render settings of the frame.</param>
-    /// <param name="time">The physics time at which the scene is drawn, in seconds.</param>
-    /// <returns>The exit code.</returns>
-    public static int Run(
-        string path, LoadOptions options, string output, (int Width, int Height) size, Projection? projection, RenderSettings settings,
-        double time = 0)
+    /// <param name="report">Tells what was written.</param>
+    /// <returns>The image.</returns>
+    public static PixelImage Run(RenderJob job, string output, WrittenReport report)
     {
-        var file = ConsoleLoader.Load(path, options);
-        var scene = projection is { } requestedProjection
-            ? file.Scene with { Scene = file.Scene.Scene with { Projection = requestedProjection } }
-            : file.Scene;
+        var file = report.Measure("load", () => ConsoleLoader.Load(job.Path, job.Load));
+        var scene = job.WithProjection(file.Scene);
         // A default camera frames the scene as it is at time 0, so that images of several times show the same view.
-        var view = View.Of(scene, (double)size.Width / size.Height);
-        var drawable = DrawableScene.Prepare(time > 0 ? Simulate(path, file, scene, time) : scene, settings);
+        var view = job.CreateView(scene, (double)job.Size.Width / job.Size.Height);
+        var drawable = report.Measure("prepare", () => DrawableScene.Prepare(
+            job.Time > 0 ? Simulate(job.Path, file, scene, job.Time) : scene, job.Settings));
         foreach (var notice in drawable.Notices)
         {
             Console.Error.WriteLine(notice);
         }
 
-        using var renderer = Renderer.Offscreen(size.Width, size.Height, settings);
-        var image = renderer.Draw(drawable, view);
-        OutputFile.Write(output, stream => PngWriter.Write(image, stream));
-        return ExitCode.Done;
+        if (job.ZoomLevels > 0)
+        {
+            var zoom = new CameraZoom(drawable, view);
+            view = zoom.FlyTo(zoom.CountSteps(job.ZoomLevels));
+        }
+
+        using var renderer = new ImageRenderer(drawable, job.Size, job.Settings, job.Background);
+        var image = report.Measure("draw", () => renderer.Draw(view));
+        report.Measure("write", () => OutputFile.Write(output, stream => PngWriter.Write(image, stream)));
+        report.Written(output, $"{image.Width}×{image.Height} pixels");
+        return image;
     }
 
     private static LoadedScene Simulate(string path, LoadedFile file, LoadedScene scene, double seconds)

@@ -13,16 +13,25 @@ internal static class SaveCommand
     {
         var shared = new SharedOptions();
         var output = SharedOptions.OutputOption(".sdo", "Scene to write.");
-        var command = new Command("save", "Load a scene and write it back; a mesh or fractal becomes a scene with one object.") { output };
+        var report = new ReportOptions();
+        var command = new DocumentedCommand(
+            "save", "Load a scene and write it back; a mesh or fractal becomes a scene with one object.",
+            "save assets/fractals/tree.fdo --output assets/scenes/mine.sdo", "save assets/models/bell.obj --output -")
+        {
+            output,
+        };
         shared.AddTo(command, hasComposition: false);
-        command.SetAction(result => Run(result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetRequiredValue(output)));
+        report.AddTo(command);
+        command.SetAction(result => Run(
+            result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetRequiredValue(output), report.Begin(result)));
         return command;
     }
 
-    private static int Run(string path, LoadOptions options, string output)
+    private static int Run(string path, LoadOptions options, string output, WrittenReport report)
     {
-        var file = ConsoleLoader.Load(path, options);
-        Save(file, file.Scene.Scene, output);
+        var file = report.Measure("load", () => ConsoleLoader.Load(path, options));
+        report.Measure("write", () => Save(file, file.Scene.Scene, output));
+        report.Written(output, $"{file.Scene.Scene.Objects.Length} {(file.Scene.Scene.Objects.Length == 1 ? "object" : "objects")}");
         return ExitCode.Done;
     }
 

@@ -16,7 +16,8 @@ internal sealed class SharedOptions
     public static (int Width, int Height) DefaultResolution => (1280, 720);
 
     /// <summary>The input file of a command.</summary>
-    public Argument<string> File { get; } = FileArgument("A mesh (.obj, .obj.gz, .ply, .stl), a fractal (.fdo) or a scene (.sdo).");
+    public Argument<string> File { get; } = FileArgument(
+        "A mesh (.obj, .obj.gz, .ply, .stl), a fractal (.fdo) or a scene (.sdo); '-' reads a scene or a fractal from the standard input.");
 
     /// <summary>The option that lifts the restriction of <see cref="AssetFolder"/>.</summary>
     public Option<bool> AllowOutside { get; } = new("--allow-outside")
@@ -57,7 +58,7 @@ internal sealed class SharedOptions
         {
             result =>
             {
-                if (result.Tokens is [{ Value: var path }] && (path.Length == 0 || path[0] == '-'))
+                if (result.Tokens is [{ Value: var path }] && path != StandardInput.Name && (path.Length == 0 || path[0] == '-'))
                 {
                     result.AddError(path.Length == 0 ? "the name of the file is empty" : $"unknown option '{path}'");
                 }
@@ -68,16 +69,18 @@ internal sealed class SharedOptions
     /// <summary>Creates the required option for an output file.</summary>
     /// <param name="extension">The extension that the file name must have, with its dot.</param>
     /// <param name="description">The sentence in the help text.</param>
-    public static Option<string> OutputOption(string extension, string description) => new("--output", "-o")
+    /// <param name="isText">Whether <c>-</c> stands for the standard output.</param>
+    public static Option<string> OutputOption(string extension, string description, bool isText = true) => new("--output", "-o")
     {
-        Description = description,
+        Description = isText ? $"{description} '-' is the standard output." : description,
         HelpName = $"FILE{extension}",
         Required = true,
         Validators =
         {
             result =>
             {
-                if (result.Tokens is [{ Value: var path }] && !path.EndsWith(extension, StringComparison.OrdinalIgnoreCase))
+                if (result.Tokens is [{ Value: var path }] && !path.EndsWith(extension, StringComparison.OrdinalIgnoreCase)
+                    && !(isText && path == StandardInput.Name))
                 {
                     result.AddError($"--output '{path}' must end in {extension}");
                 }
@@ -93,6 +96,13 @@ internal sealed class SharedOptions
     public static Option<Projection?> ProjectionOption() => WordOption.Single(
         "--projection", "Projection, overriding the scene's.",
         ("perspective", Projection.Perspective), ("orthographic", Projection.Orthographic));
+
+    /// <summary>Creates the option for what is behind the scene.</summary>
+    public static Option<string?> BackgroundOption() => new("--background")
+    {
+        Description = "Colour behind the scene, sRGB from 0 to 1, overriding the scene's; or transparent.",
+        HelpName = "transparent|\"(r, g, b)\"",
+    };
 
     /// <summary>Creates the option for the size of an image or window in pixels.</summary>
     public static Option<(int Width, int Height)?> ResolutionOption() => new("--resolution")

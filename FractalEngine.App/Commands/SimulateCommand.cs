@@ -30,21 +30,26 @@ internal static class SimulateCommand
             "--seconds", "SECONDS",
             string.Create(CultureInfo.InvariantCulture, $"Duration to simulate (default: {DefaultSeconds})."));
         var step = NumberOption.Positive("--step", "SECONDS", "Duration of one step (default: a sixtieth of a second).");
+        var every = NumberOption.Integer("--every", "N", 1, MaxSteps, "Write the states after every Nth step only (default: 1).");
         var collider = SharedOptions.ColliderOption("Collider of all bodies, overriding the scene.");
         var output = SharedOptions.OutputOption(".csv", "Table to write, one row per body and step (default: standard output).");
         output.Required = false;
-        var command = new Command("simulate", "Simulate the physics objects of a scene, and write their states after each step.")
+        var command = new DocumentedCommand(
+            "simulate", "Simulate the physics objects of a scene, and write their states after each step.",
+            "simulate assets/scenes/drop.sdo --output out/drop.csv", "simulate assets/scenes/playground.sdo --seconds 5 --every 60")
         {
-            seconds, step, collider, output,
+            seconds, step, every, collider, output,
         };
         shared.AddTo(command);
         command.SetAction(result => Run(
             result.GetRequiredValue(shared.File), shared.LoadOptions(result), result.GetValue(seconds) ?? DefaultSeconds,
-            result.GetValue(step) ?? new PhysicsSettings().TimeStep, result.GetValue(collider), result.GetValue(output)));
+            result.GetValue(step) ?? new PhysicsSettings().TimeStep, result.GetValue(every) ?? 1, result.GetValue(collider),
+            result.GetValue(output)));
         return command;
     }
 
-    private static int Run(string path, LoadOptions options, double seconds, double step, ColliderKind? collider, string? output)
+    private static int Run(
+        string path, LoadOptions options, double seconds, double step, long every, ColliderKind? collider, string? output)
     {
         var steps = Math.Max(0, Math.Ceiling((seconds / step) - StepTolerance));
         if (steps > MaxSteps)
@@ -68,13 +73,13 @@ internal static class SimulateCommand
         var stepTime = TimeSpan.Zero;
         using (var interruption = new InterruptSignal())
         {
-            if (output is null)
+            if (output is null or StandardInput.Name)
             {
-                stepTime = Simulate(path, world, (long)steps, StandardStreams.OpenOutput(), interruption);
+                stepTime = Simulate(path, world, (long)steps, every, StandardStreams.OpenOutput(), interruption);
             }
             else
             {
-                AtomicFile.Write(output, stream => stepTime = Simulate(path, world, (long)steps, stream, interruption));
+                AtomicFile.Write(output, stream => stepTime = Simulate(path, world, (long)steps, every, stream, interruption));
             }
         }
 
@@ -82,9 +87,9 @@ internal static class SimulateCommand
         return ExitCode.Done;
     }
 
-    /// <summary>Advances the world by a number of steps, and writes one row per body after each of them.</summary>
+    /// <summary>Advances the world by a number of steps, and writes one row per body after every Nth of them.</summary>
     /// <returns>The time that the steps took, without the writing.</returns>
-    private static TimeSpan Simulate(string path, PhysicsWorld world, long steps, Stream stream, InterruptSignal interruption)
+    private static TimeSpan Simulate(string path, PhysicsWorld world, long steps, long every, Stream stream, InterruptSignal interruption)
     {
         using var writer = new StreamWriter(stream, new UTF8Encoding(encoderShouldEmitUTF8Identifier: false), 1 << 16);
         var table = new BodyCsvWriter(writer);
@@ -96,7 +101,10 @@ internal static class SimulateCommand
             clock.Start();
             SceneWorld.Step(path, world);
             clock.Stop();
-            table.WriteStep(world);
+            if ((step + 1) % every == 0)
+            {
+                table.WriteStep(world);
+            }
         }
 
         return clock.Elapsed;

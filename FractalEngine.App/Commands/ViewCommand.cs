@@ -19,7 +19,9 @@ internal static class ViewCommand
         var shared = new SharedOptions();
         var draw = new DrawOptions();
         shared.File.Arity = ArgumentArity.ZeroOrOne;
-        var command = new Command("view", "Open FILE, or the gallery, in a window. This is the default command.");
+        var command = new DocumentedCommand(
+            "view", "Open FILE, or the gallery, in a window. This is the default command.",
+            "assets/fractals/menger.fdo", "view assets/scenes/playground.sdo --shading pixel");
         var trailLength = NumberOption.Integer(
             "--trail", "N", 1, 1000, $"Length of the trail of the paper's zoom, key T (default: {DefaultTrailLength}).");
         var noWatch = new Option<bool>("--no-watch") { Description = "Don't load files again when they change." };
@@ -51,9 +53,10 @@ internal static class ViewCommand
         }
 
         var output = Path.Combine("out", Path.GetFileNameWithoutExtension(path) + ".png");
-        var exitCode = RenderCommand.Run(path, options.Load, output, options.Size, options.Projection, options.Settings);
+        var job = new RenderJob(path, options.Load, options.Size, options.Projection, options.Settings);
+        RenderCommand.Run(job, output, new(isQuiet: true, isVerbose: false));
         Console.Error.WriteLine($"there is no display for a window, so {output} was drawn instead");
-        return exitCode;
+        return ExitCode.Done;
     }
 
     /// <summary>Finds the gallery in the source tree that the program was built in, whatever the current folder is.</summary>

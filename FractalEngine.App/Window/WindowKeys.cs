@@ -73,6 +73,10 @@ internal sealed class WindowKeys(RenderWindow window, WindowRenderer renderer, W
                 var image = renderer.Capture(document, Settings, window.Width, window.Height);
                 overlay.Report(Screenshots.Save(image, document.File.Path), now);
                 return Redraw.Scene;
+            case Key.C when pressed.Modifiers == (KeyModifiers.Control | KeyModifiers.Shift):
+                window.ClipboardText = CameraText.Format(document.GetCurrentScene().Camera!);
+                overlay.ShowMessage("the camera is in the clipboard, as a line of a scene", now);
+                return Redraw.Overlay;
         }
 
         if (PhysicsKeys.Apply(document, pressed.Key) is not { } message)

@@ -30,21 +30,25 @@ public static class PngWriter
         chunks.WriteSignature();
         WriteHeader(image, chunks);
         using var data = new PngDataWriter(chunks);
-        using (var compressed = new ZLibStream(data, CompressionLevel.Optimal, leaveOpen: true))
-        {
-            var stride = 4 * image.Width;
-            var filter = new PngFilter(stride);
-            for (var y = 0; y < image.Height; y++)
-            {
-                compressed.Write(filter.Apply(image.Pixels.AsSpan(y * stride, stride)));
-            }
-        }
-
+        Compress(image, data);
         data.WriteRest();
         chunks.Write(PngChunk.End, []);
     }
 
-    private static void WriteHeader(PixelImage image, PngChunkWriter chunks)
+    /// <summary>Writes the filtered and compressed rows of an image, the contents of its data chunks.</summary>
+    internal static void Compress(PixelImage image, Stream data)
+    {
+        using var compressed = new ZLibStream(data, CompressionLevel.Optimal, leaveOpen: true);
+        var stride = 4 * image.Width;
+        var filter = new PngFilter(stride);
+        for (var y = 0; y < image.Height; y++)
+        {
+            compressed.Write(filter.Apply(image.Pixels.AsSpan(y * stride, stride)));
+        }
+    }
+
+    /// <summary>Writes the chunk with the size and the format of an image.</summary>
+    internal static void WriteHeader(PixelImage image, PngChunkWriter chunks)
     {
         Span<byte> header = stackalloc byte[PngHeader.Bytes];
         BinaryPrimitives.WriteInt32BigEndian(header, image.Width);

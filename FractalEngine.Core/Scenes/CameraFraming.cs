@@ -20,13 +20,33 @@ public static class CameraFraming
     /// <param name="direction">
     /// In the axes of a camera without rotation: right, up and forward. Of any length but 0; straight up and down are allowed.
     /// </param>
-    public static Vector LookRotation(Vector direction)
+    public static Vector LookRotation(Vector direction) => LookRotation(direction, Vector.J);
+
+    /// <summary>
+    /// Computes the angles (radians) that turn the forward axis to a direction, and the up axis to another one as far as that goes.
+    /// </summary>
+    /// <param name="direction">In the axes of a camera without rotation: right, up and forward. Of any length but 0.</param>
+    /// <param name="up">Likewise. Where it is parallel to the direction, the x axis becomes the right one.</param>
+    public static Vector LookRotation(Vector direction, Vector up)
     {
         var forward = direction.UnitVector();
-        var horizontal = Vector.Cross(Vector.J, forward);
+        var horizontal = Vector.Cross(up, forward);
         // Looking straight up or down, any direction may be right: the x axis is taken.
         var right = horizontal.Length() > 1e-12 ? horizontal.UnitVector() : Vector.I;
         return new Matrix(right, Vector.Cross(forward, right), forward).EulerAngles();
+    }
+
+    /// <summary>Makes a camera that looks from one point to another.</summary>
+    /// <param name="position">World space.</param>
+    /// <param name="target">A point in the middle of the image, world space; another one than the position.</param>
+    /// <param name="up">A direction in world space that is up in the image.</param>
+    /// <param name="fieldOfView">The full vertical angle of view in degrees, between 0 and 180.</param>
+    /// <param name="handedness">That of the scene.</param>
+    /// <exception cref="ArgumentException">A number is NaN or infinite, or the angle of view is out of its range.</exception>
+    public static Camera LookAt(Vector position, Vector target, Vector up, double fieldOfView, Handedness handedness)
+    {
+        var rotation = LookRotation(handedness.Mirror(target - position), handedness.Mirror(up.UnitVector()));
+        return new(position, rotation, fieldOfView) { Handedness = handedness };
     }
 
     /// <summary>

@@ -99,7 +99,11 @@ public sealed class AssetLoader
         return [.. loader._errors, .. loader._warnings];
     }
 
-    private LoadedFile LoadFile() => FileKinds.FromName(_path) switch
+    private FileKind? Kind => _options.Text is { } text
+        ? text.Text.Contains("<$>", StringComparison.Ordinal) ? FileKind.Fractal : FileKind.Scene
+        : FileKinds.FromName(_path);
+
+    private LoadedFile LoadFile() => Kind switch
     {
         FileKind.Scene => LoadScene(),
         FileKind.Fractal => CreateSingleObjectFile(FileKind.Fractal, LoadModel(_fullPath, _path)),
@@ -124,6 +128,7 @@ public sealed class AssetLoader
     private LoadedFile LoadScene()
     {
         var parsed = SceneParser.Parse(ReadText(_fullPath, _path, ParsingLimits.MaxDescriptionBytes));
+        _warnings.AddRange(parsed.Warnings);
         var objects = ImmutableArray.CreateBuilder<SceneObject>();
         foreach (var (declared, offset) in parsed.Scene.Objects.Zip(parsed.FileNameOffsets))
         {
@@ -185,6 +190,7 @@ public sealed class AssetLoader
     private FractalModel LoadFractal(string fullPath, string displayName)
     {
         var parsed = ReadOrFindFractal(fullPath, displayName);
+        _warnings.AddRange(parsed.Warnings);
         var (basePath, baseDisplayName) = _references.Resolve(parsed.Source, parsed.BaseFileNameOffset, fullPath, parsed.BaseFile);
         var description = ApplyOptions(parsed);
         var contents = ReadMesh(basePath, baseDisplayName);
@@ -264,7 +270,7 @@ public sealed class AssetLoader
     private SourceText ReadText(string fullPath, string displayName, long maxBytes)
     {
         _record.Add(fullPath);
-        var source = SourceText.Read(fullPath, displayName, maxBytes);
+        var source = _options.Text is { } text && fullPath == _fullPath ? text : SourceText.Read(fullPath, displayName, maxBytes);
         _textBytes += source.ByteCount;
         if (_cache is not null)
         {

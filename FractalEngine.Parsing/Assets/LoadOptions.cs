@@ -1,4 +1,5 @@
 using FractalEngine.Core.Fractals;
+using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Assets;
 
@@ -15,6 +16,12 @@ public sealed record LoadOptions
     /// Depth of all fractals that have one, from 0 to <see cref="FractalLimits.MaxDepth"/>; null for what each file states.
     /// </summary>
     public int? Depth { get; init; }
+
+    /// <summary>
+    /// Text of a scene or fractal that takes the place of the file, whatever its name ends in; null to read the file. A text with a result
+    /// <c>&lt;$&gt;</c> is a fractal. Names in it are relative to the folder of the path.
+    /// </summary>
+    public SourceText? Text { get; init; }
 
     /// <summary>Whether all objects of one file share its model. False loads the file once per object, for comparison.</summary>
     public bool ShareModels { get; init; } = true;

@@ -1,7 +1,9 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
+using FractalEngine.Parsing.Fractals.Mistakes;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Mistakes;
 
 namespace FractalEngine.Parsing.Fractals;
 
@@ -61,7 +63,7 @@ public sealed partial class FractalParser
     {
         output = _ => defaultValue;
         rest = cursor;
-        if (char.IsAsciiDigit(cursor.Current))
+        if (char.IsAsciiDigit(cursor.Current) && !IsDecimal(cursor))
         {
             if (!ParseVectorNumber(cursor, out var vector, out rest))
             {
@@ -86,23 +88,28 @@ public sealed partial class FractalParser
             return true;
         }
 
-        Fail(cursor, "a vector number");
+        Fail(cursor, ValueAsVectorNumber.VectorNumber);
         Fail(cursor, "a parameter");
         return Fail(cursor, "'#'");
     }
+
+    /// <summary>Tells whether a number with a point and decimals begins here, such as 0.5.</summary>
+    private static bool IsDecimal(Cursor cursor) =>
+        NumberReader.TryRead(cursor.Rest, out _, out var length) && cursor.Rest[..length].Contains('.');
 
     /// <summary>Parses the number of a vector that is declared above.</summary>
     private bool ParseVectorNumber(Cursor cursor, out Vector vector, out Cursor rest)
     {
         vector = default;
-        if (!ParseInteger(cursor, "a vector number", out var number, out rest))
+        if (!ParseInteger(cursor, ValueAsVectorNumber.VectorNumber, out var number, out rest))
         {
             return false;
         }
 
         if (number < 1 || number > _vectors.Count)
         {
-            var fault = number == 0 ? "vectors are numbered from 1" : "it is not declared above";
+            var fault = number == 0 ? "vectors are numbered from 1"
+                : "it is not declared above, and values stand in vectors of their own";
             throw Error(cursor, $"vector {TextBetween(cursor, rest)} of {_vectors.Count}: {fault}");
         }
 
@@ -150,13 +157,12 @@ public sealed partial class FractalParser
         }
 
         Fail(cursor, "'#'");
-        if (!ParseName(cursor, "the name of a transformation", out var name, out rest))
+        if (!ParseName(cursor, TransformationName, out var name, out rest))
         {
             return false;
         }
 
-        var function = _functions.TryGetValue(name, out var found) ? found
-            : throw Error(cursor, $"the transformation '{name}' is not declared above");
+        var function = FindFunction(cursor, name);
         var arguments = ImmutableArray.CreateBuilder<Vector>(MaxParameters);
         if (!ParseChar(rest, '.', out rest))
         {
@@ -185,6 +191,7 @@ public sealed partial class FractalParser
         }
 
         transformation = function.Apply(arguments.ToImmutable());
+        Hint(cursor, RotationUnits.DescribeRadians(transformation.Rotation));
         return ScaleCheck.IsInvertible(transformation.Scale)
             ? true
             : throw Error(cursor, ScaleCheck.SingularScaleMessage(transformation.Scale));

@@ -1,7 +1,10 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Fractals.Mistakes;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Mistakes;
 
 namespace FractalEngine.Parsing.Fractals;
 
@@ -11,7 +14,19 @@ namespace FractalEngine.Parsing.Fractals;
 /// </summary>
 public sealed partial class FractalParser : Parser
 {
+    /// <summary>The expectation of the name of a declared object.</summary>
+    internal const string ObjectName = "the name of an object";
+
+    /// <summary>The expectation of the name of a declared transformation.</summary>
+    internal const string TransformationName = "the name of a transformation";
+
     private static readonly DeclaredObject EmptyObject = new("", 0, DeclaredSteps.None);
+
+    private static readonly ImmutableArray<TypicalMistake> FractalMistakes =
+    [
+        new CommentBehindDeclaration(), new CommaAsDecimalPoint(), new MissingNumber(), new ValueAsVectorNumber(), new NumberOutsideCall(),
+        new DepthWithoutRecursive(), new FileNameWithoutQuotes(), new MisspelledDeclaration(), new MissingDot(), new MisspelledKeyword(),
+    ];
 
     private readonly List<Vector> _vectors = [];
     private readonly Dictionary<string, TransformationFunction> _functions = [];
@@ -21,6 +36,8 @@ public sealed partial class FractalParser : Parser
     private bool _hasDeclaration;
     private long _mapCount;
     private long _repeatedStepCount;
+
+    private protected override ImmutableArray<TypicalMistake> TypicalMistakes => FractalMistakes;
 
     private FractalParser(SourceText source)
         : base(source)
@@ -54,7 +71,7 @@ public sealed partial class FractalParser : Parser
             throw Source.Error(result.Offset, FractalCheck.NotComposableMessage);
         }
 
-        return new(Source, description, result.Object.BaseFile, result.Object.BaseFileNameOffset, result.Offset);
+        return new(Source, description, result.Object.BaseFile, result.Object.BaseFileNameOffset, result.Offset) { Warnings = Hints };
     }
 
     private bool ParseLine(Cursor cursor, out Cursor rest)
@@ -235,7 +252,7 @@ public sealed partial class FractalParser : Parser
     private bool ParseReference(Cursor cursor, out DeclaredObject value, out Cursor rest)
     {
         value = EmptyObject;
-        if (!ParseName(cursor, "the name of an object", out var name, out rest))
+        if (!ParseName(cursor, ObjectName, out var name, out rest))
         {
             return false;
         }
@@ -255,7 +272,7 @@ public sealed partial class FractalParser : Parser
 
         if (depthStart.Offset == rest.Offset || !ParseInteger(depthStart, "a depth", out var depth, out rest))
         {
-            return Fail(depthStart, "the end of the line");
+            return Fail(depthStart, SyntaxFailure.EndOfLine);
         }
 
         if (FindObject(cursor, name) is not DeclaredRecursive recursive)
@@ -271,10 +288,6 @@ public sealed partial class FractalParser : Parser
         value = recursive.WithDepth(depth);
         return true;
     }
-
-    private DeclaredObject FindObject(Cursor cursor, string name) =>
-        _objects.TryGetValue(name, out var value) ? value
-        : throw Error(cursor, $"the object '{name}' is not declared above");
 
     private void RequireFinite(Cursor cursor, string name, DeclaredObject value)
     {

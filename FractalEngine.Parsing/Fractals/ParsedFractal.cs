@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Parsing.Text;
 
@@ -10,4 +11,8 @@ namespace FractalEngine.Parsing.Fractals;
 /// <param name="BaseFileNameOffset">Offset of <see cref="BaseFile"/> in the text, in characters, for messages about the base mesh.</param>
 /// <param name="ResultOffset">Offset of the result's declaration in the text, in characters, for messages about the whole fractal.</param>
 public sealed record ParsedFractal(
-    SourceText Source, FractalDescription Description, string BaseFile, int BaseFileNameOffset, int ResultOffset);
+    SourceText Source, FractalDescription Description, string BaseFile, int BaseFileNameOffset, int ResultOffset)
+{
+    /// <summary>Hints about declarations that are valid but hardly meant so, such as radians in place of degrees.</summary>
+    public ImmutableArray<Diagnostic> Warnings { get; init; } = [];
+}

@@ -10,6 +10,9 @@ namespace FractalEngine.Parsing.Scenes;
 /// <param name="Lines">All lines of the text in order.</param>
 public sealed record ParsedScene(SourceText Source, Scene Scene, ImmutableArray<SceneLine> Lines)
 {
+    /// <summary>Hints about declarations that are valid but hardly meant so, such as degrees in place of radians.</summary>
+    public ImmutableArray<Diagnostic> Warnings { get; init; } = [];
+
     /// <summary>Offsets of the file names of all objects in the text, in the order of the objects.</summary>
     public IEnumerable<int> FileNameOffsets =>
         Lines.Where(line => line.Kind == SceneDeclarationKind.SceneObject).Select(line => line.FileNameOffset);

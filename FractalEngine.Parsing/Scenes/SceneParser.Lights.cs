@@ -2,6 +2,7 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Mistakes;
 
 namespace FractalEngine.Parsing.Scenes;
 
@@ -79,7 +80,8 @@ public sealed partial class SceneParser
         }
 
         ParseOptionalSeparator(rest, out var intensityStart);
-        return IsAtEndOfLine(intensityStart) || ParseIntensity(intensityStart, out intensity, out rest);
+        return IsAtEndOfLine(intensityStart) || Fail(intensityStart, SyntaxFailure.EndOfLine)
+            || ParseIntensity(intensityStart, out intensity, out rest);
     }
 
     private bool ParseColourIntensityAndRange(Cursor cursor, out Colour colour, out double intensity, out double range, out Cursor rest)

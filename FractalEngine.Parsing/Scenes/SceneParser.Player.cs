@@ -9,8 +9,7 @@ public sealed partial class SceneParser
     private bool ParsePlayer(Cursor cursor, out Cursor rest)
     {
         if (!ParseVector(cursor, out var position, out rest) || !ParseOptionalSeparator(rest, out var radiusStart)
-            || !ParseNumber(radiusStart, out var radius, out rest) || !ParseSeparator(rest, out rest)
-            || !ParseNumber(rest, out var height, out rest))
+            || !ParseNumber(radiusStart, out var radius, out rest) || !ParseNextNumber(rest, out var height, out rest))
         {
             return false;
         }

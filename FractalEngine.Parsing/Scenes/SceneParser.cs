@@ -1,18 +1,32 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Scenes.Mistakes;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Mistakes;
 
 namespace FractalEngine.Parsing.Scenes;
 
 /// <summary>Reads scene files (paper §4.1.5). Their grammar is in docs/manual.md.</summary>
 public sealed partial class SceneParser : SceneValueParser
 {
+    /// <summary>The word before the point that a camera looks at.</summary>
+    internal const string LookAtKeyword = "look-at";
+
+    private static readonly ImmutableArray<TypicalMistake> SceneMistakes =
+    [
+        new CommentBehindDeclaration(), new CommaAsDecimalPoint(), new MissingNumber(), new IncompletePlacement(),
+        new DeclarationSpelledOut(), new MisspelledKeyword(),
+    ];
+
     private readonly Dictionary<SceneDeclarationKind, int> _declarationOffsets = [];
     private readonly List<Light> _lights = [];
     private readonly List<SceneObject> _objects = [];
     private Scene _scene = new();
+    private (Vector Target, Vector Up)? _cameraTarget;
     private int _fileNameOffset;
+
+    private protected override ImmutableArray<TypicalMistake> TypicalMistakes => SceneMistakes;
 
     private SceneParser(SourceText source)
         : base(source)
@@ -46,7 +60,8 @@ public sealed partial class SceneParser : SceneValueParser
             throw Error(Source.Start, "the scene declares nothing: it has no camera, object or light");
         }
 
-        return new(Source, _scene with { Lights = [.. _lights], Objects = [.. _objects] }, lines.ToImmutable());
+        var scene = _scene with { Camera = TurnToTarget(_scene.Camera), Lights = [.. _lights], Objects = [.. _objects] };
+        return new(Source, scene, lines.ToImmutable()) { Warnings = Hints };
     }
 
     private int IndexOfLast(SceneDeclarationKind kind) => kind switch
@@ -102,7 +117,7 @@ public sealed partial class SceneParser : SceneValueParser
     private bool ParseCamera(Cursor cursor, out Cursor rest)
     {
         if (!ParseVectorOrDefault(cursor, Vector.Zero, out var position, out rest) || !ParseOptionalSeparator(rest, out rest)
-            || !ParseVectorOrDefault(rest, Vector.Zero, out var rotation, out rest)
+            || !ParseOrientation(rest, position, out var rotation, out rest)
             || !ParseOptionalSeparator(rest, out var fieldOfViewStart)
             || !ParseNumber(fieldOfViewStart, out var fieldOfView, out rest))
         {
@@ -112,6 +127,40 @@ public sealed partial class SceneParser : SceneValueParser
         Require(fieldOfView is > 0 and < 180, fieldOfViewStart, "the angle of view must lie between 0 and 180 degrees");
         return UpdateScene(_scene with { Camera = new(position, rotation, fieldOfView) });
     }
+
+    /// <summary>Parses angles in radians, or <c>look-at point [up direction]</c>.</summary>
+    private bool ParseOrientation(Cursor cursor, Vector position, out Vector rotation, out Cursor rest)
+    {
+        rotation = Vector.Zero;
+        if (!ParseKeyword(cursor, LookAtKeyword, out var targetStart))
+        {
+            var success = ParseVectorOrDefault(cursor, Vector.Zero, out rotation, out rest);
+            Hint(cursor, RotationUnits.DescribeDegrees(rotation));
+            return success;
+        }
+
+        if (!ParseVector(targetStart, out var target, out rest))
+        {
+            return false;
+        }
+
+        Require(target != position, targetStart, "a camera can't look at its own position");
+        var up = Vector.J;
+        if (ParseOptionalSeparator(rest, out var next) && ParseKeyword(next, "up", out var upStart)
+            && !(ParseVector(upStart, out up, out rest) && ParseOptionalSeparator(rest, out rest)))
+        {
+            return false;
+        }
+
+        Require(up != Vector.Zero, next, "the direction up must not be (0, 0, 0)");
+        _cameraTarget = (target, up);
+        return true;
+    }
+
+    /// <summary>Turns the camera to its target. The handedness, on which the angles depend, may be declared below the camera.</summary>
+    private Camera? TurnToTarget(Camera? camera) => camera is not null && _cameraTarget is var (target, up)
+        ? CameraFraming.LookAt(camera.Position, target, up, camera.FieldOfView, _scene.Handedness)
+        : camera;
 
     private bool ParseHandedness(Cursor cursor, out Cursor rest)
     {
@@ -137,7 +186,7 @@ public sealed partial class SceneParser : SceneValueParser
 
         ParseBlanks(rest, out var heightStart);
         double? height = null;
-        if (!IsAtEndOfLine(heightStart))
+        if (!IsAtEndOfLine(heightStart) && !Fail(heightStart, SyntaxFailure.EndOfLine))
         {
             if (!ParseNumber(heightStart, out var number, out rest))
             {
@@ -172,7 +221,7 @@ public sealed partial class SceneParser : SceneValueParser
 
     private bool ParseClip(Cursor cursor, out Cursor rest)
     {
-        if (!ParseNumber(cursor, out var near, out rest) || !ParseSeparator(rest, out rest) || !ParseNumber(rest, out var far, out rest))
+        if (!ParseNumber(cursor, out var near, out rest) || !ParseNextNumber(rest, out var far, out rest))
         {
             return false;
         }

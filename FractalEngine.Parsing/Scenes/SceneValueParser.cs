@@ -1,6 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Mistakes;
 
 namespace FractalEngine.Parsing.Scenes;
 
@@ -31,8 +32,8 @@ public abstract class SceneValueParser : Parser
         }
 
         ParseBlanks(cursor.Advance(1), out rest);
-        if (!ParseVectorOrDefault(rest, Vector.Zero, out var position, out rest) || !ParseSeparator(rest, out rest)
-            || !ParseVectorOrDefault(rest, Vector.Zero, out var rotation, out rest) || !ParseSeparator(rest, out var scaleStart)
+        if (!ParseVectorOrDefault(rest, Vector.Zero, out var position, out rest) || !ParseSeparator(rest, out var rotationStart)
+            || !ParseVectorOrDefault(rotationStart, Vector.Zero, out var rotation, out rest) || !ParseSeparator(rest, out var scaleStart)
             || !ParseVectorOrDefault(scaleStart, Vector.One, out var scale, out rest)
             || !ParseBlanks(rest, out rest) || !ParseChar(rest, ')', out rest))
         {
@@ -40,6 +41,7 @@ public abstract class SceneValueParser : Parser
         }
 
         placement = new(position, rotation, scale);
+        Hint(rotationStart, RotationUnits.DescribeRadians(rotation));
         Require(ScaleCheck.IsInvertible(scale), scaleStart, ScaleCheck.SingularScaleMessage(scale));
         return true;
     }
@@ -65,6 +67,13 @@ public abstract class SceneValueParser : Parser
     /// <summary>Parses an sRGB colour: three components from 0 to 1.</summary>
     protected bool ParseColour(Cursor cursor, out Colour colour, out Cursor rest)
     {
+        if (cursor.Current != '(')
+        {
+            colour = default;
+            rest = cursor;
+            return Fail(cursor, "a colour (r, g, b)");
+        }
+
         var success = ParseVector(cursor, out var vector, out rest);
         colour = new(vector.X, vector.Y, vector.Z);
         Require(

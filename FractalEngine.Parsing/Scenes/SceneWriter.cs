@@ -31,7 +31,7 @@ public static class SceneWriter
             written.Add((kind, line.Index));
             var originalText = SceneFormatter.Format(original!.Scene, kind, line.Index);
             var currentText = SceneFormatter.Format(scene, kind, line.Index);
-            if (originalText == currentText)
+            if (originalText == currentText && !DependsOnHandedness(line, original!.Scene, scene))
             {
                 text.Append(line.Text);
             }
@@ -55,6 +55,11 @@ public static class SceneWriter
 
         return text.ToString();
     }
+
+    /// <summary>Tells whether a camera's line means other angles now: those of a target depend on the handedness.</summary>
+    private static bool DependsOnHandedness(SceneLine line, Scene original, Scene current) =>
+        line.Kind == SceneDeclarationKind.Camera && original.Handedness != current.Handedness
+        && line.Text.Contains(SceneParser.LookAtKeyword, StringComparison.Ordinal);
 
     private static void EnsureLineBreak(StringBuilder text, string lineBreak)
     {

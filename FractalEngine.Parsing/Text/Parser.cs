@@ -1,4 +1,5 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Parsing.Text.Mistakes;
 
 namespace FractalEngine.Parsing.Text;
 
@@ -10,53 +11,13 @@ namespace FractalEngine.Parsing.Text;
 /// Every <c>Parse…</c> method takes a cursor and returns whether the text there matches. On success it yields the value and the
 /// cursor behind it; on failure the caller's cursor remains valid for another attempt.
 /// </remarks>
-public abstract class Parser
+public abstract partial class Parser
 {
-    private readonly List<string> _expected = [];
-    private int _furthestFailure = -1;
-
     /// <summary>Creates a parser for one text.</summary>
     protected Parser(SourceText source) => Source = source;
 
     /// <summary>Text that is being parsed.</summary>
     protected SourceText Source { get; }
-
-    /// <summary>Creates an exception for text that is well-formed but has no valid meaning.</summary>
-    /// <param name="cursor">Position of the faulty text.</param>
-    /// <param name="message">One line of text without a full stop.</param>
-    /// <param name="isLimitExceeded">True when the text is valid but exceeds a stated limit.</param>
-    protected SourceException Error(Cursor cursor, string message, bool isLimitExceeded = false) =>
-        Source.Error(cursor.Offset, message, isLimitExceeded);
-
-    /// <summary>Creates the exception for the furthest failure: what was found there, and what was expected instead.</summary>
-    protected SourceException SyntaxError()
-    {
-        var failure = new Cursor(Source.Text, Math.Max(_furthestFailure, 0));
-        var expected = _expected.Count switch
-        {
-            0 => "",
-            1 => $", expected {_expected[0]}",
-            _ => $", expected {string.Join(", ", _expected.SkipLast(1))} or {_expected[^1]}",
-        };
-        return Source.Error(failure.Offset, $"unexpected {Describe(failure)}{expected}");
-    }
-
-    /// <summary>Records what was expected at a position, for the error message. Always returns false.</summary>
-    protected bool Fail(Cursor cursor, string expected)
-    {
-        if (cursor.Offset > _furthestFailure)
-        {
-            _furthestFailure = cursor.Offset;
-            _expected.Clear();
-        }
-
-        if (cursor.Offset == _furthestFailure && !_expected.Contains(expected))
-        {
-            _expected.Add(expected);
-        }
-
-        return false;
-    }
 
     /// <summary>Skips blanks and tabs, of which there may be none. Always returns true.</summary>
     protected virtual bool ParseBlanks(Cursor cursor, out Cursor rest)
@@ -126,7 +87,7 @@ public abstract class Parser
         rest = cursor;
         if (!NumberReader.TryRead(cursor.Rest, out number, out var length))
         {
-            return Fail(cursor, "a number");
+            return Fail(cursor, SyntaxFailure.Number);
         }
 
         rest = cursor.Advance(length);
@@ -190,16 +151,26 @@ public abstract class Parser
             return ParseBlanks(rest.Advance(1), out rest);
         }
 
-        return rest.Offset > cursor.Offset || Fail(cursor, "','");
+        return rest.Offset > cursor.Offset || Fail(cursor, "a blank or ','");
+    }
+
+    /// <summary>Parses a separator and the number behind it.</summary>
+    protected bool ParseNextNumber(Cursor cursor, out double number, out Cursor rest)
+    {
+        number = 0;
+        rest = cursor;
+        // Where a value or a line ends, it is the number that is missing, not the separator before it.
+        return IsAtEndOfLine(cursor) || cursor.Current == ')'
+            ? Fail(cursor, SyntaxFailure.Number)
+            : ParseSeparator(cursor, out var start) && ParseNumber(start, out number, out rest);
     }
 
     /// <summary>Parses three numbers with separators between them.</summary>
     protected bool ParseComponents(Cursor cursor, out Vector vector, out Cursor rest)
     {
         vector = default;
-        if (ParseNumber(cursor, out var x, out rest) && ParseSeparator(rest, out rest)
-            && ParseNumber(rest, out var y, out rest) && ParseSeparator(rest, out rest)
-            && ParseNumber(rest, out var z, out rest))
+        if (ParseNumber(cursor, out var x, out rest) && ParseNextNumber(rest, out var y, out rest)
+            && ParseNextNumber(rest, out var z, out rest))
         {
             vector = new(x, y, z);
             return true;
@@ -223,7 +194,7 @@ public abstract class Parser
         ParseBlanks(cursor, out rest);
         if (!IsAtEndOfLine(rest))
         {
-            return Fail(rest, "the end of the line");
+            return Fail(rest, SyntaxFailure.EndOfLine);
         }
 
         rest = SkipLineBreak(rest);
@@ -283,35 +254,6 @@ public abstract class Parser
     {
         var length = cursor.Rest.IndexOfAny('\n', '\r');
         return length < 0 ? cursor.Advance(cursor.Rest.Length) : SkipLineBreak(cursor.Advance(length));
-    }
-
-    /// <summary>Describes the text at a position for a message: a word, a character or the end.</summary>
-    protected static string Describe(Cursor cursor)
-    {
-        if (cursor.IsAtEnd)
-        {
-            return "end of file";
-        }
-
-        if (IsAtEndOfLine(cursor))
-        {
-            return "end of line";
-        }
-
-        var length = 0;
-        while (IsNameCharacter(cursor.Peek(length)))
-        {
-            length++;
-        }
-
-        if (char.IsControl(cursor.Current))
-        {
-            return $"character U+{(int)cursor.Current:X4}";
-        }
-
-        return char.IsHighSurrogate(cursor.Current)
-            ? $"'{cursor.Text.AsSpan(cursor.Offset, Math.Min(2, cursor.Rest.Length))}'"
-            : $"'{Truncate(cursor.Rest[..Math.Max(length, 1)])}'";
     }
 
     private static string Truncate(ReadOnlySpan<char> text) => text.Length <= 40 ? text.ToString() : $"{text[..37]}...";

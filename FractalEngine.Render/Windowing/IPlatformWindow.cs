@@ -15,6 +15,9 @@ internal interface IPlatformWindow : IDisposable
     /// <summary>Text in the title bar.</summary>
     string Title { get; set; }
 
+    /// <summary>Text of the system's clipboard; empty where it holds none.</summary>
+    string ClipboardText { get; set; }
+
     /// <summary>Hides the pointer and lets it move without limits.</summary>
     bool RelativeMouse { get; set; }
 

@@ -39,6 +39,12 @@ internal sealed class PlatformWindow : IPlatformWindow
         set => _window.Title = value;
     }
 
+    public string ClipboardText
+    {
+        get => SdlWindow.ReadClipboard();
+        set => SdlWindow.SetClipboardText(value);
+    }
+
     public bool RelativeMouse
     {
         get => _relativeMouse;

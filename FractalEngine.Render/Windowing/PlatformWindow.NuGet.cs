@@ -46,6 +46,12 @@ internal sealed class PlatformWindow : IPlatformWindow
         set => _window.Title = value;
     }
 
+    public string ClipboardText
+    {
+        get => _window.ClipboardString ?? "";
+        set => _window.ClipboardString = value;
+    }
+
     public bool RelativeMouse
     {
         get => _window.CursorState == CursorState.Grabbed;

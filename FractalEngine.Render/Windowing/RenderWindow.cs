@@ -41,6 +41,13 @@ public sealed class RenderWindow : RenderContext
         }
     }
 
+    /// <summary>Text of the system's clipboard; empty where it holds none.</summary>
+    public string ClipboardText
+    {
+        get => Window.ClipboardText;
+        set => Window.ClipboardText = value;
+    }
+
     /// <summary>Hides the pointer and lets it move without limits, to look around with the mouse.</summary>
     public bool RelativeMouse
     {

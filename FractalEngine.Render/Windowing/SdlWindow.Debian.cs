@@ -42,6 +42,29 @@ internal static unsafe partial class SdlWindow
     [LibraryImport(Library, EntryPoint = "SDL_SetRelativeMouseMode")]
     public static partial int SetRelativeMouseMode(int enabled);
 
+    [LibraryImport(Library, EntryPoint = "SDL_SetClipboardText", StringMarshalling = StringMarshalling.Utf8)]
+    public static partial int SetClipboardText(string text);
+
+    [LibraryImport(Library, EntryPoint = "SDL_GetClipboardText")]
+    private static partial IntPtr GetClipboardText();
+
+    [LibraryImport(Library, EntryPoint = "SDL_free")]
+    private static partial void Free(IntPtr memory);
+
+    /// <summary>Returns the text of the clipboard, empty where it holds none.</summary>
+    public static string ReadClipboard()
+    {
+        var text = GetClipboardText();
+        try
+        {
+            return Marshal.PtrToStringUTF8(text) ?? "";
+        }
+        finally
+        {
+            Free(text);
+        }
+    }
+
     /// <summary>Returns the last error of this thread, in SDL's words.</summary>
     public static string ErrorText() => Marshal.PtrToStringUTF8(GetError()) is { Length: > 0 } text ? text : "no reason given";
 }

@@ -141,7 +141,7 @@ public sealed class CommandLineTests : IDisposable
     [Fact]
     public void Export_WithDepth_OverridesTheFile()
     {
-        Assert.Equal(new AppResult(0, "", ""), Run("export", "row.fdo", "--output", "flat.obj", "--depth", "5"));
+        Assert.Equal(new AppResult(0, "", ""), Run("export", "row.fdo", "--output", "flat.obj", "--depth", "5", "--quiet"));
         Assert.Contains("\"faces\": 384,", Run("info", "flat.obj", "--json").Output, StringComparison.Ordinal);
     }
 
@@ -186,7 +186,7 @@ public sealed class CommandLineTests : IDisposable
     {
         var text = "# mine\r\no \"row.fdo\"   #\r\n  # his\r\nc (1 2 3), # 60\r\n";
         _folder.Write("scene.sdo", text);
-        Assert.Equal(new AppResult(0, "", ""), Run("save", "scene.sdo", "--output", "copy.sdo"));
+        Assert.Equal(new AppResult(0, "", ""), Run("save", "scene.sdo", "--output", "copy.sdo", "--quiet"));
         Assert.Equal(text, File.ReadAllText(_folder["copy.sdo"]));
     }
 
@@ -297,9 +297,9 @@ public sealed class CommandLineTests : IDisposable
     public void Commands_InAnyCulture_WriteTheSame(string culture)
     {
         var environment = new Dictionary<string, string?> { ["LC_ALL"] = culture, ["LANG"] = culture };
-        var flat = AppProcess.Run(_folder.Path, environment, "export", "row.fdo", "--output", "there.obj");
+        var flat = AppProcess.Run(_folder.Path, environment, "export", "row.fdo", "--output", "there.obj", "--quiet");
         Assert.Equal(new AppResult(0, "", ""), flat);
-        Assert.Equal(new AppResult(0, "", ""), Run("export", "row.fdo", "--output", "here.obj"));
+        Assert.Equal(new AppResult(0, "", ""), Run("export", "row.fdo", "--output", "here.obj", "--quiet"));
         Assert.Equal(File.ReadAllBytes(_folder["here.obj"]), File.ReadAllBytes(_folder["there.obj"]));
     }
 

@@ -84,7 +84,9 @@ public sealed class QueryCommandTests : IDisposable
     {
         _folder.Write("points.txt", "1 2 3\n4 5\n");
         Assert.Equal(
-            new AppResult(1, "", "points.txt:2:4: error: unexpected end of line, expected ','\n  4 5\n     ^\n"),
+            new AppResult(
+                1, "",
+                "points.txt:2:4: error: unexpected end of line: a vector has three numbers, and this one has two\n  4 5\n     ^\n"),
             Run("query", "cube.obj", "--points", "points.txt"));
     }
 

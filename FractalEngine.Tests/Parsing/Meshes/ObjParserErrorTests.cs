@@ -35,7 +35,7 @@ public class ObjParserErrorTests
     [InlineData("v 1 2 nan", 7, "unexpected 'nan', expected a number")]
     [InlineData("v 1 2 1e400", 7, "the number 1e400 is beyond the range of a double")]
     [InlineData("v 1 2 -1e400", 7, "the number -1e400 is beyond the range of a double")]
-    [InlineData("v 1 2", 6, "unexpected end of line, expected a number")]
+    [InlineData("v 1 2", 6, "unexpected end of line: a vector has three numbers, and this one has two")]
     public void Line_ThatIsWrong_PointsAtTheFault(string line, int column, string message) => Errors.AssertMessage(
         $"test.obj:4:{column}: error: {message}\n  {line}\n  {new string(' ', column - 1)}^",
         () => Samples.ParseObj($"{Triangle}{line}\nv 9 9 9\n"));

@@ -256,6 +256,29 @@ public class SceneParserTests
         Assert.Equal(text, string.Concat(SceneParser.Parse(new("test.sdo", text)).Lines.Select(line => line.Text)));
     }
 
+    [Theory]
+    [InlineData("")]
+    [InlineData("handed right\n")]
+    public void Camera_WithATarget_HasItInTheMiddle(string handed)
+    {
+        // The handedness may stand on either side of the camera.
+        var camera = Parse($"c (1, 2, -5) look-at (4, 0, 3) 60\n{handed}").Camera!;
+        var (right, up, depth) = camera.ToCameraSpace(new(4, 0, 3));
+        var distance = new Vector(3, -2, 8).Length();
+        // Three roundings of sines and cosines, at a distance of nine.
+        Assert.InRange(new Vector(right, up, depth - distance).Length(), 0, 1e-13);
+        Assert.True(camera.LocalAxes.V2.Y > 0.9, "up is up");
+        Assert.Equal(camera, Parse($"{handed}c (1, 2, -5), look-at (4 0 3) up (0, 2, 0), 60").Camera);
+    }
+
+    [Theory]
+    [InlineData("c # look-at (0, 0, 0) 60", "a camera can't look at its own position")]
+    [InlineData("c # look-at (0, 0, 1) up (0, 0, 0) 60", "the direction up must not be (0, 0, 0)")]
+    [InlineData("c # look-at # 60", "unexpected '#', expected '('")]
+    [InlineData("c # lookat (0, 0, 1) 60", "unexpected 'lookat': did you mean 'look-at'?")]
+    public void Camera_WithAFaultyTarget_IsRefused(string line, string message) =>
+        Assert.Equal(message, Errors.ThrownBy(() => Parse(line)).Diagnostic.Message);
+
     [Fact]
     public void Comment_BeforeACarriageReturnAlone_EndsThere() => Assert.Single(Parse("# comment\ro \"a.obj\" #\r").Objects);
 }

@@ -203,6 +203,18 @@ public class SceneWriterTests
         Scenes, scene => Assert.Equal(Bits.Of(scene), Bits.Of(Parse(SceneWriter.Write(scene, Parse(Commented))).Scene)));
 
     [Fact]
+    public void Write_OfACameraWithATarget_KeepsItsLineUntilTheCameraMoves()
+    {
+        const string text = "c (1, 2, -5) look-at (4, 0, 3) 60\nhanded right\n";
+        var original = Parse(text);
+        Assert.Equal(text, SceneWriter.Write(original.Scene, original));
+        var moved = original.Scene with { Camera = original.Scene.Camera! with { Position = new(1, 2, 3) } };
+        Assert.Equal(Bits.Of(moved), Bits.Of(Parse(SceneWriter.Write(moved, original)).Scene));
+        var mirrored = original.Scene with { Handedness = Handedness.Left };
+        Assert.Equal(Bits.Of(mirrored), Bits.Of(Parse(SceneWriter.Write(mirrored, original)).Scene));
+    }
+
+    [Fact]
     public void Relocate_ToAnotherFolder_NamesTheSameFiles()
     {
         var scene = Parse("o \"models/a.obj\" #\no \"../b.fdo\" #").Scene;

@@ -25,6 +25,14 @@ public sealed class RenderWindowTests
     }
 
     [SkippableFact]
+    public void ClipboardText_WhenSet_ReadsBack()
+    {
+        using var window = Open();
+        window.ClipboardText = "c (1, 2, 3) (0, 0, 0) 60 größer";
+        Assert.Equal("c (1, 2, 3) (0, 0, 0) 60 größer", window.ClipboardText);
+    }
+
+    [SkippableFact]
     public void Wake_FromAnotherThread_EndsTheSleep()
     {
         using var window = Open();

@@ -1,0 +1,48 @@
+using FractalEngine.Render;
+using FractalEngine.Render.Preparation;
+
+namespace FractalEngine.App.Animation;
+
+/// <summary>What an animation shows and where it goes.</summary>
+/// <param name="Images">What each frame draws.</param>
+/// <param name="Output">Path of the animation.</param>
+/// <param name="FrameCount">Number of frames.</param>
+/// <param name="FramesPerSecond">Frames a second.</param>
+/// <param name="IsTurntable">Whether the camera turns once around the scene.</param>
+/// <param name="CameraList">Path of a list of cameras; null for none.</param>
+/// <param name="IsSimulated">Whether the physics objects move.</param>
+internal sealed record AnimationJob(
+    RenderJob Images, string Output, int FrameCount, double FramesPerSecond, bool IsTurntable, string? CameraList, bool IsSimulated)
+{
+    /// <summary>Requires something to move, and at most one motion of the camera.</summary>
+    /// <exception cref="UsageException">Nothing moves, or the motions contradict each other.</exception>
+    public void Check()
+    {
+        var motions = new[] { IsTurntable, CameraList is not null, Images.ZoomLevels > 0 }.Count(static asked => asked);
+        if (motions > 1)
+        {
+            throw new UsageException("--turntable, --zoom and --path exclude each other");
+        }
+
+        if (motions == 0 && !IsSimulated)
+        {
+            throw new UsageException("nothing moves: expected --turntable, --zoom LEVELS, --path CAMERAS.txt or --simulate");
+        }
+    }
+
+    /// <summary>Creates the motion of the camera: the view of each frame.</summary>
+    /// <param name="drawable">The prepared scene.</param>
+    /// <param name="view">The view of a still image.</param>
+    /// <exception cref="UsageException">The scene or a list does not fit the motion.</exception>
+    public Func<int, View> CreateMotion(DrawableScene drawable, View view)
+    {
+        var scene = drawable.Source;
+        return this switch
+        {
+            { IsTurntable: true } => CameraMotion.Turntable(view, scene.Bounds.Centre, FrameCount),
+            { CameraList: { } list } => CameraMotion.Along(CameraPath.Read(list, scene.Scene.Handedness), view, FrameCount),
+            { Images.ZoomLevels: > 0 and var levels } => CameraMotion.Zoom(drawable, view, levels, FrameCount),
+            _ => CameraMotion.Still(view),
+        };
+    }
+}

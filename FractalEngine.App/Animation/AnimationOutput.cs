@@ -1,0 +1,38 @@
+using FractalEngine.Core.Images;
+
+namespace FractalEngine.App.Animation;
+
+/// <summary>Where the frames of an animation go.</summary>
+internal abstract class AnimationOutput : IDisposable
+{
+    /// <summary>Endings of names, for messages.</summary>
+    public const string Endings = ".png, .apng, .mp4, .webm or .gif";
+
+    /// <summary>Creates the output for the ending of a name.</summary>
+    /// <param name="path">Path that ends in one of <see cref="Endings"/>.</param>
+    /// <param name="frameCount">Number of frames that will follow.</param>
+    /// <param name="framesPerSecond">Frames a second.</param>
+    /// <exception cref="UsageException">The output needs a program that is not installed, or the ending is another one.</exception>
+    public static AnimationOutput Create(string path, int frameCount, double framesPerSecond) =>
+        Path.GetExtension(path).ToUpperInvariant() switch
+        {
+            ".PNG" => new NumberedImages(path, frameCount),
+            ".APNG" => new AnimatedImage(path, framesPerSecond),
+            ".MP4" or ".WEBM" or ".GIF" => new Video(path, framesPerSecond),
+            _ => throw new UsageException($"--output '{path}' must end in {Endings}"),
+        };
+
+    /// <summary>Path of the file, or a text for the files, in the report.</summary>
+    public abstract string Name { get; }
+
+    /// <summary>Adds a frame behind the others.</summary>
+    public abstract void Add(PixelImage frame);
+
+    /// <summary>Completes the output, with all frames or with those before an interruption.</summary>
+    public abstract void Complete();
+
+    /// <inheritdoc/>
+    public virtual void Dispose()
+    {
+    }
+}

@@ -1,0 +1,76 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.App.Animation;
+
+/// <summary>
+/// A camera that passes through the cameras of a list at equal times: positions on a Catmull-Rom spline, orientations and angles of view
+/// in between.
+/// </summary>
+internal sealed class CameraPath
+{
+    private readonly Camera[] _cameras;
+    private readonly Handedness _handedness;
+
+    private CameraPath(Camera[] cameras, Handedness handedness) => (_cameras, _handedness) = (cameras, handedness);
+
+    /// <summary>
+    /// Reads a list: a camera a line, as <c>--camera</c> takes it. A leading <c>c</c> is allowed, and <c>#</c> starts a comment.
+    /// </summary>
+    /// <param name="path">Path of the list.</param>
+    /// <param name="handedness">That of the scene.</param>
+    /// <exception cref="SourceException">The file can't be read.</exception>
+    /// <exception cref="UsageException">A line is no camera, or there are fewer than two.</exception>
+    public static CameraPath Read(string path, Handedness handedness)
+    {
+        var source = StandardInput.IsNamedBy(path)
+            ? StandardInput.Read(path, ParsingLimits.MaxDescriptionBytes)
+            : SourceText.Read(path, path, ParsingLimits.MaxDescriptionBytes);
+        Camera[] cameras =
+        [
+            .. source.Text.ReplaceLineEndings("\n").Split('\n')
+                .Select(static (line, index) => (Text: line.Trim(), Number: index + 1))
+                .Where(static line => line.Text.Length > 0 && !line.Text.StartsWith('#'))
+                .Select(line => CameraText.ParseCamera($"{path}:{line.Number}", RemoveKeyword(line.Text), handedness)),
+        ];
+        return cameras.Length >= 2 ? new(cameras, handedness) : throw new UsageException($"{path} has fewer than two cameras");
+    }
+
+    /// <summary>Returns the camera at a time.</summary>
+    /// <param name="time">0 at the first camera, 1 at the last.</param>
+    public Camera At(double time)
+    {
+        var scaled = Math.Clamp(time, 0, 1) * (_cameras.Length - 1);
+        var index = Math.Min((int)scaled, _cameras.Length - 2);
+        var fraction = scaled - index;
+        var (from, to) = (_cameras[index], _cameras[index + 1]);
+        var before = _cameras[Math.Max(index - 1, 0)];
+        var after = _cameras[Math.Min(index + 2, _cameras.Length - 1)];
+        var position = Spline(before.Position, from.Position, to.Position, after.Position, fraction);
+        var forward = Between(from.LocalAxes.V3, to.LocalAxes.V3, fraction);
+        // Two opposite directions have no middle; the turn then happens at once.
+        var direction = forward.Length() > 1e-6 ? forward : from.LocalAxes.V3;
+        var fieldOfView = from.FieldOfView + (fraction * (to.FieldOfView - from.FieldOfView));
+        return CameraFraming.LookAt(position, position + direction, UpBetween(from, to, fraction), fieldOfView, _handedness);
+    }
+
+    private static Vector UpBetween(Camera from, Camera to, double fraction)
+    {
+        var up = Between(from.LocalAxes.V2, to.LocalAxes.V2, fraction);
+        return up.Length() > 1e-6 ? up : from.LocalAxes.V2;
+    }
+
+    private static Vector Between(Vector from, Vector to, double fraction) => ((1 - fraction) * from) + (fraction * to);
+
+    private static Vector Spline(Vector before, Vector from, Vector to, Vector after, double t)
+    {
+        var (startSlope, endSlope) = (0.5 * (to - before), 0.5 * (after - from));
+        var (t2, t3) = (t * t, t * t * t);
+        return (((2 * t3) - (3 * t2) + 1) * from) + ((t3 - (2 * t2) + t) * startSlope)
+            + (((3 * t2) - (2 * t3)) * to) + ((t3 - t2) * endSlope);
+    }
+
+    private static string RemoveKeyword(string line) => line.StartsWith("c ", StringComparison.Ordinal) ? line[2..] : line;
+}

@@ -1,0 +1,100 @@
+using System.ComponentModel;
+using System.Diagnostics;
+using System.Globalization;
+using FractalEngine.Core.Images;
+
+namespace FractalEngine.App.Animation;
+
+/// <summary>Frames as a video, which the program <c>ffmpeg</c> encodes.</summary>
+internal sealed class Video : AnimationOutput
+{
+    private readonly string _path;
+    private readonly string _unfinishedPath;
+    private readonly Process _encoder;
+    private readonly Task<string> _messages;
+    private bool _isComplete;
+
+    /// <summary>Starts the program that encodes the video.</summary>
+    /// <param name="path">Path of the video, whose ending chooses the format.</param>
+    /// <param name="framesPerSecond">Frames a second.</param>
+    /// <exception cref="UsageException">ffmpeg is not installed.</exception>
+    public Video(string path, double framesPerSecond)
+    {
+        _path = path;
+        Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(path))!);
+        _unfinishedPath = $"{Path.ChangeExtension(path, null)}.unfinished{Path.GetExtension(path)}";
+        string[] arguments =
+        [
+            "-loglevel", "error", "-y", "-f", "image2pipe", "-c:v", "png",
+            "-framerate", framesPerSecond.ToString("R", CultureInfo.InvariantCulture), "-i", "-",
+            // Most players need this format of pixels, and it needs even sides.
+            .. path.EndsWith(".mp4", StringComparison.OrdinalIgnoreCase)
+                ? (string[])["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"]
+                : [],
+            _unfinishedPath,
+        ];
+        var start = new ProcessStartInfo("ffmpeg", arguments) { RedirectStandardInput = true, RedirectStandardError = true };
+        try
+        {
+            _encoder = Process.Start(start)!;
+        }
+        catch (Win32Exception)
+        {
+            throw new UsageException($"{path} needs the program ffmpeg, which is not installed; .png and .apng need none");
+        }
+
+        _messages = _encoder.StandardError.ReadToEndAsync();
+    }
+
+    /// <inheritdoc/>
+    public override string Name => _path;
+
+    /// <inheritdoc/>
+    /// <exception cref="IOException">The encoder has failed.</exception>
+    public override void Add(PixelImage frame)
+    {
+        try
+        {
+            PngWriter.Write(frame, _encoder.StandardInput.BaseStream);
+        }
+        catch (IOException)
+        {
+            throw Failure();
+        }
+    }
+
+    /// <inheritdoc/>
+    /// <exception cref="IOException">The encoder has failed.</exception>
+    public override void Complete()
+    {
+        _encoder.StandardInput.Close();
+        _encoder.WaitForExit();
+        if (_encoder.ExitCode != 0)
+        {
+            throw Failure();
+        }
+
+        File.Move(_unfinishedPath, _path, overwrite: true);
+        _isComplete = true;
+    }
+
+    /// <inheritdoc/>
+    public override void Dispose()
+    {
+        if (!_isComplete && !_encoder.HasExited)
+        {
+            _encoder.Kill();
+            _encoder.WaitForExit();
+        }
+
+        File.Delete(_unfinishedPath);
+        _encoder.Dispose();
+        base.Dispose();
+    }
+
+    private IOException Failure()
+    {
+        var message = _messages.Wait(TimeSpan.FromSeconds(2)) ? _messages.Result.Trim().ReplaceLineEndings(" ") : "";
+        return new($"{_path} can't be written: ffmpeg {(message.Length > 0 ? $"says: {message}" : "has ended")}");
+    }
+}

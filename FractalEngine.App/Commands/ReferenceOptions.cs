@@ -1,0 +1,64 @@
+using System.CommandLine;
+using System.Globalization;
+using FractalEngine.Core.Images;
+using FractalEngine.Render.Images;
+
+namespace FractalEngine.App.Commands;
+
+/// <summary>The options that compare an image with a reference.</summary>
+internal sealed class ReferenceOptions
+{
+    private const double DefaultThreshold = 35;
+
+    private readonly Option<string?> _reference = new("--reference")
+    {
+        Description = "Compare with an image; where they differ, end with 5 and write the difference beside the output.",
+        HelpName = "IMAGE",
+    };
+
+    private readonly Option<double?> _threshold = NumberOption.NonNegative(
+        "--threshold", "DB",
+        string.Create(CultureInfo.InvariantCulture, $"Smallest peak signal-to-noise ratio of equal images (default: {DefaultThreshold})."));
+
+    /// <summary>Adds the options to a command.</summary>
+    public void AddTo(Command command)
+    {
+        command.Add(_reference);
+        command.Add(_threshold);
+    }
+
+    /// <summary>Loads the reference, before anything is drawn.</summary>
+    /// <returns>The comparison; null where none is asked for.</returns>
+    /// <exception cref="IOException">The reference can't be read.</exception>
+    public Func<PixelImage, string, int>? Load(ParseResult result)
+    {
+        if (result.GetValue(_reference) is not { } path)
+        {
+            return null;
+        }
+
+        var reference = ImageFile.Load(path);
+        return (image, output) => Compare(image, reference, output, result.GetValue(_threshold) ?? DefaultThreshold);
+    }
+
+    /// <summary>Compares an image, and writes the difference if it is too large.</summary>
+    /// <returns>The exit code.</returns>
+    private static int Compare(PixelImage image, PixelImage reference, string output, double threshold)
+    {
+        var difference = ImageDifference.Between(image, reference);
+        var ratio = double.IsInfinity(difference.PeakSignalToNoise)
+            ? "equal"
+            : string.Create(CultureInfo.InvariantCulture, $"{difference.PeakSignalToNoise:F2} dB");
+        if (difference.PeakSignalToNoise >= threshold)
+        {
+            Console.Error.WriteLine($"reference: {ratio}");
+            return ExitCode.Done;
+        }
+
+        var path = Path.ChangeExtension(output, null) + "-difference.png";
+        OutputFile.Write(path, stream => PngWriter.Write(difference.Image, stream));
+        Console.Error.WriteLine(string.Create(
+            CultureInfo.InvariantCulture, $"reference: {ratio}, less than {threshold:R} dB; {path} shows the difference"));
+        return ExitCode.Different;
+    }
+}

@@ -1,0 +1,23 @@
+using System.CommandLine;
+
+namespace FractalEngine.App.Commands;
+
+/// <summary>The options of commands that write a file: how much they tell about it.</summary>
+internal sealed class ReportOptions
+{
+    private readonly Option<bool> _quiet = new("--quiet") { Description = "Do not tell what was written." };
+    private readonly Option<bool> _verbose = new("--verbose") { Description = "Also tell how long each part of the work took." };
+
+    /// <summary>Adds the options to a command.</summary>
+    public void AddTo(Command command)
+    {
+        command.Add(_quiet);
+        command.Add(_verbose);
+    }
+
+    /// <summary>Returns whether nothing is to be told.</summary>
+    public bool IsQuiet(ParseResult result) => result.GetValue(_quiet);
+
+    /// <summary>Begins the report of a command, and its time.</summary>
+    public WrittenReport Begin(ParseResult result) => new(result.GetValue(_quiet), result.GetValue(_verbose));
+}

@@ -1,0 +1,42 @@
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Text;
+
+namespace FractalEngine.App;
+
+/// <summary>Reads text from the standard input, where a file is named <c>-</c>.</summary>
+internal static class StandardInput
+{
+    /// <summary>The name that stands for the standard input, or for the standard output where something is written.</summary>
+    public const string Name = "-";
+
+    // A shell passes a pipe under these names, which can't be opened as a file.
+    private static readonly string[] Paths = [Name, "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"];
+
+    /// <summary>Returns whether a path means the standard input.</summary>
+    public static bool IsNamedBy(string path) => Paths.Contains(path);
+
+    /// <summary>Reads all text of the standard input.</summary>
+    /// <param name="name">Name of the text in messages.</param>
+    /// <param name="maxBytes">Size limit; more is refused.</param>
+    /// <exception cref="SourceException">The input is too large, or no text.</exception>
+    public static SourceText Read(string name, long maxBytes)
+    {
+        using var input = Console.OpenStandardInput();
+        using var bytes = new MemoryStream();
+        var buffer = new byte[1 << 16];
+        for (var count = input.Read(buffer); count > 0; count = input.Read(buffer))
+        {
+            bytes.Write(buffer, 0, count);
+            if (bytes.Length > maxBytes)
+            {
+                throw new SourceException(name, $"the standard input has more than the limit of {maxBytes} bytes", isLimitExceeded: true);
+            }
+        }
+
+        return SourceText.Decode(bytes.GetBuffer().AsSpan(0, (int)bytes.Length), name);
+    }
+
+    /// <summary>Adds the text of the standard input to the options of a file that is named <c>-</c>.</summary>
+    public static LoadOptions AddTo(LoadOptions options, string path) =>
+        path == Name ? options with { Text = Read(Name, Parsing.ParsingLimits.MaxDescriptionBytes) } : options;
+}

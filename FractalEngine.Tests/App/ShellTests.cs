@@ -1,0 +1,160 @@
+using System.Diagnostics;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.App;
+
+/// <summary>Tests what a person meets at a shell: help, proposals, pipes and reports. Each command runs as a process.</summary>
+public sealed class ShellTests : IDisposable
+{
+    private readonly TemporaryFolder _folder = new();
+
+    public ShellTests()
+    {
+        _folder.Write("cube.obj", SampleFiles.Cube);
+        _folder.Write("row.fdo", SampleFiles.Row("3"));
+    }
+
+    public void Dispose() => _folder.Dispose();
+
+    [Theory]
+    [InlineData("view")]
+    [InlineData("render")]
+    [InlineData("info")]
+    [InlineData("count")]
+    [InlineData("export")]
+    [InlineData("check")]
+    [InlineData("save")]
+    [InlineData("generate")]
+    [InlineData("query")]
+    [InlineData("simulate")]
+    [InlineData("limits")]
+    public void Help_OfACommand_NamesTheProgramAsCalledAndEndsWithTwoExamples(string command)
+    {
+        var environment = new Dictionary<string, string?> { ["FRACTALENGINE_PROGRAM"] = "./run.sh" };
+        var (exitCode, output, _) = AppProcess.Run(_folder.Path, environment, command, "--help");
+        var lines = output.TrimEnd().Split('\n');
+        Assert.Equal(0, exitCode);
+        Assert.Contains($"./run.sh {command}", output, StringComparison.Ordinal);
+        Assert.DoesNotContain("fractal-engine", output, StringComparison.Ordinal);
+        Assert.Equal("Examples:", lines[^3]);
+        Assert.All(lines[^2..], static line => Assert.StartsWith("  ./run.sh ", line, StringComparison.Ordinal));
+    }
+
+    [Theory]
+    [InlineData("error: there is no command or file 'rendr': did you mean 'render'?", "rendr", "cube.obj", "--output", "a.png")]
+    [InlineData("error: there is no command or file 'frobnicate'", "frobnicate")]
+    [InlineData("error: unknown option '--jsn': did you mean '--json'?", "info", "cube.obj", "--jsn")]
+    [InlineData("error: unknown option '--outptu': did you mean '--output'?", "render", "cube.obj", "--outptu", "a.png")]
+    [InlineData("error: unknown option '--dpeth': did you mean '--depth'?", "export", "row.fdo", "--output", "a.obj", "--dpeth", "2")]
+    public void Arguments_NearlyRight_GetAProposal(string message, params string[] arguments)
+    {
+        var (exitCode, output, error) = Run(arguments);
+        Assert.Equal((2, "", message), (exitCode, output, error.Split('\n')[0]));
+    }
+
+    [Theory]
+    [InlineData(@"^wrote flat\.obj: 96 faces, [0-9.]+ kB, [0-9.]+ s\n$", "export", "row.fdo", "--output", "flat.obj")]
+    [InlineData(@"^wrote copy\.sdo: 1 object, [0-9]+ bytes, [0-9.]+ s\n$", "save", "row.fdo", "--output", "copy.sdo")]
+    [InlineData(@"^$", "export", "row.fdo", "--output", "flat.obj", "--quiet")]
+    [InlineData(
+        @"^load [0-9.]+ ms\nwrite [0-9.]+ ms\nwrote copy\.sdo: 1 object, [0-9]+ bytes, [0-9.]+ s\n$",
+        "save", "row.fdo", "--output", "copy.sdo", "--verbose")]
+    public void Output_WhenWritten_IsToldInOneLine(string report, params string[] arguments)
+    {
+        var (exitCode, output, error) = Run(arguments);
+        Assert.Equal((0, ""), (exitCode, output));
+        Assert.Matches(report, error);
+    }
+
+    [Fact]
+    public void Info_OfTheStandardInput_ReadsAFractal()
+    {
+        var (exitCode, output, _) = RunWithInput(SampleFiles.Row("2"), "info", "-", "--json");
+        Assert.Equal(0, exitCode);
+        Assert.Contains("\"kind\": \"fractal\"", output, StringComparison.Ordinal);
+        Assert.Contains("\"faces\": 48,", output, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Check_OfTheStandardInput_NamesItInMessages() => Assert.Equal(
+        new AppResult(1, "", "-:1:3: error: the file \"cub.obj\" is not found: did you mean \"cube.obj\"?\n  o \"cub.obj\" #\n    ^\n"),
+        RunWithInput("o \"cub.obj\" #", "check", "-"));
+
+    [Fact]
+    public void Export_OfAPipeIntoAPipe_WritesTheSameAsFiles()
+    {
+        Assert.Equal(0, Run("export", "row.fdo", "--output", "flat.obj").ExitCode);
+        // Only the name of the object differs.
+        Assert.Equal(
+            File.ReadAllText(_folder["flat.obj"]).Replace("o row\n", "o -\n", StringComparison.Ordinal),
+            RunWithInput(SampleFiles.Row("3"), "export", "-", "--output", "-").Output);
+    }
+
+    [SkippableTheory]
+    [InlineData("-")]
+    [InlineData("/dev/stdin")]
+    public void Query_OfPointsFromAPipe_PrintsAHeaderOnRequest(string points)
+    {
+        Skip.IfNot(OperatingSystem.IsLinux() || points == "-", "only Unix has /dev/stdin");
+        var (exitCode, output, _) = RunWithInput("0 0 1\n", "query", "cube.obj", "--points", points, "--header", "--error-bound");
+        Assert.Equal(0, exitCode);
+        Assert.StartsWith("distance x y z nx ny nz faceTests errorBound\n0.5 ", output, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Check_OfFilesAndFolders_ChecksEachAndTakesTheWorstCode()
+    {
+        _folder.Write("more/bad.fdo", "<$>. x\n");
+        var (exitCode, output, error) = Run("check", "row.fdo", "more", "cube.obj");
+        Assert.Equal((1, "row.fdo: ok\ncube.obj: ok\n"), (exitCode, output));
+        Assert.StartsWith("more/bad.fdo:1:6: error: the object 'x' is not declared above\n", error, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Simulate_EveryNthStep_WritesFewerRowsOfTheSameRun()
+    {
+        _folder.Write("drop.sdo", "p \"cube.obj\" ((0, 5, 0), #, #) 0.5\n");
+        string[] arguments = ["simulate", "drop.sdo", "--seconds", "1", "--output", "-"];
+        var all = Run(arguments).Output.Split('\n');
+        var some = Run([.. arguments, "--every", "20"]).Output.Split('\n');
+        Assert.Equal([all[0], all[20], all[40], all[60], ""], some);
+    }
+
+    [SkippableTheory]
+    [InlineData("0.2", false)]
+    [InlineData("2.5", true)]
+    public void Build_OnATerminal_SaysSoWhenItTakesMoreThanTwoSeconds(string seconds, bool isAnnounced)
+    {
+        Skip.IfNot(File.Exists("/usr/bin/script"), "the program 'script', which makes a terminal, is not installed");
+        var setup = Repository.Full("eng/setup.sh");
+        var start = new ProcessStartInfo(
+            "script", ["-qec", $"bash -c '. {setup}; announce_build App; sleep {seconds}; stop_announcing'", "/dev/null"])
+        {
+            RedirectStandardOutput = true,
+        };
+        using var process = Process.Start(start)!;
+        var output = process.StandardOutput.ReadToEnd();
+        process.WaitForExit();
+        Assert.Equal(isAnnounced, output.Contains("building App", StringComparison.Ordinal));
+    }
+
+    private AppResult Run(params string[] arguments) => AppProcess.Run(_folder.Path, arguments);
+
+    private AppResult RunWithInput(string input, params string[] arguments)
+    {
+        _folder.Write("input.txt", input);
+        var command = string.Join(' ', arguments.Select(static argument => $"'{argument}'"));
+        var program = typeof(FractalEngine.App.BodyCsvWriter).Assembly.Location;
+        var start = new ProcessStartInfo("sh", ["-c", $"cat input.txt | dotnet exec '{program}' {command}"])
+        {
+            WorkingDirectory = _folder.Path,
+            RedirectStandardOutput = true,
+            RedirectStandardError = true,
+        };
+        using var process = Process.Start(start)!;
+        var error = process.StandardError.ReadToEndAsync();
+        var output = process.StandardOutput.ReadToEnd();
+        process.WaitForExit();
+        return new(process.ExitCode, output, error.GetAwaiter().GetResult());
+    }
+}
