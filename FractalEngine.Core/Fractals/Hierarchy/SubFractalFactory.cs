@@ -18,7 +18,8 @@ internal sealed class SubFractalFactory(Mesh mesh, bool hasOnlySimilarities)
 
     /// <summary>Creates the sub-fractal without levels: the base mesh.</summary>
     public SubFractal CreateBase() => new(
-        null, [], [], BaseVolume.Box, BaseVolume.Box, CreateHullBound(BaseVolume), null, CreateSolid(BaseVolume), null, hasOnlySimilarities);
+        null, [], [], BaseVolume.Box, BaseVolume.Box, CreateHullBound(BaseVolume), null, CreateSolid(BaseVolume), null,
+        hasOnlySimilarities);
 
     /// <summary>Creates the sub-fractal of a level.</summary>
     /// <param name="set">The set of the level.</param>
