@@ -20,6 +20,13 @@ public static class ParsingLimits
     /// <summary>Largest size of a scene or fractal file in bytes: 16 MiB, far beyond what anyone writes.</summary>
     public static long MaxDescriptionBytes => DescriptionBytes.Value;
 
+    /// <summary>The limit of <see cref="MaxSceneLines"/>.</summary>
+    public static Limit SceneLines { get; } = new(
+        "scene-lines", 100_000, "lines of a scene file", "about 70 MB where each is an object");
+
+    /// <summary>Largest number of lines of a scene file: about 70 MB where each is an object.</summary>
+    public static int MaxSceneLines => (int)SceneLines.Value;
+
     /// <summary>The limit of <see cref="MaxPointsBytes"/>.</summary>
     public static Limit PointsBytes { get; } = new(
         "points-bytes", 1L << 28, "bytes of a file of points", "memory: the text is held as a whole", 1L << 29);
@@ -86,7 +93,7 @@ public static class ParsingLimits
     /// <summary>All limits of parsers, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } =
     [
-        ObjBytes, DescriptionBytes, PointsBytes, Maps, Names, RepeatedSteps, MaterialBytes, ImageBytes,
+        ObjBytes, DescriptionBytes, SceneLines, PointsBytes, Maps, Names, RepeatedSteps, MaterialBytes, ImageBytes,
         ImageSide, TotalImagePixels, PolygonCorners,
     ];
 }

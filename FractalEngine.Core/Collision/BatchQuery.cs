@@ -1,3 +1,4 @@
+using System.Runtime.ExceptionServices;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Collision;
@@ -97,7 +98,17 @@ public static class BatchQuery
         context.ClearPath();
         var taskCount = (positions.Length + PositionsPerTask - 1) / PositionsPerTask;
         var totalsLock = new Lock();
-        Parallel.For(
+        try
+        {
+            RunTasks();
+        }
+        catch (AggregateException exception)
+        {
+            // Callers handle the errors of a query, on whatever thread it ran.
+            ExceptionDispatchInfo.Throw(exception.InnerExceptions[0]);
+        }
+
+        void RunTasks() => Parallel.For(
             0,
             taskCount,
             new ParallelOptions { MaxDegreeOfParallelism = threads ?? -1 },

@@ -45,7 +45,7 @@ public abstract partial class Collider
             throw new InvalidOperationException("a shape has no faces, so no points of the two are closest");
         }
 
-        var scale = PowerOfTwoScale(Math.Max(
+        var scale = QueryScale.Of(Math.Max(
             BoundingVolume.MaxAbsCoordinate(tree.Box.Transform(placement)),
             BoundingVolume.MaxAbsCoordinate(otherTree.Box.Transform(placementOfOther))));
         var pair = ClosestPairSearch.Run(

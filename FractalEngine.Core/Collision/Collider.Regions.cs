@@ -17,10 +17,6 @@ public abstract partial class Collider
     // A ball that is still undecided is left to the search for its closest point.
     private const long MaxBallBoundTests = 20_000;
 
-    // Largest coordinates whose squares, and those of parts 1e-15 of them, are accurate.
-    private const double MinMagnitude = 1e-100;
-    private const double MaxMagnitude = 1e140;
-
     /// <summary>Finds all faces within a distance of a position.</summary>
     /// <param name="position">In the shape's frame, scene units, finite.</param>
     /// <param name="radius">Scene units, not negative; may be infinite. A face at exactly this distance counts.</param>
@@ -125,12 +121,7 @@ public abstract partial class Collider
 
     /// <summary>The power of two by which a query is scaled, so that squares stay within the range of a double: mostly 1.</summary>
     private static double PowerOfTwoScale(ShapeTree tree, double queryMagnitude) =>
-        tree.IsEmpty ? 1 : PowerOfTwoScale(Math.Max(queryMagnitude, BoundingVolume.MaxAbsCoordinate(tree.Box)));
-
-    private static double PowerOfTwoScale(double magnitude) =>
-        magnitude is < MinMagnitude or > MaxMagnitude && double.IsFinite(magnitude) && magnitude > 0
-            ? Math.ScaleB(1, -Math.ILogB(magnitude))
-            : 1;
+        tree.IsEmpty ? 1 : QueryScale.Of(Math.Max(queryMagnitude, BoundingVolume.MaxAbsCoordinate(tree.Box)));
 
     private static int CompareHits(ClosestHit hit1, ClosestHit hit2)
     {

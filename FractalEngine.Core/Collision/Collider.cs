@@ -65,14 +65,13 @@ public abstract partial class Collider
     /// <param name="position">In the shape's frame, scene units, finite.</param>
     /// <returns>The closest point with its normal, face and instance.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite.</exception>
-    /// <exception cref="InvalidOperationException">
-    /// The shape has no faces, or none at a distance within the range of a double.
-    /// </exception>
+    /// <exception cref="InvalidOperationException">The shape has no faces.</exception>
+    /// <exception cref="FractalLimitException">The distance, or a coordinate, is beyond the range of a double.</exception>
     /// <remarks>Allocates its result only. Many positions at once: <see cref="BatchQuery"/>.</remarks>
     public ClosestHit FindClosest(Vector position) => TryFindClosest(position, double.PositiveInfinity, out var hit)
         ? hit
         : throw new InvalidOperationException(
-            $"no point of the shape is closest to {position}: it has no faces, or the distance is beyond the range of a double");
+            $"no point of the shape is closest to {position}: it has no faces");
 
     /// <summary>Finds the point of the shape closest to a position, if one is near enough.</summary>
     /// <param name="position">In the shape's frame, scene units, finite.</param>
@@ -80,6 +79,9 @@ public abstract partial class Collider
     /// <param name="hit">The closest point with its normal, face and instance; null where there is none.</param>
     /// <returns>False when no face lies within the radius.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the radius is negative or NaN.</exception>
+    /// <exception cref="FractalLimitException">
+    /// The distance is beyond the range of a double, or a coordinate beyond that of a collider that is not exact, 1e40.
+    /// </exception>
     public bool TryFindClosest(Vector position, double maxDistance, [NotNullWhen(true)] out ClosestHit? hit)
     {
         var context = _spareContext.Take();
@@ -99,6 +101,9 @@ public abstract partial class Collider
     /// </param>
     /// <returns>False when no face lies within the radius.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite, or the radius or ε is negative or NaN.</exception>
+    /// <exception cref="FractalLimitException">
+    /// The distance is beyond the range of a double, or a coordinate beyond that of a collider that is not exact, 1e40.
+    /// </exception>
     public bool TryFindClosest(Vector position, double maxDistance, QueryContext context, out ClosestPoint closest, double epsilon = 0)
     {
         ArgumentNullException.ThrowIfNull(context);
@@ -107,6 +112,8 @@ public abstract partial class Collider
         {
             return false;
         }
+
+        QueryScale.ThrowIfInfinite(closest.Distance);
 
         ClosestPoint.SetErrorBound(ref closest, CompleteErrorBound(position, in closest, epsilon));
         return true;

@@ -28,18 +28,31 @@ internal sealed class ColliderInstance(
     {
         if (_generalMap is not null)
         {
-            if (!collider.Value.FindClosestTransformed(position, _generalMap.Value, maxDistance, epsilon, context, out closest))
-            {
-                return false;
-            }
+            return TryFindTransformed(position, in _generalMap.Value, maxDistance, context, out closest, epsilon);
+        }
 
-            closest = closest with { ErrorBound = collider.Value.CompleteErrorBound(position, in closest, epsilon) };
-            return true;
+        var localPosition = similarity.ToLocal(position);
+        if (!(localPosition.MaxAbsComponent() <= Core.Collision.Collider.MaxCoordinate) && collider.Value.SupportsTransformedQueries)
+        {
+            return TryFindTransformed(position, similarity.Map, maxDistance, context, out closest, epsilon);
         }
 
         var isFound = collider.Value.TryFindClosest(
-            similarity.ToLocal(position), maxDistance / similarity.Scale, context, out var localClosest, epsilon);
+            localPosition, maxDistance / similarity.Scale, context, out var localClosest, epsilon);
         closest = isFound ? similarity.ToWorld(localClosest) : default;
         return isFound;
+    }
+
+    private bool TryFindTransformed(
+        Vector position, in AffineMap map, double maxDistance, QueryContext context, out ClosestPoint closest, double epsilon)
+    {
+        if (!collider.Value.FindClosestTransformed(position, map, maxDistance, epsilon, context, out closest))
+        {
+            return false;
+        }
+
+        QueryScale.ThrowIfInfinite(closest.Distance);
+        closest = closest with { ErrorBound = collider.Value.CompleteErrorBound(position, in closest, epsilon) };
+        return true;
     }
 }

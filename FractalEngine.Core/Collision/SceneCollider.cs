@@ -167,13 +167,12 @@ public sealed partial class SceneCollider
     /// <param name="position">World space, finite.</param>
     /// <returns>The closest point with its normal, face, instance and object.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The position is not finite.</exception>
-    /// <exception cref="InvalidOperationException">
-    /// The scene has no faces, or none at a distance within the range of a double.
-    /// </exception>
+    /// <exception cref="InvalidOperationException">The scene has no faces.</exception>
+    /// <exception cref="FractalLimitException">The distance is beyond the range of a double.</exception>
     public ClosestHit FindClosest(Vector position) => TryFindClosest(position, double.PositiveInfinity, out var hit)
         ? hit
         : throw new InvalidOperationException(
-            $"no point of the scene is closest to {position}: it has no faces, or the distance is beyond the range of a double");
+            $"no point of the scene is closest to {position}: it has no faces");
 
     /// <summary>Finds the point of the scene closest to a position, if one is near enough.</summary>
     /// <param name="position">World space, finite.</param>
@@ -208,7 +207,10 @@ public sealed partial class SceneCollider
         ArgumentNullException.ThrowIfNull(context);
         Collider.ThrowIfInvalid(position, maxDistance, epsilon);
         var objects = ReadyObjects();
-        var isFound = objects.Hierarchy is { } hierarchy
+        var isFarAway = position.MaxAbsComponent() > Collider.MaxCoordinate;
+        var isFound = isFarAway
+            ? TryFindAmongFew(objects.ToArray(), position, maxDistance, context, out closest, out objectIndex, excludedObject, epsilon)
+            : objects.Hierarchy is { } hierarchy
             ? TryFindAmongMany(
                 hierarchy, objects.Loose.AsSpan(), position, maxDistance, context, out closest, out objectIndex, excludedObject, epsilon)
             : TryFindAmongFew(
@@ -323,8 +325,15 @@ public sealed partial class SceneCollider
         return objectIndex < 0 || candidate.Distance < closest.Distance;
     }
 
-    private static double BoundDistance(ColliderInstance instance, Vector position) =>
-        Math.Sqrt(instance.Bounds.DistanceSquared(position));
+    private static double BoundDistance(ColliderInstance instance, Vector position)
+    {
+        var bounds = instance.Bounds;
+        var distance = Math.Sqrt(bounds.DistanceSquared(position));
+        // Where squares leave the range of a double, the distance along an axis is a bound too.
+        return double.IsPositiveInfinity(distance) && !bounds.IsEmpty
+            ? Vector.Max(bounds.Minimum - position, position - bounds.Maximum).MaxAbsComponent()
+            : distance;
+    }
 
     /// <summary>
     /// Queues the children of a node that are close enough. The closest child is expanded at once while nothing in the queue is closer.

@@ -11,6 +11,10 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
     // As a part of the squared scale: more than the rounding error of rotations.
     private const double Tolerance = 1e-13;
 
+    // Beyond these, the matrix's determinant and cofactors leave the range of a double.
+    private const double MinScaleSquared = 1e-180;
+    private const double MaxScaleSquared = 1e180;
+
     // Found once, since they cost as much as a short search.
     private readonly Matrix _cofactors = Map.Linear.Cofactors();
 
@@ -33,7 +37,7 @@ internal sealed record Similarity(AffineMap Map, AffineMap Inverse, double Scale
     /// <returns>False for maps that do not keep distances in proportion.</returns>
     public static bool TryCreate(AffineMap map, out Similarity similarity)
     {
-        var isSimilarity = IsSimilarity(map.Linear);
+        var isSimilarity = map.Linear.V1.LengthSquared() is > MinScaleSquared and < MaxScaleSquared && IsSimilarity(map.Linear);
         similarity = isSimilarity ? new(map, map.Inverse(), map.Linear.V1.Length()) : Identity;
         return isSimilarity;
     }

@@ -53,7 +53,7 @@ public readonly record struct BoundingBox(Vector Minimum, Vector Maximum)
         }
 
         var centre = map * Centre;
-        var halfSize = map.Linear.Absolute() * (0.5 * Size);
+        var halfSize = map.Linear.Absolute() * ((0.5 * Maximum) - (0.5 * Minimum));
         return new(centre - halfSize, centre + halfSize);
     }
 

@@ -28,6 +28,9 @@ public sealed record Material(string Name)
     /// <summary><c>map_Kd</c>: the diffuse texture; null where there is none.</summary>
     public MaterialTexture? Texture { get; init; }
 
+    /// <summary><c>map_Ke</c>: a texture of emitted light; null where there is none. It is kept, and not drawn yet.</summary>
+    public MaterialTexture? EmissionTexture { get; init; }
+
     /// <summary><c>map_Bump</c>: a texture of heights; null where there is none. It is kept, and not drawn yet.</summary>
     public MaterialTexture? BumpTexture { get; init; }
 

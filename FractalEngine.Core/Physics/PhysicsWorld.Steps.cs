@@ -1,5 +1,6 @@
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Physics.Character;
 
 namespace FractalEngine.Core.Physics;
 
@@ -49,12 +50,42 @@ public sealed partial class PhysicsWorld
             body.BeginStep();
             if (!body.IsAsleep)
             {
-                _stepper.Step(body, _statics.CollidersOf(ColliderKindOf(body)), character, _gravity, seconds, StepCount);
+                StepBody(body, character, seconds);
             }
         }
 
-        character?.Step(seconds);
+        StepCharacter(character, seconds);
         _clock.Tick(seconds);
         LastStepCost = (_queryContext.Statistics.FaceTests - faceTestsBefore, _queryContext.Statistics.BoundTests - boundTestsBefore);
+    }
+
+    private void StepBody(Body body, CharacterController? character, double seconds)
+    {
+        try
+        {
+            _stepper.Step(body, _statics.CollidersOf(ColliderKindOf(body)), character, _gravity, seconds, StepCount);
+        }
+        catch (ArgumentOutOfRangeException exception)
+        {
+            // A query of a position on its way that is none.
+            throw new InvalidOperationException($"body {body.Name} has left the range of a double in step {StepCount}", exception);
+        }
+    }
+
+    private void StepCharacter(CharacterController? character, double seconds)
+    {
+        try
+        {
+            character?.Step(seconds);
+        }
+        catch (ArgumentOutOfRangeException exception)
+        {
+            throw new InvalidOperationException($"the character has left the range of a double in step {StepCount}", exception);
+        }
+
+        if (character is not null && !(character.Position.IsFinite() && character.Velocity.IsFinite()))
+        {
+            throw new InvalidOperationException($"the character has left the range of a double in step {StepCount}");
+        }
     }
 }

@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -7,7 +8,8 @@ namespace FractalEngine.Core.Scenes;
 /// <summary>An object of a scene together with its model and its place in the world.</summary>
 public sealed class PlacedModel
 {
-    private readonly Lazy<BoundingBox> _bounds;
+    // Of a class, so that it is set in one write. Computed twice at worst, with the same result.
+    private StrongBox<BoundingBox>? _bounds;
 
     /// <summary>Places the model of an object.</summary>
     /// <param name="declaration">With its model.</param>
@@ -26,7 +28,6 @@ public sealed class PlacedModel
         Declaration = declaration;
         Model = model;
         ObjectToWorld = declaration.Placement.ToAffineMap();
-        _bounds = new(() => ComputeWorldBounds(declaration, ObjectToWorld, model));
     }
 
     /// <summary>The object as the scene declares it.</summary>
@@ -39,7 +40,7 @@ public sealed class PlacedModel
     public AffineMap ObjectToWorld { get; }
 
     /// <summary>A box that holds the object in world space; as tight as the model's own.</summary>
-    public BoundingBox Bounds => _bounds.Value;
+    public BoundingBox Bounds => (_bounds ??= new(ComputeWorldBounds(Declaration, ObjectToWorld, Model))).Value;
 
     private static BoundingBox ComputeWorldBounds(SceneObject declaration, AffineMap objectToWorld, Model model) => model switch
     {

@@ -202,6 +202,7 @@ internal sealed class MaterialLoader(
 
         material = material with
         {
+            EmissionTexture = FindUndrawnTexture(material.EmissionTexture, fullPath),
             BumpTexture = FindUndrawnTexture(material.BumpTexture, fullPath),
             NormalTexture = FindUndrawnTexture(material.NormalTexture, fullPath),
         };

@@ -1,4 +1,3 @@
-using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
@@ -10,7 +9,7 @@ public sealed partial class MtlParser
 {
     /// <summary>Parses a texture that is drawn, and records where its name is.</summary>
     private bool ParseDrawnTexture(
-        Cursor statement, Cursor cursor, ImmutableDictionary<string, int>.Builder nameOffsets,
+        Cursor statement, Cursor cursor, Dictionary<string, int> nameOffsets,
         Func<Material, MaterialTexture, Material> update) =>
         ParseTexture(cursor, out var texture, out var nameOffset) && UpdateMaterial(statement, material =>
         {

@@ -24,6 +24,7 @@ internal static class MtlWriter
             AppendSurface(text, material);
             AppendTexture(text, "map_Kd", material, material.Texture, fullPath);
             AppendTexture(text, "map_d", material, material.OpacityTexture, fullPath);
+            AppendTexture(text, "map_Ke", material, material.EmissionTexture, fullPath);
             AppendTexture(text, "map_Bump", material, material.BumpTexture, fullPath);
             AppendTexture(text, "norm", material, material.NormalTexture, fullPath);
         }

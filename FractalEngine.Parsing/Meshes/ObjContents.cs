@@ -92,7 +92,7 @@ internal sealed class ObjContents
             CreateWarnings())
         {
             MaterialLibraryPositions = [.. _libraryPositions],
-            MaterialPositions = _materialPositions.ToImmutableDictionary(),
+            MaterialPositions = _materialPositions,
             ByteCount = byteCount,
         };
 

@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using System.Collections.ObjectModel;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing.Text;
 
@@ -11,10 +12,10 @@ namespace FractalEngine.Parsing.Meshes;
 /// <param name="Warnings">At most one about statements that can't be read, and one about those that are not drawn yet.</param>
 public sealed record ParsedMtl(
     SourceText Source,
-    ImmutableDictionary<string, Material> Materials,
-    ImmutableDictionary<string, int> TextureNameOffsets,
+    IReadOnlyDictionary<string, Material> Materials,
+    IReadOnlyDictionary<string, int> TextureNameOffsets,
     ImmutableArray<Diagnostic> Warnings)
 {
     /// <summary>Offset of the opacity texture's name in the text for each material that has one.</summary>
-    public ImmutableDictionary<string, int> OpacityTextureNameOffsets { get; init; } = ImmutableDictionary<string, int>.Empty;
+    public IReadOnlyDictionary<string, int> OpacityTextureNameOffsets { get; init; } = ReadOnlyDictionary<string, int>.Empty;
 }

@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using System.Collections.ObjectModel;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing.Text;
 
@@ -15,8 +16,8 @@ public sealed record ParsedObj(Mesh Mesh, ImmutableArray<Diagnostic> Warnings)
     public ImmutableArray<SourcePosition> MaterialLibraryPositions { get; init; } = [];
 
     /// <summary>Position of the first use of each material, for messages.</summary>
-    public ImmutableDictionary<string, SourcePosition> MaterialPositions { get; init; } =
-        ImmutableDictionary<string, SourcePosition>.Empty;
+    public IReadOnlyDictionary<string, SourcePosition> MaterialPositions { get; init; } =
+        ReadOnlyDictionary<string, SourcePosition>.Empty;
 
     /// <summary>Size of the file that was read, in bytes; 0 for a text that comes from no file.</summary>
     public long ByteCount { get; init; }

@@ -50,6 +50,11 @@ public sealed partial class SceneParser
         Require(FileKinds.FromName(file) is FileKind.Mesh or FileKind.Fractal, cursor,
             $"expected the name of a mesh or fractal ({FileKinds.MeshEndings}, .fdo)");
         _fileNameOffset = cursor.Offset;
+        if (!_fileNames.TryAdd(file, file))
+        {
+            file = _fileNames[file];
+        }
+
         return ParseOptionalSeparator(rest, out rest);
     }
 

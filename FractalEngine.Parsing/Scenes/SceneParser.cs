@@ -22,6 +22,9 @@ public sealed partial class SceneParser : SceneValueParser
     private readonly Dictionary<SceneDeclarationKind, int> _declarationOffsets = [];
     private readonly List<Light> _lights = [];
     private readonly List<SceneObject> _objects = [];
+
+    // One string for each name, however many objects have it.
+    private readonly Dictionary<string, string> _fileNames = [];
     private Scene _scene = new();
     private (Vector Target, Vector Up)? _cameraTarget;
     private int _fileNameOffset;
@@ -44,6 +47,11 @@ public sealed partial class SceneParser : SceneValueParser
         var lines = ImmutableArray.CreateBuilder<SceneLine>();
         for (var cursor = Source.Start; !cursor.IsAtEnd;)
         {
+            if (lines.Count >= ParsingLimits.MaxSceneLines)
+            {
+                throw Error(cursor, $"the scene has more than the limit of {ParsingLimits.MaxSceneLines} lines", isLimitExceeded: true);
+            }
+
             if (!ParseLine(cursor, out var kind, out var rest))
             {
                 throw SyntaxError();

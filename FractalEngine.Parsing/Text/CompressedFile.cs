@@ -13,10 +13,15 @@ internal static class CompressedFile
     private const int MinLength = 18;
     private const int TrailerLength = 8;
 
+    // Of the deflate format: a trailer that says more is not one.
+    private const int MaxCompressionRatio = 1032;
+
     /// <summary>Decompresses a whole file into memory.</summary>
     /// <param name="stream">The compressed file.</param>
     /// <param name="fileName">Name of the file in messages.</param>
-    /// <param name="maxBytes">Limit on the decompressed bytes; no more of them are ever held.</param>
+    /// <param name="maxBytes">
+    /// Limit on the decompressed bytes; no more of them are ever held. A file that says itself that it has more is refused at once.
+    /// </param>
     /// <exception cref="SourceException">The file is damaged, can't be read, or has more bytes.</exception>
     public static MemoryStream Decompress(FileStream stream, string fileName, long maxBytes) => SourceText.Access(fileName, () =>
     {
@@ -40,8 +45,20 @@ internal static class CompressedFile
             throw new InvalidDataException();
         }
 
+        var (_, size) = ReadTrailer(stream);
+        if (size > MaxCompressionRatio * stream.Length)
+        {
+            throw new InvalidDataException();
+        }
+
+        if (size > maxBytes)
+        {
+            return null;
+        }
+
         using var decompressor = new GZipStream(stream, CompressionMode.Decompress, leaveOpen: true);
-        var contents = new MemoryStream();
+        // Of the size that the file states, since a stream that grows holds up to three times its contents.
+        var contents = new MemoryStream((int)Math.Min(size, Array.MaxLength));
         var buffer = new byte[BufferSize];
         int count;
         while ((count = decompressor.Read(buffer)) > 0)
@@ -65,14 +82,20 @@ internal static class CompressedFile
     /// </summary>
     private static void RequireWhole(FileStream stream, ReadOnlySpan<byte> contents)
     {
-        Span<byte> trailer = stackalloc byte[TrailerLength];
-        stream.Position = stream.Length - TrailerLength;
-        stream.ReadExactly(trailer);
-        var checksum = BinaryPrimitives.ReadUInt32LittleEndian(trailer);
-        var size = BinaryPrimitives.ReadUInt32LittleEndian(trailer[sizeof(uint)..]);
+        var (checksum, size) = ReadTrailer(stream);
         if (size > contents.Length || Crc32.Append(0, contents[^(int)size..]) != checksum)
         {
             throw new InvalidDataException();
         }
+    }
+
+    /// <summary>Reads the checksum and the size of the last member, and leaves the stream at its beginning.</summary>
+    private static (uint Checksum, uint Size) ReadTrailer(FileStream stream)
+    {
+        Span<byte> trailer = stackalloc byte[TrailerLength];
+        stream.Position = stream.Length - TrailerLength;
+        stream.ReadExactly(trailer);
+        stream.Position = 0;
+        return (BinaryPrimitives.ReadUInt32LittleEndian(trailer), BinaryPrimitives.ReadUInt32LittleEndian(trailer[sizeof(uint)..]));
     }
 }

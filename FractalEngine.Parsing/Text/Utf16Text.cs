@@ -39,7 +39,7 @@ internal static class Utf16Text
     {
         using var transcoder = Encoding.CreateTranscodingStream(stream, encoding, Encoding.UTF8, leaveOpen: true);
         // ASCII characters take half of the bytes.
-        var text = new MemoryStream((int)(stream.Length / 2) + MarkLength);
+        var text = new MemoryStream((int)Math.Min((stream.Length / 2) + MarkLength, Array.MaxLength));
         transcoder.CopyTo(text);
         text.Position = 0;
         return text;

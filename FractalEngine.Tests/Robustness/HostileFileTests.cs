@@ -2,6 +2,7 @@ using System.Text;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Scenes;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
@@ -26,6 +27,23 @@ public sealed class HostileFileTests : IDisposable
     [InlineData(40_000)]
     [Trait("Category", "Soak")]
     public void Load_OfVeryManyMissingFiles_IsLinear(int count) => CheckMissingFiles(count);
+
+    [Theory]
+    [InlineData(30_000, 2)]
+    public void Load_OfManyMissingTextures_IsLinear(int count, double seconds) => CheckMissingTextures(count, seconds);
+
+    [Theory]
+    [InlineData(300_000, 10)]
+    [Trait("Category", "Soak")]
+    public void Load_OfVeryManyMissingTextures_IsLinear(int count, double seconds) => CheckMissingTextures(count, seconds);
+
+    [Fact]
+    public void Load_OfMoreLinesThanTheLimit_NamesIt()
+    {
+        var error = Errors.ThrownBy(() => SceneParser.Parse(new("a.sdo", new string('\n', ParsingLimits.MaxSceneLines + 1)))).Diagnostic;
+        Assert.True(error.IsLimitExceeded);
+        Assert.Equal($"the scene has more than the limit of {ParsingLimits.MaxSceneLines} lines", error.Message);
+    }
 
     [Theory]
     [InlineData(10_000)]
@@ -100,6 +118,15 @@ public sealed class HostileFileTests : IDisposable
         // A search through the text and the list for each would take ten times as long for three times as many.
         var diagnostics = ProcessorTime.RunWithin(5, () => AssetLoader.Check(_folder["missing.sdo"]));
         Assert.Equal(count, diagnostics.Length);
+    }
+
+    private void CheckMissingTextures(int count, double seconds)
+    {
+        _folder.Write("tex.mtl", Lines(count, i => $"newmtl m{i}\nmap_Kd missing/texture{i}.png\n"));
+        _folder.Write("tex.obj", "mtllib tex.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n" + Lines(count, i => $"usemtl m{i}\nf 1 2 3\n"));
+        // A hundred-thousand take a second.
+        var diagnostics = ProcessorTime.RunWithin(seconds, () => AssetLoader.Check(_folder["tex.obj"]));
+        Assert.Equal(20, diagnostics.Length);
     }
 
     private static string Lines(int count, Func<int, string> line) =>

@@ -18,7 +18,7 @@ namespace FractalEngine.Tests.Robustness;
 /// Loads changed files of the corpus, then queries, counts and prepares them for drawing: a result or an error of the engine's own, in two
 /// seconds of processor time.
 /// </summary>
-public class MutationTests
+public class MutationTests(Xunit.Abstractions.ITestOutputHelper output)
 {
     private const double MaxSeconds = 2;
 
@@ -36,10 +36,13 @@ public class MutationTests
     public void LoadThenUse_OfChangedFilesForTenMinutes_GivesAResultOrAnErrorOfTheEngine()
     {
         var end = DateTime.UtcNow + TimeSpan.FromMinutes(10);
-        for (var seed = 1_000; DateTime.UtcNow < end; seed++)
+        var seed = 1_000;
+        for (; DateTime.UtcNow < end; seed++)
         {
             Seeded.RunOne(seed, Run);
         }
+
+        output.WriteLine($"{seed - 1_000} seeds");
     }
 
     private static void Run(Random random)

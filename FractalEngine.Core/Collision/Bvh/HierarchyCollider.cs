@@ -14,7 +14,10 @@ namespace FractalEngine.Core.Collision.Bvh;
 /// </param>
 public sealed class HierarchyCollider(Mesh mesh) : Collider
 {
+    private const double MaxBoundFactor = 1e30;
+
     private readonly TriangleBvh _bvh = new(mesh);
+    private readonly double _magnitude = QueryScale.Magnitude(mesh);
 
     /// <inheritdoc/>
     public override bool IsExact => true;
@@ -29,8 +32,14 @@ public sealed class HierarchyCollider(Mesh mesh) : Collider
     internal override bool FindClosestTransformed(Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
+        var magnitude = QueryScale.Magnitude(in position, in map, _magnitude);
+        if (QueryScale.IsNeeded(magnitude))
+        {
+            return QueryScale.FindClosest(this, in position, in map, magnitude, maxDistance, epsilon, context, out closest);
+        }
+
         var closestTriangle = new ClosestTriangle(DistanceCutoff.FromRadius(maxDistance));
-        _bvh.FindClosestTransformed(in position, in map, ref closestTriangle, (1 + epsilon) * (1 + epsilon));
+        _bvh.FindClosestTransformed(in position, in map, ref closestTriangle, BoundFactor(epsilon));
         if (closestTriangle.FaceIndex < 0 && NeedsExactRetry(maxDistance, epsilon))
         {
             _bvh.FindClosestTransformed(in position, in map, ref closestTriangle, 1);
@@ -54,6 +63,13 @@ public sealed class HierarchyCollider(Mesh mesh) : Collider
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
+        var magnitude = Math.Max(position.MaxAbsComponent(), _magnitude);
+        if (QueryScale.IsNeeded(magnitude))
+        {
+            return QueryScale.FindClosest(
+                this, in position, AffineMap.Identity, magnitude, maxDistance, epsilon, context, out closest);
+        }
+
         var isFound = FindFirst(in position, maxDistance, epsilon, context, out closest);
         return isFound || (NeedsExactRetry(maxDistance, epsilon) && FindFirst(in position, maxDistance, 0, context, out closest));
     }
@@ -61,11 +77,14 @@ public sealed class HierarchyCollider(Mesh mesh) : Collider
     private bool FindFirst(in Vector position, double maxDistance, double epsilon, QueryContext context, out ClosestPoint closest)
     {
         var closestTriangle = new ClosestTriangle(DistanceCutoff.FromRadius(maxDistance));
-        _bvh.FindClosest(in position, ref closestTriangle, (1 + epsilon) * (1 + epsilon), mayDefer: true);
+        _bvh.FindClosest(in position, ref closestTriangle, BoundFactor(epsilon), mayDefer: true);
         AddStatistics(context, in closestTriangle);
         closest = closestTriangle.FaceIndex < 0 ? default : ClosestPointFactory.OnMesh(mesh, closestTriangle.FaceIndex, position);
         return closestTriangle.FaceIndex >= 0 && closest.Distance <= maxDistance;
     }
+
+    /// <summary>(1 + ε)², at most a finite number: a bound of 0 stays 0.</summary>
+    private static double BoundFactor(double epsilon) => Math.Min((1 + epsilon) * (1 + epsilon), MaxBoundFactor);
 
     private static void AddStatistics(QueryContext context, in ClosestTriangle closestTriangle)
     {

@@ -22,9 +22,9 @@ public sealed class ExactFractalCollider : Collider
     /// <summary>The part of a fractal's size below which no further level is visited.</summary>
     public const double RelativePrecision = 1e-15;
 
-    // Largest coordinates whose squares, and those of parts 1e-15 of them, are accurate.
-    private const double MinMagnitude = 1e-100;
-    private const double MaxMagnitude = 1e140;
+    // Squared norms of maps between which their inverses are accurate.
+    private const double MinNormSquared = 1e-100;
+    private const double MaxNormSquared = 1e140;
 
     // As a part of the largest coordinate: the precision of a fractal that is smaller, such as a point, is that of its coordinates.
     private const double MinPrecisionRadius = 1e-3;
@@ -132,9 +132,9 @@ public sealed class ExactFractalCollider : Collider
         // In the fractal's own frame, its box was tested before.
         var box = isSimilarity ? _hierarchy.Root.Box : _hierarchy.Root.Box.Transform(map);
         var magnitude = Math.Max(positionMagnitude, isSimilarity ? _rootMagnitude : BoundingVolume.MaxAbsCoordinate(box));
-        if (magnitude is < MinMagnitude or > MaxMagnitude && double.IsFinite(magnitude) && magnitude > 0)
+        if (QueryScale.IsNeeded(magnitude))
         {
-            return FindClosestScaled(position, in map, magnitude, maxDistance, epsilon, context, out closest);
+            return QueryScale.FindClosest(this, in position, in map, magnitude, maxDistance, epsilon, context, out closest);
         }
 
         var search = new FractalSearchState(maxDistance, epsilon, positionMagnitude, magnitude, context);
@@ -160,31 +160,6 @@ public sealed class ExactFractalCollider : Collider
         return closest.Distance <= maxDistance;
     }
 
-    /// <summary>Finds the closest point in other units, in which squares of coordinates stay within the range of a double.</summary>
-    private bool FindClosestScaled(
-        in Vector position, in AffineMap map, double magnitude, double maxDistance, double epsilon, QueryContext context,
-        out ClosestPoint closest)
-    {
-        // Powers of two change no digits.
-        var exponent = Math.ILogB(magnitude);
-        var scale = Math.ScaleB(1, -exponent);
-        AffineMap scaledMap = new(scale * map.Linear, scale * map.Translation);
-        if (!FindClosestInImage(
-            scale * position, in scaledMap, isSimilarity: false, maxDistance * scale, epsilon, context, out var scaled))
-        {
-            closest = default;
-            return false;
-        }
-
-        closest = scaled with
-        {
-            Distance = Math.ScaleB(scaled.Distance, exponent),
-            Point = scaled.Point / scale,
-            ErrorBound = Math.ScaleB(scaled.ErrorBound, exponent),
-        };
-        return closest.Distance <= maxDistance;
-    }
-
     private void SearchLevels(in Vector position, in AffineMap map, bool isSimilarity, ref FractalSearchState search)
     {
         // Where most of the fractal is far smaller than all of it, a result is as precise as its own coordinates.
@@ -200,7 +175,7 @@ public sealed class ExactFractalCollider : Collider
         {
             var normSquared = new SimdAffineMap(map).FrobeniusNormSquared();
             var mappedRadius = minRadius * map.Linear.MaxAbsEntry();
-            search.MinRadiusSquared = normSquared is > MinMagnitude and < MaxMagnitude
+            search.MinRadiusSquared = normSquared is > MinNormSquared and < MaxNormSquared
                 ? minRadiusSquared * normSquared
                 : mappedRadius * mappedRadius;
             _affineSearch.Run(new(position, in map), ref search);

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -35,11 +36,13 @@ public sealed class BoundingBoxCollider : Collider
     /// <param name="mesh">The mesh.</param>
     /// <param name="depth">Number of levels below the root, up to <see cref="MaxDepth"/>; null for <see cref="DefaultDepth"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">The depth is negative or too large.</exception>
+    /// <exception cref="FractalLimitException">Coordinates of the mesh are beyond 1e40.</exception>
     public BoundingBoxCollider(Mesh mesh, int? depth = null)
     {
         Depth = depth ?? DefaultDepth(mesh.FaceCount);
         ArgumentOutOfRangeException.ThrowIfNegative(Depth, nameof(depth));
         ArgumentOutOfRangeException.ThrowIfGreaterThan(Depth, MaxDepth, nameof(depth));
+        QueryScale.ThrowIfTooLarge(QueryScale.Magnitude(mesh));
         _mesh = mesh;
         _faceIndices = [.. Enumerable.Range(0, mesh.FaceCount)];
         Vector[] centroids = [.. _faceIndices.Select(CentroidOf)];
@@ -65,6 +68,7 @@ public sealed class BoundingBoxCollider : Collider
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
+        QueryScale.ThrowIfTooLarge(position.MaxAbsComponent());
         context.ClearPath();
         closest = default;
         if (_faceIndices.Length == 0)

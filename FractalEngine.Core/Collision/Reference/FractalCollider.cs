@@ -39,7 +39,9 @@ public sealed partial class FractalCollider : Collider
     /// <exception cref="SingularMatrixException">
     /// A map has no inverse, as with a scale of 0. The parser refuses fractal files with such a map.
     /// </exception>
-    /// <exception cref="FractalLimitException">A round, or the base mesh, has more than a million instances of its own.</exception>
+    /// <exception cref="FractalLimitException">
+    /// A round, or the base mesh, has more than a million instances of its own, or coordinates of the fractal are beyond 1e40.
+    /// </exception>
     public FractalCollider(Fractal fractal, int beamWidth = 1)
     {
         ArgumentOutOfRangeException.ThrowIfLessThan(beamWidth, 1);
@@ -48,6 +50,7 @@ public sealed partial class FractalCollider : Collider
             throw new ArgumentException("expected affine composition: the descent follows maps", nameof(fractal));
         }
 
+        QueryScale.ThrowIfTooLarge(fractal.Bounds.IsEmpty ? 0 : BoundingVolume.MaxAbsCoordinate(fractal.Bounds));
         var steps = fractal.Description.Steps;
         var lastRepetition = steps.Select((step, index) => step is Repetition ? index : -1).Append(-1).Max();
         // Without a recursion all sets are levels, over the base mesh itself.
@@ -81,6 +84,7 @@ public sealed partial class FractalCollider : Collider
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
+        QueryScale.ThrowIfTooLarge(position.MaxAbsComponent());
         context.ClearPath();
         if (_beamWidth > 1)
         {

@@ -8,6 +8,8 @@ namespace FractalEngine.Core.Collision.Reference;
 /// <param name="mesh">The mesh, of which nothing is copied.</param>
 public sealed class SimpleCollider(Mesh mesh) : Collider
 {
+    private readonly double _magnitude = QueryScale.Magnitude(mesh);
+
     /// <inheritdoc/>
     public override bool IsExact => true;
 
@@ -21,6 +23,12 @@ public sealed class SimpleCollider(Mesh mesh) : Collider
     internal override bool FindClosestTransformed(Vector position, AffineMap map, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
+        var magnitude = QueryScale.Magnitude(in position, in map, _magnitude);
+        if (QueryScale.IsNeeded(magnitude))
+        {
+            return QueryScale.FindClosest(this, in position, in map, magnitude, maxDistance, epsilon, context, out closest);
+        }
+
         context.ClearPath();
         context.Statistics.FaceTests += mesh.FaceCount;
         var closestDistanceSquared = double.PositiveInfinity;
@@ -47,6 +55,13 @@ public sealed class SimpleCollider(Mesh mesh) : Collider
     protected override bool FindClosestCore(Vector position, double maxDistance, double epsilon, QueryContext context,
         out ClosestPoint closest)
     {
+        var magnitude = Math.Max(position.MaxAbsComponent(), _magnitude);
+        if (QueryScale.IsNeeded(magnitude))
+        {
+            return QueryScale.FindClosest(
+                this, in position, AffineMap.Identity, magnitude, maxDistance, epsilon, context, out closest);
+        }
+
         context.ClearPath();
         context.Statistics.FaceTests += mesh.FaceCount;
         var scan = new TriangleScan(mesh, position);

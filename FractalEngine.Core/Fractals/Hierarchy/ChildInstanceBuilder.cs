@@ -187,12 +187,14 @@ internal sealed class ChildInstanceBuilder
 
     private static void AddEdges(List<ChildEdge> edges, HashSet<AffineMap> offeredMaps, MapSet set, long levelsDown)
     {
-        var mapsOfThisLevel = new HashSet<AffineMap>();
+        // Of the indices, since maps of wide sets are many bytes.
+        var mapsOfThisLevel = new HashSet<int>(new MapComparer(set.Maps));
         for (var i = 0; i < set.Maps.Length; i++)
         {
-            // A map that a level above offers is found there, provided that this level could be skipped instead.
-            var isNew = offeredMaps.Add(set.Maps[i]) || set.IdentityIndex < 0;
-            if (set.Maps[i] != AffineMap.Identity && mapsOfThisLevel.Add(set.Maps[i]) && isNew)
+            // A map that a level above offers is found there, provided that this level could be skipped instead. Only a level that can be
+            // skipped is followed by others.
+            var isNew = set.IdentityIndex < 0 || offeredMaps.Add(set.Maps[i]);
+            if (set.Maps[i] != AffineMap.Identity && mapsOfThisLevel.Add(i) && isNew)
             {
                 edges.Add(new(set, i, LevelStep.Down(levelsDown)));
             }
@@ -229,6 +231,14 @@ internal sealed class ChildInstanceBuilder
         }
 
         public EdgeChain Append(ChildEdge edge) => new([.. Edges, edge], edge.RemainingLevels(RemainingLevels));
+    }
+
+    /// <summary>Compares maps of a set by their indices.</summary>
+    private sealed class MapComparer(AffineMap[] maps) : IEqualityComparer<int>
+    {
+        public bool Equals(int index1, int index2) => maps[index1] == maps[index2];
+
+        public int GetHashCode(int index) => maps[index].GetHashCode();
     }
 
     private sealed class EdgeSequenceComparer : IEqualityComparer<ChildEdge[]>

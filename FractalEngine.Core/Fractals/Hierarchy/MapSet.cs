@@ -1,3 +1,4 @@
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -13,7 +14,8 @@ internal sealed class MapSet
     /// <summary>Computes the terms of a transformation set.</summary>
     /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
     public MapSet(TransformationSet set)
-        : this([.. set.Maps])
+        // Shared, since nothing writes into it: wide sets take much memory.
+        : this(ImmutableCollectionsMarshal.AsArray(set.Maps)!)
     {
     }
 

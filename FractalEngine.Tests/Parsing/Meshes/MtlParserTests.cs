@@ -50,17 +50,18 @@ public class MtlParserTests
     [InlineData("bump")]
     public void StatementsThatAreNotDrawn_AreKeptWithOneWarning(string keyword)
     {
-        var file = Parse($"newmtl a\n{keyword} -bm 0.25 -s 2 2 2 a\\heights.png\nnorm normals.png\nPr 0.5\nPm 1 # all\n");
+        var file = Parse($"newmtl a\n{keyword} -bm 0.25 -s 2 2 2 a\\heights.png\nnorm normals.png\nmap_Ke glow.png\nPr 0.5\nPm 1 # all\n");
         Assert.Equal(
             new Material("a")
             {
                 BumpTexture = new("a/heights.png") { BumpFactor = 0.25, Scale = (2, 2) },
                 NormalTexture = new("normals.png"),
+                EmissionTexture = new("glow.png"),
                 Roughness = 0.5,
                 Metalness = 1,
             },
             file.Materials["a"]);
-        Assert.StartsWith($"test.mtl:2:1: warning: {keyword} is kept but not drawn (4 such statements in all)\n",
+        Assert.StartsWith($"test.mtl:2:1: warning: {keyword} is kept but not drawn (5 such statements in all)\n",
             Assert.Single(file.Warnings).ToString(), StringComparison.Ordinal);
         Assert.Empty(file.TextureNameOffsets);
     }

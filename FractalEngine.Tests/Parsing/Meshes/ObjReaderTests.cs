@@ -197,6 +197,20 @@ public sealed class ObjReaderTests : IDisposable
         Assert.Equal(100_001, CompressedFile.Decompress(file, "a", 100_001).Length);
     }
 
+    [Fact]
+    public void Decompress_OfALargeFile_AllocatesItsSizeOrNothing()
+    {
+        const int size = 20_000_000;
+        using var file = File.OpenRead(Compress("a.obj.gz", new string('#', size)));
+        var before = GC.GetAllocatedBytesForCurrentThread();
+        Errors.ThrownBy(() => CompressedFile.Decompress(file, "a", size - 1));
+        // A buffer, and a message.
+        Assert.InRange(GC.GetAllocatedBytesForCurrentThread() - before, 0, 200_000);
+        before = GC.GetAllocatedBytesForCurrentThread();
+        CompressedFile.Decompress(file, "a", size);
+        Assert.InRange(GC.GetAllocatedBytesForCurrentThread() - before, size, size + 200_000);
+    }
+
     private string Compress(string name, string text)
     {
         using var stream = new GZipStream(File.Create(_folder[name]), CompressionLevel.Fastest);

@@ -115,6 +115,7 @@ public sealed class SceneFileTests : IDisposable
             Texture = new(_folder["3 d.tga"]) { IsClamped = true, Scale = (2, 1.0 / 3), Offset = (0.1, -0.5) },
             BumpTexture = new(_folder["3 d.tga"]) { BumpFactor = 0.3 },
             NormalTexture = new(_folder["3 d.tga"]) { IsClamped = true },
+            EmissionTexture = new(_folder["3 d.tga"]) { Scale = (2, 1) },
             Roughness = 0,
             Metalness = 0.75,
         };
@@ -137,6 +138,7 @@ public sealed class SceneFileTests : IDisposable
             Pr 0
             Pm 0.75
             map_Kd -clamp on -s 2 0.3333333333333333 1 -o 0.1 -0.5 0 3 d.tga
+            map_Ke -s 2 1 1 3 d.tga
             map_Bump -bm 0.3 3 d.tga
             norm -clamp on 3 d.tga
 

@@ -1,0 +1,100 @@
+using System.Globalization;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Hierarchy;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Collision;
+
+/// <summary>
+/// Other units for queries whose coordinates are so large or so small that products of them leave the range of a double.
+/// </summary>
+internal static class QueryScale
+{
+    // The kernels multiply up to six coordinates, see TriangleKernel.
+    private const double MinMagnitude = 1e-40;
+    private const double MaxMagnitude = 1e40;
+
+    // The power of two that makes the smallest numbers normal is a double, too.
+    private const int MinExponent = -1000;
+
+    /// <summary>Tells whether a query with such coordinates must be answered in other units.</summary>
+    /// <param name="magnitude">Largest coordinate of position and shape, or an upper bound.</param>
+    public static bool IsNeeded(double magnitude) => magnitude is < MinMagnitude or > MaxMagnitude && magnitude > 0;
+
+    /// <summary>The power of two by which coordinates are multiplied, so that products stay doubles: mostly 1.</summary>
+    /// <param name="magnitude">Largest coordinate of all shapes and positions.</param>
+    public static double Of(double magnitude) => IsNeeded(magnitude) ? Math.ScaleB(1, -Exponent(magnitude)) : 1;
+
+    /// <summary>The largest coordinate of a mesh, 0 for one without vertices.</summary>
+    public static double Magnitude(Mesh mesh) => mesh.Bounds.IsEmpty ? 0 : BoundingVolume.MaxAbsCoordinate(mesh.Bounds);
+
+    /// <summary>Computes an upper bound of the coordinates of a query, at most a few times too large.</summary>
+    /// <param name="position">In the frame of the image.</param>
+    /// <param name="map">From the shape's frame to that of the image.</param>
+    /// <param name="shapeMagnitude">Largest coordinate of the shape.</param>
+    public static double Magnitude(in Vector position, in AffineMap map, double shapeMagnitude) => Math.Max(
+        position.MaxAbsComponent(),
+        (map.Linear.MaxAbsEntry() * 3 * shapeMagnitude) + map.Translation.MaxAbsComponent());
+
+    /// <summary>Answers a query in units in which the largest coordinate is about 1.</summary>
+    /// <param name="collider">Supports queries under a map.</param>
+    /// <param name="position">In the frame of the image, finite.</param>
+    /// <param name="map">From the shape's frame to that of the image.</param>
+    /// <param name="magnitude">Largest coordinate, of which <see cref="IsNeeded"/> is true.</param>
+    /// <param name="maxDistance">Search radius in the frame of the image.</param>
+    /// <param name="epsilon">Allowed relative error.</param>
+    /// <param name="context">Receives the costs and the instance.</param>
+    /// <param name="closest">The closest point in the frame of the image. Its distance is infinite where it is beyond a double.</param>
+    public static bool FindClosest(
+        Collider collider, in Vector position, in AffineMap map, double magnitude, double maxDistance, double epsilon, QueryContext context,
+        out ClosestPoint closest)
+    {
+        if (!map.IsFinite())
+        {
+            throw new FractalLimitException("the placement of the shape is beyond the range of a double");
+        }
+
+        // Powers of two change no digits.
+        var exponent = Exponent(magnitude);
+        var scale = Math.ScaleB(1, -exponent);
+        AffineMap scaledMap = new(scale * map.Linear, scale * map.Translation);
+        if (!collider.FindClosestTransformed(scale * position, scaledMap, maxDistance * scale, epsilon, context, out var scaled))
+        {
+            closest = default;
+            return false;
+        }
+
+        closest = scaled with
+        {
+            Distance = Math.ScaleB(scaled.Distance, exponent),
+            Point = scaled.Point / scale,
+            ErrorBound = Math.ScaleB(scaled.ErrorBound, exponent),
+        };
+        return closest.Distance <= maxDistance;
+    }
+
+    /// <summary>Throws for a distance that is larger than any double.</summary>
+    /// <exception cref="FractalLimitException">The distance is infinite.</exception>
+    public static void ThrowIfInfinite(double distance)
+    {
+        if (double.IsPositiveInfinity(distance))
+        {
+            throw new FractalLimitException("the distance is beyond the range of a double");
+        }
+    }
+
+    /// <summary>Throws where a collider that has no other units would compute beyond the range of a double.</summary>
+    /// <param name="magnitude">Largest coordinate of a position or a shape.</param>
+    /// <exception cref="FractalLimitException">It is too large; the message says how large it may be.</exception>
+    public static void ThrowIfTooLarge(double magnitude)
+    {
+        if (magnitude > MaxMagnitude)
+        {
+            throw new FractalLimitException(string.Create(
+                CultureInfo.InvariantCulture, $"this collider is not exact, and searches coordinates up to {MaxMagnitude:R} only"));
+        }
+    }
+
+    private static int Exponent(double magnitude) => Math.Max(Math.ILogB(Math.Min(magnitude, double.MaxValue)), MinExponent);
+}

@@ -1,0 +1,95 @@
+using FractalEngine.Core;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Robustness;
+
+/// <summary>Worlds of numbers that no one means: they move, or are refused, and never hold an undefined number.</summary>
+public sealed class PhysicsRangeTests
+{
+    private static readonly double[] ExtremeNumbers =
+    [
+        0, 1, -1, 1e-3, -7, 100, 1e10, -1e20, 1e100, 1e150, -1e160, 1e300, double.MaxValue, double.Epsilon, 1e-300, 1e-160, 1e-20,
+        double.NaN, double.PositiveInfinity, double.NegativeInfinity,
+    ];
+
+    [Fact]
+    public void Step_OfAnyNumbers_MovesOrRefuses()
+    {
+        var moved = 0;
+        Seeded.Run(120, random =>
+        {
+            try
+            {
+                var world = CreateWorld(new ExtremeRandom(random));
+                for (var step = 0; step < 3; step++)
+                {
+                    world.Step();
+                    Assert.All(world.Bodies, body => Assert.True(body.Position.IsFinite() && body.Velocity.IsFinite()));
+                    Assert.True(world.Character is not { } character || character.Position.IsFinite());
+                    moved++;
+                }
+            }
+            catch (Exception exception) when (exception is ArgumentException or FractalEngineException)
+            {
+                // Said before the step, or where a distance is no double.
+            }
+            catch (InvalidOperationException exception)
+            {
+                Assert.Contains("has left the range of a double", exception.Message, StringComparison.Ordinal);
+            }
+        });
+        // Most worlds have one number at least that is refused.
+        Assert.True(moved > 60, $"{moved} steps");
+    }
+
+    private static PhysicsWorld CreateWorld(ExtremeRandom random)
+    {
+        var world = new PhysicsWorld();
+        world.Gravity = random.Chance(0.5) ? random.Vector() : world.Gravity;
+        var mesh = Shapes.Cube();
+        var fractal = Fractal.Of(mesh).Repeat([Samples.MoveAndScale(1, 0, 0, 0.5)], 5);
+        Transformation placement = new(
+            random.Vector(), Vector.Zero, random.Chance(0.5) ? Vector.One : random.Magnitude() * Vector.One);
+        _ = random.Chance(0.5) ? world.AddStatic(mesh, placement) : world.AddStatic(fractal, placement);
+        for (var i = 0; i < 2; i++)
+        {
+            world.Add(new(random.Vector(), random.Magnitude())
+            {
+                Velocity = random.Vector(),
+                Mass = random.Chance(0.7) ? 1 : random.Magnitude(),
+                Friction = random.Magnitude(),
+                Shrinkage = random.Chance(0.7) ? 0 : random.Magnitude(),
+                Collider = random.Chance(0.5) ? ColliderKind.Exact : ColliderKind.Simple,
+            });
+        }
+
+        if (random.Chance(0.3))
+        {
+            world.AddCharacter(new(random.Vector(), 0.3, 1.8)).IsActive = true;
+        }
+
+        if (random.Chance(0.2))
+        {
+            world.SetForce(world.Bodies[0], random.Vector());
+        }
+
+        return world;
+    }
+
+    /// <summary>Numbers of which some are extreme.</summary>
+    private sealed class ExtremeRandom(Random random)
+    {
+        public bool Chance(double probability) => random.NextDouble() < probability;
+
+        public double Number() => Chance(0.9) ? random.Between(-2, 2) : ExtremeNumbers[random.Next(ExtremeNumbers.Length)];
+
+        public double Magnitude() => Math.Abs(Number());
+
+        public Vector Vector() => new(Number(), Number(), Number());
+    }
+}
