@@ -1,5 +1,5 @@
-using FractalEngine.Core;
 using System.Text;
+using FractalEngine.Core;
 using FractalEngine.Core.Files;
 using FractalEngine.Parsing.Text;
 
