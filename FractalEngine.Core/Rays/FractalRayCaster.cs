@@ -139,11 +139,6 @@ internal sealed class FractalRayCaster : RayCaster
             ref var inner = ref stack[depth + 1];
             inner.Enter(in frame, in child, entry);
             var bounds = child.Group ?? _levels.At(inner.RemainingLevels);
-            if (child.MayBeFar && !inner.TryApproach(bounds.Box, in search))
-            {
-                continue;
-            }
-
             if (inner.Scale * inner.InverseScale > MaxCondition)
             {
                 isHit |= TryIntersectFlat(in ray, depth, inner.PathLength, ref search, context, ref pathLength);
@@ -152,6 +147,11 @@ internal sealed class FractalRayCaster : RayCaster
                     return true;
                 }
 
+                continue;
+            }
+
+            if (child.MayBeFar && !inner.TryApproach(bounds.Box, in search))
+            {
                 continue;
             }
 

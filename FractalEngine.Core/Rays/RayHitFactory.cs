@@ -44,13 +44,20 @@ internal static class RayHitFactory
 
         distance = Math.Min(Math.Max(distance, minDistance), maxDistance);
         var point = origin + (distance * direction);
-        var weights = isThin
-            ? TriangleKernel.ClosestPoint(point, a, b, c).Barycentrics
-            : Barycentrics((point - a) / size, edgeB, edgeC, cross);
+        var weights = Barycentrics((point - a) / size, edgeB, edgeC, cross);
+        if (isThin)
+        {
+            // Either may be the better one: the weights lose digits across a needle, and edges leave out what is between them.
+            var onEdge = TriangleKernel.ClosestPoint(point, a, b, c).Barycentrics;
+            weights = Miss(weights) <= Miss(onEdge) ? weights : onEdge;
+        }
+
         return new(distance, point, normal, slope < 0, weights, search.Face)
         {
             InstanceMap = map.ToAffineMap(),
         };
+
+        double Miss(Vector weights) => ((weights.X * a) + (weights.Y * b) + (weights.Z * c) - point).LengthSquared();
     }
 
     /// <summary>
