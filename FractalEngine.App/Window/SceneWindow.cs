@@ -26,7 +26,7 @@ internal sealed class SceneWindow : IDisposable
     private readonly WindowOverlay _overlay = new();
     private readonly DocumentLoader _loader;
     private readonly WindowKeys _keys;
-    private readonly PromptHost _prompts = new();
+    private readonly PromptHost _prompts;
     private readonly FileCommands _files;
     private readonly Stopwatch _clock = Stopwatch.StartNew();
     private TimeSpan _lastAdvance;
@@ -41,6 +41,7 @@ internal sealed class SceneWindow : IDisposable
         _window = new("FractalEngine", options.Size.Width, options.Size.Height);
         _frameRenderer = new(_window);
         _windowRenderer = new(_frameRenderer);
+        _prompts = new(() => _window.ClipboardText);
         var recent = new RecentFiles(options.RecentFilesPath, Report);
         _loader = new(_window, _overlay, options, recent.Add);
         _keys = new(_window, _windowRenderer, _overlay, options.Settings);
@@ -217,7 +218,7 @@ internal sealed class SceneWindow : IDisposable
                 _redraw |= Redraw.Scene;
             }
 
-            _overlay.PhysicsStatus = document.Physics.StatusText;
+            _overlay.PhysicsStatus = document.Physics.HasMovers ? document.Physics.StatusText : null;
         }
 
         if (Document?.Physics.TakeProblem() is { } problem)
