@@ -71,6 +71,9 @@ internal sealed class ScenePhysics : IDisposable
     /// <summary>Whether the player walks, so that the camera is at the player's eyes.</summary>
     public bool IsWalking => Character is { IsActive: true };
 
+    /// <summary>Whether anything can move: a body, or the player who walks. While colliders are built, whether they have to be.</summary>
+    public bool HasMovers => (World ?? _continued) is { } world ? world.Bodies.Count > 0 || IsWalking : !_worldTask.IsCompleted;
+
     /// <summary>The player; null where there is none.</summary>
     public CharacterController? Character => (World ?? _continued)?.Character;
 

@@ -27,7 +27,7 @@ internal sealed class SceneWindow : IDisposable
     private readonly WindowTracing _tracing;
     private readonly DocumentLoader _loader;
     private readonly WindowKeys _keys;
-    private readonly PromptHost _prompts = new();
+    private readonly PromptHost _prompts;
     private readonly FileCommands _files;
     private readonly Stopwatch _clock = Stopwatch.StartNew();
     private TimeSpan _lastAdvance;
@@ -42,6 +42,7 @@ internal sealed class SceneWindow : IDisposable
         _window = new("FractalEngine", options.Size.Width, options.Size.Height);
         _frameRenderer = new(_window);
         _windowRenderer = new(_frameRenderer);
+        _prompts = new(() => _window.ClipboardText);
         var recent = new RecentFiles(options.RecentFilesPath, Report);
         _loader = new(_window, _overlay, options, recent.Add);
         _tracing = new(options, _window.Wake);
@@ -225,7 +226,7 @@ internal sealed class SceneWindow : IDisposable
                 _redraw |= Redraw.Scene;
             }
 
-            _overlay.PhysicsStatus = document.Physics.StatusText;
+            _overlay.PhysicsStatus = document.Physics.HasMovers ? document.Physics.StatusText : null;
         }
 
         if (Document?.Physics.TakeProblem() is { } problem)

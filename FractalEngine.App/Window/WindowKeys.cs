@@ -61,6 +61,10 @@ internal sealed class WindowKeys(
             case Key.Z when document is not null:
                 overlay.ShowMessage(document.Undo(isRedo: isShiftHeld), now);
                 return Redraw.Scene;
+            case Key.C when isShiftHeld && document is not null:
+                window.ClipboardText = CameraText.Format(document.GetCurrentScene().Camera!);
+                overlay.ShowMessage("the camera is in the clipboard, as a line of a scene", now);
+                return Redraw.Overlay;
             default:
                 return Redraw.None;
         }
@@ -78,10 +82,6 @@ internal sealed class WindowKeys(
                 var image = tracing.OpaqueImage ?? renderer.Capture(document, Settings, window.Width, window.Height);
                 overlay.Report(Screenshots.Save(image, document.File.Path), now);
                 return Redraw.Scene;
-            case Key.C when pressed.Modifiers == (KeyModifiers.Control | KeyModifiers.Shift):
-                window.ClipboardText = CameraText.Format(document.GetCurrentScene().Camera!);
-                overlay.ShowMessage("the camera is in the clipboard, as a line of a scene", now);
-                return Redraw.Overlay;
         }
 
         if (PhysicsKeys.Apply(document, pressed.Key) is not { } message)

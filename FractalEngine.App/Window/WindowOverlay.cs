@@ -20,8 +20,7 @@ internal sealed class WindowOverlay
         ("F, Enter", "frame the scene, back to the start"),
         ("1 3 7", "front, right, top view"),
         ("5", "perspective, orthographic"),
-        ("G X", "grid, wireframe"),
-        ("L Y", "light per vertex or pixel, traced"),
+        ("G X L Y", "grid, wireframe, pixel light, traced"),
         ("T", "the paper's zoom, or this engine's"),
         ("Space N", "pause, single step"),
         ("B R", "drop a ball, reset bodies"),
@@ -31,6 +30,7 @@ internal sealed class WindowOverlay
         ("Ctrl+O", "open a file"),
         ("Ctrl+S", "save (Shift: as a new scene)"),
         ("Ctrl+Z", "undo a move (Shift: redo)"),
+        ("Ctrl+Shift+C", "copy the camera as a line"),
         ("H, Esc", "this list, close"),
     ]);
 

@@ -7,12 +7,6 @@ namespace FractalEngine.Core.Rays;
 /// <summary>Completes the nearest triangle of a search to the result of a query, in the frame of the ray.</summary>
 internal static class RayHitFactory
 {
-    // Where a ray is closer to a triangle's plane than this, as a sine, the distance of the search is more accurate than the plane's.
-    private const double MinSine = 1e-4;
-
-    // Squared sine of the angle at the first corner below which the weights of the corners lose digits.
-    private const double ThinSineSquared = 1e-2;
-
     /// <summary>Creates the result for a triangle.</summary>
     /// <param name="origin">Origin of the ray.</param>
     /// <param name="direction">Its direction, of length 1.</param>
@@ -28,31 +22,19 @@ internal static class RayHitFactory
         var distance = search.MaxDistance;
         var (a, b, c) = mesh.Face(search.Face);
         (a, b, c) = (map.Apply(a), map.Apply(b), map.Apply(c));
-        // In units of the triangle, so that squares stay within the range of a double.
-        var size = Math.Max((b - a).MaxAbsComponent(), (c - a).MaxAbsComponent());
-        var (edgeB, edgeC) = size > 0 ? ((b - a) / size, (c - a) / size) : (Vector.Zero, Vector.Zero);
-        var cross = Vector.Cross(edgeB, edgeC);
         var normal = TriangleKernel.UnitNormal(a, b, c);
-        var slope = Vector.Dot(normal, direction);
-        var isThin = !(cross.LengthSquared() > ThinSineSquared * edgeB.LengthSquared() * edgeC.LengthSquared());
-        if (Math.Abs(slope) > MinSine && size > 0)
-        {
-            var (anchor, planeNormal) = isThin ? PlaneOfThinTriangle(a, b, c, normal) : (a, normal);
-            // From a point near the triangle, so that what a far origin rounds away does not count.
-            distance += Vector.Dot(planeNormal, anchor - (origin + (distance * direction))) / Vector.Dot(planeNormal, direction);
-        }
-
+        distance = TrianglePlane.Correct(origin, direction, distance, a, b, c);
         distance = Math.Min(Math.Max(distance, minDistance), maxDistance);
         var point = origin + (distance * direction);
-        var weights = Barycentrics((point - a) / size, edgeB, edgeC, cross);
-        if (isThin)
+        var weights = Barycentrics(point, a, b, c);
+        if (TrianglePlane.IsThin(a, b, c))
         {
             // Either may be the better one: the weights lose digits across a needle, and edges leave out what is between them.
             var onEdge = TriangleKernel.ClosestPoint(point, a, b, c).Barycentrics;
             weights = Miss(weights) <= Miss(onEdge) ? weights : onEdge;
         }
 
-        return new(distance, point, normal, slope < 0, weights, search.Face)
+        return new(distance, point, normal, Vector.Dot(normal, direction) < 0, weights, search.Face)
         {
             InstanceMap = map.ToAffineMap(),
         };
@@ -60,22 +42,24 @@ internal static class RayHitFactory
         double Miss(Vector weights) => ((weights.X * a) + (weights.Y * b) + (weights.Z * c) - point).LengthSquared();
     }
 
-    /// <summary>
-    /// Finds a corner and a normal of the plane of a thin triangle. Rounding may turn the plane about the longest edge, from which no point
-    /// of the triangle is far; about other axes it must not.
-    /// </summary>
-    private static (Vector Corner, Vector Normal) PlaneOfThinTriangle(Vector a, Vector b, Vector c, Vector normal)
-    {
-        var (ab, bc, ca) = ((b - a).LengthSquared(), (c - b).LengthSquared(), (a - c).LengthSquared());
-        var (corner, edge) = ab >= bc && ab >= ca ? (a, b - a) : bc >= ca ? (b, c - b) : (c, a - c);
-        var direction = edge / edge.MaxAbsComponent();
-        return (corner, normal - (Vector.Dot(normal, direction) / direction.LengthSquared() * direction));
-    }
-
     /// <summary>Computes the weights of the corners at a point in the triangle, or at the nearest that rounding leaves.</summary>
-    private static Vector Barycentrics(Vector fromA, Vector edgeB, Vector edgeC, Vector cross)
+    private static Vector Barycentrics(Vector point, Vector a, Vector b, Vector c)
     {
+        // In units of the triangle, so that squares stay within the range of a double.
+        var size = Math.Max((b - a).MaxAbsComponent(), (c - a).MaxAbsComponent());
+        if (!(size > 0))
+        {
+            return Vector.I;
+        }
+
+        var (fromA, edgeB, edgeC) = ((point - a) / size, (b - a) / size, (c - a) / size);
+        var cross = Vector.Cross(edgeB, edgeC);
         var squared = cross.LengthSquared();
+        if (!(squared > 0))
+        {
+            return Vector.I;
+        }
+
         var weightB = Math.Clamp(Vector.Dot(Vector.Cross(fromA, edgeC), cross) / squared, 0, 1);
         var weightC = Math.Clamp(Vector.Dot(Vector.Cross(edgeB, fromA), cross) / squared, 0, 1 - weightB);
         return new(1 - weightB - weightC, weightB, weightC);

@@ -1,5 +1,6 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Rays;
 
@@ -23,6 +24,11 @@ internal readonly struct TriangleRay
     // The rounding of a direction after some levels of maps, as a part of its length.
     private const double DirectionError = 1.6e-14;
 
+    // Of an area that is a smaller part of the squared extent, rounding is too large a part.
+    private const double UncertainArea = 1e-3;
+
+    private readonly Vector _origin;
+    private readonly Vector _direction;
     private readonly int _x;
     private readonly int _y;
     private readonly int _z;
@@ -54,6 +60,8 @@ internal readonly struct TriangleRay
         _inverseZ = Vector256.Create(inverse);
         _widening = Vector256.Create(2 * ray.InverseScale * error);
         _start = ray.Start;
+        _origin = SimdAffineMap.ToVector(ray.Origin);
+        _direction = SimdAffineMap.ToVector(ray.Direction);
     }
 
     /// <summary>Tests four triangles at once.</summary>
@@ -63,7 +71,7 @@ internal readonly struct TriangleRay
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public bool TryIntersect(ref Vector256<double> quad, ref RaySearch search)
     {
-        var distances = Distances(ref quad);
+        var distances = Distances(ref quad, out var isUncertain);
         var hits = Vector256.GreaterThanOrEqual(distances, Vector256.Create(search.MinDistance))
             & Vector256.LessThanOrEqual(distances, Vector256.Create(search.MaxDistance));
         var mask = hits.ExtractMostSignificantBits();
@@ -72,16 +80,22 @@ internal readonly struct TriangleRay
             return false;
         }
 
-        return TryUpdate(distances, mask, ref search);
+        return TryUpdate(distances, mask, isUncertain.ExtractMostSignificantBits(), ref quad, ref search);
     }
 
-    private static bool TryUpdate(Vector256<double> distances, uint mask, ref RaySearch search)
+    private bool TryUpdate(
+        Vector256<double> distances, uint mask, uint uncertain, ref Vector256<double> quad, ref RaySearch search)
     {
         var isNearer = false;
         for (; mask != 0; mask &= mask - 1)
         {
             var lane = System.Numerics.BitOperations.TrailingZeroCount(mask);
             var distance = distances.GetElement(lane);
+            if ((uncertain & (1u << lane)) != 0)
+            {
+                distance = CorrectDistance(distance, lane, ref quad);
+            }
+
             if (distance < search.MaxDistance || (search.Face < 0 && distance <= search.MaxDistance))
             {
                 search.MaxDistance = distance;
@@ -93,9 +107,23 @@ internal readonly struct TriangleRay
         return isNearer;
     }
 
+    /// <summary>Computes the distance of a triangle whose area is so small that rounding moves it.</summary>
+    private double CorrectDistance(double distance, int lane, ref Vector256<double> quad)
+    {
+        var a = CornerOf(ref quad, lane);
+        var b = CornerOf(ref Unsafe.Add(ref quad, 3), lane);
+        var c = CornerOf(ref Unsafe.Add(ref quad, 6), lane);
+        return _start + TrianglePlane.Correct(_origin, _direction, distance - _start, a, b, c);
+    }
+
+    private static Vector CornerOf(ref Vector256<double> rows, int lane) => new(
+        rows.GetElement(lane), Unsafe.Add(ref rows, 1).GetElement(lane), Unsafe.Add(ref rows, 2).GetElement(lane));
+
     /// <summary>Computes the distances of four triangles along the ray; NaN or infinite where it misses them.</summary>
+    /// <param name="quad">The triangles.</param>
+    /// <param name="isUncertain">All bits set where the area is so small that rounding moves the distance.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private Vector256<double> Distances(ref Vector256<double> quad)
+    private Vector256<double> Distances(ref Vector256<double> quad, out Vector256<double> isUncertain)
     {
         var az = Unsafe.Add(ref quad, _z) - _originZ;
         var bz = Unsafe.Add(ref quad, 3 + _z) - _originZ;
@@ -116,6 +144,7 @@ internal readonly struct TriangleRay
         var depthExtent = Vector256.Abs(az) + Vector256.Abs(bz) + Vector256.Abs(cz);
         var isSeen = Vector256.GreaterThan(
             Vector256.Abs(sum), (rounding + (Vector256.Create(DirectionError) * depthExtent)) * extent);
+        isUncertain = Vector256.LessThan(Vector256.Abs(sum), Vector256.Create(UncertainArea) * extent * extent);
         // All areas get the sign of a hit; those that have the other one are of edges that the ray passes outside.
         var sign = sum & Vector256.Create(-0.0);
         (u, v, w) = (u ^ sign, v ^ sign, w ^ sign);

@@ -103,13 +103,23 @@ public sealed class AssetLoader
         ? text.Text.Contains("<$>", StringComparison.Ordinal) ? FileKind.Fractal : FileKind.Scene
         : FileKinds.FromName(_path);
 
-    private LoadedFile LoadFile() => Kind switch
+    private LoadedFile LoadFile()
+    {
+        if (_options.Text is null && !Path.Exists(_fullPath))
+        {
+            // A missing file is reported as missing first, whatever its name is. The record has it, so that it can appear.
+            _record.Add(_fullPath);
+            throw new SourceException(_path, $"file not found{NeighbourSuggestion.Ask(_fullPath)}");
+        }
+
+        return LoadExistingFile();
+    }
+
+    private LoadedFile LoadExistingFile() => Kind switch
     {
         FileKind.Scene => LoadScene(),
         FileKind.Fractal => CreateSingleObjectFile(FileKind.Fractal, LoadModel(_fullPath, _path, FileKind.Fractal)),
         FileKind.Mesh => CreateSingleObjectFile(FileKind.Mesh, LoadModel(_fullPath, _path, FileKind.Mesh)),
-        // A missing file is reported as missing first, whatever its name is.
-        _ when !Path.Exists(_fullPath) => throw new SourceException(_path, "file not found"),
         _ => throw new SourceException(_path, $"the ending says nothing of the contents, expected {FileKinds.MeshEndings}, .fdo or .sdo"),
     };
 

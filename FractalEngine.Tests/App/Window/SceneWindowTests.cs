@@ -129,6 +129,27 @@ public sealed class SceneWindowTests : IDisposable
         Assert.Equal(0, window.CloseWith("key Escape key d"));
     }
 
+    [SkippableFact]
+    public void Undo_AfterAWalk_ReturnsToTheViewBeforeIt()
+    {
+        _folder.Write("floor.sdo",
+            """
+            c (0, 1, -6) (0, 0, 0) 60
+            o "cube.obj" ((0, -1, 0), #, (8, 1, 8))
+            player (2, 1, -2) 0.3 1.6
+
+            """);
+        using var window = Open("floor.sdo");
+        window.Send("key 3");
+        var fromTheRight = window.Screenshot();
+        window.Send("key p");
+        window.Send("key p");
+        Assert.True(DifferingFraction(fromTheRight, window.Screenshot()) > 0.01, "the walk did not move the camera");
+        window.Send("key ctrl+z");
+        Assert.Equal(0, DifferingFraction(fromTheRight, window.Screenshot()));
+        Assert.Equal(0, window.CloseWith("key Escape key d"));
+    }
+
     /// <summary>
     /// That nothing happens can't be waited for: this test waits for seconds, and measures the processor time of the program.
     /// </summary>
