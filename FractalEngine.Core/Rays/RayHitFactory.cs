@@ -27,41 +27,44 @@ internal static class RayHitFactory
         distance = Math.Min(Math.Max(distance, minDistance), maxDistance);
         var point = origin + (distance * direction);
         var weights = Barycentrics(point, a, b, c);
-        if (TrianglePlane.IsThin(a, b, c))
-        {
-            // Either may be the better one: the weights lose digits across a needle, and edges leave out what is between them.
-            var onEdge = TriangleKernel.ClosestPoint(point, a, b, c).Barycentrics;
-            weights = Miss(weights) <= Miss(onEdge) ? weights : onEdge;
-        }
-
         return new(distance, point, normal, Vector.Dot(normal, direction) < 0, weights, search.Face)
         {
             InstanceMap = map.ToAffineMap(),
         };
-
-        double Miss(Vector weights) => ((weights.X * a) + (weights.Y * b) + (weights.Z * c) - point).LengthSquared();
     }
 
     /// <summary>Computes the weights of the corners at a point in the triangle, or at the nearest that rounding leaves.</summary>
+    /// <remarks>From the height above the longest edge and the place along it: so the weights give the point of a needle, too.</remarks>
     private static Vector Barycentrics(Vector point, Vector a, Vector b, Vector c)
     {
-        // In units of the triangle, so that squares stay within the range of a double.
-        var size = Math.Max((b - a).MaxAbsComponent(), (c - a).MaxAbsComponent());
-        if (!(size > 0))
+        var (ab, bc, ca) = ((b - a).MaxAbsComponent(), (c - b).MaxAbsComponent(), (a - c).MaxAbsComponent());
+        if (bc > ab && bc >= ca)
         {
-            return Vector.I;
+            var (weightB, weightC, weightA) = WeightsAboveEdge(point, b, c, a, bc);
+            return new(weightA, weightB, weightC);
         }
 
-        var (fromA, edgeB, edgeC) = ((point - a) / size, (b - a) / size, (c - a) / size);
-        var cross = Vector.Cross(edgeB, edgeC);
-        var squared = cross.LengthSquared();
-        if (!(squared > 0))
+        if (ca > ab)
         {
-            return Vector.I;
+            var (weightC, weightA, weightB) = WeightsAboveEdge(point, c, a, b, ca);
+            return new(weightA, weightB, weightC);
         }
 
-        var weightB = Math.Clamp(Vector.Dot(Vector.Cross(fromA, edgeC), cross) / squared, 0, 1);
-        var weightC = Math.Clamp(Vector.Dot(Vector.Cross(edgeB, fromA), cross) / squared, 0, 1 - weightB);
-        return new(1 - weightB - weightC, weightB, weightC);
+        return ab > 0 ? WeightsAboveEdge(point, a, b, c, ab) : Vector.I;
+    }
+
+    /// <summary>Computes the weights of an edge's ends and of the third corner, in units in which squares are accurate.</summary>
+    private static Vector WeightsAboveEdge(Vector point, Vector start, Vector end, Vector apex, double size)
+    {
+        var (edge, toApex, toPoint) = ((end - start) / size, (apex - start) / size, (point - start) / size);
+        var squared = edge.LengthSquared();
+        var apexPlace = Vector.Dot(toApex, edge) / squared;
+        // Twice, since what rounding leaves of the edge matters beside the altitude of a needle.
+        var altitude = toApex - (apexPlace * edge);
+        altitude -= Vector.Dot(altitude, edge) / squared * edge;
+        var altitudeSquared = altitude.LengthSquared();
+        var weightApex = altitudeSquared > 0 ? Math.Clamp(Vector.Dot(toPoint, altitude) / altitudeSquared, 0, 1) : 0;
+        var weightEnd = Math.Clamp((Vector.Dot(toPoint, edge) / squared) - (weightApex * apexPlace), 0, 1 - weightApex);
+        return new(1 - weightApex - weightEnd, weightEnd, weightApex);
     }
 }
