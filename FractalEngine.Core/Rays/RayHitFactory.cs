@@ -27,13 +27,19 @@ internal static class RayHitFactory
         distance = Math.Min(Math.Max(distance, minDistance), maxDistance);
         var point = origin + (distance * direction);
         var weights = Barycentrics(point, a, b, c);
+        if (!(Math.Min(weights.X, Math.Min(weights.Y, weights.Z)) >= 0))
+        {
+            // Outside by rounding: the nearest point of the triangle.
+            weights = TriangleKernel.ClosestPoint(point, a, b, c).Barycentrics;
+        }
+
         return new(distance, point, normal, Vector.Dot(normal, direction) < 0, weights, search.Face)
         {
             InstanceMap = map.ToAffineMap(),
         };
     }
 
-    /// <summary>Computes the weights of the corners at a point in the triangle, or at the nearest that rounding leaves.</summary>
+    /// <summary>Computes the weights of the corners at a point in the plane of the triangle.</summary>
     /// <remarks>From the height above the longest edge and the place along it: so the weights give the point of a needle, too.</remarks>
     private static Vector Barycentrics(Vector point, Vector a, Vector b, Vector c)
     {
@@ -63,8 +69,8 @@ internal static class RayHitFactory
         var altitude = toApex - (apexPlace * edge);
         altitude -= Vector.Dot(altitude, edge) / squared * edge;
         var altitudeSquared = altitude.LengthSquared();
-        var weightApex = altitudeSquared > 0 ? Math.Clamp(Vector.Dot(toPoint, altitude) / altitudeSquared, 0, 1) : 0;
-        var weightEnd = Math.Clamp((Vector.Dot(toPoint, edge) / squared) - (weightApex * apexPlace), 0, 1 - weightApex);
+        var weightApex = altitudeSquared > 0 ? Vector.Dot(toPoint, altitude) / altitudeSquared : 0;
+        var weightEnd = (Vector.Dot(toPoint, edge) / squared) - (weightApex * apexPlace);
         return new(1 - weightApex - weightEnd, weightEnd, weightApex);
     }
 }
