@@ -72,8 +72,8 @@ internal sealed class RayBounds
         _planes = subFractal.Hull is { } hull ? CreatePlanes(hull, subFractal.Box.Centre, Box.InverseSize) : [];
         // A flat box stays a little thick, so that the map has an inverse.
         var ownBox = subFractal.Box;
-        var thickness = MinThickness * Math.Max(ownBox.Size.MaxAbsComponent(), baseBox.Size.MaxAbsComponent()) * Vector.One;
-        var proxyMap = BoundingBox.MapBoxToBox(baseBox, new(ownBox.Minimum - thickness, ownBox.Maximum + thickness));
+        var thickness = MinThickness * Math.Max(ownBox.Size.MaxAbsComponent(), baseBox.Size.MaxAbsComponent());
+        var proxyMap = ProxyMapTo(ownBox, ownBox.Size + (thickness * Vector.One), baseBox);
         _proxyMap = new(proxyMap);
         _inverseProxyMap = new(proxyMap.Inverse());
     }
@@ -256,6 +256,14 @@ internal sealed class RayBounds
         }
 
         return (rows, order);
+    }
+
+    /// <summary>Computes the scale and translation from the box of the base mesh to another of a given size.</summary>
+    private static AffineMap ProxyMapTo(BoundingBox box, Vector size, BoundingBox baseBox)
+    {
+        var (x, y, z) = baseBox.Size;
+        var scale = new Vector(x > 0 ? size.X / x : 1, y > 0 ? size.Y / y : 1, z > 0 ? size.Z / z : 1);
+        return new(Matrix.Diagonal(scale), box.Centre - baseBox.Centre.Stretch(scale));
     }
 
     private static float[] CreatePlanes(HullBound hull, Vector centre, double inverseSize)

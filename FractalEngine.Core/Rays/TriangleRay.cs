@@ -94,6 +94,10 @@ internal readonly struct TriangleRay
             if ((uncertain & (1u << lane)) != 0)
             {
                 distance = CorrectDistance(distance, lane, ref quad);
+                if (!(distance >= search.MinDistance))
+                {
+                    continue;
+                }
             }
 
             if (distance < search.MaxDistance || (search.Face < 0 && distance <= search.MaxDistance))
