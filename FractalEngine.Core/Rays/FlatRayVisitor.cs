@@ -42,7 +42,10 @@ internal struct FlatRayVisitor(LocalRay ray, RaySearch search) : IShapeVisitor
             Vector256.Create(c.X), Vector256.Create(c.Y), Vector256.Create(c.Z),
         ];
         var before = Search.Face;
-        if (!new TriangleRay(in ray, Search.Error + (leaf.Slack * ray.Scale)).TryIntersect(ref quad[0], ref Search))
+        // From near the triangle: with the way to it grows what rounding hides of a triangle seen nearly edge on.
+        var entry = Measure(in leaf);
+        var near = double.IsFinite(entry) ? ray.Advance(entry) : ray;
+        if (!new TriangleRay(in near, Search.Error + (leaf.Slack * ray.Scale)).TryIntersect(ref quad[0], ref Search))
         {
             Search.Face = before;
             return true;

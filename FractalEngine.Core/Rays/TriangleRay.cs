@@ -21,8 +21,9 @@ internal readonly struct TriangleRay
     // The rounding of a coordinate relative to the origin, as a part of it.
     private const double CoordinateError = 4e-15;
 
-    // The rounding of a direction after some levels of maps, as a part of its length.
-    private const double DirectionError = 1.6e-14;
+    // The rounding of the direction of a query, and that after some levels of maps, as a part of its length.
+    private const double QueryDirectionError = 1e-15;
+    private const double MappedDirectionError = 1.6e-14;
 
     // Of an area that is a smaller part of the squared extent, rounding is too large a part.
     private const double UncertainArea = 1e-3;
@@ -39,6 +40,7 @@ internal readonly struct TriangleRay
     private readonly Vector256<double> _shearY;
     private readonly Vector256<double> _inverseZ;
     private readonly Vector256<double> _widening;
+    private readonly Vector256<double> _directionError;
     private readonly double _start;
 
     /// <summary>Prepares a ray in the frame of the triangles.</summary>
@@ -59,6 +61,7 @@ internal readonly struct TriangleRay
         _shearY = Vector256.Create(ray.Direction.GetElement(_y) * inverse);
         _inverseZ = Vector256.Create(inverse);
         _widening = Vector256.Create(2 * ray.InverseScale * error);
+        _directionError = Vector256.Create(ray.Scale == 1 && ray.InverseScale == 1 ? QueryDirectionError : MappedDirectionError);
         _start = ray.Start;
         _origin = SimdAffineMap.ToVector(ray.Origin);
         _direction = SimdAffineMap.ToVector(ray.Direction);
@@ -147,7 +150,7 @@ internal readonly struct TriangleRay
         // Seen edge on, a triangle has no area but that of rounding, also of the direction, and is not hit. Nor is one without area.
         var depthExtent = Vector256.Abs(az) + Vector256.Abs(bz) + Vector256.Abs(cz);
         var isSeen = Vector256.GreaterThan(
-            Vector256.Abs(sum), (rounding + (Vector256.Create(DirectionError) * depthExtent)) * extent);
+            Vector256.Abs(sum), (rounding + (_directionError * depthExtent)) * extent);
         isUncertain = Vector256.LessThan(Vector256.Abs(sum), Vector256.Create(UncertainArea) * extent * extent);
         // All areas get the sign of a hit; those that have the other one are of edges that the ray passes outside.
         var sign = sum & Vector256.Create(-0.0);
