@@ -26,6 +26,12 @@ internal sealed class FractalRayCaster : RayCaster
     // Beyond it, the rounding of a ray in the frame of a sub-fractal may exceed the margin of its bounds.
     private const double MaxCondition = 1e5;
 
+    // Beyond it, faces that the ray passes by more than 1e-12 of the whole may count as hit.
+    private const double MaxLeafCondition = 100;
+
+    // Of rays that cross a face at a smaller sine, rounding decides where.
+    private const double MinSlope = 1e-4;
+
     private const double MinRadiusInErrors = 8;
 
     // Longer than the way of a ray from its origin through the box of a sub-fractal, in the units of its bounds.
@@ -98,6 +104,23 @@ internal sealed class FractalRayCaster : RayCaster
             return false;
         }
 
+        return Search(in ray, in approached, rootBounds, minRadius, ref search, context, ref pathLength);
+    }
+
+    /// <summary>Searches the whole fractal.</summary>
+    /// <param name="ray">In its frame.</param>
+    /// <param name="approached">The same from where it enters the box.</param>
+    /// <param name="rootBounds">The bounds of the whole fractal.</param>
+    /// <param name="minRadius">Sub-fractals of this radius are replaced by the base mesh.</param>
+    /// <param name="search">Receives the hit and the cost.</param>
+    /// <param name="context">Receives the path to the hit.</param>
+    /// <param name="pathLength">Length of that path.</param>
+    [SkipLocalsInit]
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private bool Search(
+        in LocalRay ray, in LocalRay approached, RayBounds rootBounds, double minRadius, ref RaySearch search, QueryContext context,
+        ref int pathLength)
+    {
         var stack = context.RayStack;
         var depth = 0;
         ref var frame = ref stack[0];
@@ -157,17 +180,14 @@ internal sealed class FractalRayCaster : RayCaster
 
             bool isLeafHit;
             var radius = inner.Scale * bounds.Radius;
-            if (inner.RemainingLevels == 0)
+            if (inner.RemainingLevels != 0 && radius < search.Footprint.RadiusAt(inner.Start))
             {
-                isLeafHit = TestBase(in inner, bounds, ref search);
+                isLeafHit = TryIntersectProxy(depth, in inner, bounds, ref search, context, ref pathLength);
             }
-            else if (radius < search.Footprint.RadiusAt(inner.Start))
+            else if (inner.RemainingLevels == 0 || radius <= minRadius || inner.PathLength >= FractalSearchState.MaxDepth
+                || search.BoundTests >= MaxBoundTests)
             {
-                isLeafHit = TestProxy(bounds, inner.ToLocal(bounds.Box), ref search);
-            }
-            else if (radius <= minRadius || inner.PathLength >= FractalSearchState.MaxDepth || search.BoundTests >= MaxBoundTests)
-            {
-                isLeafHit = TryIntersectBase(inner.ToLocal(bounds.Box), ref search);
+                isLeafHit = TryIntersectLeaf(in ray, depth, in inner, bounds, ref search, context, ref pathLength);
             }
             else
             {
@@ -184,15 +204,10 @@ internal sealed class FractalRayCaster : RayCaster
                 continue;
             }
 
-            if (isLeafHit)
+            isHit |= isLeafHit;
+            if (isLeafHit && search.StopsAtFirst)
             {
-                isHit = true;
-                pathLength = inner.PathLength;
-                stack.CopyPath(depth, context.BestPathBuffer(pathLength)[..pathLength]);
-                if (search.StopsAtFirst)
-                {
-                    return true;
-                }
+                return true;
             }
         }
     }
@@ -256,21 +271,54 @@ internal sealed class FractalRayCaster : RayCaster
     }
 
     /// <summary>Tests the base mesh, stretched to the box of a sub-fractal.</summary>
-    private bool TestProxy(RayBounds bounds, in LocalRay ray, ref RaySearch search)
+    private bool TryIntersectProxy(
+        int depth, in RayFrame frame, RayBounds bounds, ref RaySearch search, QueryContext context, ref int pathLength)
     {
-        var local = ray.Transform(in bounds.InverseProxyMap, 1, 1);
+        var local = frame.ToLocal(bounds.Box).Transform(in bounds.InverseProxyMap, 1, 1);
         if (!_bvh.TryIntersect(in local, ref search))
         {
             return false;
         }
 
         search.Proxy = bounds;
+        pathLength = CopyPath(depth, in frame, context);
         return true;
+    }
+
+    /// <summary>Tests the base mesh at the end of a path.</summary>
+    private bool TryIntersectLeaf(
+        in LocalRay ray, int depth, in RayFrame frame, RayBounds bounds, ref RaySearch search, QueryContext context, ref int pathLength)
+    {
+        var condition = frame.Scale * frame.InverseScale;
+        if (condition > MaxLeafCondition)
+        {
+            // What comes within the rounding of the ray here may be farther from it in the frame of the query, and at another distance.
+            var slack = condition * search.Error / MinSlope;
+            var probe = new RaySearch(search.MinDistance - slack, search.MaxDistance + slack, stopsAtFirst: true, search.Error, default);
+            var mayHit = TestBase(in frame, bounds, ref probe);
+            search.BoundTests += probe.BoundTests;
+            search.FaceTests += probe.FaceTests;
+            return mayHit && TryIntersectFlat(in ray, depth, frame.PathLength, ref search, context, ref pathLength);
+        }
+
+        if (!TestBase(in frame, bounds, ref search))
+        {
+            return false;
+        }
+
+        pathLength = CopyPath(depth, in frame, context);
+        return true;
+    }
+
+    private static int CopyPath(int depth, in RayFrame frame, QueryContext context)
+    {
+        context.RayStack.CopyPath(depth, context.BestPathBuffer(frame.PathLength)[..frame.PathLength]);
+        return frame.PathLength;
     }
 
     private bool TestBase(in RayFrame frame, RayBounds bounds, ref RaySearch search)
     {
-        if (!_basePlanes.IsEmpty)
+        if (frame.RemainingLevels == 0 && !_basePlanes.IsEmpty)
         {
             search.BoundTests++;
             if (!_basePlanes.MayHit(in frame, in search))

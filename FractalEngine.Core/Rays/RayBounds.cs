@@ -173,10 +173,9 @@ internal sealed class RayBounds
     {
         var origin = ray.FloatOrigin;
         var inverse = ray.InverseDirection;
-        var toOrigin = origin * inverse;
         var margin = Vector128.Abs(inverse) * Vector128.Create(widening);
-        var nearShift = -toOrigin - margin;
-        var farShift = margin - toOrigin;
+        var nearShift = Vector128.FusedMultiplyAdd(-origin, inverse, -margin);
+        var farShift = Vector128.FusedMultiplyAdd(-origin, inverse, margin);
         var (ix, iy, iz) = (Vector256.Create(inverse[0]), Vector256.Create(inverse[1]), Vector256.Create(inverse[2]));
         var (nearX, nearY, nearZ) = (Vector256.Create(nearShift[0]), Vector256.Create(nearShift[1]), Vector256.Create(nearShift[2]));
         var (farX, farY, farZ) = (Vector256.Create(farShift[0]), Vector256.Create(farShift[1]), Vector256.Create(farShift[2]));

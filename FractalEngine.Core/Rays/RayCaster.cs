@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
@@ -17,9 +18,12 @@ namespace FractalEngine.Core.Rays;
 /// </remarks>
 public abstract class RayCaster
 {
-    // Lengths whose squares are accurate.
-    private const double MinLength = 1e-100;
-    private const double MaxLength = 1e100;
+    // Squares of lengths that are accurate.
+    private const double MinSquaredLength = 1e-200;
+    private const double MaxSquaredLength = 1e200;
+
+    // What rounding leaves of the square of a unit vector.
+    private const double UnitError = 1e-15;
 
     private static readonly AffineMap Identity = AffineMap.Identity;
 
@@ -84,10 +88,18 @@ public abstract class RayCaster
     {
         ArgumentNullException.ThrowIfNull(context);
         var direction = CheckedUnitDirection(in ray, minDistance, maxDistance);
-        var search = Search(ray.Origin, direction, minDistance, maxDistance, stopsAtFirst: false, footprint, context, out var pathLength);
-        hit = search.Face < 0 ? default : RayHitFactory.Create(
+        var search = new RaySearch(
+            minDistance, maxDistance, stopsAtFirst: false, RoundingError(ray.Origin, minDistance, MaxCoordinate), footprint);
+        var pathLength = 0;
+        if (!TrySearch(ray.Origin, direction, minDistance, ref search, context, ref pathLength))
+        {
+            hit = default;
+            return false;
+        }
+
+        hit = RayHitFactory.Create(
             ray.Origin, direction, in search, minDistance, maxDistance, Mesh, ResolveInstance(in search, pathLength, in Identity, context));
-        return search.Face >= 0;
+        return true;
     }
 
     /// <summary>Finds the nearest face that a ray hits; null for none.</summary>
@@ -114,7 +126,10 @@ public abstract class RayCaster
     {
         ArgumentNullException.ThrowIfNull(context);
         var direction = CheckedUnitDirection(in ray, minDistance, maxDistance);
-        return Search(ray.Origin, direction, minDistance, maxDistance, stopsAtFirst: true, footprint, context, out _).Face >= 0;
+        var search = new RaySearch(
+            minDistance, maxDistance, stopsAtFirst: true, RoundingError(ray.Origin, minDistance, MaxCoordinate), footprint);
+        var pathLength = 0;
+        return TrySearch(ray.Origin, direction, minDistance, ref search, context, ref pathLength);
     }
 
     /// <summary>Searches along a ray.</summary>
@@ -140,11 +155,28 @@ public abstract class RayCaster
     /// <param name="origin">Origin of the ray.</param>
     /// <param name="start">Distance at which it starts.</param>
     /// <param name="maxCoordinate">The largest absolute coordinate of the shape.</param>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static double RoundingError(Vector origin, double start, double maxCoordinate) =>
         Collider.RoundingError * (origin.MaxAbsComponent() + start + maxCoordinate);
 
     /// <summary>Checks the arguments of a query, and returns the direction of length 1.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     internal static Vector CheckedUnitDirection(in Ray ray, double minDistance, double maxDistance)
+    {
+        var squared = ray.Direction.LengthSquared();
+        // The product is NaN unless the origin is finite.
+        var isPlain = 0 * (ray.Origin.X + ray.Origin.Y + ray.Origin.Z) == 0 && squared is > MinSquaredLength and < MaxSquaredLength
+            && minDistance >= 0 && maxDistance >= 0;
+        if (!isPlain)
+        {
+            return CheckedUnitDirectionOfAny(in ray, minDistance, maxDistance);
+        }
+
+        return Math.Abs(squared - 1) <= UnitError ? ray.Direction : (1 / Math.Sqrt(squared)) * ray.Direction;
+    }
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static Vector CheckedUnitDirectionOfAny(in Ray ray, double minDistance, double maxDistance)
     {
         if (!ray.Origin.IsFinite())
         {
@@ -168,23 +200,18 @@ public abstract class RayCaster
         }
 
         // Squares of any double stay within range after the division, and components that vanish beside others become 0.
-        var direction = largest is > MinLength and < MaxLength ? ray.Direction : ray.Direction / largest;
+        var direction = ray.Direction / largest;
         return (1 / direction.Length()) * direction;
     }
 
-    private RaySearch Search(
-        Vector origin, Vector unitDirection, double minDistance, double maxDistance, bool stopsAtFirst, RayFootprint footprint,
-        QueryContext context, out int pathLength)
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private bool TrySearch(
+        Vector origin, Vector unitDirection, double start, ref RaySearch search, QueryContext context, ref int pathLength)
     {
         context.ClearPath();
-        pathLength = 0;
-        var ray = LocalRay.Of(origin, unitDirection, minDistance);
-        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, RoundingError(origin, minDistance, MaxCoordinate))
-        {
-            Footprint = footprint,
-        };
-        TryIntersect(in ray, ref search, context, ref pathLength);
+        var ray = LocalRay.Of(origin, unitDirection, start);
+        var isHit = TryIntersect(in ray, ref search, context, ref pathLength);
         search.AddTo(context.Statistics);
-        return search;
+        return isHit;
     }
 }

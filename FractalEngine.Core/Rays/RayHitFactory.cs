@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -19,27 +20,92 @@ internal static class RayHitFactory
         Vector origin, Vector direction, in RaySearch search, double minDistance, double maxDistance,
         Mesh mesh, in SimdAffineMap map)
     {
-        var distance = search.MaxDistance;
         var (a, b, c) = mesh.Face(search.Face);
         (a, b, c) = (map.Apply(a), map.Apply(b), map.Apply(c));
-        var normal = TriangleKernel.UnitNormal(a, b, c);
-        distance = TrianglePlane.Correct(origin, direction, distance, a, b, c);
-        distance = Math.Min(Math.Max(distance, minDistance), maxDistance);
+        var (ab, ac) = (b - a, c - a);
+        var cross = Vector.Cross(ab, ac);
+        var squared = cross.LengthSquared();
+        var isWellShaped = TrianglePlane.IsWellShaped(ab, ac, squared);
+        var normal = isWellShaped ? cross / Math.Sqrt(squared) : TriangleKernel.UnitNormal(a, b, c);
+        var isSteep = TrianglePlane.IsSteep(direction, normal);
+        var distance = !isSteep ? search.MaxDistance
+            : isWellShaped ? TrianglePlane.Correct(origin, direction, search.MaxDistance, a, normal)
+            : TrianglePlane.Correct(origin, direction, search.MaxDistance, a, b, c);
         var point = origin + (distance * direction);
-        var weights = Barycentrics(point, a, b, c);
-        if (!(Math.Min(weights.X, Math.Min(weights.Y, weights.Z)) >= 0))
+        var weights = isWellShaped ? Barycentrics(point - a, ab, ac, cross, squared) : Barycentrics(point, a, b, c);
+        if (!isSteep || !(Math.Min(weights.X, Math.Min(weights.Y, weights.Z)) >= 0))
         {
-            // Outside by rounding: the nearest point of the triangle.
-            weights = TriangleKernel.ClosestPoint(point, a, b, c).Barycentrics;
+            (distance, weights) = NearestApproach(origin, direction, search.MaxDistance, distance, a, b, c);
         }
 
+        if (!(distance >= minDistance && distance <= maxDistance))
+        {
+            distance = Math.Min(Math.Max(distance, minDistance), maxDistance);
+            weights = TriangleKernel.ClosestPoint(origin + (distance * direction), a, b, c).Barycentrics;
+        }
+
+        point = origin + (distance * direction);
         return new(distance, point, normal, Vector.Dot(normal, direction) < 0, weights, search.Face)
         {
             InstanceMap = map.ToAffineMap(),
         };
     }
 
-    /// <summary>Computes the weights of the corners at a point in the plane of the triangle.</summary>
+    /// <summary>
+    /// Finds where a ray that grazes a triangle, or passes beside it by rounding, is nearest to it: where the search has found it, where it
+    /// crosses the plane, or where it passes an edge.
+    /// </summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static (double Distance, Vector Weights) NearestApproach(
+        Vector origin, Vector direction, double searchDistance, double planeDistance, Vector a, Vector b, Vector c)
+    {
+        ReadOnlySpan<double> distances =
+        [
+            planeDistance, searchDistance, DistanceToEdge(origin, direction, a, b), DistanceToEdge(origin, direction, b, c),
+            DistanceToEdge(origin, direction, c, a),
+        ];
+        var (best, weights, least) = (searchDistance, Vector.I, double.PositiveInfinity);
+        foreach (var distance in distances)
+        {
+            var point = origin + (distance * direction);
+            var nearest = TriangleKernel.ClosestPoint(point, a, b, c);
+            var apart = (nearest.Point - point).MaxAbsComponent();
+            if (apart < least)
+            {
+                (best, weights, least) = (distance, nearest.Barycentrics, apart);
+            }
+        }
+
+        return (best, weights);
+    }
+
+    /// <summary>Computes the distance at which a ray is nearest to an edge.</summary>
+    private static double DistanceToEdge(Vector origin, Vector direction, Vector start, Vector end)
+    {
+        var size = (end - start).MaxAbsComponent();
+        if (!(size > 0))
+        {
+            return Vector.Dot(start - origin, direction);
+        }
+
+        var (edge, toStart) = ((end - start) / size, (start - origin) / size);
+        var along = Vector.Dot(edge, direction);
+        var across = edge - (along * direction);
+        var place = -Vector.Dot(toStart - (Vector.Dot(toStart, direction) * direction), across) / across.LengthSquared();
+        // Along the ray, all places of the edge are as near.
+        place = place >= 0 ? Math.Min(place, 1) : 0;
+        return Vector.Dot(toStart + (place * edge), direction) * size;
+    }
+
+    /// <summary>Computes the weights of the corners at a point in the plane of a well-shaped triangle, as parts of its area.</summary>
+    private static Vector Barycentrics(Vector fromA, Vector ab, Vector ac, Vector cross, double squared)
+    {
+        var weightB = Vector.Dot(Vector.Cross(fromA, ac), cross) / squared;
+        var weightC = Vector.Dot(Vector.Cross(ab, fromA), cross) / squared;
+        return new(1 - weightB - weightC, weightB, weightC);
+    }
+
+    /// <summary>Computes the weights of the corners at a point in the plane of any triangle.</summary>
     /// <remarks>From the height above the longest edge and the place along it: so the weights give the point of a needle, too.</remarks>
     private static Vector Barycentrics(Vector point, Vector a, Vector b, Vector c)
     {

@@ -7,7 +7,8 @@ namespace FractalEngine.Core.Rays;
 /// <param name="maxDistance">Largest distance of a hit.</param>
 /// <param name="stopsAtFirst">True to end at the first hit, whichever it is.</param>
 /// <param name="error">Upper bound of how far rounding moves a point of the ray or of a target, in the frame of the query.</param>
-internal struct RaySearch(double minDistance, double maxDistance, bool stopsAtFirst, double error)
+/// <param name="footprint">What is smaller need not be told apart.</param>
+internal struct RaySearch(double minDistance, double maxDistance, bool stopsAtFirst, double error, RayFootprint footprint)
 {
     /// <summary>Smallest distance of a hit.</summary>
     public readonly double MinDistance = minDistance - error;
@@ -18,8 +19,8 @@ internal struct RaySearch(double minDistance, double maxDistance, bool stopsAtFi
     /// <summary>True to end at the first hit, whichever it is.</summary>
     public readonly bool StopsAtFirst = stopsAtFirst;
 
-    /// <summary>What is smaller need not be told apart; nothing unless stated.</summary>
-    public RayFootprint Footprint;
+    /// <summary>What is smaller need not be told apart.</summary>
+    public readonly RayFootprint Footprint = footprint;
 
     /// <summary>The sub-fractal whose proxy was hit last; null where it was a face of the fractal itself.</summary>
     public RayBounds? Proxy;

@@ -128,10 +128,7 @@ public sealed class SceneRayCaster
         found = null;
         pathLength = 0;
         var error = RayCaster.RoundingError(origin, minDistance, BoundingVolume.MaxAbsCoordinate(_bounds));
-        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, error)
-        {
-            Footprint = footprint,
-        };
+        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, error, footprint);
         if (_objects is not null)
         {
             var ray = LocalRay.Of(origin, unitDirection, minDistance);

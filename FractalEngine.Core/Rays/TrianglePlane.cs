@@ -12,6 +12,17 @@ internal static class TrianglePlane
     // Squared sine of the angle at the first corner below which a triangle counts as thin.
     private const double ThinSineSquared = 1e-2;
 
+    // Between them, squares of areas and their parts keep all digits.
+    private const double MinSquared = 1e-200;
+    private const double MaxSquared = 1e200;
+
+    /// <summary>Tells whether the cross product of two edges gives the plane and the weights of the corners with all digits.</summary>
+    /// <param name="ab">From the first corner to the second.</param>
+    /// <param name="ac">From the first corner to the third.</param>
+    /// <param name="squared">The squared length of their cross product.</param>
+    public static bool IsWellShaped(Vector ab, Vector ac, double squared) =>
+        squared is > MinSquared and < MaxSquared && squared > ThinSineSquared * (ab.LengthSquared() * ac.LengthSquared());
+
     /// <summary>Tells whether a triangle is so thin that the weights of its corners lose digits.</summary>
     public static bool IsThin(Vector a, Vector b, Vector c)
     {
@@ -32,9 +43,8 @@ internal static class TrianglePlane
     public static double Correct(Vector origin, Vector direction, double parameter, Vector a, Vector b, Vector c)
     {
         var normal = TriangleKernel.UnitNormal(a, b, c);
-        var slope = Vector.Dot(normal, direction);
         var longest = LongestEdge(a, b, c);
-        if (!(Math.Abs(slope) > MinSine * direction.MaxAbsComponent()) || !(longest.Edge.MaxAbsComponent() > 0))
+        if (!IsSteep(direction, normal) || !(longest.Edge.MaxAbsComponent() > 0))
         {
             return parameter;
         }
@@ -46,12 +56,26 @@ internal static class TrianglePlane
             var edge = longest.Edge / longest.Edge.MaxAbsComponent();
             normal -= Vector.Dot(normal, edge) / edge.LengthSquared() * edge;
             corner = longest.Corner;
-            slope = Vector.Dot(normal, direction);
         }
 
-        // From a point near the triangle, so that what a far origin rounds away does not count.
-        return parameter + (Vector.Dot(normal, corner - (origin + (parameter * direction))) / slope);
+        return Correct(origin, direction, parameter, corner, normal);
     }
+
+    /// <summary>Tells whether a ray crosses a plane so steeply that rounding of the plane matters less than that of areas.</summary>
+    /// <param name="direction">Its direction, of any length.</param>
+    /// <param name="normal">The unit normal.</param>
+    public static bool IsSteep(Vector direction, Vector normal) =>
+        Math.Abs(Vector.Dot(normal, direction)) > MinSine * direction.MaxAbsComponent();
+
+    /// <summary>Corrects the parameter at which a ray crosses the plane of a well-shaped triangle, steeply.</summary>
+    /// <param name="origin">Origin of the ray.</param>
+    /// <param name="direction">Its direction, of any length.</param>
+    /// <param name="parameter">About where it crosses the triangle.</param>
+    /// <param name="corner">A corner.</param>
+    /// <param name="normal">The unit normal.</param>
+    public static double Correct(Vector origin, Vector direction, double parameter, Vector corner, Vector normal) =>
+        // From a point near the triangle, so that what a far origin rounds away does not count.
+        parameter + (Vector.Dot(normal, corner - (origin + (parameter * direction))) / Vector.Dot(normal, direction));
 
     private static (Vector Corner, Vector Edge) LongestEdge(Vector a, Vector b, Vector c)
     {

@@ -128,7 +128,7 @@ internal readonly struct TriangleRay
 
     /// <summary>Computes the distances of four triangles along the ray; NaN or infinite where it misses them.</summary>
     /// <param name="quad">The triangles.</param>
-    /// <param name="isUncertain">All bits set where the area is so small that rounding moves the distance.</param>
+    /// <param name="isUncertain">All bits set inside a triangle whose area is so small that rounding moves the distance.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private Vector256<double> Distances(ref Vector256<double> quad, out Vector256<double> isUncertain)
     {
@@ -151,7 +151,7 @@ internal readonly struct TriangleRay
         var depthExtent = Vector256.Abs(az) + Vector256.Abs(bz) + Vector256.Abs(cz);
         var isSeen = Vector256.GreaterThan(
             Vector256.Abs(sum), (rounding + (_directionError * depthExtent)) * extent);
-        isUncertain = Vector256.LessThan(Vector256.Abs(sum), Vector256.Create(UncertainArea) * extent * extent);
+        var isSmall = Vector256.LessThan(Vector256.Abs(sum), Vector256.Create(UncertainArea) * extent * extent);
         // All areas get the sign of a hit; those that have the other one are of edges that the ray passes outside.
         var sign = sum & Vector256.Create(-0.0);
         (u, v, w) = (u ^ sign, v ^ sign, w ^ sign);
@@ -159,6 +159,8 @@ internal readonly struct TriangleRay
         (u, v, w) = (
             Vector256.MaxNative(u, Vector256<double>.Zero), Vector256.MaxNative(v, Vector256<double>.Zero),
             Vector256.MaxNative(w, Vector256<double>.Zero));
+        // Where a ray passes beside a face, it may cross the plane far from there.
+        isUncertain = isSmall & isInside;
         // Beside an edge the point on it counts, if the ray passes it by no more than its rounding.
         sum = u + v + w;
         var reach = (_widening + rounding) * sum;
