@@ -8,6 +8,9 @@ namespace FractalEngine.Core.Rays;
 /// <summary>Completes the nearest triangle of a search to the result of a query, in the frame of the ray.</summary>
 internal static class RayHitFactory
 {
+    // How far off a triangle a point of it may be, in units of the rounding of a coordinate.
+    private const double ErrorFactor = 8;
+
     /// <summary>Creates the result for a triangle.</summary>
     /// <param name="origin">Origin of the ray.</param>
     /// <param name="direction">Its direction, of length 1.</param>
@@ -35,7 +38,7 @@ internal static class RayHitFactory
         var weights = isWellShaped ? Barycentrics(point - a, ab, ac, cross, squared) : Barycentrics(point, a, b, c);
         if (!isSteep || !(Math.Min(weights.X, Math.Min(weights.Y, weights.Z)) >= 0))
         {
-            (distance, weights) = NearestApproach(origin, direction, search.MaxDistance, distance, a, b, c);
+            (distance, weights) = NearestApproach(origin, direction, in search, distance, a, b, c);
         }
 
         if (!(distance >= minDistance && distance <= maxDistance))
@@ -57,20 +60,22 @@ internal static class RayHitFactory
     /// </summary>
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static (double Distance, Vector Weights) NearestApproach(
-        Vector origin, Vector direction, double searchDistance, double planeDistance, Vector a, Vector b, Vector c)
+        Vector origin, Vector direction, in RaySearch search, double planeDistance, Vector a, Vector b, Vector c)
     {
         ReadOnlySpan<double> distances =
         [
-            planeDistance, searchDistance, DistanceToEdge(origin, direction, a, b), DistanceToEdge(origin, direction, b, c),
+            planeDistance, search.MaxDistance, DistanceToEdge(origin, direction, a, b), DistanceToEdge(origin, direction, b, c),
             DistanceToEdge(origin, direction, c, a),
         ];
-        var (best, weights, least) = (searchDistance, Vector.I, double.PositiveInfinity);
+        var rounding = ErrorFactor * search.Error;
+        var (best, weights, least) = (search.MaxDistance, Vector.I, double.PositiveInfinity);
         foreach (var distance in distances)
         {
             var point = origin + (distance * direction);
             var nearest = TriangleKernel.ClosestPoint(point, a, b, c);
             var apart = (nearest.Point - point).MaxAbsComponent();
-            if (apart < least)
+            // What search has found goes before another place along the same edge.
+            if (apart < least && least > rounding)
             {
                 (best, weights, least) = (distance, nearest.Barycentrics, apart);
             }
