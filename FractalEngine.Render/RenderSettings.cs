@@ -58,7 +58,7 @@ public sealed record RenderSettings
     public bool ReuseBuffers { get; init; } = true;
 
     /// <summary>Points of a surface at which lighting is computed.</summary>
-    public Shading Shading { get; init; }
+    public Shading Shading { get; init; } = Shading.PerPixel;
 
     /// <summary>Draws only the edges of the triangles.</summary>
     public bool Wireframe { get; init; }

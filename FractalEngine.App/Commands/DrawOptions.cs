@@ -44,7 +44,7 @@ internal sealed class DrawOptions
         + string.Create(CultureInfo.InvariantCulture, $"(default: {DefaultCulling.MinProjectedSize}); 0 draws every instance."));
 
     private readonly Option<Shading?> _shading = WordOption.Single(
-        "--shading", "Compute the lighting at each vertex or at each pixel (default: vertex).",
+        "--shading", "Compute the lighting at each vertex or at each pixel (default: pixel).",
         ("vertex", Shading.PerVertex), ("pixel", Shading.PerPixel));
 
     private readonly Option<Optimisation[]> _disabled = WordOption.Repeatable(

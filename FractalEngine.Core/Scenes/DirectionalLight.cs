@@ -7,7 +7,7 @@ namespace FractalEngine.Core.Scenes;
 /// <param name="Direction">The direction in which the light travels, world space, of any length but 0.</param>
 /// <param name="Colour">sRGB.</param>
 /// <param name="Intensity">Not negative.</param>
-public sealed record DirectionalLight(Vector Direction, Colour Colour, double Intensity) : Light(Colour, Intensity)
+public record DirectionalLight(Vector Direction, Colour Colour, double Intensity) : Light(Colour, Intensity)
 {
     /// <summary>The direction in which the light travels, world space, of any length but 0.</summary>
     /// <exception cref="ArgumentException">The direction is (0, 0, 0) or not finite.</exception>

@@ -51,7 +51,26 @@ public sealed record Scene
     /// <summary>The colour behind everything; null for the default.</summary>
     public Colour? Background { get; init; }
 
-    /// <summary>The lights, in the order of the file; a scene without any gets default lights.</summary>
+    /// <summary>The sky, seen behind everything where there is no <see cref="Background"/>, and a light; null for none.</summary>
+    public Sky? Sky { get; init; }
+
+    /// <summary>Factor of all light before it is shown, positive.</summary>
+    /// <exception cref="ArgumentException">The factor is not positive and finite.</exception>
+    public double Exposure
+    {
+        get;
+        init => field = value is > 0 and < double.PositiveInfinity
+            ? value
+            : throw new ArgumentException("expected a positive and finite exposure", nameof(Exposure));
+    } = 1;
+
+    /// <summary>How light becomes what the screen shows; as it is unless stated otherwise.</summary>
+    public Tone Tone { get; init; }
+
+    /// <summary>Haze between the eye and surfaces; null for clear air.</summary>
+    public Fog? Fog { get; init; }
+
+    /// <summary>The lights, in the order of the file; a scene without any and without a sky gets default lights.</summary>
     public ImmutableArray<Light> Lights { get; init; } = [];
 
     /// <summary>The objects, in the order of the file, physics objects among them.</summary>
@@ -67,7 +86,8 @@ public sealed record Scene
     public bool Equals(Scene? other) =>
         other is not null && Camera == other.Camera && Projection == other.Projection
         && OrthographicHeight.Equals(other.OrthographicHeight) && Aspect.Equals(other.Aspect) && Clip.Equals(other.Clip)
-        && Background == other.Background && Lights.SequenceEqual(other.Lights) && Objects.SequenceEqual(other.Objects)
+        && Background == other.Background && Sky == other.Sky && Exposure.Equals(other.Exposure) && Tone == other.Tone
+        && Fog == other.Fog && Lights.SequenceEqual(other.Lights) && Objects.SequenceEqual(other.Objects)
         && Gravity == other.Gravity && Player == other.Player && Handedness == other.Handedness;
 
     /// <inheritdoc/>

@@ -21,7 +21,19 @@ public enum SceneDeclarationKind
     /// <summary>Colour of the background: <c>background (r, g, b)</c>.</summary>
     Background,
 
-    /// <summary>Declaration of one light: <c>light kind …</c>.</summary>
+    /// <summary>Light and background from all around: <c>sky (zenith) (horizon) [ground]</c>.</summary>
+    Sky,
+
+    /// <summary>Factor of all light: <c>exposure factor</c>.</summary>
+    Exposure,
+
+    /// <summary>Curve from light to the screen: <c>tone none</c> or <c>tone filmic</c>.</summary>
+    Tone,
+
+    /// <summary>Haze before distant surfaces: <c>fog density [colour]</c>.</summary>
+    Fog,
+
+    /// <summary>Declaration of one light: <c>light kind …</c> or <c>sun …</c>.</summary>
     Light,
 
     /// <summary>Acceleration of all bodies: <c>gravity (x, y, z)</c>.</summary>

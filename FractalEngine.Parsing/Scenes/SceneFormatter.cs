@@ -33,6 +33,10 @@ internal static class SceneFormatter
         SceneDeclarationKind.Aspect => scene.Aspect is { } aspect ? $"aspect {FormatNumber(aspect)}" : null,
         SceneDeclarationKind.Clip => scene.Clip is var (near, far) ? $"clip {FormatNumber(near)} {FormatNumber(far)}" : null,
         SceneDeclarationKind.Background => scene.Background is { } background ? $"background {background}" : null,
+        SceneDeclarationKind.Sky => scene.Sky is { } sky ? Join("sky", $"{sky.Zenith} {sky.Horizon}", sky.Ground?.ToString()) : null,
+        SceneDeclarationKind.Exposure => AreBitEqual(scene.Exposure, 1) ? null : $"exposure {FormatNumber(scene.Exposure)}",
+        SceneDeclarationKind.Tone => scene.Tone == Tone.Filmic ? "tone filmic" : null,
+        SceneDeclarationKind.Fog => scene.Fog is { } fog ? Join("fog", FormatNumber(fog.Density), fog.Colour?.ToString()) : null,
         SceneDeclarationKind.Gravity => AreBitEqual(scene.Gravity, Scene.DefaultGravity) ? null : $"gravity {scene.Gravity}",
         SceneDeclarationKind.Player => scene.Player is { } player ? Format(player) : null,
         SceneDeclarationKind.Light => index < scene.Lights.Length ? Format(scene.Lights[index]) : null,
@@ -43,6 +47,7 @@ internal static class SceneFormatter
     private static string Format(Light light) => light switch
     {
         AmbientLight => $"light ambient {light.Colour} {FormatNumber(light.Intensity)}",
+        SunLight sun => $"sun {sun.Direction} {sun.Colour} {FormatNumber(sun.Intensity)} {FormatNumber(sun.Diameter)}",
         DirectionalLight directional => $"light directional {directional.Direction} {light.Colour} {FormatNumber(light.Intensity)}",
         SpotLight spot => $"light spot {spot.Position} {spot.Direction} {FormatNumber(spot.Angle)} "
             + $"{light.Colour} {FormatNumber(light.Intensity)} {FormatNumber(spot.Range)}",

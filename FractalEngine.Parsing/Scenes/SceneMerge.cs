@@ -5,7 +5,8 @@ namespace FractalEngine.Parsing.Scenes;
 
 /// <summary>
 /// Merges changes of a scene into the text of its file as it is now, line by line. It knows the declarations that a scene has at most
-/// once: camera, projection, aspect, clip planes, background, gravity, player and handedness. All other lines are those of the file.
+/// once: camera, projection, aspect, clip planes, background, sky, exposure,
+/// tone, fog, gravity, player and handedness. All other lines are those of the file.
 /// </summary>
 /// <remarks>
 /// A declaration is found by its first word, wherever its line stands. So a file that is broken elsewhere can be merged too, and no
@@ -14,7 +15,7 @@ namespace FractalEngine.Parsing.Scenes;
 public static class SceneMerge
 {
     private static readonly ImmutableHashSet<string> UniqueWords =
-        ["c", "projection", "aspect", "clip", "background", "gravity", "player", "handed"];
+        ["c", "projection", "aspect", "clip", "background", "sky", "exposure", "tone", "fog", "gravity", "player", "handed"];
 
     /// <summary>Merges the changes from one text to another into a third.</summary>
     /// <param name="original">Text that both sides began with.</param>

@@ -97,6 +97,11 @@ public sealed partial class SceneParser : SceneValueParser
         || ParseDeclaration(cursor, "clip", SceneDeclarationKind.Clip, ParseClip, out kind, out rest)
         || ParseDeclaration(cursor, "background", SceneDeclarationKind.Background, ParseBackground, out kind, out rest)
         || ParseDeclaration(cursor, "light", SceneDeclarationKind.Light, ParseLight, out kind, out rest)
+        || ParseDeclaration(cursor, "sun", SceneDeclarationKind.Light, ParseSun, out kind, out rest)
+        || ParseDeclaration(cursor, "sky", SceneDeclarationKind.Sky, ParseSky, out kind, out rest)
+        || ParseDeclaration(cursor, "exposure", SceneDeclarationKind.Exposure, ParseExposure, out kind, out rest)
+        || ParseDeclaration(cursor, "tone", SceneDeclarationKind.Tone, ParseTone, out kind, out rest)
+        || ParseDeclaration(cursor, "fog", SceneDeclarationKind.Fog, ParseFog, out kind, out rest)
         || ParseDeclaration(cursor, "gravity", SceneDeclarationKind.Gravity, ParseGravity, out kind, out rest)
         || ParseDeclaration(cursor, "player", SceneDeclarationKind.Player, ParsePlayer, out kind, out rest);
 

@@ -14,11 +14,11 @@ internal sealed class LightBlock : IDisposable
     /// <summary>Maximum number of directional, point and spot lights. Ambient lights are added up and don't count.</summary>
     public const int MaxLights = 16;
 
-    private const int HeaderFloats = 12;
+    private const int HeaderFloats = 24;
     private const int FloatsPerLight = 16;
 
     private readonly ImmutableArray<Light> _lights;
-    private readonly bool _usesDefaultLights;
+    private readonly double _fogDensity;
     private readonly RedundancyFilter _uploadFilter;
     private readonly GlBuffer _buffer;
     private readonly float[] _data = new float[HeaderFloats + (MaxLights * FloatsPerLight)];
@@ -29,14 +29,44 @@ internal sealed class LightBlock : IDisposable
     /// <param name="scene">Scene that declares lights, or whose bounds place the default ones.</param>
     public LightBlock(GlResources resources, LoadedScene scene)
     {
-        var lights = scene.Scene.Lights;
         _uploadFilter = resources.UploadFilter;
-        _usesDefaultLights = lights.IsEmpty;
-        var usedLights = _usesDefaultLights ? DefaultLights(scene.Bounds, scene.Scene.Handedness) : lights;
-        _lights = [.. usedLights.Where(light => light is not AmbientLight).Take(MaxLights)];
+        _lights = LightsOf(scene);
         _buffer = new(resources, "lights", BufferTarget.UniformBuffer);
-        WriteAmbient(lights);
+        _fogDensity = scene.Scene.Fog?.Density ?? 0;
+        var display = DisplayTransform.Of(scene.Scene);
+        WriteAmbient(SceneAmbient.Of(scene.Scene));
+        WriteVector(new(display.Exposure, display.Tone == Tone.Filmic ? 1 : 0, _fogDensity), 0, _data.AsSpan(16));
+        WriteVector(FogColour(scene.Scene), 0, _data.AsSpan(20));
+        HasAtmosphere = !display.IsIdentity || _fogDensity > 0;
         MemoryMarshal.Cast<float, int>(_data.AsSpan(8))[0] = _lights.Length;
+    }
+
+    /// <summary>Whether surfaces are shown through haze, an exposure or a tone curve.</summary>
+    public bool HasAtmosphere { get; }
+
+    /// <summary>
+    /// Returns the lights of a scene that shine from somewhere, the first <see cref="MaxLights"/> of them: those that it declares, or the
+    /// default ones.
+    /// </summary>
+    public static ImmutableArray<Light> LightsOf(LoadedScene scene)
+    {
+        var lights = SceneAmbient.UsesDefaultLights(scene.Scene)
+            ? DefaultLights(scene.Bounds, scene.Scene.Handedness)
+            : scene.Scene.Lights;
+        return [.. lights.Where(static light => light is not AmbientLight).Take(MaxLights)];
+    }
+
+    /// <summary>Returns the linear light that haze shines with: its own colour, or what stands at the horizon.</summary>
+    public static Vector FogColour(Scene scene)
+    {
+        if (scene is { Fog.Colour: null, Sky: { } sky })
+        {
+            return sky.HorizonRadiance;
+        }
+
+        var (red, green, blue) = (scene.Fog?.Colour ?? scene.Background ?? RenderSettings.DefaultBackground).ToLinear();
+        var colour = new Vector(red, green, blue);
+        return scene.Fog?.Colour is null ? DisplayTransform.Of(scene).Invert(colour) : colour;
     }
 
     /// <summary>
@@ -64,7 +94,7 @@ internal sealed class LightBlock : IDisposable
     public void Bind(int bindingPoint, Vector cameraPosition, double unitsPerSceneUnit)
     {
         var isRedundant = _lastKey is { } last
-            && (last == (cameraPosition, unitsPerSceneUnit) || !_lights.Any(static light => light is PointLight));
+            && (last == (cameraPosition, unitsPerSceneUnit) || !(_fogDensity > 0 || _lights.Any(static light => light is PointLight)));
         if (_uploadFilter.ShouldPerform(isRedundant))
         {
             for (var i = 0; i < _lights.Length; i++)
@@ -73,6 +103,7 @@ internal sealed class LightBlock : IDisposable
                 WriteLight(_lights[i], cameraPosition, unitsPerSceneUnit, target);
             }
 
+            _data[18] = (float)(_fogDensity / unitsPerSceneUnit);
             _buffer.Upload<float>(_data, BufferUsageHint.DynamicDraw);
             _lastKey = (cameraPosition, unitsPerSceneUnit);
         }
@@ -115,30 +146,10 @@ internal sealed class LightBlock : IDisposable
     private static void WriteVector(Vector v, double w, Span<float> target) =>
         (target[0], target[1], target[2], target[3]) = ((float)v.X, (float)v.Y, (float)v.Z, (float)w);
 
-    /// <summary>Adds up the ambient lights that a scene declares. A scene without any light has that of a sky over dry ground.</summary>
-    /// <param name="lights">The lights that the scene declares.</param>
-    /// <returns>Linear light from above and from below; the same unless it is the default.</returns>
-    public static (Vector Sky, Vector Ground) AmbientColours(ImmutableArray<Light> lights)
+    private void WriteAmbient(SceneAmbient ambient)
     {
-        if (lights.IsEmpty)
-        {
-            return (new(0.23, 0.245, 0.28), new(0.11, 0.10, 0.095));
-        }
-
-        var sum = Vector.Zero;
-        foreach (var light in lights.OfType<AmbientLight>())
-        {
-            var (red, green, blue) = light.Colour.ToLinear();
-            sum += light.Intensity * new Vector(red, green, blue);
-        }
-
-        return (sum, sum);
-    }
-
-    private void WriteAmbient(ImmutableArray<Light> lights)
-    {
-        var (sky, ground) = AmbientColours(lights);
-        WriteVector(sky, 0, _data);
-        WriteVector(ground, 0, _data.AsSpan(4));
+        WriteVector(ambient.Above, 0, _data);
+        WriteVector(ambient.Below, 0, _data.AsSpan(4));
+        WriteVector(ambient.Curvature, 0, _data.AsSpan(12));
     }
 }

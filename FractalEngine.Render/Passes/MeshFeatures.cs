@@ -32,4 +32,7 @@ internal enum MeshFeatures
 
     /// <summary>Light that the surface emits.</summary>
     Emissive = 128,
+
+    /// <summary>Haze, exposure or a tone curve between the surface and the screen.</summary>
+    Atmosphere = 256,
 }

@@ -15,7 +15,7 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     /// <summary>Binding point of the uniform block <c>LightBlock</c>.</summary>
     public const int LightBinding = 1;
 
-    private const int FeatureCombinations = 256;
+    private const int FeatureCombinations = 512;
     private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);
 
     // Indexed by features. Each program is built when it is first needed.
@@ -24,15 +24,15 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     // Number of the frame whose view each program has.
     private readonly long[] _lastFrameOfProgram = new long[FeatureCombinations];
     private long _frameNumber;
-    private (FrameView Frame, bool Wireframe, Shading Shading)? _frameState;
+    private (FrameView Frame, bool Wireframe, MeshFeatures Features)? _frameState;
 
     /// <summary>Begins drawing the meshes of a frame.</summary>
     /// <param name="frame">View of the frame.</param>
     /// <param name="wireframe">Whether light grey edges are drawn instead of lit surfaces.</param>
-    /// <param name="shading">Points of a surface at which lighting is computed.</param>
-    public void Begin(in FrameView frame, bool wireframe, Shading shading)
+    /// <param name="features">Features of all surfaces of the frame, unless it shows edges.</param>
+    public void Begin(in FrameView frame, bool wireframe, MeshFeatures features)
     {
-        _frameState = (frame, wireframe, shading);
+        _frameState = (frame, wireframe, wireframe ? MeshFeatures.None : features);
         _frameNumber++;
         GlShim.SetWireframe(wireframe);
     }
@@ -48,8 +48,8 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     /// <exception cref="GlException">The driver refuses the program.</exception>
     public void UseMaterial(DrawableMaterial? material, Colour tint, MeshFeatures instanceFeatures)
     {
-        var (frame, wireframe, shading) = _frameState ?? throw new InvalidOperationException("no frame was begun");
-        var features = instanceFeatures | (wireframe ? MeshFeatures.None : FeaturesOf(material, shading));
+        var (frame, wireframe, frameFeatures) = _frameState ?? throw new InvalidOperationException("no frame was begun");
+        var features = instanceFeatures | frameFeatures | (wireframe ? MeshFeatures.None : FeaturesOf(material));
         var program = _programs[(int)features] ??= new(context, features);
         program.Use();
         if (context.Resources.State.Filter.Update(ref _lastFrameOfProgram[(int)features], _frameNumber))
@@ -96,9 +96,8 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
         }
     }
 
-    private static MeshFeatures FeaturesOf(DrawableMaterial? material, Shading shading) =>
-        (shading == Shading.PerPixel ? MeshFeatures.PerPixel : 0)
-        | (material?.Texture is not null ? MeshFeatures.Textured : 0)
+    private static MeshFeatures FeaturesOf(DrawableMaterial? material) =>
+        (material?.Texture is not null ? MeshFeatures.Textured : 0)
         | (material?.IsCutOut == true ? MeshFeatures.CutOut : 0)
         | (material is not null && material.Material.Emission != Colour.Black ? MeshFeatures.Emissive : 0)
         | (material?.Material.IsGlossy == true ? MeshFeatures.Glossy : 0);

@@ -20,6 +20,7 @@ internal sealed class MeshProgram : IDisposable
         (MeshFeatures.VertexColours, "VERTEX_COLOURS"),
         (MeshFeatures.CutOut, "CUT_OUT"),
         (MeshFeatures.Emissive, "EMISSIVE"),
+        (MeshFeatures.Atmosphere, "ATMOSPHERE"),
     ];
 
     private readonly RedundancyFilter _filter;

@@ -25,6 +25,7 @@ internal sealed class ObjectsPass : IDisposable
     private readonly MeshPass _meshPass;
     private readonly LightBlock _lightBlock;
     private readonly ObjectBlock[] _objectBlocks;
+    private readonly SkyPass? _skyPass;
     private DrawableScene _scene;
     private TransparentOrder _transparentOrder;
     private SphereBatch? _sphereBatch;
@@ -44,6 +45,7 @@ internal sealed class ObjectsPass : IDisposable
         _lightBlock = new(_resources, scene.Source);
         _objectBlocks = [.. scene.Objects.Select(item => new ObjectBlock(_resources, item.Name))];
         _transparentOrder = TransparentOrder.Create(scene);
+        _skyPass = scene.Source.Scene is { Sky: { } sky, Background: null } ? new(_resources, sky) : null;
     }
 
     /// <summary>Number of objects that the last frame drew with one face of their triangles culled.</summary>
@@ -63,9 +65,14 @@ internal sealed class ObjectsPass : IDisposable
     public void Draw(in FrameView frame, IReadOnlyList<SphereInstance> spheres, RenderSettings settings)
     {
         var view = frame.View;
-        _meshPass.Begin(in frame, settings.Wireframe, settings.Shading);
         var lightScale = view.DeepZoom is { } zoom ? Math.Exp(Math.Min(-zoom.LogUnit, MaxLogLightScale)) : 1;
         _lightBlock.Bind(MeshPass.LightBinding, view.Camera.Position, lightScale);
+        if (_skyPass is not null && view.Background is null)
+        {
+            _skyPass.Draw(in frame);
+        }
+
+        _meshPass.Begin(in frame, settings.Wireframe, FrameFeatures(settings));
         DrawOpaque(in frame, settings);
         if (spheres.Count > 0 && view.DeepZoom is null)
         {
@@ -91,10 +98,14 @@ internal sealed class ObjectsPass : IDisposable
             block.Dispose();
         }
 
+        _skyPass?.Dispose();
         _sphereBatch?.Dispose();
         _lightBlock.Dispose();
         _meshPass.Dispose();
     }
+
+    private MeshFeatures FrameFeatures(RenderSettings settings) =>
+        (settings.Shading == Shading.PerPixel ? MeshFeatures.PerPixel : 0) | (_lightBlock.HasAtmosphere ? MeshFeatures.Atmosphere : 0);
 
     private void DrawOpaque(in FrameView frame, RenderSettings settings)
     {

@@ -58,10 +58,16 @@ internal sealed class ViewUniforms(ShaderProgram program, RedundancyFilter filte
 
     private void SetAxes(Matrix axes)
     {
-        var (v1, v2, v3) = axes;
-        (_rows[0], _rows[1], _rows[2]) = ((float)v1.X, (float)v2.X, (float)v3.X);
-        (_rows[3], _rows[4], _rows[5]) = ((float)v1.Y, (float)v2.Y, (float)v3.Y);
-        (_rows[6], _rows[7], _rows[8]) = ((float)v1.Z, (float)v2.Z, (float)v3.Z);
+        WriteRows(axes, _rows);
         GL.Uniform3(_cameraAxesLocation, 3, _rows);
+    }
+
+    /// <summary>Writes a matrix row by row.</summary>
+    internal static void WriteRows(Matrix axes, Span<float> rows)
+    {
+        var (v1, v2, v3) = axes;
+        (rows[0], rows[1], rows[2]) = ((float)v1.X, (float)v2.X, (float)v3.X);
+        (rows[3], rows[4], rows[5]) = ((float)v1.Y, (float)v2.Y, (float)v3.Y);
+        (rows[6], rows[7], rows[8]) = ((float)v1.Z, (float)v2.Z, (float)v3.Z);
     }
 }

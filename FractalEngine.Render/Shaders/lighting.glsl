@@ -14,8 +14,17 @@ layout(std140) uniform LightBlock
     vec4 skyColour;      // ambient light from above
     vec4 groundColour;   // ambient light from below
     ivec4 lightCount;
+    vec4 skyCurvature;   // ambient light in proportion to the square of the normal's height
+    vec4 display;        // exposure; 1 for the filmic tone; density of the haze per unit
+    vec4 fogColour;      // linear light
     Light lights[maxLights];
 };
+
+// Ambient light on a surface by the height of its unit normal, without shadows.
+vec3 ambientLight(float height)
+{
+    return mix(groundColour.rgb, skyColour.rgb, 0.5 + 0.5 * height) + height * height * skyCurvature.rgb;
+}
 
 // The unit vector of a vector so short that its square could underflow. Zero stays zero, never NaN.
 vec3 direction(vec3 v)

@@ -1,15 +1,20 @@
 #version 330 core
 // The colour of the visible face. Front faces are wound clockwise on the screen in a left-handed scene, the other way in a right-handed one.
-// PER_PIXEL, TEXTURED, GLOSSY, FRONT_FACES_ONLY, CUT_OUT and EMISSIVE are defined where they apply.
+// PER_PIXEL, TEXTURED, GLOSSY, FRONT_FACES_ONLY, CUT_OUT, EMISSIVE and ATMOSPHERE are defined where they apply.
 
 #include "material.glsl"
-#ifdef PER_PIXEL
+#if defined(PER_PIXEL) || defined(ATMOSPHERE)
 #include "lighting.glsl"
 
 uniform vec3 cameraAxes[3]; // right, up and forward: the rows of the inverse axes
 uniform vec4 depthScale;    // z = x*depth + y, w = z*depth + w
 
 in vec3 pixelPosition;
+#endif
+#ifdef ATMOSPHERE
+#include "display.glsl"
+#endif
+#ifdef PER_PIXEL
 in vec3 pixelNormal;
 in vec3 pixelColour;
 #else
@@ -37,7 +42,7 @@ void main()
     vec3 highlights = vec3(0.0);
 #ifdef PER_PIXEL
     vec3 n = direction(gl_FrontFacing ? pixelNormal : -pixelNormal);
-    vec3 light = material[2].rgb * mix(groundColour.rgb, skyColour.rgb, 0.5 + 0.5 * n.y);
+    vec3 light = material[2].rgb * ambientLight(n.y);
     for (int i = 0; i < lightCount.x; i++)
     {
         vec3 toLight;
@@ -83,5 +88,11 @@ void main()
 #ifdef EMISSIVE
     colour += material[4].rgb;
 #endif
-    fragment = vec4(colour * opacity + highlights, opacity);
+    vec3 shown = colour * opacity + highlights;
+#ifdef ATMOSPHERE
+    // An orthographic view measures the distance from its plane.
+    float distance = depthScale.z != 0.0 ? length(pixelPosition) : max(dot(pixelPosition, cameraAxes[2]), 0.0);
+    shown = opacity * toScreen(throughHaze(shown / max(opacity, 1e-4), distance));
+#endif
+    fragment = vec4(shown, opacity);
 }

@@ -32,8 +32,10 @@ uniform vec2 viewScale;     // 1 / (half height * aspect), 1 / half height
 uniform vec4 depthScale;    // z = x*depth + y, w = z*depth + w
 uniform vec4 flatColour;    // linear light; w: how much of it replaces the lit colour
 
-#ifdef PER_PIXEL
+#if defined(PER_PIXEL) || defined(ATMOSPHERE)
 out vec3 pixelPosition;     // relative to the camera
+#endif
+#ifdef PER_PIXEL
 out vec3 pixelNormal;
 out vec3 pixelColour;       // linear light, before lighting
 #else
@@ -86,15 +88,16 @@ void main()
     pixelTextureCoordinates = vec2(scaledCoordinates.x, 1.0 - scaledCoordinates.y);
 #endif
 
-#ifdef PER_PIXEL
+#if defined(PER_PIXEL) || defined(ATMOSPHERE)
     pixelPosition = relative;
+#endif
+#ifdef PER_PIXEL
     pixelNormal = n;
     pixelColour = surface;
 #else
-    float upwards = 0.5 + 0.5 * n.y;
-    vec3 front = material[2].rgb * mix(groundColour.rgb, skyColour.rgb, upwards);
+    vec3 front = material[2].rgb * ambientLight(n.y);
 #ifndef FRONT_FACES_ONLY
-    vec3 back = material[2].rgb * mix(skyColour.rgb, groundColour.rgb, upwards);
+    vec3 back = material[2].rgb * ambientLight(-n.y);
 #endif
 #ifdef GLOSSY
     vec3 toEye = towardsEye(relative, cameraAxes[2], depthScale);

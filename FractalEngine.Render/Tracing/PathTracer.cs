@@ -1,10 +1,10 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Collision;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Passes;
 
 namespace FractalEngine.Render.Tracing;
 
@@ -38,8 +38,12 @@ public sealed class PathTracer
     private readonly TracedScene _scene;
     private readonly TracedLights _lights;
     private readonly TracedCamera _camera;
-    private readonly Colour _background;
+    private readonly Scene _declared;
+    private readonly Sky? _visibleSky;
     private readonly Vector _backgroundRadiance;
+    private readonly DisplayTransform _display;
+    private readonly double _fogDensity;
+    private readonly Vector _fogColour;
     private readonly int _seed;
     private readonly float[] _sums;
     private readonly int[] _rowSamples;
@@ -58,18 +62,24 @@ public sealed class PathTracer
         : this(
             CreateCamera(view, width, height), width, height,
             new TracedScene(scene ?? throw new ArgumentNullException(nameof(scene)), settings ?? new()), new(scene),
-            scene.Scene.Background ?? (settings ?? new()).Background, seed)
+            scene.Scene with { Background = scene.Scene.Background ?? (scene.Scene.Sky is null ? (settings ?? new()).Background : null) },
+            seed)
     {
     }
 
     private PathTracer(
-        TracedCamera camera, int width, int height, TracedScene scene, TracedLights lights, Colour background, int seed)
+        TracedCamera camera, int width, int height, TracedScene scene, TracedLights lights, Scene declared, int seed)
     {
         _camera = camera;
         _scene = scene;
         _lights = lights;
-        _background = background;
-        _backgroundRadiance = TracedMaterial.ToLinear(background);
+        _declared = declared;
+        _display = DisplayTransform.Of(declared);
+        // A background is shown as it is declared, whatever is done with light.
+        _visibleSky = declared.Background is null ? declared.Sky : null;
+        _backgroundRadiance = _display.Invert(TracedMaterial.ToLinear(declared.Background ?? RenderSettings.DefaultBackground));
+        _fogDensity = declared.Fog?.Density ?? 0;
+        _fogColour = LightBlock.FogColour(declared);
         _seed = seed;
         Width = width;
         Height = height;
@@ -96,7 +106,7 @@ public sealed class PathTracer
     /// <exception cref="ArgumentOutOfRangeException">Width or height is less than 1.</exception>
     /// <exception cref="ArgumentException">The view is a deep zoom.</exception>
     public PathTracer WithView(View view, int width, int height) =>
-        new(CreateCamera(view, width, height), width, height, _scene, _lights, _background, _seed);
+        new(CreateCamera(view, width, height), width, height, _scene, _lights, _declared, _seed);
 
     /// <summary>Adds one sample to each pixel.</summary>
     /// <param name="threads">The most threads to use; null for one a core.</param>
@@ -137,7 +147,7 @@ public sealed class PathTracer
     public PixelImage ToImage()
     {
         var pixels = new byte[4 * Width * Height];
-        var letterbox = FrameRenderer.LetterboxColour(_background);
+        var letterbox = FrameRenderer.LetterboxColour(_declared.Background ?? RenderSettings.DefaultBackground);
         var (left, top, width, height) = _camera.Viewport;
         for (var y = 0; y < Height; y++)
         {
@@ -153,10 +163,8 @@ public sealed class PathTracer
 
                 var sum = _sums.AsSpan(3 * ((y * Width) + x), 3);
                 var scale = 1.0 / Math.Max(1, _rowSamples[y]);
-                for (var i = 0; i < 3; i++)
-                {
-                    target[i] = ToByte(ToSrgb(sum[i] * scale));
-                }
+                var (red, green, blue) = _display.Apply(new(sum[0] * scale, sum[1] * scale, sum[2] * scale));
+                (target[0], target[1], target[2]) = (ToByte(ToSrgb(red)), ToByte(ToSrgb(green)), ToByte(ToSrgb(blue)));
             }
         }
 
@@ -209,11 +217,13 @@ public sealed class PathTracer
         var throughput = Vector.One;
         var (minDistance, maxDistance) = _camera.Clip;
         var layers = 0;
+        // Fog is between the eye and the first surface only.
+        var distanceBefore = 0.0;
         for (var bounce = 0; ;)
         {
             if (!_scene.TryIntersect(in ray, footprint, minDistance, maxDistance, context, out var surface))
             {
-                return radiance + throughput.Stretch(bounce == 0 ? _backgroundRadiance : _lights.Surroundings(ray.Direction));
+                return radiance + throughput.Stretch(bounce == 0 ? Background(ray.Direction) : _lights.Surroundings(ray.Direction));
             }
 
             var passed = (surface.Position - ray.Origin).Length();
@@ -225,6 +235,7 @@ public sealed class PathTracer
                 }
 
                 passed += _scene.Offset;
+                distanceBefore += passed;
                 ray = ray with { Origin = ray.Origin + (passed * ray.Direction) };
                 footprint = footprint with { Radius = footprint.RadiusAt(passed) };
                 minDistance = Math.Max(0, minDistance - passed);
@@ -232,10 +243,17 @@ public sealed class PathTracer
                 continue;
             }
 
+            if (bounce == 0 && _fogDensity > 0)
+            {
+                var clear = Math.Exp(-_fogDensity * (distanceBefore + passed));
+                radiance = (1 - clear) * _fogColour;
+                throughput = clear * Vector.One;
+            }
+
             radiance += throughput.Stretch(surface.Emission);
             var width = footprint.RadiusAt(passed);
             var origin = surface.Position + (_scene.Offset * surface.FaceNormal);
-            radiance += throughput.Stretch(DirectLight(in surface, origin, -ray.Direction, width, context));
+            radiance += throughput.Stretch(DirectLight(in surface, origin, -ray.Direction, width, ref samples, context));
             if (++bounce > MaxBounces
                 || !Reflection.TrySample(in surface, -ray.Direction, ref samples, out var direction, out var weight, out var spread))
             {
@@ -260,13 +278,16 @@ public sealed class PathTracer
         }
     }
 
+    private Vector Background(Vector unitDirection) => _visibleSky is { } sky ? sky.Radiance(unitDirection.Y) : _backgroundRadiance;
+
     /// <summary>Adds up the light that reaches a surface from the scene's lights, and goes on towards the eye.</summary>
-    private Vector DirectLight(in TracedSurface surface, Vector origin, Vector toEye, double width, QueryContext context)
+    private Vector DirectLight(
+        in TracedSurface surface, Vector origin, Vector toEye, double width, ref SampleSequence samples, QueryContext context)
     {
         var sum = Vector.Zero;
         for (var i = 0; i < _lights.Count; i++)
         {
-            var incoming = _lights.Incoming(i, surface.Position, out var toLight, out var distance);
+            var incoming = _lights.Incoming(i, surface.Position, ref samples, out var toLight, out var distance);
             var reflected = incoming.Stretch(Reflection.Evaluate(in surface, toEye, toLight));
             if (reflected != Vector.Zero)
             {

@@ -108,6 +108,18 @@ internal static class Reflection
         return new Vector(alpha * normal.X, alpha * normal.Y, Math.Max(1e-9, normal.Z)).UnitVector();
     }
 
+    /// <summary>Chooses a unit direction of a cone, each as likely as another.</summary>
+    /// <param name="axis">Unit direction in the middle.</param>
+    /// <param name="cosine">Cosine of the largest angle with the axis.</param>
+    /// <param name="point">A point of the unit square.</param>
+    public static Vector SampleCone(Vector axis, double cosine, (double U, double V) point)
+    {
+        var z = 1 - (point.U * (1 - cosine));
+        var radius = Math.Sqrt(Math.Max(0, 1 - (z * z)));
+        var (sine, cosineAround) = Math.SinCos(2 * Math.PI * point.V);
+        return AxesAround(axis) * new Vector(radius * cosineAround, radius * sine, z);
+    }
+
     /// <summary>Orthonormal axes whose third is a unit vector, after Duff and others, JCGT 2017.</summary>
     private static Matrix AxesAround(Vector normal)
     {

@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Passes;
@@ -11,17 +12,17 @@ namespace FractalEngine.Render.Tracing;
 /// </remarks>
 internal sealed class TracedLights
 {
-    private readonly Light[] _lights;
+    private readonly ImmutableArray<Light> _lights;
     private readonly Vector _colourAtHorizon;
     private readonly Vector _colourSlope;
+    private readonly Sky? _sky;
 
     /// <summary>Prepares the lights of a scene, or the default ones where it declares none.</summary>
     public TracedLights(LoadedScene scene)
     {
-        var declared = scene.Scene.Lights;
-        var lights = declared.IsEmpty ? LightBlock.DefaultLights(scene.Bounds, scene.Scene.Handedness) : declared;
-        _lights = [.. lights.Where(static light => light is not AmbientLight).Take(LightBlock.MaxLights)];
-        var (sky, ground) = LightBlock.AmbientColours(declared);
+        _lights = LightBlock.LightsOf(scene);
+        var (sky, ground, _) = SceneAmbient.OfLights(scene.Scene);
+        _sky = scene.Scene.Sky;
         // Irradiance on a surface that faces upwards by the cosine c is then that of the drawn mixture (1 + c)/2 of sky and ground.
         _colourAtHorizon = 0.5 * (sky + ground);
         _colourSlope = 0.75 * (sky - ground);
@@ -32,21 +33,30 @@ internal sealed class TracedLights
     public int Count { get; }
 
     /// <summary>The radiance of the surroundings in a direction.</summary>
-    public Vector Surroundings(Vector unitDirection) =>
-        Vector.Max(_colourAtHorizon + (unitDirection.Y * _colourSlope), Vector.Zero);
+    public Vector Surroundings(Vector unitDirection)
+    {
+        var lights = Vector.Max(_colourAtHorizon + (unitDirection.Y * _colourSlope), Vector.Zero);
+        return _sky is null ? lights : lights + _sky.Radiance(unitDirection.Y);
+    }
 
     /// <summary>Computes the irradiance, divided by π, that a light brings to a surface which faces it, without shadows.</summary>
     /// <param name="index">Index of the light.</param>
     /// <param name="position">World space.</param>
+    /// <param name="samples">Choose a point of a light that has a size.</param>
     /// <param name="toLight">Unit direction towards the light.</param>
     /// <param name="distance">Distance of the light; infinite for parallel light.</param>
-    public Vector Incoming(int index, Vector position, out Vector toLight, out double distance)
+    public Vector Incoming(int index, Vector position, ref SampleSequence samples, out Vector toLight, out double distance)
     {
         var light = _lights[index];
         var colour = light.Intensity * TracedMaterial.ToLinear(light.Colour);
         if (light is DirectionalLight directional)
         {
             toLight = -directional.Direction.UnitVector();
+            if (directional is SunLight { Diameter: > 0 and var diameter })
+            {
+                toLight = Reflection.SampleCone(toLight, Math.Cos(diameter * Math.PI / 360), samples.Next());
+            }
+
             distance = double.PositiveInfinity;
             return colour;
         }

@@ -234,7 +234,7 @@ public sealed class MaterialTests : IDisposable
             new() { Lights = [new PointLight(new(0, 0, -0.5), Colour.White, 1, 5)] }, (model, Transformation.Identity, null));
         var perPixel = RenderScenes.Draw(scene, Square, 200, 200, new() { Shading = Shading.PerPixel });
         Assert.Equal((byte.MaxValue, (byte)0), (perPixel[100, 100].Red, perPixel[10, 10].Red));
-        Assert.Equal(0, RenderScenes.Draw(scene, Square, 200, 200)[100, 100].Red);
+        Assert.Equal(0, RenderScenes.Draw(scene, Square, 200, 200, new() { Shading = Shading.PerVertex })[100, 100].Red);
     }
 
     [SkippableFact]

@@ -29,7 +29,8 @@ public class SceneParserErrorTests
     [Fact]
     public void Keyword_Unknown_ListsTheKnownOnes() => FailsAt(
         "x \"a.obj\" #", 1,
-        "unexpected 'x', expected 'c', 'o', 'p', 'handed', 'projection', 'aspect', 'clip', 'background', 'light', 'gravity' or 'player'");
+        "unexpected 'x', expected 'c', 'o', 'p', 'handed', 'projection', 'aspect', 'clip', 'background', 'light', 'sun', 'sky', "
+        + "'exposure', 'tone', 'fog', 'gravity' or 'player'");
 
     [Theory]
     [InlineData("c (1, 2, 3) (4, 5, 6)", 22, "unexpected end of file: a camera ends with its vertical angle of view in degrees")]
@@ -65,6 +66,17 @@ public class SceneParserErrorTests
     [InlineData("clip 10 1", 6, "the clip planes must satisfy 0 < near < far")]
     [InlineData("clip 0 1", 6, "the clip planes must satisfy 0 < near < far")]
     [InlineData("background (1, 2, 3)", 12, "the components of a colour must lie between 0 and 1")]
+    [InlineData("sky (0, 0, 1)", 14, "unexpected end of file, expected a colour (r, g, b)")]
+    [InlineData("sky (0, 0, 1) (1, 1, 1) 2", 25, "unexpected '2', expected the end of the line or a colour (r, g, b)")]
+    [InlineData("sky (0, 0, 1) (1, 1, 2)", 15, "the components of a colour must lie between 0 and 1")]
+    [InlineData("sun (0, 0, 0) (1, 1, 1) 1", 5, "a direction must not be (0, 0, 0)")]
+    [InlineData("sun (0, -1, 0) (1, 1, 1)", 25, "unexpected end of file, expected a number")]
+    [InlineData("sun (0, -1, 0) (1, 1, 1) -1", 26, "the intensity of a light must not be negative")]
+    [InlineData("sun (0, -1, 0) (1, 1, 1) 1 90", 28, "the diameter of the sun must be at least 0 and less than 90 degrees")]
+    [InlineData("exposure 0", 10, "the exposure must be positive")]
+    [InlineData("tone film", 6, "unexpected 'film', expected 'none' or 'filmic'")]
+    [InlineData("fog -0.1", 5, "the density of fog must not be negative")]
+    [InlineData("fog 0.1 (2, 0, 0)", 9, "the components of a colour must lie between 0 and 1")]
     [InlineData("light laser (1, 1, 1)", 7, "unexpected 'laser', expected 'ambient', 'directional', 'point' or 'spot'")]
     [InlineData("light directional (0, 0, 0) (1, 1, 1)", 19, "a direction must not be (0, 0, 0)")]
     [InlineData("light ambient (1, 1, 1) -1", 25, "the intensity of a light must not be negative")]
@@ -147,6 +159,10 @@ public class SceneParserErrorTests
     [InlineData("aspect 1")]
     [InlineData("clip 1 2")]
     [InlineData("background (0, 0, 0)")]
+    [InlineData("sky (0, 0, 1) (1, 1, 1)")]
+    [InlineData("exposure 2")]
+    [InlineData("tone none")]
+    [InlineData("fog 0.1")]
     [InlineData("gravity #")]
     [InlineData("player (0, 0, 0) 1 2")]
     public void Declaration_OfASingletonTwice_IsRefused(string line) =>

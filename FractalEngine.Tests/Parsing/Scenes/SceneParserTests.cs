@@ -158,6 +158,32 @@ public class SceneParserTests
     [Fact]
     public void Background_IsAColour() => Assert.Equal(new Colour(0.1, 0.2, 0.3), Parse("background (0.1, 0.2, 0.3)").Background);
 
+    [Theory]
+    [InlineData("sky (0.1, 0.2, 0.3) (0.4, 0.5, 0.6)", false)]
+    [InlineData("sky (0.1, 0.2, 0.3), (0.4, 0.5, 0.6), (0.7, 0.8, 0.9)", true)]
+    public void Sky_IsTwoColoursOrThree(string line, bool hasGround) => Assert.Equal(
+        new Sky(new(0.1, 0.2, 0.3), new(0.4, 0.5, 0.6), hasGround ? new(0.7, 0.8, 0.9) : null), Parse(line).Sky);
+
+    [Theory]
+    [InlineData("sun (1, -2, 0) (1, 0.9, 0.8) 3", SunLight.DefaultDiameter)]
+    [InlineData("sun (1, -2, 0), (1, 0.9, 0.8), 3, 0", 0)]
+    [InlineData("sun (1, -2, 0) (1, 0.9, 0.8) 3 7.5", 7.5)]
+    public void Sun_IsADirectionalLightWithADiameter(string line, double diameter) => Assert.Equal(
+        new SunLight(new(1, -2, 0), new(1, 0.9, 0.8), 3, diameter), Assert.Single(Parse(line).Lights));
+
+    [Theory]
+    [InlineData("exposure 1.5\ntone filmic", 1.5, Tone.Filmic)]
+    [InlineData("tone none", 1, Tone.None)]
+    [InlineData("handed left", 1, Tone.None)]
+    public void ExposureAndTone_AreRead(string text, double exposure, Tone tone) =>
+        Assert.Equal((exposure, tone), (Parse(text).Exposure, Parse(text).Tone));
+
+    [Theory]
+    [InlineData("fog 0.25", false)]
+    [InlineData("fog 0.25 (0.1, 0.2, 0.3)", true)]
+    public void Fog_IsADensityAndPerhapsAColour(string line, bool hasColour) =>
+        Assert.Equal(new Fog(0.25, hasColour ? new Colour(0.1, 0.2, 0.3) : null), Parse(line).Fog);
+
     [Fact]
     public void Gravity_IsAVectorOrNone()
     {

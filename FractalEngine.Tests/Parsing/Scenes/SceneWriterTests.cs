@@ -63,6 +63,7 @@ public class SceneWriterTests
     [
         new AmbientLight(c.Item1, c.Item2),
         new DirectionalLight(v.Item1.Item1, c.Item1, c.Item2),
+        new SunLight(v.Item1.Item1, c.Item1, c.Item2, 89 * c.Item1.Red),
         new PointLight(v.Item1.Item2, c.Item1, c.Item2, v.Item2),
         new SpotLight(v.Item1.Item2, v.Item1.Item1, 179.99999999999997, c.Item1, c.Item2, v.Item2),
     ]).SelectMany(kinds => Gen.Elements(kinds));
@@ -75,7 +76,7 @@ public class SceneWriterTests
         from sizes in Positive
         from colour in Colours
         from going in NotNegative.Zip(Gen.Elements(50, 0, -0.0, 89, 100.0 / 3))
-        from given in Gen.Choose(0, 1023)
+        from given in Gen.Choose(0, 16383)
         select new Scene
         {
             Objects = [.. objects],
@@ -93,6 +94,10 @@ public class SceneWriterTests
                 MaxSlopeAngle = going.Item2,
                 StepHeightOverride = (given & 512) == 0 ? null : sizes,
             },
+            Sky = (given & 1024) == 0 ? null : new(colour, new(colour.Blue, colour.Red, colour.Green), (given & 8) == 0 ? null : colour),
+            Exposure = (given & 2048) == 0 ? 1 : sizes,
+            Tone = (given & 4096) == 0 ? Tone.None : Tone.Filmic,
+            Fog = (given & 8192) == 0 ? null : new(going.Item1, (given & 16) == 0 ? null : colour),
             Aspect = (given & 3) == 0 ? null : 0.01 + colour.Red,
             Handedness = (given & 5) == 0 ? Handedness.Right : Handedness.Left,
         };

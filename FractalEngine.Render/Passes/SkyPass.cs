@@ -1,0 +1,59 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Gl;
+using OpenTK.Graphics.OpenGL4;
+
+namespace FractalEngine.Render.Passes;
+
+/// <summary>Fills a frame with the scene's sky, before anything else is drawn.</summary>
+internal sealed class SkyPass : IDisposable
+{
+    private readonly GlResources _resources;
+    private readonly ShaderProgram _program;
+    private readonly int _axesLocation;
+    private readonly int _halfSizeLocation;
+    private readonly VertexArray _vertexArray;
+    private readonly float[] _axes = new float[9];
+
+    /// <summary>Builds the program for the sky of a scene.</summary>
+    /// <exception cref="GlException">The driver refuses the program.</exception>
+    public SkyPass(GlResources resources, Sky sky)
+    {
+        _resources = resources;
+        _program = ShaderProgram.Load(resources, "sky");
+        _program.BindBlock("LightBlock", MeshPass.LightBinding);
+        _axesLocation = _program.UniformLocation("cameraAxes");
+        _halfSizeLocation = _program.UniformLocation("halfSize");
+        _program.Use();
+        SetColour("zenith", sky.ZenithRadiance);
+        SetColour("horizon", sky.HorizonRadiance);
+        SetColour("ground", sky.GroundRadiance);
+        // The vertices have no attributes, but OpenGL requires an array.
+        _vertexArray = new(resources, "sky");
+    }
+
+    /// <summary>Draws into the bound framebuffer's viewport, without its depth. The light block must be bound.</summary>
+    public void Draw(in FrameView frame)
+    {
+        _program.Use();
+        ViewUniforms.WriteRows(frame.View.Camera.LocalAxesInverse, _axes);
+        GL.Uniform3(_axesLocation, 3, _axes);
+        var halfHeight = frame.View.Projection == Projection.Perspective ? frame.View.HalfHeight : 0;
+        GL.Uniform2(_halfSizeLocation, (float)(halfHeight * frame.Aspect), (float)halfHeight);
+        _resources.State.Cull(CullFace.None);
+        GL.Disable(EnableCap.DepthTest);
+        _vertexArray.Bind();
+        GL.DrawArrays(PrimitiveType.Triangles, 0, 3);
+        GL.Enable(EnableCap.DepthTest);
+    }
+
+    /// <inheritdoc/>
+    public void Dispose()
+    {
+        _vertexArray.Dispose();
+        _program.Dispose();
+    }
+
+    private void SetColour(string name, Vector colour) =>
+        GL.Uniform3(_program.UniformLocation(name), (float)colour.X, (float)colour.Y, (float)colour.Z);
+}

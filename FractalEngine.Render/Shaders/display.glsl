@@ -1,0 +1,15 @@
+// From the light of the scene to that of the screen: haze, exposure and the tone curve. Behind lighting.glsl.
+
+// The light that arrives from a surface through the haze.
+vec3 throughHaze(vec3 light, float distance)
+{
+    return mix(fogColour.rgb, light, exp(-display.z * distance));
+}
+
+// Exposed light behind the curve of K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2016, where the scene asks for it.
+vec3 toScreen(vec3 light)
+{
+    vec3 x = display.x * light;
+    vec3 filmic = clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+    return display.y > 0.5 ? filmic : x;
+}

@@ -1,0 +1,121 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Passes;
+using FractalEngine.Render.Tracing;
+
+namespace FractalEngine.Tests.Render;
+
+/// <summary>Sky, haze, exposure and tone, in drawn and in traced images alike.</summary>
+[Collection(GlTests.Name)]
+public sealed class SkyTests
+{
+    private static readonly Sky Blue = new(new(0.2, 0.4, 0.9), new(0.8, 0.85, 0.9), new(0.3, 0.25, 0.2));
+
+    [Theory]
+    [InlineData(-1)]
+    [InlineData(-0.6)]
+    [InlineData(0)]
+    [InlineData(0.3)]
+    [InlineData(1)]
+    public void Irradiance_OfTheCoefficients_IsTheIntegralOfTheRadiance(double height)
+    {
+        var (constant, linear, quadratic) = Blue.Irradiance();
+        var normal = new Vector(Math.Sqrt(1 - (height * height)), height, 0);
+        var sum = Vector.Zero;
+        const int Steps = 400;
+        for (var i = 0; i < Steps; i++)
+        {
+            for (var j = 0; j < Steps; j++)
+            {
+                var y = ((i + 0.5) * 2 / Steps) - 1;
+                var (sine, cosine) = Math.SinCos((j + 0.5) * 2 * Math.PI / Steps);
+                var radius = Math.Sqrt(1 - (y * y));
+                sum += Math.Max(0, Vector.Dot(normal, new(radius * cosine, y, radius * sine))) * Blue.Radiance(y);
+            }
+        }
+
+        // Every direction stands for 4π/n² of the sphere. Three harmonics of a sky with a bend at the horizon miss a few percent.
+        var expected = 4.0 / (Steps * Steps) * sum;
+        var found = constant + (height * linear) + (height * height * quadratic);
+        Assert.InRange((found - expected).Length(), 0, 0.04 * expected.Length());
+    }
+
+    [SkippableTheory]
+    [InlineData(Projection.Perspective, Tone.None, 1)]
+    [InlineData(Projection.Perspective, Tone.Filmic, 1.7)]
+    [InlineData(Projection.Orthographic, Tone.Filmic, 0.6)]
+    public void Sky_BehindAConvexSolidInHaze_IsDrawnAsItIsTraced(Projection projection, Tone tone, double exposure)
+    {
+        var scene = RenderScenes.Scene(
+            new Scene
+            {
+                Sky = Blue, Tone = tone, Exposure = exposure, Fog = new(0.1), Lights = [new SunLight(new(1, -1, 2), Colour.White, 2, 0)],
+            },
+            (RenderScenes.Model(RenderScenes.Cube(1)), new(Vector.Zero, new(20, 30, 10), Vector.One), new Colour(0.8, 0.5, 0.3)));
+        var view = RenderScenes.FrontView with { Projection = projection, OrthographicHeight = 6 };
+        var drawn = RenderScenes.Draw(scene, view, 80, 60);
+        var tracer = new PathTracer(scene, view, 80, 60);
+        for (var i = 0; i < 256; i++)
+        {
+            tracer.AddSample();
+        }
+
+        // A convex solid has neither shadows nor light from itself: what differs is noise, edges, and the harmonics.
+        var (mean, share) = RenderScenes.Difference(drawn, tracer.ToImage());
+        Assert.InRange(mean, 0, 1.5);
+        Assert.InRange(share, 0, 0.03);
+    }
+
+    [SkippableFact]
+    public void Background_BesideASky_IsShownAsItIs()
+    {
+        var declared = new Scene { Sky = Blue, Tone = Tone.Filmic, Exposure = 3, Background = new(0.2, 0.6, 1) };
+        var scene = RenderScenes.Scene(declared, (RenderScenes.Model(RenderScenes.Cube(0.1)), Transformation.Identity, null));
+        var tracer = new PathTracer(scene, RenderScenes.FrontView, 20, 20);
+        tracer.AddSample();
+
+        Assert.Equal((51, 153, 255, 255), RenderScenes.Draw(scene, RenderScenes.FrontView, 20, 20)[1, 1]);
+        Assert.Equal((51, 153, 255, 255), tracer.ToImage()[1, 1]);
+    }
+
+    [Fact]
+    public void DisplayTransform_Inverted_ReturnsTheLight()
+    {
+        foreach (var tone in (Tone[])[Tone.None, Tone.Filmic])
+        {
+            var display = new DisplayTransform(1.7, tone);
+            Assert.Equal(0, (display.Apply(display.Invert(new(0, 0.3, 0.999))) - new Vector(0, 0.3, 0.999)).Length(), 1e-12);
+        }
+    }
+
+    [Fact]
+    public void Sun_OfADiameter_CastsASoftEdge()
+    {
+        // Straight below the edge of a lid, half the disc is hidden; the penumbra is as wide as the disc seen over the distance.
+        var floor = RenderScenes.Model(Quad(50, 0), "floor.obj");
+        var lid = RenderScenes.Model(new Mesh([0, 4, -50, 0, 4, 50, 50, 4, 50, 50, 4, -50], [0, 1, 2, 0, 2, 3]), "lid.obj");
+        var scene = RenderScenes.Scene(
+            new Scene { Background = Colour.Black, Lights = [new SunLight(new(0, -1, 0), Colour.White, 1, 10)] },
+            (floor, Transformation.Identity, Colour.White), (lid, Transformation.Identity, Colour.Black));
+        var radius = 4 * Math.Tan(5 * Math.PI / 180);
+        Assert.Equal(1, Lit(scene, -1.1 * radius), 0.02);
+        Assert.Equal(0.5, Lit(scene, 0), 0.03);
+        Assert.Equal(0, Lit(scene, 1.1 * radius), 0.02);
+    }
+
+    private static Mesh Quad(double half, double y) => new(
+        [-half, y, -half, -half, y, half, half, y, half, half, y, -half], [0, 1, 2, 0, 2, 3]);
+
+    private static double Lit(LoadedScene scene, double x)
+    {
+        var camera = new Camera(new(x, 1, 0), new(-Math.PI / 2, 0, 0), 0.1);
+        var tracer = new PathTracer(scene, new(camera, Projection.Perspective), 2, 2);
+        for (var i = 0; i < 512; i++)
+        {
+            tracer.AddSample();
+        }
+
+        return tracer.RadianceAt(0, 0).X;
+    }
+}
