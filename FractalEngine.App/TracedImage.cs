@@ -20,11 +20,6 @@ internal sealed record TracedImage(int Samples, int Seed, bool KeepsPartial)
     /// <exception cref="OperationCanceledException">The user interrupted it, and nothing shall be written.</exception>
     public PixelImage Draw(LoadedScene scene, View view, RenderJob job, WrittenReport report, out bool isComplete)
     {
-        if (view.DeepZoom is not null)
-        {
-            throw new UsageException("--trace draws no deep zoom: expected fewer levels of --zoom");
-        }
-
         if (job.Background.IsTransparent)
         {
             throw new UsageException("--trace draws no transparent background: expected a colour");

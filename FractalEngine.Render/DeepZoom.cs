@@ -10,4 +10,12 @@ namespace FractalEngine.Render;
 /// <param name="ObjectIndex">Index of the object in the scene, from 0. No other object is drawn.</param>
 /// <param name="Roots">Sub-fractals that culling starts from, in world axes about the camera, in the unit of the address.</param>
 /// <param name="LogUnit">Natural logarithm of the unit of <see cref="Roots"/>, that unit being a length in scene units.</param>
-public sealed record DeepZoom(int ObjectIndex, ImmutableArray<LodRoot> Roots, double LogUnit);
+public sealed record DeepZoom(int ObjectIndex, ImmutableArray<LodRoot> Roots, double LogUnit)
+{
+    /// <summary>Tells whether two cameras see the same, whenever their sub-fractals were collected.</summary>
+    public bool Equals(DeepZoom? other) =>
+        other is not null && ObjectIndex == other.ObjectIndex && LogUnit == other.LogUnit && Roots.AsSpan().SequenceEqual(other.Roots.AsSpan());
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => HashCode.Combine(ObjectIndex, LogUnit, Roots.Length);
+}

@@ -83,12 +83,7 @@ internal static class RenderCommand
             Console.Error.WriteLine(notice);
         }
 
-        if (job.ZoomLevels > 0)
-        {
-            var zoom = new CameraZoom(drawable, view);
-            view = zoom.FlyTo(zoom.CountSteps(job.ZoomLevels));
-        }
-
+        view = Zoom(drawable, view, job);
         using var renderer = new ImageRenderer(drawable, job.Size, job.Settings, job.Background);
         var image = report.Measure("draw", () => renderer.Draw(view));
         Write(image, output, report);
@@ -98,14 +93,21 @@ internal static class RenderCommand
     private static PixelImage Trace(
         LoadedScene scene, View view, RenderJob job, TracedImage trace, string output, WrittenReport report)
     {
-        if (job.ZoomLevels > 0)
-        {
-            throw new UsageException("--zoom flies in drawn images: expected no --trace with it");
-        }
-
+        view = job.ZoomLevels > 0 ? Zoom(DrawableScene.Prepare(scene, job.Settings), view, job) : view;
         var image = trace.Draw(scene, view, job, report, out var isComplete);
         Write(image, output, report);
         return isComplete ? image : throw new OperationCanceledException("interrupted");
+    }
+
+    private static View Zoom(DrawableScene drawable, View view, RenderJob job)
+    {
+        if (!(job.ZoomLevels > 0))
+        {
+            return view;
+        }
+
+        var zoom = new CameraZoom(drawable, view);
+        return zoom.FlyTo(zoom.CountSteps(job.ZoomLevels));
     }
 
     private static void Write(PixelImage image, string output, WrittenReport report)

@@ -67,7 +67,6 @@ internal sealed class WindowTracing(WindowOptions options, Action published) : I
     private static string? FindObstacle(Document document, RenderSettings settings) =>
         document.Physics.IsRunning ? "bodies move"
         : document.IsTrailEnabled ? "the paper's zoom"
-        : document.VisibleDepth > 0 ? "deep zoom"
         : settings.Wireframe ? "wireframe"
         : settings.Grid || settings.Axes ? "grid"
         : document.Physics.ShowsClosestPoints ? "closest points"

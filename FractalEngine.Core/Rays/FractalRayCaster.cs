@@ -40,8 +40,8 @@ internal sealed class FractalRayCaster : RayCaster
     private readonly Fractal _fractal;
     private readonly FractalHierarchy _hierarchy;
     private readonly TriangleBvh _bvh;
-    private readonly bool _isEmpty;
-    private readonly double _radius;
+    private readonly SubFractal _root;
+    private readonly long _rootLevels;
     private readonly double _minRadius;
     private readonly RayLevels _levels;
     private readonly ShapeTree _tree;
@@ -52,15 +52,34 @@ internal sealed class FractalRayCaster : RayCaster
     {
         _fractal = fractal;
         _hierarchy = fractal.Hierarchy;
+        (_root, _rootLevels) = (_hierarchy.Root, _hierarchy.Levels);
         _bvh = TriangleBvh.For(fractal.BaseMesh);
-        _minRadius = ExactFractalCollider.MinRadius(_hierarchy.Root);
-        _isEmpty = _hierarchy.Root.Box.IsEmpty;
-        _radius = _hierarchy.Root.Radius;
-        MaxCoordinate = BoundingVolume.MaxAbsCoordinate(_hierarchy.Root.Box);
+        _minRadius = ExactFractalCollider.MinRadius(_root);
+        MaxCoordinate = BoundingVolume.MaxAbsCoordinate(_root.Box);
         _levels = new(_hierarchy);
         _tree = new(fractal.BaseMesh, _bvh, _hierarchy, _minRadius);
         _basePlanes = new(fractal.BaseMesh);
     }
+
+    private FractalRayCaster(FractalRayCaster whole, long levels)
+    {
+        _fractal = whole._fractal;
+        _hierarchy = whole._hierarchy;
+        (_root, _rootLevels) = (_hierarchy.At(levels), levels);
+        _bvh = whole._bvh;
+        _minRadius = ExactFractalCollider.MinRadius(_root);
+        MaxCoordinate = BoundingVolume.MaxAbsCoordinate(_root.Box);
+        _levels = whole._levels;
+        _tree = new(_fractal.BaseMesh, _bvh, _hierarchy, _minRadius);
+        _basePlanes = whole._basePlanes;
+    }
+
+    /// <summary>The caster of a sub-fractal in its own frame. It shares what is kept with that of the whole.</summary>
+    /// <param name="levels">Its remaining levels.</param>
+    public FractalRayCaster At(long levels) => new(this, levels);
+
+    /// <summary>The box of the fractal, or of the sub-fractal; empty where it has no faces.</summary>
+    public BoundingBox Box => _root.Box;
 
     /// <inheritdoc/>
     public override long StorageBytes => _hierarchy.StorageBytes + _bvh.StorageBytes + _levels.StorageBytes + _basePlanes.StorageBytes;
@@ -76,28 +95,29 @@ internal sealed class FractalRayCaster : RayCaster
         in RaySearch search, int pathLength, in AffineMap map, QueryContext context)
     {
         context.ClearPath();
-        var instance = _hierarchy.ResolveInstance(context.BestPathBuffer(pathLength)[..pathLength], in map, context, out _);
+        var instance = _hierarchy.ResolveInstance(
+            context.BestPathBuffer(pathLength)[..pathLength], _rootLevels, in map, context, out _);
         return search.Proxy is { } proxy ? SimdAffineMap.Compose(in instance, in proxy.ProxyMap) : instance;
     }
 
     /// <inheritdoc/>
     internal override bool TryIntersect(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
     {
-        if (_isEmpty)
+        if (_root.Box.IsEmpty)
         {
             return false;
         }
 
         // Below the rounding of the ray, all that it comes near seems hit.
         var minRadius = Math.Max(_minRadius, MinRadiusInErrors * search.Error);
-        if (_hierarchy.Levels == 0 || ray.Scale * _radius <= minRadius)
+        if (_rootLevels == 0 || ray.Scale * _root.Radius <= minRadius)
         {
             var isRootHit = TryIntersectBase(in ray, ref search);
             pathLength = isRootHit ? 0 : pathLength;
             return isRootHit;
         }
 
-        var rootBounds = _levels.At(_hierarchy.Levels);
+        var rootBounds = _levels.At(_rootLevels);
         var approached = ray;
         if (!rootBounds.Box.TryApproach(ref approached, in search))
         {
@@ -125,7 +145,7 @@ internal sealed class FractalRayCaster : RayCaster
         var depth = 0;
         ref var frame = ref stack[0];
         frame.SetBounds(rootBounds);
-        frame.RemainingLevels = _hierarchy.Levels;
+        frame.RemainingLevels = _rootLevels;
         frame.PathLength = 0;
         frame.Set(in approached);
         if (!TryOpen(ref frame, hasTestedPlanes: false, ref stack.Entries(0), ref search, minRadius))
@@ -253,7 +273,7 @@ internal sealed class FractalRayCaster : RayCaster
         var prefix = new int[prefixLength];
         context.RayStack.CopyPath(depth, prefix);
         var visitor = new FlatRayVisitor(ray, search);
-        var node = _tree.Node(prefix);
+        var node = _tree.Node(_rootLevels, prefix);
         ShapeWalk.Run(
             _tree, node, _tree.MinRadiusSquared(AffineMap.Identity), ref visitor, ref visitor.Search.BoundTests,
             ref visitor.Search.FaceTests);

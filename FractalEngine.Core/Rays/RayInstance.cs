@@ -1,3 +1,4 @@
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -24,6 +25,7 @@ internal sealed class RayInstance : ObjectBvhLeaf
         : base(index, bounds)
     {
         Caster = caster;
+        MaxCoordinate = BoundingVolume.MaxAbsCoordinate(bounds);
         _objectToWorld = objectToWorld;
         var inverse = objectToWorld.Inverse();
         _worldToObject = new(inverse);
@@ -33,6 +35,9 @@ internal sealed class RayInstance : ObjectBvhLeaf
 
     /// <summary>In the frame of the model, made at the first ray.</summary>
     public Lazy<RayCaster> Caster { get; }
+
+    /// <summary>The largest absolute coordinate in world space.</summary>
+    public double MaxCoordinate { get; }
 
     /// <summary>From the frame of the model to world space.</summary>
     public ref readonly AffineMap ObjectToWorld => ref _objectToWorld;

@@ -10,6 +10,8 @@ namespace FractalEngine.Core.Rays;
 /// <param name="footprint">What is smaller need not be told apart.</param>
 internal struct RaySearch(double minDistance, double maxDistance, bool stopsAtFirst, double error, RayFootprint footprint)
 {
+    private readonly double _minDistance = minDistance;
+
     /// <summary>Smallest distance of a hit.</summary>
     public readonly double MinDistance = minDistance - error;
 
@@ -36,6 +38,13 @@ internal struct RaySearch(double minDistance, double maxDistance, bool stopsAtFi
 
     /// <summary>Number of bounding volumes that were tested.</summary>
     public long BoundTests;
+
+    /// <summary>The search for a nearer hit with another rounding, without the cost so far.</summary>
+    /// <param name="error">Upper bound of how far rounding moves a point of the ray or of a target, in the frame of the query.</param>
+    public readonly RaySearch WithError(double error) => new(_minDistance, MaxDistance, StopsAtFirst, error, Footprint);
+
+    /// <summary>Takes over the hit of a search with another rounding, but not its cost.</summary>
+    public void Accept(in RaySearch other) => (MaxDistance, Face, Proxy) = (other.MaxDistance, other.Face, other.Proxy);
 
     /// <summary>Adds the cost to that of other queries.</summary>
     public readonly void AddTo(QueryStatistics statistics)

@@ -1,12 +1,9 @@
-using System.Numerics;
-using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Core.Rays;
 
@@ -132,52 +129,11 @@ public sealed class SceneRayCaster
         if (_objects is not null)
         {
             var ray = LocalRay.Of(origin, unitDirection, minDistance);
-            SearchObjects(_objects.Root, in ray, ref search, context, ref found, ref pathLength);
+            RayInstanceSearch.Run(_objects.Root, in ray, ref search, context, ref found, ref pathLength);
         }
 
         search.AddTo(context.Statistics);
         return search;
-    }
-
-    /// <summary>Searches the objects in the order in which the ray enters their boxes.</summary>
-    private static void SearchObjects(
-        ObjectBvhNode root, in LocalRay ray, ref RaySearch search, QueryContext context, ref RayInstance? found, ref int pathLength)
-    {
-        var queue = context.ObjectQueue;
-        queue.Clear();
-        queue.Add(ray.Start, ObjectQueue.Untested, root);
-        while (queue.TryTake(out var entry, out _, out var target) && entry <= search.MaxDistance)
-        {
-            if (target is ObjectBvhNode node)
-            {
-                search.BoundTests += node.ChildCount;
-                var entries = node.RayEntries(in ray, in search);
-                var isHit = Vector256.LessThanOrEqual(entries, Vector256.Create(search.MaxDistance));
-                for (var slots = isHit.ExtractMostSignificantBits(); slots != 0; slots &= slots - 1)
-                {
-                    var slot = BitOperations.TrailingZeroCount(slots);
-                    if (slot < node.ChildCount)
-                    {
-                        queue.Add(entries[slot], node[slot] is RayInstance leaf ? leaf.Index : ObjectQueue.Untested, node[slot]);
-                    }
-                }
-
-                continue;
-            }
-
-            var instance = (RayInstance)target!;
-            var local = instance.ToObject(in ray);
-            if (instance.Caster.Value.TryIntersect(in local, ref search, context, ref pathLength))
-            {
-                found = instance;
-                if (search.StopsAtFirst)
-                {
-                    break;
-                }
-            }
-        }
-
-        queue.Clear();
     }
 
     private RayInstance CreateInstance(int index, PlacedModel placed) =>

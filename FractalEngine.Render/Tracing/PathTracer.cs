@@ -38,6 +38,10 @@ public sealed class PathTracer
     private readonly TracedScene _scene;
     private readonly TracedLights _lights;
     private readonly TracedCamera _camera;
+
+    // Where positions of rays are relative to, and their unit in scene units: of the scene itself, unless the view is a deep zoom.
+    private readonly Vector _eye;
+    private readonly double _unit = 1;
     private readonly Scene _declared;
     private readonly Sky? _visibleSky;
     private readonly Vector _backgroundRadiance;
@@ -50,17 +54,16 @@ public sealed class PathTracer
 
     /// <summary>Prepares an image without samples.</summary>
     /// <param name="scene">With its models loaded.</param>
-    /// <param name="view">Camera and projection; without deep zoom.</param>
+    /// <param name="view">Camera and projection.</param>
     /// <param name="width">Pixels, at least 1.</param>
     /// <param name="height">Pixels, at least 1.</param>
     /// <param name="settings">The background where the scene declares none, and the crease angle; the defaults when null.</param>
     /// <param name="seed">Distinguishes independent images.</param>
     /// <exception cref="ArgumentOutOfRangeException">Width or height is less than 1.</exception>
-    /// <exception cref="ArgumentException">The view is a deep zoom.</exception>
     /// <exception cref="SingularMatrixException">The matrix of an object has no inverse.</exception>
     public PathTracer(LoadedScene scene, View view, int width, int height, RenderSettings? settings = null, int seed = 0)
         : this(
-            CreateCamera(view, width, height), width, height,
+            view, width, height,
             new TracedScene(scene ?? throw new ArgumentNullException(nameof(scene)), settings ?? new()), new(scene),
             scene.Scene with { Background = scene.Scene.Background ?? (scene.Scene.Sky is null ? (settings ?? new()).Background : null) },
             seed)
@@ -68,17 +71,27 @@ public sealed class PathTracer
     }
 
     private PathTracer(
-        TracedCamera camera, int width, int height, TracedScene scene, TracedLights lights, Scene declared, int seed)
+        View view, int width, int height, TracedScene scene, TracedLights lights, Scene declared, int seed)
     {
-        _camera = camera;
-        _scene = scene;
+        ArgumentNullException.ThrowIfNull(view);
+        ArgumentOutOfRangeException.ThrowIfLessThan(width, 1);
+        ArgumentOutOfRangeException.ThrowIfLessThan(height, 1);
+        if (view.DeepZoom is { } zoom)
+        {
+            _eye = view.Camera.Position;
+            _unit = Math.Exp(zoom.LogUnit);
+            view = view with { Camera = view.Camera with { Position = Vector.Zero } };
+        }
+
+        _camera = new(view, width, height, FootprintPixels);
+        _scene = scene.ForView(view);
         _lights = lights;
         _declared = declared;
         _display = DisplayTransform.Of(declared);
         // A background is shown as it is declared, whatever is done with light.
         _visibleSky = declared.Background is null ? declared.Sky : null;
         _backgroundRadiance = _display.Invert(TracedMaterial.ToLinear(declared.Background ?? RenderSettings.DefaultBackground));
-        _fogDensity = declared.Fog?.Density ?? 0;
+        _fogDensity = _unit * (declared.Fog?.Density ?? 0);
         _fogColour = LightBlock.FogColour(declared);
         _seed = seed;
         Width = width;
@@ -100,13 +113,12 @@ public sealed class PathTracer
     public ImmutableArray<string> Notices => _scene.Notices;
 
     /// <summary>Prepares an image of another view of the same scene, without samples. What was prepared of the scene is shared.</summary>
-    /// <param name="view">Camera and projection; without deep zoom.</param>
+    /// <param name="view">Camera and projection.</param>
     /// <param name="width">Pixels, at least 1.</param>
     /// <param name="height">Pixels, at least 1.</param>
     /// <exception cref="ArgumentOutOfRangeException">Width or height is less than 1.</exception>
-    /// <exception cref="ArgumentException">The view is a deep zoom.</exception>
     public PathTracer WithView(View view, int width, int height) =>
-        new(CreateCamera(view, width, height), width, height, _scene, _lights, _declared, _seed);
+        new(view, width, height, _scene, _lights, _declared, _seed);
 
     /// <summary>Adds one sample to each pixel.</summary>
     /// <param name="threads">The most threads to use; null for one a core.</param>
@@ -180,16 +192,6 @@ public sealed class PathTracer
         return new Vector(sum[0], sum[1], sum[2]) / Math.Max(1, _rowSamples[y]);
     }
 
-    private static TracedCamera CreateCamera(View view, int width, int height)
-    {
-        ArgumentNullException.ThrowIfNull(view);
-        ArgumentOutOfRangeException.ThrowIfLessThan(width, 1);
-        ArgumentOutOfRangeException.ThrowIfLessThan(height, 1);
-        return view.DeepZoom is null
-            ? new(view, width, height, FootprintPixels)
-            : throw new ArgumentException("expected a view in world space, without deep zoom", nameof(view));
-    }
-
     private static byte ToByte(double component) => (byte)Math.Round(255 * Math.Clamp(component, 0, 1));
 
     /// <summary>The curve of IEC 61966-2-1, from linear light.</summary>
@@ -234,7 +236,7 @@ public sealed class PathTracer
                     return radiance;
                 }
 
-                passed += _scene.Offset;
+                passed += _scene.OffsetAt(surface.Position);
                 distanceBefore += passed;
                 ray = ray with { Origin = ray.Origin + (passed * ray.Direction) };
                 footprint = footprint with { Radius = footprint.RadiusAt(passed) };
@@ -252,7 +254,7 @@ public sealed class PathTracer
 
             radiance += throughput.Stretch(surface.Emission);
             var width = footprint.RadiusAt(passed);
-            var origin = surface.Position + (_scene.Offset * surface.FaceNormal);
+            var origin = surface.Position + (_scene.OffsetAt(surface.Position) * surface.FaceNormal);
             radiance += throughput.Stretch(DirectLight(in surface, origin, -ray.Direction, width, ref samples, context));
             if (++bounce > MaxBounces
                 || !Reflection.TrySample(in surface, -ray.Direction, ref samples, out var direction, out var weight, out var spread))
@@ -287,11 +289,13 @@ public sealed class PathTracer
         var sum = Vector.Zero;
         for (var i = 0; i < _lights.Count; i++)
         {
-            var incoming = _lights.Incoming(i, surface.Position, ref samples, out var toLight, out var distance);
+            var incoming = _lights.Incoming(
+                i, _eye + (_unit * surface.Position), ref samples, out var toLight, out var distance);
             var reflected = incoming.Stretch(Reflection.Evaluate(in surface, toEye, toLight));
             if (reflected != Vector.Zero)
             {
-                sum += _scene.Transmittance(new(origin, toLight), new(width, ShadowSpread), distance, context) * reflected;
+                sum += _scene.Transmittance(
+                    new(origin, toLight), new(width, ShadowSpread), distance / _unit, context) * reflected;
             }
         }
 

@@ -15,6 +15,10 @@ internal sealed class TracedScene
     private const double SurfaceOffset = 1e-9;
 
     private readonly SceneRayCaster _caster;
+    private readonly TracedScene _whole;
+    private readonly DeepZoom? _zoom;
+    private readonly DeepZoomRayCaster? _zoomCaster;
+    private readonly double _offset;
     private readonly ImmutableArray<PlacedModel> _objects;
     private readonly TracedModel[] _models;
     private readonly Vector[] _colours;
@@ -25,6 +29,7 @@ internal sealed class TracedScene
     /// <param name="settings">The crease angle.</param>
     public TracedScene(LoadedScene scene, RenderSettings settings)
     {
+        _whole = this;
         _caster = new(scene);
         _objects = scene.Objects;
         var notices = ImmutableArray.CreateBuilder<string>();
@@ -37,8 +42,21 @@ internal sealed class TracedScene
             placed.Declaration.Gradient is { } gradient ? TracedMaterial.ToLinear(gradient.EndColour) : _colours[index])];
         IsSeeThrough = _models.Any(static model => model.IsSeeThrough);
         Notices = notices.ToImmutable();
-        var bounds = scene.Bounds;
-        Offset = SurfaceOffset * bounds.FiniteDiagonalOr(1);
+        _offset = SurfaceOffset * scene.Bounds.FiniteDiagonalOr(1);
+    }
+
+    private TracedScene(TracedScene scene, DeepZoom zoom)
+    {
+        _whole = scene;
+        _caster = scene._caster;
+        _objects = scene._objects;
+        _models = scene._models;
+        _colours = scene._colours;
+        _gradientEnds = scene._gradientEnds;
+        IsSeeThrough = scene.IsSeeThrough;
+        Notices = scene.Notices;
+        _zoom = zoom;
+        _zoomCaster = new(((FractalModel)_objects[zoom.ObjectIndex].Model).Fractal, zoom.Roots);
     }
 
     /// <summary>Sentences for the user about textures that can't be decoded.</summary>
@@ -47,21 +65,23 @@ internal sealed class TracedScene
     /// <summary>True where light may pass through any surface.</summary>
     public bool IsSeeThrough { get; }
 
-    /// <summary>How far from a surface rays start that leave it, scene units.</summary>
-    public double Offset { get; }
+    /// <summary>How far from a surface rays start that leave it, in the unit of the view.</summary>
+    /// <param name="position">A point of the surface; in a deep zoom about the camera, since there is no size but its distance.</param>
+    public double OffsetAt(Vector position) => _zoom is null ? _offset : SurfaceOffset * position.Length();
+
+    /// <summary>The same surfaces for a view; those of a deep zoom are around the camera, in the unit of the zoom.</summary>
+    public TracedScene ForView(View view) => view.DeepZoom is { } zoom ? new(_whole, zoom) : _whole;
 
     /// <summary>Finds the nearest surface along a ray.</summary>
     public bool TryIntersect(
         in Ray ray, RayFootprint footprint, double minDistance, double maxDistance, QueryContext context, out TracedSurface surface)
     {
-        if (!_caster.TryFindNearest(ray, context, out var hit, out var objectIndex, minDistance, maxDistance, footprint))
-        {
-            surface = default;
-            return false;
-        }
-
-        surface = CreateSurface(ray.Direction, in hit, objectIndex, context);
-        return true;
+        int index;
+        var isHit = _zoomCaster is not null
+            ? _zoomCaster.TryFindNearest(ray, context, out var hit, out index, minDistance, maxDistance, footprint)
+            : _caster.TryFindNearest(ray, context, out hit, out index, minDistance, maxDistance, footprint);
+        surface = isHit ? CreateSurface(ray.Direction, in hit, index, context) : default;
+        return isHit;
     }
 
     /// <summary>Computes the part of light that reaches a point from a direction, from 0 to 1.</summary>
@@ -73,7 +93,9 @@ internal sealed class TracedScene
     {
         if (!IsSeeThrough)
         {
-            return _caster.HitsAny(ray, context, 0, distance, footprint) ? 0 : 1;
+            var isHit = _zoomCaster?.HitsAny(ray, context, 0, distance, footprint)
+                ?? _caster.HitsAny(ray, context, 0, distance, footprint);
+            return isHit ? 0 : 1;
         }
 
         const int MaxLayers = 32;
@@ -81,7 +103,7 @@ internal sealed class TracedScene
         for (var layer = 0; transmittance > 0 && TryIntersect(in ray, footprint, 0, distance, context, out var surface); layer++)
         {
             transmittance *= layer < MaxLayers ? 1 - surface.Opacity : 0;
-            var passed = (surface.Position - ray.Origin).Length() + Offset;
+            var passed = (surface.Position - ray.Origin).Length() + OffsetAt(surface.Position);
             ray = ray with { Origin = ray.Origin + (passed * ray.Direction) };
             distance -= passed;
             if (!(distance > 0))
@@ -93,15 +115,21 @@ internal sealed class TracedScene
         return transmittance;
     }
 
-    private TracedSurface CreateSurface(Vector direction, in RayHit hit, int objectIndex, QueryContext context)
+    /// <summary>Looks up the surface of a hit.</summary>
+    /// <param name="direction">Direction of the ray.</param>
+    /// <param name="hit">The hit.</param>
+    /// <param name="index">Index of the object, or in a deep zoom of the sub-fractal.</param>
+    /// <param name="context">Has the path to the instance.</param>
+    private TracedSurface CreateSurface(Vector direction, in RayHit hit, int index, QueryContext context)
     {
+        var objectIndex = _zoom?.ObjectIndex ?? index;
         var model = _models[objectIndex];
         var material = model.MaterialOf(hit.FaceIndex);
         var map = hit.InstanceMap;
         var faceNormal = hit.IsFrontFace ? hit.Normal : -hit.Normal;
         var normal = OrientedNormal(
             map.Linear.Cofactors() * model.InterpolateNormal(hit.FaceIndex, hit.Barycentrics), faceNormal, hit.IsFrontFace, map, direction);
-        var colour = material.Diffuse ?? ObjectColour(objectIndex, context);
+        var colour = material.Diffuse ?? ObjectColour(index, context);
         colour = colour.Stretch(model.InterpolateColour(hit.FaceIndex, hit.Barycentrics));
         var opacity = material.Opacity;
         if (material.IsTextured && model.TryGetTextureTriangle(hit.FaceIndex, out var corners, out var coordinates))
@@ -139,8 +167,10 @@ internal sealed class TracedScene
         return Vector.Dot(normal, direction) < 0 ? normal : faceNormal;
     }
 
-    private Vector ObjectColour(int objectIndex, QueryContext context)
+    /// <summary>The colour of an instance of an object, or in a deep zoom of a sub-fractal.</summary>
+    private Vector ObjectColour(int index, QueryContext context)
     {
+        var objectIndex = _zoom?.ObjectIndex ?? index;
         var placed = _objects[objectIndex];
         if (placed.Declaration.Gradient is not { Kind: not GradientKind.None and var kind }
             || placed.Model is not FractalModel { Fractal: var fractal })
@@ -148,7 +178,8 @@ internal sealed class TracedScene
             return _colours[objectIndex];
         }
 
-        var factor = ColourPath.GradientFactorOf(fractal, kind, context.InstancePath);
+        var factor = _zoomCaster?.GradientFactorOf(kind, index, context)
+            ?? ColourPath.GradientFactorOf(fractal, kind, context.InstancePath);
         return ((1 - factor) * _colours[objectIndex]) + (factor * _gradientEnds[objectIndex]);
     }
 }

@@ -40,10 +40,11 @@ internal sealed class ShapeTree(
         : Create(hierarchy.Root, hierarchy.Levels, in map, MinRadiusSquared(in map), 0, 0);
 
     /// <summary>Finds the node that a path of child instances leads to. Only for fractals.</summary>
-    /// <param name="path">Indices of child instances from the root.</param>
-    public ShapeNode Node(ReadOnlySpan<int> path)
+    /// <param name="levels">Remaining levels of the sub-fractal where the path begins, in whose frame the node is.</param>
+    /// <param name="path">Indices of child instances from there.</param>
+    public ShapeNode Node(long levels, ReadOnlySpan<int> path)
     {
-        var (subFractal, levels, map) = (hierarchy!.Root, hierarchy.Levels, AffineMap.Identity);
+        var (subFractal, map) = (hierarchy!.At(levels), AffineMap.Identity);
         foreach (var index in path)
         {
             var child = subFractal.Children[index];

@@ -13,13 +13,22 @@ internal sealed partial class FractalHierarchy
     /// <param name="rootMap">From the frame of the fractal to that of the query.</param>
     /// <param name="context">Receives the map indices.</param>
     /// <param name="reach">The largest absolute coordinate of a frame's origin on the way, in the frame of the query.</param>
-    public SimdAffineMap ResolveInstance(ReadOnlySpan<int> path, in AffineMap rootMap, QueryContext context, out double reach)
+    public SimdAffineMap ResolveInstance(ReadOnlySpan<int> path, in AffineMap rootMap, QueryContext context, out double reach) =>
+        ResolveInstance(path, Levels, in rootMap, context, out reach);
+
+    /// <summary>Follows a path from a sub-fractal to an instance.</summary>
+    /// <param name="path">Indices of child instances from the sub-fractal.</param>
+    /// <param name="remainingLevels">Remaining levels of the sub-fractal.</param>
+    /// <param name="rootMap">From the frame of the sub-fractal to that of the query.</param>
+    /// <param name="context">Receives the map indices.</param>
+    /// <param name="reach">The largest absolute coordinate of a frame's origin on the way, in the frame of the query.</param>
+    public SimdAffineMap ResolveInstance(
+        ReadOnlySpan<int> path, long remainingLevels, in AffineMap rootMap, QueryContext context, out double reach)
     {
         var map = new SimdAffineMap(rootMap);
         var maxTranslation = Vector256.Abs(map.Translation);
-        var remainingLevels = Levels;
         var exponent = 0L;
-        var subFractal = Root;
+        var subFractal = At(remainingLevels);
         foreach (var childIndex in path)
         {
             var child = subFractal.Children[childIndex];
