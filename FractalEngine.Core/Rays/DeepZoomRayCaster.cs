@@ -23,7 +23,7 @@ public sealed class DeepZoomRayCaster
     private const double BoxError = 1e-14;
 
     private readonly Fractal _fractal;
-    private readonly ImmutableArray<LodRoot> _roots;
+    private readonly FractalHierarchy _hierarchy;
     private readonly ObjectBvh? _instances;
 
     /// <summary>Prepares the sub-fractals around a camera.</summary>
@@ -32,7 +32,7 @@ public sealed class DeepZoomRayCaster
     /// <exception cref="ArgumentException">The fractal is composed componentwise.</exception>
     /// <exception cref="FractalLimitException">The bounds of some level overflow a double or don't converge.</exception>
     /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
-    /// <remarks>Cost: microseconds a sub-fractal.</remarks>
+    /// <remarks>Cost: milliseconds.</remarks>
     public DeepZoomRayCaster(Fractal fractal, ImmutableArray<LodRoot> roots)
     {
         ArgumentNullException.ThrowIfNull(fractal);
@@ -42,13 +42,15 @@ public sealed class DeepZoomRayCaster
         }
 
         _fractal = fractal;
-        _roots = roots;
-        var whole = new FractalRayCaster(fractal);
+        Roots = roots;
+        // Cameras come to levels that searches from the whole fractal skip.
+        _hierarchy = FractalHierarchy.Build(fractal, doublesPowers: false, keepsAllLevels: true);
+        var whole = new FractalRayCaster(fractal, _hierarchy);
         var casters = new Dictionary<long, FractalRayCaster>();
         var instances = new List<RayInstance>();
-        for (var i = 0; i < roots.Length; i++)
+        for (var i = 0; i < Roots.Length; i++)
         {
-            var root = roots[i];
+            var root = Roots[i];
             if (!casters.TryGetValue(root.RemainingLevels, out var caster))
             {
                 caster = whole.At(root.RemainingLevels);
@@ -64,11 +66,14 @@ public sealed class DeepZoomRayCaster
         _instances = instances.Count == 0 ? null : ObjectBvh.Build(instances.ToArray());
     }
 
+    /// <summary>The sub-fractals that rays are cast at.</summary>
+    public ImmutableArray<LodRoot> Roots { get; }
+
     /// <summary>Finds the nearest face that a ray hits.</summary>
     /// <param name="ray">In world axes about the camera, in the unit of the sub-fractals' maps.</param>
     /// <param name="context">Receives the costs and the instance below the sub-fractal; one for each thread.</param>
     /// <param name="hit">The hit in the frame of the ray, if there is one.</param>
-    /// <param name="rootIndex">Index of the sub-fractal; −1 for none.</param>
+    /// <param name="rootIndex">Index in <see cref="Roots"/> of the sub-fractal; −1 for none.</param>
     /// <param name="minDistance">Smallest distance that counts, not negative.</param>
     /// <param name="maxDistance">Largest distance that counts; may be infinite.</param>
     /// <param name="footprint">How wide the ray is; a line unless stated.</param>
@@ -113,10 +118,10 @@ public sealed class DeepZoomRayCaster
     public float GradientFactorOf(GradientKind gradient, int rootIndex, QueryContext context)
     {
         ArgumentNullException.ThrowIfNull(context);
-        var (levels, _, path) = _roots[rootIndex];
+        var (levels, _, path) = Roots[rootIndex];
         foreach (var index in context.InstancePath)
         {
-            var set = _fractal.Hierarchy.MapSetAt(levels--)!;
+            var set = _hierarchy.MapSetAt(levels--)!;
             path = path.Append(index == set.IdentityIndex ? -1 : index, index, set.Maps.Length);
         }
 

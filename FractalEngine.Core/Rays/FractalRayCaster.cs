@@ -49,9 +49,15 @@ internal sealed class FractalRayCaster : RayCaster
 
     /// <summary>Prepares a fractal in affine composition.</summary>
     public FractalRayCaster(Fractal fractal)
+        : this(fractal, fractal.Hierarchy)
+    {
+    }
+
+    /// <summary>Prepares a fractal with another hierarchy than its own.</summary>
+    public FractalRayCaster(Fractal fractal, FractalHierarchy hierarchy)
     {
         _fractal = fractal;
-        _hierarchy = fractal.Hierarchy;
+        _hierarchy = hierarchy;
         (_root, _rootLevels) = (_hierarchy.Root, _hierarchy.Levels);
         _bvh = TriangleBvh.For(fractal.BaseMesh);
         _minRadius = ExactFractalCollider.MinRadius(_root);
@@ -75,7 +81,7 @@ internal sealed class FractalRayCaster : RayCaster
     }
 
     /// <summary>The caster of a sub-fractal in its own frame. It shares what is kept with that of the whole.</summary>
-    /// <param name="levels">Its remaining levels.</param>
+    /// <param name="levels">Its remaining levels, which the hierarchy must have kept.</param>
     public FractalRayCaster At(long levels) => new(this, levels);
 
     /// <summary>The box of the fractal, or of the sub-fractal; empty where it has no faces.</summary>

@@ -16,14 +16,14 @@ internal sealed partial class FractalHierarchy
     private readonly LevelRegion[] _regions;
     private readonly SubFractal?[] _lowest;
 
-    private FractalHierarchy(FractalHierarchyBuilder builder)
+    private FractalHierarchy(FractalHierarchyBuilder builder, bool keepsAllLevels)
     {
         var built = builder.Built;
         _regions = [.. built.Regions];
         _levels = [.. built.Levels];
         Levels = built.Top;
         var isReachable = ReachableLevels.Find(built.SubFractals, _regions, Levels);
-        _subFractals = [.. built.SubFractals.Select((subFractal, i) => isReachable[i] ? subFractal : null)];
+        _subFractals = [.. built.SubFractals.Select((subFractal, i) => keepsAllLevels || isReachable[i] ? subFractal : null)];
         _lowest = new SubFractal?[Math.Min(Levels, MaxLowestLevel) + 1];
         for (var level = 0; level < _lowest.Length; level++)
         {
@@ -67,12 +67,13 @@ internal sealed partial class FractalHierarchy
     /// <summary>Builds the hierarchy of a fractal in affine composition.</summary>
     /// <param name="fractal">The fractal.</param>
     /// <param name="doublesPowers">False for one level for each set of the fractal, see <see cref="MapPowers"/>.</param>
+    /// <param name="keepsAllLevels">True to keep levels that no search from the whole fractal visits.</param>
     /// <exception cref="FractalLimitException">Bounds overflow a double, or don't converge; the message names the level.</exception>
-    public static FractalHierarchy Build(Fractal fractal, bool doublesPowers = true)
+    public static FractalHierarchy Build(Fractal fractal, bool doublesPowers = true, bool keepsAllLevels = false)
     {
         var builder = new FractalHierarchyBuilder(fractal, doublesPowers);
         builder.AddAllSteps();
-        return new(builder);
+        return new(builder, keepsAllLevels);
     }
 
     /// <summary>The sub-fractal with a number of remaining levels, which must be one that a search can visit.</summary>

@@ -2,9 +2,11 @@ using System.Collections.Immutable;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility;
 using FractalEngine.Render;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Fractals;
 
 namespace FractalEngine.Tests.Render.Tracing;
 
@@ -26,6 +28,44 @@ public class PathTracerTests
                 Assert.Equal(1, tracer.RadianceAt(x, y).X, 0.01);
             }
         }
+    }
+
+    [Fact]
+    public void AddSample_OfADeepZoom_ShowsWhatTheWorldShows()
+    {
+        const int size = 24;
+        var fractal = AssetFractals.Load("menger", 6);
+        var dive = new FractalDive(LodHierarchy.Build(fractal), 7, AffineMap.Identity, new(-1, 1, 0.8));
+        dive.GoToDepth(2, 0.2);
+        var unit = Math.Exp(dive.Address.LogUnit);
+        var scene = LoadedScene.Of(Scene([WhiteSky, new PointLight(Colour.White, 1, new(-3, 4, 2), 30)], new SceneObject(fractal) { Colour = Colour.White }));
+        var camera = new Camera(
+            dive.Address.WorldPosition(AffineMap.Identity), CameraFraming.LookRotation(dive.LocateTarget(Vector.Zero)), 50);
+        var world = new View(camera, Projection.Perspective) { FixedClipPlanes = (0.001 * unit, 100) };
+        var zoomed = world with
+        {
+            FixedClipPlanes = (0.001, 100 / unit),
+            DeepZoom = new(0, dive.Address.CollectRoots(1000), dive.Address.LogUnit),
+        };
+
+        // From one to the other, what was prepared is shared.
+        var worldTracer = new PathTracer(scene, world, size, size);
+        var zoomTracer = worldTracer.WithView(zoomed, size, size);
+        for (var i = 0; i < 8; i++)
+        {
+            worldTracer.AddSample();
+            zoomTracer.AddSample();
+        }
+
+        // The same paths, but for those that rounding sends past an edge.
+        var same = 0;
+        for (var i = 0; i < size * size; i++)
+        {
+            same += (worldTracer.RadianceAt(i % size, i / size) - zoomTracer.RadianceAt(i % size, i / size)).Length() < 0.01 ? 1 : 0;
+        }
+
+        Assert.InRange(same, 0.9 * size * size, size * size);
+        Assert.InRange(Mean(zoomTracer), 0.05, 1);
     }
 
     [Fact]
