@@ -117,7 +117,7 @@ public sealed partial class SceneParser
         foreach (var option in BodyOptions)
         {
             Require(!cursor.Rest.StartsWith(option, StringComparison.Ordinal), cursor,
-                $"'{option.TrimEnd()}' is an option of physics objects, which a 'p' line declares");
+                $"unexpected '{option.TrimEnd()}': it is an option of physics objects, which a 'p' line declares");
         }
 
         return false;
