@@ -83,10 +83,10 @@ public sealed class ImageCommandTests : IDisposable
         RequireDisplay();
         var image = Repository.Full($"docs/images/{Path.GetFileNameWithoutExtension(file)}.png");
         var size = ReadImage(image);
-        // Another driver may round edges otherwise; another camera or another file gives 15 to 25 dB.
+        // Where twigs are thinner than a pixel, a shift by a part of one gives 26 dB; another camera gives 15 to 24 dB.
         var (exitCode, _, error) = Run(
             ["render", Repository.Full($"assets/examples/{file}"), "--output", "a.png", "--resolution", $"{size.Width}x{size.Height}",
-            "--reference", image, "--threshold", "28", .. options]);
+            "--reference", image, "--threshold", "25", .. options]);
         Assert.True(exitCode == 0, error);
     }
 
