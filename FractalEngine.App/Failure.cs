@@ -16,7 +16,9 @@ internal sealed record Failure(int ExitCode, string Text)
     {
         SourceException source => new(CodeOf(source.Kind), source.Diagnostic.ToString()),
         // An option asked for the collider, or a line of the scene that is valid in other scenes.
-        ColliderMismatchException or UsageException => new(App.ExitCode.WrongUsage, Line(exception.Message)),
+        ColliderMismatchException => new(App.ExitCode.WrongUsage, Line(exception.Message)),
+        UsageException { Excerpt: { } excerpt } => new(App.ExitCode.WrongUsage, $"{Line(exception.Message)}\n{excerpt}"),
+        UsageException => new(App.ExitCode.WrongUsage, Line(exception.Message)),
         FractalEngineException engine => new(CodeOf(engine.Kind), Line(engine.Message)),
         OutOfMemoryException => new(App.ExitCode.OverLimit, Line("the machine's memory does not suffice")),
         OperationCanceledException => new(App.ExitCode.Interrupted, Line(exception.Message)),

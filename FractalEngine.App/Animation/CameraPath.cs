@@ -21,8 +21,8 @@ internal sealed class CameraPath
     /// </summary>
     /// <param name="path">Path of the list.</param>
     /// <param name="handedness">That of the scene.</param>
-    /// <exception cref="SourceException">The file can't be read.</exception>
-    /// <exception cref="UsageException">A line is no camera, or there are fewer than two.</exception>
+    /// <exception cref="SourceException">The file can't be read, or a line is no camera.</exception>
+    /// <exception cref="UsageException">There are fewer than two cameras.</exception>
     public static CameraPath Read(string path, Handedness handedness)
     {
         var source = StandardInput.IsNamedBy(path)
@@ -31,9 +31,9 @@ internal sealed class CameraPath
         Camera[] cameras =
         [
             .. source.Text.ReplaceLineEndings("\n").Split('\n')
-                .Select(static (line, index) => (Text: line.Trim(), Number: index + 1))
-                .Where(static line => line.Text.Length > 0 && !line.Text.StartsWith('#'))
-                .Select(line => CameraText.ParseCamera($"{path}:{line.Number}", RemoveKeyword(line.Text), handedness)),
+                .Select(static (line, index) => (Text: line.TrimEnd(), Number: index + 1))
+                .Where(static line => line.Text.Length > 0 && !line.Text.TrimStart().StartsWith('#'))
+                .Select(line => CameraText.ParseCameraLine(path, line.Number, line.Text, handedness)),
         ];
         return cameras.Length >= 2 ? new(cameras, handedness) : throw new UsageException($"{path} has fewer than two cameras");
     }
@@ -71,6 +71,4 @@ internal sealed class CameraPath
         return (((2 * t3) - (3 * t2) + 1) * from) + ((t3 - (2 * t2) + t) * startSlope)
             + (((3 * t2) - (2 * t3)) * to) + ((t3 - t2) * endSlope);
     }
-
-    private static string RemoveKeyword(string line) => line.StartsWith("c ", StringComparison.Ordinal) ? line[2..] : line;
 }

@@ -82,10 +82,24 @@ internal sealed class CameraOptions
             return ownView;
         }
 
-        var isOrthographic = direction == Views[^1].Direction && !hasProjection;
-        var shown = isOrthographic ? scene with { Scene = scene.Scene with { Projection = Projection.Orthographic } } : scene;
-        var turned = ownView.Camera with { Rotation = CameraFraming.LookRotation(direction) };
-        return Render.View.Of(shown, aspect, CameraFraming.Frame(turned, scene.Bounds, scene.Scene.Aspect ?? aspect));
+        var isIsometric = direction == Views[^1].Direction && !hasProjection;
+        var shown = isIsometric ? scene with { Scene = scene.Scene with { Projection = Projection.Orthographic } } : scene;
+        return Framed(shown, ownView.Camera with { Rotation = CameraFraming.LookRotation(direction) }, aspect);
+    }
+
+    /// <summary>Shows all of a scene, as the key F does in the window.</summary>
+    private static View Framed(LoadedScene scene, Camera camera, double frameAspect)
+    {
+        var aspect = scene.Scene.Aspect ?? frameAspect;
+        var framed = CameraFraming.FrameScene(camera, scene, aspect);
+        if (scene.Scene.Projection == Projection.Perspective)
+        {
+            return Render.View.Of(scene, frameAspect, framed);
+        }
+
+        var (centred, height) = CameraFraming.FrameSceneOrthographic(framed, scene, aspect);
+        var view = Render.View.Of(scene, frameAspect, centred);
+        return view with { OrthographicHeight = height ?? view.OrthographicHeight };
     }
 
     private Camera LookAt(ParseResult result, LoadedScene scene, Camera camera)

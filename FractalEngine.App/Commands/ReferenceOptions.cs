@@ -1,6 +1,7 @@
 using System.CommandLine;
 using System.Globalization;
 using FractalEngine.Core.Images;
+using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Images;
 
 namespace FractalEngine.App.Commands;
@@ -29,16 +30,30 @@ internal sealed class ReferenceOptions
 
     /// <summary>Loads the reference, before anything is drawn.</summary>
     /// <returns>The comparison; null where none is asked for.</returns>
-    /// <exception cref="IOException">The reference can't be read.</exception>
+    /// <exception cref="SourceException">The reference can't be read.</exception>
+    /// <exception cref="UsageException">There is a threshold and nothing to compare with.</exception>
     public Func<PixelImage, string, int>? Load(ParseResult result)
     {
         if (result.GetValue(_reference) is not { } path)
         {
-            return null;
+            return result.GetValue(_threshold) is null ? null : throw new UsageException("--threshold needs --reference IMAGE");
         }
 
-        var reference = ImageFile.Load(path);
+        var reference = ReadReference(path);
         return (image, output) => Compare(image, reference, output, result.GetValue(_threshold) ?? DefaultThreshold);
+    }
+
+    private static PixelImage ReadReference(string path)
+    {
+        try
+        {
+            return ImageFile.Load(path);
+        }
+        catch (IOException exception)
+        {
+            var message = exception.Message.Replace($"{path} can't", "the image can't", StringComparison.Ordinal);
+            throw new SourceException(path, File.Exists(path) ? message : "file not found");
+        }
     }
 
     /// <summary>Compares an image, and writes the difference if it is too large.</summary>

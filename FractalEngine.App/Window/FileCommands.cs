@@ -37,7 +37,7 @@ internal sealed class FileCommands(
 
     private ImmutableArray<string> SuggestFiles(string text) =>
         text.Length > 0 ? PathCompletion.Suggest(text)
-            : [.. recent.Read().Where(File.Exists).Select(PathText.Shorten), .. PathCompletion.Suggest("")];
+            : [.. recent.Read().Where(File.Exists).Select(PathText.Shorten).Union(PathCompletion.Suggest(""))];
 
     /// <summary>Returns why a file can't be opened; null if it is being loaded, or the user is asked about unsaved changes first.</summary>
     private string? TryOpen(string text)

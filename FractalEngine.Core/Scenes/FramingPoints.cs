@@ -82,6 +82,9 @@ internal sealed class FramingPoints
     private void AddParts(LodHierarchy hierarchy, AffineMap objectToWorld)
     {
         var parts = new Queue<(long Levels, AffineMap Map)>([(hierarchy.LevelCount, objectToWorld)]);
+        // Of an infinite fractal every part has children: after enough parts, none is opened any more.
+        var isFull = false;
+        var openedCount = 0;
         while (parts.TryDequeue(out var part))
         {
             var node = hierarchy.NodeAt(part.Levels);
@@ -90,7 +93,8 @@ internal sealed class FramingPoints
                 continue;
             }
 
-            if (node.ChildMaps.Length == 0 || parts.Count + node.ChildMaps.Length > MaxBoxes)
+            isFull |= parts.Count + node.ChildMaps.Length > MaxBoxes || ++openedCount > MaxBoxes;
+            if (node.ChildMaps.Length == 0 || isFull)
             {
                 AddCorners(node.Box, part.Map);
                 continue;

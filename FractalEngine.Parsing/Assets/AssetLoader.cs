@@ -239,6 +239,11 @@ public sealed class AssetLoader
         var parsed = ReadOrFindMesh(fullPath, displayName);
         _textBytes += parsed.ByteCount;
         _warnings.AddRange(parsed.Warnings);
+        if (parsed.Mesh.FaceCount == 0)
+        {
+            _warnings.Add(new(displayName, 1, 1, DiagnosticSeverity.Warning, "the file has no faces, so nothing of it is drawn"));
+        }
+
         var materials = _materials.Load(parsed, fullPath);
         return _meshes[fullPath] = new(parsed.Mesh, materials, StorageBytes - bytesBefore, _record.Since(filesBefore));
     }

@@ -27,8 +27,13 @@ public sealed partial class FractalParser
         }
 
         RequireLimit(_objects.Count + _functions.Count + 1, ParsingLimits.MaxNames, "names", cursor);
-        return _functions.TryAdd(name, new(parameters.Count, position, rotation, scale)) ? true
-            : throw Error(cursor, $"the transformation '{name}' is declared twice");
+        if (!_functions.TryAdd(name, new(parameters.Count, position, rotation, scale)))
+        {
+            throw Error(cursor, $"the transformation '{name}' is declared twice, first in line {LineOfDeclaration(name + '.')}");
+        }
+
+        _declarationOffsets[name + '.'] = cursor.Offset;
+        return true;
     }
 
     private bool ParseParameters(Cursor cursor, out List<string> parameters, out Cursor rest)

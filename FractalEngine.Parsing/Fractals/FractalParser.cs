@@ -32,6 +32,9 @@ public sealed partial class FractalParser : Parser
     private readonly List<Vector> _vectors = [];
     private readonly Dictionary<string, TransformationFunction> _functions = [];
     private readonly Dictionary<string, DeclaredObject> _objects = [];
+
+    // Where the name of an object or of a transformation is declared; keys of the latter end with a dot. A key with a blank is no name.
+    private readonly Dictionary<string, int> _declarationOffsets = [];
     private Composition? _composition;
     private (DeclaredObject Object, int Offset)? _result;
     private bool _hasDeclaration;
@@ -117,10 +120,11 @@ public sealed partial class FractalParser : Parser
 
         if (_composition is not null)
         {
-            throw Error(cursor, "the composition is declared twice");
+            throw Error(cursor, $"the composition is declared twice, first in line {LineOfDeclaration("composition ")}");
         }
 
         _composition = composition;
+        _declarationOffsets["composition "] = cursor.Offset;
         return true;
     }
 
@@ -332,12 +336,16 @@ public sealed partial class FractalParser : Parser
         }
     }
 
+    private int LineOfDeclaration(string key) => Source.LineOf(_declarationOffsets[key]);
+
     private void DeclareObject(Cursor cursor, string name, DeclaredObject value)
     {
         RequireLimit(_objects.Count + _functions.Count + 1, ParsingLimits.MaxNames, "names", cursor);
         if (!_objects.TryAdd(name, value))
         {
-            throw Error(cursor, $"the object '{name}' is declared twice");
+            throw Error(cursor, $"the object '{name}' is declared twice, first in line {LineOfDeclaration(name)}");
         }
+
+        _declarationOffsets[name] = cursor.Offset;
     }
 }

@@ -10,6 +10,9 @@ public sealed partial class SceneParser
     // In the order of ColliderKind.
     private static readonly string[] ColliderNames = ["exact", "fractal", "hierarchy", "bounding-box", "simple"];
 
+    // With the blank that follows each.
+    private static readonly string[] BodyOptions = ["velocity ", "mass ", "friction ", "damping ", "shrink ", "collider "];
+
     private delegate bool OptionParser<T>(Cursor cursor, ref T declared, out Cursor rest);
 
     /// <summary>Returns the name of a collider in scene files and on the command line.</summary>
@@ -109,6 +112,12 @@ public sealed partial class SceneParser
             var success = ParseBodyOption(cursor, ref body, out rest);
             declared = body;
             return success;
+        }
+
+        foreach (var option in BodyOptions)
+        {
+            Require(!cursor.Rest.StartsWith(option, StringComparison.Ordinal), cursor,
+                $"unexpected '{option.TrimEnd()}': it is an option of physics objects, which a 'p' line declares");
         }
 
         return false;

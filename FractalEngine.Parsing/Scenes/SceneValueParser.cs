@@ -77,7 +77,7 @@ public abstract class SceneValueParser : Parser
         var success = ParseVector(cursor, out var vector, out rest);
         colour = new(vector.X, vector.Y, vector.Z);
         Require(
-            Vector.Min(vector, Vector.Zero) == Vector.Zero && Vector.Max(vector, Vector.One) == Vector.One,
+            !success || (Vector.Min(vector, Vector.Zero) == Vector.Zero && Vector.Max(vector, Vector.One) == Vector.One),
             cursor, "the components of a colour must lie between 0 and 1");
         return success;
     }

@@ -49,6 +49,47 @@ public sealed class ImageCommandTests : IDisposable
         Assert.True(red > 200 && green < 50, $"red {red}, green {green}");
     }
 
+    [SkippableTheory]
+    [InlineData("front")]
+    [InlineData("bottom")]
+    [InlineData("isometric")]
+    public void View_OfAFractal_FillsFourFifthsInTheMiddle(string view)
+    {
+        // The box around all instances of a tree is far larger than what is seen of it.
+        Render(Repository.Full("assets/fractals/tree.fdo"), "a.png", "--view", view, "--background", "transparent");
+        var image = ReadImage("a.png");
+        var rows = Enumerable.Range(0, 64).Where(y => Enumerable.Range(0, 64).Any(x => image[x, y].Alpha > 0)).ToArray();
+        var columns = Enumerable.Range(0, 64).Where(x => Enumerable.Range(0, 64).Any(y => image[x, y].Alpha > 0)).ToArray();
+        var size = Math.Max(rows[^1] - rows[0], columns[^1] - columns[0]) + 1;
+        Assert.InRange(size, 0.8 * 64 - 6, 0.8 * 64 + 1);
+        Assert.InRange(rows[0] + rows[^1], 60, 66);
+        Assert.InRange(columns[0] + columns[^1], 60, 66);
+    }
+
+    [SkippableTheory]
+    [InlineData("tree-01.fdo")]
+    [InlineData("tree-02.fdo")]
+    [InlineData("tree-03.fdo")]
+    [InlineData("tree-04.fdo")]
+    [InlineData("tree-05.fdo")]
+    [InlineData("tree-06.fdo")]
+    [InlineData("tree-07.fdo")]
+    [InlineData("tree-08.fdo")]
+    [InlineData("tree-09.sdo")]
+    [InlineData("tree-10.sdo", "--time", "0.9")]
+    [InlineData("angles.sdo")]
+    public void Render_OfAnExample_LooksAsOnItsPage(string file, params string[] options)
+    {
+        RequireDisplay();
+        var image = Repository.Full($"docs/images/{Path.GetFileNameWithoutExtension(file)}.png");
+        var size = ReadImage(image);
+        // Where twigs are thinner than a pixel, a shift by a part of one gives 26 dB; another camera gives 15 to 24 dB.
+        var (exitCode, _, error) = Run(
+            ["render", Repository.Full($"assets/examples/{file}"), "--output", "a.png", "--resolution", $"{size.Width}x{size.Height}",
+            "--reference", image, "--threshold", "25", .. options]);
+        Assert.True(exitCode == 0, error);
+    }
+
     [SkippableFact]
     public void Background_Transparent_IsClearBehindAndOpaqueOnTheObject()
     {
@@ -79,6 +120,18 @@ public sealed class ImageCommandTests : IDisposable
         Assert.Equal(0, Run([.. moved, "--reference", "a.png", "--threshold", "1"]).ExitCode);
     }
 
+    [Theory]
+    [InlineData("none.png", "none.png:1:1: error: file not found\n")]
+    [InlineData("text.png", "text.png:1:1: error: the image can't be read: ")]
+    public void Reference_ThatCannotBeRead_IsAnErrorOfTheFile(string reference, string message)
+    {
+        _folder.Write("text.png", "no image");
+        var (exitCode, output, error) = Run("render", "scene.sdo", "--output", "b.png", "--reference", reference);
+        Assert.Equal((1, ""), (exitCode, output));
+        Assert.StartsWith(message, error, StringComparison.Ordinal);
+        Assert.False(File.Exists(_folder["b.png"]));
+    }
+
     [SkippableFact]
     public void Zoom_IntoAnInfiniteFractal_ComesToTheSameImageAgain()
     {
@@ -93,13 +146,15 @@ public sealed class ImageCommandTests : IDisposable
     }
 
     [Theory]
-    [InlineData("--camera: unexpected end of file: a camera ends with its vertical angle of view in degrees; "
-        + "expected (x, y, z) (pitch, yaw, roll) fov or (x, y, z) look-at (x, y, z) fov", "--camera", "# #")]
+    [InlineData("--camera: unexpected end of line: a camera ends with its vertical angle of view in degrees; "
+        + "expected (x, y, z) (pitch, yaw, roll) fov or (x, y, z) look-at (x, y, z) fov\n  # #\n     ^", "--camera", "# #")]
+    [InlineData("--look-at: unexpected 'up', expected '#' or '('; expected (x, y, z)\n  up\n  ^", "--look-at", "up")]
     [InlineData("--camera, --view and --look-from or --look-at exclude each other: give one of the three",
         "--view", "top", "--camera", "# # 60")]
     [InlineData("--up needs --look-from or --look-at", "--up", "(0, 1, 0)")]
-    [InlineData("--background: unexpected 'red', expected a colour (r, g, b); expected (r, g, b) from 0 to 1, or transparent",
+    [InlineData("--background: unexpected 'red', expected a colour (r, g, b); expected (r, g, b) from 0 to 1, or transparent\n  red\n  ^",
         "--background", "red")]
+    [InlineData("--threshold needs --reference IMAGE", "--threshold", "30")]
     [InlineData("--zoom needs a fractal, or a scene whose only object is one, and --detail above 0", "--zoom", "3")]
     public void Render_OfAFaultyView_IsWrongUsage(string message, params string[] options) => Assert.Equal(
         new AppResult(2, "", $"error: {message}\n"), Run(["render", "scene.sdo", "--output", "a.png", .. options]));
@@ -143,6 +198,18 @@ public sealed class ImageCommandTests : IDisposable
         Render("scene.sdo", "b.png", "--look-from", "(3, 0, 0)", "--look-at", "(0, 0, 0)");
         Assert.Equal(Pixels("a.png"), Pixels("f-0001.png"));
         Assert.Equal(Pixels("b.png"), Pixels("f-0003.png"));
+    }
+
+    [Fact]
+    public void Animate_AlongAFaultyPath_PointsAtTheMistake()
+    {
+        _folder.Write("cameras.txt", "# two\nc (0, 0, -3) # 60\n  c (0, 0, -3) # 600\n");
+        Assert.Equal(
+            new AppResult(
+                1, "",
+                "cameras.txt:3:18: error: the angle of view must lie between 0 and 180 degrees\n"
+                + "    c (0, 0, -3) # 600\n                   ^\n"),
+            Run("animate", "scene.sdo", "--path", "cameras.txt", "--output", "f.png"));
     }
 
     [SkippableFact]

@@ -79,6 +79,18 @@ public class CameraFramingTests
         Assert.InRange(points.Max(point => Math.Max(Math.Abs(point.X), Math.Abs(point.Y))), 0.7, 0.8);
     }
 
+    [Theory]
+    [InlineData(null)]
+    [InlineData(1_000_000)]
+    public void Frame_OfAFractalWithoutAnEnd_Ends(int? depth)
+    {
+        Vector[] corners = [new(1, 1, 1), new(1, -1, -1), new(-1, 1, -1), new(-1, -1, 1)];
+        var maps = corners.Select(corner => new Transformation(0.5 * corner, Vector.Zero, 0.5 * Vector.One));
+        var scene = LoadedScene.Of(new() { Objects = [new SceneObject(Fractal.Of(Shapes.Cube()).Repeat(maps, depth))] });
+        var camera = CameraFraming.Default(scene, 1.5);
+        Assert.True(camera.ToCameraSpace(scene.Bounds.Centre).Z > 0, "the fractal is not before the camera");
+    }
+
     [Fact]
     public void Frame_KeepsTheRotationAndTheAngle()
     {

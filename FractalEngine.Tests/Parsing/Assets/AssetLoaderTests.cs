@@ -27,6 +27,15 @@ public sealed class AssetLoaderTests : IDisposable
     }
 
     [Fact]
+    public void Load_OfAMeshWithoutFaces_WarnsOnce()
+    {
+        _folder.Write("points.obj", "v 0 0 0\nv 1 0 0\n");
+        var loaded = AssetLoader.Load(_folder.Write("s.sdo", "o \"points.obj\" #\no \"points.obj\" #"));
+        var warning = Assert.Single(loaded.Warnings).ToString().Replace(_folder.Path + "/", "", StringComparison.Ordinal);
+        Assert.Equal("points.obj:1:1: warning: the file has no faces, so nothing of it is drawn", warning);
+    }
+
+    [Fact]
     public void Load_OfAMeshAlone_IsRightHandedAndAllElseLeftHanded()
     {
         var mesh = AssetLoader.Load(_folder.Write("a.obj", Triangle)).Scene;

@@ -160,14 +160,21 @@ public class FractalParserErrorTests
 
     [Fact]
     public void Name_DeclaredTwice_IsRefused() => Fails("x. \"a.obj\"\nx. \"b.obj\"\n<$>. x", """
-        test.fdo:2:1: error: the object 'x' is declared twice
+        test.fdo:2:1: error: the object 'x' is declared twice, first in line 1
           x. "b.obj"
           ^
         """);
 
     [Fact]
+    public void Composition_DeclaredTwice_IsRefused() => Fails("# a\ncomposition affine\ncomposition componentwise\n<$>. \"b.obj\"", """
+        test.fdo:3:1: error: the composition is declared twice, first in line 2
+          composition componentwise
+          ^
+        """);
+
+    [Fact]
     public void Function_DeclaredTwice_IsRefused() => Fails("t. (#, #, #)\nt.a. (a, #, #)\n<$>. \"b.obj\"", """
-        test.fdo:2:1: error: the transformation 't' is declared twice
+        test.fdo:2:1: error: the transformation 't' is declared twice, first in line 1
           t.a. (a, #, #)
           ^
         """);

@@ -58,6 +58,7 @@ public class SceneParserErrorTests
     [InlineData("p \"a.obj\" # 1.5", 13, "the coefficient of restitution must lie between 0 and 1")]
     [InlineData("p \"a.obj\" # -0.5", 13, "the coefficient of restitution must lie between 0 and 1")]
     [InlineData("p \"a.obj\" # 1 mass 0", 20, "the mass must be positive")]
+    [InlineData("o \"a.obj\" # mass 5", 13, "unexpected 'mass': it is an option of physics objects, which a 'p' line declares")]
     [InlineData("handed up", 8, "unexpected 'up', expected 'left' or 'right'")]
     [InlineData("projection fisheye", 12, "unexpected 'fisheye', expected 'perspective' or 'orthographic'")]
     [InlineData("projection orthographic 0", 25, "the visible height must be positive")]
