@@ -3,6 +3,7 @@ using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Rays;
+using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Benchmarks.Rays;
 
@@ -13,7 +14,8 @@ internal static class RaysCommand
 {
     private const string Usage = """
         rays [--quick] [--output FOLDER]
-          Million rays a second on one thread, of a camera, towards the sun, and at random; writes rays.csv.
+          Million rays a second on one thread, of a camera, towards the sun, and at random; what all cores gain for a batch;
+          writes rays.csv.
         """;
 
     private const long MaxExpandedFaces = 3_000_000;
@@ -33,7 +35,7 @@ internal static class RaysCommand
 
         var table = options.CreateTable(
             "rays.csv", "fractal", "bytes", "primary_mrays", "shadow_mrays", "random_mrays", "primary_to_expansion", "shadow_to_expansion",
-            "random_to_expansion", "hits_percent");
+            "random_to_expansion", "hits_percent", "all_cores_to_one");
         foreach (var name in options.IsQuick ? Names[..2] : Names)
         {
             Write(name, options, table);
@@ -61,10 +63,19 @@ internal static class RaysCommand
             name, caster.StorageBytes,
             .. counts.Select((count, i) => (object)Math.Round(count / seconds[i] / 1e6, 3)),
             .. Enumerable.Range(0, 3).Select(i => expansion is null ? null : (object)Math.Round(seconds[3 + i] / seconds[i], 3)),
-            Math.Round(100.0 * hits / sets.Primary.Length, 1),
+            Math.Round(100.0 * hits / sets.Primary.Length, 1), Math.Round(MeasureScaling(fractal, sets.Primary, options.Rounds), 2),
         ];
         table.Add(row);
         Console.WriteLine(string.Join(' ', row.Select(static field => Convert.ToString(field, CultureInfo.InvariantCulture))));
+    }
+
+    /// <summary>Measures how many times as fast a batch on all cores is as one on one core.</summary>
+    private static double MeasureScaling(Fractal fractal, Ray[] rays, int rounds)
+    {
+        var scene = new SceneRayCaster(LoadedScene.Of(new Scene { Objects = [new SceneObject(fractal)] }));
+        var seconds = InterleavedTiming.MeasureBestSeconds(
+            [() => RayBatch.FindNearest(scene, rays, threads: 1), () => RayBatch.FindNearest(scene, rays)], rounds);
+        return seconds[0] / seconds[1];
     }
 
     private static Action[] Actions(RayCaster caster, RaySets sets)
