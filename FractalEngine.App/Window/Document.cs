@@ -149,6 +149,23 @@ internal sealed class Document : IDisposable
             : CameraControls.Handle(windowEvent, (double)width / height);
     }
 
+    /// <summary>Moves the flying camera by one command. Nothing happens while a player walks.</summary>
+    /// <param name="move">Takes the camera, and the width of the frame divided by its height.</param>
+    /// <param name="aspect">Width divided by height of the frame.</param>
+    public void MoveCamera(Action<FlyingCamera, double> move, double aspect)
+    {
+        if (!Physics.IsWalking)
+        {
+            RecordView();
+            move(FlyingCamera, aspect);
+        }
+    }
+
+    /// <summary>Drops a ball where the camera looks.</summary>
+    /// <returns>A message for the user.</returns>
+    public string DropBall() =>
+        VisibleDepth > 0 ? "a ball is too large for this depth: zoom out first" : Physics.DropSphere(Camera);
+
     /// <summary>Returns to the view before the last change, or makes it again.</summary>
     /// <param name="isRedo">True to make a change again that was undone.</param>
     /// <returns>A message for the user.</returns>

@@ -221,6 +221,13 @@ internal sealed class ScenePhysics : IDisposable
     /// <summary>Switches all bodies to the next collider that fits the scene.</summary>
     public string SwitchCollider() => WhenReady(world => ColliderSwitch.SwitchToNext(world, _scene));
 
+    /// <summary>Shows or hides the lines to closest points.</summary>
+    public string ToggleClosestPoints()
+    {
+        ShowsClosestPoints = !ShowsClosestPoints;
+        return ShowsClosestPoints ? "closest points and normals: shown" : "closest points and normals: hidden";
+    }
+
     /// <summary>Moves the drawn bodies to their interpolated positions.</summary>
     public void ApplyTo(SceneRenderer renderer)
     {

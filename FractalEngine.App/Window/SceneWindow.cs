@@ -1,4 +1,5 @@
 using System.Diagnostics;
+using FractalEngine.App.Window.Actions;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
 
@@ -8,7 +9,7 @@ namespace FractalEngine.App.Window;
 /// The event loop of a window: passes events on, advances time, draws when something has changed, and sleeps otherwise.
 /// </summary>
 /// <remarks>
-/// <see cref="DocumentLoader"/> loads files, <see cref="WindowKeys"/> and <see cref="CameraControls"/> handle keys and mouse, and
+/// <see cref="DocumentLoader"/> loads files, <see cref="WindowActions"/> and <see cref="CameraControls"/> handle keys and mouse, and
 /// <see cref="WindowRenderer"/> draws frames.
 /// </remarks>
 internal sealed class SceneWindow : IDisposable
@@ -26,7 +27,7 @@ internal sealed class SceneWindow : IDisposable
     private readonly WindowOverlay _overlay = new();
     private readonly WindowTracing _tracing;
     private readonly DocumentLoader _loader;
-    private readonly WindowKeys _keys;
+    private readonly WindowActions _actions;
     private readonly PromptHost _prompts;
     private readonly FileCommands _files;
     private readonly Stopwatch _clock = Stopwatch.StartNew();
@@ -46,8 +47,8 @@ internal sealed class SceneWindow : IDisposable
         var recent = new RecentFiles(options.RecentFilesPath, Report);
         _loader = new(_window, _overlay, options, recent.Add);
         _tracing = new(options, _window.Wake);
-        _keys = new(_window, _windowRenderer, _overlay, _tracing, options.Settings);
-        _files = new(_loader, _prompts, recent, Report, () => _keys.Settings, () => _isClosing = true);
+        _files = new(_loader, _prompts, recent, Report, () => _actions!.Settings, () => _isClosing = true);
+        _actions = new(_window, _windowRenderer, _overlay, _tracing, options.Settings) { Files = _files };
         _loader.Open(path, options.Settings);
     }
 
@@ -133,7 +134,7 @@ internal sealed class SceneWindow : IDisposable
     private void PollLoader()
     {
         var previousDocument = Document;
-        _redraw |= _loader.Poll(_keys.Settings, _clock.Elapsed);
+        _redraw |= _loader.Poll(_actions.Settings, _clock.Elapsed);
         if (Document != previousDocument)
         {
             _windowRenderer.Reset();
@@ -198,7 +199,8 @@ internal sealed class SceneWindow : IDisposable
                 _files.Open(PathText.Shorten(dropped.Path));
                 break;
             case KeyPressed { IsRepeat: false } pressed:
-                _redraw |= _keys.Handle(pressed, Document, _files, _clock.Elapsed);
+                _actions.Document = Document;
+                _redraw |= _actions.Handle(pressed, _clock.Elapsed);
                 break;
         }
 
@@ -253,7 +255,7 @@ internal sealed class SceneWindow : IDisposable
         if (needsDraw)
         {
             // First of all, so that a trace of an earlier view takes no time from the frame.
-            _tracing.Update(Document, _keys.Settings, _window.Width, _window.Height);
+            _tracing.Update(Document, _actions.Settings, _window.Width, _window.Height);
             Draw();
         }
         else
@@ -274,7 +276,7 @@ internal sealed class SceneWindow : IDisposable
     private void Draw()
     {
         var start = _clock.Elapsed;
-        var usedSettings = _windowRenderer.Draw(Document, _keys.Settings, _window.Width, _window.Height);
+        var usedSettings = _windowRenderer.Draw(Document, _actions.Settings, _window.Width, _window.Height);
         if (Document is { } document)
         {
             document.FirstSightLoader.Start(_windowRenderer.LatestView!, _window.Aspect);
