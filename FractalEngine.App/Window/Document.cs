@@ -10,6 +10,8 @@ namespace FractalEngine.App.Window;
 /// <summary>The file that a window shows, with its camera, its physics and its renderer.</summary>
 internal sealed class Document : IDisposable
 {
+    private int? _lastInteraction;
+
     /// <summary>Uploads the prepared models. Must be called on the window's thread.</summary>
     /// <param name="window">The window that shows the file.</param>
     /// <param name="file">The loaded file.</param>
@@ -152,11 +154,17 @@ internal sealed class Document : IDisposable
     /// <summary>Moves the flying camera by one command. Nothing happens while a player walks.</summary>
     /// <param name="move">Takes the camera, and the width of the frame divided by its height.</param>
     /// <param name="aspect">Width divided by height of the frame.</param>
-    public void MoveCamera(Action<FlyingCamera, double> move, double aspect)
+    /// <param name="interaction">All moves with the same number are one step that can be undone; null for a step of its own.</param>
+    public void MoveCamera(Action<FlyingCamera, double> move, double aspect, int? interaction = null)
     {
         if (!Physics.IsWalking)
         {
-            RecordView();
+            if (interaction is null || interaction != _lastInteraction)
+            {
+                RecordView();
+            }
+
+            _lastInteraction = interaction;
             move(FlyingCamera, aspect);
         }
     }
@@ -165,6 +173,11 @@ internal sealed class Document : IDisposable
     /// <returns>A message for the user.</returns>
     public string DropBall() =>
         VisibleDepth > 0 ? "a ball is too large for this depth: zoom out first" : Physics.DropSphere(Camera);
+
+    /// <summary>Throws a ball from the camera.</summary>
+    /// <returns>A message for the user.</returns>
+    public string ThrowBall() =>
+        VisibleDepth > 0 ? "a ball is too large for this depth: zoom out first" : Physics.ThrowSphere(Camera);
 
     /// <summary>Returns to the view before the last change, or makes it again.</summary>
     /// <param name="isRedo">True to make a change again that was undone.</param>

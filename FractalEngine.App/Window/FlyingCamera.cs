@@ -156,6 +156,10 @@ internal sealed class FlyingCamera
         Pose = Pose with { OrthographicHeight = factor * Pose.OrthographicHeight };
     }
 
+    /// <summary>Changes the angle of view, without moving the camera.</summary>
+    /// <param name="degrees">The full vertical angle, more than 0 and less than 180 degrees.</param>
+    public void SetFieldOfView(double degrees) => Pose = Pose with { Camera = Pose.Camera with { FieldOfView = degrees } };
+
     /// <summary>Takes a projection as it is, without moving the camera.</summary>
     /// <param name="projection">The projection of the view.</param>
     /// <param name="orthographicHeight">The visible height in scene units; null where it follows the camera.</param>

@@ -1,5 +1,6 @@
 using System.Diagnostics;
 using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.Panels;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
 
@@ -28,6 +29,7 @@ internal sealed class SceneWindow : IDisposable
     private readonly WindowTracing _tracing;
     private readonly DocumentLoader _loader;
     private readonly WindowActions _actions;
+    private readonly WindowInterface _interface;
     private readonly PromptHost _prompts;
     private readonly FileCommands _files;
     private readonly Stopwatch _clock = Stopwatch.StartNew();
@@ -49,6 +51,8 @@ internal sealed class SceneWindow : IDisposable
         _tracing = new(options, _window.Wake);
         _files = new(_loader, _prompts, recent, Report, () => _actions!.Settings, () => _isClosing = true);
         _actions = new(_window, _windowRenderer, _overlay, _tracing, options.Settings) { Files = _files };
+        _interface = new(_actions, _window, options.SettingsPath, Report);
+        _actions.Interface = _interface;
         _loader.Open(path, options.Settings);
     }
 
@@ -148,8 +152,15 @@ internal sealed class SceneWindow : IDisposable
     }
 
     /// <summary>Passes an event to the open question, or else to the scene.</summary>
-    private void Dispatch(WindowEvent windowEvent)
+    private void Dispatch(WindowEvent physicalEvent)
     {
+        _actions.Document = Document;
+        if (_prompts.Current is null && HandleByInterface(physicalEvent))
+        {
+            return;
+        }
+
+        var windowEvent = _interface.Bindings.Translate(physicalEvent);
         var promptBefore = _prompts.Current;
         if (!_prompts.Handle(windowEvent))
         {
@@ -171,6 +182,31 @@ internal sealed class SceneWindow : IDisposable
             Document?.ReleaseKeys();
             _redraw |= Redraw.Overlay;
         }
+    }
+
+    /// <summary>Passes an event to menus and panels, and runs what was chosen there.</summary>
+    /// <returns>True when the scene must not see the event.</returns>
+    private bool HandleByInterface(WindowEvent windowEvent)
+    {
+        var version = _interface.Ui.Version;
+        var isTaken = _interface.Handle(windowEvent);
+        while (_interface.TakeChosen() is { } action)
+        {
+            _redraw |= _actions.Run(action, _clock.Elapsed) | Redraw.Overlay;
+        }
+
+        _redraw |= _actions.TakeRequested();
+        if (_interface.Ui.Version != version)
+        {
+            _redraw |= Redraw.Overlay;
+        }
+
+        if (isTaken)
+        {
+            _interface.SaveSettings();
+        }
+
+        return isTaken;
     }
 
     private void Handle(WindowEvent windowEvent)
@@ -199,8 +235,8 @@ internal sealed class SceneWindow : IDisposable
                 _files.Open(PathText.Shorten(dropped.Path));
                 break;
             case KeyPressed { IsRepeat: false } pressed:
-                _actions.Document = Document;
                 _redraw |= _actions.Handle(pressed, _clock.Elapsed);
+                _interface.SaveSettings();
                 break;
         }
 
@@ -266,7 +302,10 @@ internal sealed class SceneWindow : IDisposable
         _overlay.FrameCounts = _windowRenderer.CountFrames((long)(start / FrameTime));
         _overlay.TraceText = _tracing.StatusText;
         _loader.TitleNote = _overlay.TraceText;
-        _frameRenderer.Present(_window, _tracing.Layer, _overlay.Panels);
+        _overlay.HidesPhysics = _interface.IsShown && _interface.IsOpen("physics");
+        _actions.Document = Document;
+        _interface.Update(_window.Width, _window.Height);
+        _frameRenderer.Present(_window, _tracing.Layer, _interface.Ui, _overlay.Panels);
         if (needsDraw)
         {
             _windowRenderer.RecordFrameTime(_clock.Elapsed - start);

@@ -59,7 +59,7 @@ internal static class ActionTable
             IsAvailable = HasDocument,
             IsOn = static a => a.Document?.FlyingCamera.Projection == Core.Scenes.Projection.Orthographic,
         },
-        new("reset-camera", "View", "Camera of the file", "return to the camera of the file")
+        new("reset-camera", "View", "File's camera", "return to the camera of the file")
         {
             Keys = [new(Key.Enter)], MoveCamera = static (camera, _) => camera.Reset(), IsAvailable = HasDocument,
         },
@@ -67,7 +67,7 @@ internal static class ActionTable
             static settings => settings.Grid, static (settings, on) => settings with { Grid = on, Axes = on }),
         Setting("wireframe", "Wireframe", "wireframe", Key.X, "--wireframe",
             static settings => settings.Wireframe, static (settings, on) => settings with { Wireframe = on }),
-        Setting("pixel-light", "Light per pixel", "light at the vertices or at every pixel", Key.L, "--shading",
+        Setting("pixel-light", "Pixel light", "light at the vertices or at every pixel", Key.L, "--shading",
             static settings => settings.Shading == Shading.PerPixel,
             static (settings, on) => settings with { Shading = on ? Shading.PerPixel : Shading.PerVertex },
             "lighting: per pixel", "lighting: per vertex"),
@@ -109,6 +109,10 @@ internal static class ActionTable
         OfPhysics("step", "One step", "make one step", Key.N, static document => document.Physics.StepOnce()),
         OfPhysics("drop-ball", "Drop a ball", "drop a ball in the middle of the view, before the surface there", Key.B,
             static document => document.DropBall()),
+        new("throw-ball", "Physics", "Throw a ball", "throw a ball from the camera to the middle of the view")
+        {
+            Keys = [KeyChord.Control(Key.B)], Run = Physics(static document => document.ThrowBall()), IsAvailable = HasDocument,
+        },
         OfPhysics("reset-bodies", "Reset bodies", "return the bodies to where the file has them", Key.R,
             static document => document.Physics.Reset()),
         OfPhysics("next-collider", "Next collider", "the next collider that fits the scene, for all bodies; the top line shows its cost",
@@ -119,15 +123,29 @@ internal static class ActionTable
             IsOn = static a => a.Document?.Physics.ShowsClosestPoints == true,
         },
 
-        new("statistics", "Window", "Statistics", "cost of the last frame, and savings of each optimisation")
+        Panel("view", "View panel", "projection, field of view, drawing, bookmarks", new(Key.F3)),
+        Panel("physics", "Physics panel", "bodies, their collider, and its cost", new(Key.F5)),
+        Panel("statistics", "Statistics", "cost of the last frame, and savings of each optimisation", new(Key.I)),
+        new("keys", "Window", "Keys…", "list all actions with their keys; words search in it")
         {
-            Keys = [new(Key.I)], Run = OverlayOf(static a => a.Overlay.ShowsStatistics = !a.Overlay.ShowsStatistics),
-            IsOn = static a => a.Overlay.ShowsStatistics,
+            Keys = [new(Key.H)], Run = OverlayOf(static a => a.Interface.OpenKeys()),
         },
-        new("keys", "Window", "Keys", "list the keys")
+        new("menu-bar", "Window", "Hide menu and panels", "hide the menu and all panels, or show them again")
         {
-            Keys = [new(Key.H)], Run = OverlayOf(static a => a.Overlay.ShowsKeys = !a.Overlay.ShowsKeys),
-            IsOn = static a => a.Overlay.ShowsKeys,
+            Keys = [new(Key.U)], Run = OverlayOf(static a => a.Interface.ToggleAll()), IsOn = static a => !a.Interface.IsShown,
+        },
+        new("larger-text", "Window", "Larger text", "larger menus and panels")
+        {
+            Keys = [KeyChord.Control(Key.Plus)], Run = static a => a.Show(a.Interface.ChangeScale(1)),
+        },
+        new("smaller-text", "Window", "Smaller text", "smaller menus and panels")
+        {
+            Keys = [KeyChord.Control(Key.Minus)], Run = static a => a.Show(a.Interface.ChangeScale(-1)),
+        },
+        new("light-colours", "Window", "Light colours", "dark text on light panels, or light on dark")
+        {
+            Keys = [KeyChord.Control(Key.L)], Run = OverlayOf(static a => a.Interface.ToggleTheme()),
+            IsOn = static a => a.Interface.IsLight,
         },
     ];
 
@@ -142,6 +160,10 @@ internal static class ActionTable
             ?? ByChord.GetValueOrDefault(chord with { Modifiers = chord.Modifiers & ~KeyModifiers.Shift });
     }
 
+    /// <summary>Returns the action with an id.</summary>
+    /// <exception cref="InvalidOperationException">There is no such action.</exception>
+    public static WindowAction Get(string id) => All.First(action => action.Id == id);
+
     private static bool HasDocument(WindowActions actions) => actions.Document is not null;
 
     private static WindowAction Direction(string id, string name, Key key, Vector direction) =>
@@ -152,6 +174,14 @@ internal static class ActionTable
 
     private static WindowAction Held(string id, string help, params ReadOnlySpan<Key> keys) =>
         new(id, "Go", "", help) { Keys = [.. keys.ToArray().Select(static key => new KeyChord(key))] };
+
+    private static WindowAction Panel(string panel, string name, string contents, KeyChord key) =>
+        new(panel == "statistics" ? panel : $"panel-{panel}", "Window", name, $"show or hide the panel: {contents}")
+        {
+            Keys = [key],
+            Run = OverlayOf(a => a.Interface.Toggle(panel)),
+            IsOn = a => a.Interface.IsOpen(panel),
+        };
 
     private static WindowAction Gesture(string id, string gesture, string help) => new(id, "Go", "", help) { Gesture = gesture };
 

@@ -1,3 +1,4 @@
+using FractalEngine.App.Window.Panels;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
 
@@ -13,6 +14,7 @@ internal sealed class WindowActions(
     RenderWindow window, WindowRenderer renderer, WindowOverlay overlay, WindowTracing tracing, RenderSettings settings)
 {
     private TimeSpan _now;
+    private Redraw _requested;
 
     /// <summary>The present render settings.</summary>
     public RenderSettings Settings { get; set; } = settings;
@@ -22,6 +24,9 @@ internal sealed class WindowActions(
 
     /// <summary>Saves and opens files.</summary>
     public required FileCommands Files { get; set; }
+
+    /// <summary>Menus and panels of the window.</summary>
+    public WindowInterface Interface { get; set; } = null!;
 
     /// <summary>The overlay of the window.</summary>
     public WindowOverlay Overlay => overlay;
@@ -53,6 +58,17 @@ internal sealed class WindowActions(
         }
 
         return action.Run?.Invoke(this) ?? Redraw.None;
+    }
+
+    /// <summary>Asks for a new frame, since a panel has changed what it shows.</summary>
+    public void RequestDraw() => _requested |= Redraw.Scene;
+
+    /// <summary>Returns what panels have asked for since the last call.</summary>
+    public Redraw TakeRequested()
+    {
+        var requested = _requested;
+        _requested = Redraw.None;
+        return requested;
     }
 
     /// <summary>Shows a message for a few seconds.</summary>

@@ -14,7 +14,7 @@ namespace FractalEngine.Tests.App.Window.Actions;
 /// <summary>Tests that keys, menus, options and the manual follow the table of actions.</summary>
 public class ActionTableTests
 {
-    private const string TableHead = "| key | effect | option |\n|---|---|---|\n";
+    private const string TableHead = "| key | menu | effect | option |\n|---|---|---|---|\n";
 
     /// <summary>
     /// The table of the manual is written from the actions:
@@ -126,7 +126,8 @@ public class ActionTableTests
         foreach (var action in ActionTable.All)
         {
             var flag = action.Flag is null ? "" : $"`{action.Flag}`";
-            table.Append(string.Join(" | ", $"| {action.KeyText}", action.Help, $"{flag} |\n").Replace("|  |", "| |"));
+            var menu = action.IsCommand ? $"{action.Menu} > {action.Name}" : "";
+            table.Append(string.Join(" | ", $"| {action.KeyText}", menu, action.Help, $"{flag} |\n").Replace("|  |", "| |"));
         }
 
         return table.ToString();
