@@ -70,8 +70,9 @@ public sealed class FrameRenderer : IDisposable
         if (view.DeepZoom is null)
         {
             _linesPass.DrawGridAndAxes(in frame, scene.Bounds, settings);
-            _linesPass.DrawSegments(in frame, scene.Lines);
         }
+
+        _linesPass.DrawSegments(in frame, scene.Lines);
 
         GL.Disable(EnableCap.DepthTest);
     }

@@ -47,7 +47,7 @@ internal sealed class SceneWindow : IDisposable
         _windowRenderer = new(_frameRenderer);
         _prompts = new(() => _window.ClipboardText);
         var recent = new RecentFiles(options.RecentFilesPath, Report);
-        _loader = new(_window, _overlay, options, recent.Add);
+        _loader = new(_window, _overlay, options, recent.Add, Report);
         _tracing = new(options, _window.Wake);
         _files = new(_loader, _prompts, recent, Report, () => _actions!.Settings, () => _isClosing = true);
         _actions = new(_window, _windowRenderer, _overlay, _tracing, options.Settings) { Files = _files };
@@ -214,6 +214,9 @@ internal sealed class SceneWindow : IDisposable
         var wasMoving = Document?.IsMoving == true;
         switch (windowEvent)
         {
+            case KeyPressed { Key: Key.Escape } when Document?.Tool is { Selected: not null } or { Measure.IsActive: true }:
+                _redraw |= _actions.ClearSelection(_clock.Elapsed);
+                return;
             case CloseRequested or KeyPressed { Key: Key.Escape }:
                 if (_prompts.Current is null)
                 {
@@ -242,6 +245,12 @@ internal sealed class SceneWindow : IDisposable
 
         if (Document?.Handle(windowEvent, Math.Max(1, _window.Width), Math.Max(1, _window.Height)) == true)
         {
+            _redraw |= Redraw.Scene;
+        }
+
+        if (Document?.Tool.Handle(windowEvent, (Math.Max(1, _window.Width), Math.Max(1, _window.Height)), _clock.Elapsed) is { } message)
+        {
+            _overlay.ShowMessage(message, _clock.Elapsed);
             _redraw |= Redraw.Scene;
         }
 

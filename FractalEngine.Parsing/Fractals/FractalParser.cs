@@ -103,6 +103,7 @@ public sealed partial class FractalParser : Parser
         }
 
         _vectors.Add(vector);
+        ListVector(numbers, rest);
         return true;
     }
 
@@ -287,6 +288,7 @@ public sealed partial class FractalParser : Parser
         }
 
         value = recursive.WithDepth(depth);
+        ListDepth(name, depthStart, rest, depth);
         return true;
     }
 

@@ -112,10 +112,10 @@ internal sealed class UiTextEdit
                 Begin("");
                 return true;
             case Key.Left:
-                MoveTo(WordStart(), input.IsShiftHeld);
+                MoveTo(SkipWord(-1), input.IsShiftHeld);
                 return true;
             case Key.Right:
-                MoveTo(WordEnd(), input.IsShiftHeld);
+                MoveTo(SkipWord(1), input.IsShiftHeld);
                 return true;
             default:
                 return false;
@@ -137,33 +137,18 @@ internal sealed class UiTextEdit
 
     private int Next(int index) => index + (index + 1 < Text.Length && char.IsSurrogatePair(Text[index], Text[index + 1]) ? 2 : 1);
 
-    private int WordStart()
+    private int SkipWord(int step)
     {
         var index = Caret;
-        while (index > 0 && !char.IsLetterOrDigit(Text[index - 1]))
+        for (var isInWord = false; step > 0 ? index < Text.Length : index > 0; index += step)
         {
-            index--;
-        }
+            var isLetter = char.IsLetterOrDigit(Text[step > 0 ? index : index - 1]);
+            if (isInWord && !isLetter)
+            {
+                break;
+            }
 
-        while (index > 0 && char.IsLetterOrDigit(Text[index - 1]))
-        {
-            index--;
-        }
-
-        return index;
-    }
-
-    private int WordEnd()
-    {
-        var index = Caret;
-        while (index < Text.Length && !char.IsLetterOrDigit(Text[index]))
-        {
-            index++;
-        }
-
-        while (index < Text.Length && char.IsLetterOrDigit(Text[index]))
-        {
-            index++;
+            isInWord |= isLetter;
         }
 
         return index;

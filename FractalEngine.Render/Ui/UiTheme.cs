@@ -43,40 +43,28 @@ public sealed record UiTheme
 
     /// <summary>Ground of panels, menus and dialogs.</summary>
     public required Colour Panel { get; init; }
-
     /// <summary>Ground of title bars and of the menu bar.</summary>
     public required Colour Title { get; init; }
-
     /// <summary>Ground of buttons and sliders.</summary>
     public required Colour Control { get; init; }
-
     /// <summary>Ground of what is under the pointer.</summary>
     public required Colour HotControl { get; init; }
-
     /// <summary>Ground of text fields, lists and graphs.</summary>
     public required Colour Field { get; init; }
-
     /// <summary>Filled part of sliders and progress bars.</summary>
     public required Colour Fill { get; init; }
-
     /// <summary>Ground of selected rows and of selected text.</summary>
     public required Colour Selection { get; init; }
-
     /// <summary>Edges of panels and fields.</summary>
     public required Colour Border { get; init; }
-
     /// <summary>Ordinary text of all widgets.</summary>
     public required Colour Text { get; init; }
-
     /// <summary>Text of less importance.</summary>
     public required Colour DimText { get; init; }
-
     /// <summary>Text of titles and headings.</summary>
     public required Colour Accent { get; init; }
-
     /// <summary>Text that the user should notice.</summary>
     public required Colour Warning { get; init; }
-
     /// <summary>Frame around the widget that has the keyboard.</summary>
     public required Colour Focus { get; init; }
 

@@ -269,6 +269,39 @@ public sealed partial class UserInterface
         Frame(rect, Theme.Border);
     }
 
+    /// <summary>Writes a text at a point of the frame, behind all panels. It takes no input.</summary>
+    /// <param name="text">A few words or a number.</param>
+    /// <param name="x">Pixels from the left edge of the frame to the middle of the text.</param>
+    /// <param name="y">Pixels from the upper edge of the frame to the middle of the text.</param>
+    public void Mark(string text, double x, double y)
+    {
+        ArgumentNullException.ThrowIfNull(text);
+        _layer = 0;
+        _clip = new(0, 0, _width, _height);
+        var width = (text.Length * CellWidth) + (2 * Gap);
+        var rect = new UiRect((int)x - (width / 2), (int)y - (RowHeight / 2), width, RowHeight);
+        Fill(rect, Theme.Panel, 3);
+        Print(text, rect, Theme.Text, UiAlign.Middle);
+    }
+
+    /// <summary>Adds a round button anywhere in the frame, before what was added earlier.</summary>
+    /// <param name="label">One or two characters, and the identity of the button.</param>
+    /// <param name="x">Pixels from the left edge of the frame to the middle.</param>
+    /// <param name="y">Pixels from the upper edge of the frame to the middle.</param>
+    /// <param name="colour">Ground of the button; dark, since the text is light.</param>
+    /// <returns>True when the button was pressed.</returns>
+    public bool Knob(string label, double x, double y, Colour colour)
+    {
+        ArgumentNullException.ThrowIfNull(label);
+        var size = RowHeight;
+        var rect = new UiRect((int)x - (size / 2), (int)y - (size / 2), size, size);
+        BeginRoot(IdOf(label), rect, layer: 0);
+        var touch = Touch(IdOf(label), rect, takesFocus: false);
+        Fill(rect, colour, size / 2f);
+        Print(label, rect, touch.IsHot ? UiTheme.Dark.Accent : UiTheme.Dark.Text, UiAlign.Middle);
+        return touch.IsActivated;
+    }
+
     /// <summary>Explains the last widget while the pointer is over it.</summary>
     public void Tooltip(string text) => Tooltip(text, _isLastHot);
 

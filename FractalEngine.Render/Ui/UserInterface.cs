@@ -74,6 +74,12 @@ public sealed partial class UserInterface
         }
     }
 
+    /// <summary>Width of the frame in pixels.</summary>
+    public int Width => _width;
+
+    /// <summary>Height of the frame in pixels.</summary>
+    public int Height => _height;
+
     /// <summary>Changes whenever the interface looks different, so that it must be presented again.</summary>
     public int Version { get; private set; }
 
@@ -384,13 +390,9 @@ public sealed partial class UserInterface
         }
         else if (_input.Key == Key.Escape && (_focus != 0 || _openMenu is not null || _dialog is not null))
         {
-            if (_openMenu is null && _editing == 0 && _dialog is not null)
+            if (_openMenu is null)
             {
-                CloseDialog();
-            }
-            else if (_openMenu is null && _editing != 0 && _dialog is not null)
-            {
-                CloseDialog();
+                _dialog = null;
             }
 
             _openMenu = null;

@@ -15,7 +15,7 @@ internal static class ActionTable
     public static readonly ImmutableArray<WindowAction> All =
     [
         new("open", "File", "Open…", "open a file") { Keys = [KeyChord.Control(Key.O)], Run = OverlayOf(static a => a.Files.AskForFile()) },
-        new("save", "File", "Save", "save the present view into the scene's file")
+        new("save", "File", "Save", "save the changed numbers into their files, and the view into the scene's file")
         {
             Keys = [KeyChord.Control(Key.S)], Run = OverlayOf(static a => a.Files.Save()), IsAvailable = HasDocument,
         },
@@ -27,16 +27,20 @@ internal static class ActionTable
         {
             Keys = [new(Key.F12)], Run = static a => a.SaveScreenshot(), IsAvailable = HasDocument,
         },
-        new("close", "File", "Close", "close the window; asks if something was not saved")
+        new("screenshot-panels", "File", "Screenshot of the window", "save a screenshot with menus and panels into `out/`")
+        {
+            Keys = [KeyChord.Control(Key.F12)], Run = static a => a.SaveWindowScreenshot(), IsAvailable = HasDocument,
+        },
+        new("close", "File", "Close", "end measuring, else select nothing, else close the window; asks if something was not saved")
         {
             Keys = [new(Key.Escape)], Run = OverlayOf(static a => a.Files.Close()),
         },
 
-        new("undo", "Edit", "Undo", "return to the view before the last move")
+        new("undo", "Edit", "Undo", "return to the view and the numbers before the last change")
         {
             Keys = [KeyChord.Control(Key.Z)], Run = static a => a.Undo(isRedo: false), IsAvailable = HasDocument,
         },
-        new("redo", "Edit", "Redo", "make the move again that was undone")
+        new("redo", "Edit", "Redo", "make the change again that was undone")
         {
             Keys = [KeyChord.ControlShift(Key.Z)], Run = static a => a.Undo(isRedo: true), IsAvailable = HasDocument,
         },
@@ -44,6 +48,20 @@ internal static class ActionTable
             "copy the present camera as a line `c` of a scene, which `--camera` and `--path` take too")
         {
             Keys = [KeyChord.ControlShift(Key.C)], Run = static a => a.CopyCamera(), IsAvailable = HasDocument,
+        },
+
+        new("select-up", "Edit", "Up a level", "select the sub-fractal that the selected part belongs to, at last the object")
+        {
+            Keys = [new(Key.Backspace)], Run = static a => a.Show(a.Document!.Tool.Up()) | Redraw.Scene, IsAvailable = HasSelection,
+        },
+        new("copy-selection", "Edit", "Copy selection", "copy what is known about the selection, as lines of text")
+        {
+            Keys = [KeyChord.Control(Key.C)], Run = static a => a.CopySelection(), IsAvailable = HasSelection,
+        },
+        new("measure", "Edit", "Measure", "measure distances between clicks, or select by clicks again")
+        {
+            Keys = [new(Key.M)], Run = static a => a.Show(a.Document!.Tool.Measure.Toggle()) | Redraw.Scene, IsAvailable = HasDocument,
+            IsOn = static a => a.Document?.Tool.Measure.IsActive == true,
         },
 
         new("frame-scene", "View", "Frame the scene", "frame the scene: what is visible of it fills 80 % of the frame")
@@ -90,6 +108,8 @@ internal static class ActionTable
         Held("fly-up", "fly up", Key.E, Key.PageUp),
         Held("fly-down", "fly down", Key.Q, Key.PageDown),
         Gesture("speed", "Shift, Alt", "four times as fast, as slow"),
+        Gesture("select", "click", "select the face, instance and object under the pointer"),
+        Gesture("focus", "double click", "orbit around the point under the pointer"),
         Gesture("orbit", "left drag", "orbit around the point in focus"),
         Gesture("look", "right drag", "look around"),
         Gesture("pan", "middle drag, Shift + left drag", "pan"),
@@ -125,6 +145,9 @@ internal static class ActionTable
 
         Panel("view", "View panel", "projection, field of view, drawing, bookmarks", new(Key.F3)),
         Panel("physics", "Physics panel", "bodies, their collider, and its cost", new(Key.F5)),
+        Panel("scene", "Scene panel", "objects with their places and colours, lights, background", new(Key.F2)),
+        Panel("fractal", "Fractal panel", "the numbers of a fractal as sliders", new(Key.F4)),
+        Panel("selection", "Selection panel", "what was clicked, and measured distances", new(Key.F6)),
         Panel("statistics", "Statistics", "cost of the last frame, and savings of each optimisation", new(Key.I)),
         new("keys", "Window", "Keys…", "list all actions with their keys; words search in it")
         {
@@ -133,6 +156,10 @@ internal static class ActionTable
         new("menu-bar", "Window", "Hide menu and panels", "hide the menu and all panels, or show them again")
         {
             Keys = [new(Key.U)], Run = OverlayOf(static a => a.Interface.ToggleAll()), IsOn = static a => !a.Interface.IsShown,
+        },
+        new("full-screen", "Window", "Full screen", "fill the screen, or return to a window")
+        {
+            Keys = [new(Key.F11)], Run = OverlayOf(static a => a.IsFullScreen = !a.IsFullScreen), IsOn = static a => a.IsFullScreen,
         },
         new("larger-text", "Window", "Larger text", "larger menus and panels")
         {
@@ -165,6 +192,8 @@ internal static class ActionTable
     public static WindowAction Get(string id) => All.First(action => action.Id == id);
 
     private static bool HasDocument(WindowActions actions) => actions.Document is not null;
+
+    private static bool HasSelection(WindowActions actions) => actions.Document?.Tool.Selected is not null;
 
     private static WindowAction Direction(string id, string name, Key key, Vector direction) =>
         new(id, "View", name, $"view from the {name.ToLowerInvariant()}")

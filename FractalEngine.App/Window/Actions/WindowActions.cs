@@ -79,7 +79,45 @@ internal sealed class WindowActions(
     }
 
     /// <summary>Returns to the view before the last move, or makes it again.</summary>
-    public Redraw Undo(bool isRedo) => Show(Document!.Undo(isRedo)) | Redraw.Scene;
+    public Redraw Undo(bool isRedo)
+    {
+        var edits = Document!.Edits;
+        var message = Document.Undo(isRedo);
+        if (!edits.Equals(Document.Edits))
+        {
+            Files.ShowEdits();
+        }
+
+        return Show(message) | Redraw.Scene;
+    }
+
+    /// <summary>Whether the window fills the screen.</summary>
+    public bool IsFullScreen
+    {
+        get => window.IsFullScreen;
+        set => window.IsFullScreen = value;
+    }
+
+    /// <summary>Ends measuring, or selects nothing.</summary>
+    public Redraw ClearSelection(TimeSpan now)
+    {
+        _now = now;
+        var tool = Document!.Tool;
+        if (tool.Measure.IsActive)
+        {
+            return Show(tool.Measure.Toggle()) | Redraw.Scene;
+        }
+
+        tool.Selected = null;
+        return Show("nothing selected") | Redraw.Scene;
+    }
+
+    /// <summary>Copies what is known about the selection.</summary>
+    public Redraw CopySelection()
+    {
+        window.ClipboardText = Document!.Tool.Selected!.ToText();
+        return Show("the selection is in the clipboard");
+    }
 
     /// <summary>Copies the present camera as a line of a scene.</summary>
     public Redraw CopyCamera()
@@ -94,6 +132,14 @@ internal sealed class WindowActions(
         var image = tracing.OpaqueImage ?? renderer.Capture(Document!, Settings, window.Width, window.Height);
         overlay.Report(Screenshots.Save(image, Document!.File.Path), _now);
         return Redraw.Scene;
+    }
+
+    /// <summary>Saves what is shown, with menus and panels, as an image.</summary>
+    public Redraw SaveWindowScreenshot()
+    {
+        var image = renderer.CaptureWindow(tracing.Layer, Interface.Ui, overlay.Panels);
+        overlay.Report(Screenshots.Save(image, Document!.File.Path), _now);
+        return Redraw.Overlay;
     }
 
     /// <summary>Switches between the paper's zoom and that of the engine.</summary>

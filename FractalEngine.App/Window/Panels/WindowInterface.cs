@@ -16,6 +16,7 @@ internal sealed class WindowInterface
     private readonly ImmutableArray<(string Name, UiPanel Panel)> _panels;
     private readonly Queue<WindowAction> _chosen = [];
     private readonly KeyList _keyList;
+    private readonly AxisGizmo _gizmo;
     private WindowSettings _settings;
     private int _width;
     private int _height;
@@ -33,9 +34,13 @@ internal sealed class WindowInterface
         _settings = WindowSettings.Read(settingsPath, report);
         Bindings = new(_settings.Keys);
         _keyList = new(Bindings, Choose);
+        _gizmo = new(actions);
         _panels =
         [
+            ("scene", new("Scene", new ScenePanel(actions).Build) { Dock = UiDock.Left }),
+            ("fractal", new("Fractal", new FractalPanel(actions).Build) { Dock = UiDock.Left }),
             ("view", new("View", new ViewPanel(actions, Choose).Build) { Dock = UiDock.Right }),
+            ("selection", new("Selection", new SelectionPanel(actions, Choose).Build) { Dock = UiDock.Left }),
             ("physics", new("Physics", new PhysicsPanel(actions, Choose).Build) { Dock = UiDock.Right }),
             ("statistics", new("Statistics", new StatisticsPanel(actions).Build) { Dock = UiDock.Right }),
         ];
@@ -135,11 +140,32 @@ internal sealed class WindowInterface
     {
         if (IsShown)
         {
+            MarkDimensions(ui);
             ui.MenuBar(() => BuildMenus(ui));
             ui.Panels([.. _panels.Select(static pair => pair.Panel)], ui.FreeArea.Width < 900 ? 2 : 0);
+            _gizmo.Build(ui);
         }
 
         _keyList.Build(ui);
+    }
+
+    /// <summary>Writes the measured lengths beside their lines.</summary>
+    private void MarkDimensions(UserInterface ui)
+    {
+        if (_actions.Document is not { LatestView: { } view } document)
+        {
+            return;
+        }
+
+        foreach (var dimension in document.Tool.Measure.Dimensions)
+        {
+            var middle = 0.5 * (dimension.From + dimension.To);
+            var drawn = document.Physics.IsWalking ? middle : document.FlyingCamera.ToDrawnFrame(middle);
+            if (view.Project(drawn, _width, _height) is var (x, y, _))
+            {
+                ui.Mark(dimension.LengthText, x, y);
+            }
+        }
     }
 
     private void BuildMenus(UserInterface ui)

@@ -1,0 +1,33 @@
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Scenes;
+
+namespace FractalEngine.App.Window.Editing;
+
+/// <summary>Changes the text of a scene as panels ask for. Lines that are not concerned stay as they are.</summary>
+internal static class SceneEditor
+{
+    /// <summary>Changes the scene that a text declares. Objects and lights keep their numbers, or are added at the end.</summary>
+    /// <param name="text">Text of the scene.</param>
+    /// <param name="change">Returns the changed scene.</param>
+    public static string Change(string text, Func<Scene, Scene> change)
+    {
+        var parsed = SceneParser.Parse(new("scene", text));
+        return SceneWriter.Write(change(parsed.Scene), parsed);
+    }
+
+    /// <summary>Removes the line of an object.</summary>
+    /// <param name="text">Text of the scene.</param>
+    /// <param name="objectIndex">Index of the object in the scene, from 0.</param>
+    public static string RemoveObject(string text, int objectIndex) => RemoveLine(text, SceneDeclarationKind.SceneObject, objectIndex);
+
+    /// <summary>Removes the line of a light.</summary>
+    /// <param name="text">Text of the scene.</param>
+    /// <param name="lightIndex">Index of the light in the scene, from 0.</param>
+    public static string RemoveLight(string text, int lightIndex) => RemoveLine(text, SceneDeclarationKind.Light, lightIndex);
+
+    private static string RemoveLine(string text, SceneDeclarationKind kind, int index)
+    {
+        var lines = SceneParser.Parse(new("scene", text)).Lines;
+        return string.Concat(lines.Where(line => line.Kind != kind || line.Index != index).Select(static line => line.Text));
+    }
+}
