@@ -254,7 +254,7 @@ public sealed partial class UserInterface
         _layer = 2;
         _clip = new(0, 0, _width, _height);
         var columns = Math.Max(1, Math.Min(60, (_width / CellWidth) - 2));
-        var lines = _tooltip.Chunk(columns).Select(static line => new string(line)).ToArray();
+        var lines = Wrap(_tooltip, columns).ToArray();
         var width = (lines.Max(static line => line.Length) * CellWidth) + (2 * Gap);
         var height = (lines.Length * LineHeight) + (2 * Gap);
         var x = Math.Max(0, Math.Min((int)_input.X + CellWidth, _width - width));

@@ -278,7 +278,8 @@ public sealed partial class UserInterface
         _input.Modifiers = pressed.Modifiers;
         _isKeyTaken = false;
         Rebuild();
-        return _isKeyTaken || _dialog is not null;
+        // Screenshots are taken of dialogs, too.
+        return _isKeyTaken || (_dialog is not null && pressed.Key is not (>= Key.F1 and <= Key.F12));
     }
 
     private bool HandleText(TextEntered entered)

@@ -40,9 +40,9 @@ internal static class PanelWidgets
     /// <summary>Adds a name and its value in one row.</summary>
     public static void Fact(this UserInterface ui, string name, string value)
     {
-        ui.Row(0.42, 0.58);
+        ui.Row(name.Length + 1, 1);
         ui.Label(name, isDim: true);
-        if (value.Length > 20)
+        if (name.Length + value.Length > 31)
         {
             ui.Paragraph(value);
         }

@@ -10,6 +10,9 @@ internal sealed class WindowInterface
 {
     private const double ScaleStep = 1.25;
 
+    // Below this width at scale 1, two columns of panels leave no room for texts between them, which stand below them then.
+    private const double MinWidthForTexts = 1000;
+
     private readonly WindowActions _actions;
     private readonly Action<string> _report;
     private readonly string? _settingsPath;
@@ -87,6 +90,9 @@ internal sealed class WindowInterface
     /// <summary>Whether the menu bar and the panels are shown.</summary>
     public bool IsShown => _settings.ShowsMenu;
 
+    /// <summary>Whether there is room for texts between the panels.</summary>
+    public bool HasRoomForTexts => Ui.FreeArea.Width >= 0.4 * _width;
+
     /// <summary>Shows or hides the menu bar and all panels.</summary>
     public void ToggleAll() => _settings = _settings with { ShowsMenu = !_settings.ShowsMenu };
 
@@ -142,7 +148,7 @@ internal sealed class WindowInterface
         {
             MarkDimensions(ui);
             ui.MenuBar(() => BuildMenus(ui));
-            ui.Panels([.. _panels.Select(static pair => pair.Panel)], ui.FreeArea.Width < 900 ? 2 : 0);
+            ui.Panels([.. _panels.Select(static pair => pair.Panel)], ui.FreeArea.Width < MinWidthForTexts * ui.Scale ? 2 : 0);
             _gizmo.Build(ui);
         }
 
