@@ -78,6 +78,19 @@ internal sealed class ScenePanel(WindowActions actions)
             ui.Scope($"object {_object}", () => BuildObject(ui, scene.Objects[_object], _object));
         }
 
+        var hidden = SceneEditor.FindHidden(document.File.ParsedScene!.Source.Text);
+        if (hidden.Length > 0)
+        {
+            ui.Heading("Hidden: a click shows it");
+            ui.Rows(hidden.Length, i =>
+            {
+                if (ui.Selectable(hidden[i], isSelected: false))
+                {
+                    actions.EditScene(ui, text => SceneEditor.ShowObject(text, hidden[i]));
+                }
+            });
+        }
+
         ui.Heading("Add an object");
         ui.Row(1, 7);
         ui.TextField("file (.obj, .fdo, …)", ref _addedFile, out var isCommitted);
@@ -109,7 +122,14 @@ internal sealed class ScenePanel(WindowActions actions)
             SetObject(ui, index, present => present with { Colour = colour });
         }
 
-        ui.Row(1, 1);
+        ui.Row(1, 1, 1);
+        if (ui.Button("Hide"))
+        {
+            actions.EditScene(ui, text => SceneEditor.HideObject(text, index));
+            _object = -1;
+            actions.Document!.Tool.Selected = null;
+        }
+
         if (ui.Button("Duplicate"))
         {
             var offset = 0.25 * actions.Document!.File.Scene.Objects[index].Bounds.Size.X * Vector.I;

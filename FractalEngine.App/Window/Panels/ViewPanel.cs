@@ -39,6 +39,15 @@ internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choo
         BuildDetail(ui);
         if (actions.Document is { } shown)
         {
+            double level = shown.Tool.Boxes.Level;
+            ui.Row(1);
+            if (ui.Slider("boxes of level", ref level, -1, 8, 1))
+            {
+                shown.Tool.Boxes.Level = (int)level;
+                actions.RequestDraw();
+            }
+
+            ui.Tooltip("bounding boxes of the sub-fractals at a level; 0 for whole objects, -1 for none");
             BuildBookmarks(ui, shown);
         }
     }

@@ -18,6 +18,9 @@ namespace FractalEngine.App.Window.Selecting;
 /// <param name="Hit">The point that was clicked, world space.</param>
 internal sealed record Selection(int ObjectIndex, PlacedModel Object, ImmutableArray<int> Path, int Depth, RayHit Hit)
 {
+    /// <summary>Number of lines of <see cref="AddBox"/>.</summary>
+    public const int LinesPerBox = 12;
+
     private static readonly Colour OutlineColour = new(1, 0.72, 0.2);
     private static readonly Colour FaceColour = new(1, 1, 1);
     private static readonly Colour NormalColour = new(0.3, 0.9, 1);
@@ -51,27 +54,32 @@ internal sealed record Selection(int ObjectIndex, PlacedModel Object, ImmutableA
     /// <summary>Adds lines around the selected part, and those of the clicked face and its normal. World space.</summary>
     public void AddLines(List<LineSegment> lines)
     {
-        var (box, map) = Outline;
-        if (!box.IsEmpty && box.Size.IsFinite())
-        {
-            for (var i = 0; i < 8; i++)
-            {
-                for (var axis = 1; axis < 8; axis *= 2)
-                {
-                    if ((i & axis) == 0)
-                    {
-                        lines.Add(new(map * Corner(box, i), map * Corner(box, i | axis), OutlineColour));
-                    }
-                }
-            }
-        }
-
+        AddBox(lines, Outline.Box, Outline.Map, OutlineColour);
         var (a, b, c) = Face;
         lines.Add(new(a, b, FaceColour));
         lines.Add(new(b, c, FaceColour));
         lines.Add(new(c, a, FaceColour));
         var size = Math.Max((b - a).Length(), (c - a).Length());
         lines.Add(new(Hit.Point, Hit.Point + (0.5 * size * Hit.Normal), NormalColour));
+    }
+
+    /// <summary>Adds the edges of a box; none where it is empty or infinite.</summary>
+    /// <param name="lines">The list that is added to.</param>
+    /// <param name="box">In its own frame.</param>
+    /// <param name="map">From that frame to world space.</param>
+    /// <param name="colour">Colour of the edges, sRGB.</param>
+    public static void AddBox(List<LineSegment> lines, BoundingBox box, in AffineMap map, Colour colour)
+    {
+        for (var i = 0; i < 8 && !box.IsEmpty && box.Size.IsFinite(); i++)
+        {
+            for (var axis = 1; axis < 8; axis *= 2)
+            {
+                if ((i & axis) == 0)
+                {
+                    lines.Add(new(map * Corner(box, i), map * Corner(box, i | axis), colour));
+                }
+            }
+        }
     }
 
     /// <summary>Names the selected part.</summary>

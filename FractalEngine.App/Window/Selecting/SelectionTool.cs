@@ -23,10 +23,14 @@ internal sealed class SelectionTool(Document document)
     /// <summary>Measures distances between clicks.</summary>
     public MeasureTool Measure { get; private set; } = new();
 
+    /// <summary>The bounding boxes that are shown.</summary>
+    public BoxesOfLevel Boxes { get; private set; } = new();
+
     /// <summary>Takes over what was selected and measured in the same scene before it was loaded again.</summary>
     public void ContinueFrom(SelectionTool other)
     {
         Measure = other.Measure;
+        Boxes = other.Boxes;
         var objects = document.File.Scene.Objects;
         if (other.Selected is { } selected && selected.ObjectIndex < objects.Length
             && ReferenceEquals(objects[selected.ObjectIndex].Model, selected.Object.Model)
@@ -71,6 +75,7 @@ internal sealed class SelectionTool(Document document)
     public List<LineSegment> Lines()
     {
         var lines = new List<LineSegment>();
+        Boxes.AddTo(document.File.Scene, lines);
         Selected?.AddLines(lines);
         lines.AddRange(Measure.Dimensions.Select(static dimension => dimension.Line));
         return lines;

@@ -144,6 +144,18 @@ public sealed class EditingTests : IDisposable
     }
 
     [Fact]
+    public void SceneEditor_HiddenObject_IsShownAgainInItsPlace()
+    {
+        const string Text = "o \"cube.obj\" #\r\n# note\r\no \"cube.obj\" # name \"b\"\r\n";
+        var hidden = SceneEditor.HideObject(Text, 1);
+        Assert.Equal("o \"cube.obj\" #\r\n# note\r\n#hidden o \"cube.obj\" # name \"b\"\r\n", hidden);
+        var line = Assert.Single(SceneEditor.FindHidden(hidden));
+        Assert.Equal("o \"cube.obj\" # name \"b\"", line);
+        Assert.Equal(Text, SceneEditor.ShowObject(hidden, line));
+        Assert.Empty(SceneEditor.FindHidden(Text));
+    }
+
+    [Fact]
     public void History_Transformed_KeepsItsSteps()
     {
         var history = new UndoHistory<int>(0);

@@ -91,6 +91,20 @@ public class PickerTests
         }
     });
 
+    [Theory]
+    [InlineData(-1, 0)]
+    [InlineData(0, 1)]
+    [InlineData(1, 20)]
+    [InlineData(2, 400)]
+    [InlineData(3, 1000)]
+    [InlineData(4, 0)]
+    public void Boxes_OfALevel_AreThoseOfItsSubFractals(int level, int expected)
+    {
+        var lines = new List<LineSegment>();
+        new BoxesOfLevel { Level = level }.AddTo(Scene(Sponge(depth: 3)), lines);
+        Assert.Equal(expected, lines.Count / 12);
+    }
+
     [Fact]
     public void Text_OfASelection_NamesWhatWasClicked()
     {
