@@ -167,7 +167,7 @@ public sealed class PanelWindowTests : IDisposable
             window.Send($"key {XName(chord)}");
             if (chord == new KeyChord(Key.H))
             {
-                window.FindText("search");
+                window.FindText("list all actions");
                 window.Send("key Escape");
             }
 
