@@ -70,8 +70,9 @@ public sealed class FrameRenderer : IDisposable
         if (view.DeepZoom is null)
         {
             _linesPass.DrawGridAndAxes(in frame, scene.Bounds, settings);
-            _linesPass.DrawSegments(in frame, scene.Lines);
         }
+
+        _linesPass.DrawSegments(in frame, scene.Lines);
 
         GL.Disable(EnableCap.DepthTest);
     }
@@ -95,9 +96,19 @@ public sealed class FrameRenderer : IDisposable
     /// <param name="overlay">Panels over both.</param>
     /// <exception cref="InvalidOperationException">No frame has been drawn yet.</exception>
     /// <exception cref="ArgumentException">The image has another size than the frame.</exception>
-    public void Present(RenderWindow window, ImageLayer? layer, params IReadOnlyList<OverlayPanel> overlay)
+    public void Present(RenderWindow window, ImageLayer? layer, params IReadOnlyList<OverlayPanel> overlay) =>
+        Present(window, layer, null, overlay);
+
+    /// <summary>Presents the last frame in a window, below an image and a user interface.</summary>
+    /// <param name="window">Window of this renderer's context.</param>
+    /// <param name="layer">Image over the frame; null for none. It can change without drawing the scene again.</param>
+    /// <param name="ui">User interface over both, as it was built last; null for none.</param>
+    /// <param name="overlay">Panels over all of these.</param>
+    /// <exception cref="InvalidOperationException">No frame has been drawn yet.</exception>
+    /// <exception cref="ArgumentException">The image has another size than the frame.</exception>
+    public void Present(RenderWindow window, ImageLayer? layer, UserInterface? ui, params IReadOnlyList<OverlayPanel> overlay)
     {
-        Resolve(layer, overlay).CopyToWindow(window.Width, window.Height);
+        Resolve(layer, ui, overlay).CopyToWindow(window.Width, window.Height);
         window.SwapBuffers();
     }
 
@@ -113,9 +124,18 @@ public sealed class FrameRenderer : IDisposable
     /// <exception cref="InvalidOperationException">No frame has been drawn yet.</exception>
     /// <exception cref="ArgumentException">The image has another size than the frame.</exception>
     /// <exception cref="GlException">The driver reports an error while the pixels are read.</exception>
-    public PixelImage Capture(ImageLayer? layer, params IReadOnlyList<OverlayPanel> overlay)
+    public PixelImage Capture(ImageLayer? layer, params IReadOnlyList<OverlayPanel> overlay) => Capture(layer, null, overlay);
+
+    /// <summary>Reads the last frame back as an image, below another image and a user interface.</summary>
+    /// <param name="layer">Image over the frame; null for none.</param>
+    /// <param name="ui">User interface over both, as it was built last; null for none.</param>
+    /// <param name="overlay">Panels over all of these; none for the scene alone.</param>
+    /// <exception cref="InvalidOperationException">No frame has been drawn yet.</exception>
+    /// <exception cref="ArgumentException">The image has another size than the frame.</exception>
+    /// <exception cref="GlException">The driver reports an error while the pixels are read.</exception>
+    public PixelImage Capture(ImageLayer? layer, UserInterface? ui, params IReadOnlyList<OverlayPanel> overlay)
     {
-        var frame = Resolve(layer, overlay);
+        var frame = Resolve(layer, ui, overlay);
         var pixels = new byte[4 * frame.Width * frame.Height];
         frame.ReadPixels(pixels);
         return PixelImage.FromBottomUp(frame.Width, frame.Height, pixels);
@@ -184,7 +204,7 @@ public sealed class FrameRenderer : IDisposable
         return _sceneTarget;
     }
 
-    private Framebuffer Resolve(ImageLayer? layer, IReadOnlyList<OverlayPanel> overlay)
+    private Framebuffer Resolve(ImageLayer? layer, UserInterface? ui, IReadOnlyList<OverlayPanel> overlay)
     {
         if (_sceneTarget is null || _resolvedTarget is null)
         {
@@ -205,7 +225,13 @@ public sealed class FrameRenderer : IDisposable
             _imagePass.Draw(layer);
         }
 
-        _overlayPass.Draw(overlay, _resolvedTarget.Width, _resolvedTarget.Height);
+        if (ui is not null)
+        {
+            _overlayPass.Draw(ui, _resolvedTarget.Width, _resolvedTarget.Height);
+        }
+
+        var area = ui?.OverlayArea ?? new(0, 0, _resolvedTarget.Width, _resolvedTarget.Height);
+        _overlayPass.Draw(overlay, area, _resolvedTarget.Width, _resolvedTarget.Height);
         return _resolvedTarget;
     }
 }

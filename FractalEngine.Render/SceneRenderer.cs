@@ -68,7 +68,7 @@ public sealed class SceneRenderer : IDisposable
         }
     }
 
-    /// <summary>Lines that are drawn over the scene.</summary>
+    /// <summary>Lines that are drawn over the scene: in world space, or in a deep zoom in the frame of its roots.</summary>
     public IReadOnlyList<LineSegment> Lines { get; set; } = [];
 
     /// <summary>

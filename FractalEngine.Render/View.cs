@@ -1,5 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Rays;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Render;
@@ -107,6 +108,22 @@ public sealed record View(Camera Camera, Projection Projection)
             viewport.X + (0.5 * viewport.Width * (1 + (right / (halfHeight * aspect)))),
             viewport.Y + (0.5 * viewport.Height * (1 - (up / halfHeight))),
             depth);
+    }
+
+    /// <summary>Returns the ray through a point of a frame: the reverse of <see cref="Project"/>.</summary>
+    /// <param name="x">Pixels from the left edge; the centre of the first pixel is at 0.5.</param>
+    /// <param name="y">Pixels from the upper edge.</param>
+    /// <param name="width">Width of the frame in pixels.</param>
+    /// <param name="height">Height of the frame in pixels.</param>
+    /// <returns>A ray from the camera, or from its plane in orthographic projection. World space.</returns>
+    public Ray RayThrough(double x, double y, int width, int height)
+    {
+        var viewport = Viewport(width, height);
+        var right = ((2 * (x - viewport.X) / viewport.Width) - 1) * HalfHeight * EffectiveAspect(width, height);
+        var up = (1 - (2 * (y - viewport.Y) / viewport.Height)) * HalfHeight;
+        return Projection == Projection.Perspective
+            ? new(Camera.Position, Camera.LocalAxes * new Vector(right, up, 1))
+            : new(Camera.Position + (Camera.LocalAxes * new Vector(right, up, 0)), Camera.LocalAxes.V3);
     }
 
     /// <summary>Returns the depths of the near and far clip planes.</summary>

@@ -1,5 +1,6 @@
 using System.CommandLine;
 using FractalEngine.App.Window;
+using FractalEngine.App.Window.Panels;
 
 namespace FractalEngine.App.Commands;
 
@@ -45,6 +46,7 @@ internal static class ViewCommand
                 TraceSampleCount = result.GetValue(trace),
                 Size = draw.Resolution(result),
                 WatchesFiles = !result.GetValue(noWatch),
+                SettingsPath = WindowSettings.DefaultPath,
                 RecentFilesPath = RecentFiles.DefaultPath,
                 IdleWhenUnchanged = draw.IsEnabled(result, Optimisation.Idle),
             }));

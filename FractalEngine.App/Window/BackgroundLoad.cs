@@ -16,14 +16,14 @@ internal sealed class BackgroundLoad
 
     /// <summary>Starts to load a file.</summary>
     /// <param name="path">Path of the mesh, fractal or scene.</param>
-    /// <param name="options">The options of the window.</param>
+    /// <param name="options">What overrides the files.</param>
     /// <param name="settings">The render settings to prepare the scene for.</param>
     /// <param name="aspect">Width divided by height of the window. Only models visible at first are prepared.</param>
     /// <param name="cache">What was read before. No other load may use it meanwhile.</param>
     /// <param name="previous">The document whose models are used further where their files are unchanged; null for none.</param>
     /// <param name="completed">Called on the other thread when the load has succeeded or failed.</param>
     public BackgroundLoad(
-        string path, WindowOptions options, RenderSettings settings, double aspect, AssetCache cache, Document? previous, Action completed)
+        string path, LoadOptions options, RenderSettings settings, double aspect, AssetCache cache, Document? previous, Action completed)
     {
         Path = path;
         Previous = previous;
@@ -32,7 +32,7 @@ internal sealed class BackgroundLoad
         var view = previous?.LatestView;
         _task = Task.Run(() =>
         {
-            var file = AssetLoader.Load(path, options.Load, _progress, cache);
+            var file = AssetLoader.Load(path, options, _progress, cache);
             var models = file.Scene.Models.ToHashSet();
             var preparation = new ScenePreparation(file.Scene, settings, previous?.FirstSightLoader.Stop(models.Contains));
             if (file.Scene.Objects.Length == 1 || !settings.LazyLoading)

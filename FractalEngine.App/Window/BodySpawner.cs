@@ -64,6 +64,30 @@ internal static class BodySpawner
         return "dropped a ball";
     }
 
+    /// <summary>Throws a sphere from the camera straight ahead, fast enough to cross half of the scene in a second.</summary>
+    /// <inheritdoc cref="DropSphere"/>
+    public static string ThrowSphere(PhysicsWorld world, double sceneSize, Camera camera)
+    {
+        if (!TryFindFreeDistance(world, camera.Position, out var freeDistance, out var problem))
+        {
+            return problem;
+        }
+
+        var radius = Math.Min(SphereRadiusFraction * sceneSize, FreeDistanceFraction * freeDistance);
+        if (!(radius > 0))
+        {
+            return "there is no room for a ball";
+        }
+
+        world.Add(new(camera.Position + (2 * radius * camera.LocalAxes.V3), radius)
+        {
+            Velocity = 0.5 * sceneSize * camera.LocalAxes.V3,
+            Restitution = SphereRestitution,
+            Friction = SphereFriction,
+        });
+        return "threw a ball";
+    }
+
     /// <summary>Tells whether a falling player meets something.</summary>
     /// <param name="world">The world with its player.</param>
     public static bool HasGround(PhysicsWorld world)

@@ -1,3 +1,4 @@
+using FractalEngine.App.Window.Actions;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Windowing;
 
@@ -123,27 +124,7 @@ internal sealed class CameraControls(FlyingCamera camera)
             return;
         }
 
-        switch (pressed.Key)
-        {
-            case Key.F:
-                camera.FrameScene(aspect);
-                break;
-            case Key.Digit1 or Key.Keypad1:
-                camera.LookAlong(Vector.K, aspect);
-                break;
-            case Key.Digit3 or Key.Keypad3:
-                camera.LookAlong(-Vector.I, aspect);
-                break;
-            case Key.Digit7 or Key.Keypad7:
-                camera.LookAlong(-Vector.J, aspect);
-                break;
-            case Key.Digit5 or Key.Keypad5:
-                camera.ToggleProjection();
-                break;
-            case Key.Enter or Key.KeypadEnter:
-                camera.Reset();
-                break;
-        }
+        ActionTable.Find(pressed)?.MoveCamera?.Invoke(camera, aspect);
     }
 
     /// <summary>Zooms to what is under the pointer, or to the middle of the frame where the pointer is unknown.</summary>

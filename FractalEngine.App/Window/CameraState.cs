@@ -1,5 +1,6 @@
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility;
 
 namespace FractalEngine.App.Window;
 
@@ -10,6 +11,9 @@ namespace FractalEngine.App.Window;
 /// <param name="Address">The address in the fractal, which nobody moves; null outside of fractals.</param>
 internal sealed record CameraState(CameraPose Pose, Camera WorldCamera, double FocusDistance, FractalAddress? Address)
 {
+    /// <summary>The levels of the fractal that the address is in; null outside of fractals.</summary>
+    public LodHierarchy? Hierarchy { get; init; }
+
     /// <inheritdoc/>
     public bool Equals(CameraState? other) => other is not null && Pose == other.Pose;
 

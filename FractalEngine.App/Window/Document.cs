@@ -1,3 +1,5 @@
+using FractalEngine.App.Window.Editing;
+using FractalEngine.App.Window.Selecting;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
@@ -10,6 +12,8 @@ namespace FractalEngine.App.Window;
 /// <summary>The file that a window shows, with its camera, its physics and its renderer.</summary>
 internal sealed class Document : IDisposable
 {
+    private int? _lastInteraction;
+
     /// <summary>Uploads the prepared models. Must be called on the window's thread.</summary>
     /// <param name="window">The window that shows the file.</param>
     /// <param name="file">The loaded file.</param>
@@ -18,10 +22,14 @@ internal sealed class Document : IDisposable
     /// <param name="previous">
     /// The same document before its files were changed, which is replaced by this one; null for none. Its renderer is used further.
     /// </param>
+    /// <param name="edits">The files that were edited and not saved; null for none.</param>
     public Document(
-        RenderWindow window, LoadedFile file, ScenePreparation preparation, WindowOptions options, Document? previous = null)
+        RenderWindow window, LoadedFile file, ScenePreparation preparation, WindowOptions options, Document? previous = null,
+        FileEdits? edits = null)
     {
         File = file;
+        Edits = edits ?? FileEdits.None;
+        Tool = new(this);
         FirstSightLoader = new(preparation, window.Wake);
         var scene = file.Scene.Scene;
         var camera = View.Of(file.Scene, window.Aspect).Camera;
@@ -35,7 +43,7 @@ internal sealed class Document : IDisposable
         {
             Renderer = new(window, preparation.Scene);
             Draft = new(file, SceneView);
-            History = new(FlyingCamera.State);
+            History = new(State);
         }
         else
         {
@@ -43,6 +51,7 @@ internal sealed class Document : IDisposable
             Renderer = previous.Renderer;
             Renderer.Replace(preparation.Scene);
             (Draft, History) = ContinueView(previous);
+            Tool.ContinueFrom(previous.Tool);
         }
     }
 
@@ -67,14 +76,20 @@ internal sealed class Document : IDisposable
     /// <summary>The controls of the player.</summary>
     public WalkControls WalkControls { get; } = new();
 
+    /// <summary>Selects and measures what is clicked.</summary>
+    public SelectionTool Tool { get; }
+
     /// <summary>The paper's zoom into the fractal; null unless the scene is one fractal.</summary>
     public FractalTrail? Trail { get; }
 
     /// <summary>What the window has changed of the scene.</summary>
     public SceneDraft Draft { get; }
 
-    /// <summary>The views that the user can return to.</summary>
-    public UndoHistory<CameraState> History { get; private set; }
+    /// <summary>The files that were edited and not saved. After an undo the document must be loaded again.</summary>
+    public FileEdits Edits { get; private set; }
+
+    /// <summary>The views and edits that the user can return to.</summary>
+    public UndoHistory<WindowState> History { get; private set; }
 
     /// <summary>The part of the scene that the window changes, as it is now.</summary>
     public SceneView SceneView => new(Camera, FlyingCamera.Projection, FlyingCamera.OrthographicHeight);
@@ -115,6 +130,7 @@ internal sealed class Document : IDisposable
     private View ComputeView(double aspect)
     {
         Physics.ApplyTo(Renderer);
+        AddLines();
         var view = View.Of(File.Scene with { Scene = GetCurrentScene() }, aspect);
         if (Physics.IsWalking)
         {
@@ -128,6 +144,20 @@ internal sealed class Document : IDisposable
 
         Renderer.Move(0, Trail!.Update(File.Scene.Objects[0].ObjectToWorld, view.Camera.Position));
         return view;
+    }
+
+    /// <summary>Adds the lines of what is selected and measured to those of the bodies, in the frame of the view.</summary>
+    private void AddLines()
+    {
+        var lines = Tool.Lines();
+        if (lines.Count == 0 && VisibleDepth == 0)
+        {
+            return;
+        }
+
+        lines.AddRange(Renderer.Lines);
+        Renderer.Lines = Physics.IsWalking ? lines : lines.ConvertAll(line =>
+            line with { From = FlyingCamera.ToDrawnFrame(line.From), To = FlyingCamera.ToDrawnFrame(line.To) });
     }
 
     /// <summary>Passes an event to the controls of the player or the camera.</summary>
@@ -149,6 +179,34 @@ internal sealed class Document : IDisposable
             : CameraControls.Handle(windowEvent, (double)width / height);
     }
 
+    /// <summary>Moves the flying camera by one command. Nothing happens while a player walks.</summary>
+    /// <param name="move">Takes the camera, and the width of the frame divided by its height.</param>
+    /// <param name="aspect">Width divided by height of the frame.</param>
+    /// <param name="interaction">All moves with the same number are one step that can be undone; null for a step of its own.</param>
+    public void MoveCamera(Action<FlyingCamera, double> move, double aspect, int? interaction = null)
+    {
+        if (!Physics.IsWalking)
+        {
+            if (interaction is null || interaction != _lastInteraction)
+            {
+                RecordView();
+            }
+
+            _lastInteraction = interaction;
+            move(FlyingCamera, aspect);
+        }
+    }
+
+    /// <summary>Drops a ball where the camera looks.</summary>
+    /// <returns>A message for the user.</returns>
+    public string DropBall() =>
+        VisibleDepth > 0 ? "a ball is too large for this depth: zoom out first" : Physics.DropSphere(Camera);
+
+    /// <summary>Throws a ball from the camera.</summary>
+    /// <returns>A message for the user.</returns>
+    public string ThrowBall() =>
+        VisibleDepth > 0 ? "a ball is too large for this depth: zoom out first" : Physics.ThrowSphere(Camera);
+
     /// <summary>Returns to the view before the last change, or makes it again.</summary>
     /// <param name="isRedo">True to make a change again that was undone.</param>
     /// <returns>A message for the user.</returns>
@@ -166,16 +224,48 @@ internal sealed class Document : IDisposable
         }
 
         CameraControls.ReleaseKeys();
-        FlyingCamera.Restore(History.Present);
+        FlyingCamera.Restore(History.Present.Camera);
+        Edits = History.Present.Edits;
+        // In a fractal that has been changed since, the same view has another address.
+        History.ReplacePresent(State);
         return isRedo ? "redone" : "undone";
     }
+
+    private WindowState State => new(FlyingCamera.State, Edits);
+
+    /// <summary>Replaces the edits, as a step that can be undone.</summary>
+    /// <param name="edits">The edits from now on.</param>
+    /// <param name="interaction">All edits with the same number are one step; null for a step of its own.</param>
+    public void Edit(FileEdits edits, int? interaction)
+    {
+        if (interaction is null || interaction != _lastInteraction)
+        {
+            RecordView();
+        }
+
+        _lastInteraction = interaction;
+        Edits = edits;
+    }
+
+    /// <summary>Takes over that a file was saved, also in all states that an undo returns to.</summary>
+    /// <param name="path">Full path of the file.</param>
+    /// <param name="before">Text of the file before.</param>
+    /// <param name="after">Text of the file now.</param>
+    public void MarkSaved(string path, string before, string after)
+    {
+        Edits = Edits.AfterSave(path, before, after);
+        History.Transform(state => state with { Edits = state.Edits.AfterSave(path, before, after) });
+    }
+
+    /// <summary>Continues the same edits, as they are after other programs have changed the files.</summary>
+    public void RebaseEdits(FileEdits edits) => Edits = edits;
 
     /// <summary>Makes the present view a step that can be undone, unless it is one already.</summary>
     private void RecordView()
     {
         if (!Physics.IsWalking)
         {
-            History.Record(FlyingCamera.State);
+            History.Record(State);
         }
     }
 
@@ -237,7 +327,7 @@ internal sealed class Document : IDisposable
     /// Continues the view of the previous document. Camera and projection are each those of the window where it has changed them, and
     /// else those of the file.
     /// </summary>
-    private (SceneDraft Draft, UndoHistory<CameraState> History) ContinueView(Document previous)
+    private (SceneDraft Draft, UndoHistory<WindowState> History) ContinueView(Document previous)
     {
         var (before, after) = (previous.File.Scene.Scene, File.Scene.Scene);
         var (saved, mine) = (previous.Draft.SavedView, previous.SceneView);
@@ -278,8 +368,12 @@ internal sealed class Document : IDisposable
         CameraControls.ContinueFrom(previous.CameraControls);
         WalkControls.ContinueFrom(previous.WalkControls);
         IsTrailEnabled = Trail is not null && previous.IsTrailEnabled;
-        var history = FlyingCamera.SharesStatesWith(previous.FlyingCamera) ? previous.History : new(FlyingCamera.State);
-        return (previous.Draft.Rebase(File, layoutView, mine), history);
+        if (previous.State.Equals(previous.History.Present))
+        {
+            previous.History.ReplacePresent(State);
+        }
+
+        return (previous.Draft.Rebase(File, layoutView, mine), previous.History);
     }
 
     private static bool HaveSameProjection(Scene scene1, Scene scene2) =>

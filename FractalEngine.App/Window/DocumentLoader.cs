@@ -1,3 +1,4 @@
+using FractalEngine.App.Window.Editing;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
@@ -13,7 +14,9 @@ namespace FractalEngine.App.Window;
 /// <param name="overlay">The overlay of the window.</param>
 /// <param name="options">The options of the window.</param>
 /// <param name="opened">Called with the full path of each file that was opened.</param>
-internal sealed class DocumentLoader(RenderWindow window, WindowOverlay overlay, WindowOptions options, Action<string> opened) : IDisposable
+/// <param name="report">Shows a message.</param>
+internal sealed class DocumentLoader(
+    RenderWindow window, WindowOverlay overlay, WindowOptions options, Action<string> opened, Action<string> report) : IDisposable
 {
     // A file that is faulty only because it is still being written is mended sooner.
     private static readonly TimeSpan FaultDelay = TimeSpan.FromSeconds(0.2);
@@ -21,6 +24,7 @@ internal sealed class DocumentLoader(RenderWindow window, WindowOverlay overlay,
     private readonly FileWatcher? _watcher = options.WatchesFiles ? new(window.Wake) : null;
     private readonly AssetCache _cache = new();
     private string _path = "";
+    private FileEdits _edits = FileEdits.None;
     private BackgroundLoad? _load;
     private Action? _next;
     private (string Error, TimeSpan Time)? _pendingFault;
@@ -60,7 +64,22 @@ internal sealed class DocumentLoader(RenderWindow window, WindowOverlay overlay,
             return;
         }
 
+        if (!keepsState)
+        {
+            _edits = FileEdits.None;
+        }
+
         Start(path, settings, keepsState ? Document : null);
+    }
+
+    /// <summary>Shows other texts of the files, in the place of those on the disk.</summary>
+    /// <param name="edits">The files that are edited and not saved.</param>
+    /// <param name="settings">The present render settings.</param>
+    public void Edit(FileEdits edits, RenderSettings settings)
+    {
+        _edits = edits;
+        ShowTitle(_path);
+        Reload(settings);
     }
 
     /// <summary>Loads the files of the document again that have changed. Camera and unchanged bodies go on.</summary>
@@ -104,13 +123,20 @@ internal sealed class DocumentLoader(RenderWindow window, WindowOverlay overlay,
             ShowTitle(path);
         }
 
-        _load = new(path, options, settings, window.Aspect, _cache, previous, window.Wake);
+        var rebased = _edits.Rebase(report);
+        if (!ReferenceEquals(rebased, _edits))
+        {
+            _edits = rebased;
+            previous?.RebaseEdits(rebased);
+        }
+
+        _load = new(path, options.Load with { EditedTexts = _edits.Texts }, settings, window.Aspect, _cache, previous, window.Wake);
     }
 
     private void ShowTitle(string path)
     {
         var note = TitleNote is { } text ? $", {text}" : "";
-        window.Title = $"{Path.GetFileName(path)}{note} - FractalEngine";
+        window.Title = $"{Path.GetFileName(path)}{(_edits.IsEmpty ? "" : "*")}{note} - FractalEngine";
     }
 
     private Redraw PollLoad(TimeSpan now)
@@ -152,7 +178,7 @@ internal sealed class DocumentLoader(RenderWindow window, WindowOverlay overlay,
         }
 
         var known = previous?.File.Warnings.Select(static warning => warning.ToString()).ToHashSet() ?? [];
-        Document = new(window, file, preparation, options, previous);
+        Document = new(window, file, preparation, options, previous, previous?.Edits ?? FileEdits.None);
         _path = load.Path;
         _pendingFault = null;
         overlay.Error = null;

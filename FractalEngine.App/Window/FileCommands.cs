@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using FractalEngine.App.Window.Editing;
 using FractalEngine.Core;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Scenes;
@@ -21,6 +22,25 @@ internal sealed class FileCommands(
     /// Saves the changes of the window into the scene's file. A model that is no scene gets one under a name that is asked for.
     /// </summary>
     public void Save() => Save(MergePreference.None, null);
+
+    /// <summary>Shows another text of a file, as a step that can be undone.</summary>
+    /// <param name="path">Full path of the file.</param>
+    /// <param name="text">Its text from now on.</param>
+    /// <param name="interaction">All edits with the same number are one step; null for a step of its own.</param>
+    public void Edit(string path, string text, int? interaction)
+    {
+        if (loader.Document is { } document)
+        {
+            Try(() =>
+            {
+                document.Edit(document.Edits.With(path, text), interaction);
+                loader.Edit(document.Edits, settings());
+            });
+        }
+    }
+
+    /// <summary>Shows the texts of a state that an undo has returned to.</summary>
+    public void ShowEdits() => loader.Edit(loader.Document!.Edits, settings());
 
     /// <summary>Asks for the name of a new scene file, and saves there.</summary>
     public void SaveAs() => SaveAs(null);
@@ -54,9 +74,18 @@ internal sealed class FileCommands(
 
     private void AskAboutChanges(string question, Action proceed)
     {
-        if (loader.Document is not { HasChanges: true } document)
+        if (loader.Document is not { } document || (!document.HasChanges && document.Edits.IsEmpty))
         {
             proceed();
+            return;
+        }
+
+        if (!document.Edits.IsEmpty)
+        {
+            var names = string.Join(", ", document.Edits.Files.Keys.Select(Path.GetFileName));
+            prompts.Open(new ChoicePrompt(
+                question, [$"{names}: changed in the window, and not saved."],
+                new(Key.S, "save first", () => Save(MergePreference.None, proceed)), new(Key.D, "discard the changes", proceed)));
             return;
         }
 
@@ -69,6 +98,12 @@ internal sealed class FileCommands(
     {
         if (loader.Document is not { } document)
         {
+            return;
+        }
+
+        if (!document.Edits.IsEmpty)
+        {
+            SaveEdits(document, proceed);
             return;
         }
 
@@ -93,6 +128,35 @@ internal sealed class FileCommands(
             proceed?.Invoke();
         });
     }
+
+    /// <summary>Writes the edited texts into their files, and the view with that of the scene.</summary>
+    private void SaveEdits(Document document, Action? proceed) => Try(() =>
+    {
+        foreach (var (path, edited) in document.Edits.Files)
+        {
+            var isScene = path == document.File.Path && document.File.Kind == FileKind.Scene;
+            var view = document.SceneView;
+            var written = isScene ? edited with { Text = document.Draft.Write(view) } : edited;
+            EditedFileWriter.Write(path, written);
+            document.MarkSaved(path, edited.SavedText, written.Text);
+            if (isScene)
+            {
+                document.Draft.MarkSaved(written.Text, view);
+            }
+
+            report($"saved {Path.GetFileName(path)}");
+        }
+
+        loader.Edit(document.Edits, settings());
+        if (document.HasChanges)
+        {
+            Save(MergePreference.None, proceed);
+        }
+        else
+        {
+            proceed?.Invoke();
+        }
+    });
 
     private void AskAboutConflicts(Document document, MergedScene merged, Action? proceed) => prompts.Open(new ChoicePrompt(
         $"{Path.GetFileName(document.File.Path)} has changed in the same place",
@@ -164,7 +228,7 @@ internal sealed class FileCommands(
         {
             action();
         }
-        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
+        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException or FractalEngineException)
         {
             report($"error: {exception.Message}");
         }

@@ -66,7 +66,10 @@ internal sealed class FlyingCamera
 
     /// <summary>The present state, for <see cref="Restore"/>.</summary>
     public CameraState State =>
-        new(Pose, Camera, FocusDistance, _address is { Depth: > 0 and <= MaxStateDepth } ? _address.Clone() : null);
+        new(Pose, Camera, FocusDistance, _address is { Depth: > 0 and <= MaxStateDepth } ? _address.Clone() : null)
+        {
+            Hierarchy = _fractal?.Hierarchy,
+        };
 
     /// <summary>The camera in world space, as far as double precision can express its position.</summary>
     public Camera Camera =>
@@ -156,6 +159,29 @@ internal sealed class FlyingCamera
         Pose = Pose with { OrthographicHeight = factor * Pose.OrthographicHeight };
     }
 
+    /// <summary>Looks at a point, which becomes the centre of the orbit.</summary>
+    /// <param name="point">World space, another one than the position of the camera.</param>
+    public void FocusOn(Vector point)
+    {
+        var direction = point - Camera.Position;
+        var distance = direction.Length();
+        if (distance > 0)
+        {
+            var rotation = CameraFraming.LookRotation(Pose.Camera.Handedness.Mirror(direction));
+            Pose = Pose with { Camera = Pose.Camera with { Rotation = rotation } };
+            FocusDistance = distance * Math.Exp(-(_address?.LogUnit ?? 0));
+        }
+    }
+
+    /// <summary>Maps a point from world space to the frame in which a deep zoom is drawn, outside of it to itself.</summary>
+    public Vector ToDrawnFrame(Vector point) => _address is { Depth: > 0 } && Projection == Projection.Perspective
+        ? Math.Exp(-_address.LogUnit) * (point - Camera.Position)
+        : point;
+
+    /// <summary>Changes the angle of view, without moving the camera.</summary>
+    /// <param name="degrees">The full vertical angle, more than 0 and less than 180 degrees.</param>
+    public void SetFieldOfView(double degrees) => Pose = Pose with { Camera = Pose.Camera with { FieldOfView = degrees } };
+
     /// <summary>Takes a projection as it is, without moving the camera.</summary>
     /// <param name="projection">The projection of the view.</param>
     /// <param name="orthographicHeight">The visible height in scene units; null where it follows the camera.</param>
@@ -212,6 +238,14 @@ internal sealed class FlyingCamera
     /// <summary>Returns to a state of this camera, or of one for the same fractal.</summary>
     public void Restore(CameraState state)
     {
+        if (!ReferenceEquals(state.Hierarchy, _fractal?.Hierarchy))
+        {
+            // The fractal has been changed since.
+            Pose = state.Pose;
+            MoveTo(state.WorldCamera);
+            return;
+        }
+
         if (_fractal is null || state.Address is not null)
         {
             _address = state.Address?.Clone();

@@ -1,12 +1,12 @@
 using FractalEngine.Core.Visibility;
 using FractalEngine.Render;
-using FractalEngine.Render.Ui;
 using static System.FormattableString;
 
 namespace FractalEngine.App.Window;
 
 /// <summary>
-/// The cost of the last frame and the savings of each optimisation, shown by key I. Numbers are formatted only while they are shown.
+/// The cost of the last frame and the savings of each optimisation, for the panel of statistics. Numbers are formatted only while they
+/// are shown.
 /// </summary>
 /// <param name="Renderer">The renderer that drew the frame.</param>
 /// <param name="Culling">The culling settings of the frame; null where every instance was drawn.</param>
@@ -17,20 +17,21 @@ namespace FractalEngine.App.Window;
 internal readonly record struct FrameReport(
     SceneRenderer Renderer, CullingSettings? Culling, TimeSpan DrawTime, int Depth, double Log10Magnification, ScenePhysics Physics)
 {
-    /// <summary>Creates the two panels of the report.</summary>
-    public IReadOnlyList<OverlayPanel> ToPanels(FrameCounts frames)
+    /// <summary>Creates the two tables of the report, of names and values.</summary>
+    public IReadOnlyList<(string Title, (string Name, string Value)[] Rows)> ToTables(FrameCounts frames)
     {
         var statistics = Renderer.Statistics;
-        return [CostPanel(statistics), SavingsPanel(statistics, frames)];
+        return [("Last frame", CostRows(statistics)), ("Optimisations", SavingsRows(statistics, frames))];
     }
 
-    private OverlayPanel CostPanel(FrameStatistics statistics)
+    private (string Name, string Value)[] CostRows(FrameStatistics statistics)
     {
         var drawTime = DrawTime.TotalMilliseconds;
         var cullTime = statistics.CullWaitTime.TotalMilliseconds;
-        return OverlayPanel.OfTable(OverlayAnchor.BottomRight, "Last frame",
+        return
         [
-            ("draw time", Invariant($"{drawTime:F1} ms, culling {cullTime:F1}")),
+            ("draw time", Invariant($"{drawTime:F1} ms")),
+            ("waited for culling", Invariant($"{cullTime:F1} ms")),
             ("instances", Invariant($"{statistics.InstanceCount:N0}")),
             ("triangles", Invariant($"{statistics.TriangleCount:N0}")),
             ("visited nodes", Invariant($"{statistics.Culling.VisitedNodes:N0}")),
@@ -38,15 +39,15 @@ internal readonly record struct FrameReport(
             ("fractal depth", Invariant($"{Depth:N0}, magnified {ViewName.Magnification(Log10Magnification)}")),
             ("culling runs", Invariant($"{statistics.CullCount:N0}")),
             ("uploaded", Invariant($"{statistics.UploadedBytes / 1e6:F1} MB")),
-        ]);
+        ];
     }
 
-    private OverlayPanel SavingsPanel(FrameStatistics statistics, FrameCounts frames)
+    private (string Name, string Value)[] SavingsRows(FrameStatistics statistics, FrameCounts frames)
     {
         var culling = statistics.Culling;
         var saved = statistics.Optimisations;
         var (builtColliders, allColliders) = Physics.ColliderCounts;
-        return OverlayPanel.OfTable(OverlayAnchor.TopLeft, "Optimisations",
+        return
         [
             ("frustum culling", Invariant($"{culling.OutsideFrustum:N0} nodes outside")),
             ("occlusion culling", Invariant($"{culling.Occluded:N0} nodes hidden")),
@@ -59,6 +60,6 @@ internal readonly record struct FrameReport(
             ("buffer reuse", Invariant($"{saved.Uploads.Skipped:N0} uploads skipped, {saved.Uploads.Performed:N0} made")),
             ("state filtering", Invariant($"{saved.StateChanges.Skipped:N0} calls skipped, {saved.StateChanges.Performed:N0} made")),
             ("idle", Invariant($"{frames.Skipped:N0} frames skipped, {frames.Drawn:N0} drawn, {frames.PresentedAgain:N0} reused")),
-        ]);
+        ];
     }
 }

@@ -83,6 +83,13 @@ internal sealed class ScenePhysics : IDisposable
     /// <summary>The fraction of a step by which frames follow the last step, from 0 to 1; see <see cref="Body.InterpolatedMap"/>.</summary>
     public double InterpolationAlpha => IsPaused || (World ?? _continued) is not { } world ? 1 : world.InterpolationAlpha;
 
+    /// <summary>Seconds of the simulation in a second, not negative.</summary>
+    public double Speed { get; set; } = 1;
+
+    /// <summary>Face tests a second in the last step; null where none was made.</summary>
+    public double? QueriesPerSecond =>
+        World is { } world && _stepTime > TimeSpan.Zero ? world.LastStepCost.FaceTests / _stepTime.TotalSeconds : null;
+
     /// <summary>Two lines about the bodies, their collider and the cost of the last step.</summary>
     public string StatusText
     {
@@ -150,7 +157,7 @@ internal sealed class ScenePhysics : IDisposable
             return false;
         }
 
-        MakeSteps(() => world.Advance(time.TotalSeconds));
+        MakeSteps(() => world.Advance(Speed * time.TotalSeconds));
         return true;
     }
 
@@ -197,6 +204,9 @@ internal sealed class ScenePhysics : IDisposable
     /// <summary>Drops a sphere where the camera looks.</summary>
     public string DropSphere(Camera camera) => WhenReady(world => BodySpawner.DropSphere(world, _sceneSize, camera));
 
+    /// <summary>Throws a sphere from the camera straight ahead.</summary>
+    public string ThrowSphere(Camera camera) => WhenReady(world => BodySpawner.ThrowSphere(world, _sceneSize, camera));
+
     /// <summary>Lets the player walk, or the camera fly.</summary>
     /// <param name="camera">The place of a new player where the scene has none.</param>
     public string ToggleWalking(Camera camera) => WhenReady(world =>
@@ -220,6 +230,13 @@ internal sealed class ScenePhysics : IDisposable
 
     /// <summary>Switches all bodies to the next collider that fits the scene.</summary>
     public string SwitchCollider() => WhenReady(world => ColliderSwitch.SwitchToNext(world, _scene));
+
+    /// <summary>Shows or hides the lines to closest points.</summary>
+    public string ToggleClosestPoints()
+    {
+        ShowsClosestPoints = !ShowsClosestPoints;
+        return ShowsClosestPoints ? "closest points and normals: shown" : "closest points and normals: hidden";
+    }
 
     /// <summary>Moves the drawn bodies to their interpolated positions.</summary>
     public void ApplyTo(SceneRenderer renderer)

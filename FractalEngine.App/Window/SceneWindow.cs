@@ -1,4 +1,6 @@
 using System.Diagnostics;
+using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.Panels;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
 
@@ -8,7 +10,7 @@ namespace FractalEngine.App.Window;
 /// The event loop of a window: passes events on, advances time, draws when something has changed, and sleeps otherwise.
 /// </summary>
 /// <remarks>
-/// <see cref="DocumentLoader"/> loads files, <see cref="WindowKeys"/> and <see cref="CameraControls"/> handle keys and mouse, and
+/// <see cref="DocumentLoader"/> loads files, <see cref="WindowActions"/> and <see cref="CameraControls"/> handle keys and mouse, and
 /// <see cref="WindowRenderer"/> draws frames.
 /// </remarks>
 internal sealed class SceneWindow : IDisposable
@@ -26,7 +28,8 @@ internal sealed class SceneWindow : IDisposable
     private readonly WindowOverlay _overlay = new();
     private readonly WindowTracing _tracing;
     private readonly DocumentLoader _loader;
-    private readonly WindowKeys _keys;
+    private readonly WindowActions _actions;
+    private readonly WindowInterface _interface;
     private readonly PromptHost _prompts;
     private readonly FileCommands _files;
     private readonly Stopwatch _clock = Stopwatch.StartNew();
@@ -44,10 +47,12 @@ internal sealed class SceneWindow : IDisposable
         _windowRenderer = new(_frameRenderer);
         _prompts = new(() => _window.ClipboardText);
         var recent = new RecentFiles(options.RecentFilesPath, Report);
-        _loader = new(_window, _overlay, options, recent.Add);
+        _loader = new(_window, _overlay, options, recent.Add, Report);
         _tracing = new(options, _window.Wake);
-        _keys = new(_window, _windowRenderer, _overlay, _tracing, options.Settings);
-        _files = new(_loader, _prompts, recent, Report, () => _keys.Settings, () => _isClosing = true);
+        _files = new(_loader, _prompts, recent, Report, () => _actions!.Settings, () => _isClosing = true);
+        _actions = new(_window, _windowRenderer, _overlay, _tracing, options.Settings) { Files = _files };
+        _interface = new(_actions, _window, options.SettingsPath, Report);
+        _actions.Interface = _interface;
         _loader.Open(path, options.Settings);
     }
 
@@ -133,7 +138,7 @@ internal sealed class SceneWindow : IDisposable
     private void PollLoader()
     {
         var previousDocument = Document;
-        _redraw |= _loader.Poll(_keys.Settings, _clock.Elapsed);
+        _redraw |= _loader.Poll(_actions.Settings, _clock.Elapsed);
         if (Document != previousDocument)
         {
             _windowRenderer.Reset();
@@ -147,8 +152,15 @@ internal sealed class SceneWindow : IDisposable
     }
 
     /// <summary>Passes an event to the open question, or else to the scene.</summary>
-    private void Dispatch(WindowEvent windowEvent)
+    private void Dispatch(WindowEvent physicalEvent)
     {
+        _actions.Document = Document;
+        if (_prompts.Current is null && HandleByInterface(physicalEvent))
+        {
+            return;
+        }
+
+        var windowEvent = _interface.Bindings.Translate(physicalEvent);
         var promptBefore = _prompts.Current;
         if (!_prompts.Handle(windowEvent))
         {
@@ -172,11 +184,39 @@ internal sealed class SceneWindow : IDisposable
         }
     }
 
+    /// <summary>Passes an event to menus and panels, and runs what was chosen there.</summary>
+    /// <returns>True when the scene must not see the event.</returns>
+    private bool HandleByInterface(WindowEvent windowEvent)
+    {
+        var version = _interface.Ui.Version;
+        var isTaken = _interface.Handle(windowEvent);
+        while (_interface.TakeChosen() is { } action)
+        {
+            _redraw |= _actions.Run(action, _clock.Elapsed) | Redraw.Overlay;
+        }
+
+        _redraw |= _actions.TakeRequested();
+        if (_interface.Ui.Version != version)
+        {
+            _redraw |= Redraw.Overlay;
+        }
+
+        if (isTaken)
+        {
+            _interface.SaveSettings();
+        }
+
+        return isTaken;
+    }
+
     private void Handle(WindowEvent windowEvent)
     {
         var wasMoving = Document?.IsMoving == true;
         switch (windowEvent)
         {
+            case KeyPressed { Key: Key.Escape } when Document?.Tool is { Selected: not null } or { Measure.IsActive: true }:
+                _redraw |= _actions.ClearSelection(_clock.Elapsed);
+                return;
             case CloseRequested or KeyPressed { Key: Key.Escape }:
                 if (_prompts.Current is null)
                 {
@@ -198,12 +238,19 @@ internal sealed class SceneWindow : IDisposable
                 _files.Open(PathText.Shorten(dropped.Path));
                 break;
             case KeyPressed { IsRepeat: false } pressed:
-                _redraw |= _keys.Handle(pressed, Document, _files, _clock.Elapsed);
+                _redraw |= _actions.Handle(pressed, _clock.Elapsed);
+                _interface.SaveSettings();
                 break;
         }
 
         if (Document?.Handle(windowEvent, Math.Max(1, _window.Width), Math.Max(1, _window.Height)) == true)
         {
+            _redraw |= Redraw.Scene;
+        }
+
+        if (Document?.Tool.Handle(windowEvent, (Math.Max(1, _window.Width), Math.Max(1, _window.Height)), _clock.Elapsed) is { } message)
+        {
+            _overlay.ShowMessage(message, _clock.Elapsed);
             _redraw |= Redraw.Scene;
         }
 
@@ -253,7 +300,7 @@ internal sealed class SceneWindow : IDisposable
         if (needsDraw)
         {
             // First of all, so that a trace of an earlier view takes no time from the frame.
-            _tracing.Update(Document, _keys.Settings, _window.Width, _window.Height);
+            _tracing.Update(Document, _actions.Settings, _window.Width, _window.Height);
             Draw();
         }
         else
@@ -264,7 +311,10 @@ internal sealed class SceneWindow : IDisposable
         _overlay.FrameCounts = _windowRenderer.CountFrames((long)(start / FrameTime));
         _overlay.TraceText = _tracing.StatusText;
         _loader.TitleNote = _overlay.TraceText;
-        _frameRenderer.Present(_window, _tracing.Layer, _overlay.Panels);
+        _overlay.HidesPhysics = _interface.IsShown && (_interface.IsOpen("physics") || !_interface.HasRoomForTexts);
+        _actions.Document = Document;
+        _interface.Update(_window.Width, _window.Height);
+        _frameRenderer.Present(_window, _tracing.Layer, _interface.Ui, _overlay.Panels);
         if (needsDraw)
         {
             _windowRenderer.RecordFrameTime(_clock.Elapsed - start);
@@ -274,7 +324,7 @@ internal sealed class SceneWindow : IDisposable
     private void Draw()
     {
         var start = _clock.Elapsed;
-        var usedSettings = _windowRenderer.Draw(Document, _keys.Settings, _window.Width, _window.Height);
+        var usedSettings = _windowRenderer.Draw(Document, _actions.Settings, _window.Width, _window.Height);
         if (Document is { } document)
         {
             document.FirstSightLoader.Start(_windowRenderer.LatestView!, _window.Aspect);

@@ -33,6 +33,23 @@ internal sealed class UndoHistory<T>(T first)
         Present = state;
     }
 
+    /// <summary>Replaces the present state by one that looks the same. That is no step.</summary>
+    public void ReplacePresent(T state) => Present = state;
+
+    /// <summary>Replaces all states, since what they refer to has changed.</summary>
+    public void Transform(Func<T, T> transform)
+    {
+        Present = transform(Present);
+        for (var node = _earlier.First; node is not null; node = node.Next)
+        {
+            node.Value = transform(node.Value);
+        }
+
+        var later = _later.Reverse().Select(transform).ToArray();
+        _later.Clear();
+        Array.ForEach(later, _later.Push);
+    }
+
     /// <summary>Returns to the state before the present one.</summary>
     /// <returns>False when there is none.</returns>
     public bool TryUndo()

@@ -29,6 +29,9 @@ internal sealed record WindowOptions
     /// <summary>Whether files are loaded again when they change.</summary>
     public bool WatchesFiles { get; init; } = true;
 
+    /// <summary>Full path of what the window remembers of panels and keys; null to remember nothing.</summary>
+    public string? SettingsPath { get; init; }
+
     /// <summary>Full path of the list of recent files; null to keep none.</summary>
     public string? RecentFilesPath { get; init; }
 

@@ -5,35 +5,17 @@ using FractalEngine.Render.Ui;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>The texts over the frame: file description, keys, statistics, progress, errors and temporary messages.</summary>
+/// <summary>The texts over the frame: file description, progress, errors and temporary messages.</summary>
 internal sealed class WindowOverlay
 {
     private static readonly TimeSpan MessageDuration = TimeSpan.FromSeconds(4);
 
     private static readonly TimeSpan ProblemDuration = TimeSpan.FromSeconds(12);
 
-    private static readonly OverlayPanel KeysPanel = OverlayPanel.OfTable(OverlayAnchor.TopRight, "Keys",
-    [
-        ("W A S D E Q", "fly (Shift: faster, Alt: slower)"),
-        ("left, right drag", "orbit, look around"),
-        ("middle drag, wheel", "pan, zoom to the pointer"),
-        ("F, Enter", "frame the scene, back to the start"),
-        ("1 3 7", "front, right, top view"),
-        ("5", "perspective, orthographic"),
-        ("G X L Y", "grid, wireframe, pixel light, traced"),
-        ("T", "the paper's zoom, or this engine's"),
-        ("Space N", "pause, single step"),
-        ("B R", "drop a ball, reset bodies"),
-        ("P", "walk, fly"),
-        ("C V", "next collider, closest points"),
-        ("I F12", "frame statistics, screenshot"),
-        ("Ctrl+O", "open a file"),
-        ("Ctrl+S", "save (Shift: as a new scene)"),
-        ("Ctrl+Z", "undo a move (Shift: redo)"),
-        ("Ctrl+Shift+C", "copy the camera as a line"),
-        ("H, Esc", "this list, close"),
-    ]);
+    // As many as the graph of a wide panel has columns.
+    private const int MaxFrameTimes = 160;
 
+    private readonly Queue<double> _frameTimes = [];
     private string _fileText = "";
     private OverlayPanel? _description;
     private OverlayPanel? _message;
@@ -57,11 +39,14 @@ internal sealed class WindowOverlay
     /// <summary>Lines about the bodies of the scene; null if there are none to show.</summary>
     public string? PhysicsStatus { get; set; }
 
-    /// <summary>Whether the list of keys is shown.</summary>
-    public bool ShowsKeys { get; set; }
+    /// <summary>Whether the bodies are described elsewhere, so that no lines about them are shown.</summary>
+    public bool HidesPhysics { get; set; }
 
-    /// <summary>Whether the statistics of the last frame are shown.</summary>
-    public bool ShowsStatistics { get; set; }
+    /// <summary>Times of the last frames in milliseconds, the latest at the end.</summary>
+    public IReadOnlyCollection<double> FrameTimes => _frameTimes;
+
+    /// <summary>The statistics of the last frame, as tables of names and values; none before the first.</summary>
+    public IReadOnlyList<(string Title, (string Name, string Value)[] Rows)> ReportTables => _report?.ToTables(FrameCounts) ?? [];
 
     /// <summary>Numbers of frames since the window was opened, for the statistics.</summary>
     public FrameCounts FrameCounts { get; set; }
@@ -75,20 +60,9 @@ internal sealed class WindowOverlay
         get
         {
             var panels = new List<OverlayPanel>();
-            // The list of keys needs all the room that small windows have.
-            if (PhysicsStatus is { } status && !ShowsKeys)
+            if (PhysicsStatus is { } status && !HidesPhysics)
             {
                 panels.Add(new(OverlayAnchor.TopLeft, [new OverlayLine(status, null, OverlayTone.Dim)]));
-            }
-
-            if (ShowsKeys)
-            {
-                panels.Add(KeysPanel);
-            }
-
-            if (ShowsStatistics && !ShowsKeys && _report is { } report)
-            {
-                panels.AddRange(report.ToPanels(FrameCounts));
             }
 
             if (_description is { } description)
@@ -154,7 +128,15 @@ internal sealed class WindowOverlay
     }
 
     /// <summary>Replaces the statistics by those of the last frame.</summary>
-    public void SetReport(FrameReport report) => _report = report;
+    public void SetReport(FrameReport report)
+    {
+        _report = report;
+        _frameTimes.Enqueue(report.DrawTime.TotalMilliseconds);
+        if (_frameTimes.Count > MaxFrameTimes)
+        {
+            _frameTimes.Dequeue();
+        }
+    }
 
     /// <summary>Shows a message for a few seconds.</summary>
     /// <param name="message">One line for the user.</param>

@@ -1,6 +1,7 @@
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
+using FractalEngine.Render.Ui;
 
 namespace FractalEngine.App.Window;
 
@@ -91,6 +92,13 @@ internal sealed class WindowRenderer(FrameRenderer frame)
             _adaptiveQuality.RecordFrameTime(frameTime);
         }
     }
+
+    /// <summary>Captures the last frame as it is presented.</summary>
+    /// <param name="layer">Traced image over the frame; null for none.</param>
+    /// <param name="ui">Menus and panels as they were built last.</param>
+    /// <param name="overlay">Texts over all of these.</param>
+    public PixelImage CaptureWindow(ImageLayer? layer, UserInterface ui, IReadOnlyList<OverlayPanel> overlay) =>
+        frame.Capture(layer, ui, overlay);
 
     /// <summary>
     /// Captures the scene without overlay in full quality: the view on the screen while the camera moves, else the present one.

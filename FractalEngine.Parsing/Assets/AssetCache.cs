@@ -9,7 +9,8 @@ namespace FractalEngine.Parsing.Assets;
 
 /// <summary>
 /// Keeps what was read from files, so that loading again reads only those that have changed. Models whose files are unchanged are the
-/// same objects as before. It belongs to one set of <see cref="LoadOptions"/>, and serves one load at a time.
+/// same objects as before. It belongs to one set of <see cref="LoadOptions"/>, of which only edited texts may change, and serves one
+/// load at a time.
 /// </summary>
 public sealed class AssetCache
 {
@@ -36,9 +37,10 @@ public sealed class AssetCache
     /// <summary>Returns the contents of an unchanged fractal file; null for one that must be read.</summary>
     internal ParsedFractal? FindFractal(string path, FileStamp stamp) => Find(_fractals, path, stamp);
 
-    /// <summary>Returns a model of which no file has changed; null for one that must be made again.</summary>
-    internal CachedModel? FindModel(string path) =>
-        _models.TryGetValue(path, out var cached) && cached.Files.All(static file => FileStamp.Of(file.Key) == file.Value) ? cached : null;
+    /// <summary>Returns a model of which no file and no edited text has changed; null for one that must be made again.</summary>
+    internal CachedModel? FindModel(string path, string? editedText) =>
+        _models.TryGetValue(path, out var cached) && ReferenceEquals(cached.EditedText, editedText)
+        && cached.Files.All(static file => FileStamp.Of(file.Key) == file.Value) ? cached : null;
 
     internal void Store(string path, FileStamp stamp, ParsedObj contents) => _meshes[path] = (stamp, contents);
 
@@ -77,6 +79,8 @@ public sealed class AssetCache
     /// <param name="Files">The stamps of the files before they were read.</param>
     /// <param name="Warnings">The warnings about the files.</param>
     /// <param name="StorageBytes">Size of the files that were read, in bytes.</param>
+    /// <param name="EditedText">The text in place of the model's own file; null where that was read.</param>
     internal sealed record CachedModel(
-        Model Model, ImmutableDictionary<string, FileStamp> Files, ImmutableArray<Diagnostic> Warnings, long StorageBytes);
+        Model Model, ImmutableDictionary<string, FileStamp> Files, ImmutableArray<Diagnostic> Warnings, long StorageBytes,
+        string? EditedText);
 }

@@ -173,7 +173,7 @@ public sealed class AssetLoader
     /// <summary>Loads a model, or takes it from the cache if none of its files has changed.</summary>
     private Model LoadModel(string fullPath, string displayName, FileKind? kind)
     {
-        if (_cache?.FindModel(fullPath) is { } cached)
+        if (_cache?.FindModel(fullPath, EditedText(fullPath)) is { } cached)
         {
             _record.AddRange(cached.Files);
             _warnings.AddRange(cached.Warnings);
@@ -185,7 +185,8 @@ public sealed class AssetLoader
         var warningsBefore = _warnings.Count;
         var bytesBefore = StorageBytes;
         Model model = kind == FileKind.Fractal ? LoadFractal(fullPath, displayName) : LoadMesh(fullPath, displayName);
-        _cache?.Store(fullPath, new(model, _record.Since(filesBefore), [.. _warnings.Skip(warningsBefore)], StorageBytes - bytesBefore));
+        _cache?.Store(fullPath, new(
+            model, _record.Since(filesBefore), [.. _warnings.Skip(warningsBefore)], StorageBytes - bytesBefore, EditedText(fullPath)));
         return model;
     }
 
@@ -251,6 +252,11 @@ public sealed class AssetLoader
     private ParsedFractal ReadOrFindFractal(string fullPath, string displayName)
     {
         var stamp = _record.Add(fullPath);
+        if (EditedText(fullPath) is not null)
+        {
+            return FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.MaxDescriptionBytes));
+        }
+
         if (_cache?.FindFractal(fullPath, stamp) is { } known)
         {
             _textBytes += known.Source.ByteCount;
@@ -283,7 +289,9 @@ public sealed class AssetLoader
     private SourceText ReadText(string fullPath, string displayName, long maxBytes)
     {
         _record.Add(fullPath);
-        var source = _options.Text is { } text && fullPath == _fullPath ? text : SourceText.Read(fullPath, displayName, maxBytes);
+        var source = _options.Text is { } text && fullPath == _fullPath ? text
+            : EditedText(fullPath) is { } edited ? new(displayName, edited)
+            : SourceText.Read(fullPath, displayName, maxBytes);
         _textBytes += source.ByteCount;
         if (_cache is not null)
         {
@@ -292,6 +300,8 @@ public sealed class AssetLoader
 
         return source;
     }
+
+    private string? EditedText(string fullPath) => _options.EditedTexts.GetValueOrDefault(fullPath);
 
     private sealed record MeshContents(
         Mesh Mesh, ImmutableDictionary<string, Material> Materials, long ByteCount, ImmutableDictionary<string, FileStamp> Files);

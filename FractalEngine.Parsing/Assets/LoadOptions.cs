@@ -1,3 +1,4 @@
+using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Parsing.Text;
 
@@ -22,6 +23,12 @@ public sealed record LoadOptions
     /// <c>&lt;$&gt;</c> is a fractal. Names in it are relative to the folder of the path.
     /// </summary>
     public SourceText? Text { get; init; }
+
+    /// <summary>
+    /// Texts of scenes and fractals that were edited and not saved, by their full paths. They take the place of the files. With a cache,
+    /// a model counts as unchanged while its text is the same string.
+    /// </summary>
+    public ImmutableDictionary<string, string> EditedTexts { get; init; } = ImmutableDictionary<string, string>.Empty;
 
     /// <summary>Whether all objects of one file share its model. False loads the file once per object, for comparison.</summary>
     public bool ShareModels { get; init; } = true;

@@ -15,6 +15,7 @@ public sealed partial class FractalParser
     /// <summary>Parses <c>t.a.b. (out, out, out)</c>; each output is a parameter, the number of a vector, or '#'.</summary>
     private bool ParseFunction(Cursor cursor, out Cursor rest)
     {
+        _outputCount = 0;
         if (!ParseName(cursor, "a declaration", out var name, out rest) || !ParseChar(rest, '.', out rest)
             || !ParseParameters(rest, out var parameters, out rest)
             || !ParseBlanks(rest, out rest) || !ParseChar(rest, '(', out rest)
@@ -70,12 +71,14 @@ public sealed partial class FractalParser
         rest = cursor;
         if (char.IsAsciiDigit(cursor.Current) && !IsDecimal(cursor))
         {
-            if (!ParseVectorNumber(cursor, out var vector, out rest))
+            if (!ParseVectorNumber(cursor, out var number, out var vector, out rest))
             {
                 return false;
             }
 
             output = _ => vector;
+            ListOutput(number);
+            _outputCount++;
             return true;
         }
 
@@ -83,12 +86,14 @@ public sealed partial class FractalParser
             && parameters.IndexOf(name) is >= 0 and var index)
         {
             output = arguments => arguments[index];
+            _outputCount++;
             rest = afterName;
             return true;
         }
 
         if (cursor.Current == '#')
         {
+            _outputCount++;
             rest = cursor.Advance(1);
             return true;
         }
@@ -103,10 +108,10 @@ public sealed partial class FractalParser
         NumberReader.TryRead(cursor.Rest, out _, out var length) && cursor.Rest[..length].Contains('.');
 
     /// <summary>Parses the number of a vector that is declared above.</summary>
-    private bool ParseVectorNumber(Cursor cursor, out Vector vector, out Cursor rest)
+    private bool ParseVectorNumber(Cursor cursor, out int number, out Vector vector, out Cursor rest)
     {
         vector = default;
-        if (!ParseInteger(cursor, ValueAsVectorNumber.VectorNumber, out var number, out rest))
+        if (!ParseInteger(cursor, ValueAsVectorNumber.VectorNumber, out number, out rest))
         {
             return false;
         }
@@ -176,11 +181,12 @@ public sealed partial class FractalParser
 
         while (char.IsAsciiDigit(rest.Current))
         {
-            if (!ParseVectorNumber(rest, out var argument, out rest))
+            if (!ParseVectorNumber(rest, out var number, out var argument, out rest))
             {
                 return false;
             }
 
+            ListArgument(number, arguments.Count, function);
             arguments.Add(argument);
             if (rest.Current != '.')
             {

@@ -106,6 +106,7 @@ public sealed partial class FractalParser : Parser
         }
 
         _vectors.Add(vector);
+        ListVector(numbers, rest);
         return true;
     }
 
@@ -291,6 +292,7 @@ public sealed partial class FractalParser : Parser
         }
 
         value = recursive.WithDepth(depth);
+        ListDepth(name, depthStart, rest, depth);
         return true;
     }
 

@@ -6,6 +6,8 @@ namespace FractalEngine.Render.Ui;
 /// <summary>The glyphs of a monospaced font, baked at several sizes. The file format is described in eng/bake-glyphs.py.</summary>
 internal sealed class GlyphAtlas
 {
+    private static readonly Lazy<GlyphAtlas> LazyShared = new(Load);
+
     // Sorted; the index of a character is that of its glyph.
     private readonly char[] _characters;
 
@@ -14,6 +16,10 @@ internal sealed class GlyphAtlas
         _characters = characters;
         Sheets = sheets;
     }
+
+    /// <summary>The embedded atlas, read once.</summary>
+    /// <exception cref="InvalidDataException">The file is not such an atlas.</exception>
+    public static GlyphAtlas Shared => LazyShared.Value;
 
     /// <summary>Sheets of all glyphs at each size, the smallest first.</summary>
     public IReadOnlyList<GlyphSheet> Sheets { get; }

@@ -18,6 +18,9 @@ internal interface IPlatformWindow : IDisposable
     /// <summary>Text of the system's clipboard; empty where it holds none.</summary>
     string ClipboardText { get; set; }
 
+    /// <summary>Whether the window fills the screen, without a frame.</summary>
+    bool IsFullScreen { get; set; }
+
     /// <summary>Hides the pointer and lets it move without limits.</summary>
     bool RelativeMouse { get; set; }
 

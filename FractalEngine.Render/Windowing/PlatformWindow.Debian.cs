@@ -45,6 +45,12 @@ internal sealed class PlatformWindow : IPlatformWindow
         set => SdlWindow.SetClipboardText(value);
     }
 
+    public bool IsFullScreen
+    {
+        get => _window.WindowState == WindowState.Fullscreen;
+        set => _window.WindowState = value ? WindowState.Fullscreen : WindowState.Normal;
+    }
+
     public bool RelativeMouse
     {
         get => _relativeMouse;

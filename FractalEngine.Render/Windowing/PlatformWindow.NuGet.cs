@@ -52,6 +52,12 @@ internal sealed class PlatformWindow : IPlatformWindow
         set => _window.ClipboardString = value;
     }
 
+    public bool IsFullScreen
+    {
+        get => _window.WindowState == WindowState.Fullscreen;
+        set => _window.WindowState = value ? WindowState.Fullscreen : WindowState.Normal;
+    }
+
     public bool RelativeMouse
     {
         get => _window.CursorState == CursorState.Grabbed;

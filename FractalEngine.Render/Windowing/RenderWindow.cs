@@ -48,6 +48,13 @@ public sealed class RenderWindow : RenderContext
         set => Window.ClipboardText = value;
     }
 
+    /// <summary>Whether the window fills the screen, without a frame. The system may refuse it.</summary>
+    public bool IsFullScreen
+    {
+        get => Window.IsFullScreen;
+        set => Window.IsFullScreen = value;
+    }
+
     /// <summary>Hides the pointer and lets it move without limits, to look around with the mouse.</summary>
     public bool RelativeMouse
     {

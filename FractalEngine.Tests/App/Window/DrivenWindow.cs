@@ -1,4 +1,5 @@
 using System.Diagnostics;
+using System.Globalization;
 using System.Text.RegularExpressions;
 using FractalEngine.Core.Images;
 using FractalEngine.Render.Images;
@@ -23,7 +24,8 @@ internal sealed partial class DrivenWindow : IDisposable
             ["FRACTALENGINE_NO_WINDOW"] = null,
             ["XDG_CONFIG_HOME"] = Path.Combine(folder, "config"),
         };
-        _process = AppProcess.Start(folder, environment, ["view", file, "--resolution", "640x480", .. options]);
+        string[] size = options.Contains("--resolution") ? [] : ["--resolution", "640x480"];
+        _process = AppProcess.Start(folder, environment, ["view", file, .. size, .. options]);
         _process.ErrorDataReceived += (_, line) =>
         {
             lock (_errorLines)
@@ -75,10 +77,34 @@ internal sealed partial class DrivenWindow : IDisposable
         $"title with '{text}'");
 
     /// <summary>Takes a screenshot. All earlier input has been handled before.</summary>
-    public PixelImage Screenshot()
+    public PixelImage Screenshot() => Screenshot("key F12");
+
+    /// <summary>Takes a screenshot with menus and panels. All earlier input has been handled before.</summary>
+    public PixelImage ScreenshotWithPanels() => Screenshot("key ctrl+F12");
+
+    /// <summary>Clicks the middle of a text that menus and panels show.</summary>
+    /// <param name="text">The text, of which the last place counts.</param>
+    /// <param name="right">Pixels to the right of the middle.</param>
+    public void ClickText(string text, int right = 0)
+    {
+        var (x, y) = FindText(text);
+        Send(string.Create(CultureInfo.InvariantCulture, $"mousemove --window {{window}} {x + right} {y} click 1"));
+    }
+
+    /// <summary>Waits until menus and panels show a text, and returns its middle.</summary>
+    public (int X, int Y) FindText(string text)
+    {
+        var found = WaitFor(() => ScreenText.Find(ScreenshotWithPanels(), text) is { } place ? (object)place : null, $"text '{text}'");
+        return ((int, int))found;
+    }
+
+    /// <summary>Tells whether menus and panels show a text now.</summary>
+    public bool ShowsText(string text) => ScreenText.Find(ScreenshotWithPanels(), text) is not null;
+
+    private PixelImage Screenshot(string command)
     {
         var count = SavedImages().Length;
-        Send("key F12");
+        Send(command);
         return ImageFile.Load(Path.Combine(_folder, WaitFor(() => SavedImages().ElementAtOrDefault(count), "screenshot")));
     }
 

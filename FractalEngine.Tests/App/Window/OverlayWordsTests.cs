@@ -22,11 +22,10 @@ public class OverlayWordsTests
     [InlineData(640, 480)]
     public void Panels_OfKeysStatusAndMessages_FitAndDoNotOverlap(int width, int height)
     {
-        var overlay = new WindowOverlay { ShowsKeys = true };
+        var overlay = new WindowOverlay();
         overlay.PhysicsStatus = "1 body, 1 awake · collider: each body's own\nlast step: 1,234 face tests, 5,678 bound tests, 0.12 ms";
         overlay.ShowMessage("collider: hierarchy, with a message that is as long as such messages get", Now);
         AssertApart(overlay, width, height);
-        overlay.ShowsKeys = false;
         overlay.ShowMessage(new string('x', 60), Now);
         AssertApart(overlay, width, height);
         overlay.Error = "scene.sdo:2:12: error: unexpected 'x', expected a number\n  c (2, 1.5, x) (0.3, 0.6, 0) 60\n             ^";

@@ -63,8 +63,8 @@ public sealed class WindowRendererTests : IDisposable
         windowRenderer.Draw(document, Settings, Width, Height);
         windowRenderer.CountPresentedAgain();
         var report = new FrameReport(document.Renderer, Settings.Culling, Time, 0, 0, document.Physics);
-        var rows = report.ToPanels(windowRenderer.CountFrames(60)).SelectMany(panel => panel.Lines)
-            .ToDictionary(line => line.Text, line => line.SecondColumn);
+        var rows = report.ToTables(windowRenderer.CountFrames(60)).SelectMany(table => table.Rows)
+            .ToDictionary(row => row.Name, row => row.Value);
         Assert.Equal("2 objects, 2 models, 0 textures", rows["sharing"]);
         Assert.Equal("1 of 2 models pending", rows["lazy loading"]);
         Assert.Equal("2 of 2 not built", rows["lazy colliders"]);

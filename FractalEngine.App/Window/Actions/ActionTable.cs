@@ -1,0 +1,242 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Maths;
+using FractalEngine.Render;
+using FractalEngine.Render.Windowing;
+
+namespace FractalEngine.App.Window.Actions;
+
+/// <summary>All actions of the window. Key bindings, menus, the list of keys and the manual's table follow from it.</summary>
+internal static class ActionTable
+{
+    /// <summary>Menus in the order in which they are shown.</summary>
+    public static readonly ImmutableArray<string> Menus = ["File", "Edit", "View", "Go", "Physics", "Window"];
+
+    /// <summary>All actions, in the order of menus and manual.</summary>
+    public static readonly ImmutableArray<WindowAction> All =
+    [
+        new("open", "File", "Open…", "open a file") { Keys = [KeyChord.Control(Key.O)], Run = OverlayOf(static a => a.Files.AskForFile()) },
+        new("save", "File", "Save", "save the changed numbers into their files, and the view into the scene's file")
+        {
+            Keys = [KeyChord.Control(Key.S)], Run = OverlayOf(static a => a.Files.Save()), IsAvailable = HasDocument,
+        },
+        new("save-as", "File", "Save as…", "save as a new scene")
+        {
+            Keys = [KeyChord.ControlShift(Key.S)], Run = OverlayOf(static a => a.Files.SaveAs()), IsAvailable = HasDocument,
+        },
+        new("screenshot", "File", "Screenshot", "save a screenshot into `out/`")
+        {
+            Keys = [new(Key.F12)], Run = static a => a.SaveScreenshot(), IsAvailable = HasDocument,
+        },
+        new("screenshot-panels", "File", "Screenshot of the window", "save a screenshot with menus and panels into `out/`")
+        {
+            Keys = [KeyChord.Control(Key.F12)], Run = static a => a.SaveWindowScreenshot(), IsAvailable = HasDocument,
+        },
+        new("close", "File", "Close", "end measuring, else select nothing, else close the window; asks if something was not saved")
+        {
+            Keys = [new(Key.Escape)], Run = OverlayOf(static a => a.Files.Close()),
+        },
+
+        new("undo", "Edit", "Undo", "return to the view and the numbers before the last change")
+        {
+            Keys = [KeyChord.Control(Key.Z)], Run = static a => a.Undo(isRedo: false), IsAvailable = HasDocument,
+        },
+        new("redo", "Edit", "Redo", "make the change again that was undone")
+        {
+            Keys = [KeyChord.ControlShift(Key.Z)], Run = static a => a.Undo(isRedo: true), IsAvailable = HasDocument,
+        },
+        new("copy-camera", "Edit", "Copy camera",
+            "copy the present camera as a line `c` of a scene, which `--camera` and `--path` take too")
+        {
+            Keys = [KeyChord.ControlShift(Key.C)], Run = static a => a.CopyCamera(), IsAvailable = HasDocument,
+        },
+
+        new("select-up", "Edit", "Up a level", "select the sub-fractal that the selected part belongs to, at last the object")
+        {
+            Keys = [new(Key.Backspace)], Run = static a => a.Show(a.Document!.Tool.Up()) | Redraw.Scene, IsAvailable = HasSelection,
+        },
+        new("copy-selection", "Edit", "Copy selection", "copy what is known about the selection, as lines of text")
+        {
+            Keys = [KeyChord.Control(Key.C)], Run = static a => a.CopySelection(), IsAvailable = HasSelection,
+        },
+        new("measure", "Edit", "Measure", "measure distances between clicks, or select by clicks again")
+        {
+            Keys = [new(Key.M)], Run = static a => a.Show(a.Document!.Tool.Measure.Toggle()) | Redraw.Scene, IsAvailable = HasDocument,
+            IsOn = static a => a.Document?.Tool.Measure.IsActive == true,
+        },
+
+        new("frame-scene", "View", "Frame the scene", "frame the scene: what is visible of it fills 80 % of the frame")
+        {
+            Keys = [new(Key.F)], MoveCamera = static (camera, aspect) => camera.FrameScene(aspect), IsAvailable = HasDocument,
+        },
+        Direction("view-front", "Front", Key.Digit1, Vector.K),
+        Direction("view-right", "Right", Key.Digit3, -Vector.I),
+        Direction("view-top", "Top", Key.Digit7, -Vector.J),
+        new("projection", "View", "Orthographic", "perspective or orthographic; what is in focus keeps its size")
+        {
+            Keys = [new(Key.Digit5)], Flag = "--projection", MoveCamera = static (camera, _) => camera.ToggleProjection(),
+            IsAvailable = HasDocument,
+            IsOn = static a => a.Document?.FlyingCamera.Projection == Core.Scenes.Projection.Orthographic,
+        },
+        new("reset-camera", "View", "File's camera", "return to the camera of the file")
+        {
+            Keys = [new(Key.Enter)], MoveCamera = static (camera, _) => camera.Reset(), IsAvailable = HasDocument,
+        },
+        Setting("grid", "Grid and axes", "grid and axes", Key.G, "--grid",
+            static settings => settings.Grid, static (settings, on) => settings with { Grid = on, Axes = on }),
+        Setting("wireframe", "Wireframe", "wireframe", Key.X, "--wireframe",
+            static settings => settings.Wireframe, static (settings, on) => settings with { Wireframe = on }),
+        Setting("pixel-light", "Pixel light", "light at the vertices or at every pixel", Key.L, "--shading",
+            static settings => settings.Shading == Shading.PerPixel,
+            static (settings, on) => settings with { Shading = on ? Shading.PerPixel : Shading.PerVertex },
+            "lighting: per pixel", "lighting: per vertex"),
+        new("trace", "View", "Traced image", "a traced image while the view stands still, or drawn frames only")
+        {
+            Keys = [new(Key.Y)], Flag = "--trace", Run = static a => a.Show(a.Tracing.Toggle()) | Redraw.Scene,
+            IsOn = static a => a.Tracing.IsEnabled,
+        },
+        new("papers-zoom", "View", "The paper's zoom",
+            "the paper's zoom into a fractal (its matrix grows about the camera) instead of ours")
+        {
+            Keys = [new(Key.T)], Flag = "--trail", Run = static a => a.ToggleTrail(),
+            IsAvailable = static a => a.Document?.Trail is not null, IsOn = static a => a.Document?.IsTrailEnabled == true,
+        },
+
+        Held("fly-forward", "fly forward", Key.W, Key.Up),
+        Held("fly-left", "fly to the left", Key.A, Key.Left),
+        Held("fly-back", "fly back", Key.S, Key.Down),
+        Held("fly-right", "fly to the right", Key.D, Key.Right),
+        Held("fly-up", "fly up", Key.E, Key.PageUp),
+        Held("fly-down", "fly down", Key.Q, Key.PageDown),
+        Gesture("speed", "Shift, Alt", "four times as fast, as slow"),
+        Gesture("select", "click", "select the face, instance and object under the pointer"),
+        Gesture("focus", "double click", "orbit around the point under the pointer"),
+        Gesture("orbit", "left drag", "orbit around the point in focus"),
+        Gesture("look", "right drag", "look around"),
+        Gesture("pan", "middle drag, Shift + left drag", "pan"),
+        Gesture("zoom", "wheel", "zoom to what is under the pointer"),
+        new("walk", "Go", "Walk", "walk in the scene (W A S D, Space jumps, drag to look), or fly again")
+        {
+            Keys = [new(Key.P)], Run = Physics(static document => document.ToggleWalking()), IsAvailable = HasDocument,
+            IsOn = static a => a.Document?.Physics.IsWalking == true,
+        },
+
+        new("pause", "Physics", "Pause", "pause and continue")
+        {
+            Keys = [new(Key.Space)], Run = Physics(static document => document.Physics.TogglePause()),
+            IsAvailable = static a => a.Document?.Physics is { } physics && (!physics.IsWalking || physics.IsPaused),
+            IsOn = static a => a.Document?.Physics.IsPaused == true,
+        },
+        OfPhysics("step", "One step", "make one step", Key.N, static document => document.Physics.StepOnce()),
+        OfPhysics("drop-ball", "Drop a ball", "drop a ball in the middle of the view, before the surface there", Key.B,
+            static document => document.DropBall()),
+        new("throw-ball", "Physics", "Throw a ball", "throw a ball from the camera to the middle of the view")
+        {
+            Keys = [KeyChord.Control(Key.B)], Run = Physics(static document => document.ThrowBall()), IsAvailable = HasDocument,
+        },
+        OfPhysics("reset-bodies", "Reset bodies", "return the bodies to where the file has them", Key.R,
+            static document => document.Physics.Reset()),
+        OfPhysics("next-collider", "Next collider", "the next collider that fits the scene, for all bodies; the top line shows its cost",
+            Key.C, static document => document.Physics.SwitchCollider()),
+        new("closest-points", "Physics", "Closest points", "lines from bodies to their closest points, and the normals there")
+        {
+            Keys = [new(Key.V)], Run = Physics(static document => document.Physics.ToggleClosestPoints()), IsAvailable = HasDocument,
+            IsOn = static a => a.Document?.Physics.ShowsClosestPoints == true,
+        },
+
+        Panel("view", "View panel", "projection, field of view, drawing, bookmarks", new(Key.F3)),
+        Panel("physics", "Physics panel", "bodies, their collider, and its cost", new(Key.F5)),
+        Panel("scene", "Scene panel", "objects with their places and colours, lights, background", new(Key.F2)),
+        Panel("fractal", "Fractal panel", "the numbers of a fractal as sliders", new(Key.F4)),
+        Panel("selection", "Selection panel", "what was clicked, and measured distances", new(Key.F6)),
+        Panel("statistics", "Statistics", "cost of the last frame, and savings of each optimisation", new(Key.I)),
+        new("keys", "Window", "Keys…", "list all actions with their keys; words search in it")
+        {
+            Keys = [new(Key.H)], Run = OverlayOf(static a => a.Interface.OpenKeys()),
+        },
+        new("menu-bar", "Window", "Hide menu and panels", "hide the menu and all panels, or show them again")
+        {
+            Keys = [new(Key.U)], Run = OverlayOf(static a => a.Interface.ToggleAll()), IsOn = static a => !a.Interface.IsShown,
+        },
+        new("full-screen", "Window", "Full screen", "fill the screen, or return to a window")
+        {
+            Keys = [new(Key.F11)], Run = OverlayOf(static a => a.IsFullScreen = !a.IsFullScreen), IsOn = static a => a.IsFullScreen,
+        },
+        new("larger-text", "Window", "Larger text", "larger menus and panels")
+        {
+            Keys = [KeyChord.Control(Key.Plus)], Run = static a => a.Show(a.Interface.ChangeScale(1)),
+        },
+        new("smaller-text", "Window", "Smaller text", "smaller menus and panels")
+        {
+            Keys = [KeyChord.Control(Key.Minus)], Run = static a => a.Show(a.Interface.ChangeScale(-1)),
+        },
+        new("light-colours", "Window", "Light colours", "dark text on light panels, or light on dark")
+        {
+            Keys = [KeyChord.Control(Key.L)], Run = OverlayOf(static a => a.Interface.ToggleTheme()),
+            IsOn = static a => a.Interface.IsLight,
+        },
+    ];
+
+    private static readonly Dictionary<KeyChord, WindowAction> ByChord =
+        All.SelectMany(static action => action.Keys.Select(chord => (chord, action))).ToDictionary();
+
+    /// <summary>Finds the action of a key that was pressed; null for keys without one.</summary>
+    public static WindowAction? Find(KeyPressed pressed)
+    {
+        var chord = KeyChord.Of(pressed);
+        return ByChord.GetValueOrDefault(chord)
+            ?? ByChord.GetValueOrDefault(chord with { Modifiers = chord.Modifiers & ~KeyModifiers.Shift });
+    }
+
+    /// <summary>Returns the action with an id.</summary>
+    /// <exception cref="InvalidOperationException">There is no such action.</exception>
+    public static WindowAction Get(string id) => All.First(action => action.Id == id);
+
+    private static bool HasDocument(WindowActions actions) => actions.Document is not null;
+
+    private static bool HasSelection(WindowActions actions) => actions.Document?.Tool.Selected is not null;
+
+    private static WindowAction Direction(string id, string name, Key key, Vector direction) =>
+        new(id, "View", name, $"view from the {name.ToLowerInvariant()}")
+        {
+            Keys = [new(key)], MoveCamera = (camera, aspect) => camera.LookAlong(direction, aspect), IsAvailable = HasDocument,
+        };
+
+    private static WindowAction Held(string id, string help, params ReadOnlySpan<Key> keys) =>
+        new(id, "Go", "", help) { Keys = [.. keys.ToArray().Select(static key => new KeyChord(key))] };
+
+    private static WindowAction Panel(string panel, string name, string contents, KeyChord key) =>
+        new(panel == "statistics" ? panel : $"panel-{panel}", "Window", name, $"show or hide the panel: {contents}")
+        {
+            Keys = [key],
+            Run = OverlayOf(a => a.Interface.Toggle(panel)),
+            IsOn = a => a.Interface.IsOpen(panel),
+        };
+
+    private static WindowAction Gesture(string id, string gesture, string help) => new(id, "Go", "", help) { Gesture = gesture };
+
+    private static WindowAction Setting(
+        string id, string name, string help, Key key, string flag, Func<RenderSettings, bool> isOn,
+        Func<RenderSettings, bool, RenderSettings> set, string? onMessage = null, string? offMessage = null) => new(id, "View", name, help)
+        {
+            Keys = [new(key)],
+            Flag = flag,
+            IsOn = a => isOn(a.Settings),
+            Run = a =>
+            {
+                var on = !isOn(a.Settings);
+                a.Settings = set(a.Settings, on);
+                return (on ? onMessage : offMessage) is { } message ? a.Show(message) | Redraw.Scene : Redraw.Scene;
+            },
+        };
+
+    private static WindowAction OfPhysics(string id, string name, string help, Key key, Func<Document, string> command) =>
+        new(id, "Physics", name, help) { Keys = [new(key)], Run = Physics(command), IsAvailable = HasDocument };
+
+    private static Func<WindowActions, Redraw> Physics(Func<Document, string> command) => actions => actions.RunPhysics(command);
+
+    private static Func<WindowActions, Redraw> OverlayOf(Action<WindowActions> command) => actions =>
+    {
+        command(actions);
+        return Redraw.Overlay;
+    };
+}

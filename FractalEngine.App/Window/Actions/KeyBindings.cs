@@ -1,0 +1,67 @@
+using System.Collections.Immutable;
+using FractalEngine.Render.Windowing;
+
+namespace FractalEngine.App.Window.Actions;
+
+/// <summary>Translates keys that the settings have changed to those of the <see cref="ActionTable"/>.</summary>
+internal sealed class KeyBindings
+{
+    private readonly Dictionary<KeyChord, KeyChord?> _translations = [];
+
+    // What a key meant when it was pressed is what it means when it is released.
+    private readonly Dictionary<Key, Key> _heldKeys = [];
+
+    /// <summary>Creates the bindings of a window.</summary>
+    /// <param name="changed">The first key of actions that differ from the table, by their ids. Unknown ids are ignored.</param>
+    public KeyBindings(ImmutableDictionary<string, KeyChord> changed)
+    {
+        Changed = changed;
+        foreach (var action in ActionTable.All)
+        {
+            if (changed.ContainsKey(action.Id) && action.Keys is [var first, ..])
+            {
+                _translations[first] = null;
+            }
+        }
+
+        foreach (var action in ActionTable.All)
+        {
+            if (changed.TryGetValue(action.Id, out var chord) && action.Keys is [var first, ..])
+            {
+                _translations[chord] = first;
+            }
+        }
+    }
+
+    /// <summary>The first key of actions that differ from the table, by their ids.</summary>
+    public ImmutableDictionary<string, KeyChord> Changed { get; }
+
+    /// <summary>Returns the keys of an action, for the user.</summary>
+    public string TextOf(WindowAction action) => Changed.TryGetValue(action.Id, out var chord)
+        ? string.Join(", ", action.Keys.Skip(1).Prepend(chord))
+        : action.KeyText;
+
+    /// <summary>Translates a key to that of the table; other events stay as they are.</summary>
+    public WindowEvent Translate(WindowEvent windowEvent)
+    {
+        if (_translations.Count == 0)
+        {
+            return windowEvent;
+        }
+
+        switch (windowEvent)
+        {
+            case KeyPressed pressed when _translations.TryGetValue(KeyChord.Of(pressed), out var chord):
+                var translated = new KeyPressed(
+                    chord?.Key ?? Key.Unknown,
+                    chord is { Modifiers: not KeyModifiers.None } known ? known.Modifiers : pressed.Modifiers & ~KeyModifiers.Control,
+                    pressed.IsRepeat);
+                _heldKeys[pressed.Key] = translated.Key;
+                return translated;
+            case KeyReleased released when _heldKeys.Remove(released.Key, out var key):
+                return released with { Key = key };
+            default:
+                return windowEvent;
+        }
+    }
+}

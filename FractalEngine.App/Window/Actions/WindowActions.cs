@@ -1,0 +1,163 @@
+using FractalEngine.App.Window.Panels;
+using FractalEngine.Render;
+using FractalEngine.Render.Windowing;
+
+namespace FractalEngine.App.Window.Actions;
+
+/// <summary>Runs the actions of the <see cref="ActionTable"/> on the window and its document.</summary>
+/// <param name="window">The window whose size screenshots have.</param>
+/// <param name="renderer">The renderer of the window, for screenshots.</param>
+/// <param name="overlay">The overlay of the window, which shows messages.</param>
+/// <param name="tracing">Traces the view of the window.</param>
+/// <param name="settings">The initial render settings.</param>
+internal sealed class WindowActions(
+    RenderWindow window, WindowRenderer renderer, WindowOverlay overlay, WindowTracing tracing, RenderSettings settings)
+{
+    private TimeSpan _now;
+    private Redraw _requested;
+
+    /// <summary>The present render settings.</summary>
+    public RenderSettings Settings { get; set; } = settings;
+
+    /// <summary>The document shown; null for none.</summary>
+    public Document? Document { get; set; }
+
+    /// <summary>Saves and opens files.</summary>
+    public required FileCommands Files { get; set; }
+
+    /// <summary>Menus and panels of the window.</summary>
+    public WindowInterface Interface { get; set; } = null!;
+
+    /// <summary>The overlay of the window.</summary>
+    public WindowOverlay Overlay => overlay;
+
+    /// <summary>Traces the view of the window.</summary>
+    public WindowTracing Tracing => tracing;
+
+    /// <summary>Runs the command of a key. Keys of the camera are those of <see cref="CameraControls"/>, and ignored here.</summary>
+    /// <param name="pressed">The key that was pressed.</param>
+    /// <param name="now">The present time.</param>
+    public Redraw Handle(KeyPressed pressed, TimeSpan now) =>
+        ActionTable.Find(pressed) is { MoveCamera: null } action ? Run(action, now) : Redraw.None;
+
+    /// <summary>Runs an action, if it has an effect now.</summary>
+    /// <param name="action">A row of the table.</param>
+    /// <param name="now">The present time.</param>
+    public Redraw Run(WindowAction action, TimeSpan now)
+    {
+        _now = now;
+        if (!action.IsAvailable(this))
+        {
+            return Redraw.None;
+        }
+
+        if (action.MoveCamera is { } moveCamera)
+        {
+            Document!.MoveCamera(moveCamera, window.Aspect);
+            return Redraw.Scene;
+        }
+
+        return action.Run?.Invoke(this) ?? Redraw.None;
+    }
+
+    /// <summary>Asks for a new frame, since a panel has changed what it shows.</summary>
+    public void RequestDraw() => _requested |= Redraw.Scene;
+
+    /// <summary>Returns what panels have asked for since the last call.</summary>
+    public Redraw TakeRequested()
+    {
+        var requested = _requested;
+        _requested = Redraw.None;
+        return requested;
+    }
+
+    /// <summary>Shows a message for a few seconds.</summary>
+    public Redraw Show(string message)
+    {
+        overlay.ShowMessage(message, _now);
+        return Redraw.Overlay;
+    }
+
+    /// <summary>Returns to the view before the last move, or makes it again.</summary>
+    public Redraw Undo(bool isRedo)
+    {
+        var edits = Document!.Edits;
+        var message = Document.Undo(isRedo);
+        if (!edits.Equals(Document.Edits))
+        {
+            Files.ShowEdits();
+        }
+
+        return Show(message) | Redraw.Scene;
+    }
+
+    /// <summary>Whether the window fills the screen.</summary>
+    public bool IsFullScreen
+    {
+        get => window.IsFullScreen;
+        set => window.IsFullScreen = value;
+    }
+
+    /// <summary>Ends measuring, or selects nothing.</summary>
+    public Redraw ClearSelection(TimeSpan now)
+    {
+        _now = now;
+        var tool = Document!.Tool;
+        if (tool.Measure.IsActive)
+        {
+            return Show(tool.Measure.Toggle()) | Redraw.Scene;
+        }
+
+        tool.Selected = null;
+        return Show("nothing selected") | Redraw.Scene;
+    }
+
+    /// <summary>Copies what is known about the selection.</summary>
+    public Redraw CopySelection()
+    {
+        window.ClipboardText = Document!.Tool.Selected!.ToText();
+        return Show("the selection is in the clipboard");
+    }
+
+    /// <summary>Copies the present camera as a line of a scene.</summary>
+    public Redraw CopyCamera()
+    {
+        window.ClipboardText = CameraText.Format(Document!.GetCurrentScene().Camera!);
+        return Show("the camera is in the clipboard, as a line of a scene");
+    }
+
+    /// <summary>Saves what is shown without overlay as an image.</summary>
+    public Redraw SaveScreenshot()
+    {
+        var image = tracing.OpaqueImage ?? renderer.Capture(Document!, Settings, window.Width, window.Height);
+        overlay.Report(Screenshots.Save(image, Document!.File.Path), _now);
+        return Redraw.Scene;
+    }
+
+    /// <summary>Saves what is shown, with menus and panels, as an image.</summary>
+    public Redraw SaveWindowScreenshot()
+    {
+        var image = renderer.CaptureWindow(tracing.Layer, Interface.Ui, overlay.Panels);
+        overlay.Report(Screenshots.Save(image, Document!.File.Path), _now);
+        return Redraw.Overlay;
+    }
+
+    /// <summary>Switches between the paper's zoom and that of the engine.</summary>
+    public Redraw ToggleTrail()
+    {
+        var document = Document!;
+        document.ToggleTrail();
+        var length = document.Trail!.Length;
+        return Redraw.Scene | Show(document.IsTrailEnabled
+            ? FormattableString.Invariant($"the paper's zoom: the fractal grows about the camera, with {length} earlier levels")
+            : "this engine's zoom: to any depth");
+    }
+
+    /// <summary>Runs a command of the bodies, and shows its answer.</summary>
+    public Redraw RunPhysics(Func<Document, string> command)
+    {
+        var message = command(Document!);
+        overlay.PhysicsStatus = Document!.Physics.StatusText;
+        return Show(message) | Redraw.Scene;
+    }
+}

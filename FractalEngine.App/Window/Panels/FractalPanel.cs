@@ -1,0 +1,167 @@
+using System.Collections.Immutable;
+using System.Globalization;
+using System.Numerics;
+using FractalEngine.App.Window.Actions;
+using FractalEngine.Core;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Fractals;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Render.Ui;
+
+namespace FractalEngine.App.Window.Panels;
+
+/// <summary>The panel of a fractal: its depth and all components of its vectors as sliders, which change the text of its file.</summary>
+/// <param name="actions">The window with the document.</param>
+internal sealed class FractalPanel(WindowActions actions)
+{
+    private const string Axes = "xyz";
+
+    private string? _path;
+    private string _text = "";
+    private string? _problem;
+    private ImmutableArray<FractalNumber> _numbers = [];
+
+    // The numbers at the beginning of the present drag, which the ends of the sliders follow.
+    private ImmutableArray<FractalNumber> _startNumbers = [];
+    private int _startInteraction = -1;
+
+    /// <summary>Adds the widgets of the panel.</summary>
+    public void Build(UserInterface ui)
+    {
+        var models = actions.Document?.File.Scene.Models.OfType<FractalModel>()
+            .Where(static model => model.SourcePath is { } path && path.EndsWith(".fdo", StringComparison.OrdinalIgnoreCase)).ToArray();
+        if (models is not [var first, ..])
+        {
+            ui.Paragraph("There is no fractal file (.fdo) in this scene.");
+            return;
+        }
+
+        var selected = actions.Document!.Tool.Selected?.Object.Model.SourcePath;
+        var model = models.FirstOrDefault(model => model.SourcePath == selected)
+            ?? models.FirstOrDefault(model => model.SourcePath == _path) ?? first;
+        if (models.Length > 1)
+        {
+            foreach (var other in models)
+            {
+                if (ui.Selectable(other.Name, other == model))
+                {
+                    _path = other.SourcePath;
+                    actions.Document.Tool.Selected = null;
+                    actions.RequestDraw();
+                }
+            }
+        }
+
+        BuildFacts(ui, model);
+        if (TryRead(model.SourcePath!))
+        {
+            BuildNumbers(ui);
+        }
+        else if (_problem is { } problem)
+        {
+            ui.Row(1);
+            ui.Paragraph(problem, isWarning: true);
+        }
+    }
+
+    private static void BuildFacts(UserInterface ui, FractalModel model)
+    {
+        ui.Heading(model.Name);
+        ui.Fact("instances", Count(model.InstanceCount));
+        ui.Fact("faces", Count(model.FaceCount));
+        var size = model.Bounds.Size;
+        ui.Fact("size", size.IsFinite()
+            ? $"{PanelWidgets.Number(size.X)} × {PanelWidgets.Number(size.Y)} × {PanelWidgets.Number(size.Z)}" : "no bounds");
+        ui.Fact("composition", model.Fractal.Description.Composition.ToString().ToLowerInvariant());
+    }
+
+    private static string Count(BigInteger? count) => count is not { } number ? "infinite"
+        : number < 1_000_000_000_000_000 ? number.ToString("N0", CultureInfo.InvariantCulture)
+        : number.ToString("E3", CultureInfo.InvariantCulture);
+
+    /// <summary>Reads the numbers of a file, unless that is done already.</summary>
+    private bool TryRead(string path)
+    {
+        try
+        {
+            var text = actions.Document!.Edits.TextOf(path);
+            if (path != _path || text != _text)
+            {
+                _path = path;
+                _text = text;
+                _numbers = FractalNumber.FindAll(new SourceText(Path.GetFileName(path), text));
+                _problem = null;
+            }
+        }
+        catch (FractalEngineException exception)
+        {
+            _path = path;
+            _problem = exception.Message;
+        }
+
+        return _problem is null;
+    }
+
+    private void BuildNumbers(UserInterface ui)
+    {
+        if (ui.Interaction != _startInteraction || _startNumbers.Length != _numbers.Length)
+        {
+            _startInteraction = ui.Interaction;
+            _startNumbers = _numbers;
+        }
+
+        string? name = null;
+        for (var i = 0; i < _numbers.Length; i++)
+        {
+            var number = _numbers[i];
+            if (number.Role == FractalNumberRole.Depth)
+            {
+                ui.Row(1);
+                BuildSlider(ui, i, $"depth of {number.Name}", 0, Math.Max(8, _startNumbers[i].Value + 2), 1);
+                continue;
+            }
+
+            if (name != number.Name)
+            {
+                name = number.Name;
+                ui.Row(1);
+                ui.Label($"{name}: {number.Role.ToString().ToLowerInvariant()}", isDim: true);
+                ui.Row(1, 1, 1);
+            }
+
+            var (minimum, maximum, step) = RangeOf(_startNumbers[i]);
+            BuildSlider(ui, i, Axes[number.Component].ToString(), minimum, maximum, step);
+        }
+    }
+
+    private void BuildSlider(
+        UserInterface ui, int index, string label, double minimum, double maximum, double step) => ui.Scope(index, () =>
+    {
+        var value = _numbers[index].Value;
+        if (!ui.Slider(label, ref value, minimum, maximum, step, isBounded: false))
+        {
+            return;
+        }
+
+        var text = _numbers[index].Replace(_text, value);
+        if (text != _text)
+        {
+            actions.Files.Edit(_path!, text, ui.Interaction);
+            // The places of all numbers behind it have moved.
+            TryRead(_path!);
+        }
+    });
+
+    /// <summary>Returns the ends of a slider, and its step.</summary>
+    private static (double Minimum, double Maximum, double Step) RangeOf(FractalNumber number)
+    {
+        var reach = Math.Max(1, Math.Abs(number.Value));
+        return number.Role switch
+        {
+            FractalNumberRole.Rotation => (number.Value - 90, number.Value + 90, 0.5),
+            // A factor of 0 would be an error.
+            FractalNumberRole.Scale when number.Value > 0 => (0.01, Math.Max(1, 2 * number.Value), 0.01),
+            _ => (number.Value - reach, number.Value + reach, 0),
+        };
+    }
+}

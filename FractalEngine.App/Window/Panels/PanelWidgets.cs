@@ -1,0 +1,117 @@
+using System.Globalization;
+using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.Editing;
+using FractalEngine.Core;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Ui;
+
+namespace FractalEngine.App.Window.Panels;
+
+/// <summary>Widgets that several panels have.</summary>
+internal static class PanelWidgets
+{
+    /// <summary>Adds a check box or a button for an action, with its help.</summary>
+    /// <param name="ui">The interface that is being built.</param>
+    /// <param name="actions">The window with the document.</param>
+    /// <param name="id">Id of the action in the table.</param>
+    /// <param name="choose">Runs the action.</param>
+    public static void Action(this UserInterface ui, WindowActions actions, string id, Action<WindowAction> choose)
+    {
+        var action = ActionTable.Get(id);
+        var isAvailable = action.IsAvailable(actions);
+        if (action.IsOn is { } isOn && isAvailable)
+        {
+            var isChecked = isOn(actions);
+            if (ui.CheckBox(action.Name, ref isChecked))
+            {
+                choose(action);
+            }
+        }
+        else if (ui.Button(action.Name, isAvailable))
+        {
+            choose(action);
+        }
+
+        ui.Tooltip($"{action.Help} ({action.KeyText})");
+    }
+
+    /// <summary>Adds a name and its value in one row.</summary>
+    public static void Fact(this UserInterface ui, string name, string value)
+    {
+        ui.Row(name.Length + 1, 1);
+        ui.Label(name, isDim: true);
+        if (name.Length + value.Length > 31)
+        {
+            ui.Paragraph(value);
+        }
+        else
+        {
+            ui.Value(value);
+        }
+    }
+
+    /// <summary>Adds three sliders for the components of a vector.</summary>
+    /// <param name="ui">The interface that is being built.</param>
+    /// <param name="name">What the vector means.</param>
+    /// <param name="value">The present vector.</param>
+    /// <param name="start">The vector at the beginning of a drag, around which the sliders reach.</param>
+    /// <param name="reach">How far a slider reaches to both sides; null for positive factors.</param>
+    /// <param name="step">Dragging gives multiples of this; 0 for a thousandth of the range.</param>
+    public static Vector Vector(this UserInterface ui, string name, Vector value, Vector start, double? reach, double step)
+    {
+        var (x, y, z) = value;
+        ui.Row(1);
+        ui.Label(name, isDim: true);
+        ui.Row(1, 1, 1);
+        ui.Scope(name, () =>
+        {
+            Slide("x", ref x, start.X);
+            Slide("y", ref y, start.Y);
+            Slide("z", ref z, start.Z);
+        });
+        return new(x, y, z);
+
+        void Slide(string axis, ref double component, double from)
+        {
+            var isFactor = reach is null && from > 0;
+            var distance = reach ?? Math.Max(1, Math.Abs(from));
+            ui.Slider(axis, ref component, isFactor ? 0.01 : from - distance, isFactor ? Math.Max(2, 2 * from) : from + distance, step,
+                isBounded: false);
+        }
+    }
+
+    /// <summary>Adds a colour with a slider for each component.</summary>
+    /// <returns>The changed colour; null where it stays.</returns>
+    public static Colour? Colour(this UserInterface ui, Colour colour)
+    {
+        var (red, green, blue) = (colour.Red, colour.Green, colour.Blue);
+        ui.Row(1, 1, 1, 4);
+        var isChanged = ui.Slider("r", ref red, 0, 1, 0.01) | ui.Slider("g", ref green, 0, 1, 0.01) | ui.Slider("b", ref blue, 0, 1, 0.01);
+        ui.Swatch(colour);
+        return isChanged ? new(red, green, blue) : null;
+    }
+
+    /// <summary>Changes the scene of the document, as a step that can be undone.</summary>
+    public static void ChangeScene(this WindowActions actions, UserInterface ui, Func<Scene, Scene> change) =>
+        actions.EditScene(ui, text => SceneEditor.Change(text, change));
+
+    /// <summary>Changes the text of the document's scene, as a step that can be undone.</summary>
+    public static void EditScene(this WindowActions actions, UserInterface ui, Func<string, string> edit)
+    {
+        var document = actions.Document!;
+        try
+        {
+            var text = document.Edits.TextOf(document.File.Path);
+            actions.Files.Edit(document.File.Path, edit(text), ui.Interaction);
+        }
+        catch (Exception exception) when (exception is FractalEngineException or ArgumentException)
+        {
+            actions.Show(exception.Message);
+        }
+    }
+
+    /// <summary>Formats a number for people, with at most six digits.</summary>
+    public static string Number(double value) => value.ToString("G6", CultureInfo.InvariantCulture);
+}

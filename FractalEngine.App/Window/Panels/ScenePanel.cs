@@ -1,0 +1,174 @@
+using System.Globalization;
+using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.Editing;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Render;
+using FractalEngine.Render.Ui;
+
+namespace FractalEngine.App.Window.Panels;
+
+/// <summary>The panel of a scene: its objects with their places and colours, its lights, and its background.</summary>
+/// <param name="actions">The window with the document.</param>
+internal sealed class ScenePanel(WindowActions actions)
+{
+    private readonly LightList _lights = new(actions);
+    private int _object = -1;
+    private bool _showsObjects = true;
+    private string _addedFile = "";
+    private int _startInteraction = -1;
+    private Transformation _startPlacement;
+
+    /// <summary>Adds the widgets of the panel.</summary>
+    public void Build(UserInterface ui)
+    {
+        if (actions.Document is not { } document)
+        {
+            ui.Label("no scene", isDim: true);
+            return;
+        }
+
+        if (document.File.Kind != FileKind.Scene || document.File.ParsedScene is null)
+        {
+            ui.Paragraph("This is a single model. As a scene it can have more objects, lights and colours.");
+            if (ui.Button("Save as a scene…"))
+            {
+                actions.Files.SaveAs();
+            }
+
+            return;
+        }
+
+        var scene = document.File.Scene.Scene;
+        if (document.Tool.Selected is { } selected && selected.ObjectIndex < scene.Objects.Length)
+        {
+            _object = selected.ObjectIndex;
+        }
+
+        BuildObjects(ui, document, scene);
+        _lights.Build(ui, scene);
+        ui.Heading("Background");
+        if (ui.Colour(scene.Background ?? RenderSettings.DefaultBackground) is { } background)
+        {
+            actions.ChangeScene(ui, present => present with { Background = background });
+        }
+    }
+
+    private void BuildObjects(UserInterface ui, Document document, Scene scene)
+    {
+        var count = scene.Objects.Length;
+        if (ui.Branch(string.Create(CultureInfo.InvariantCulture, $"Objects ({count:N0})"), ref _showsObjects))
+        {
+            ui.Row(1);
+            ui.Rows(count, i =>
+            {
+                if (ui.Selectable(scene.Objects[i].DisplayName, i == _object, depth: 1))
+                {
+                    _object = i;
+                    document.Tool.Selected = null;
+                    actions.RequestDraw();
+                }
+            });
+        }
+
+        if (_object >= 0 && _object < count)
+        {
+            ui.Scope($"object {_object}", () => BuildObject(ui, scene.Objects[_object], _object));
+        }
+
+        var hidden = SceneEditor.FindHidden(document.File.ParsedScene!.Source.Text);
+        if (hidden.Length > 0)
+        {
+            ui.Heading("Hidden: a click shows it");
+            ui.Rows(hidden.Length, i =>
+            {
+                if (ui.Selectable(hidden[i], isSelected: false))
+                {
+                    actions.EditScene(ui, text => SceneEditor.ShowObject(text, hidden[i]));
+                }
+            });
+        }
+
+        ui.Heading("Add an object");
+        ui.Row(1, 7);
+        ui.TextField("file (.obj, .fdo, …)", ref _addedFile, out var isCommitted);
+        if ((ui.Button("Add") || isCommitted) && _addedFile.Trim() is { Length: > 0 } file)
+        {
+            var added = new SceneObject(file, Transformation.Identity);
+            actions.ChangeScene(ui, present => present with { Objects = present.Objects.Add(added) });
+            _object = count;
+            _addedFile = "";
+        }
+    }
+
+    private void BuildObject(UserInterface ui, SceneObject declared, int index)
+    {
+        ui.Heading(declared.DisplayName);
+        var name = declared.Name ?? "";
+        ui.Row(8, 1);
+        ui.Label("name", isDim: true);
+        if (ui.TextField("no name", ref name) && !name.Contains('"', StringComparison.Ordinal))
+        {
+            SetObject(ui, index, present => present with { Name = name.Length > 0 ? name : null });
+        }
+
+        BuildPlacement(ui, declared, index);
+        ui.Row(1);
+        ui.Label("colour", isDim: true);
+        if (ui.Colour(declared.Colour ?? Colour.White) is { } colour)
+        {
+            SetObject(ui, index, present => present with { Colour = colour });
+        }
+
+        ui.Row(1, 1, 1);
+        if (ui.Button("Hide"))
+        {
+            actions.EditScene(ui, text => SceneEditor.HideObject(text, index));
+            _object = -1;
+            actions.Document!.Tool.Selected = null;
+        }
+
+        if (ui.Button("Duplicate"))
+        {
+            var offset = 0.25 * actions.Document!.File.Scene.Objects[index].Bounds.Size.X * Vector.I;
+            var placement = declared.Placement with { Position = declared.Placement.Position + offset };
+            actions.ChangeScene(
+                ui, present => present with { Objects = present.Objects.Add(present.Objects[index] with { Placement = placement }) });
+            _object = actions.Document.File.Scene.Scene.Objects.Length;
+            actions.Document.Tool.Selected = null;
+        }
+
+        if (ui.Button("Remove"))
+        {
+            actions.EditScene(ui, text => SceneEditor.RemoveObject(text, index));
+            _object = -1;
+            actions.Document!.Tool.Selected = null;
+        }
+    }
+
+    private void BuildPlacement(UserInterface ui, SceneObject declared, int index)
+    {
+        if (ui.Interaction != _startInteraction)
+        {
+            _startInteraction = ui.Interaction;
+            _startPlacement = declared.Placement;
+        }
+
+        var placement = declared.Placement;
+        var bounds = actions.Document!.File.Scene.Bounds;
+        var reach = bounds.Size.IsFinite() && !bounds.IsEmpty ? Math.Max(1e-6, 0.5 * bounds.Diagonal) : 10;
+        var position = ui.Vector("position", placement.Position, _startPlacement.Position, reach, 0);
+        var rotation = ui.Vector("rotation in degrees", placement.Rotation, _startPlacement.Rotation, 180, 1);
+        var scale = ui.Vector("scale", placement.Scale, _startPlacement.Scale, null, 0.01);
+        var changed = new Transformation(position, rotation, scale);
+        if (changed != placement)
+        {
+            SetObject(ui, index, present => present with { Placement = changed });
+        }
+    }
+
+    private void SetObject(UserInterface ui, int index, Func<SceneObject, SceneObject> change) => actions.ChangeScene(
+        ui, scene => scene with { Objects = scene.Objects.SetItem(index, change(scene.Objects[index])) });
+}

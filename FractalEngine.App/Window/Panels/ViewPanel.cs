@@ -1,0 +1,118 @@
+using FractalEngine.App.Window.Actions;
+using FractalEngine.Render.Ui;
+
+namespace FractalEngine.App.Window.Panels;
+
+/// <summary>The panel of the camera, and of how the scene is drawn.</summary>
+/// <param name="actions">The window with the document.</param>
+/// <param name="choose">Runs an action.</param>
+internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choose)
+{
+    private readonly List<(string Name, CameraState State)> _bookmarks = [];
+
+    /// <summary>Adds the widgets of the panel.</summary>
+    public void Build(UserInterface ui)
+    {
+        ui.Row(1, 1, 1);
+        foreach (var id in (ReadOnlySpan<string>)["view-front", "view-right", "view-top"])
+        {
+            ui.Action(actions, id, choose);
+        }
+
+        ui.Row(1, 1);
+        ui.Action(actions, "frame-scene", choose);
+        ui.Action(actions, "reset-camera", choose);
+        ui.Row(1);
+        ui.Action(actions, "projection", choose);
+        if (actions.Document is { } document)
+        {
+            BuildCamera(ui, document);
+        }
+
+        ui.Heading("Drawing");
+        ui.Row(1, 1);
+        foreach (var id in (ReadOnlySpan<string>)["wireframe", "grid", "pixel-light", "trace"])
+        {
+            ui.Action(actions, id, choose);
+        }
+
+        BuildDetail(ui);
+        if (actions.Document is { } shown)
+        {
+            double level = shown.Tool.Boxes.Level;
+            ui.Row(1);
+            if (ui.Slider("boxes of level", ref level, -1, 8, 1))
+            {
+                shown.Tool.Boxes.Level = (int)level;
+                actions.RequestDraw();
+            }
+
+            ui.Tooltip("bounding boxes of the sub-fractals at a level; 0 for whole objects, -1 for none");
+            BuildBookmarks(ui, shown);
+        }
+    }
+
+    private void BuildCamera(UserInterface ui, Document document)
+    {
+        ui.Row(1);
+        var fieldOfView = document.FlyingCamera.Camera.FieldOfView;
+        if (ui.Slider("field of view", ref fieldOfView, 10, 120, 0.5) && fieldOfView is > 0 and < 180)
+        {
+            document.MoveCamera((camera, _) => camera.SetFieldOfView(fieldOfView), 1, ui.Interaction);
+            actions.RequestDraw();
+        }
+
+        ui.Tooltip("full vertical angle of view in degrees");
+    }
+
+    private void BuildDetail(UserInterface ui)
+    {
+        ui.Row(1);
+        var detail = actions.Settings.Culling?.MinProjectedSize ?? 0;
+        if (ui.Slider("detail", ref detail, 0.5, 20, 0.1) && actions.Settings.Culling is { } culling)
+        {
+            actions.Settings = actions.Settings with { Culling = culling with { MinProjectedSize = Math.Max(0.1, detail) } };
+            actions.RequestDraw();
+        }
+
+        ui.Tooltip("pixels below which a sub-fractal is drawn as one instance of its base mesh (--detail)");
+        ui.Row(1);
+        if (actions.Settings.Culling is { } present)
+        {
+            var occlusion = present.OcclusionCulling;
+            if (ui.CheckBox("Occlusion culling", ref occlusion))
+            {
+                actions.Settings = actions.Settings with { Culling = present with { OcclusionCulling = occlusion } };
+                actions.RequestDraw();
+            }
+
+            ui.Tooltip("leaves out what other parts hide; the image is the same");
+        }
+    }
+
+    private void BuildBookmarks(UserInterface ui, Document document)
+    {
+        ui.Heading("Bookmarks");
+        if (ui.Button("Remember this view"))
+        {
+            _bookmarks.Add(($"view {_bookmarks.Count + 1}", document.FlyingCamera.State));
+        }
+
+        for (var i = 0; i < _bookmarks.Count; i++)
+        {
+            ui.Row(1, 3);
+            var (name, state) = _bookmarks[i];
+            if (ui.Selectable(name, isSelected: document.FlyingCamera.State.Equals(state)))
+            {
+                document.MoveCamera((camera, _) => camera.Restore(state), 1);
+                actions.RequestDraw();
+            }
+
+            if (ui.Button($"×{new string(' ', i)}"))
+            {
+                _bookmarks.RemoveAt(i);
+                break;
+            }
+        }
+    }
+}

@@ -1,0 +1,46 @@
+using FractalEngine.Core;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Rays;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
+
+namespace FractalEngine.App.Window.Selecting;
+
+/// <summary>Finds what is under a pixel of a frame, by the exact ray through it.</summary>
+internal sealed class Picker
+{
+    // Deeper in a fractal, the position of the camera in world space is no longer exact beside the size of a pixel.
+    private const double MaxLog10Magnification = 11;
+
+    private readonly QueryContext _context = new();
+    private LoadedScene? _scene;
+    private SceneRayCaster? _caster;
+
+    /// <summary>Finds the face under a pixel.</summary>
+    /// <param name="scene">The scene with its bodies where they are.</param>
+    /// <param name="view">View of the frame in world space, without a deep zoom.</param>
+    /// <param name="pixel">Framebuffer pixels from the upper left corner.</param>
+    /// <param name="size">Size of the frame in pixels.</param>
+    /// <returns>The innermost part at the pixel; null where only the background is there.</returns>
+    /// <exception cref="FractalEngineException">A model of the scene can't be searched.</exception>
+    public Selection? Pick(LoadedScene scene, View view, (double X, double Y) pixel, (int Width, int Height) size)
+    {
+        if (!ReferenceEquals(scene, _scene))
+        {
+            _caster = new(scene);
+            _scene = scene;
+        }
+
+        var ray = view.RayThrough(pixel.X, pixel.Y, size.Width, size.Height);
+        if (!_caster!.TryFindNearest(ray, _context, out var hit, out var objectIndex))
+        {
+            return null;
+        }
+
+        var path = _context.InstancePath;
+        return new(objectIndex, scene.Objects[objectIndex], [.. path], path.Length, hit);
+    }
+
+    /// <summary>Tells whether positions in world space are exact enough at a magnification.</summary>
+    public static bool IsExactAt(double log10Magnification) => log10Magnification <= MaxLog10Magnification;
+}

@@ -1,0 +1,145 @@
+using System.Collections.Immutable;
+using System.Globalization;
+using System.Text;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Rays;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
+
+namespace FractalEngine.App.Window.Selecting;
+
+/// <summary>What the user has clicked: a face of an object, and the part of the object that is selected.</summary>
+/// <param name="ObjectIndex">Index of the object in the scene, from 0. Balls that were dropped come after the scene's objects.</param>
+/// <param name="Object">The object with its model.</param>
+/// <param name="Path">Index of the transformation at each level of a fractal, the outermost first; empty for a mesh.</param>
+/// <param name="Depth">Number of levels of the path that are selected: 0 for the whole object.</param>
+/// <param name="Hit">The point that was clicked, world space.</param>
+internal sealed record Selection(int ObjectIndex, PlacedModel Object, ImmutableArray<int> Path, int Depth, RayHit Hit)
+{
+    /// <summary>Number of lines of <see cref="AddBox"/>.</summary>
+    public const int LinesPerBox = 12;
+
+    private static readonly Colour OutlineColour = new(1, 0.72, 0.2);
+    private static readonly Colour FaceColour = new(1, 1, 1);
+    private static readonly Colour NormalColour = new(0.3, 0.9, 1);
+
+    /// <summary>Box around the selected part, in its own frame, with the map from there to world space.</summary>
+    public (BoundingBox Box, AffineMap Map) Outline { get; private init; } = ComputeOutline(Object, Path, Depth, Hit);
+
+    /// <summary>Name of the clicked face's material; null where it has none.</summary>
+    public string? Material
+    {
+        get
+        {
+            var group = Object.Model.Mesh.Groups.LastOrDefault(group => group.FirstFace <= Hit.FaceIndex);
+            return group is { Material.Length: > 0 } ? group.Material : null;
+        }
+    }
+
+    /// <summary>Corners of the clicked face in world space.</summary>
+    public (Vector A, Vector B, Vector C) Face
+    {
+        get
+        {
+            var (a, b, c) = Object.Model.Mesh.Face(Hit.FaceIndex);
+            return (Hit.InstanceMap * a, Hit.InstanceMap * b, Hit.InstanceMap * c);
+        }
+    }
+
+    /// <summary>Selects the sub-fractal that the selected part belongs to; the same selection where that is a whole object.</summary>
+    public Selection Up() => Depth > 0 ? this with { Depth = Depth - 1, Outline = ComputeOutline(Object, Path, Depth - 1, Hit) } : this;
+
+    /// <summary>Adds lines around the selected part, and those of the clicked face and its normal. World space.</summary>
+    public void AddLines(List<LineSegment> lines)
+    {
+        AddBox(lines, Outline.Box, Outline.Map, OutlineColour);
+        var (a, b, c) = Face;
+        lines.Add(new(a, b, FaceColour));
+        lines.Add(new(b, c, FaceColour));
+        lines.Add(new(c, a, FaceColour));
+        var size = Math.Max((b - a).Length(), (c - a).Length());
+        lines.Add(new(Hit.Point, Hit.Point + (0.5 * size * Hit.Normal), NormalColour));
+    }
+
+    /// <summary>Adds the edges of a box; none where it is empty or infinite.</summary>
+    /// <param name="lines">The list that is added to.</param>
+    /// <param name="box">In its own frame.</param>
+    /// <param name="map">From that frame to world space.</param>
+    /// <param name="colour">Colour of the edges, sRGB.</param>
+    public static void AddBox(List<LineSegment> lines, BoundingBox box, in AffineMap map, Colour colour)
+    {
+        for (var i = 0; i < 8 && !box.IsEmpty && box.Size.IsFinite(); i++)
+        {
+            for (var axis = 1; axis < 8; axis *= 2)
+            {
+                if ((i & axis) == 0)
+                {
+                    lines.Add(new(map * Corner(box, i), map * Corner(box, i | axis), colour));
+                }
+            }
+        }
+    }
+
+    /// <summary>Names the selected part.</summary>
+    public string Title => Depth == 0
+        ? Object.Declaration.DisplayName
+        : string.Create(CultureInfo.InvariantCulture, $"{Object.Declaration.DisplayName}, level {Depth} of {Path.Length}");
+
+    /// <summary>Lists what is known about the selection, as names and values.</summary>
+    public ImmutableArray<(string Name, string Value)> Facts =>
+    [
+        ("object", string.Create(CultureInfo.InvariantCulture, $"{Object.Declaration.DisplayName} ({ObjectIndex})")),
+        ("selected", Depth == 0 ? "the whole object"
+            : string.Create(CultureInfo.InvariantCulture, $"{(Depth == Path.Length ? "instance" : "sub-fractal")} at level {Depth}")),
+        .. Path.IsEmpty ? [] : ((string, string)[])[("instance", string.Join('.', Path))],
+        ("face", Hit.FaceIndex.ToString(CultureInfo.InvariantCulture)),
+        ("point", Format(Hit.Point)),
+        ("normal", Format(Hit.Normal)),
+        ("material", Material ?? "none"),
+        ("distance", Hit.Distance.ToString("G9", CultureInfo.InvariantCulture)),
+    ];
+
+    /// <summary>All facts as lines of text, with all digits.</summary>
+    public string ToText()
+    {
+        var text = new StringBuilder();
+        foreach (var (name, value) in Facts)
+        {
+            text.Append(name).Append(": ").Append(value).Append('\n');
+        }
+
+        return text.ToString();
+    }
+
+    private static string Format(Vector vector) =>
+        string.Create(CultureInfo.InvariantCulture, $"({vector.X:G9}, {vector.Y:G9}, {vector.Z:G9})");
+
+    private static Vector Corner(BoundingBox box, int index) => new(
+        (index & 1) == 0 ? box.Minimum.X : box.Maximum.X,
+        (index & 2) == 0 ? box.Minimum.Y : box.Maximum.Y,
+        (index & 4) == 0 ? box.Minimum.Z : box.Maximum.Z);
+
+    private static (BoundingBox Box, AffineMap Map) ComputeOutline(PlacedModel placed, ImmutableArray<int> path, int depth, in RayHit hit)
+    {
+        if (depth > 0 && depth == path.Length)
+        {
+            return (placed.Model.Mesh.Bounds, hit.InstanceMap);
+        }
+
+        // In componentwise composition a sub-fractal has no map of its own.
+        if (placed.Model is not FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal } || depth == 0)
+        {
+            return (placed.Model.Bounds, placed.ObjectToWorld);
+        }
+
+        var map = placed.ObjectToWorld;
+        for (var level = 0; level < depth; level++)
+        {
+            map *= fractal.LevelAt(level).Maps[path[level]];
+        }
+
+        return (SubFractals.Of(fractal, depth).Bounds, map);
+    }
+}

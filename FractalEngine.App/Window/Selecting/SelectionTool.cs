@@ -1,0 +1,118 @@
+using FractalEngine.Core;
+using FractalEngine.Render;
+using FractalEngine.Render.Windowing;
+
+namespace FractalEngine.App.Window.Selecting;
+
+/// <summary>Selects, measures and focuses on what is clicked in the frame of a document.</summary>
+/// <param name="document">The document shown.</param>
+internal sealed class SelectionTool(Document document)
+{
+    // A drag is longer than this, pixels.
+    private const double MaxClickDistance = 4;
+
+    private static readonly TimeSpan DoubleClickTime = TimeSpan.FromSeconds(0.4);
+
+    private readonly Picker _picker = new();
+    private (double X, double Y)? _press;
+    private (double X, double Y, TimeSpan Time)? _lastClick;
+
+    /// <summary>What is selected; null for nothing.</summary>
+    public Selection? Selected { get; set; }
+
+    /// <summary>Measures distances between clicks.</summary>
+    public MeasureTool Measure { get; private set; } = new();
+
+    /// <summary>The bounding boxes that are shown.</summary>
+    public BoxesOfLevel Boxes { get; private set; } = new();
+
+    /// <summary>Takes over what was selected and measured in the same scene before it was loaded again.</summary>
+    public void ContinueFrom(SelectionTool other)
+    {
+        Measure = other.Measure;
+        Boxes = other.Boxes;
+        var objects = document.File.Scene.Objects;
+        if (other.Selected is { } selected && selected.ObjectIndex < objects.Length
+            && ReferenceEquals(objects[selected.ObjectIndex].Model, selected.Object.Model)
+            && objects[selected.ObjectIndex].ObjectToWorld == selected.Object.ObjectToWorld)
+        {
+            Selected = selected;
+        }
+    }
+
+    /// <summary>Processes an event: a click selects, and a double click makes the point the centre of the orbit.</summary>
+    /// <param name="windowEvent">Any event of the window.</param>
+    /// <param name="size">Size of the frame in pixels.</param>
+    /// <param name="now">The present time.</param>
+    /// <returns>A message for the user; null for events without an effect.</returns>
+    public string? Handle(WindowEvent windowEvent, (int Width, int Height) size, TimeSpan now)
+    {
+        switch (windowEvent)
+        {
+            case MousePressed { Button: MouseButton.Left, Modifiers: KeyModifiers.None } pressed when !document.Physics.IsWalking:
+                _press = (pressed.X, pressed.Y);
+                return null;
+            case MousePressed:
+                _press = null;
+                return null;
+            case MouseReleased { Button: MouseButton.Left } released when _press is var (x, y):
+                _press = null;
+                return Math.Abs(released.X - x) + Math.Abs(released.Y - y) <= MaxClickDistance ? Click((x, y), size, now) : null;
+            default:
+                return null;
+        }
+    }
+
+    /// <summary>Selects the next larger part, see <see cref="Selection.Up"/>.</summary>
+    /// <returns>A message for the user.</returns>
+    public string Up()
+    {
+        Selected = Selected?.Up();
+        return Selected is { } selected ? $"selected {selected.Title}" : "nothing is selected";
+    }
+
+    /// <summary>Lists the lines around the selection and those of the distances, world space.</summary>
+    public List<LineSegment> Lines()
+    {
+        var lines = new List<LineSegment>();
+        Boxes.AddTo(document.File.Scene, lines);
+        Selected?.AddLines(lines);
+        lines.AddRange(Measure.Dimensions.Select(static dimension => dimension.Line));
+        return lines;
+    }
+
+    private string Click((double X, double Y) pixel, (int Width, int Height) size, TimeSpan now)
+    {
+        var isDouble = _lastClick is var (x, y, time) && now - time < DoubleClickTime
+            && Math.Abs(pixel.X - x) + Math.Abs(pixel.Y - y) <= MaxClickDistance;
+        _lastClick = isDouble ? null : (pixel.X, pixel.Y, now);
+        if (!Picker.IsExactAt(document.VisibleDepth > 0 ? document.FlyingCamera.Log10Magnification : 0))
+        {
+            return "too deep to select: zoom out";
+        }
+
+        var scene = document.Physics.CurrentScene;
+        try
+        {
+            var view = View.Of(scene with { Scene = document.GetCurrentScene() }, (double)size.Width / size.Height);
+            var clicked = _picker.Pick(scene, view, pixel, size);
+            if (Measure.IsActive && !isDouble)
+            {
+                return clicked is null ? "nothing is there" : Measure.Click(clicked, scene);
+            }
+
+            if (!isDouble || clicked is null)
+            {
+                Selected = clicked;
+                return clicked is null ? "nothing selected" : $"selected {clicked.Title}";
+            }
+        }
+        catch (Exception exception) when (exception is FractalEngineException or InvalidOperationException)
+        {
+            return exception.Message;
+        }
+
+        document.MoveCamera((camera, _) => camera.FocusOn(Selected!.Hit.Point), 1);
+        return "orbiting around the point";
+    }
+}

@@ -1,0 +1,156 @@
+using FractalEngine.Render.Windowing;
+
+namespace FractalEngine.Render.Ui;
+
+/// <summary>A line of text with caret and selection, as the keyboard edits it.</summary>
+internal sealed class UiTextEdit
+{
+    public string Text { get; private set; } = "";
+
+    /// <summary>Index of the character behind the caret.</summary>
+    public int Caret { get; private set; }
+
+    /// <summary>The other end of the selection; the caret itself where nothing is selected.</summary>
+    public int Anchor { get; private set; }
+
+    public int SelectionStart => Math.Min(Caret, Anchor);
+
+    public int SelectionEnd => Math.Max(Caret, Anchor);
+
+    private string Selected => Text[SelectionStart..SelectionEnd];
+
+    /// <summary>Begins with a text, all of it selected.</summary>
+    public void Begin(string text)
+    {
+        Text = text;
+        Anchor = 0;
+        Caret = text.Length;
+    }
+
+    /// <summary>Moves the caret, and the selection with it or not.</summary>
+    public void MoveTo(int index, bool selects)
+    {
+        Caret = Math.Clamp(index, 0, Text.Length);
+        Anchor = selects ? Anchor : Caret;
+    }
+
+    /// <summary>Replaces the selection. Control characters are left out.</summary>
+    public void Insert(string text)
+    {
+        var start = SelectionStart;
+        text = string.Concat(text.Where(static character => !char.IsControl(character)));
+        Text = string.Concat(Text.AsSpan(0, start), text, Text.AsSpan(SelectionEnd));
+        MoveTo(start + text.Length, selects: false);
+    }
+
+    /// <summary>Processes a key that was pressed.</summary>
+    /// <returns>False for keys that a text field does not know.</returns>
+    public bool Handle(UiInput input, Func<string> readClipboard, Action<string> writeClipboard)
+    {
+        if (input.IsControlHeld)
+        {
+            return HandleControl(input, readClipboard, writeClipboard);
+        }
+
+        switch (input.Key)
+        {
+            case Key.Left when Caret != Anchor && !input.IsShiftHeld:
+                MoveTo(SelectionStart, selects: false);
+                return true;
+            case Key.Right when Caret != Anchor && !input.IsShiftHeld:
+                MoveTo(SelectionEnd, selects: false);
+                return true;
+            case Key.Left:
+                MoveTo(Previous(Caret), input.IsShiftHeld);
+                return true;
+            case Key.Right:
+                MoveTo(Next(Caret), input.IsShiftHeld);
+                return true;
+            case Key.Home:
+                MoveTo(0, input.IsShiftHeld);
+                return true;
+            case Key.End:
+                MoveTo(Text.Length, input.IsShiftHeld);
+                return true;
+            case Key.Backspace:
+                Delete(Previous(Caret));
+                return true;
+            case Key.Delete:
+                Delete(Next(Caret));
+                return true;
+            default:
+                // Letters arrive as text, which follows.
+                return input.Key is not (Key.Escape or Key.Tab or Key.Enter or Key.KeypadEnter or Key.Up or Key.Down or Key.PageUp
+                    or Key.PageDown or (>= Key.F1 and <= Key.F12));
+        }
+    }
+
+    private bool HandleControl(UiInput input, Func<string> readClipboard, Action<string> writeClipboard)
+    {
+        switch (input.Key)
+        {
+            case Key.A:
+                Anchor = 0;
+                Caret = Text.Length;
+                return true;
+            case Key.C or Key.X:
+                if (Caret != Anchor)
+                {
+                    writeClipboard(Selected);
+                }
+
+                if (input.Key == Key.X)
+                {
+                    Insert("");
+                }
+
+                return true;
+            case Key.V:
+                Insert(readClipboard());
+                return true;
+            case Key.U:
+                Begin("");
+                return true;
+            case Key.Left:
+                MoveTo(SkipWord(-1), input.IsShiftHeld);
+                return true;
+            case Key.Right:
+                MoveTo(SkipWord(1), input.IsShiftHeld);
+                return true;
+            default:
+                return false;
+        }
+    }
+
+    private void Delete(int other)
+    {
+        if (Caret == Anchor)
+        {
+            MoveTo(other, selects: true);
+        }
+
+        Insert("");
+    }
+
+    // A character beyond 16 bits is two of them, which are never separated.
+    private int Previous(int index) => index - (index > 1 && char.IsSurrogatePair(Text[index - 2], Text[index - 1]) ? 2 : 1);
+
+    private int Next(int index) => index + (index + 1 < Text.Length && char.IsSurrogatePair(Text[index], Text[index + 1]) ? 2 : 1);
+
+    private int SkipWord(int step)
+    {
+        var index = Caret;
+        for (var isInWord = false; step > 0 ? index < Text.Length : index > 0; index += step)
+        {
+            var isLetter = char.IsLetterOrDigit(Text[step > 0 ? index : index - 1]);
+            if (isInWord && !isLetter)
+            {
+                break;
+            }
+
+            isInWord |= isLetter;
+        }
+
+        return index;
+    }
+}
