@@ -72,6 +72,9 @@ public sealed class Body
         return new(scale * Description.LinearPart, PreviousPosition + (alpha * (Position - PreviousPosition)));
     }
 
+    /// <summary>The index of no island.</summary>
+    internal const int NoIsland = -1;
+
     /// <summary>Surfaces and bodies that this body touches.</summary>
     internal ContactSet Contacts { get; } = new();
 
@@ -87,11 +90,51 @@ public sealed class Body
     /// <summary>Acceleration that remains after contacts have taken their part.</summary>
     internal Vector NetAcceleration { get; set; }
 
-    /// <summary>Change of velocity by the load of other bodies, to be applied in the body's own turn.</summary>
-    internal Vector PendingLoadVelocity { get; set; }
+    /// <summary>Acceleration by gravity and forces in this step, units per second².</summary>
+    internal Vector FreeAcceleration { get; set; }
+
+    /// <summary>Approach speed below which the body does not bounce in this step, units per second.</summary>
+    internal double RestitutionThreshold { get; set; }
+
+    /// <summary>Index of the island that the body belongs to in this step; negative where it touches no other body.</summary>
+    internal int IslandIndex { get; set; } = NoIsland;
+
+    /// <summary>True once the step has begun for the body: it has shrunk, and its contacts with surfaces are up to date.</summary>
+    internal bool IsPrepared { get; set; }
+
+    /// <summary>What gravity and all contacts add to the velocity in the step.</summary>
+    internal Vector PlannedChange { get; set; }
+
+    /// <summary>The velocity at the end of the planned path.</summary>
+    internal Vector PlannedEndVelocity => PlannedMotion.Velocity + PlannedChange;
+
+    /// <summary>A face that the body touches; null for none.</summary>
+    internal Contact? TouchedSurface { get; set; }
+
+    /// <summary>A face that the body may meet in this step; null for none.</summary>
+    internal Contact? NearSurface { get; set; }
+
+    /// <summary>The planned path of this step, for a body of an island.</summary>
+    internal Motion PlannedMotion { get; set; }
+
+    /// <summary>Seconds of the planned path that the body has followed.</summary>
+    internal double PlannedTime { get; set; }
+
+    /// <summary>True while a body of its own island keeps the body from following the rest of its planned path.</summary>
+    internal bool IsWaiting { get; set; }
+
+    /// <summary>What the contacts have added to the body's energy in its planned motion, joules.</summary>
+    internal double EnergyGain { get; set; }
 
     /// <summary>True while the body shrinks and has not reached its minimum scale.</summary>
     internal bool IsShrinking => Description.Shrinkage > 0 && Scale > Description.MinimumScale;
+
+    /// <summary>What contacts have added to the energy since the beginning of the planned path, joules.</summary>
+    /// <param name="velocity">Velocity at a point of the path.</param>
+    /// <param name="position">That point.</param>
+    internal double EnergyGainOf(Vector velocity, Vector position) => Description.Mass
+        * ((0.5 * (velocity.LengthSquared() - PlannedMotion.Velocity.LengthSquared()))
+            - Vector.Dot(FreeAcceleration, position - PlannedMotion.Start));
 
     /// <summary>Returns the body to its initial state.</summary>
     /// <param name="acceleration">Acceleration of free fall.</param>
@@ -110,7 +153,6 @@ public sealed class Body
         SleepTimer = 0;
         IsOverlapResolved = false;
         NetAcceleration = acceleration;
-        PendingLoadVelocity = Vector.Zero;
         Contacts.Clear();
         SafeDistance.Invalidate();
     }
@@ -130,6 +172,10 @@ public sealed class Body
     /// <summary>Saves the state before a step, and sets the costs to 0.</summary>
     internal void BeginStep()
     {
+        IsPrepared = false;
+        IslandIndex = NoIsland;
+        EnergyGain = 0;
+        IsWaiting = false;
         PreviousPosition = Position;
         PreviousScale = Scale;
         FaceTests = 0;

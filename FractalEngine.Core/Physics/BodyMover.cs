@@ -25,6 +25,9 @@ internal sealed class BodyMover
     // Of the touch tolerance: overlaps up to this are taken back as rounding.
     private const double MaxRoundingOverlap = 10;
 
+    // Of the squared speeds: what rounding adds.
+    private const double EnergyRounding = 1e-12;
+
     private readonly List<Body> _bodies;
     private readonly Obstacles _obstacles;
     private readonly ContactResponse _response;
@@ -41,27 +44,122 @@ internal sealed class BodyMover
         _overlapResolver = new(obstacles);
     }
 
-    /// <summary>Moves a body. The obstacles must be set up for it.</summary>
-    /// <param name="body">Awake.</param>
-    /// <param name="acceleration">By gravity and forces, units per second².</param>
-    /// <param name="stepLength">Seconds.</param>
-    /// <param name="restitutionThreshold">Approach speed below which the body does not bounce, units per second.</param>
-    public void Move(Body body, Vector acceleration, double stepLength, double restitutionThreshold)
+    /// <summary>
+    /// Updates what a body touches of surfaces, at the beginning of a step. One that overlaps something is pushed out, or it stops.
+    /// </summary>
+    /// <param name="body">Awake; the obstacles must be set up for it.</param>
+    /// <param name="maxTravel">How far it may move in the step.</param>
+    public void Prepare(Body body, double maxTravel)
     {
-        var position = body.Position;
-        var contacts = body.Contacts;
-        var contactSlop = _obstacles.ContactSlop(position);
-        if (!body.IsOverlapResolved && !TryResolveOverlap(body, ref position))
+        body.NearSurface = null;
+        body.TouchedSurface = null;
+        if (body.IsOverlapResolved || TryResolveOverlap(body))
+        {
+            body.Contacts.Refresh(body.Position, _obstacles.ContactSlop(body.Position), body.Radius);
+            FindNearSurface(body, maxTravel);
+        }
+    }
+
+    /// <summary>Finds a face that the body touches or may meet in the step.</summary>
+    private void FindNearSurface(Body body, double maxTravel)
+    {
+        if (!_obstacles.TryFindNearSurface(body.Position, maxTravel, out var surface) || !surface.IsFlat)
         {
             return;
         }
 
+        if (surface.Gap(body.Position) <= _obstacles.ContactSlop(body.Position))
+        {
+            body.TouchedSurface = surface;
+        }
+        else
+        {
+            body.NearSurface = surface;
+        }
+    }
+
+    /// <summary>Moves a body that touches no other, or only such as do not move. The obstacles must be set up for it.</summary>
+    /// <param name="body">Awake and prepared.</param>
+    /// <param name="stepLength">Seconds.</param>
+    public void Move(Body body, double stepLength)
+    {
+        if (!body.IsOverlapResolved)
+        {
+            return;
+        }
+
+        var position = body.Position;
         _sweep.ResetStepBudget();
-        contacts.Refresh(position, contactSlop, body.Radius);
         _obstacles.CollectNearbyBodies(new(position, Vector.Zero, Vector.Zero), 0, body.Index);
-        _obstacles.AddTouchedBodies(position, contactSlop, contacts);
-        _response.ApplyPendingLoad(body, position);
-        var timeLeft = stepLength;
+        _obstacles.AddTouchedBodies(position, _obstacles.ContactSlop(position), body.Contacts);
+        MoveOn(body, ref position, stepLength, stepLength);
+        body.Position = position;
+    }
+
+    /// <summary>
+    /// Moves a body whose island has been solved: along the planned parabola, until it meets what the plan does not know. One that meets a
+    /// body of its island, which is still in the way, waits there. It may go on when the other has moved, else it loses the time.
+    /// </summary>
+    /// <param name="body">Awake, prepared and planned. The obstacles must be set up for it.</param>
+    /// <param name="stepLength">Seconds.</param>
+    public void MovePlanned(Body body, double stepLength)
+    {
+        // By how much others have changed its velocity while it waited.
+        var push = Vector.Zero;
+        if (body.IsWaiting)
+        {
+            push = body.Velocity - body.PlannedEndVelocity;
+        }
+        else
+        {
+            body.PlannedMotion = new(body.Position, body.Velocity, body.NetAcceleration);
+            body.PlannedTime = 0;
+        }
+
+        var planned = body.PlannedMotion;
+        if (planned.Velocity == Vector.Zero && planned.Acceleration == Vector.Zero)
+        {
+            return;
+        }
+
+        var motion = new Motion(body.Position, planned.VelocityAt(body.PlannedTime), planned.Acceleration);
+        var timeLeft = stepLength - body.PlannedTime;
+        _sweep.ResetStepBudget();
+        _obstacles.CollectNearbyBodies(in motion, timeLeft, body.Index);
+        var isHit = _sweep.TryFindImpact(in motion, timeLeft, out var hit, out var elapsed);
+        body.PlannedTime += elapsed;
+        body.IsWaiting = isHit && hit.IsBody && _bodies[hit.BodyIndex].IslandIndex == body.IslandIndex;
+        var position = motion.PositionAt(elapsed);
+        var isComplete = !isHit && elapsed >= timeLeft;
+        var velocity = isComplete || body.IsWaiting ? body.PlannedEndVelocity : planned.VelocityAt(body.PlannedTime);
+        body.Velocity = velocity + push;
+        body.EnergyGain = body.EnergyGainOf(velocity, position);
+        var isUnplanned = isHit && !body.IsWaiting;
+        if (isUnplanned)
+        {
+            // The others of the island have their part of the contacts' impulses, whether this one goes on or not.
+            var velocityThere = body.PlannedEndVelocity - ((timeLeft - elapsed) * body.FreeAcceleration);
+            body.EnergyGain = body.EnergyGainOf(velocityThere, position);
+            body.Velocity = velocityThere + push;
+            position = RemoveRoundingOverlap(position, in hit);
+            body.Contacts.Add(in hit, position);
+        }
+
+        body.Contacts.UpdateAfterMove(position, _obstacles.ContactSlop(position), _obstacles);
+        if (isUnplanned)
+        {
+            MoveOn(body, ref position, timeLeft - elapsed, stepLength);
+        }
+
+        body.Position = position;
+    }
+
+    /// <summary>Moves a body from contact to contact.</summary>
+    private void MoveOn(Body body, ref Vector position, double timeLeft, double stepLength)
+    {
+        var contacts = body.Contacts;
+        var acceleration = body.FreeAcceleration;
+        var restitutionThreshold = body.RestitutionThreshold;
         var simultaneousImpacts = 0;
         var isBlocked = false;
         var negligibleSpeed = NegligibleSpeedFraction * restitutionThreshold;
@@ -69,7 +167,7 @@ internal sealed class BodyMover
         {
             var velocityBefore = body.Velocity;
             _response.ResolveContacts(body, position, restitutionThreshold);
-            body.Velocity = contacts.RemoveSeparating(position, body.Velocity, _bodies, negligibleSpeed, isBlocked);
+            body.Velocity = contacts.RemoveSeparating(position, body.Velocity, _bodies, negligibleSpeed, true);
             var hasResponded = (body.Velocity - velocityBefore).MaxAbsComponent() > negligibleSpeed;
             var elapsed = Advance(body, acceleration, ref position, timeLeft, negligibleSpeed, isBlocked);
             timeLeft -= elapsed;
@@ -78,8 +176,6 @@ internal sealed class BodyMover
             isBlocked |= !hasResponded && elapsed < NegligibleTimeFraction * stepLength && contacts.HasAwakeBody(_bodies);
         }
 
-        // The response to an impact in the last moment follows in the next step.
-        body.Position = position;
     }
 
     /// <summary>Chooses where contacts let the body go, and moves it there.</summary>
@@ -93,6 +189,9 @@ internal sealed class BodyMover
     private double Advance(Body body, Vector acceleration, ref Vector position, double duration, double negligibleSpeed, bool isBlocked)
     {
         var contacts = body.Contacts;
+        var start = position;
+        var startVelocity = body.Velocity;
+        var touchesBody = contacts.HasBody;
         var projectedVelocity = isBlocked ? contacts.ProjectVelocity(body.Velocity, position, _planes) : body.Velocity;
         var blockedVelocity = body.Velocity - projectedVelocity;
         if (blockedVelocity.Length() > MaxBlockedSpeedRatio * projectedVelocity.Length())
@@ -102,12 +201,28 @@ internal sealed class BodyMover
         }
 
         body.Velocity = projectedVelocity;
-        var netAcceleration = contacts.ProjectAcceleration(acceleration, position, projectedVelocity, _bodies, _planes, isBlocked,
+        var netAcceleration = contacts.ProjectAcceleration(acceleration, position, projectedVelocity, _bodies, _planes, true,
             out var validDuration);
         var elapsed =
             AdvanceAlong(body, netAcceleration, acceleration, ref position, Math.Min(duration, validDuration), negligibleSpeed);
         body.Velocity += blockedVelocity;
+        if (touchesBody)
+        {
+            LimitEnergy(body, startVelocity, Vector.Dot(acceleration, position - start));
+        }
+
         return elapsed;
+    }
+
+    /// <summary>Takes back what contacts have added to the speed of a body: what is firm does no work.</summary>
+    private static void LimitEnergy(Body body, Vector startVelocity, double workPerMass)
+    {
+        var speedSquared = body.Velocity.LengthSquared();
+        var limit = Math.Max(0, startVelocity.LengthSquared() + (2 * workPerMass));
+        if (speedSquared > limit + (EnergyRounding * (startVelocity.LengthSquared() + speedSquared)))
+        {
+            body.Velocity *= Math.Sqrt(limit / speedSquared);
+        }
     }
 
     /// <summary>Moves the body until it touches something new, friction has stopped or turned it, or the time is up.</summary>
@@ -134,14 +249,12 @@ internal sealed class BodyMover
         body.NetAcceleration = netAcceleration;
         if (body.Velocity == Vector.Zero && netAcceleration == Vector.Zero)
         {
-            _response.TransmitLoad(body, acceleration, position, maxDuration);
             return maxDuration;
         }
 
         var motion = new Motion(position, body.Velocity, netAcceleration);
         _obstacles.CollectNearbyBodies(in motion, duration, body.Index);
         var isHit = _sweep.TryFindImpact(in motion, duration, out var hit, out var elapsed);
-        _response.TransmitLoad(body, acceleration, position, elapsed);
         position = motion.PositionAt(elapsed);
         body.Velocity = motion.VelocityAt(elapsed);
         if (isHit)
@@ -159,8 +272,9 @@ internal sealed class BodyMover
     }
 
     /// <summary>Pushes a body out that overlaps something; one that cannot be pushed out stops.</summary>
-    private bool TryResolveOverlap(Body body, ref Vector position)
+    private bool TryResolveOverlap(Body body)
     {
+        var position = body.Position;
         body.SafeDistance.Invalidate();
         body.Contacts.Clear();
         body.IsStuck = !_overlapResolver.TryResolve(ref position, body.Index);

@@ -37,17 +37,15 @@ internal sealed class BodyStepper
         _mover = new(bodies, obstacles, islands);
     }
 
-    /// <summary>Makes the step of a body that is awake.</summary>
+    /// <summary>Begins the step of a body that is awake: all but its motion.</summary>
     /// <param name="body">Its previous state must have been saved.</param>
     /// <param name="staticColliders">Colliders of the body's kind; null where there are no static objects.</param>
     /// <param name="character">Character that is in the way; null for none.</param>
     /// <param name="gravity">Units per second².</param>
     /// <param name="stepLength">Seconds, positive.</param>
-    /// <param name="stepIndex">Number of steps before this one, for the message.</param>
-    /// <exception cref="InvalidOperationException">The body has left the range of a double; the message names it.</exception>
-    public void Step(
-        Body body, StaticColliders? staticColliders, CharacterController? character, Vector gravity, double stepLength, long stepIndex)
+    public void Prepare(Body body, StaticColliders? staticColliders, CharacterController? character, Vector gravity, double stepLength)
     {
+        body.IsPrepared = true;
         var faceTestsBefore = _queryContext.Statistics.FaceTests;
         var boundTestsBefore = _queryContext.Statistics.BoundTests;
         var description = body.Description;
@@ -62,14 +60,47 @@ internal sealed class BodyStepper
             body.Velocity *= Math.Exp(-description.Damping * stepLength);
         }
 
-        var motion = new Motion(body.Position, body.Velocity, acceleration);
+        body.FreeAcceleration = acceleration;
+        body.RestitutionThreshold =
+            _settings.RestitutionThreshold ?? RestitutionThresholdFraction * acceleration.Length() * stepLength;
+        var wasResolved = body.IsOverlapResolved;
+        var maxTravel = new Motion(body.Position, body.Velocity, acceleration).MaxTravelDistance(stepLength);
+        _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 2 * maxTravel, character);
+        _mover.Prepare(body, maxTravel);
+        if (!wasResolved)
+        {
+            _grid.Update(body.Index);
+        }
+
+        body.FaceTests = _queryContext.Statistics.FaceTests - faceTestsBefore;
+        body.BoundTests = _queryContext.Statistics.BoundTests - boundTestsBefore;
+    }
+
+    /// <summary>Makes the step of a body that is awake.</summary>
+    /// <param name="body">Must have been prepared.</param>
+    /// <param name="staticColliders">Colliders of the body's kind; null where there are no static objects.</param>
+    /// <param name="character">Character that is in the way; null for none.</param>
+    /// <param name="stepLength">Seconds, positive.</param>
+    /// <param name="stepIndex">Number of steps before this one, for the message.</param>
+    /// <exception cref="InvalidOperationException">The body has left the range of a double; the message names it.</exception>
+    public void Step(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength, long stepIndex)
+    {
+        var faceTestsBefore = _queryContext.Statistics.FaceTests;
+        var boundTestsBefore = _queryContext.Statistics.BoundTests;
+        var hasWaited = body.IsWaiting;
+        var motion = new Motion(body.Position, body.Velocity, body.FreeAcceleration);
         var maxTravel = motion.MaxTravelDistance(stepLength);
         _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 2 * maxTravel, character);
         _nearbyBodies.Prepare(motion.SweptBox(stepLength), body.Radius * ContactTolerances.NeighbourRadiusFactor);
-        var accelerationMagnitude = acceleration.Length();
-        var restitutionThreshold =
-            _settings.RestitutionThreshold ?? RestitutionThresholdFraction * accelerationMagnitude * stepLength;
-        _mover.Move(body, acceleration, stepLength, restitutionThreshold);
+        if (body.IslandIndex >= 0)
+        {
+            _mover.MovePlanned(body, stepLength);
+        }
+        else
+        {
+            _mover.Move(body, stepLength);
+        }
+
         if (!body.Position.IsFinite() || !body.Velocity.IsFinite())
         {
             var state = $"position {body.Position}, velocity {body.Velocity}";
@@ -77,10 +108,14 @@ internal sealed class BodyStepper
                 CultureInfo.InvariantCulture, $"body {body.Name} has left the range of a double in step {stepIndex}: {state}"));
         }
 
-        body.FaceTests = _queryContext.Statistics.FaceTests - faceTestsBefore;
-        body.BoundTests = _queryContext.Statistics.BoundTests - boundTestsBefore;
-        var sleepSpeed = _settings.SleepSpeed ?? SleepSpeedFraction * Math.Sqrt(accelerationMagnitude * body.Radius);
-        _islands.Update(body, sleepSpeed, _settings.TimeBeforeSleep, stepLength);
+        body.FaceTests += _queryContext.Statistics.FaceTests - faceTestsBefore;
+        body.BoundTests += _queryContext.Statistics.BoundTests - boundTestsBefore;
+        var sleepSpeed = _settings.SleepSpeed ?? SleepSpeedFraction * Math.Sqrt(body.FreeAcceleration.Length() * body.Radius);
+        if (!hasWaited)
+        {
+            _islands.Update(body, sleepSpeed, _settings.TimeBeforeSleep, stepLength);
+        }
+
         // Last, so that what was collected for this body serves its islands too.
         _grid.Update(body.Index);
     }

@@ -3,8 +3,7 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
-/// How contacts change the velocity of a body: the paper's response v ← −e·vₙ + vₛ (§4.4.4), friction, and the load that bodies transmit to
-/// each other.
+/// How contacts change the velocity of a body: the paper's response v ← −e·vₙ + vₛ (§4.4.4), and friction.
 /// </summary>
 internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
 {
@@ -88,62 +87,6 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
         duration = Math.Min(duration, stopTime);
         netAcceleration = duration > 0 ? -velocity / duration : Vector.Zero;
         return true;
-    }
-
-    /// <summary>
-    /// Applies the load that other bodies have transmitted: a body gives way where it can, and passes the load on to bodies it lies on.
-    /// Nothing bounces from a load.
-    /// </summary>
-    public void ApplyPendingLoad(Body body, Vector position)
-    {
-        var loadVelocity = body.PendingLoadVelocity;
-        body.PendingLoadVelocity = Vector.Zero;
-        if (loadVelocity == Vector.Zero)
-        {
-            return;
-        }
-
-        var contacts = body.Contacts;
-        body.Velocity += contacts.ProjectVelocity(loadVelocity, position, _planes);
-        for (var i = 0; i < contacts.Count; i++)
-        {
-            var normal = contacts[i].Normal(position);
-            if (!contacts[i].IsBody || bodies[contacts[i].BodyIndex] is not { IsAsleep: false } other)
-            {
-                continue;
-            }
-
-            var normalSpeed = Vector.Dot(loadVelocity, normal);
-            if (normalSpeed < 0)
-            {
-                other.PendingLoadVelocity += normalSpeed * (body.Description.Mass / other.Description.Mass) * normal;
-            }
-        }
-    }
-
-    /// <summary>Transmits the load of a body to the bodies that it lies on. They apply it in their own turn.</summary>
-    /// <param name="body">The body that presses.</param>
-    /// <param name="acceleration">By gravity and forces.</param>
-    /// <param name="position">Position of the body, world space.</param>
-    /// <param name="duration">Seconds for which it presses.</param>
-    public void TransmitLoad(Body body, Vector acceleration, Vector position, double duration)
-    {
-        for (var i = 0; i < body.Contacts.Count; i++)
-        {
-            var contact = body.Contacts[i];
-            if (!contact.IsBody || bodies[contact.BodyIndex] is { IsAsleep: true })
-            {
-                continue;
-            }
-
-            var other = bodies[contact.BodyIndex];
-            var normal = contact.Normal(position);
-            var loadAcceleration = -Vector.Dot(acceleration - other.NetAcceleration, normal);
-            if (loadAcceleration > 0)
-            {
-                other.PendingLoadVelocity -= duration * loadAcceleration * (body.Description.Mass / other.Description.Mass) * normal;
-            }
-        }
     }
 
     private Vector RelativeVelocity(Body body, in Contact contact) =>

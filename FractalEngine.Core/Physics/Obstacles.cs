@@ -107,6 +107,17 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
         return isFound;
     }
 
+    /// <summary>Finds the closest surface.</summary>
+    /// <param name="position">Position of the mover, world space.</param>
+    /// <param name="maxDistance">Largest free distance of interest.</param>
+    /// <param name="contact">The surface, if there is one.</param>
+    /// <returns>False where no surface is within the distance.</returns>
+    public bool TryFindNearSurface(Vector position, double maxDistance, out Contact contact)
+    {
+        contact = default;
+        return _safeDistance.LowerBoundAt(position) - _radius <= maxDistance && TryFindClosestSurface(position, maxDistance, out contact);
+    }
+
     /// <summary>Adds contacts with all collected bodies that are touched.</summary>
     /// <param name="position">Position of the mover, world space.</param>
     /// <param name="tolerance">Largest gap that counts as touching.</param>

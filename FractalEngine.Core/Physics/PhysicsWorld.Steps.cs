@@ -7,6 +7,9 @@ namespace FractalEngine.Core.Physics;
 /// <content>How time passes in the world.</content>
 public sealed partial class PhysicsWorld
 {
+    // Times that a body may try to follow its planned path, which others of its island bar until they have moved.
+    private const int MaxPasses = 8;
+
     /// <summary>Makes as many steps of <see cref="PhysicsSettings.TimeStep"/> as fit into the time that has passed.</summary>
     /// <param name="seconds">Time since the last call; a negative one counts as 0. What does not fill a step is kept.</param>
     /// <returns>The number of steps.</returns>
@@ -44,26 +47,80 @@ public sealed partial class PhysicsWorld
         var faceTestsBefore = _queryContext.Statistics.FaceTests;
         var boundTestsBefore = _queryContext.Statistics.BoundTests;
         var character = Character is { IsActive: true } active ? active : null;
+        foreach (var body in _bodies)
+        {
+            body.BeginStep();
+        }
+
+        PlanIslands(character, seconds);
+        MovePlanned(character, seconds);
+
         for (var i = 0; i < _bodies.Count; i++)
         {
-            var body = _bodies[i];
-            body.BeginStep();
-            if (!body.IsAsleep)
+            if (!_bodies[i].IsAsleep && _bodies[i].IslandIndex < 0)
             {
-                StepBody(body, character, seconds);
+                StepBody(_bodies[i], character, seconds);
             }
         }
+
+        _energyGuard.Check();
+        _islands.PutToSleep(_planner.Graph, Settings.TimeBeforeSleep);
 
         StepCharacter(character, seconds);
         _clock.Tick(seconds);
         LastStepCost = (_queryContext.Statistics.FaceTests - faceTestsBefore, _queryContext.Statistics.BoundTests - boundTestsBefore);
     }
 
+    /// <summary>Moves all bodies of islands; those that wait for others in a ring, several times.</summary>
+    private void MovePlanned(CharacterController? character, double seconds)
+    {
+        foreach (var index in _planner.Order)
+        {
+            StepBody(_bodies[index], character, seconds);
+        }
+
+        var isWaiting = true;
+        for (var pass = 1; pass < MaxPasses && isWaiting; pass++)
+        {
+            isWaiting = false;
+            foreach (var index in _planner.Order)
+            {
+                if (_bodies[index].IsWaiting)
+                {
+                    StepBody(_bodies[index], character, seconds);
+                    isWaiting |= _bodies[index].IsWaiting;
+                }
+            }
+        }
+    }
+
+    /// <summary>Prepares all bodies that are awake, and solves their islands.</summary>
+    private void PlanIslands(CharacterController? character, double seconds)
+    {
+        do
+        {
+            foreach (var body in _bodies)
+            {
+                if (!body.IsAsleep && !body.IsPrepared)
+                {
+                    _stepper.Prepare(body, _statics.CollidersOf(ColliderKindOf(body)), character, _gravity, seconds);
+                }
+            }
+        }
+        while (_planner.TryPlan(seconds));
+    }
+
     private void StepBody(Body body, CharacterController? character, double seconds)
     {
         try
         {
-            _stepper.Step(body, _statics.CollidersOf(ColliderKindOf(body)), character, _gravity, seconds, StepCount);
+            var colliders = _statics.CollidersOf(ColliderKindOf(body));
+            if (!body.IsPrepared)
+            {
+                _stepper.Prepare(body, colliders, character, _gravity, seconds);
+            }
+
+            _stepper.Step(body, colliders, character, seconds, StepCount);
         }
         catch (ArgumentOutOfRangeException exception)
         {

@@ -2,6 +2,7 @@ using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Character;
+using FractalEngine.Core.Physics.Islands;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;
@@ -25,6 +26,8 @@ public sealed partial class PhysicsWorld
     private readonly SleepIslands _islands;
     private readonly Obstacles _obstacles;
     private readonly BodyStepper _stepper;
+    private readonly IslandPlanner _planner;
+    private readonly EnergyGuard _energyGuard;
     private readonly int _sceneBodyCount;
     private Vector _gravity;
     private ColliderKind? _colliderOverride;
@@ -68,6 +71,8 @@ public sealed partial class PhysicsWorld
         _islands = new(_bodies, nearbyBodies);
         _obstacles = new(_bodies, nearbyBodies, _queryContext);
         _stepper = new(Settings, _bodies, _grid, nearbyBodies, _obstacles, _islands, _queryContext);
+        _planner = new(_bodies, nearbyBodies, _islands);
+        _energyGuard = new(_bodies, _planner.Graph);
         _staticOfObject = new StaticObject?[scene.Objects.Length];
         for (var i = 0; i < scene.Objects.Length; i++)
         {
@@ -136,6 +141,9 @@ public sealed partial class PhysicsWorld
     /// <summary>Triangles and bounding volumes that the last step tested, for all bodies and the character together.</summary>
     public (long FaceTests, long BoundTests) LastStepCost { get; private set; }
 
+    /// <summary>What the joint solve of touching bodies has done since the world began or was reset.</summary>
+    public IslandStatistics IslandStatistics => _planner.Statistics;
+
     /// <summary>Collider of all bodies instead of their own; null for their own. Setting another one wakes all bodies.</summary>
     public ColliderKind? ColliderOverride
     {
@@ -178,6 +186,7 @@ public sealed partial class PhysicsWorld
         _clock.Reset();
         _accumulatedTime = 0;
         LastStepCost = default;
+        _planner.Reset();
     }
 
     /// <summary>The world's scene with all objects where they are now, followed by the static objects that were added.</summary>

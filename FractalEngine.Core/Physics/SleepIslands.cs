@@ -1,4 +1,5 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Islands;
 
 namespace FractalEngine.Core.Physics;
 
@@ -21,10 +22,11 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
     {
         // Measured by distance: a jammed body may be pushed about and go nowhere.
         var maxDistance = sleepSpeed * stepLength;
-        var isSlow = (body.Position - body.PreviousPosition).LengthSquared() < maxDistance * maxDistance && body.Contacts.Count > 0;
+        var isSlow = (body.Position - body.PreviousPosition).LengthSquared() < maxDistance * maxDistance
+            && (body.Contacts.Count > 0 || body.IslandIndex >= 0);
         var isResting = sleepSpeed > 0 && !body.IsShrinking && (isSlow || body.IsStuck);
         body.SleepTimer = isResting ? body.SleepTimer + stepLength : 0;
-        if (body.SleepTimer >= timeBeforeSleep && isResting)
+        if (body.SleepTimer >= timeBeforeSleep && isResting && body.IslandIndex < 0)
         {
             body.Sleep();
         }
@@ -32,6 +34,26 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
         {
             // A body that slept on this one may have lost its support.
             WakeOverlapping(body.PreviousPosition, body.PreviousScale * body.Description.Radius, body.Index);
+        }
+    }
+
+    /// <summary>Puts islands to sleep whose bodies have all rested for some time.</summary>
+    /// <param name="graph">The islands of this step.</param>
+    /// <param name="timeBeforeSleep">Seconds for which they must rest.</param>
+    public void PutToSleep(ContactGraph graph, double timeBeforeSleep)
+    {
+        foreach (var island in graph.Islands)
+        {
+            var isResting = true;
+            foreach (var index in graph.BodiesOf(in island))
+            {
+                isResting &= bodies[index].SleepTimer > 0 && bodies[index].SleepTimer >= timeBeforeSleep;
+            }
+
+            foreach (var index in isResting ? graph.BodiesOf(in island) : [])
+            {
+                bodies[index].Sleep();
+            }
         }
     }
 

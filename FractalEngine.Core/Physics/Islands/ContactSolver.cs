@@ -1,0 +1,201 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics.Islands;
+
+/// <summary>
+/// Finds the impulses of all contacts of an island at once: along each normal the bodies come apart at least as fast as demanded, the
+/// impulse pushes only, and pushes nothing that is faster. Across the normal it stops the slip, or is as large as friction allows.
+/// </summary>
+/// <remarks>
+/// Projected Gauss–Seidel, whose changes are taken as the gradients of a nonlinear conjugate gradient method (Silcowitz, Niebe and
+/// Erleben 2010). Plain rounds pass a load on by one body each; with the conjugate directions far fewer are needed.
+/// </remarks>
+internal sealed class ContactSolver
+{
+    /// <summary>Maximum number of rounds.</summary>
+    public const int MaxRounds = 1000;
+
+    // Of the largest impulse: a round that changes less has converged.
+    private const double Tolerance = 1e-9;
+
+    // Small islands converge to rounding in a few rounds, and large ones need not.
+    private const double FineTolerance = 1e-13;
+    private const int FineRounds = 32;
+
+    private const int InitialCapacity = 256;
+
+    private SolverBody[] _bodies = new SolverBody[InitialCapacity];
+    private Direction[] _changes = new Direction[InitialCapacity];
+    private Direction[] _directions = new Direction[InitialCapacity];
+
+    /// <summary>Bodies by their index in the world.</summary>
+    public Span<SolverBody> Bodies => _bodies;
+
+    /// <summary>Rounds of the last solve.</summary>
+    public int Rounds { get; private set; }
+
+    /// <summary>Makes room for bodies.</summary>
+    public void Reserve(int bodyCount)
+    {
+        if (_bodies.Length < bodyCount)
+        {
+            Array.Resize(ref _bodies, Math.Max(bodyCount, 2 * _bodies.Length));
+        }
+    }
+
+    /// <summary>Computes the masses of a contact from those of its bodies.</summary>
+    public void ComputeMasses(ref ContactRow row)
+    {
+        ref readonly var first = ref _bodies[row.First];
+        var normal = first.InverseMass;
+        var spin = first.InverseInertia * row.FirstRadius * row.FirstRadius;
+        if (row.Second >= 0)
+        {
+            ref readonly var second = ref _bodies[row.Second];
+            normal += second.InverseMass;
+            spin += second.InverseInertia * row.SecondRadius * row.SecondRadius;
+        }
+
+        row.NormalMass = 1 / normal;
+        row.FrictionMass = 1 / (normal + spin);
+    }
+
+    /// <summary>Velocity of the first body relative to the second.</summary>
+    public Vector RelativeVelocity(in ContactRow row) =>
+        row.Second >= 0 ? _bodies[row.First].Velocity - _bodies[row.Second].Velocity : _bodies[row.First].Velocity;
+
+    /// <summary>Velocity of the first body's touching point relative to the second's, across the normal.</summary>
+    public Vector Slip(in ContactRow row)
+    {
+        var relative = RelativeVelocity(in row);
+        var spin = row.FirstRadius * _bodies[row.First].Spin;
+        if (row.Second >= 0)
+        {
+            spin += row.SecondRadius * _bodies[row.Second].Spin;
+        }
+
+        return relative - (Vector.Dot(relative, row.Normal) * row.Normal) + Vector.Cross(row.Normal, spin);
+    }
+
+    /// <summary>Gives both bodies an impulse.</summary>
+    /// <param name="row">The contact.</param>
+    /// <param name="alongNormal">Its part along the normal.</param>
+    /// <param name="across">Its part across the normal.</param>
+    public void Apply(in ContactRow row, double alongNormal, Vector across)
+    {
+        var impulse = (alongNormal * row.Normal) + across;
+        var torque = Vector.Cross(row.Normal, across);
+        ref var first = ref _bodies[row.First];
+        first.Velocity += first.InverseMass * impulse;
+        first.Spin -= first.InverseInertia * row.FirstRadius * torque;
+        if (row.Second >= 0)
+        {
+            ref var second = ref _bodies[row.Second];
+            second.Velocity -= second.InverseMass * impulse;
+            second.Spin -= second.InverseInertia * row.SecondRadius * torque;
+        }
+    }
+
+    /// <summary>Solves for the impulses. Those of the rows must have been given to the bodies already.</summary>
+    /// <param name="rows">All contacts of an island; receive the impulses.</param>
+    /// <returns>False where it has not converged: then the impulses are those of the last round.</returns>
+    public bool Solve(Span<ContactRow> rows)
+    {
+        if (_changes.Length < rows.Length)
+        {
+            Array.Resize(ref _changes, Math.Max(rows.Length, 2 * _changes.Length));
+            Array.Resize(ref _directions, _changes.Length);
+        }
+
+        var previousNorm = 0.0;
+        for (Rounds = 1; Rounds < MaxRounds; Rounds++)
+        {
+            var isConverged = MakeRound(rows, Rounds <= FineRounds ? FineTolerance : Tolerance, out var norm);
+            if (isConverged)
+            {
+                return true;
+            }
+
+            Extrapolate(rows, previousNorm > 0 && norm <= previousNorm ? norm / previousNorm : 0);
+            previousNorm = norm;
+        }
+
+        return MakeRound(rows, Tolerance, out _);
+    }
+
+    /// <summary>Solves each contact once in the order of the list, and once in the opposite one.</summary>
+    /// <remarks>Both together make the round symmetric, as conjugate directions need it.</remarks>
+    private bool MakeRound(Span<ContactRow> rows, double tolerance, out double norm)
+    {
+        for (var i = 0; i < rows.Length; i++)
+        {
+            _changes[i] = default;
+            SolveContact(ref rows[i], ref _changes[i]);
+        }
+
+        norm = 0;
+        var maxChange = 0.0;
+        var maxImpulse = 0.0;
+        for (var i = rows.Length - 1; i >= 0; i--)
+        {
+            ref var change = ref _changes[i];
+            SolveContact(ref rows[i], ref change);
+            norm += ((change.Normal * change.Normal) + change.Across.LengthSquared()) / rows[i].NormalMass;
+            maxChange = Math.Max(maxChange, Math.Max(Math.Abs(change.Normal), change.Across.MaxAbsComponent()));
+            maxImpulse = Math.Max(maxImpulse, rows[i].NormalImpulse);
+        }
+
+        return maxChange <= tolerance * maxImpulse;
+    }
+
+    private void SolveContact(ref ContactRow row, ref Direction change)
+    {
+        var missing = row.MinNormalVelocity - Vector.Dot(RelativeVelocity(in row), row.Normal);
+        var impulse = Math.Max(0, row.NormalImpulse + (row.NormalMass * missing));
+        var normalChange = impulse - row.NormalImpulse;
+        row.NormalImpulse = impulse;
+        change.Normal += normalChange;
+        Apply(in row, normalChange, Vector.Zero);
+        if (row.Friction > 0)
+        {
+            var across = row.FrictionImpulse - (row.FrictionMass * Slip(in row));
+            var length = across.Length();
+            var limit = row.Friction * impulse;
+            across = length > limit ? limit / length * across : across;
+            var acrossChange = across - row.FrictionImpulse;
+            row.FrictionImpulse = across;
+            change.Across += acrossChange;
+            Apply(in row, 0, acrossChange);
+        }
+    }
+
+    /// <summary>Goes on along the direction of the rounds before; at a share of 0 it begins anew.</summary>
+    private void Extrapolate(Span<ContactRow> rows, double share)
+    {
+        for (var i = 0; i < rows.Length; i++)
+        {
+            ref var direction = ref _directions[i];
+            if (share > 0)
+            {
+                direction.Normal *= share;
+                direction.Across *= share;
+                rows[i].NormalImpulse += direction.Normal;
+                rows[i].FrictionImpulse += direction.Across;
+                Apply(in rows[i], direction.Normal, direction.Across);
+                direction.Normal += _changes[i].Normal;
+                direction.Across += _changes[i].Across;
+            }
+            else
+            {
+                direction = _changes[i];
+            }
+        }
+    }
+
+    /// <summary>A change of the impulse of one contact.</summary>
+    private struct Direction
+    {
+        public double Normal;
+        public Vector Across;
+    }
+}
