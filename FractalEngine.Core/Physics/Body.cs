@@ -35,6 +35,16 @@ public sealed class Body
     /// <summary>Current velocity in units per second, see <see cref="PhysicsWorld.SetVelocity"/>.</summary>
     public Vector Velocity { get; internal set; }
 
+    /// <summary>Current angular velocity in radians per second, about the world's axes.</summary>
+    /// <remarks>In the left-handed world, a ball that turns about +z by a positive angle turns x towards y.</remarks>
+    public Vector AngularVelocity { get; internal set; }
+
+    /// <summary>How the body has turned since the beginning.</summary>
+    public Orientation Orientation { get; internal set; } = Orientation.Identity;
+
+    /// <summary>Orientation before the last step, for interpolation between steps.</summary>
+    public Orientation PreviousOrientation { get; internal set; } = Orientation.Identity;
+
     /// <summary>
     /// Constant force besides gravity, in kilograms times units per second², see <see cref="PhysicsWorld.SetForce"/>.
     /// </summary>
@@ -64,12 +74,18 @@ public sealed class Body
     /// <summary>Name for messages and tables: the description's, or the index after a number sign.</summary>
     public string Name => Description.Name ?? string.Create(CultureInfo.InvariantCulture, $"#{Index}");
 
-    /// <summary>Map that draws the body's object between its last two states, moved and shrunk.</summary>
+    /// <summary>Map that draws the body's object between its last two states, moved, turned and shrunk.</summary>
     /// <param name="alpha">Fraction of the last step that has passed, from 0 to 1: steps and frames have different rates.</param>
     public AffineMap InterpolatedMap(double alpha)
     {
         var scale = PreviousScale + (alpha * (Scale - PreviousScale));
-        return new(scale * Description.LinearPart, PreviousPosition + (alpha * (Position - PreviousPosition)));
+        var linear = scale * Description.LinearPart;
+        if (Orientation != Orientation.Identity || PreviousOrientation != Orientation.Identity)
+        {
+            linear = Orientation.Interpolate(PreviousOrientation, Orientation, alpha).ToMatrix() * linear;
+        }
+
+        return new(linear, PreviousPosition + (alpha * (Position - PreviousPosition)));
     }
 
     /// <summary>The index of no island.</summary>
@@ -90,6 +106,19 @@ public sealed class Body
     /// <summary>Acceleration that remains after contacts have taken their part.</summary>
     internal Vector NetAcceleration { get; set; }
 
+    /// <summary>1/(kilogram · unit²); 0 for a body that does not turn.</summary>
+    internal double InverseInertia =>
+        Description.IsRotationLocked ? 0 : 1 / (Description.Inertia * Description.Mass * Radius * Radius);
+
+    /// <summary>Energy of motion and rotation, joules.</summary>
+    internal double KineticEnergy => (0.5 * Description.Mass * Velocity.LengthSquared()) + SpinEnergy;
+
+    /// <summary>Energy of rotation, joules.</summary>
+    internal double SpinEnergy => Description.IsRotationLocked ? 0 : 0.5 * AngularVelocity.LengthSquared() / InverseInertia;
+
+    /// <summary>Angular velocity before the step.</summary>
+    internal Vector SpinBefore { get; set; }
+
     /// <summary>Acceleration by gravity and forces in this step, units per second².</summary>
     internal Vector FreeAcceleration { get; set; }
 
@@ -104,6 +133,12 @@ public sealed class Body
 
     /// <summary>What gravity and all contacts add to the velocity in the step.</summary>
     internal Vector PlannedChange { get; set; }
+
+    /// <summary>What all contacts add to the angular velocity in the step.</summary>
+    internal Vector PlannedSpinChange { get; set; }
+
+    /// <summary>What they add to the energy of rotation, joules.</summary>
+    internal double PlannedSpinGain { get; set; }
 
     /// <summary>The velocity at the end of the planned path.</summary>
     internal Vector PlannedEndVelocity => PlannedMotion.Velocity + PlannedChange;
@@ -134,7 +169,7 @@ public sealed class Body
     /// <param name="position">That point.</param>
     internal double EnergyGainOf(Vector velocity, Vector position) => Description.Mass
         * ((0.5 * (velocity.LengthSquared() - PlannedMotion.Velocity.LengthSquared()))
-            - Vector.Dot(FreeAcceleration, position - PlannedMotion.Start));
+            - Vector.Dot(FreeAcceleration, position - PlannedMotion.Start)) + PlannedSpinGain;
 
     /// <summary>Returns the body to its initial state.</summary>
     /// <param name="acceleration">Acceleration of free fall.</param>
@@ -143,6 +178,9 @@ public sealed class Body
         Position = Description.Position;
         PreviousPosition = Description.Position;
         Velocity = Description.Velocity;
+        AngularVelocity = Description.IsRotationLocked ? Vector.Zero : Description.AngularVelocity;
+        Orientation = Orientation.Identity;
+        PreviousOrientation = Orientation.Identity;
         Force = Vector.Zero;
         Scale = 1;
         PreviousScale = 1;
@@ -163,6 +201,9 @@ public sealed class Body
         Position = other.Position;
         PreviousPosition = other.PreviousPosition;
         Velocity = other.Velocity;
+        AngularVelocity = other.AngularVelocity;
+        Orientation = other.Orientation;
+        PreviousOrientation = other.PreviousOrientation;
         Force = other.Force;
         Scale = other.Scale;
         PreviousScale = other.PreviousScale;
@@ -177,9 +218,21 @@ public sealed class Body
         EnergyGain = 0;
         IsWaiting = false;
         PreviousPosition = Position;
+        PreviousOrientation = Orientation;
         PreviousScale = Scale;
+        SpinBefore = AngularVelocity;
         FaceTests = 0;
         BoundTests = 0;
+    }
+
+    /// <summary>Turns the body by its mean angular velocity of the step.</summary>
+    /// <param name="stepLength">Seconds.</param>
+    internal void Turn(double stepLength)
+    {
+        if (AngularVelocity != Vector.Zero || SpinBefore != Vector.Zero)
+        {
+            Orientation = Orientation.TurnedBy(0.5 * stepLength * (SpinBefore + AngularVelocity));
+        }
     }
 
     /// <summary>Discards everything that is known of surfaces and contacts, and wakes the body.</summary>
@@ -206,6 +259,7 @@ public sealed class Body
     {
         IsAsleep = true;
         Velocity = Vector.Zero;
+        AngularVelocity = Vector.Zero;
         NetAcceleration = Vector.Zero;
     }
 }

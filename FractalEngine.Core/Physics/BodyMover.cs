@@ -6,7 +6,7 @@ namespace FractalEngine.Core.Physics;
 /// Moves a body through one step: free flight to the moment of an impact, the response there, and the same again with the remaining time.
 /// What a body rests on cancels its part of the acceleration, so that nothing is pressed in and pushed out again.
 /// </summary>
-internal sealed class BodyMover
+internal sealed partial class BodyMover
 {
     private const int MaxImpacts = 1000;
 
@@ -31,6 +31,7 @@ internal sealed class BodyMover
     private readonly List<Body> _bodies;
     private readonly Obstacles _obstacles;
     private readonly ContactResponse _response;
+    private readonly SpinFriction _spinFriction;
     private readonly SphereSweep _sweep;
     private readonly OverlapResolver _overlapResolver;
     private readonly HalfSpaces _planes = new();
@@ -40,42 +41,9 @@ internal sealed class BodyMover
         _bodies = bodies;
         _obstacles = obstacles;
         _response = new(bodies, islands);
+        _spinFriction = new(bodies);
         _sweep = new(obstacles);
         _overlapResolver = new(obstacles);
-    }
-
-    /// <summary>
-    /// Updates what a body touches of surfaces, at the beginning of a step. One that overlaps something is pushed out, or it stops.
-    /// </summary>
-    /// <param name="body">Awake; the obstacles must be set up for it.</param>
-    /// <param name="maxTravel">How far it may move in the step.</param>
-    public void Prepare(Body body, double maxTravel)
-    {
-        body.NearSurface = null;
-        body.TouchedSurface = null;
-        if (body.IsOverlapResolved || TryResolveOverlap(body))
-        {
-            body.Contacts.Refresh(body.Position, _obstacles.ContactSlop(body.Position), body.Radius);
-            FindNearSurface(body, maxTravel);
-        }
-    }
-
-    /// <summary>Finds a face that the body touches or may meet in the step.</summary>
-    private void FindNearSurface(Body body, double maxTravel)
-    {
-        if (!_obstacles.TryFindNearSurface(body.Position, maxTravel, out var surface) || !surface.IsFlat)
-        {
-            return;
-        }
-
-        if (surface.Gap(body.Position) <= _obstacles.ContactSlop(body.Position))
-        {
-            body.TouchedSurface = surface;
-        }
-        else
-        {
-            body.NearSurface = surface;
-        }
     }
 
     /// <summary>Moves a body that touches no other, or only such as do not move. The obstacles must be set up for it.</summary>
@@ -93,64 +61,6 @@ internal sealed class BodyMover
         _obstacles.CollectNearbyBodies(new(position, Vector.Zero, Vector.Zero), 0, body.Index);
         _obstacles.AddTouchedBodies(position, _obstacles.ContactSlop(position), body.Contacts);
         MoveOn(body, ref position, stepLength, stepLength);
-        body.Position = position;
-    }
-
-    /// <summary>
-    /// Moves a body whose island has been solved: along the planned parabola, until it meets what the plan does not know. One that meets a
-    /// body of its island, which is still in the way, waits there. It may go on when the other has moved, else it loses the time.
-    /// </summary>
-    /// <param name="body">Awake, prepared and planned. The obstacles must be set up for it.</param>
-    /// <param name="stepLength">Seconds.</param>
-    public void MovePlanned(Body body, double stepLength)
-    {
-        // By how much others have changed its velocity while it waited.
-        var push = Vector.Zero;
-        if (body.IsWaiting)
-        {
-            push = body.Velocity - body.PlannedEndVelocity;
-        }
-        else
-        {
-            body.PlannedMotion = new(body.Position, body.Velocity, body.NetAcceleration);
-            body.PlannedTime = 0;
-        }
-
-        var planned = body.PlannedMotion;
-        if (planned.Velocity == Vector.Zero && planned.Acceleration == Vector.Zero)
-        {
-            return;
-        }
-
-        var motion = new Motion(body.Position, planned.VelocityAt(body.PlannedTime), planned.Acceleration);
-        var timeLeft = stepLength - body.PlannedTime;
-        _sweep.ResetStepBudget();
-        _obstacles.CollectNearbyBodies(in motion, timeLeft, body.Index);
-        var isHit = _sweep.TryFindImpact(in motion, timeLeft, out var hit, out var elapsed);
-        body.PlannedTime += elapsed;
-        body.IsWaiting = isHit && hit.IsBody && _bodies[hit.BodyIndex].IslandIndex == body.IslandIndex;
-        var position = motion.PositionAt(elapsed);
-        var isComplete = !isHit && elapsed >= timeLeft;
-        var velocity = isComplete || body.IsWaiting ? body.PlannedEndVelocity : planned.VelocityAt(body.PlannedTime);
-        body.Velocity = velocity + push;
-        body.EnergyGain = body.EnergyGainOf(velocity, position);
-        var isUnplanned = isHit && !body.IsWaiting;
-        if (isUnplanned)
-        {
-            // The others of the island have their part of the contacts' impulses, whether this one goes on or not.
-            var velocityThere = body.PlannedEndVelocity - ((timeLeft - elapsed) * body.FreeAcceleration);
-            body.EnergyGain = body.EnergyGainOf(velocityThere, position);
-            body.Velocity = velocityThere + push;
-            position = RemoveRoundingOverlap(position, in hit);
-            body.Contacts.Add(in hit, position);
-        }
-
-        body.Contacts.UpdateAfterMove(position, _obstacles.ContactSlop(position), _obstacles);
-        if (isUnplanned)
-        {
-            MoveOn(body, ref position, timeLeft - elapsed, stepLength);
-        }
-
         body.Position = position;
     }
 
@@ -190,8 +100,8 @@ internal sealed class BodyMover
     {
         var contacts = body.Contacts;
         var start = position;
-        var startVelocity = body.Velocity;
-        var touchesBody = contacts.HasBody;
+        var energy = body.KineticEnergy;
+        var mayGain = contacts.HasBody || (body.Description is { Friction: > 0, IsRotationLocked: false } && contacts.Count > 0);
         var projectedVelocity = isBlocked ? contacts.ProjectVelocity(body.Velocity, position, _planes) : body.Velocity;
         var blockedVelocity = body.Velocity - projectedVelocity;
         if (blockedVelocity.Length() > MaxBlockedSpeedRatio * projectedVelocity.Length())
@@ -206,22 +116,23 @@ internal sealed class BodyMover
         var elapsed =
             AdvanceAlong(body, netAcceleration, acceleration, ref position, Math.Min(duration, validDuration), negligibleSpeed);
         body.Velocity += blockedVelocity;
-        if (touchesBody)
+        if (mayGain)
         {
-            LimitEnergy(body, startVelocity, Vector.Dot(acceleration, position - start));
+            LimitEnergy(body, energy + (body.Description.Mass * Vector.Dot(acceleration, position - start)));
         }
 
         return elapsed;
     }
 
-    /// <summary>Takes back what contacts have added to the speed of a body: what is firm does no work.</summary>
-    private static void LimitEnergy(Body body, Vector startVelocity, double workPerMass)
+    /// <summary>Takes back what contacts have added to the energy of a body: what is firm does no work.</summary>
+    private static void LimitEnergy(Body body, double limit)
     {
-        var speedSquared = body.Velocity.LengthSquared();
-        var limit = Math.Max(0, startVelocity.LengthSquared() + (2 * workPerMass));
-        if (speedSquared > limit + (EnergyRounding * (startVelocity.LengthSquared() + speedSquared)))
+        var energy = body.KineticEnergy;
+        if (energy > 0 && energy > limit + (EnergyRounding * (energy + Math.Abs(limit))))
         {
-            body.Velocity *= Math.Sqrt(limit / speedSquared);
+            var scale = Math.Sqrt(Math.Max(0, limit) / energy);
+            body.Velocity *= scale;
+            body.AngularVelocity *= scale;
         }
     }
 
@@ -238,10 +149,18 @@ internal sealed class BodyMover
     {
         var contacts = body.Contacts;
         var isStopping = false;
+        var spinAcceleration = Vector.Zero;
         var maxDuration = duration;
         if (body.Description.Friction > 0 && contacts.Count > 0)
         {
-            isStopping = ContactResponse.ApplyFriction(body, acceleration, ref netAcceleration, ref duration);
+            if (body.Description.IsRotationLocked)
+            {
+                isStopping = ContactResponse.ApplyFriction(body, acceleration, ref netAcceleration, ref duration);
+            }
+            else
+            {
+                _spinFriction.Apply(body, position, acceleration, ref netAcceleration, ref duration, out spinAcceleration);
+            }
         }
 
         var isSlow = contacts.Count > 0 && body.Velocity.MaxAbsComponent() <= negligibleSpeed;
@@ -249,7 +168,8 @@ internal sealed class BodyMover
         body.NetAcceleration = netAcceleration;
         if (body.Velocity == Vector.Zero && netAcceleration == Vector.Zero)
         {
-            return maxDuration;
+            body.AngularVelocity += (spinAcceleration == Vector.Zero ? 0 : duration) * spinAcceleration;
+            return spinAcceleration == Vector.Zero ? maxDuration : duration;
         }
 
         var motion = new Motion(position, body.Velocity, netAcceleration);
@@ -257,6 +177,7 @@ internal sealed class BodyMover
         var isHit = _sweep.TryFindImpact(in motion, duration, out var hit, out var elapsed);
         position = motion.PositionAt(elapsed);
         body.Velocity = motion.VelocityAt(elapsed);
+        body.AngularVelocity += elapsed * spinAcceleration;
         if (isHit)
         {
             position = RemoveRoundingOverlap(position, in hit);

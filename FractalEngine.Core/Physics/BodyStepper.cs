@@ -14,8 +14,11 @@ internal sealed class BodyStepper
     // Of √(acceleration · radius), the speed that a body reaches by falling half its radius.
     private const double SleepSpeedFraction = 0.02;
 
+    private const int InitialNeighbourCapacity = 256;
+
     private static readonly Vector[] SingleSphereOffset = [Vector.Zero];
 
+    private readonly List<int> _neighbours = new(InitialNeighbourCapacity);
     private readonly PhysicsSettings _settings;
     private readonly BodyGrid _grid;
     private readonly NearbyBodies _nearbyBodies;
@@ -58,6 +61,7 @@ internal sealed class BodyStepper
         if (description.Damping > 0)
         {
             body.Velocity *= Math.Exp(-description.Damping * stepLength);
+            body.AngularVelocity *= Math.Exp(-description.Damping * stepLength);
         }
 
         body.FreeAcceleration = acceleration;
@@ -66,7 +70,9 @@ internal sealed class BodyStepper
         var wasResolved = body.IsOverlapResolved;
         var maxTravel = new Motion(body.Position, body.Velocity, acceleration).MaxTravelDistance(stepLength);
         _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 2 * maxTravel, character);
-        _mover.Prepare(body, maxTravel);
+        _neighbours.Clear();
+        _nearbyBodies.CollectOverlaps(new(body.Position, body.Position), body.Radius + (2 * maxTravel), body.Index, _neighbours);
+        _mover.Prepare(body, _neighbours.Count > 0 ? maxTravel : 0);
         if (!wasResolved)
         {
             _grid.Update(body.Index);
@@ -88,6 +94,7 @@ internal sealed class BodyStepper
         var faceTestsBefore = _queryContext.Statistics.FaceTests;
         var boundTestsBefore = _queryContext.Statistics.BoundTests;
         var hasWaited = body.IsWaiting;
+        var orientation = body.PreviousOrientation;
         var motion = new Motion(body.Position, body.Velocity, body.FreeAcceleration);
         var maxTravel = motion.MaxTravelDistance(stepLength);
         _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 2 * maxTravel, character);
@@ -108,6 +115,8 @@ internal sealed class BodyStepper
                 CultureInfo.InvariantCulture, $"body {body.Name} has left the range of a double in step {stepIndex}: {state}"));
         }
 
+        body.Orientation = orientation;
+        body.Turn(stepLength);
         body.FaceTests += _queryContext.Statistics.FaceTests - faceTestsBefore;
         body.BoundTests += _queryContext.Statistics.BoundTests - boundTestsBefore;
         var sleepSpeed = _settings.SleepSpeed ?? SleepSpeedFraction * Math.Sqrt(body.FreeAcceleration.Length() * body.Radius);

@@ -102,24 +102,54 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
 
         // A body that sleeps on is as firm as the ground.
         var movable = other is { IsAsleep: false, IsStuck: false } ? other : null;
-        var massShare = movable is null ? 1 : movable.Description.Mass / (body.Description.Mass + movable.Description.Mass);
+        var inverseMass = 1 / body.Description.Mass;
+        var otherInverseMass = movable is null ? 0 : 1 / movable.Description.Mass;
         var restitution = approachSpeed > restitutionThreshold ? CombinedRestitution(body, other) : 0;
-        var velocityChange = (1 + restitution) * approachSpeed * normal;
-        var relativeVelocity = RelativeVelocity(body, in contact);
-        var tangentialVelocity = relativeVelocity - (Vector.Dot(relativeVelocity, normal) * normal);
-        var tangentialSpeed = tangentialVelocity.Length();
-        var maxFrictionSpeed = body.Description.Friction * (1 + restitution) * approachSpeed;
-        if (maxFrictionSpeed > 0 && tangentialSpeed > 0)
+        var impulse = (1 + restitution) * approachSpeed / (inverseMass + otherInverseMass) * normal;
+        var friction = other is null ? body.Description.Friction : Math.Min(body.Description.Friction, other.Description.Friction);
+        if (friction > 0)
         {
-            velocityChange -= Math.Min(maxFrictionSpeed / tangentialSpeed, 1) * tangentialVelocity;
+            var across = StopSlip(body, other, movable, in contact, normal, friction * impulse.Length());
+            impulse += across;
+            Turn(body, body.Radius, normal, across);
+            if (movable is not null)
+            {
+                Turn(movable, movable.Radius, normal, across);
+            }
         }
 
-        body.Velocity += massShare * velocityChange;
+        body.Velocity += inverseMass * impulse;
         if (movable is not null)
         {
-            movable.Velocity -= (1 - massShare) * velocityChange;
+            movable.Velocity -= otherInverseMass * impulse;
         }
     }
+
+    /// <summary>Impulse across the normal that stops the slip of the touching points, as far as friction allows.</summary>
+    private Vector StopSlip(Body body, Body? other, Body? movable, in Contact contact, Vector normal, double limit)
+    {
+        var relative = RelativeVelocity(body, in contact);
+        var spin = body.Radius * body.AngularVelocity;
+        var inverseMass = InverseMassAcross(body);
+        if (other is not null)
+        {
+            spin += other.Radius * other.AngularVelocity;
+            inverseMass += movable is null ? 0 : InverseMassAcross(movable);
+        }
+
+        var slip = relative - (Vector.Dot(relative, normal) * normal) + Vector.Cross(normal, spin);
+        var impulse = -slip / inverseMass;
+        var length = impulse.Length();
+        return length > limit ? limit / length * impulse : impulse;
+    }
+
+    /// <summary>Inverse of the mass that an impulse at the surface and along it moves.</summary>
+    private static double InverseMassAcross(Body body) =>
+        (1 / body.Description.Mass) + (body.InverseInertia * body.Radius * body.Radius);
+
+    /// <summary>Turns a body by an impulse at its touching point; both bodies of a contact turn alike.</summary>
+    private static void Turn(Body body, double radius, Vector normal, Vector across) =>
+        body.AngularVelocity -= body.InverseInertia * radius * Vector.Cross(normal, across);
 
     private static double CombinedRestitution(Body body, Body? other) => other is null
         ? body.Description.Restitution

@@ -72,7 +72,7 @@ public sealed partial class PhysicsWorld
         _obstacles = new(_bodies, nearbyBodies, _queryContext);
         _stepper = new(Settings, _bodies, _grid, nearbyBodies, _obstacles, _islands, _queryContext);
         _planner = new(_bodies, nearbyBodies, _islands);
-        _energyGuard = new(_bodies, _planner.Graph);
+        _energyGuard = new(_bodies, _planner.Graph, _grid, nearbyBodies);
         _staticOfObject = new StaticObject?[scene.Objects.Length];
         for (var i = 0; i < scene.Objects.Length; i++)
         {
@@ -201,6 +201,12 @@ public sealed partial class PhysicsWorld
                 var original = _scene.Objects[index];
                 var placement = original.Declaration.Placement;
                 placement = placement with { Position = body.Position, Scale = body.Scale * placement.Scale };
+                if (body.Orientation != Orientation.Identity)
+                {
+                    var axes = body.Orientation.ToMatrix() * placement.Rotation.LocalAxesFromDegrees();
+                    placement = placement with { Rotation = 180 / Math.PI * axes.EulerAngles() };
+                }
+
                 objects[index] = new(original.Declaration with { Placement = placement }, original.Model);
             }
         }

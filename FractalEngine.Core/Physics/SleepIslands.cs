@@ -20,9 +20,11 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
     /// <param name="stepLength">Length of the last step, seconds.</param>
     public void Update(Body body, double sleepSpeed, double timeBeforeSleep, double stepLength)
     {
+        // What turns in place in a pile sleeps too: without spinning friction it would turn for ever.
         // Measured by distance: a jammed body may be pushed about and go nowhere.
         var maxDistance = sleepSpeed * stepLength;
         var isSlow = (body.Position - body.PreviousPosition).LengthSquared() < maxDistance * maxDistance
+            && (body.IslandIndex >= 0 || body.AngularVelocity.LengthSquared() * body.Radius * body.Radius < sleepSpeed * sleepSpeed)
             && (body.Contacts.Count > 0 || body.IslandIndex >= 0);
         var isResting = sleepSpeed > 0 && !body.IsShrinking && (isSlow || body.IsStuck);
         body.SleepTimer = isResting ? body.SleepTimer + stepLength : 0;

@@ -35,15 +35,19 @@ public class PileTests
     }
 
     [Theory]
-    [InlineData(0)]
-    [InlineData(0.5)]
-    public void Heap_InABox_NeverGainsEnergy(double friction)
+    [InlineData(0, true)]
+    [InlineData(0.5, true)]
+    [InlineData(0.5, false)]
+    public void Heap_InABox_NeverGainsEnergy(double friction, bool isRotationLocked)
     {
         var random = new Random(5);
         var box = PhysicsMeshes.FlipWinding(PhysicsMeshes.Cube.Transform(v => (4 * v).Stretch(new(1, 4, 1))));
         var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings { SleepSpeed = 0 }, TestWorlds.Place(box));
         world.AddRange(Enumerable.Range(0, 100).Select(i => new BodyDescription(
-            new Vector(-1.5 + (i % 4 * 0.9), -7 + (i / 16 * 0.9), -1.5 + (i / 4 % 4 * 0.9)) + random.Vector(0.02), 0.4) { Friction = friction }));
+            new Vector(-1.5 + (i % 4 * 0.9), -7 + (i / 16 * 0.9), -1.5 + (i / 4 % 4 * 0.9)) + random.Vector(0.02), 0.4) 
+        {
+            Friction = friction, IsRotationLocked = isRotationLocked,
+        }));
         // From the floor of the box.
         double Energy() => world.Energy() + (9.8 * 8 * world.Bodies.Count);
         var energy = Energy();
@@ -53,9 +57,10 @@ public class PileTests
             Assert.True(after <= energy * (1 + 1e-9), $"from {energy:R} to {after:R} in step {world.StepCount}");
             energy = after;
         });
-        // Without friction, jams are ill-conditioned: see the limits in docs/physics.md.
+        // Without friction, and where balls turn, jams are ill-conditioned: see the limits in docs/physics.md.
         Assert.True(
-            friction == 0 || world.IslandStatistics.Unconverged <= 0.001 * world.IslandStatistics.Solves, $"{world.IslandStatistics}");
+            friction == 0 || !isRotationLocked || world.IslandStatistics.Unconverged <= 0.001 * world.IslandStatistics.Solves,
+            $"{world.IslandStatistics}");
     }
 
     private static PhysicsWorld CreatePile(IEnumerable<Vector> positions, double? sleepSpeed = 0)

@@ -7,7 +7,7 @@ namespace FractalEngine.Core.Physics.Islands;
 /// Finds which bodies touch at the beginning of a step, and groups them: an island is made of two or more awake bodies that touch,
 /// directly or through others. Its order is that of the bodies' indices, whatever the order of the search.
 /// </summary>
-internal sealed class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies)
+internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies)
 {
     private const int InitialCapacity = 256;
 
@@ -134,7 +134,8 @@ internal sealed class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies)
         {
             First = index, Second = ContactRow.Firm, Offset = contact.PointToCentre(body.Position), MinDistance = body.Radius,
             Normal = contact.Normal(body.Position), FirstRadius = body.Radius, Friction = body.Description.Friction,
-            Restitution = body.Description.Restitution, IsAhead = isAhead,
+            Restitution = body.Description.Restitution, IsAhead = isAhead, RollingArm = body.Description.RollingFriction * body.Radius,
+            SpinningArm = body.Description.SpinningFriction * body.Radius,
         });
     }
 
@@ -151,6 +152,9 @@ internal sealed class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies)
             IsAhead = !isTouching,
             Friction = Math.Min(body.Description.Friction, other.Description.Friction),
             Restitution = Math.Min(body.Description.Restitution, other.Description.Restitution),
+            RollingArm = Math.Min(body.Description.RollingFriction, other.Description.RollingFriction) * Math.Min(body.Radius, other.Radius),
+            SpinningArm =
+                Math.Min(body.Description.SpinningFriction, other.Description.SpinningFriction) * Math.Min(body.Radius, other.Radius),
         };
         if (isTouching)
         {
@@ -218,94 +222,5 @@ internal sealed class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies)
         }
 
         _found[_count++] = row;
-    }
-
-    private void GroupByIslands()
-    {
-        _islands.Clear();
-        _islandBodies.Clear();
-        CountBodies();
-        RowCount = 0;
-        for (var i = 0; i < _count; i++)
-        {
-            if (IslandOf(_found[i].First) is var island and >= 0)
-            {
-                _islands[island] = _islands[island] with { RowCount = _islands[island].RowCount + 1 };
-                RowCount++;
-            }
-        }
-
-        if (_rows.Length < RowCount)
-        {
-            _rows = new ContactRow[2 * RowCount];
-        }
-
-        PlaceRows();
-    }
-
-    private int IslandOf(int body) => _islandOf[_sets.RootOf(body)];
-
-    /// <summary>Makes an island of each root with another body, and lists its bodies.</summary>
-    private void CountBodies()
-    {
-        for (var i = 0; i < bodies.Count; i++)
-        {
-            var root = _sets.RootOf(i);
-            if (root != i && _islandOf[root] < 0)
-            {
-                _islandOf[root] = int.MaxValue;
-            }
-        }
-
-        for (var i = 0; i < bodies.Count; i++)
-        {
-            var root = _sets.RootOf(i);
-            if (_islandOf[root] == int.MaxValue)
-            {
-                _islandOf[root] = _islands.Count;
-                _islands.Add(default);
-            }
-
-            if (_islandOf[root] is var island and >= 0)
-            {
-                _islands[island] = _islands[island] with { BodyCount = _islands[island].BodyCount + 1 };
-            }
-        }
-
-        var firstBody = 0;
-        for (var island = 0; island < _islands.Count; island++)
-        {
-            _islands[island] = _islands[island] with { FirstBody = firstBody };
-            firstBody += _islands[island].BodyCount;
-            _nextBody[island] = _islands[island].FirstBody;
-        }
-
-        CollectionsMarshal.SetCount(_islandBodies, firstBody);
-        for (var i = 0; i < bodies.Count; i++)
-        {
-            if (IslandOf(i) is var island and >= 0)
-            {
-                _islandBodies[_nextBody[island]++] = i;
-            }
-        }
-    }
-
-    private void PlaceRows()
-    {
-        var firstRow = 0;
-        for (var island = 0; island < _islands.Count; island++)
-        {
-            _islands[island] = _islands[island] with { FirstRow = firstRow };
-            _nextBody[island] = firstRow;
-            firstRow += _islands[island].RowCount;
-        }
-
-        for (var i = 0; i < _count; i++)
-        {
-            if (IslandOf(_found[i].First) is var island and >= 0)
-            {
-                _rows[_nextBody[island]++] = _found[i];
-            }
-        }
     }
 }

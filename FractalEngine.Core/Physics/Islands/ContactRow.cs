@@ -38,6 +38,12 @@ internal struct ContactRow
     /// <summary>Coulomb's coefficient of this pair.</summary>
     public double Friction;
 
+    /// <summary>Torque against rolling over the normal force, scene units.</summary>
+    public double RollingArm;
+
+    /// <summary>Torque about the normal over the normal force, scene units.</summary>
+    public double SpinningArm;
+
     /// <summary>Restitution of this pair.</summary>
     public double Restitution;
 
@@ -49,6 +55,12 @@ internal struct ContactRow
 
     /// <summary>Impulse across the normal.</summary>
     public Vector FrictionImpulse;
+
+    /// <summary>Angular impulse against rolling and spinning.</summary>
+    public Vector TurnImpulse;
+
+    /// <summary>Moment of inertia against an angular impulse of this contact; infinite where nothing turns.</summary>
+    public double TurnInertia;
 
     /// <summary>Mass that an impulse along the normal moves, kilograms.</summary>
     public double NormalMass;

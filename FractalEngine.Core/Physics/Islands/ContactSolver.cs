@@ -13,7 +13,7 @@ namespace FractalEngine.Core.Physics.Islands;
 internal sealed class ContactSolver
 {
     /// <summary>Maximum number of rounds.</summary>
-    public const int MaxRounds = 1000;
+    public const int MaxRounds = 60;
 
     // Of the largest impulse: a round that changes less has converged.
     private const double Tolerance = 1e-9;
@@ -56,6 +56,7 @@ internal sealed class ContactSolver
             spin += second.InverseInertia * row.SecondRadius * row.SecondRadius;
         }
 
+        row.TurnInertia = 1 / (first.InverseInertia + (row.Second >= 0 ? _bodies[row.Second].InverseInertia : 0));
         row.NormalMass = 1 / normal;
         row.FrictionMass = 1 / (normal + spin);
     }
@@ -167,6 +168,38 @@ internal sealed class ContactSolver
             change.Across += acrossChange;
             Apply(in row, 0, acrossChange);
         }
+
+        if (row.RollingArm + row.SpinningArm > 0 && double.IsFinite(row.TurnInertia))
+        {
+            change.Turn += StopTurning(ref row);
+        }
+    }
+
+    /// <summary>Slows down rolling and spinning as far as the normal impulse allows.</summary>
+    private Vector StopTurning(ref ContactRow row)
+    {
+        var spin = _bodies[row.First].Spin - (row.Second >= 0 ? _bodies[row.Second].Spin : Vector.Zero);
+        var turn = row.TurnImpulse - (row.TurnInertia * spin);
+        var about = Vector.Dot(turn, row.Normal);
+        var rolling = turn - (about * row.Normal);
+        var length = rolling.Length();
+        var limit = row.RollingArm * row.NormalImpulse;
+        rolling = length > limit ? limit / length * rolling : rolling;
+        var spinningLimit = row.SpinningArm * row.NormalImpulse;
+        var turnChange = rolling + (Math.Clamp(about, -spinningLimit, spinningLimit) * row.Normal) - row.TurnImpulse;
+        row.TurnImpulse += turnChange;
+        ApplyTurn(in row, turnChange);
+        return turnChange;
+    }
+
+    /// <summary>Gives both bodies an angular impulse.</summary>
+    public void ApplyTurn(in ContactRow row, Vector turn)
+    {
+        _bodies[row.First].Spin += _bodies[row.First].InverseInertia * turn;
+        if (row.Second >= 0)
+        {
+            _bodies[row.Second].Spin -= _bodies[row.Second].InverseInertia * turn;
+        }
     }
 
     /// <summary>Goes on along the direction of the rounds before; at a share of 0 it begins anew.</summary>
@@ -179,11 +212,15 @@ internal sealed class ContactSolver
             {
                 direction.Normal *= share;
                 direction.Across *= share;
+                direction.Turn *= share;
+                rows[i].TurnImpulse += direction.Turn;
+                ApplyTurn(in rows[i], direction.Turn);
                 rows[i].NormalImpulse += direction.Normal;
                 rows[i].FrictionImpulse += direction.Across;
                 Apply(in rows[i], direction.Normal, direction.Across);
                 direction.Normal += _changes[i].Normal;
                 direction.Across += _changes[i].Across;
+                direction.Turn += _changes[i].Turn;
             }
             else
             {
@@ -197,5 +234,6 @@ internal sealed class ContactSolver
     {
         public double Normal;
         public Vector Across;
+        public Vector Turn;
     }
 }

@@ -6,10 +6,14 @@ namespace FractalEngine.Core.Physics.Islands;
 /// Takes back what an island has gained in its planned motion: by rounding, by forces that did not converge, or since a body was stopped
 /// by something that no plan knew. Its velocities are scaled, about that of its centre of mass where it touches nothing firm.
 /// </summary>
-internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph)
+internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, BodyGrid grid, NearbyBodies nearbyBodies)
 {
+    private const int InitialCapacity = 64;
+
     // Of the energy of motion: to take back more, bodies that wait in vain lose the time, and what forces would have given them in it.
     private const double MaxShare = 0.25;
+
+    private readonly List<int> _neighbours = new(InitialCapacity);
 
     /// <summary>Checks all islands after all bodies have moved.</summary>
     public void Check()
@@ -31,11 +35,48 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph)
             }
 
             var energy = EnergyAbout(in island, centreVelocity);
+            if (!isFree && gain > energy && CanReturn(in island))
+            {
+                Return(in island);
+            }
+
             var scale = energy > gain ? Math.Sqrt(1 - (gain / energy)) : 0;
             foreach (var index in graph.BodiesOf(in island))
             {
                 bodies[index].Velocity = centreVelocity + (scale * (bodies[index].Velocity - centreVelocity));
+                bodies[index].AngularVelocity *= scale;
             }
+        }
+    }
+
+    /// <summary>True where nothing has moved into the places that an island has left.</summary>
+    private bool CanReturn(in Island island)
+    {
+        foreach (var index in graph.BodiesOf(in island))
+        {
+            var body = bodies[index];
+            var start = body.PlannedMotion.Start;
+            _neighbours.Clear();
+            nearbyBodies.CollectOverlaps(new(start, start), body.Radius, index, _neighbours);
+            foreach (var neighbour in _neighbours)
+            {
+                if (bodies[neighbour].IslandIndex != body.IslandIndex)
+                {
+                    return false;
+                }
+            }
+        }
+
+        return true;
+    }
+
+    /// <summary>Puts an island back to where its step began: what lifted it has more energy than it can give back.</summary>
+    private void Return(in Island island)
+    {
+        foreach (var index in graph.BodiesOf(in island))
+        {
+            bodies[index].Position = bodies[index].PlannedMotion.Start;
+            grid.Update(index);
         }
     }
 
@@ -94,6 +135,7 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph)
         foreach (var index in graph.BodiesOf(in island))
         {
             energy += 0.5 * bodies[index].Description.Mass * (bodies[index].Velocity - centreVelocity).LengthSquared();
+            energy += bodies[index].SpinEnergy;
         }
 
         return energy;

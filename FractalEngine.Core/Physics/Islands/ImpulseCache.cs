@@ -21,6 +21,7 @@ internal sealed class ImpulseCache
         {
             row.NormalImpulse = 0;
             row.FrictionImpulse = Vector.Zero;
+            row.TurnImpulse = Vector.Zero;
             var index = Array.BinarySearch(_keys, 0, _count, row.Key);
             if (index < 0)
             {
@@ -38,6 +39,7 @@ internal sealed class ImpulseCache
                 {
                     row.NormalImpulse = _entries[index].NormalImpulse;
                     row.FrictionImpulse = _entries[index].FrictionImpulse;
+                    row.TurnImpulse = _entries[index].TurnImpulse;
                     break;
                 }
             }
@@ -58,7 +60,10 @@ internal sealed class ImpulseCache
         {
             ref var row = ref graph.Row(i);
             _keys[i] = row.Key;
-            _entries[i] = new() { Normal = row.Normal, NormalImpulse = row.NormalImpulse, FrictionImpulse = row.FrictionImpulse };
+            _entries[i] = new()
+            {
+                Normal = row.Normal, NormalImpulse = row.NormalImpulse, FrictionImpulse = row.FrictionImpulse, TurnImpulse = row.TurnImpulse,
+            };
         }
 
         Array.Sort(_keys, _entries, 0, _count);
@@ -72,5 +77,6 @@ internal sealed class ImpulseCache
         public Vector Normal;
         public double NormalImpulse;
         public Vector FrictionImpulse;
+        public Vector TurnImpulse;
     }
 }

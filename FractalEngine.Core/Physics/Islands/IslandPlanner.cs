@@ -16,7 +16,7 @@ internal sealed class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies
     private const int MaxBounceRounds = 64;
 
     // Times that the lines of contact are corrected for how far the bodies move in the step.
-    private const int MaxTurns = 8;
+    private const int MaxTurns = 4;
 
     // Radians: lines of contact that turn by less need no further correction.
     private const double TurnTolerance = 1e-10;
@@ -73,10 +73,7 @@ internal sealed class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies
             var isConverged = StopApproaches(rows);
             StoreVelocities(Graph.BodiesOf(in island));
             isConverged &= FindForces(in island, rows, stepLength);
-            Statistics = Statistics with
-            {
-                Solves = Statistics.Solves + 1, Unconverged = Statistics.Unconverged + (isConverged ? 0 : 1),
-            };
+            Statistics = new(Statistics.Solves + 1, Statistics.Rounds, Statistics.Unconverged + (isConverged ? 0 : 1));
             StorePlan(Graph.BodiesOf(in island), stepLength);
             StopRebounds(Graph.BodiesOf(in island), rows);
             _order.Append(Graph.BodiesOf(in island), rows, stepLength);
@@ -93,7 +90,11 @@ internal sealed class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies
         {
             var body = bodies[index];
             body.IslandIndex = islandIndex;
-            solverBodies[index] = new() { Velocity = body.Velocity, InverseMass = 1 / body.Description.Mass };
+            solverBodies[index] = new()
+            {
+                Velocity = body.Velocity, Spin = body.AngularVelocity, InverseMass = 1 / body.Description.Mass,
+                InverseInertia = body.InverseInertia,
+            };
         }
 
         foreach (ref var row in rows)
@@ -178,7 +179,8 @@ internal sealed class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies
                 turn = Math.Max(turn, SetConstraint(ref row, stepLength, isFirst: i == 0));
             }
 
-            if (i > 0 && turn <= TurnTolerance)
+            // Lines of contact of forces that have not converged need no correction.
+            if (i > 0 && (turn <= TurnTolerance || (i > 1 && !isConverged)))
             {
                 break;
             }
@@ -187,12 +189,14 @@ internal sealed class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies
             {
                 ref var solverBody = ref _solver.Bodies[index];
                 solverBody.Velocity = bodies[index].Velocity + (stepLength * bodies[index].FreeAcceleration);
+                solverBody.Spin = bodies[index].AngularVelocity;
             }
 
             foreach (ref var row in rows)
             {
                 row.FrictionImpulse -= Vector.Dot(row.FrictionImpulse, row.Normal) * row.Normal;
                 _solver.Apply(in row, row.NormalImpulse, row.FrictionImpulse);
+                _solver.ApplyTurn(in row, row.TurnImpulse);
             }
 
             isConverged = Solve(rows);
@@ -238,6 +242,7 @@ internal sealed class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies
         foreach (var index in island)
         {
             bodies[index].Velocity = _solver.Bodies[index].Velocity;
+            bodies[index].AngularVelocity = _solver.Bodies[index].Spin;
         }
     }
 
@@ -248,8 +253,12 @@ internal sealed class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies
             var body = bodies[index];
             var negligible = RestFraction * stepLength * body.FreeAcceleration.Length();
             var change = _solver.Bodies[index].Velocity - body.Velocity;
-            if (change.MaxAbsComponent() <= negligible && body.Velocity.MaxAbsComponent() <= negligible)
+            body.PlannedSpinChange = _solver.Bodies[index].Spin - body.AngularVelocity;
+            if (change.MaxAbsComponent() <= negligible && body.Velocity.MaxAbsComponent() <= negligible
+                && _solver.Bodies[index].Spin.MaxAbsComponent() * body.Radius <= negligible)
             {
+                body.AngularVelocity = Vector.Zero;
+                body.PlannedSpinChange = Vector.Zero;
                 body.Velocity = Vector.Zero;
                 change = Vector.Zero;
             }
