@@ -48,10 +48,10 @@ public readonly record struct Orientation(double Cosine, Vector Axis)
             ((1 - alpha) * from.Cosine) + (alpha * sign * to.Cosine), ((1 - alpha) * from.Axis) + (alpha * sign * to.Axis)).Normalized();
     }
 
-    /// <summary>The rotation matrix.</summary>
+    /// <summary>Computes the matrix that rotates vectors in the same way.</summary>
     public Matrix ToMatrix() => new(Rotate(Vector.I), Rotate(Vector.J), Rotate(Vector.K));
 
-    /// <summary>Rotates a vector.</summary>
+    /// <summary>Rotates a vector from the body's initial axes to its present ones.</summary>
     public Vector Rotate(Vector vector)
     {
         var cross = Vector.Cross(Axis, vector);

@@ -145,6 +145,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         var other = bodies[neighbour];
         var isMovable = CanMove(other);
         var offset = body.Position - other.Position;
+        var radius = Math.Min(body.Radius, other.Radius);
         var row = new ContactRow
         {
             First = index, Second = isMovable ? neighbour : ContactRow.Firm, Offset = offset, MinDistance = body.Radius + other.Radius,
@@ -152,9 +153,8 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
             IsAhead = !isTouching,
             Friction = Math.Min(body.Description.Friction, other.Description.Friction),
             Restitution = Math.Min(body.Description.Restitution, other.Description.Restitution),
-            RollingArm = Math.Min(body.Description.RollingFriction, other.Description.RollingFriction) * Math.Min(body.Radius, other.Radius),
-            SpinningArm =
-                Math.Min(body.Description.SpinningFriction, other.Description.SpinningFriction) * Math.Min(body.Radius, other.Radius),
+            RollingArm = radius * Math.Min(body.Description.RollingFriction, other.Description.RollingFriction),
+            SpinningArm = radius * Math.Min(body.Description.SpinningFriction, other.Description.SpinningFriction),
         };
         if (isTouching)
         {

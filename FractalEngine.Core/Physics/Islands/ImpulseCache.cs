@@ -62,7 +62,8 @@ internal sealed class ImpulseCache
             _keys[i] = row.Key;
             _entries[i] = new()
             {
-                Normal = row.Normal, NormalImpulse = row.NormalImpulse, FrictionImpulse = row.FrictionImpulse, TurnImpulse = row.TurnImpulse,
+                Normal = row.Normal, NormalImpulse = row.NormalImpulse,
+                FrictionImpulse = row.FrictionImpulse, TurnImpulse = row.TurnImpulse,
             };
         }
 
