@@ -16,7 +16,7 @@ internal static class CameraText
     public static Camera ParseCamera(string name, string text, Handedness handedness)
     {
         var handed = handedness == Handedness.Right ? "handed right\n" : "";
-        return Parse(name, $"{handed}c {text}", "(x, y, z) (pitch, yaw, roll) fov").Camera!;
+        return Parse(name, $"{handed}c {text}", "(x, y, z) (pitch, yaw, roll) fov or (x, y, z) look-at (x, y, z) fov").Camera!;
     }
 
     /// <summary>Formats the camera of a scene as its line <c>c</c>, which reads back to the same bits.</summary>

@@ -58,8 +58,9 @@ internal sealed class InterruptSignal : IDisposable
     private void OnSignal(PosixSignalContext context)
     {
         var isFirst = !_isRequested;
-        _isRequested = true;
+        // First, since work that polls may dispose this object at once.
         _cancellation.Cancel();
+        _isRequested = true;
         context.Cancel = isFirst && _acknowledged.Wait(AcknowledgeTimeout);
         if (!context.Cancel)
         {

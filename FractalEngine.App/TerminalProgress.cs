@@ -22,7 +22,7 @@ internal sealed class TerminalProgress(string step, int stepCount, bool isQuiet)
         }
     }
 
-    /// <summary>Clears the line.</summary>
+    /// <summary>Clears the line of the terminal, so that a report can follow.</summary>
     public void End()
     {
         if (_isShown)

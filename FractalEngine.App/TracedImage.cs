@@ -31,8 +31,9 @@ internal sealed record TracedImage(int Samples, int Seed, bool KeepsPartial)
         }
 
         var background = job.Background.Colour ?? scene.Scene.Background;
-        var tracer = report.Measure("prepare", () => new PathTracer(
-            scene with { Scene = scene.Scene with { Background = background } }, view, job.Size.Width, job.Size.Height, job.Settings, Seed));
+        scene = scene with { Scene = scene.Scene with { Background = background } };
+        var tracer = report.Measure(
+            "prepare", () => new PathTracer(scene, view, job.Size.Width, job.Size.Height, job.Settings, Seed));
         foreach (var notice in tracer.Notices)
         {
             Console.Error.WriteLine(notice);

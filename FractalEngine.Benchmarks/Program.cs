@@ -7,6 +7,7 @@ using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Benchmarks.Paper;
 using FractalEngine.Benchmarks.Physics;
 using FractalEngine.Benchmarks.Precision;
+using FractalEngine.Benchmarks.Rays;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Render.Windowing;
@@ -20,6 +21,8 @@ var commands = new Dictionary<string, Func<string[], int>>
     ["frames"] = arguments => FramesCommand.Run(arguments),
     ["skips"] = arguments => OptimisationsCommand.Run(arguments),
     ["window"] = arguments => WindowCommand.Run(arguments),
+    ["rays"] = arguments => RaysCommand.Run(arguments),
+    ["trace"] = arguments => TraceCommand.Run(arguments),
     ["physics"] = arguments => PhysicsCommand.Run(arguments),
     ["precision"] = arguments => PrecisionCommand.Run(arguments),
     ["paper"] = arguments => PaperCommand.Run(arguments),

@@ -22,6 +22,7 @@ public sealed class FrameRenderer : IDisposable
     private readonly RenderContext _context;
     private readonly LinesPass _linesPass;
     private readonly OverlayPass _overlayPass;
+    private ImagePass? _imagePass;
     private Framebuffer? _sceneTarget;
     private Framebuffer? _resolvedTarget;
     private int _sampleCount;
@@ -86,9 +87,17 @@ public sealed class FrameRenderer : IDisposable
     /// <param name="window">Window of this renderer's context.</param>
     /// <param name="overlay">Panels over the frame. They can change without drawing the scene again.</param>
     /// <exception cref="InvalidOperationException">No frame has been drawn yet.</exception>
-    public void Present(RenderWindow window, params IReadOnlyList<OverlayPanel> overlay)
+    public void Present(RenderWindow window, params IReadOnlyList<OverlayPanel> overlay) => Present(window, null, overlay);
+
+    /// <summary>Presents the last frame in a window, below an image.</summary>
+    /// <param name="window">Window of this renderer's context.</param>
+    /// <param name="layer">Image over the frame; null for none. It can change without drawing the scene again.</param>
+    /// <param name="overlay">Panels over both.</param>
+    /// <exception cref="InvalidOperationException">No frame has been drawn yet.</exception>
+    /// <exception cref="ArgumentException">The image has another size than the frame.</exception>
+    public void Present(RenderWindow window, ImageLayer? layer, params IReadOnlyList<OverlayPanel> overlay)
     {
-        Resolve(overlay).CopyToWindow(window.Width, window.Height);
+        Resolve(layer, overlay).CopyToWindow(window.Width, window.Height);
         window.SwapBuffers();
     }
 
@@ -96,9 +105,17 @@ public sealed class FrameRenderer : IDisposable
     /// <param name="overlay">Panels over the frame; none for the scene alone.</param>
     /// <exception cref="InvalidOperationException">No frame has been drawn yet.</exception>
     /// <exception cref="GlException">The driver reports an error while the pixels are read.</exception>
-    public PixelImage Capture(params IReadOnlyList<OverlayPanel> overlay)
+    public PixelImage Capture(params IReadOnlyList<OverlayPanel> overlay) => Capture(null, overlay);
+
+    /// <summary>Reads the last frame back as an image, below another image.</summary>
+    /// <param name="layer">Image over the frame; null for none.</param>
+    /// <param name="overlay">Panels over both; none for the scene alone.</param>
+    /// <exception cref="InvalidOperationException">No frame has been drawn yet.</exception>
+    /// <exception cref="ArgumentException">The image has another size than the frame.</exception>
+    /// <exception cref="GlException">The driver reports an error while the pixels are read.</exception>
+    public PixelImage Capture(ImageLayer? layer, params IReadOnlyList<OverlayPanel> overlay)
     {
-        var frame = Resolve(overlay);
+        var frame = Resolve(layer, overlay);
         var pixels = new byte[4 * frame.Width * frame.Height];
         frame.ReadPixels(pixels);
         return PixelImage.FromBottomUp(frame.Width, frame.Height, pixels);
@@ -111,6 +128,7 @@ public sealed class FrameRenderer : IDisposable
         _resolvedTarget?.Dispose();
         _linesPass.Dispose();
         _overlayPass.Dispose();
+        _imagePass?.Dispose();
     }
 
     /// <summary>Fills the frame with the background. Its sRGB values are written unchanged, so that the background is exact.</summary>
@@ -166,16 +184,27 @@ public sealed class FrameRenderer : IDisposable
         return _sceneTarget;
     }
 
-    private Framebuffer Resolve(IReadOnlyList<OverlayPanel> overlay)
+    private Framebuffer Resolve(ImageLayer? layer, IReadOnlyList<OverlayPanel> overlay)
     {
         if (_sceneTarget is null || _resolvedTarget is null)
         {
             throw new InvalidOperationException("nothing has been drawn yet");
         }
 
+        if (layer is { Image: var image } && (image.Width, image.Height) != (_resolvedTarget.Width, _resolvedTarget.Height))
+        {
+            throw new ArgumentException("expected an image of the size of the frame", nameof(layer));
+        }
+
         _context.MakeCurrent();
         _sceneTarget.ResolveTo(_resolvedTarget);
         _resolvedTarget.Bind();
+        if (layer is not null)
+        {
+            _imagePass ??= new(_context.Resources);
+            _imagePass.Draw(layer);
+        }
+
         _overlayPass.Draw(overlay, _resolvedTarget.Width, _resolvedTarget.Height);
         return _resolvedTarget;
     }

@@ -1,8 +1,14 @@
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.Render;
 
 /// <summary>A sphere that is drawn beside the objects of the scene.</summary>
 /// <param name="Centre">Centre of the sphere, world space.</param>
 /// <param name="Radius">Radius of the sphere, scene units.</param>
-public readonly record struct SphereInstance(Vector Centre, double Radius);
+public readonly record struct SphereInstance(Vector Centre, double Radius)
+{
+    /// <summary>Colour of all spheres: coral in the palette.</summary>
+    public static Colour Colour => ObjectPalette.ColourOf(2);
+}

@@ -58,7 +58,7 @@ internal sealed class CameraOptions
         var hasTarget = result.GetValue(_lookFrom) is not null || result.GetValue(_lookAt) is not null;
         if (new[] { result.GetValue(_camera) is not null, hasTarget, result.GetValue(_view) is not null }.Count(static given => given) > 1)
         {
-            throw new UsageException("--camera, --view, and --look-from with --look-at exclude each other");
+            throw new UsageException("--camera, --view and --look-from or --look-at exclude each other: give one of the three");
         }
 
         if (result.GetValue(_up) is not null && !hasTarget)

@@ -19,6 +19,22 @@ internal static class NumberOption
             name, helpName, description, NumberStyles.AllowLeadingSign, number => number >= min && number <= max,
             string.Create(CultureInfo.InvariantCulture, $"a whole number from {min} to {max}"));
 
+    /// <summary>Creates an option for a whole number in a closed range, which the option may go without.</summary>
+    /// <param name="name">The name with its dashes.</param>
+    /// <param name="helpName">The placeholder of the value in the help text.</param>
+    /// <param name="min">The smallest valid value.</param>
+    /// <param name="max">The largest valid value.</param>
+    /// <param name="fallback">The value where the option has no number.</param>
+    /// <param name="description">The sentence in the help text.</param>
+    public static Option<int?> OptionalInteger(string name, string helpName, int min, int max, int fallback, string description)
+    {
+        var option = Integer<int>(name, helpName, min, max, description);
+        var parse = option.CustomParser!;
+        option.Arity = ArgumentArity.ZeroOrOne;
+        option.CustomParser = result => result.Tokens.Count == 0 ? fallback : parse(result);
+        return option;
+    }
+
     /// <summary>Creates an option for a decimal number in a closed range.</summary>
     /// <inheritdoc cref="Integer{T}"/>
     public static Option<double?> Decimal(string name, string helpName, double min, double max, string description) => Create<double>(

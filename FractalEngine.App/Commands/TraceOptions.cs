@@ -5,8 +5,11 @@ namespace FractalEngine.App.Commands;
 /// <summary>The options of images that are traced instead of drawn.</summary>
 internal sealed class TraceOptions
 {
+    /// <summary>Largest number of samples of each pixel.</summary>
+    public const int MaxSamples = 1_000_000;
+
     private readonly Option<int?> _samples = NumberOption.Integer(
-        "--trace", "SAMPLES", 1, 1_000_000,
+        "--trace", "SAMPLES", 1, MaxSamples,
         "Follow light through the scene instead of drawing it, with so many samples of each pixel: 64 show it, 1024 are smooth.");
 
     private readonly Option<int?> _seed = NumberOption.Integer("--seed", "N", 0, int.MaxValue, "Seed of a traced image (default: 0).");

@@ -25,10 +25,15 @@ internal static class ViewCommand
         var trailLength = NumberOption.Integer(
             "--trail", "N", 1, 1000, $"Length of the trail of the paper's zoom, key T (default: {DefaultTrailLength}).");
         var noWatch = new Option<bool>("--no-watch") { Description = "Don't load files again when they change." };
+        var trace = NumberOption.OptionalInteger(
+            "--trace", "SAMPLES", 1, TraceOptions.MaxSamples, ProgressiveTrace.DefaultSampleCount,
+            "Follow light through the scene while the view stands still, as key Y does, with so many samples of each pixel"
+            + $" (default: {ProgressiveTrace.DefaultSampleCount}).");
         shared.AddTo(command);
         draw.AddTo(command);
         command.Add(noWatch);
         command.Add(trailLength);
+        command.Add(trace);
         command.SetAction(result => Run(
             result.GetValue(shared.File) ?? FindGallery(),
             new()
@@ -37,6 +42,7 @@ internal static class ViewCommand
                 Settings = draw.Settings(result),
                 Projection = draw.Projection(result),
                 TrailLength = result.GetValue(trailLength) ?? DefaultTrailLength,
+                TraceSampleCount = result.GetValue(trace),
                 Size = draw.Resolution(result),
                 WatchesFiles = !result.GetValue(noWatch),
                 RecentFilesPath = RecentFiles.DefaultPath,

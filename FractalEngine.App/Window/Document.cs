@@ -198,6 +198,8 @@ internal sealed class Document : IDisposable
     /// <returns>A message for the user.</returns>
     public string ToggleWalking()
     {
+        // A walk may end anywhere, so the view before it is a step that can be undone.
+        RecordView();
         var camera = Camera;
         var wasWalking = Physics.IsWalking;
         var message = Physics.ToggleWalking(camera);

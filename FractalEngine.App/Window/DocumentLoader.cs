@@ -28,6 +28,20 @@ internal sealed class DocumentLoader(RenderWindow window, WindowOverlay overlay,
     /// <summary>The document shown; null until the first file is loaded.</summary>
     public Document? Document { get; private set; }
 
+    /// <summary>What the title tells beside the name of the file; null for nothing.</summary>
+    public string? TitleNote
+    {
+        get;
+        set
+        {
+            if (field != value)
+            {
+                field = value;
+                ShowTitle(_path);
+            }
+        }
+    }
+
     /// <summary>The exit code of the first load.</summary>
     public int ExitCode { get; private set; }
 
@@ -93,7 +107,11 @@ internal sealed class DocumentLoader(RenderWindow window, WindowOverlay overlay,
         _load = new(path, options, settings, window.Aspect, _cache, previous, window.Wake);
     }
 
-    private void ShowTitle(string path) => window.Title = $"{Path.GetFileName(path)} - FractalEngine";
+    private void ShowTitle(string path)
+    {
+        var note = TitleNote is { } text ? $", {text}" : "";
+        window.Title = $"{Path.GetFileName(path)}{note} - FractalEngine";
+    }
 
     private Redraw PollLoad(TimeSpan now)
     {

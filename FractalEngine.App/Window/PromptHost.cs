@@ -3,7 +3,8 @@ using FractalEngine.Render.Windowing;
 namespace FractalEngine.App.Window;
 
 /// <summary>Holds the question that is open, and passes keys and text to it instead of to the scene.</summary>
-internal sealed class PromptHost
+/// <param name="readClipboard">Returns the text of the clipboard, which Ctrl+V enters.</param>
+internal sealed class PromptHost(Func<string> readClipboard)
 {
     private bool _ignoresText;
 
@@ -45,6 +46,13 @@ internal sealed class PromptHost
         }
 
         _ignoresText = false;
+        if (pressed.Key == Key.V && pressed.Modifiers.HasFlag(KeyModifiers.Control))
+        {
+            // A path that was copied from a terminal often ends with a line break.
+            prompt.HandleText(string.Concat(readClipboard().Where(static character => !char.IsControl(character))));
+            return true;
+        }
+
         prompt.HandleKey(pressed);
         if (prompt.IsClosed && Current == prompt)
         {

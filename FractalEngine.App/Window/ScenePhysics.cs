@@ -18,6 +18,7 @@ internal sealed class ScenePhysics : IDisposable
     private const string OutOfRangeMessage = "a body has left the range of numbers: R resets all bodies";
 
     private readonly LoadedScene _scene;
+    private readonly MovedScene _movedScene;
     private readonly Task<PhysicsWorld> _worldTask;
     private readonly CancellationTokenSource _cancellation = new();
     private readonly ColliderCache _colliders;
@@ -42,6 +43,7 @@ internal sealed class ScenePhysics : IDisposable
     public ScenePhysics(LoadedScene scene, Action completed, ScenePhysics? previous = null, bool alwaysBuild = false)
     {
         _scene = scene;
+        _movedScene = new(scene);
         _sceneSize = scene.Bounds.IsEmpty ? 1 : scene.Bounds.Diagonal;
         _colliderCount = scene.StaticModels.Count();
         _colliders = previous?._colliders ?? new();
@@ -68,6 +70,9 @@ internal sealed class ScenePhysics : IDisposable
 
     /// <summary>Whether the player walks, so that the camera is at the player's eyes.</summary>
     public bool IsWalking => Character is { IsActive: true };
+
+    /// <summary>Whether anything can move: a body, or the player who walks. While colliders are built, whether they have to be.</summary>
+    public bool HasMovers => (World ?? _continued) is { } world ? world.Bodies.Count > 0 || IsWalking : !_worldTask.IsCompleted;
 
     /// <summary>The player; null where there is none.</summary>
     public CharacterController? Character => (World ?? _continued)?.Character;
@@ -100,6 +105,9 @@ internal sealed class ScenePhysics : IDisposable
             return $"{bodies}\n{cost}";
         }
     }
+
+    /// <summary>The scene with its bodies where they are, the same object until one of them moves.</summary>
+    public LoadedScene CurrentScene => _movedScene.With(World ?? _continued);
 
     /// <summary>Number of colliders built so far, and number of all colliders.</summary>
     public (int Built, int All) ColliderCounts => World?.ColliderCounts ?? (0, _colliderCount);

@@ -24,9 +24,10 @@ internal sealed class SceneWindow : IDisposable
     private readonly FrameRenderer _frameRenderer;
     private readonly WindowRenderer _windowRenderer;
     private readonly WindowOverlay _overlay = new();
+    private readonly WindowTracing _tracing;
     private readonly DocumentLoader _loader;
     private readonly WindowKeys _keys;
-    private readonly PromptHost _prompts = new();
+    private readonly PromptHost _prompts;
     private readonly FileCommands _files;
     private readonly Stopwatch _clock = Stopwatch.StartNew();
     private TimeSpan _lastAdvance;
@@ -41,9 +42,11 @@ internal sealed class SceneWindow : IDisposable
         _window = new("FractalEngine", options.Size.Width, options.Size.Height);
         _frameRenderer = new(_window);
         _windowRenderer = new(_frameRenderer);
+        _prompts = new(() => _window.ClipboardText);
         var recent = new RecentFiles(options.RecentFilesPath, Report);
         _loader = new(_window, _overlay, options, recent.Add);
-        _keys = new(_window, _windowRenderer, _overlay, options.Settings);
+        _tracing = new(options, _window.Wake);
+        _keys = new(_window, _windowRenderer, _overlay, _tracing, options.Settings);
         _files = new(_loader, _prompts, recent, Report, () => _keys.Settings, () => _isClosing = true);
         _loader.Open(path, options.Settings);
     }
@@ -61,6 +64,7 @@ internal sealed class SceneWindow : IDisposable
     /// <inheritdoc/>
     public void Dispose()
     {
+        _tracing.Dispose();
         _loader.Dispose();
         _frameRenderer.Dispose();
         _window.Dispose();
@@ -82,6 +86,11 @@ internal sealed class SceneWindow : IDisposable
             PollLoader();
             Advance();
             if (_overlay.Expire(_clock.Elapsed))
+            {
+                _redraw |= Redraw.Overlay;
+            }
+
+            if (_tracing.TakeUpdate())
             {
                 _redraw |= Redraw.Overlay;
             }
@@ -217,7 +226,7 @@ internal sealed class SceneWindow : IDisposable
                 _redraw |= Redraw.Scene;
             }
 
-            _overlay.PhysicsStatus = document.Physics.StatusText;
+            _overlay.PhysicsStatus = document.Physics.HasMovers ? document.Physics.StatusText : null;
         }
 
         if (Document?.Physics.TakeProblem() is { } problem)
@@ -243,6 +252,8 @@ internal sealed class SceneWindow : IDisposable
         _redraw = Redraw.None;
         if (needsDraw)
         {
+            // First of all, so that a trace of an earlier view takes no time from the frame.
+            _tracing.Update(Document, _keys.Settings, _window.Width, _window.Height);
             Draw();
         }
         else
@@ -251,7 +262,9 @@ internal sealed class SceneWindow : IDisposable
         }
 
         _overlay.FrameCounts = _windowRenderer.CountFrames((long)(start / FrameTime));
-        _frameRenderer.Present(_window, _overlay.Panels);
+        _overlay.TraceText = _tracing.StatusText;
+        _loader.TitleNote = _overlay.TraceText;
+        _frameRenderer.Present(_window, _tracing.Layer, _overlay.Panels);
         if (needsDraw)
         {
             _windowRenderer.RecordFrameTime(_clock.Elapsed - start);

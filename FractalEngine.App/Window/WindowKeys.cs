@@ -7,8 +7,10 @@ namespace FractalEngine.App.Window;
 /// <param name="window">The window whose size screenshots have.</param>
 /// <param name="renderer">The renderer of the window, for screenshots.</param>
 /// <param name="overlay">The overlay of the window, which shows messages.</param>
+/// <param name="tracing">Traces the view of the window.</param>
 /// <param name="settings">The initial render settings.</param>
-internal sealed class WindowKeys(RenderWindow window, WindowRenderer renderer, WindowOverlay overlay, RenderSettings settings)
+internal sealed class WindowKeys(
+    RenderWindow window, WindowRenderer renderer, WindowOverlay overlay, WindowTracing tracing, RenderSettings settings)
 {
     /// <summary>The present render settings.</summary>
     public RenderSettings Settings { get; private set; } = settings;
@@ -33,6 +35,9 @@ internal sealed class WindowKeys(RenderWindow window, WindowRenderer renderer, W
             case Key.I:
                 overlay.ShowsStatistics = !overlay.ShowsStatistics;
                 return Redraw.Overlay;
+            case Key.Y:
+                overlay.ShowMessage(tracing.Toggle(), now);
+                return Redraw.Scene;
             default:
                 var redraw = document is null ? Redraw.None : HandleForDocument(pressed, document, now);
                 return redraw == Redraw.None ? ApplySettings(pressed.Key, now) : redraw;
@@ -56,6 +61,10 @@ internal sealed class WindowKeys(RenderWindow window, WindowRenderer renderer, W
             case Key.Z when document is not null:
                 overlay.ShowMessage(document.Undo(isRedo: isShiftHeld), now);
                 return Redraw.Scene;
+            case Key.C when isShiftHeld && document is not null:
+                window.ClipboardText = CameraText.Format(document.GetCurrentScene().Camera!);
+                overlay.ShowMessage("the camera is in the clipboard, as a line of a scene", now);
+                return Redraw.Overlay;
             default:
                 return Redraw.None;
         }
@@ -70,13 +79,9 @@ internal sealed class WindowKeys(RenderWindow window, WindowRenderer renderer, W
                 overlay.ShowMessage(ZoomMessage(document.IsTrailEnabled, trail.Length), now);
                 return Redraw.Scene;
             case Key.F12:
-                var image = renderer.Capture(document, Settings, window.Width, window.Height);
+                var image = tracing.OpaqueImage ?? renderer.Capture(document, Settings, window.Width, window.Height);
                 overlay.Report(Screenshots.Save(image, document.File.Path), now);
                 return Redraw.Scene;
-            case Key.C when pressed.Modifiers == (KeyModifiers.Control | KeyModifiers.Shift):
-                window.ClipboardText = CameraText.Format(document.GetCurrentScene().Camera!);
-                overlay.ShowMessage("the camera is in the clipboard, as a line of a scene", now);
-                return Redraw.Overlay;
         }
 
         if (PhysicsKeys.Apply(document, pressed.Key) is not { } message)

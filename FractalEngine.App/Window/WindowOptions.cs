@@ -20,6 +20,9 @@ internal sealed record WindowOptions
     /// <summary>Length of the trail of the paper's zoom into a fractal.</summary>
     public int TrailLength { get; init; } = 3;
 
+    /// <summary>Number of samples of the traced image that is shown from the start; null to show none until key Y.</summary>
+    public int? TraceSampleCount { get; init; }
+
     /// <summary>Width and height of the window's contents in pixels.</summary>
     public (int Width, int Height) Size { get; init; } = SharedOptions.DefaultResolution;
 

@@ -20,8 +20,7 @@ internal sealed class WindowOverlay
         ("F, Enter", "frame the scene, back to the start"),
         ("1 3 7", "front, right, top view"),
         ("5", "perspective, orthographic"),
-        ("G X", "grid, wireframe"),
-        ("L", "light per vertex, per pixel"),
+        ("G X L Y", "grid, wireframe, pixel light, traced"),
         ("T", "the paper's zoom, or this engine's"),
         ("Space N", "pause, single step"),
         ("B R", "drop a ball, reset bodies"),
@@ -31,6 +30,7 @@ internal sealed class WindowOverlay
         ("Ctrl+O", "open a file"),
         ("Ctrl+S", "save (Shift: as a new scene)"),
         ("Ctrl+Z", "undo a move (Shift: redo)"),
+        ("Ctrl+Shift+C", "copy the camera as a line"),
         ("H, Esc", "this list, close"),
     ]);
 
@@ -50,6 +50,9 @@ internal sealed class WindowOverlay
 
     /// <summary>Names the view, see <see cref="ViewName"/>.</summary>
     public string ViewText { get; set; } = "";
+
+    /// <summary>Tells how far the traced image is; null for nothing.</summary>
+    public string? TraceText { get; set; }
 
     /// <summary>Lines about the bodies of the scene; null if there are none to show.</summary>
     public string? PhysicsStatus { get; set; }
@@ -90,7 +93,8 @@ internal sealed class WindowOverlay
 
             if (_description is { } description)
             {
-                var lines = description.Lines.Insert(0, new($"{_fileText}{ViewText} · H: keys", null, OverlayTone.Dim));
+                var trace = TraceText is { } text ? $" · {text}" : "";
+                var lines = description.Lines.Insert(0, new($"{_fileText}{ViewText}{trace} · H: keys", null, OverlayTone.Dim));
                 panels.Add(description with { Lines = BudgetNotice is { } notice ? lines.Add(notice) : lines });
             }
 

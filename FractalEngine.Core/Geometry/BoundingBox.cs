@@ -36,6 +36,10 @@ public readonly record struct BoundingBox(Vector Minimum, Vector Maximum)
     public static BoundingBox Union(BoundingBox box1, BoundingBox box2) =>
         new(Vector.Min(box1.Minimum, box2.Minimum), Vector.Max(box1.Maximum, box2.Maximum));
 
+    /// <summary>Computes the box of the points that are in two boxes.</summary>
+    internal static BoundingBox Intersection(BoundingBox box1, BoundingBox box2) =>
+        new(Vector.Max(box1.Minimum, box2.Minimum), Vector.Min(box1.Maximum, box2.Maximum));
+
     /// <summary>Computes the smallest box that holds this one and a point.</summary>
     public BoundingBox Including(Vector point) => new(Vector.Min(Minimum, point), Vector.Max(Maximum, point));
 

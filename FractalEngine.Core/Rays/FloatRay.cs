@@ -20,7 +20,7 @@ internal readonly struct FloatRay
     // The rounding of the parameter and what keys lose.
     private const double LimitFactor = 1 + 1e-5;
 
-    /// <summary>Converts a ray.</summary>
+    /// <summary>Converts a ray to floats.</summary>
     /// <param name="ray">Starts within a few units of the centre.</param>
     /// <param name="speed">About the length of its direction.</param>
     /// <param name="inverseSpeed">The inverse of that.</param>
@@ -56,7 +56,7 @@ internal readonly struct FloatRay
     /// <summary>Factor from distances along the ray of the query to the parameter of this one.</summary>
     public double PerDistance { get; }
 
-    /// <summary>Largest parameter.</summary>
+    /// <summary>Largest parameter that counts.</summary>
     public float Limit { get; }
 
     /// <summary>What bounds are widened by on all sides.</summary>

@@ -1,3 +1,4 @@
+using System.Numerics;
 using System.Runtime.CompilerServices;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Collision.Bvh;
@@ -14,24 +15,31 @@ namespace FractalEngine.Core.Rays;
 /// before the others.
 /// </summary>
 /// <remarks>
-/// Sub-fractals smaller than <see cref="ExactFractalCollider.RelativePrecision"/> of the whole are replaced by the base mesh, and so is what
-/// a ray still has to visit after a million bounds. Why no hit is lost is explained in docs/rays.md.
+/// Sub-fractals smaller than <see cref="ExactFractalCollider.RelativePrecision"/> of the whole are replaced by the base mesh, and so is
+/// what a ray still has to visit after a million bounds. Why no hit is lost is explained in docs/rays.md.
 /// </remarks>
 internal sealed class FractalRayCaster : RayCaster
 {
     // About a fifth of a second.
-    private const long MaxBoundTests = 1_000_000;
+    public const long MaxBoundTests = 1_000_000;
+
+    // Beyond it, the rounding of a ray in the frame of a sub-fractal may exceed the margin of its bounds.
+    private const double MaxCondition = 1e5;
 
     private const double MinRadiusInErrors = 8;
 
-    // All triangles of a smaller base are tested sooner than the planes around it.
-    private const int MinFacesWithPlanes = 9;
+    // Longer than the way of a ray from its origin through the box of a sub-fractal, in the units of its bounds.
+    private const double MaxReach = 16;
 
     private readonly Fractal _fractal;
     private readonly FractalHierarchy _hierarchy;
     private readonly TriangleBvh _bvh;
+    private readonly bool _isEmpty;
+    private readonly double _radius;
     private readonly double _minRadius;
-    private readonly bool _hasOnlySimilarities;
+    private readonly RayLevels _levels;
+    private readonly ShapeTree _tree;
+    private readonly RayPlanes _basePlanes;
 
     /// <summary>Prepares a fractal in affine composition.</summary>
     public FractalRayCaster(Fractal fractal)
@@ -40,17 +48,22 @@ internal sealed class FractalRayCaster : RayCaster
         _hierarchy = fractal.Hierarchy;
         _bvh = TriangleBvh.For(fractal.BaseMesh);
         _minRadius = ExactFractalCollider.MinRadius(_hierarchy.Root);
-        _hasOnlySimilarities = _hierarchy.HasOnlySimilarities;
+        _isEmpty = _hierarchy.Root.Box.IsEmpty;
+        _radius = _hierarchy.Root.Radius;
+        MaxCoordinate = BoundingVolume.MaxAbsCoordinate(_hierarchy.Root.Box);
+        _levels = new(_hierarchy);
+        _tree = new(fractal.BaseMesh, _bvh, _hierarchy, _minRadius);
+        _basePlanes = new(fractal.BaseMesh);
     }
 
     /// <inheritdoc/>
-    public override long StorageBytes => _hierarchy.StorageBytes + _bvh.StorageBytes;
+    public override long StorageBytes => _hierarchy.StorageBytes + _bvh.StorageBytes + _levels.StorageBytes + _basePlanes.StorageBytes;
 
     /// <inheritdoc/>
     internal override Mesh Mesh => _fractal.BaseMesh;
 
     /// <inheritdoc/>
-    private protected override BoundingBox Bounds => _hierarchy.Root.Box;
+    private protected override double MaxCoordinate { get; }
 
     /// <inheritdoc/>
     internal override SimdAffineMap ResolveInstance(
@@ -62,139 +75,191 @@ internal sealed class FractalRayCaster : RayCaster
     }
 
     /// <inheritdoc/>
-    internal override bool TryHit(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
+    internal override bool TryIntersect(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
     {
-        var root = _hierarchy.Root;
-        if (root.Box.IsEmpty)
+        if (_isEmpty)
         {
             return false;
         }
 
         // Below the rounding of the ray, all that it comes near seems hit.
         var minRadius = Math.Max(_minRadius, MinRadiusInErrors * search.Error);
-        if (IsLeaf(root, _hierarchy.Levels, in ray, minRadius))
+        if (_hierarchy.Levels == 0 || ray.Scale * _radius <= minRadius)
         {
-            var isRootHit = TestBase(root, in ray, ref search);
+            var isRootHit = TryIntersectBase(in ray, ref search);
             pathLength = isRootHit ? 0 : pathLength;
             return isRootHit;
         }
 
-        var stack = context.RayStack;
-        var depth = -1;
-        var isHit = false;
-        Push(stack, ref depth, root.RayBounds, _hierarchy.Levels, in ray, ref search);
-
-        while (depth >= 0)
+        var rootBounds = _levels.At(_hierarchy.Levels);
+        var approached = ray;
+        if (!rootBounds.Box.TryApproach(ref approached, in search))
         {
-            ref var frame = ref stack[depth];
-            var bounds = frame.Bounds;
-            var limit = FloatRay.LimitFor(in frame.Ray, frame.PerDistance, search.MaxDistance);
-            if (!RayBounds.TryTake(ref stack.Keys(in frame), bounds.KeyCount, limit, out var index, out var entry))
+            return false;
+        }
+
+        var stack = context.RayStack;
+        var depth = 0;
+        ref var frame = ref stack[0];
+        frame.SetBounds(rootBounds);
+        frame.RemainingLevels = _hierarchy.Levels;
+        frame.PathLength = 0;
+        frame.Set(in approached);
+        if (!TryOpen(ref frame, hasTestedPlanes: false, ref stack.Entries(0), ref search, minRadius))
+        {
+            return false;
+        }
+
+        var isHit = false;
+        var hits = frame.Hits;
+        while (true)
+        {
+            if (hits == 0)
             {
-                depth--;
+                if (--depth < 0)
+                {
+                    return isHit;
+                }
+
+                frame = ref stack[depth];
+                hits = frame.Hits;
+                continue;
+            }
+
+            var lane = BitOperations.TrailingZeroCount(hits);
+            hits &= hits - 1;
+            double entry = Unsafe.Add(ref stack.Entries(depth), lane);
+            if (frame.Start + (entry * frame.DistancePer) > search.MaxDistance)
+            {
+                continue;
+            }
+
+            frame.Lane = lane;
+            ref readonly var child = ref frame.Bounds.Child(frame.Octant, lane);
+            ref var inner = ref stack[depth + 1];
+            inner.Enter(in frame, in child, entry);
+            var bounds = child.Group ?? _levels.At(inner.RemainingLevels);
+            if (inner.Scale * inner.InverseScale > MaxCondition)
+            {
+                isHit |= TryIntersectFlat(in ray, depth, inner.PathLength, ref search, context, ref pathLength);
+                if (isHit && search.StopsAtFirst)
+                {
+                    return true;
+                }
+
+                continue;
+            }
+
+            if (child.MayBeFar && !inner.TryApproach(bounds.Box, in search))
+            {
                 continue;
             }
 
             bool isLeafHit;
-            var child = bounds.SubFractal.Children[index];
-            var levels = child.RemainingLevels(frame.RemainingLevels);
-            var subFractal = _hierarchy.At(child, levels);
-            frame.Child = index;
-            var local = frame.Ray.Advance(entry * frame.DistancePer);
-            if (child.Group is null)
+            var radius = inner.Scale * bounds.Radius;
+            if (inner.RemainingLevels == 0)
             {
-                local = local.Transform(in child.InverseSimdMap, bounds.InverseNorm(index), child.OperatorNormBound);
+                isLeafHit = TestBase(in inner, bounds, ref search);
             }
-
-            if (levels > 0 && IsBelow(subFractal, in local, in search))
+            else if (radius < search.Footprint.RadiusAt(inner.Start))
             {
-                isLeafHit = TestProxy(subFractal.RayBounds, in local, ref search);
+                isLeafHit = TestProxy(bounds, inner.ToLocal(bounds.Box), ref search);
             }
-            else if (!IsLeaf(subFractal, levels, in local, minRadius) && depth < FractalSearchState.MaxDepth && search.BoundTests < MaxBoundTests)
+            else if (radius <= minRadius || inner.PathLength >= FractalSearchState.MaxDepth || search.BoundTests >= MaxBoundTests)
             {
-                Push(stack, ref depth, subFractal.RayBounds, levels, in local, ref search);
-                continue;
+                isLeafHit = TryIntersectBase(inner.ToLocal(bounds.Box), ref search);
             }
             else
             {
-                isLeafHit = TestBase(subFractal, in local, ref search);
+                inner.SetBounds(bounds);
+                if (TryOpen(ref inner, child.HasTestedPlanes, ref stack.Entries(depth + 1), ref search, minRadius))
+                {
+                    frame.Hits = hits;
+                    hits = inner.Hits;
+                    depth++;
+                    stack.EnsureRoom(depth + 1);
+                    frame = ref stack[depth];
+                }
+
+                continue;
             }
 
             if (isLeafHit)
             {
                 isHit = true;
-                pathLength = depth + 1;
-                stack.CopyPath(context.BestPathBuffer(pathLength)[..pathLength]);
+                pathLength = inner.PathLength;
+                stack.CopyPath(depth, context.BestPathBuffer(pathLength)[..pathLength]);
                 if (search.StopsAtFirst)
                 {
-                    break;
+                    return true;
                 }
             }
         }
-
-        return isHit;
     }
 
+    /// <summary>Tests the children of a sub-fractal; false where the ray misses all of them.</summary>
+    /// <param name="frame">The ray at the sub-fractal, whose bounds may be exchanged for those of its children themselves.</param>
+    /// <param name="hasTestedPlanes">True where the ray is known to hit the planes of the sub-fractal.</param>
+    /// <param name="entries">Receives where the ray enters the children.</param>
+    /// <param name="search">Receives the cost.</param>
+    /// <param name="minRadius">Sub-fractals of this radius are replaced by the base mesh.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static bool IsLeaf(SubFractal subFractal, long levels, in LocalRay ray, double minRadius) =>
-        levels == 0 || ray.Scale * ray.Scale * subFractal.RadiusSquared <= minRadius * minRadius;
-
-    /// <summary>Tells whether a sub-fractal is smaller than the ray is wide.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static bool IsBelow(SubFractal subFractal, in LocalRay ray, in RaySearch search)
+    private static bool TryOpen(ref RayFrame frame, bool hasTestedPlanes, ref float entries, ref RaySearch search, double minRadius)
     {
-        var radius = search.Footprint.RadiusAt(ray.Start);
-        return ray.Scale * ray.Scale * subFractal.RadiusSquared < radius * radius;
-    }
-
-    /// <summary>Pushes a sub-fractal if the ray may hit it.</summary>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private void Push(RayStack stack, ref int depth, RayBounds bounds, long levels, in LocalRay ray, ref RaySearch search)
-    {
-        var local = ray;
-        if (!bounds.Box.TryApproach(ref local, in search))
-        {
-            return;
-        }
-
-        var floatRay = ToFloats(bounds, in local, in search);
-        if (bounds.HasPlanes)
+        var bounds = frame.Bounds;
+        var widening = frame.Widening(in search);
+        var limit = frame.LimitFor(search.MaxDistance);
+        if (!hasTestedPlanes && bounds.HasPlanes)
         {
             search.BoundTests++;
-            if (!bounds.MayHitPlanes(in floatRay))
+            if (!bounds.MayHitPlanes(in frame, widening, limit))
             {
-                return;
+                return false;
             }
         }
 
-        var keyCount = bounds.KeyCount;
-        search.BoundTests += keyCount;
-        var firstKey = depth < 0 ? 0 : stack[depth].FirstKey + stack[depth].Bounds.KeyCount;
-        depth++;
-        stack.EnsureRoom(depth, firstKey + keyCount);
-        ref var frame = ref stack[depth];
-        frame.Bounds = bounds;
-        frame.Ray = local;
-        frame.RemainingLevels = levels;
-        frame.PerDistance = floatRay.PerDistance;
-        frame.DistancePer = 1 / floatRay.PerDistance;
-        frame.FirstKey = firstKey;
-        bounds.FillKeys(in floatRay, ref stack.Keys(in frame));
+        var innerRadius = frame.Scale * bounds.MinInnerRadius;
+        var farthest = frame.Start + (MaxReach * frame.DistancePer);
+        if (innerRadius <= minRadius || innerRadius < search.Footprint.RadiusAt(farthest))
+        {
+            bounds = bounds.Single;
+            frame.SetBounds(bounds);
+        }
+
+        search.BoundTests += bounds.LanesPerOctant;
+        frame.Hits = bounds.FindHits(in frame, widening, limit, ref entries);
+        return frame.Hits != 0;
     }
 
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private FloatRay ToFloats(RayBounds bounds, in LocalRay ray, in RaySearch search)
+    /// <summary>Searches a sub-fractal that its maps have flattened, in the frame of the whole fractal.</summary>
+    private bool TryIntersectFlat(
+        in LocalRay ray, int depth, int prefixLength, ref RaySearch search, QueryContext context, ref int pathLength)
     {
-        // Similarities lengthen all directions alike; under other maps the bounds of lengths grow apart from them.
-        var speed = _hasOnlySimilarities ? ray.InverseScale : ray.Speed;
-        return bounds.ToFloats(in ray, speed, _hasOnlySimilarities ? ray.Scale : 1 / speed, in search);
+        var prefix = new int[prefixLength];
+        context.RayStack.CopyPath(depth, prefix);
+        var visitor = new FlatRayVisitor(ray, search);
+        var node = _tree.Node(prefix);
+        ShapeWalk.Run(
+            _tree, node, _tree.MinRadiusSquared(AffineMap.Identity), ref visitor, ref visitor.Search.BoundTests,
+            ref visitor.Search.FaceTests);
+        search = visitor.Search;
+        if (visitor.Path is not { } path)
+        {
+            return false;
+        }
+
+        pathLength = prefixLength + path.Length;
+        var buffer = context.BestPathBuffer(pathLength);
+        prefix.CopyTo(buffer);
+        path.CopyTo(buffer[prefixLength..]);
+        return true;
     }
 
     /// <summary>Tests the base mesh, stretched to the box of a sub-fractal.</summary>
     private bool TestProxy(RayBounds bounds, in LocalRay ray, ref RaySearch search)
     {
         var local = ray.Transform(in bounds.InverseProxyMap, 1, 1);
-        if (!_bvh.TryHit(in local, ref search))
+        if (!_bvh.TryIntersect(in local, ref search))
         {
             return false;
         }
@@ -203,26 +268,23 @@ internal sealed class FractalRayCaster : RayCaster
         return true;
     }
 
-    private bool TestBase(SubFractal subFractal, in LocalRay ray, ref RaySearch search)
+    private bool TestBase(in RayFrame frame, RayBounds bounds, ref RaySearch search)
     {
-        if (_bvh.FaceCount >= MinFacesWithPlanes && subFractal.Children.Length == 0 && subFractal.RayBounds is { HasPlanes: true } bounds)
+        if (!_basePlanes.IsEmpty)
         {
             search.BoundTests++;
-            var local = ray;
-            if (!bounds.Box.TryApproach(ref local, in search) || !bounds.MayHitPlanes(ToFloats(bounds, in local, in search)))
+            if (!_basePlanes.MayHit(in frame, in search))
             {
                 return false;
             }
-
-            return TryHitBase(in local, ref search);
         }
 
-        return TryHitBase(in ray, ref search);
+        return TryIntersectBase(frame.ToLocal(bounds.Box), ref search);
     }
 
-    private bool TryHitBase(in LocalRay ray, ref RaySearch search)
+    private bool TryIntersectBase(in LocalRay ray, ref RaySearch search)
     {
-        if (!_bvh.TryHit(in ray, ref search))
+        if (!_bvh.TryIntersect(in ray, ref search))
         {
             return false;
         }

@@ -1,5 +1,6 @@
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Collision.Bvh;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -17,12 +18,12 @@ internal sealed class MeshRayCaster(Mesh mesh) : RayCaster
     internal override Mesh Mesh => mesh;
 
     /// <inheritdoc/>
-    private protected override BoundingBox Bounds => mesh.Bounds;
+    private protected override double MaxCoordinate { get; } = BoundingVolume.MaxAbsCoordinate(mesh.Bounds);
 
     /// <inheritdoc/>
-    internal override bool TryHit(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
+    internal override bool TryIntersect(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength)
     {
-        if (!_bvh.TryHit(in ray, ref search))
+        if (!_bvh.TryIntersect(in ray, ref search))
         {
             return false;
         }

@@ -25,6 +25,7 @@ internal sealed class RayBox
         var error = BoxError * BoundingVolume.MaxAbsCoordinate(box);
         var size = Math.Max(halfSize.MaxAbsComponent(), error);
         InverseSize = size > 0 ? 1 / size : 1;
+        Size = 1 / InverseSize;
         Centre = SimdAffineMap.ToVector256(box.Centre);
         _halfSize = SimdAffineMap.ToVector256(halfSize + (error * Vector.One));
     }
@@ -32,8 +33,40 @@ internal sealed class RayBox
     /// <summary>The centre: x, y, z, 0.</summary>
     public Vector256<double> Centre { get; }
 
+    /// <summary>Half the largest side.</summary>
+    public double Size { get; }
+
     /// <summary>Inverse of half the largest side.</summary>
     public double InverseSize { get; }
+
+    /// <summary>Maps the frame of the box to its units: half the largest side, from the centre.</summary>
+    public AffineMap ToUnits =>
+        new(InverseSize * Matrix.Identity, -InverseSize * SimdAffineMap.ToVector(Centre));
+
+    /// <summary>Maps the units of the box to its frame.</summary>
+    public AffineMap FromUnits => new(Size * Matrix.Identity, SimdAffineMap.ToVector(Centre));
+
+    /// <summary>Finds where a ray enters a box.</summary>
+    /// <param name="box">In the frame of the ray.</param>
+    /// <param name="ray">The ray.</param>
+    /// <returns>The distance from its origin, 0 within the box; infinite where the ray misses it.</returns>
+    public static double FindEntry(BoundingBox box, in LocalRay ray)
+    {
+        var (origin, direction) = (SimdAffineMap.ToVector(ray.Origin), SimdAffineMap.ToVector(ray.Direction));
+        var least = MinRelativeComponent * direction.MaxAbsComponent();
+        var (near, far) = (0.0, double.PositiveInfinity);
+        Clip(box.Minimum.X - origin.X, box.Maximum.X - origin.X, direction.X, least, ref near, ref far);
+        Clip(box.Minimum.Y - origin.Y, box.Maximum.Y - origin.Y, direction.Y, least, ref near, ref far);
+        Clip(box.Minimum.Z - origin.Z, box.Maximum.Z - origin.Z, direction.Z, least, ref near, ref far);
+        return near <= far ? near : double.PositiveInfinity;
+    }
+
+    private static void Clip(double minimum, double maximum, double component, double least, ref double near, ref double far)
+    {
+        var inverse = 1 / (Math.Abs(component) < least ? double.CopySign(least, component) : component);
+        near = Math.Max(near, inverse > 0 ? minimum * inverse : maximum * inverse);
+        far = Math.Min(far, inverse > 0 ? maximum * inverse : minimum * inverse);
+    }
 
     /// <summary>Moves the origin of a ray to where it may enter the box, if it is far away.</summary>
     /// <param name="ray">In the frame of the box.</param>

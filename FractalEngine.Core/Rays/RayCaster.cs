@@ -1,6 +1,5 @@
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -12,9 +11,9 @@ namespace FractalEngine.Core.Rays;
 /// a context allocate nothing.
 /// </summary>
 /// <remarks>
-/// Faces are hit from both sides. Where several faces are hit at the same distance, as on a common edge, one of them is found, the same each
-/// time. A ray through an edge or a vertex of a closed surface never slips through. Triangles that a ray sees edge on, and those without
-/// area, are not hit.
+/// Faces are hit from both sides. Where several faces are hit at the same distance, as on a common edge, one of them is found, the same
+/// each time. A ray through an edge or a vertex of a closed surface never slips through. Triangles that a ray sees edge on, and those
+/// without area, are not hit.
 /// </remarks>
 public abstract class RayCaster
 {
@@ -33,8 +32,8 @@ public abstract class RayCaster
     /// <summary>Bytes that the caster keeps beside the mesh or the fractal it was made from.</summary>
     public abstract long StorageBytes { get; }
 
-    /// <summary>A box around the shape.</summary>
-    private protected abstract BoundingBox Bounds { get; }
+    /// <summary>The largest absolute coordinate of the shape.</summary>
+    private protected abstract double MaxCoordinate { get; }
 
     /// <summary>Makes the caster of a mesh.</summary>
     /// <remarks>Cost: that of a hierarchy of the mesh, O(n·log n) for n faces.</remarks>
@@ -76,7 +75,9 @@ public abstract class RayCaster
     /// <param name="footprint">How wide the ray is; a line unless stated.</param>
     /// <returns>False when the ray hits no face between the two distances.</returns>
     /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
-    /// <remarks>A face at the origin of the ray counts, at a distance of 0; a ray that leaves a surface needs a smallest distance.</remarks>
+    /// <remarks>
+    /// A face at the origin of the ray counts, at a distance of 0; a ray that leaves a surface needs a smallest distance.
+    /// </remarks>
     public bool TryFindNearest(
         Ray ray, QueryContext context, out RayHit hit, double minDistance = 0, double maxDistance = double.PositiveInfinity,
         RayFootprint footprint = default)
@@ -108,7 +109,8 @@ public abstract class RayCaster
     /// <param name="footprint">How wide the ray is; a line unless stated.</param>
     /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
     public bool HitsAny(
-        Ray ray, QueryContext context, double minDistance = 0, double maxDistance = double.PositiveInfinity, RayFootprint footprint = default)
+        Ray ray, QueryContext context, double minDistance = 0, double maxDistance = double.PositiveInfinity,
+        RayFootprint footprint = default)
     {
         ArgumentNullException.ThrowIfNull(context);
         var direction = CheckedUnitDirection(in ray, minDistance, maxDistance);
@@ -121,7 +123,7 @@ public abstract class RayCaster
     /// <param name="context">Receives the path to the instance of a hit in its buffer of the best path.</param>
     /// <param name="pathLength">Length of that path; unchanged where there is no nearer hit.</param>
     /// <returns>True when there is a nearer hit than before.</returns>
-    internal abstract bool TryHit(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength);
+    internal abstract bool TryIntersect(in LocalRay ray, ref RaySearch search, QueryContext context, ref int pathLength);
 
     /// <summary>The mesh that every instance of the shape shows.</summary>
     internal abstract Mesh Mesh { get; }
@@ -137,9 +139,9 @@ public abstract class RayCaster
     /// <summary>An upper bound of how far rounding moves a point of a ray or of a target.</summary>
     /// <param name="origin">Origin of the ray.</param>
     /// <param name="start">Distance at which it starts.</param>
-    /// <param name="bounds">Bounds of the shape.</param>
-    internal static double RoundingError(Vector origin, double start, BoundingBox bounds) =>
-        Collider.RoundingError * (origin.MaxAbsComponent() + start + BoundingVolume.MaxAbsCoordinate(bounds));
+    /// <param name="maxCoordinate">The largest absolute coordinate of the shape.</param>
+    internal static double RoundingError(Vector origin, double start, double maxCoordinate) =>
+        Collider.RoundingError * (origin.MaxAbsComponent() + start + maxCoordinate);
 
     /// <summary>Checks the arguments of a query, and returns the direction of length 1.</summary>
     internal static Vector CheckedUnitDirection(in Ray ray, double minDistance, double maxDistance)
@@ -177,11 +179,11 @@ public abstract class RayCaster
         context.ClearPath();
         pathLength = 0;
         var ray = LocalRay.Of(origin, unitDirection, minDistance);
-        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, RoundingError(origin, minDistance, Bounds))
+        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, RoundingError(origin, minDistance, MaxCoordinate))
         {
             Footprint = footprint,
         };
-        TryHit(in ray, ref search, context, ref pathLength);
+        TryIntersect(in ray, ref search, context, ref pathLength);
         search.AddTo(context.Statistics);
         return search;
     }

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -6,9 +7,6 @@ namespace FractalEngine.Core.Rays;
 /// <summary>Completes the nearest triangle of a search to the result of a query, in the frame of the ray.</summary>
 internal static class RayHitFactory
 {
-    // Where a ray is closer to a triangle's plane than this, as a sine, the distance of the search is more accurate than the plane's.
-    private const double MinSine = 1e-4;
-
     /// <summary>Creates the result for a triangle.</summary>
     /// <param name="origin">Origin of the ray.</param>
     /// <param name="direction">Its direction, of length 1.</param>
@@ -24,35 +22,55 @@ internal static class RayHitFactory
         var distance = search.MaxDistance;
         var (a, b, c) = mesh.Face(search.Face);
         (a, b, c) = (map.Apply(a), map.Apply(b), map.Apply(c));
-        var cross = Vector.Cross(b - a, c - a);
-        var length = cross.Length();
-        var normal = length > 0 ? cross / length : Vector.Zero;
-        var slope = Vector.Dot(normal, direction);
-        if (Math.Abs(slope) > MinSine)
-        {
-            // From a point near the triangle, so that what a far origin rounds away does not count.
-            distance += Vector.Dot(normal, a - (origin + (distance * direction))) / slope;
-        }
-
+        var normal = TriangleKernel.UnitNormal(a, b, c);
+        distance = TrianglePlane.Correct(origin, direction, distance, a, b, c);
         distance = Math.Min(Math.Max(distance, minDistance), maxDistance);
         var point = origin + (distance * direction);
-        return new(distance, point, normal, slope < 0, Barycentrics(point, a, b, c, cross), search.Face)
+        var weights = Barycentrics(point, a, b, c);
+        if (!(Math.Min(weights.X, Math.Min(weights.Y, weights.Z)) >= 0))
+        {
+            // Outside by rounding: the nearest point of the triangle.
+            weights = TriangleKernel.ClosestPoint(point, a, b, c).Barycentrics;
+        }
+
+        return new(distance, point, normal, Vector.Dot(normal, direction) < 0, weights, search.Face)
         {
             InstanceMap = map.ToAffineMap(),
         };
     }
 
-    /// <summary>Computes the weights of the corners at a point in the triangle, or at the nearest that rounding leaves.</summary>
-    private static Vector Barycentrics(Vector point, Vector a, Vector b, Vector c, Vector cross)
+    /// <summary>Computes the weights of the corners at a point in the plane of the triangle.</summary>
+    /// <remarks>From the height above the longest edge and the place along it: so the weights give the point of a needle, too.</remarks>
+    private static Vector Barycentrics(Vector point, Vector a, Vector b, Vector c)
     {
-        var squared = cross.LengthSquared();
-        if (!(squared > 0))
+        var (ab, bc, ca) = ((b - a).MaxAbsComponent(), (c - b).MaxAbsComponent(), (a - c).MaxAbsComponent());
+        if (bc > ab && bc >= ca)
         {
-            return Vector.I;
+            var (weightB, weightC, weightA) = WeightsAboveEdge(point, b, c, a, bc);
+            return new(weightA, weightB, weightC);
         }
 
-        var weightB = Math.Clamp(Vector.Dot(Vector.Cross(point - a, c - a), cross) / squared, 0, 1);
-        var weightC = Math.Clamp(Vector.Dot(Vector.Cross(b - a, point - a), cross) / squared, 0, 1 - weightB);
-        return new(1 - weightB - weightC, weightB, weightC);
+        if (ca > ab)
+        {
+            var (weightC, weightA, weightB) = WeightsAboveEdge(point, c, a, b, ca);
+            return new(weightA, weightB, weightC);
+        }
+
+        return ab > 0 ? WeightsAboveEdge(point, a, b, c, ab) : Vector.I;
+    }
+
+    /// <summary>Computes the weights of an edge's ends and of the third corner, in units in which squares are accurate.</summary>
+    private static Vector WeightsAboveEdge(Vector point, Vector start, Vector end, Vector apex, double size)
+    {
+        var (edge, toApex, toPoint) = ((end - start) / size, (apex - start) / size, (point - start) / size);
+        var squared = edge.LengthSquared();
+        var apexPlace = Vector.Dot(toApex, edge) / squared;
+        // Twice, since what rounding leaves of the edge matters beside the altitude of a needle.
+        var altitude = toApex - (apexPlace * edge);
+        altitude -= Vector.Dot(altitude, edge) / squared * edge;
+        var altitudeSquared = altitude.LengthSquared();
+        var weightApex = altitudeSquared > 0 ? Vector.Dot(toPoint, altitude) / altitudeSquared : 0;
+        var weightEnd = (Vector.Dot(toPoint, edge) / squared) - (weightApex * apexPlace);
+        return new(1 - weightApex - weightEnd, weightEnd, weightApex);
     }
 }

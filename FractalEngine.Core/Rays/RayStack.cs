@@ -7,7 +7,7 @@ namespace FractalEngine.Core.Rays;
 internal sealed class RayStack
 {
     private RayFrame[] _frames = new RayFrame[16];
-    private float[] _keys = new float[512];
+    private float[] _entries = new float[16 * RayBounds.MaxChildren];
 
     /// <summary>The frame at a depth.</summary>
     public ref RayFrame this[int depth]
@@ -16,35 +16,37 @@ internal sealed class RayStack
         get => ref Unsafe.Add(ref MemoryMarshal.GetArrayDataReference(_frames), (nint)(uint)depth);
     }
 
-    /// <summary>The first key of a frame's children.</summary>
+    /// <summary>The first of the parameters where the ray enters the children of a frame.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public ref float Keys(in RayFrame frame) => ref Unsafe.Add(ref MemoryMarshal.GetArrayDataReference(_keys), (nint)(uint)frame.FirstKey);
+    public ref float Entries(int depth) =>
+        ref Unsafe.Add(ref MemoryMarshal.GetArrayDataReference(_entries), (nint)(uint)(depth * RayBounds.MaxChildren));
 
-    /// <summary>Makes room for a frame and for its keys. Frames and keys that were read before may be elsewhere then.</summary>
+    /// <summary>Makes room for a frame. Frames that were read before may be elsewhere then.</summary>
     /// <param name="depth">Depth of the frame.</param>
-    /// <param name="lastKey">Number of keys of all frames up to it.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void EnsureRoom(int depth, int lastKey)
+    public void EnsureRoom(int depth)
     {
-        if (depth >= _frames.Length || lastKey > _keys.Length)
+        if (depth >= _frames.Length)
         {
-            Grow(depth, lastKey);
+            Grow(depth);
         }
     }
 
-    /// <summary>Copies the indices of the children that lead to a child of a frame.</summary>
-    /// <param name="path">As long as there are frames.</param>
-    public void CopyPath(Span<int> path)
+    /// <summary>Copies the indices of the child instances that lead to the child that was entered last.</summary>
+    /// <param name="depth">Depth of the frame with the child.</param>
+    /// <param name="path">As long as the path.</param>
+    public void CopyPath(int depth, Span<int> path)
     {
-        for (var i = 0; i < path.Length; i++)
+        for (var i = 0; i <= depth; i++)
         {
-            path[i] = _frames[i].Child;
+            ref var frame = ref _frames[i];
+            frame.Bounds.Child(frame.Octant, frame.Lane).CopyPath(path[frame.PathLength..]);
         }
     }
 
-    private void Grow(int depth, int lastKey)
+    private void Grow(int depth)
     {
-        Array.Resize(ref _frames, Math.Max(_frames.Length, 2 * depth));
-        Array.Resize(ref _keys, Math.Max(_keys.Length, 2 * lastKey));
+        Array.Resize(ref _frames, 2 * depth);
+        Array.Resize(ref _entries, 2 * depth * RayBounds.MaxChildren);
     }
 }

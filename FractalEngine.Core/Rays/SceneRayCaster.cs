@@ -2,6 +2,7 @@ using System.Numerics;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Hierarchy;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -110,7 +111,8 @@ public sealed class SceneRayCaster
     /// <exception cref="ArgumentException">The ray is not finite, its direction is 0, or a distance is negative or NaN.</exception>
     /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Model)"/>.</exception>
     public bool HitsAny(
-        Ray ray, QueryContext context, double minDistance = 0, double maxDistance = double.PositiveInfinity, RayFootprint footprint = default)
+        Ray ray, QueryContext context, double minDistance = 0, double maxDistance = double.PositiveInfinity,
+        RayFootprint footprint = default)
     {
         ArgumentNullException.ThrowIfNull(context);
         var direction = RayCaster.CheckedUnitDirection(in ray, minDistance, maxDistance);
@@ -125,7 +127,8 @@ public sealed class SceneRayCaster
         context.ClearPath();
         found = null;
         pathLength = 0;
-        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, RayCaster.RoundingError(origin, minDistance, _bounds))
+        var error = RayCaster.RoundingError(origin, minDistance, BoundingVolume.MaxAbsCoordinate(_bounds));
+        var search = new RaySearch(minDistance, maxDistance, stopsAtFirst, error)
         {
             Footprint = footprint,
         };
@@ -167,7 +170,7 @@ public sealed class SceneRayCaster
 
             var instance = (RayInstance)target!;
             var local = instance.ToObject(in ray);
-            if (instance.Caster.Value.TryHit(in local, ref search, context, ref pathLength))
+            if (instance.Caster.Value.TryIntersect(in local, ref search, context, ref pathLength))
             {
                 found = instance;
                 if (search.StopsAtFirst)

@@ -1,12 +1,13 @@
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Rays;
 
 /// <summary>
 /// Tests a ray against four triangles at once, in double precision. The triangles are sheared so that the ray is an axis. Then the signs of
-/// three areas tell on which side of each edge it passes: two triangles that share an edge see the same area with opposite signs, so that no
-/// ray passes between them.
+/// three areas tell on which side of each edge it passes: two triangles that share an edge see the same area with opposite signs, so that
+/// no ray passes between them.
 /// </summary>
 /// <remarks>
 /// After Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2013. Edges are widened by the rounding of the ray, so that
@@ -18,8 +19,16 @@ internal readonly struct TriangleRay
     public const int VectorsPerQuad = 9;
 
     // The rounding of a coordinate relative to the origin, as a part of it.
-    private const double CoordinateError = 1e-15;
+    private const double CoordinateError = 4e-15;
 
+    // The rounding of a direction after some levels of maps, as a part of its length.
+    private const double DirectionError = 1.6e-14;
+
+    // Of an area that is a smaller part of the squared extent, rounding is too large a part.
+    private const double UncertainArea = 1e-3;
+
+    private readonly Vector _origin;
+    private readonly Vector _direction;
     private readonly int _x;
     private readonly int _y;
     private readonly int _z;
@@ -51,16 +60,18 @@ internal readonly struct TriangleRay
         _inverseZ = Vector256.Create(inverse);
         _widening = Vector256.Create(2 * ray.InverseScale * error);
         _start = ray.Start;
+        _origin = SimdAffineMap.ToVector(ray.Origin);
+        _direction = SimdAffineMap.ToVector(ray.Direction);
     }
 
-    /// <summary>Tests four triangles.</summary>
+    /// <summary>Tests four triangles at once.</summary>
     /// <param name="quad">The first of <see cref="VectorsPerQuad"/> vectors.</param>
     /// <param name="search">Receives the nearest hit, with the number of the triangle from 0 to 3 as its face.</param>
     /// <returns>True when there is a nearer hit.</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public bool TryHit(ref Vector256<double> quad, ref RaySearch search)
+    public bool TryIntersect(ref Vector256<double> quad, ref RaySearch search)
     {
-        var distances = Distances(ref quad);
+        var distances = Distances(ref quad, out var isUncertain);
         var hits = Vector256.GreaterThanOrEqual(distances, Vector256.Create(search.MinDistance))
             & Vector256.LessThanOrEqual(distances, Vector256.Create(search.MaxDistance));
         var mask = hits.ExtractMostSignificantBits();
@@ -69,16 +80,26 @@ internal readonly struct TriangleRay
             return false;
         }
 
-        return TryUpdate(distances, mask, ref search);
+        return TryUpdate(distances, mask, isUncertain.ExtractMostSignificantBits(), ref quad, ref search);
     }
 
-    private static bool TryUpdate(Vector256<double> distances, uint mask, ref RaySearch search)
+    private bool TryUpdate(
+        Vector256<double> distances, uint mask, uint uncertain, ref Vector256<double> quad, ref RaySearch search)
     {
         var isNearer = false;
         for (; mask != 0; mask &= mask - 1)
         {
             var lane = System.Numerics.BitOperations.TrailingZeroCount(mask);
             var distance = distances.GetElement(lane);
+            if ((uncertain & (1u << lane)) != 0)
+            {
+                distance = CorrectDistance(distance, lane, ref quad);
+                if (!(distance >= search.MinDistance))
+                {
+                    continue;
+                }
+            }
+
             if (distance < search.MaxDistance || (search.Face < 0 && distance <= search.MaxDistance))
             {
                 search.MaxDistance = distance;
@@ -90,9 +111,23 @@ internal readonly struct TriangleRay
         return isNearer;
     }
 
+    /// <summary>Computes the distance of a triangle whose area is so small that rounding moves it.</summary>
+    private double CorrectDistance(double distance, int lane, ref Vector256<double> quad)
+    {
+        var a = CornerOf(ref quad, lane);
+        var b = CornerOf(ref Unsafe.Add(ref quad, 3), lane);
+        var c = CornerOf(ref Unsafe.Add(ref quad, 6), lane);
+        return _start + TrianglePlane.Correct(_origin, _direction, distance - _start, a, b, c);
+    }
+
+    private static Vector CornerOf(ref Vector256<double> rows, int lane) => new(
+        rows.GetElement(lane), Unsafe.Add(ref rows, 1).GetElement(lane), Unsafe.Add(ref rows, 2).GetElement(lane));
+
     /// <summary>Computes the distances of four triangles along the ray; NaN or infinite where it misses them.</summary>
+    /// <param name="quad">The triangles.</param>
+    /// <param name="isUncertain">All bits set where the area is so small that rounding moves the distance.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private Vector256<double> Distances(ref Vector256<double> quad)
+    private Vector256<double> Distances(ref Vector256<double> quad, out Vector256<double> isUncertain)
     {
         var az = Unsafe.Add(ref quad, _z) - _originZ;
         var bz = Unsafe.Add(ref quad, 3 + _z) - _originZ;
@@ -107,16 +142,27 @@ internal readonly struct TriangleRay
         var v = (ax * cy) - (ay * cx);
         var w = (bx * ay) - (by * ax);
         var extent = Vector256.Abs(ax) + Vector256.Abs(ay) + Vector256.Abs(bx) + Vector256.Abs(by) + Vector256.Abs(cx) + Vector256.Abs(cy);
-        var slack = (_widening + (Vector256.Create(CoordinateError) * extent)) * extent;
-        var largest = Vector256.MaxNative(Vector256.MaxNative(u, v), w);
-        var smallest = Vector256.MinNative(Vector256.MinNative(u, v), w);
-        var isHit = Vector256.GreaterThanOrEqual(smallest, -slack) | Vector256.LessThanOrEqual(largest, slack);
-        var area = u + v + w;
-        var depth = ((u * az) + (v * bz) + (w * cz)) / area;
-        // Where the areas are all rounding, the depth still is between those of the vertices.
-        depth = Vector256.MinNative(depth, Vector256.MaxNative(Vector256.MaxNative(az, bz), cz));
-        depth = Vector256.MaxNative(depth, Vector256.MinNative(Vector256.MinNative(az, bz), cz));
-        isHit &= ~Vector256.Equals(area, Vector256<double>.Zero);
+        var rounding = Vector256.Create(CoordinateError) * extent;
+        var sum = u + v + w;
+        // Seen edge on, a triangle has no area but that of rounding, also of the direction, and is not hit. Nor is one without area.
+        var depthExtent = Vector256.Abs(az) + Vector256.Abs(bz) + Vector256.Abs(cz);
+        var isSeen = Vector256.GreaterThan(
+            Vector256.Abs(sum), (rounding + (Vector256.Create(DirectionError) * depthExtent)) * extent);
+        isUncertain = Vector256.LessThan(Vector256.Abs(sum), Vector256.Create(UncertainArea) * extent * extent);
+        // All areas get the sign of a hit; those that have the other one are of edges that the ray passes outside.
+        var sign = sum & Vector256.Create(-0.0);
+        (u, v, w) = (u ^ sign, v ^ sign, w ^ sign);
+        var isInside = Vector256.GreaterThanOrEqual(Vector256.MinNative(Vector256.MinNative(u, v), w), Vector256<double>.Zero);
+        (u, v, w) = (
+            Vector256.MaxNative(u, Vector256<double>.Zero), Vector256.MaxNative(v, Vector256<double>.Zero),
+            Vector256.MaxNative(w, Vector256<double>.Zero));
+        // Beside an edge the point on it counts, if the ray passes it by no more than its rounding.
+        sum = u + v + w;
+        var reach = (_widening + rounding) * sum;
+        var isBeside = Vector256.LessThanOrEqual(Vector256.Abs((u * ax) + (v * bx) + (w * cx)), reach)
+            & Vector256.LessThanOrEqual(Vector256.Abs((u * ay) + (v * by) + (w * cy)), reach);
+        var isHit = isSeen & (isInside | isBeside);
+        var depth = ((u * az) + (v * bz) + (w * cz)) / sum;
         var distances = Vector256.Create(_start) + (depth * _inverseZ);
         return Vector256.ConditionalSelect(isHit, distances, Vector256.Create(double.NaN));
     }

@@ -103,13 +103,23 @@ public sealed class AssetLoader
         ? text.Text.Contains("<$>", StringComparison.Ordinal) ? FileKind.Fractal : FileKind.Scene
         : FileKinds.FromName(_path);
 
-    private LoadedFile LoadFile() => Kind switch
+    private LoadedFile LoadFile()
+    {
+        if (_options.Text is null && !Path.Exists(_fullPath))
+        {
+            // A missing file is reported as missing first, whatever its name is. The record has it, so that it can appear.
+            _record.Add(_fullPath);
+            throw new SourceException(_path, $"file not found{NeighbourSuggestion.Ask(_fullPath)}");
+        }
+
+        return LoadExistingFile();
+    }
+
+    private LoadedFile LoadExistingFile() => Kind switch
     {
         FileKind.Scene => LoadScene(),
-        FileKind.Fractal => CreateSingleObjectFile(FileKind.Fractal, LoadModel(_fullPath, _path)),
-        FileKind.Mesh => CreateSingleObjectFile(FileKind.Mesh, LoadModel(_fullPath, _path)),
-        // A missing file is reported as missing first, whatever its name is.
-        _ when !Path.Exists(_fullPath) => throw new SourceException(_path, "file not found"),
+        FileKind.Fractal => CreateSingleObjectFile(FileKind.Fractal, LoadModel(_fullPath, _path, FileKind.Fractal)),
+        FileKind.Mesh => CreateSingleObjectFile(FileKind.Mesh, LoadModel(_fullPath, _path, FileKind.Mesh)),
         _ => throw new SourceException(_path, $"the ending says nothing of the contents, expected {FileKinds.MeshEndings}, .fdo or .sdo"),
     };
 
@@ -157,11 +167,11 @@ public sealed class AssetLoader
             return cached;
         }
 
-        return _models[fullPath] = LoadModel(fullPath, displayName);
+        return _models[fullPath] = LoadModel(fullPath, displayName, FileKinds.FromName(fullPath));
     }
 
     /// <summary>Loads a model, or takes it from the cache if none of its files has changed.</summary>
-    private Model LoadModel(string fullPath, string displayName)
+    private Model LoadModel(string fullPath, string displayName, FileKind? kind)
     {
         if (_cache?.FindModel(fullPath) is { } cached)
         {
@@ -174,9 +184,7 @@ public sealed class AssetLoader
         var filesBefore = _record.Position;
         var warningsBefore = _warnings.Count;
         var bytesBefore = StorageBytes;
-        Model model = FileKinds.FromName(fullPath) == FileKind.Fractal
-            ? LoadFractal(fullPath, displayName)
-            : LoadMesh(fullPath, displayName);
+        Model model = kind == FileKind.Fractal ? LoadFractal(fullPath, displayName) : LoadMesh(fullPath, displayName);
         _cache?.Store(fullPath, new(model, _record.Since(filesBefore), [.. _warnings.Skip(warningsBefore)], StorageBytes - bytesBefore));
         return model;
     }

@@ -1,4 +1,3 @@
-using FractalEngine.Core;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Assets;
@@ -9,9 +8,6 @@ namespace FractalEngine.Parsing.Assets;
 /// <param name="record">Receives the paths of all files that are looked for, missing ones included.</param>
 internal sealed class FileReferenceResolver(AssetFolder folder, bool allowOutsideFiles, FileRecord record)
 {
-    // A folder of textures may have more, but listing them for one message would take long.
-    private const int MaxNeighbours = 10_000;
-
     private readonly ForeignFileNames _foreignNames = new(path => allowOutsideFiles || folder.Contains(path), record);
 
     /// <summary>Returns the full path of a file that another one refers to, and its name in messages.</summary>
@@ -36,7 +32,7 @@ internal sealed class FileReferenceResolver(AssetFolder folder, bool allowOutsid
         {
             throw source.Error(offset, Directory.Exists(fullPath)
                 ? $"\"{file}\" is a directory, expected a file"
-                : $"the file \"{file}\" is not found{AskAboutNeighbour(fullPath)}");
+                : $"the file \"{file}\" is not found{NeighbourSuggestion.Ask(fullPath)}");
         }
 
         var isRooted = Path.IsPathRooted(source.FileName);
@@ -66,20 +62,6 @@ internal sealed class FileReferenceResolver(AssetFolder folder, bool allowOutsid
     {
         var fullPath = FullPath(referrer, file);
         return IsAllowed(fullPath) && File.Exists(fullPath);
-    }
-
-    /// <summary>Proposes a file of the same folder whose name is nearly that of a missing one.</summary>
-    private static string AskAboutNeighbour(string fullPath)
-    {
-        try
-        {
-            var names = Directory.EnumerateFiles(Path.GetDirectoryName(fullPath)!).Take(MaxNeighbours).Select(Path.GetFileName);
-            return NameSuggestion.Find(Path.GetFileName(fullPath), names.OfType<string>()) is { } name ? $": did you mean \"{name}\"?" : "";
-        }
-        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
-        {
-            return "";
-        }
     }
 
     private bool IsAllowed(string fullPath) => allowOutsideFiles || folder.Contains(fullPath);

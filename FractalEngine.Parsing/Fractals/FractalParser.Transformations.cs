@@ -187,7 +187,8 @@ public sealed partial class FractalParser
 
         if (arguments.Count != function.ParameterCount)
         {
-            throw Error(cursor, $"'{name}' takes {ArgumentCountText(function.ParameterCount)}, not {arguments.Count}");
+            var hint = char.IsAsciiDigit(rest.Advance(1).Current) && rest.Current is ' ' or '\t' ? ": no blank stands within a call" : "";
+            throw Error(cursor, $"'{name}' takes {ArgumentCountText(function.ParameterCount)}, not {arguments.Count}{hint}");
         }
 
         transformation = function.Apply(arguments.ToImmutable());

@@ -25,7 +25,8 @@ public sealed partial class FractalParser : Parser
     private static readonly ImmutableArray<TypicalMistake> FractalMistakes =
     [
         new CommentBehindDeclaration(), new CommaAsDecimalPoint(), new MissingNumber(), new ValueAsVectorNumber(), new NumberOutsideCall(),
-        new DepthWithoutRecursive(), new FileNameWithoutQuotes(), new MisspelledDeclaration(), new MissingDot(), new MisspelledKeyword(),
+        new DepthWithoutRecursive(), new FractionalDepth(), new VectorInParentheses(), new FileNameWithoutQuotes(),
+        new MisspelledDeclaration(), new MissingDot(), new MisspelledKeyword(),
     ];
 
     private readonly List<Vector> _vectors = [];

@@ -1,4 +1,5 @@
 using System.Text;
+using FractalEngine.Core;
 using FractalEngine.Core.Files;
 using FractalEngine.Parsing.Text;
 
@@ -64,7 +65,7 @@ public static class SceneFileMerge
                 stream.Flush();
                 if (FileStamp.Of(path) != stamp)
                 {
-                    throw new FileChangedException();
+                    throw new FileChangedException(path);
                 }
             });
             return true;
@@ -106,5 +107,5 @@ public static class SceneFileMerge
         }
     }
 
-    private sealed class FileChangedException : Exception;
+    private sealed class FileChangedException(string path) : FractalEngineException($"{path} has changed while it was written");
 }

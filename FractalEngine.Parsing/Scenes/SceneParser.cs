@@ -16,7 +16,7 @@ public sealed partial class SceneParser : SceneValueParser
     private static readonly ImmutableArray<TypicalMistake> SceneMistakes =
     [
         new CommentBehindDeclaration(), new CommaAsDecimalPoint(), new MissingNumber(), new IncompletePlacement(),
-        new DeclarationSpelledOut(), new MisspelledKeyword(),
+        new MissingValue(), new DeclarationSpelledOut(), new MisspelledKeyword(),
     ];
 
     private readonly Dictionary<SceneDeclarationKind, int> _declarationOffsets = [];

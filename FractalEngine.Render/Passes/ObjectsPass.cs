@@ -19,9 +19,6 @@ internal sealed class ObjectsPass : IDisposable
     // Natural logarithm. In smaller units than this, point lights look the same.
     private const double MaxLogLightScale = 14;
 
-    // Coral in the palette.
-    private const int SphereColourIndex = 2;
-
     private readonly GlResources _resources;
     private readonly SceneBuffers _buffers;
     private readonly ObjectTransforms _transforms;
@@ -75,7 +72,7 @@ internal sealed class ObjectsPass : IDisposable
             _meshPass.Cull(CullFace.None);
             _meshPass.UseMaterial(null, Colour.White, MeshFeatures.CameraRelative);
             _sphereBatch ??= new(_resources);
-            _sphereBatch.Draw(spheres, view.Camera.Position, ObjectPalette.ColourOf(SphereColourIndex));
+            _sphereBatch.Draw(spheres, view.Camera.Position, SphereInstance.Colour);
         }
 
         if (!settings.Wireframe)

@@ -13,7 +13,7 @@ namespace FractalEngine.Render.Tracing;
 /// noisy at first, and converges as samples are added.
 /// </summary>
 /// <remarks>
-/// Light is that of drawn frames (<see cref="TracedLights"/>), shadows included: the scene's lights are sampled directly at each hit, and the
+/// Light is that of drawn frames (<see cref="TracedLights"/>), with shadows: the scene's lights are sampled directly at each hit, and the
 /// ambient light comes from all directions that no surface hides. Paths end by chance, by up to <see cref="MaxBounces"/> surfaces. The same
 /// seed gives the same bits on any number of threads.
 /// </remarks>
@@ -38,13 +38,13 @@ public sealed class PathTracer
     private readonly TracedScene _scene;
     private readonly TracedLights _lights;
     private readonly TracedCamera _camera;
-    private readonly Vector _background;
-    private readonly Colour _letterbox;
+    private readonly Colour _background;
+    private readonly Vector _backgroundRadiance;
     private readonly int _seed;
     private readonly float[] _sums;
     private readonly int[] _rowSamples;
 
-    /// <summary>Prepares an image.</summary>
+    /// <summary>Prepares an image without samples.</summary>
     /// <param name="scene">With its models loaded.</param>
     /// <param name="view">Camera and projection; without deep zoom.</param>
     /// <param name="width">Pixels, at least 1.</param>
@@ -55,23 +55,21 @@ public sealed class PathTracer
     /// <exception cref="ArgumentException">The view is a deep zoom.</exception>
     /// <exception cref="SingularMatrixException">The matrix of an object has no inverse.</exception>
     public PathTracer(LoadedScene scene, View view, int width, int height, RenderSettings? settings = null, int seed = 0)
+        : this(
+            CreateCamera(view, width, height), width, height,
+            new TracedScene(scene ?? throw new ArgumentNullException(nameof(scene)), settings ?? new()), new(scene),
+            scene.Scene.Background ?? (settings ?? new()).Background, seed)
     {
-        ArgumentNullException.ThrowIfNull(scene);
-        ArgumentNullException.ThrowIfNull(view);
-        ArgumentOutOfRangeException.ThrowIfLessThan(width, 1);
-        ArgumentOutOfRangeException.ThrowIfLessThan(height, 1);
-        if (view.DeepZoom is not null)
-        {
-            throw new ArgumentException("expected a view in world space, without deep zoom", nameof(view));
-        }
+    }
 
-        settings ??= new();
-        _scene = new(scene, settings);
-        _lights = new(scene);
-        _camera = new(view, width, height, FootprintPixels);
-        var background = scene.Scene.Background ?? settings.Background;
-        _background = TracedMaterial.ToLinear(background);
-        _letterbox = FrameRenderer.LetterboxColour(background);
+    private PathTracer(
+        TracedCamera camera, int width, int height, TracedScene scene, TracedLights lights, Colour background, int seed)
+    {
+        _camera = camera;
+        _scene = scene;
+        _lights = lights;
+        _background = background;
+        _backgroundRadiance = TracedMaterial.ToLinear(background);
         _seed = seed;
         Width = width;
         Height = height;
@@ -91,16 +89,27 @@ public sealed class PathTracer
     /// <summary>Sentences for the user about textures that can't be decoded.</summary>
     public ImmutableArray<string> Notices => _scene.Notices;
 
+    /// <summary>Prepares an image of another view of the same scene, without samples. What was prepared of the scene is shared.</summary>
+    /// <param name="view">Camera and projection; without deep zoom.</param>
+    /// <param name="width">Pixels, at least 1.</param>
+    /// <param name="height">Pixels, at least 1.</param>
+    /// <exception cref="ArgumentOutOfRangeException">Width or height is less than 1.</exception>
+    /// <exception cref="ArgumentException">The view is a deep zoom.</exception>
+    public PathTracer WithView(View view, int width, int height) =>
+        new(CreateCamera(view, width, height), width, height, _scene, _lights, _background, _seed);
+
     /// <summary>Adds one sample to each pixel.</summary>
     /// <param name="threads">The most threads to use; null for one a core.</param>
+    /// <param name="scheduler">Owns the threads, beside the calling one; null for those of the pool.</param>
     /// <param name="cancellation">Cancels between two rows; rows then differ by a sample.</param>
     /// <exception cref="OperationCanceledException">The samples were cancelled.</exception>
-    public void AddSample(int? threads = null, CancellationToken cancellation = default)
+    public void AddSample(int? threads = null, TaskScheduler? scheduler = null, CancellationToken cancellation = default)
     {
         var options = new ParallelOptions
         {
             MaxDegreeOfParallelism = threads ?? Environment.ProcessorCount,
             CancellationToken = cancellation,
+            TaskScheduler = scheduler ?? TaskScheduler.Default,
         };
         var sample = SampleCount;
         var (_, top, _, height) = _camera.Viewport;
@@ -128,6 +137,7 @@ public sealed class PathTracer
     public PixelImage ToImage()
     {
         var pixels = new byte[4 * Width * Height];
+        var letterbox = FrameRenderer.LetterboxColour(_background);
         var (left, top, width, height) = _camera.Viewport;
         for (var y = 0; y < Height; y++)
         {
@@ -137,7 +147,7 @@ public sealed class PathTracer
                 target[3] = byte.MaxValue;
                 if (x < left || x >= left + width || y < top || y >= top + height)
                 {
-                    (target[0], target[1], target[2]) = (ToByte(_letterbox.Red), ToByte(_letterbox.Green), ToByte(_letterbox.Blue));
+                    (target[0], target[1], target[2]) = (ToByte(letterbox.Red), ToByte(letterbox.Green), ToByte(letterbox.Blue));
                     continue;
                 }
 
@@ -160,6 +170,16 @@ public sealed class PathTracer
     {
         var sum = _sums.AsSpan(3 * ((y * Width) + x), 3);
         return new Vector(sum[0], sum[1], sum[2]) / Math.Max(1, _rowSamples[y]);
+    }
+
+    private static TracedCamera CreateCamera(View view, int width, int height)
+    {
+        ArgumentNullException.ThrowIfNull(view);
+        ArgumentOutOfRangeException.ThrowIfLessThan(width, 1);
+        ArgumentOutOfRangeException.ThrowIfLessThan(height, 1);
+        return view.DeepZoom is null
+            ? new(view, width, height, FootprintPixels)
+            : throw new ArgumentException("expected a view in world space, without deep zoom", nameof(view));
     }
 
     private static byte ToByte(double component) => (byte)Math.Round(255 * Math.Clamp(component, 0, 1));
@@ -191,9 +211,9 @@ public sealed class PathTracer
         var layers = 0;
         for (var bounce = 0; ;)
         {
-            if (!_scene.TryHit(in ray, footprint, minDistance, maxDistance, context, out var surface))
+            if (!_scene.TryIntersect(in ray, footprint, minDistance, maxDistance, context, out var surface))
             {
-                return radiance + throughput.Stretch(bounce == 0 ? _background : _lights.Surroundings(ray.Direction));
+                return radiance + throughput.Stretch(bounce == 0 ? _backgroundRadiance : _lights.Surroundings(ray.Direction));
             }
 
             var passed = (surface.Position - ray.Origin).Length();

@@ -5,7 +5,7 @@ namespace FractalEngine.Render.Tracing;
 /// <summary>Bends the normal of a surface by an image of normals or of heights.</summary>
 internal static class SurfaceDetail
 {
-    /// <summary>Bends a normal.</summary>
+    /// <summary>Bends the normal of a point.</summary>
     /// <param name="material">With its images, if it has any.</param>
     /// <param name="normal">Unit normal on the side that the ray comes from.</param>
     /// <param name="linear">From the mesh's frame to world space.</param>
@@ -19,7 +19,8 @@ internal static class SurfaceDetail
         TracedMaterial material, Vector normal, Matrix linear, (Vector A, Vector B, Vector C) corners,
         (Vector A, Vector B, Vector C) coordinates, double u, double v, Vector direction)
     {
-        if ((material.Normals is null && material.Bump is null) || !TryFindTangents(linear, corners, coordinates, out var alongU, out var alongV))
+        if ((material.Normals is null && material.Bump is null)
+            || !TryFindTangents(linear, corners, coordinates, out var alongU, out var alongV))
         {
             return normal;
         }
@@ -51,7 +52,8 @@ internal static class SurfaceDetail
 
     /// <summary>Finds the directions in which the texture coordinates grow, as long as a whole texture.</summary>
     private static bool TryFindTangents(
-        Matrix linear, (Vector A, Vector B, Vector C) corners, (Vector A, Vector B, Vector C) coordinates, out Vector alongU, out Vector alongV)
+        Matrix linear, (Vector A, Vector B, Vector C) corners, (Vector A, Vector B, Vector C) coordinates, out Vector alongU,
+        out Vector alongV)
     {
         var (edge1, edge2) = (linear * (corners.B - corners.A), linear * (corners.C - corners.A));
         var (du1, dv1, _) = coordinates.B - coordinates.A;

@@ -12,7 +12,7 @@ internal sealed class TracedCamera
     private readonly double _halfWidth;
     private readonly double _footprint;
 
-    /// <summary>Prepares a view.</summary>
+    /// <summary>Prepares a view for a frame.</summary>
     /// <param name="view">Camera and projection.</param>
     /// <param name="width">Width of the frame in pixels.</param>
     /// <param name="height">Height of the frame in pixels.</param>

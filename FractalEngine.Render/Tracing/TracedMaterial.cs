@@ -55,7 +55,7 @@ internal sealed class TracedMaterial
     /// <summary>True where texture coordinates are needed.</summary>
     public bool IsTextured => Texture is not null || Bump is not null || Normals is not null;
 
-    /// <summary>Prepares a material.</summary>
+    /// <summary>Prepares a material for tracing.</summary>
     /// <param name="drawable">With its decoded texture.</param>
     /// <param name="notices">Receives a sentence for each texture that can't be decoded.</param>
     public static TracedMaterial Create(DrawableMaterial drawable, ICollection<string> notices)

@@ -16,7 +16,7 @@ internal sealed class TracedModel
     private readonly byte[] _materialOfFace = [];
     private readonly ushort[] _wideMaterialOfFace = [];
 
-    /// <summary>Prepares a model.</summary>
+    /// <summary>Prepares the surface of a model.</summary>
     /// <param name="model">With its mesh and materials.</param>
     /// <param name="creaseAngle">Crease angle of generated normals, degrees.</param>
     /// <param name="textures">Decodes the textures.</param>

@@ -51,7 +51,8 @@ internal sealed class TracedScene
     public double Offset { get; }
 
     /// <summary>Finds the nearest surface along a ray.</summary>
-    public bool TryHit(in Ray ray, RayFootprint footprint, double minDistance, double maxDistance, QueryContext context, out TracedSurface surface)
+    public bool TryIntersect(
+        in Ray ray, RayFootprint footprint, double minDistance, double maxDistance, QueryContext context, out TracedSurface surface)
     {
         if (!_caster.TryFindNearest(ray, context, out var hit, out var objectIndex, minDistance, maxDistance, footprint))
         {
@@ -77,7 +78,7 @@ internal sealed class TracedScene
 
         const int MaxLayers = 32;
         var transmittance = 1.0;
-        for (var layer = 0; transmittance > 0 && TryHit(in ray, footprint, 0, distance, context, out var surface); layer++)
+        for (var layer = 0; transmittance > 0 && TryIntersect(in ray, footprint, 0, distance, context, out var surface); layer++)
         {
             transmittance *= layer < MaxLayers ? 1 - surface.Opacity : 0;
             var passed = (surface.Position - ray.Origin).Length() + Offset;
@@ -105,7 +106,8 @@ internal sealed class TracedScene
         var opacity = material.Opacity;
         if (material.IsTextured && model.TryGetTextureTriangle(hit.FaceIndex, out var corners, out var coordinates))
         {
-            var (u, v, _) = (hit.Barycentrics.X * coordinates.A) + (hit.Barycentrics.Y * coordinates.B) + (hit.Barycentrics.Z * coordinates.C);
+            var (weightA, weightB, weightC) = hit.Barycentrics;
+            var (u, v, _) = (weightA * coordinates.A) + (weightB * coordinates.B) + (weightC * coordinates.C);
             if (material.Texture is { } texture)
             {
                 var (texel, alpha) = texture.Sample(u, v);
@@ -140,7 +142,8 @@ internal sealed class TracedScene
     private Vector ObjectColour(int objectIndex, QueryContext context)
     {
         var placed = _objects[objectIndex];
-        if (placed.Declaration.Gradient is not { Kind: not GradientKind.None and var kind } || placed.Model is not FractalModel { Fractal: var fractal })
+        if (placed.Declaration.Gradient is not { Kind: not GradientKind.None and var kind }
+            || placed.Model is not FractalModel { Fractal: var fractal })
         {
             return _colours[objectIndex];
         }

@@ -13,7 +13,8 @@ internal sealed class TracedTexture(PixelImage image, MaterialTexture mapping)
         (float)new Colour(value / 255.0, 0, 0).ToLinear().Red)];
 
     /// <summary>The size of one pixel in texture coordinates.</summary>
-    public (double U, double V) PixelSize => (1.0 / (image.Width * Math.Abs(mapping.Scale.U)), 1.0 / (image.Height * Math.Abs(mapping.Scale.V)));
+    public (double U, double V) PixelSize =>
+        (1.0 / (image.Width * Math.Abs(mapping.Scale.U)), 1.0 / (image.Height * Math.Abs(mapping.Scale.V)));
 
     /// <summary>The factor of heights, for an image of heights.</summary>
     public double BumpFactor => mapping.BumpFactor;

@@ -93,8 +93,10 @@ public sealed class ImageCommandTests : IDisposable
     }
 
     [Theory]
-    [InlineData("--camera: unexpected end of file, expected a number; expected (x, y, z) (pitch, yaw, roll) fov", "--camera", "# #")]
-    [InlineData("--camera, --view, and --look-from with --look-at exclude each other", "--view", "top", "--camera", "# # 60")]
+    [InlineData("--camera: unexpected end of file: a camera ends with its vertical angle of view in degrees; "
+        + "expected (x, y, z) (pitch, yaw, roll) fov or (x, y, z) look-at (x, y, z) fov", "--camera", "# #")]
+    [InlineData("--camera, --view and --look-from or --look-at exclude each other: give one of the three",
+        "--view", "top", "--camera", "# # 60")]
     [InlineData("--up needs --look-from or --look-at", "--up", "(0, 1, 0)")]
     [InlineData("--background: unexpected 'red', expected a colour (r, g, b); expected (r, g, b) from 0 to 1, or transparent",
         "--background", "red")]

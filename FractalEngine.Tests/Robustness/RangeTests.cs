@@ -92,7 +92,8 @@ public sealed class RangeTests
                     foreach (var scene in scenes)
                     {
                         AssertFoundOrRefused(magnitude, () => (
-                            new SceneCollider(scene).TryFindClosest(position, radius, new(), out var closest, out _, epsilon: epsilon), closest));
+                            new SceneCollider(scene).TryFindClosest(
+                                position, radius, new(), out var closest, out _, epsilon: epsilon), closest));
                     }
                 }
             }

@@ -20,11 +20,11 @@ internal sealed partial class TriangleBvh
     /// <param name="ray">In the mesh's frame.</param>
     /// <param name="search">Receives the hit and the cost.</param>
     /// <returns>True when there is a nearer hit than before.</returns>
-    public bool TryHit(in LocalRay ray, ref RaySearch search) => _faces.Length == 0 ? false
-        : _nodes.Length == 0 ? TryHitAny(in ray, ref search)
-        : TryHitNodes(in ray, ref search);
+    public bool TryIntersect(in LocalRay ray, ref RaySearch search) => _faces.Length == 0 ? false
+        : _nodes.Length == 0 ? TryIntersectAny(in ray, ref search)
+        : TryIntersectNodes(in ray, ref search);
 
-    private bool TryHitAny(in LocalRay ray, ref RaySearch search)
+    private bool TryIntersectAny(in LocalRay ray, ref RaySearch search)
     {
         var triangleRay = new TriangleRay(in ray, search.Error);
         var quads = RayQuads;
@@ -32,7 +32,7 @@ internal sealed partial class TriangleBvh
         var isHit = false;
         for (var first = 0; first < _faces.Length; first += RayTriangles.Count)
         {
-            if (triangleRay.TryHit(ref quads[first / RayTriangles.Count * TriangleRay.VectorsPerQuad], ref search))
+            if (triangleRay.TryIntersect(ref quads[first / RayTriangles.Count * TriangleRay.VectorsPerQuad], ref search))
             {
                 search.Face = _faces[Math.Min(first + search.Face, _faces.Length - 1)];
                 isHit = true;
@@ -47,7 +47,7 @@ internal sealed partial class TriangleBvh
     }
 
     [SkipLocalsInit]
-    private bool TryHitNodes(in LocalRay ray, ref RaySearch search)
+    private bool TryIntersectNodes(in LocalRay ray, ref RaySearch search)
     {
         var approached = ray;
         if (!TryApproach(ref approached, in search))
@@ -96,7 +96,7 @@ internal sealed partial class TriangleBvh
                     continue;
                 }
             }
-            else if (TryHitLeaf(current, in triangleRay, quad, ref search))
+            else if (TryIntersectLeaf(current, in triangleRay, quad, ref search))
             {
                 isHit = true;
                 if (search.StopsAtFirst)
@@ -121,7 +121,7 @@ internal sealed partial class TriangleBvh
         }
     }
 
-    private bool TryHitLeaf(BvhChild leaf, in TriangleRay ray, Span<Vector256<double>> quad, ref RaySearch search)
+    private bool TryIntersectLeaf(BvhChild leaf, in TriangleRay ray, Span<Vector256<double>> quad, ref RaySearch search)
     {
         var faces = Faces(leaf);
         search.FaceTests += faces.Length;
@@ -130,7 +130,7 @@ internal sealed partial class TriangleBvh
         {
             var four = faces[first..Math.Min(first + RayTriangles.Count, faces.Length)];
             RayTriangles.Gather(_mesh, four, ref quad[0]);
-            if (ray.TryHit(ref quad[0], ref search))
+            if (ray.TryIntersect(ref quad[0], ref search))
             {
                 search.Face = four[Math.Min(search.Face, four.Length - 1)];
                 isHit = true;

@@ -39,6 +39,22 @@ internal sealed class ShapeTree(
         ? CreateBase(null, in map, 0)
         : Create(hierarchy.Root, hierarchy.Levels, in map, MinRadiusSquared(in map), 0, 0);
 
+    /// <summary>Finds the node that a path of child instances leads to. Only for fractals.</summary>
+    /// <param name="path">Indices of child instances from the root.</param>
+    public ShapeNode Node(ReadOnlySpan<int> path)
+    {
+        var (subFractal, levels, map) = (hierarchy!.Root, hierarchy.Levels, AffineMap.Identity);
+        foreach (var index in path)
+        {
+            var child = subFractal.Children[index];
+            levels = child.RemainingLevels(levels);
+            subFractal = hierarchy.At(child, levels);
+            map = child.Group is null ? map * child.Map : map;
+        }
+
+        return Create(subFractal, levels, in map, MinRadiusSquared(AffineMap.Identity), path.Length, BoundingVolume.MaxAbsCoordinate(Box));
+    }
+
     /// <summary>Square of the radius in the frame of the query at which a sub-fractal is replaced by the base mesh; 0 for a mesh.</summary>
     /// <param name="map">From the shape's frame to that of the query.</param>
     public double MinRadiusSquared(in AffineMap map) => minRadius * minRadius * FrobeniusNormSquared(in map);

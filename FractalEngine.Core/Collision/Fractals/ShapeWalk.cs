@@ -29,7 +29,15 @@ internal static class ShapeWalk
         return end;
     }
 
-    private static ShapeWalkEnd Run<TVisitor>(
+    /// <summary>Visits a part of a shape depth first, the nearest child first, until the visitor has enough.</summary>
+    /// <typeparam name="TVisitor">What is looked for; a struct, so that the walk is compiled for it.</typeparam>
+    /// <param name="tree">The shape.</param>
+    /// <param name="root">The part.</param>
+    /// <param name="minRadiusSquared">See <see cref="ShapeTree.MinRadiusSquared"/>.</param>
+    /// <param name="visitor">What is looked for.</param>
+    /// <param name="boundTests">Receives the cost.</param>
+    /// <param name="faceTests">Receives the cost, too.</param>
+    public static ShapeWalkEnd Run<TVisitor>(
         ShapeTree tree, ShapeNode root, double minRadiusSquared, ref TVisitor visitor, ref long boundTests, ref long faceTests)
         where TVisitor : struct, IShapeVisitor
     {

@@ -78,7 +78,7 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
             hullBox = hullBox.Including(map * vertex);
         }
 
-        return Intersection(transformedBox, Inflate(hullBox, (Margin * operatorNormBound) + RoundingMargin(transformedBox)));
+        return BoundingBox.Intersection(transformedBox, Inflate(hullBox, (Margin * operatorNormBound) + RoundingMargin(transformedBox)));
     }
 
     /// <summary>Computes boxes around the images of the clusters, or of the box, under a map.</summary>
@@ -93,10 +93,8 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
     public static double MaxAbsCoordinate(BoundingBox box) =>
         Math.Max(box.Minimum.MaxAbsComponent(), box.Maximum.MaxAbsComponent());
 
-    private static double RoundingMargin(BoundingBox box) => MappedPointError * MaxAbsCoordinate(box);
-
-    private static BoundingBox Intersection(BoundingBox box1, BoundingBox box2) =>
-        new(Vector.Max(box1.Minimum, box2.Minimum), Vector.Min(box1.Maximum, box2.Maximum));
+    /// <summary>Upper bound of how far rounding moves a mapped point of a box.</summary>
+    public static double RoundingMargin(BoundingBox box) => MappedPointError * MaxAbsCoordinate(box);
 
     /// <summary>Lists the vertices of all faces, each once, by their first use.</summary>
     private static Vector[] UsedVertices(Mesh mesh)
@@ -124,6 +122,6 @@ internal sealed record BoundingVolume(BoundingBox Box, ConvexHull? Hull, double 
             hullBox = hullBox.Including(vertex);
         }
 
-        return this with { Box = Intersection(Box, Inflate(hullBox, Margin)) };
+        return this with { Box = BoundingBox.Intersection(Box, Inflate(hullBox, Margin)) };
     }
 }

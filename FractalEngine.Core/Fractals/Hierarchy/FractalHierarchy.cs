@@ -80,7 +80,10 @@ internal sealed partial class FractalHierarchy
     public SubFractal At(long remainingLevels) =>
         (ulong)remainingLevels < (ulong)_lowest.Length ? _lowest[remainingLevels]! : AtHighLevel(remainingLevels);
 
-    private SubFractal AtHighLevel(long remainingLevels) => _subFractals[LevelRegion.FindIndex(_regions, remainingLevels)]!;
+    private SubFractal AtHighLevel(long remainingLevels) => FindOrNull(remainingLevels)!;
+
+    /// <summary>The sub-fractal with a number of remaining levels; null where no search visits it.</summary>
+    public SubFractal? FindOrNull(long remainingLevels) => _subFractals[LevelRegion.FindIndex(_regions, remainingLevels)];
 
     /// <summary>The sub-fractal, or the group of children, that a child is an instance of.</summary>
     /// <param name="child">The child.</param>

@@ -3,7 +3,6 @@ using System.Runtime.Intrinsics;
 using FractalEngine.Core.Collision.Bvh;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Rays;
 
 namespace FractalEngine.Core.Fractals.Hierarchy;
 
@@ -19,8 +18,6 @@ internal sealed class SubFractal
     private static readonly Vector FarAwayPoint = 1e300 * Vector.One;
 
     private readonly Vector256<double> _halfSize;
-    private readonly BoundingBox _baseBox;
-    private RayBounds? _rayBounds;
 
     /// <summary>Creates the sub-fractal of a level.</summary>
     /// <param name="set">The set of the level; null for the base.</param>
@@ -46,7 +43,6 @@ internal sealed class SubFractal
         bool hasOnlySimilarities)
     {
         Solid = solid;
-        _baseBox = baseBox;
         Clusters = clusters;
         Set = set;
         Children = children;
@@ -133,11 +129,38 @@ internal sealed class SubFractal
     public IEnumerable<ChildInstance> AllChildren() =>
         Children.SelectMany(child => child.Group is { } group ? [child, .. group.AllChildren()] : (IEnumerable<ChildInstance>)[child]);
 
-    /// <summary>The bounds for rays, made when the first ray comes.</summary>
-    public RayBounds RayBounds => _rayBounds ??= new(this, _baseBox);
-
     /// <summary>True for a child without faces, whose box is far from everything.</summary>
     public bool IsChildEmpty(int child) => ChildBounds[child] == FarAwayPoint.X;
+
+    /// <summary>A box around a child that is not empty, in the frame of the sub-fractal.</summary>
+    public BoundingBox ChildBox(int child)
+    {
+        Vector Row(int first) => new(
+            ChildBounds[(first * PaddedCount) + child], ChildBounds[((first + 1) * PaddedCount) + child],
+            ChildBounds[((first + 2) * PaddedCount) + child]);
+        return new(Row(0) - Row(3), Row(0) + Row(3));
+    }
+
+    /// <summary>Computes a box around the image of the sub-fractal under a map.</summary>
+    /// <param name="map">From the frame of the sub-fractal to that of the image.</param>
+    /// <param name="operatorNormBound">Upper bound of the factor by which the map lengthens vectors.</param>
+    public BoundingBox TransformedBox(AffineMap map, double operatorNormBound)
+    {
+        var box = Box.Transform(map);
+        if (Hull is null)
+        {
+            return box;
+        }
+
+        var hullBox = BoundingBox.Empty;
+        foreach (var vertex in Hull.CopyVertices())
+        {
+            hullBox = hullBox.Including(map * vertex);
+        }
+
+        var margin = (Hull.Margin * operatorNormBound) + BoundingVolume.RoundingMargin(box);
+        return BoundingBox.Intersection(box, BoundingVolume.Inflate(hullBox, margin));
+    }
 
     /// <summary>Tells whether a position is within so many radii of the box's centre.</summary>
     /// <param name="position">In the frame of the sub-fractal: x, y, z, 0.</param>

@@ -69,6 +69,11 @@ internal sealed partial class DrivenWindow : IDisposable
     public void WaitForError(string text) =>
         WaitFor(() => ErrorLines().FirstOrDefault(line => line.Contains(text, StringComparison.Ordinal)), $"line with '{text}'");
 
+    /// <summary>Waits until the title of the window has a text.</summary>
+    public void WaitForTitle(string text) => WaitFor(
+        () => RunXdotool($"getwindowname {_window}") is var title && title.Contains(text, StringComparison.Ordinal) ? title : null,
+        $"title with '{text}'");
+
     /// <summary>Takes a screenshot. All earlier input has been handled before.</summary>
     public PixelImage Screenshot()
     {

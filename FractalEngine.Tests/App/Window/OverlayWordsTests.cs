@@ -92,6 +92,17 @@ public class OverlayWordsTests
         Assert.False(BodySpawner.HasGround(world));
     }
 
+    [Fact]
+    public void HasMovers_OfAScene_IsTrueOnceABallWasDropped()
+    {
+        using var built = new ManualResetEventSlim();
+        using var physics = new ScenePhysics(LoadedScene.Of(new() { Objects = [new SceneObject(Floor)] }), built.Set);
+        Assert.True(built.Wait(Polling.Deadline));
+        Assert.False(physics.HasMovers);
+        physics.DropSphere(Camera.Default with { Position = new(0, 2, 0) });
+        Assert.True(physics.HasMovers);
+    }
+
     private static void AssertApart(WindowOverlay overlay, int width, int height)
     {
         var layout = OverlayLayout.Create(GlyphAtlas.Load(), overlay.Panels, width, height);

@@ -58,7 +58,7 @@ public sealed class PromptTests : IDisposable
     [Fact]
     public void PromptHost_OpenedByAKey_IgnoresTheTextOfThatKey()
     {
-        var host = new PromptHost();
+        var host = new PromptHost(static () => "");
         var text = new TextPrompt("", "", static _ => null);
         Assert.False(host.Handle(new KeyPressed(Key.O, KeyModifiers.Control, false)));
         host.Open(new ChoicePrompt("", [], new PromptChoice(Key.A, "", () => host.Open(text))));
@@ -72,6 +72,18 @@ public sealed class PromptTests : IDisposable
         Assert.False(host.Handle(new KeyReleased(Key.B, KeyModifiers.None)));
         host.Handle(new KeyPressed(Key.Escape, KeyModifiers.None, false));
         Assert.Null(host.Current);
+    }
+
+    [Fact]
+    public void PromptHost_OnControlV_EntersTheClipboardInOneLine()
+    {
+        var host = new PromptHost(static () => "b/ä c.sdo\r\n");
+        var text = new TextPrompt("", "a/", static _ => null);
+        host.Open(text);
+        Assert.True(host.Handle(new KeyPressed(Key.V, KeyModifiers.Control, false)));
+        Assert.Equal("a/b/ä c.sdo", text.Text);
+        host.Handle(new KeyPressed(Key.V, KeyModifiers.None, false));
+        Assert.Equal("a/b/ä c.sdo", text.Text);
     }
 
     [Fact]

@@ -87,6 +87,19 @@ public sealed class SavingTests : IDisposable
     }
 
     [SkippableFact]
+    public void Copy_OfTheCamera_IsALineThatAQuestionTakes()
+    {
+        using var window = Open();
+        window.Send("key ctrl+shift+c key ctrl+shift+s key ctrl+u key ctrl+v");
+        window.Type(".sdo");
+        window.Send("key Return");
+        window.WaitForError("saved c (");
+        var saved = Assert.Single(Directory.GetFiles(_folder.Path, "c (*"));
+        Assert.Equal($"{CameraLine}.sdo", Path.GetFileName(saved));
+        Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
+    [SkippableFact]
     public void Close_WithChanges_Asks()
     {
         using var window = Open();

@@ -1,5 +1,9 @@
+using FractalEngine.App;
 using FractalEngine.Core.Images;
+using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Scenes;
+using FractalEngine.Render;
+using FractalEngine.Render.Tracing;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Window;
@@ -125,6 +129,27 @@ public sealed class SceneWindowTests : IDisposable
         Assert.Equal(0, window.CloseWith("key Escape key d"));
     }
 
+    [SkippableFact]
+    public void Undo_AfterAWalk_ReturnsToTheViewBeforeIt()
+    {
+        _folder.Write("floor.sdo",
+            """
+            c (0, 1, -6) (0, 0, 0) 60
+            o "cube.obj" ((0, -1, 0), #, (8, 1, 8))
+            player (2, 1, -2) 0.3 1.6
+
+            """);
+        using var window = Open("floor.sdo");
+        window.Send("key 3");
+        var fromTheRight = window.Screenshot();
+        window.Send("key p");
+        window.Send("key p");
+        Assert.True(DifferingFraction(fromTheRight, window.Screenshot()) > 0.01, "the walk did not move the camera");
+        window.Send("key ctrl+z");
+        Assert.Equal(0, DifferingFraction(fromTheRight, window.Screenshot()));
+        Assert.Equal(0, window.CloseWith("key Escape key d"));
+    }
+
     /// <summary>
     /// That nothing happens can't be waited for: this test waits for seconds, and measures the processor time of the program.
     /// </summary>
@@ -137,6 +162,50 @@ public sealed class SceneWindowTests : IDisposable
         AssertSleeps(window, TimeSpan.FromSeconds(4.5));
         AssertSleeps(window, TimeSpan.FromSeconds(2));
         Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
+    [SkippableFact]
+    public void Window_WithTrace_ConvergesToTheTracedImageAndReturnsToTheFrameOnAMove()
+    {
+        // Only light that is traced throws a shadow.
+        _folder.Write("shadow.sdo",
+            """
+            o "cube.obj" ((0, -1, 0), #, (6, 0.2, 6))
+            o "cube.obj" ((0, 1, 0), #, #)
+            light directional (1, -1, 0.5) (1, 1, 1) 0.8
+            light ambient (1, 1, 1) 0.2
+
+            """);
+        using var window = DrivenWindow.Open(_folder, "shadow.sdo", "--trace", "8");
+        window.WaitForTitle("shadow.sdo, traced 8 of 8 - FractalEngine");
+        var traced = window.Screenshot();
+        var scene = AssetLoader.Load(_folder["shadow.sdo"]).Scene;
+        var tracer = new PathTracer(scene, View.Of(scene, 640.0 / 480), 640, 480);
+        for (var i = 0; i < 8; i++)
+        {
+            tracer.AddSample();
+        }
+
+        Assert.InRange(ImageDifference.Between(traced, tracer.ToImage()).PeakSignalToNoise, 40, double.PositiveInfinity);
+        // The message of the screenshot is shown for four seconds, then one more frame is presented.
+        Thread.Sleep(TimeSpan.FromSeconds(4.5));
+        AssertSleeps(window, TimeSpan.FromSeconds(2));
+
+        // Wireframes are drawn, and so is the frame of a view that has just been left.
+        window.Send("key x");
+        window.WaitForTitle("not traced: wireframe");
+        window.Send("key x key 7");
+        window.WaitForTitle("traced 8 of 8");
+        var moved = window.Screenshot();
+        Assert.True(DifferingFraction(traced, moved) > 0.01, "the camera did not move");
+        window.Send("key y");
+        window.WaitForTitle("shadow.sdo - FractalEngine");
+        var drawn = window.Screenshot();
+        Assert.True(DifferingFraction(moved, drawn) > 0.01, "the traced image stays");
+        window.Send("key y");
+        window.WaitForTitle("traced 8 of 8");
+        Assert.Equal(0, DifferingFraction(moved, window.Screenshot()));
+        Assert.Equal(0, window.CloseWith("key Escape key d"));
     }
 
     [SkippableFact]

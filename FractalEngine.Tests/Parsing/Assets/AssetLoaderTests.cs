@@ -152,11 +152,16 @@ public sealed class AssetLoaderTests : IDisposable
     [InlineData("missing.obj", "missing.obj:1:1: error: file not found")]
     [InlineData("missing.sdo", "missing.sdo:1:1: error: file not found")]
     [InlineData("missing", "missing:1:1: error: file not found")]
+    [InlineData("hause.obj", "hause.obj:1:1: error: file not found: did you mean \"house.obj\"?")]
+    [InlineData("house.stl", "house.stl:1:1: error: file not found: did you mean \"house.obj\"?")]
+    [InlineData("house.sdo", "house.sdo:1:1: error: file not found")]
     [InlineData("a.txt", "a.txt:1:1: error: the ending says nothing of the contents, expected .obj, .obj.gz, .ply, .stl, .fdo or .sdo")]
     [InlineData("d.sdo", "d.sdo:1:1: error: this is a directory, expected a file")]
     public void Load_OfAPathThatIsNoSuchFile_SaysWhy(string file, string expected)
     {
         _folder.Write("a.txt", "v 1 2 3");
+        _folder.Write("house.mtl", "newmtl wall");
+        _folder.Write("house.obj", "v 1 2 3");
         Directory.CreateDirectory(_folder["d.sdo"]);
         Assert.Equal(expected, Fails(file));
     }

@@ -32,7 +32,9 @@ public class SceneParserErrorTests
         "unexpected 'x', expected 'c', 'o', 'p', 'handed', 'projection', 'aspect', 'clip', 'background', 'light', 'gravity' or 'player'");
 
     [Theory]
-    [InlineData("c (1, 2, 3) (4, 5, 6)", 22, "unexpected end of file, expected a number")]
+    [InlineData("c (1, 2, 3) (4, 5, 6)", 22, "unexpected end of file: a camera ends with its vertical angle of view in degrees")]
+    [InlineData("c # look-at (4, 5, 6) up (0, 1, 0)", 35,
+        "unexpected end of file: a camera ends with its vertical angle of view in degrees")]
     [InlineData("c (1, 2) (4, 5, 6) 60", 8, "unexpected ')': a vector has three numbers, and this one has two")]
     [InlineData("c 1 2 3", 3, "unexpected '1', expected '#' or '('")]
     [InlineData("c (1, 2, 3) (4, 5, 6) 0", 23, "the angle of view must lie between 0 and 180 degrees")]
@@ -48,7 +50,10 @@ public class SceneParserErrorTests
     [InlineData("o \"a.obj #", 11, "unexpected end of file, expected '\"'")]
     [InlineData("o \"a.obj\" (#, #, (1, 0, 1))", 18,
         "the scale (1, 0, 1) is singular: each factor must lie between 1e-100 and 1e100 in size")]
-    [InlineData("p \"a.obj\" #", 12, "unexpected end of file, expected a number")]
+    [InlineData("p \"a.obj\" #", 12,
+        "unexpected end of file: the placement of a physics object is followed by its restitution, from 0 to 1")]
+    [InlineData("p \"a.obj\" (#, #, (1, 2, 3)) colour (1, 0, 0)", 29,
+        "unexpected 'colour': the placement of a physics object is followed by its restitution, from 0 to 1")]
     [InlineData("p \"a.obj\" # 1.5", 13, "the coefficient of restitution must lie between 0 and 1")]
     [InlineData("p \"a.obj\" # -0.5", 13, "the coefficient of restitution must lie between 0 and 1")]
     [InlineData("p \"a.obj\" # 1 mass 0", 20, "the mass must be positive")]
@@ -63,6 +68,10 @@ public class SceneParserErrorTests
     [InlineData("light laser (1, 1, 1)", 7, "unexpected 'laser', expected 'ambient', 'directional', 'point' or 'spot'")]
     [InlineData("light directional (0, 0, 0) (1, 1, 1)", 19, "a direction must not be (0, 0, 0)")]
     [InlineData("light ambient (1, 1, 1) -1", 25, "the intensity of a light must not be negative")]
+    [InlineData("light point (0, 0, 0) (1, 1, 1) 1", 34,
+        "unexpected end of file: a point light is its position, colour, intensity and range")]
+    [InlineData("light spot (0, 0, 0) (0, 0, 1) 45", 34,
+        "unexpected end of file: a spot light is its position, direction, angle, colour, intensity and range")]
     [InlineData("light point (0, 0, 0) (1, 1, 1) 1 0", 35, "the range of a light must be positive")]
     [InlineData("light spot (0, 0, 0) (0, 0, 1) 180 (1, 1, 1) 1 1", 32, "the angle of the cone must lie between 0 and 180 degrees")]
     [InlineData("o \"a.fdo\" # gradient", 21, "unexpected end of file, expected 'level' or 'path'")]
@@ -93,7 +102,7 @@ public class SceneParserErrorTests
     [InlineData("p \"a.obj\" # 1 velocity (0, 0, Infinity)", 31, "unexpected 'Infinity', expected a number")]
     [InlineData("p \"a.obj\" # 1 mass inf", 20, "unexpected 'inf', expected a number")]
     [InlineData("p \"a.obj\" # 1 mass 1e999", 20, "the number 1e999 is beyond the range of a double")]
-    [InlineData("p \"a.obj\" # NaN", 13, "unexpected 'NaN', expected a number")]
+    [InlineData("p \"a.obj\" # NaN", 13, "unexpected 'NaN': the placement of a physics object is followed by its restitution, from 0 to 1")]
     [InlineData("gravity (0, -1e999, 0)", 13, "the number -1e999 is beyond the range of a double")]
     [InlineData("player (0, 5, 0) 1e-9 3", 18, "the player's height must be at most 1000 times the radius")]
     [InlineData("player (0, 0, 0) 1 2 speed -1", 28, "the player's speed must not be negative")]

@@ -196,6 +196,39 @@ public class TypicalMistakeTests
             """
         },
         {
+            "a depth with a fraction",
+            """
+            <$>. z 3.5
+            """,
+            """
+            tree.fdo:6:9: error: unexpected '.': a depth is a whole number
+              <$>. z 3.5
+                      ^
+            """
+        },
+        {
+            "parentheses around a vector",
+            """
+            v (0, 1, 0)
+            """,
+            """
+            tree.fdo:6:3: error: unexpected '(': the numbers of a vector stand without parentheses, as in 'v 0 1 0'
+              v (0, 1, 0)
+                ^
+            """
+        },
+        {
+            "a blank within a call",
+            """
+            y. [#, t. 1] x
+            """,
+            """
+            tree.fdo:6:8: error: 't' takes 1 argument, not 0: no blank stands within a call
+              y. [#, t. 1] x
+                     ^
+            """
+        },
+        {
             "a depth without its recursive",
             """
             <$>. 6

@@ -135,6 +135,18 @@ public class PathTracerTests
         Assert.Equal(1, Mean(tracer), 0.05);
     }
 
+    [Fact]
+    public void WithView_OfATracerWithSamples_GivesTheImageOfANewOne()
+    {
+        var scene = Scene([WhiteSky], new SceneObject(AssetFractals.Load("menger", 2)));
+        var camera = new Camera(new(0.5, 0.3, -3), Vector.Zero, 40);
+
+        var other = Trace(scene, Camera.Default, 8, 2).WithView(new(camera, Projection.Perspective), 20, 20);
+        other.AddSample();
+
+        Assert.Equal(Trace(scene, camera, 20, 1).ToImage().Pixels, other.ToImage().Pixels);
+    }
+
     private static PathTracer Trace(Scene scene, Camera camera, int size, int samples, int seed = 0, int? threads = null)
     {
         var loaded = LoadedScene.Of(scene with { Camera = camera, Background = scene.Background ?? Colour.White });

@@ -1,0 +1,124 @@
+using System.Diagnostics;
+using FractalEngine.App.Window;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
+using FractalEngine.Render.Tracing;
+using FractalEngine.Tests.Collision;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.App.Window;
+
+/// <summary>Tests the traced image of a window without a window: what is traced when, and that it ends.</summary>
+public class ProgressiveTraceTests
+{
+    private static readonly LoadedScene Sponge = LoadedScene.Of(new() { Objects = [new SceneObject(AssetFractals.Load("menger", 3))] });
+    private static readonly View Front = new(new(new(0.1, 0.2, -4), Vector.Zero, 40), Projection.Perspective);
+    private static readonly View Right = new(new(new(4, 0.2, 0), new(0, -0.5 * Math.PI, 0), 40), Projection.Perspective);
+
+    [Fact]
+    public void Show_OfAView_EndsWithTheImageOfThePathTracer()
+    {
+        var publishedCount = 0;
+        using var trace = new ProgressiveTrace(6, new(), () => Interlocked.Increment(ref publishedCount));
+        Assert.Equal((TraceState.Idle, 0, null), (trace.State, trace.SampleCount, trace.Layer));
+        Assert.False(trace.TakeUpdate());
+
+        trace.Show(new(Sponge, Front, 40, 30));
+        Assert.Equal((TraceState.Tracing, 0, null), (trace.State, trace.SampleCount, trace.Layer));
+        Polling.WaitUntil(() => trace.State == TraceState.Done && !trace.IsBusy, "end of the trace");
+
+        Assert.Equal((6, 6), (trace.SampleCount, trace.MaxSampleCount));
+        Assert.Equal(1, trace.Layer!.Opacity);
+        Assert.Equal(Trace(Front, 6).Pixels, trace.Layer.Image.Pixels);
+        Assert.True(trace.TakeUpdate());
+        Assert.False(trace.TakeUpdate());
+        Assert.InRange(publishedCount, 1, 6);
+    }
+
+    [Fact]
+    public void Show_OfAnotherView_StartsAgain()
+    {
+        using var trace = new ProgressiveTrace(4, new(), static () => { });
+        trace.Show(new(Sponge, Front, 40, 30));
+        Polling.WaitUntil(() => trace.State == TraceState.Done, "end of the first trace");
+
+        trace.Show(new(Sponge, Right, 40, 30));
+        Assert.Equal((TraceState.Tracing, 0, null), (trace.State, trace.SampleCount, trace.Layer));
+        Polling.WaitUntil(() => trace.State == TraceState.Done, "end of the second trace");
+
+        Assert.Equal(Trace(Right, 4).Pixels, trace.Layer!.Image.Pixels);
+    }
+
+    [Fact]
+    public void Show_OfTheSameViewAgain_GoesOn()
+    {
+        using var trace = new ProgressiveTrace(1, new(), static () => { });
+        trace.Show(new(Sponge, Front, 8, 8));
+        Polling.WaitUntil(() => trace.State == TraceState.Done, "end of the trace");
+
+        trace.Show(new(Sponge, Front with { }, 8, 8));
+
+        Assert.Equal((TraceState.Done, 1), (trace.State, trace.SampleCount));
+    }
+
+    [Fact]
+    public void Show_OfNothing_EndsTheTraceWithinRows()
+    {
+        using var trace = new ProgressiveTrace(1, new(), static () => { });
+        // One sample of this image takes much longer than the limit below: more than a million pixels a second are beyond any machine.
+        trace.Show(new(Sponge, Front, 12_000, 5_000));
+        Thread.Sleep(TimeSpan.FromSeconds(1));
+        Assert.Equal((TraceState.Tracing, true), (trace.State, trace.IsBusy));
+
+        var clock = Stopwatch.StartNew();
+        trace.Show(null);
+        Assert.Equal((TraceState.Idle, null), (trace.State, trace.Layer));
+        Polling.WaitUntil(() => !trace.IsBusy, "end of the background");
+
+        Assert.True(clock.Elapsed < TimeSpan.FromSeconds(5), $"the trace went on for {clock.Elapsed}");
+        Assert.False(trace.TakeUpdate());
+    }
+
+    [Fact]
+    public void Show_OfAnObjectWithoutVolume_TellsWhy()
+    {
+        var flat = new SceneObject(Shapes.Cube()) { Placement = Transformation.Identity with { Scale = new(1, 0, 1) } };
+        using var trace = new ProgressiveTrace(1, new(), static () => { });
+
+        trace.Show(new(LoadedScene.Of(new() { Objects = [flat] }), Front, 8, 8));
+        Polling.WaitUntil(() => trace.State == TraceState.Failed, "failure");
+
+        Assert.NotNull(trace.Problem);
+        Assert.True(trace.TakeUpdate());
+        trace.Show(new(Sponge, Front, 8, 8));
+        Polling.WaitUntil(() => trace.State == TraceState.Done, "end of the trace");
+        Assert.Null(trace.Problem);
+    }
+
+    [Theory]
+    [InlineData(3, 256, 0)]
+    [InlineData(4, 256, 1 / 13.0)]
+    [InlineData(10, 256, 7 / 13.0)]
+    [InlineData(16, 256, 1)]
+    [InlineData(256, 256, 1)]
+    [InlineData(3, 8, 0)]
+    [InlineData(4, 8, 0.2)]
+    [InlineData(8, 8, 1)]
+    [InlineData(1, 1, 1)]
+    public void Opacity_OfSamples_RisesFromTheFourthToTheSixteenth(int count, int maxCount, double expected) =>
+        Assert.Equal(expected, ProgressiveTrace.Opacity(count, maxCount), 1e-12);
+
+    private static PixelImage Trace(View view, int samples)
+    {
+        var tracer = new PathTracer(Sponge, view, 40, 30);
+        for (var i = 0; i < samples; i++)
+        {
+            tracer.AddSample();
+        }
+
+        return tracer.ToImage();
+    }
+}

@@ -1,0 +1,195 @@
+using FractalEngine.Core;
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Rays;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Tests.Collision.Queries;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Rays;
+
+/// <summary>Tests rays at whole scenes against every face of every object in world space.</summary>
+public class SceneRayCasterTests
+{
+    private const int RaysPerScene = 40;
+
+    [Fact]
+    public void TryFindNearest_OnRandomScenes_EqualsEveryFace() => CheckAll(1, 60);
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void TryFindNearest_OnManyRandomScenes_EqualsEveryFace() => CheckAll(1_000_000, 20_000);
+
+    [Fact]
+    public void WithObject_OfAnObjectThatMoves_EqualsTheSceneMadeAnew()
+    {
+        var different = 0;
+        Seeded.Run(30, random => different += CountDifferences(random));
+        Assert.InRange(different, 10, 30 * 200);
+    }
+
+    [Fact]
+    public void WithObject_OfWrongArguments_IsRefused()
+    {
+        var scene = LoadedScene.Of(new Scene { Objects = [new(Samples.Tetrahedron)] });
+        var caster = new SceneRayCaster(scene);
+        var placed = scene.Objects[0];
+        Assert.Throws<ArgumentOutOfRangeException>(() => caster.WithObject(1, placed));
+        Assert.Throws<ArgumentOutOfRangeException>(() => caster.WithObject(-1, placed));
+        Assert.Throws<ArgumentException>(() => caster.WithObject(0, new(new SceneObject(Samples.Triangle))));
+        var flat = new SceneObject(placed.Model) { Placement = Transformation.Identity with { Scale = new(1, 0, 1) } };
+        Assert.Throws<SingularMatrixException>(() => caster.WithObject(0, new(flat, placed.Model)));
+    }
+
+    [Fact]
+    public void TryFindNearest_NamesTheObjectAndItsInstance()
+    {
+        var fractal = Samples.Repeated(2, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(5, 0, 0, 0.5));
+        SceneObject[] objects = [new(fractal), new(fractal) { Placement = Samples.Move(0, 40, 0) }];
+        var caster = new SceneRayCaster(new Scene { Objects = [.. objects] });
+        var context = new QueryContext();
+        // Instance 1 at both levels starts at 5 + ½·5.
+        Assert.True(caster.TryFindNearest(new(new(7.55, 40.05, -2), Vector.K), context, out var hit, out var index));
+        Assert.Equal((2.0, 1, 0), (hit.Distance, index, hit.FaceIndex));
+        Assert.Equal([1, 1], context.InstancePath.ToArray());
+        Assert.Equal(-Vector.K, hit.Normal);
+        Assert.True(hit.IsFrontFace);
+        Assert.False(caster.TryFindNearest(new(new(7.55, 20, -2), Vector.K), context, out _, out index));
+        Assert.Equal(-1, index);
+    }
+
+    [Fact]
+    public void TryFindNearest_OfADeepObjectBehindAnother_FindsTheNearest()
+    {
+        var deep = Samples.Repeated(1_000_000, Samples.MoveAndScale(0, 0, 0, 0.5), Samples.MoveAndScale(1, 0, 0, 0.5));
+        SceneObject[] objects = [new(deep), new(Samples.Tetrahedron) { Placement = Samples.Move(0.2, 0.05, -3) }];
+        var caster = new SceneRayCaster(new Scene { Objects = [.. objects] });
+        Assert.True(caster.TryFindNearest(new(new(0.3, 0.1, -9), Vector.K), new(), out var hit, out var index));
+        Assert.Equal((6.0, 1), (hit.Distance, index));
+    }
+
+    [Fact]
+    public void Rays_InAnEmptyScene_HitNothing()
+    {
+        var caster = new SceneRayCaster(new Scene());
+        Assert.False(caster.TryFindNearest(new(Vector.Zero, Vector.I), new(), out var hit, out var index));
+        Assert.Equal((default(RayHit), -1), (hit, index));
+        Assert.False(caster.HitsAny(new(Vector.Zero, Vector.I), new()));
+    }
+
+    [Fact]
+    public void Scene_WithASingularPlacement_IsRefused()
+    {
+        var flat = new SceneObject(Samples.Tetrahedron) { Placement = Transformation.Identity with { Scale = new(1, 0, 1) } };
+        Assert.Throws<SingularMatrixException>(() => new SceneRayCaster(new Scene { Objects = [flat] }));
+    }
+
+    [Fact]
+    public void Scene_WithAFileThatIsNotLoaded_IsRefused() =>
+        Assert.ThrowsAny<FractalEngineException>(() => new SceneRayCaster(new Scene { Objects = [new("a.obj", Transformation.Identity)] }));
+
+    [Fact]
+    public void Rays_OfWrongArguments_AreRefused()
+    {
+        var caster = new SceneRayCaster(new Scene { Objects = [new(Samples.Tetrahedron)] });
+        var context = new QueryContext();
+        Ray[] rays = [default, new(new(0, double.NaN, 0), Vector.I), new(Vector.Zero, new(double.PositiveInfinity, 0, 0))];
+        foreach (var ray in rays)
+        {
+            Assert.ThrowsAny<ArgumentException>(() => caster.HitsAny(ray, context));
+            Assert.ThrowsAny<ArgumentException>(() => caster.TryFindNearest(ray, context, out _, out _));
+        }
+
+        Assert.ThrowsAny<ArgumentException>(() => caster.HitsAny(new(Vector.Zero, Vector.I), context, -1));
+        Assert.ThrowsAny<ArgumentException>(() => caster.HitsAny(new(Vector.Zero, Vector.I), context, 0, double.NaN));
+    }
+
+    /// <summary>Moves an object, compares with the scene made anew, and counts the rays that the move matters to.</summary>
+    private static int CountDifferences(Random random)
+    {
+        var scene = RandomScene(random);
+        var index = random.Next(scene.Objects.Length);
+        var placed = new PlacedModel(
+            scene.Objects[index].Declaration with { Placement = random.Transformation() }, scene.Objects[index].Model);
+        var moved = scene with { Objects = scene.Objects.SetItem(index, placed) };
+        var anew = new SceneRayCaster(moved);
+        var before = new SceneRayCaster(scene);
+        var caster = before.WithObject(index, placed);
+        var different = 0;
+        var context = new QueryContext();
+        for (var i = 0; i < 200; i++)
+        {
+            var ray = new Ray(random.Vector(5), random.Vector(2));
+            var isFound = anew.TryFindNearest(ray, context, out var expected, out var expectedIndex);
+            Assert.Equal(isFound, caster.TryFindNearest(ray, context, out var actual, out var actualIndex));
+            Assert.Equal((expectedIndex, expected), (actualIndex, actual));
+            Assert.Equal(isFound, caster.HitsAny(ray, context));
+            different += before.TryFindNearest(ray, context, out var old, out _) != isFound || old != expected ? 1 : 0;
+        }
+
+        return different;
+    }
+
+    private static void CheckAll(int firstSeed, int scenes)
+    {
+        var certain = 0;
+        Parallel.For(firstSeed, firstSeed + scenes, seed => Seeded.RunOne(seed, random => Interlocked.Add(ref certain, CheckOne(random))));
+        Seeded.AssertMost(certain, scenes * RaysPerScene, 0.1);
+    }
+
+    /// <summary>Checks rays at one scene, and counts those that had to hit.</summary>
+    private static int CheckOne(Random random)
+    {
+        var scene = RandomScene(random);
+        var caster = new SceneRayCaster(scene);
+        var shapes = scene.Objects.Select(placed => new ShapeExpansion(FractalOf(placed.Model))).ToArray();
+        var oracle = new RayOracle(scene.Objects.Zip(shapes).SelectMany(
+            pair => pair.Second.Triangles.Select(triangle => Place(triangle, pair.First.ObjectToWorld))));
+        var source = new RandomRays(random, oracle);
+        var context = new QueryContext();
+        var certain = 0;
+        for (var i = 0; i < RaysPerScene; i++)
+        {
+            var ray = random.Next(4) == 0 ? source.DrawAtEdge(random, oracle) : source.Draw(random, oracle);
+            var minDistance = random.Next(2) * random.NextDouble();
+            var maxDistance = random.Next(2) == 0 ? double.PositiveInfinity : minDistance + (5 * random.NextDouble());
+            var projected = new ProjectedRay(ray);
+            var expected = oracle.CertainDistance(in projected, minDistance, maxDistance);
+            var isFound = caster.TryFindNearest(ray, context, out var hit, out var index, minDistance, maxDistance);
+            Assert.True(isFound || double.IsPositiveInfinity(expected), FormattableString.Invariant($"{ray}: no hit within {expected:R}"));
+            if (isFound)
+            {
+                Assert.InRange(hit.Distance, minDistance, Math.Min(maxDistance, expected));
+                var triangle = Place(
+                    shapes[index].Resolve(context.InstancePath, hit.FaceIndex), scene.Objects[index].ObjectToWorld);
+                var problem = RayHitCheck.FindProblem(in projected, in hit, oracle.WithReach(in triangle));
+                Assert.True(problem is null, FormattableString.Invariant($"{ray}: object {index}, {problem}"));
+            }
+
+            Assert.Equal(isFound, caster.HitsAny(ray, context, minDistance, maxDistance));
+            certain += double.IsPositiveInfinity(expected) ? 0 : 1;
+        }
+
+        return certain;
+    }
+
+    private static ExpandedTriangle Place(ExpandedTriangle triangle, AffineMap map)
+    {
+        var placed = triangle.Transform(map);
+        var largest = Math.Max(placed.A.MaxAbsComponent(), Math.Max(placed.B.MaxAbsComponent(), placed.C.MaxAbsComponent()));
+        return placed with { Reach = Math.Max(Math.Max(triangle.Reach, map.Translation.MaxAbsComponent()), largest) };
+    }
+
+    private static Fractal FractalOf(Model model) => model is FractalModel fractal ? fractal.Fractal : Fractal.Of(model.Mesh);
+
+    private static LoadedScene RandomScene(Random random)
+    {
+        Model[] models = [Model.Of(Samples.Tetrahedron), Model.Of(RandomFractals.Create(random)), Model.Of(RandomFractals.Create(random))];
+        var objects = Enumerable.Range(0, random.Next(1, 8)).Select(_ => new SceneObject(models[random.Next(models.Length)])
+        {
+            Placement = random.Transformation() with { Position = random.Vector(4) },
+        });
+        return LoadedScene.Of(new Scene { Objects = [.. objects] });
+    }
+}
