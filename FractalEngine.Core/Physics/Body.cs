@@ -88,6 +88,9 @@ public sealed class Body
         return new(linear, PreviousPosition + (alpha * (Position - PreviousPosition)));
     }
 
+    /// <summary>Maximum number of faces that are near a body without being touched.</summary>
+    internal const int MaxNearSurfaces = 4;
+
     /// <summary>The index of no island.</summary>
     internal const int NoIsland = -1;
 
@@ -137,39 +140,35 @@ public sealed class Body
     /// <summary>What all contacts add to the angular velocity in the step.</summary>
     internal Vector PlannedSpinChange { get; set; }
 
-    /// <summary>What they add to the energy of rotation, joules.</summary>
-    internal double PlannedSpinGain { get; set; }
+    /// <summary>Position at the beginning of the planned path.</summary>
+    internal Vector PlannedStart { get; set; }
 
-    /// <summary>The velocity at the end of the planned path.</summary>
-    internal Vector PlannedEndVelocity => PlannedMotion.Velocity + PlannedChange;
+    /// <summary>Velocity at the beginning of the planned path.</summary>
+    internal Vector PlannedVelocity { get; set; }
 
-    /// <summary>A face that the body touches; null for none.</summary>
-    internal Contact? TouchedSurface { get; set; }
+    /// <summary>Energy of motion and rotation at the beginning of the planned path, joules.</summary>
+    internal double PlannedStartEnergy { get; set; }
 
-    /// <summary>A face that the body may meet in this step; null for none.</summary>
-    internal Contact? NearSurface { get; set; }
+    /// <summary>Where the planned path leads.</summary>
+    internal Vector Target { get; set; }
 
-    /// <summary>The planned path of this step, for a body of an island.</summary>
-    internal Motion PlannedMotion { get; set; }
+    /// <summary>The target up to which the way is known to be free.</summary>
+    internal Vector CheckedTarget { get; set; }
 
-    /// <summary>Seconds of the planned path that the body has followed.</summary>
-    internal double PlannedTime { get; set; }
+    /// <summary>True where something stops the body on its planned path that no plan knew.</summary>
+    internal bool IsHeld { get; set; }
 
-    /// <summary>True while a body of its own island keeps the body from following the rest of its planned path.</summary>
-    internal bool IsWaiting { get; set; }
+    /// <summary>What has stopped the body on its planned path; null for nothing.</summary>
+    internal Contact? PlannedHit { get; set; }
 
-    /// <summary>What the contacts have added to the body's energy in its planned motion, joules.</summary>
-    internal double EnergyGain { get; set; }
+    /// <summary>Faces that the body touches or may meet in this step, and no contact knows of.</summary>
+    internal Contact[] NearSurfaces { get; } = new Contact[MaxNearSurfaces];
+
+    /// <summary>Number of these faces.</summary>
+    internal int NearSurfaceCount { get; set; }
 
     /// <summary>True while the body shrinks and has not reached its minimum scale.</summary>
     internal bool IsShrinking => Description.Shrinkage > 0 && Scale > Description.MinimumScale;
-
-    /// <summary>What contacts have added to the energy since the beginning of the planned path, joules.</summary>
-    /// <param name="velocity">Velocity at a point of the path.</param>
-    /// <param name="position">That point.</param>
-    internal double EnergyGainOf(Vector velocity, Vector position) => Description.Mass
-        * ((0.5 * (velocity.LengthSquared() - PlannedMotion.Velocity.LengthSquared()))
-            - Vector.Dot(FreeAcceleration, position - PlannedMotion.Start)) + PlannedSpinGain;
 
     /// <summary>Returns the body to its initial state.</summary>
     /// <param name="acceleration">Acceleration of free fall.</param>
@@ -215,8 +214,7 @@ public sealed class Body
     {
         IsPrepared = false;
         IslandIndex = NoIsland;
-        EnergyGain = 0;
-        IsWaiting = false;
+        NearSurfaceCount = 0;
         PreviousPosition = Position;
         PreviousOrientation = Orientation;
         PreviousScale = Scale;

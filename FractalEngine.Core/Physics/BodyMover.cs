@@ -85,7 +85,6 @@ internal sealed partial class BodyMover
             // A body that is run into gives way, but in its own turn. Until then it is as firm as the ground: this one slides or waits.
             isBlocked |= !hasResponded && elapsed < NegligibleTimeFraction * stepLength && contacts.HasAwakeBody(_bodies);
         }
-
     }
 
     /// <summary>Chooses where contacts let the body go, and moves it there.</summary>

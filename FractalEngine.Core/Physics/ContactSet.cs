@@ -55,21 +55,6 @@ internal sealed class ContactSet
         _contacts[Count++] = contact with { CachedNormal = normal };
     }
 
-    /// <summary>True where a contact with the same obstacle and normal is known.</summary>
-    /// <param name="contact">Contact of the body.</param>
-    /// <param name="position">Position of the body, world space.</param>
-    public bool Has(in Contact contact, Vector position)
-    {
-        var has = false;
-        for (var i = 0; i < Count; i++)
-        {
-            has |= _contacts[i].BodyIndex == contact.BodyIndex
-                && (_contacts[i].Normal(position) - contact.Normal(position)).LengthSquared() < SameNormalToleranceSquared;
-        }
-
-        return has;
-    }
-
     /// <summary>True where another body is touched.</summary>
     public bool HasBody
     {

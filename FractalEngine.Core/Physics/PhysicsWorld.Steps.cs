@@ -7,8 +7,8 @@ namespace FractalEngine.Core.Physics;
 /// <content>How time passes in the world.</content>
 public sealed partial class PhysicsWorld
 {
-    // Times that a body may try to follow its planned path, which others of its island bar until they have moved.
-    private const int MaxPasses = 8;
+    // Times that the bodies of an island go around one that something unforeseen holds.
+    private const int MaxPasses = 4;
 
     /// <summary>Makes as many steps of <see cref="PhysicsSettings.TimeStep"/> as fit into the time that has passed.</summary>
     /// <param name="seconds">Time since the last call; a negative one counts as 0. What does not fill a step is kept.</param>
@@ -47,14 +47,15 @@ public sealed partial class PhysicsWorld
         var faceTestsBefore = _queryContext.Statistics.FaceTests;
         var boundTestsBefore = _queryContext.Statistics.BoundTests;
         var character = Character is { IsActive: true } active ? active : null;
+        _islands.HasSleeping = false;
         foreach (var body in _bodies)
         {
             body.BeginStep();
+            _islands.HasSleeping |= body.IsAsleep;
         }
 
         PlanIslands(character, seconds);
-        MovePlanned(character, seconds);
-
+        MoveIslands(character, seconds);
         for (var i = 0; i < _bodies.Count; i++)
         {
             if (!_bodies[i].IsAsleep && _bodies[i].IslandIndex < 0)
@@ -63,7 +64,6 @@ public sealed partial class PhysicsWorld
             }
         }
 
-        _energyGuard.Check();
         _islands.PutToSleep(_planner.Graph, Settings.TimeBeforeSleep);
 
         StepCharacter(character, seconds);
@@ -71,31 +71,37 @@ public sealed partial class PhysicsWorld
         LastStepCost = (_queryContext.Statistics.FaceTests - faceTestsBefore, _queryContext.Statistics.BoundTests - boundTestsBefore);
     }
 
-    /// <summary>Moves all bodies of islands; those that wait for others in a ring, several times.</summary>
-    private void MovePlanned(CharacterController? character, double seconds)
+    /// <summary>Prepares all bodies that are awake, and solves their islands.</summary>
+    private void PlanIslands(CharacterController? character, double seconds)
     {
-        foreach (var index in _planner.Order)
+        CollectPairs(character, seconds);
+        FindNearSurfaces(seconds);
+        _planner.StopApproaches();
+        if (_planner.Graph.HasOutrun())
         {
-            StepBody(_bodies[index], character, seconds);
+            CollectPairs(character, seconds);
+            FindNearSurfaces(seconds);
         }
 
-        var isWaiting = true;
-        for (var pass = 1; pass < MaxPasses && isWaiting; pass++)
+        _planner.Plan(seconds);
+    }
+
+    /// <summary>Finds the surfaces that bodies may meet which are near others.</summary>
+    private void FindNearSurfaces(double seconds)
+    {
+        foreach (var body in _bodies)
         {
-            isWaiting = false;
-            foreach (var index in _planner.Order)
+            body.NearSurfaceCount = 0;
+            if (_planner.Graph.HasPair(body.Index))
             {
-                if (_bodies[index].IsWaiting)
-                {
-                    StepBody(_bodies[index], character, seconds);
-                    isWaiting |= _bodies[index].IsWaiting;
-                }
+                var reach = _planner.Graph.Reach(body.Index);
+                _stepper.FindNearSurfaces(body, _statics.CollidersOf(ColliderKindOf(body)), reach, seconds);
             }
         }
     }
 
-    /// <summary>Prepares all bodies that are awake, and solves their islands.</summary>
-    private void PlanIslands(CharacterController? character, double seconds)
+    /// <summary>Finds which bodies are near each other, all of them prepared.</summary>
+    private void CollectPairs(CharacterController? character, double seconds)
     {
         do
         {
@@ -107,20 +113,79 @@ public sealed partial class PhysicsWorld
                 }
             }
         }
-        while (_planner.TryPlan(seconds));
+        while (_planner.Graph.CollectPairs(_islands, seconds));
+    }
+
+    /// <summary>Moves the bodies of each island at once.</summary>
+    private void MoveIslands(CharacterController? character, double seconds)
+    {
+        foreach (var island in _planner.Graph.Islands)
+        {
+            var members = _planner.Graph.BodiesOf(in island);
+            _islandMover.SetTargets(in island, seconds);
+            var hasHeld = true;
+            for (var pass = 0; pass < MaxPasses && hasHeld; pass++)
+            {
+                _islandMover.FindUnplanned(in island, seconds);
+                _islandMover.SeparateTargets(in island);
+                hasHeld = false;
+                foreach (var index in members)
+                {
+                    var body = _bodies[index];
+                    if (!body.IsHeld && (pass == 0 || body.Target != body.CheckedTarget))
+                    {
+                        MoveBody(body, character, seconds, isPlanned: true);
+                        hasHeld |= body.IsHeld;
+                        if (body.PlannedHit is { } hit && pass < MaxPasses - 2)
+                        {
+                            _islandMover.AddSurface(body, in hit);
+                        }
+                        else if (body.IsHeld)
+                        {
+                            body.Target = body.Position;
+                        }
+                    }
+                }
+            }
+
+            _islandMover.ReturnOverlapping(in island, seconds);
+            foreach (var index in members)
+            {
+                _bodies[index].Velocity += _bodies[index].PlannedChange;
+                _bodies[index].AngularVelocity += _bodies[index].PlannedSpinChange;
+            }
+
+            _energyGuard.Check(in island);
+            foreach (var index in members)
+            {
+                _stepper.FinishPlanned(_bodies[index], _statics.CollidersOf(ColliderKindOf(_bodies[index])), seconds, StepCount);
+            }
+        }
     }
 
     private void StepBody(Body body, CharacterController? character, double seconds)
     {
+        if (!body.IsPrepared)
+        {
+            _stepper.Prepare(body, _statics.CollidersOf(ColliderKindOf(body)), character, _gravity, seconds);
+        }
+
+        MoveBody(body, character, seconds, isPlanned: false);
+    }
+
+    private void MoveBody(Body body, CharacterController? character, double seconds, bool isPlanned)
+    {
         try
         {
             var colliders = _statics.CollidersOf(ColliderKindOf(body));
-            if (!body.IsPrepared)
+            if (isPlanned)
             {
-                _stepper.Prepare(body, colliders, character, _gravity, seconds);
+                _stepper.MovePlanned(body, colliders, character, seconds);
             }
-
-            _stepper.Step(body, colliders, character, seconds, StepCount);
+            else
+            {
+                _stepper.Step(body, colliders, character, seconds, StepCount);
+            }
         }
         catch (ArgumentOutOfRangeException exception)
         {

@@ -27,6 +27,7 @@ public sealed partial class PhysicsWorld
     private readonly Obstacles _obstacles;
     private readonly BodyStepper _stepper;
     private readonly IslandPlanner _planner;
+    private readonly IslandMover _islandMover;
     private readonly EnergyGuard _energyGuard;
     private readonly int _sceneBodyCount;
     private Vector _gravity;
@@ -71,8 +72,9 @@ public sealed partial class PhysicsWorld
         _islands = new(_bodies, nearbyBodies);
         _obstacles = new(_bodies, nearbyBodies, _queryContext);
         _stepper = new(Settings, _bodies, _grid, nearbyBodies, _obstacles, _islands, _queryContext);
-        _planner = new(_bodies, nearbyBodies, _islands);
-        _energyGuard = new(_bodies, _planner.Graph, _grid, nearbyBodies);
+        _planner = new(_bodies, nearbyBodies);
+        _islandMover = new(_bodies, _planner.Graph, _grid, nearbyBodies);
+        _energyGuard = new(_bodies, _planner.Graph, _islandMover);
         _staticOfObject = new StaticObject?[scene.Objects.Length];
         for (var i = 0; i < scene.Objects.Length; i++)
         {

@@ -13,6 +13,9 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
     private readonly List<int> _candidates = new(InitialNeighbourCapacity);
     private readonly Stack<Body> _stack = new(InitialNeighbourCapacity);
 
+    /// <summary>True where a body may sleep; else nothing need be woken.</summary>
+    public bool HasSleeping { get; set; }
+
     /// <summary>Puts a body to sleep that has barely moved for some time; one that moves wakes what touched it before.</summary>
     /// <param name="body">Awake, after its step.</param>
     /// <param name="sleepSpeed">Average speed below which it counts as resting, units per second; at 0 it never rests.</param>
@@ -31,8 +34,9 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
         if (body.SleepTimer >= timeBeforeSleep && isResting && body.IslandIndex < 0)
         {
             body.Sleep();
+            HasSleeping = true;
         }
-        else if (!isResting)
+        else if (!isResting && HasSleeping)
         {
             // A body that slept on this one may have lost its support.
             WakeOverlapping(body.PreviousPosition, body.PreviousScale * body.Description.Radius, body.Index);

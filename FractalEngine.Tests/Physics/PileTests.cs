@@ -34,20 +34,42 @@ public class PileTests
         }
     }
 
+    [Fact]
+    public void Column_OfTen_WithOneAside_FallsAsFastAsTheOracleSays()
+    {
+        // A thousandth of its radius: the 4th ball stands aside, and all touch.
+        const double Offset = 0.0005;
+        var rise = Math.Sqrt(1 - (Offset * Offset));
+        var positions = Enumerable.Range(0, 10)
+            .Select(i => new Vector(i == 3 ? Offset : 0, 0.5 + Math.Min(i, 2) + (rise * Math.Clamp(i - 2, 0, 2)) + Math.Max(0, i - 4), 0))
+            .ToArray();
+        var expected = new PileOracle(positions, 0.5, 1e-3).MaxSpeedWithin(0.75);
+        var world = CreatePile(positions);
+        var maxSpeed = 0.0;
+        world.Run(45, () => maxSpeed = Math.Max(maxSpeed, world.Bodies.Max(body => body.Velocity.Length())));
+        Assert.InRange(maxSpeed, 0.95 * expected, 1.05 * expected);
+        Assert.Equal(0, world.IslandStatistics.Unconverged);
+    }
+
+    [Fact]
+    public void Heap_WithFriction_SleepsWithinTenSeconds()
+    {
+        var world = CreateHeap(0.5, isRotationLocked: false, sleepSpeed: null);
+        for (var step = 0; step < 600 && world.IsMoving; step++)
+        {
+            world.Step();
+        }
+
+        Assert.False(world.IsMoving, $"{world.Bodies.Count(body => !body.IsAsleep)} are awake");
+    }
+
     [Theory]
     [InlineData(0, true)]
     [InlineData(0.5, true)]
     [InlineData(0.5, false)]
     public void Heap_InABox_NeverGainsEnergy(double friction, bool isRotationLocked)
     {
-        var random = new Random(5);
-        var box = PhysicsMeshes.FlipWinding(PhysicsMeshes.Cube.Transform(v => (4 * v).Stretch(new(1, 4, 1))));
-        var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings { SleepSpeed = 0 }, TestWorlds.Place(box));
-        world.AddRange(Enumerable.Range(0, 100).Select(i => new BodyDescription(
-            new Vector(-1.5 + (i % 4 * 0.9), -7 + (i / 16 * 0.9), -1.5 + (i / 4 % 4 * 0.9)) + random.Vector(0.02), 0.4) 
-        {
-            Friction = friction, IsRotationLocked = isRotationLocked,
-        }));
+        var world = CreateHeap(friction, isRotationLocked, sleepSpeed: 0);
         // From the floor of the box.
         double Energy() => world.Energy() + (9.8 * 8 * world.Bodies.Count);
         var energy = Energy();
@@ -61,6 +83,19 @@ public class PileTests
         Assert.True(
             friction == 0 || !isRotationLocked || world.IslandStatistics.Unconverged <= 0.001 * world.IslandStatistics.Solves,
             $"{world.IslandStatistics}");
+    }
+
+    private static PhysicsWorld CreateHeap(double friction, bool isRotationLocked, double? sleepSpeed)
+    {
+        var random = new Random(5);
+        var box = PhysicsMeshes.FlipWinding(PhysicsMeshes.Cube.Transform(v => (4 * v).Stretch(new(1, 4, 1))));
+        var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings { SleepSpeed = sleepSpeed }, TestWorlds.Place(box));
+        world.AddRange(Enumerable.Range(0, 100).Select(i => new BodyDescription(
+            new Vector(-1.5 + (i % 4 * 0.9), -7 + (i / 16 * 0.9), -1.5 + (i / 4 % 4 * 0.9)) + random.Vector(0.02), 0.4)
+        {
+            Friction = friction, IsRotationLocked = isRotationLocked,
+        }));
+        return world;
     }
 
     private static PhysicsWorld CreatePile(IEnumerable<Vector> positions, double? sleepSpeed = 0)

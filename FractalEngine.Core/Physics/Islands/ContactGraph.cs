@@ -4,22 +4,28 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Physics.Islands;
 
 /// <summary>
-/// Finds which bodies touch at the beginning of a step, and groups them: an island is made of two or more awake bodies that touch,
-/// directly or through others. Its order is that of the bodies' indices, whatever the order of the search.
+/// Finds which bodies touch or may meet in a step, and groups them: an island is made of two or more awake bodies that touch, directly or
+/// through others. Its order is that of the bodies' indices, whatever the order of the search.
 /// </summary>
 internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearbyBodies)
 {
     private const int InitialCapacity = 256;
 
+    // Of the radius: how much farther than its free path a body is expected to get, pushed by others.
+    private const double ReachMargin = 0.1;
+
     private readonly List<int> _neighbours = new(InitialCapacity);
+    private readonly List<BodyPair> _pairs = new(InitialCapacity);
     private readonly List<Island> _islands = new(InitialCapacity);
     private readonly List<int> _islandBodies = new(InitialCapacity);
+    private readonly DisjointSets _sets = new();
     private ContactRow[] _found = new ContactRow[InitialCapacity];
     private ContactRow[] _rows = new ContactRow[InitialCapacity];
-    private readonly DisjointSets _sets = new();
     private int[] _islandOf = new int[InitialCapacity];
-    private int[] _nextBody = new int[InitialCapacity];
-    private bool[] _isTouched = new bool[InitialCapacity];
+    private int[] _next = new int[InitialCapacity];
+    private double[] _reach = new double[InitialCapacity];
+    private double[] _push = new double[InitialCapacity];
+    private bool[] _hasPair = new bool[InitialCapacity];
     private double _stepLength;
     private int _count;
 
@@ -39,188 +45,198 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     public ReadOnlySpan<int> BodiesOf(in Island island) =>
         CollectionsMarshal.AsSpan(_islandBodies).Slice(island.FirstBody, island.BodyCount);
 
-    /// <summary>Finds all contacts and islands. The contacts of bodies with surfaces must be up to date.</summary>
-    /// <param name="stepLength">Seconds.</param>
+    /// <summary>True for a body that another one is near.</summary>
+    public bool HasPair(int body) => _hasPair[body];
+
+    /// <summary>How far a body may get in the step.</summary>
+    public double Reach(int body) => _reach[body];
+
+    /// <summary>How far a body may get from where it would be without others, before it may meet what no contact knows of.</summary>
+    public double DeviationLimit(int body) => Slack(bodies[body]) + _push[body];
+
+    /// <summary>Finds all pairs of bodies that touch or may meet.</summary>
     /// <param name="islands">Wakes bodies that sleep and are hit.</param>
-    /// <returns>True where bodies were woken, and nothing else has been done.</returns>
-    public bool Build(SleepIslands islands, double stepLength)
+    /// <param name="stepLength">Seconds.</param>
+    /// <returns>True where bodies were woken, and the pairs must be collected again.</returns>
+    public bool CollectPairs(SleepIslands islands, double stepLength)
     {
-        _stepLength = stepLength;
+        Begin(stepLength);
         var hasWoken = false;
-        if (_islandOf.Length < bodies.Count)
+        for (var i = 0; i < bodies.Count && !hasWoken; i++)
         {
-            _islandOf = new int[2 * bodies.Count];
-            _nextBody = new int[2 * bodies.Count];
-            _isTouched = new bool[2 * bodies.Count];
-        }
-
-        _count = 0;
-        _sets.Reset(bodies.Count);
-        for (var i = 0; i < bodies.Count; i++)
-        {
-            _islandOf[i] = -1;
-            _isTouched[i] = false;
-        }
-
-        for (var i = 0; i < bodies.Count; i++)
-        {
-            if (CanMove(bodies[i]))
-            {
-                hasWoken |= AddContactsOf(i, islands);
-            }
-        }
-
-        if (!hasWoken)
-        {
-            JoinAhead();
-            GroupByIslands();
+            hasWoken = _reach[i] > 0 && CollectPairsOf(i, islands);
         }
 
         return hasWoken;
     }
 
-    private static bool CanMove(Body body) => !body.IsAsleep && !body.IsStuck && body.IsOverlapResolved;
-
-    /// <summary>Adds the contacts of a body; or wakes a sleeping body that it has hit.</summary>
-    private bool AddContactsOf(int index, SleepIslands islands)
+    /// <summary>True where impulses have made a body so fast that it may meet others than those of its pairs.</summary>
+    public bool HasOutrun()
     {
-        var body = bodies[index];
-        for (var i = 0; i < body.Contacts.Count; i++)
+        var hasOutrun = false;
+        for (var i = 0; i < bodies.Count; i++)
         {
-            if (body.Contacts[i] is { IsBody: false } contact)
+            hasOutrun |= _hasPair[i] && CanMove(bodies[i]) && Reach(bodies[i]) > _reach[i] * (1 + ReachMargin);
+        }
+
+        return hasOutrun;
+    }
+
+    /// <summary>Groups the bodies that touch, for the impulses of what approaches.</summary>
+    public void GroupTouching()
+    {
+        _sets.Reset(bodies.Count);
+        foreach (ref var pair in CollectionsMarshal.AsSpan(_pairs))
+        {
+            pair.IsRow = pair.IsTouching;
+            if (pair.IsTouching && !pair.IsSecondFirm)
             {
-                AddSurface(index, in contact, isAhead: false);
+                _sets.Join(pair.First, pair.Second);
             }
         }
 
-        if (body.TouchedSurface is { } touched && !body.Contacts.Has(in touched, body.Position))
+        Group();
+    }
+
+    /// <summary>
+    /// Groups the bodies that stay in touch, with all that they may meet in the step. Bodies that touch nothing go their exact ways alone.
+    /// </summary>
+    public void GroupForStep()
+    {
+        _sets.Reset(bodies.Count);
+        var pairs = CollectionsMarshal.AsSpan(_pairs);
+        FindPushes(pairs);
+        var hasChanged = false;
+        foreach (ref var pair in pairs)
         {
-            AddSurface(index, in touched, isAhead: false);
+            pair.IsRow = pair.IsTouching && (pair.IsSecondFirm || !IsSeparating(in pair));
+            if (pair is { IsRow: true, IsSecondFirm: false })
+            {
+                _sets.Join(pair.First, pair.Second);
+                hasChanged = true;
+            }
         }
 
-        if (body.NearSurface is { } near && !BouncesFrom(body, near.Normal(body.Position)))
+        while (hasChanged)
         {
-            AddSurface(index, in near, isAhead: true);
+            hasChanged = false;
+            foreach (ref var pair in pairs)
+            {
+                if (!pair.IsRow && (_sets.IsJoined(pair.First) || (!pair.IsSecondFirm && _sets.IsJoined(pair.Second))) && MayMeet(in pair))
+                {
+                    pair.IsRow = true;
+                    if (!pair.IsSecondFirm)
+                    {
+                        _sets.Join(pair.First, pair.Second);
+                        hasChanged = true;
+                    }
+                }
+            }
         }
 
+        Group();
+    }
+
+    private static bool CanMove(Body body) => !body.IsAsleep && !body.IsStuck && body.IsOverlapResolved;
+
+    private void Begin(double stepLength)
+    {
+        _stepLength = stepLength;
+        _pairs.Clear();
+        if (_islandOf.Length < bodies.Count)
+        {
+            _islandOf = new int[2 * bodies.Count];
+            _next = new int[2 * bodies.Count];
+            _reach = new double[2 * bodies.Count];
+            _push = new double[2 * bodies.Count];
+            _hasPair = new bool[2 * bodies.Count];
+        }
+
+        for (var i = 0; i < bodies.Count; i++)
+        {
+            _reach[i] = CanMove(bodies[i]) ? Reach(bodies[i]) : 0;
+            _hasPair[i] = false;
+        }
+    }
+
+    private bool CollectPairsOf(int index, SleepIslands islands)
+    {
+        var body = bodies[index];
         _neighbours.Clear();
-        var reach = Reach(body);
-        nearbyBodies.CollectOverlaps(new(body.Position, body.Position), body.Radius + reach, index, _neighbours);
+        nearbyBodies.CollectOverlaps(new(body.Position, body.Position), body.Radius + (2 * _reach[index]), index, _neighbours);
         _neighbours.Sort();
         foreach (var neighbour in _neighbours)
         {
+            // The one that reaches farther finds the pair.
+            if (_reach[neighbour] > _reach[index] || (_reach[neighbour] == _reach[index] && neighbour < index))
+            {
+                continue;
+            }
+
             var other = bodies[neighbour];
             var gap = (body.Position - other.Position).Length() - body.Radius - other.Radius;
-            var isTouching = gap <= ContactTolerances.Slop(body.Radius, body.Position);
+            if (gap > _reach[index] + _reach[neighbour])
+            {
+                continue;
+            }
+
+            var isTouching = gap <= ContactTolerances.Slop(Math.Min(body.Radius, other.Radius), body.Position);
             if (isTouching && other.IsAsleep && IsHit(body, other))
             {
                 islands.Wake(other);
                 return true;
             }
 
-            if (!CanMove(other) || neighbour > index)
-            {
-                AddBall(index, neighbour, isTouching);
-            }
+            var isFirm = !CanMove(other);
+            _hasPair[index] = true;
+            _hasPair[neighbour] |= !isFirm;
+            _pairs.Add(isFirm || index < neighbour ? new(index, neighbour, isFirm, isTouching) : new(neighbour, index, false, isTouching));
         }
 
         return false;
     }
 
-    private void AddSurface(int index, in Contact contact, bool isAhead)
-    {
-        var body = bodies[index];
-        AddRow(new()
-        {
-            First = index, Second = ContactRow.Firm, Offset = contact.PointToCentre(body.Position), MinDistance = body.Radius,
-            Normal = contact.Normal(body.Position), FirstRadius = body.Radius, Friction = body.Description.Friction,
-            Restitution = body.Description.Restitution, IsAhead = isAhead, RollingArm = body.Description.RollingFriction * body.Radius,
-            SpinningArm = body.Description.SpinningFriction * body.Radius,
-        });
-    }
+    /// <summary>How far a body may get in the step. Never 0, which is for bodies that do not move.</summary>
+    private double Reach(Body body) => (_stepLength * body.Velocity.Length()) + Slack(body);
 
-    private void AddBall(int index, int neighbour, bool isTouching)
+    private double Slack(Body body) => (_stepLength * _stepLength * body.FreeAcceleration.Length()) + (ReachMargin * body.Radius);
+
+    /// <summary>Finds how far bodies may be pushed by those that run into them.</summary>
+    private void FindPushes(ReadOnlySpan<BodyPair> pairs)
     {
-        var body = bodies[index];
-        var other = bodies[neighbour];
-        var isMovable = CanMove(other);
-        var offset = body.Position - other.Position;
-        var radius = Math.Min(body.Radius, other.Radius);
-        var row = new ContactRow
+        Array.Clear(_push, 0, bodies.Count);
+        foreach (ref readonly var pair in pairs)
         {
-            First = index, Second = isMovable ? neighbour : ContactRow.Firm, Offset = offset, MinDistance = body.Radius + other.Radius,
-            Normal = offset.UnitVectorOrZero(), FirstRadius = body.Radius, SecondRadius = other.Radius, IsBall = true,
-            IsAhead = !isTouching,
-            Friction = Math.Min(body.Description.Friction, other.Description.Friction),
-            Restitution = Math.Min(body.Description.Restitution, other.Description.Restitution),
-            RollingArm = radius * Math.Min(body.Description.RollingFriction, other.Description.RollingFriction),
-            SpinningArm = radius * Math.Min(body.Description.SpinningFriction, other.Description.SpinningFriction),
-        };
-        if (isTouching)
-        {
-            AddRow(in row);
-            if (isMovable)
-            {
-                _isTouched[index] = true;
-                _isTouched[neighbour] = true;
-                _sets.Join(index, neighbour);
-            }
-        }
-        else if (isMovable && MayMeet(body, other) && (row.Restitution == 0 || !IsHit(body, other)))
-        {
-            AddRow(in row);
+            var offset = bodies[pair.First].Position - bodies[pair.Second].Position;
+            var gap = offset.Length() - bodies[pair.First].Radius - bodies[pair.Second].Radius;
+            var push = (-_stepLength * Vector.Dot(RelativeVelocity(in pair), offset.UnitVectorOrZero())) - gap;
+            _push[pair.First] = Math.Max(_push[pair.First], push);
+            _push[pair.Second] = Math.Max(_push[pair.Second], push);
         }
     }
 
-    /// <summary>How far from a body another one may be that it meets in the step: each counts its own way.</summary>
-    private double Reach(Body body) => 2 * new Motion(Vector.Zero, body.Velocity, body.FreeAcceleration).MaxTravelDistance(_stepLength);
-
-    private bool MayMeet(Body body, Body other)
+    /// <summary>Tells whether two bodies come so near on their straight ways that they may touch.</summary>
+    private bool MayMeet(in BodyPair pair)
     {
-        var gap = (body.Position - other.Position).Length() - body.Radius - other.Radius;
-        var relative = new Motion(
-            Vector.Zero, body.Velocity - other.Velocity, (2 * body.FreeAcceleration.Length() * Vector.I));
-        return gap <= relative.MaxTravelDistance(_stepLength);
+        var offset = bodies[pair.First].Position - bodies[pair.Second].Position;
+        var way = _stepLength * RelativeVelocity(in pair);
+        var wayLengthSquared = way.LengthSquared();
+        var share = wayLengthSquared > 0 ? Math.Clamp(-Vector.Dot(offset, way) / wayLengthSquared, 0, 1) : 0;
+        var distance = bodies[pair.First].Radius + bodies[pair.Second].Radius + DeviationLimit(pair.First)
+            + (pair.IsSecondFirm ? 0 : DeviationLimit(pair.Second));
+        return (offset + (share * way)).LengthSquared() <= distance * distance;
+    }
+
+    private Vector RelativeVelocity(in BodyPair pair) => pair.IsSecondFirm
+        ? bodies[pair.First].Velocity : bodies[pair.First].Velocity - bodies[pair.Second].Velocity;
+
+    /// <summary>True for two bodies that come apart faster than gravity could bring them together again in this step.</summary>
+    private bool IsSeparating(in BodyPair pair)
+    {
+        var normal = (bodies[pair.First].Position - bodies[pair.Second].Position).UnitVectorOrZero();
+        return Vector.Dot(RelativeVelocity(in pair), normal) > _stepLength * bodies[pair.First].FreeAcceleration.Length();
     }
 
     private static bool IsHit(Body body, Body other) =>
         -Vector.Dot(body.Velocity - other.Velocity, (body.Position - other.Position).UnitVectorOrZero()) > body.RestitutionThreshold;
-
-    private static bool BouncesFrom(Body body, Vector normal) =>
-        body.Description.Restitution > 0 && -Vector.Dot(body.Velocity, normal) > body.RestitutionThreshold;
-
-    /// <summary>Joins bodies that may meet, where one of them touches another already. Alone, both go their exact ways.</summary>
-    private void JoinAhead()
-    {
-        for (var i = 0; i < _count; i++)
-        {
-            ref var row = ref _found[i];
-            if (row.IsAhead && row.Second >= 0 && (_isTouched[row.First] || _isTouched[row.Second]))
-            {
-                _sets.Join(row.First, row.Second);
-            }
-        }
-
-        var kept = 0;
-        for (var i = 0; i < _count; i++)
-        {
-            ref var row = ref _found[i];
-            if (!row.IsAhead || row.Second < 0 || _sets.RootOf(row.First) == _sets.RootOf(row.Second))
-            {
-                _found[kept++] = row;
-            }
-        }
-
-        _count = kept;
-    }
-
-    private void AddRow(in ContactRow row)
-    {
-        if (_count == _found.Length)
-        {
-            Array.Resize(ref _found, 2 * _found.Length);
-        }
-
-        _found[_count++] = row;
-    }
 }

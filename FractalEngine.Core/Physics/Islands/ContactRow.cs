@@ -26,6 +26,12 @@ internal struct ContactRow
     /// <summary>True for two balls, whose line of contact turns as they move; false for the plane of a surface.</summary>
     public bool IsBall;
 
+    /// <summary>True where the normal is that of an impact ahead, and stays as it is.</summary>
+    public bool HasFixedNormal;
+
+    /// <summary>True for what will bounce when it touches, and gives no impulse before.</summary>
+    public bool IsBouncingAhead;
+
     /// <summary>True for what does not touch yet, and may meet in this step.</summary>
     public bool IsAhead;
 
@@ -67,6 +73,9 @@ internal struct ContactRow
 
     /// <summary>Mass that an impulse across the normal moves, kilograms.</summary>
     public double FrictionMass;
+
+    /// <summary>Radius of the smaller one of two balls, as a share of the distance between them.</summary>
+    public readonly double SmallerRadiusShare => Math.Min(FirstRadius, SecondRadius) / MinDistance;
 
     /// <summary>Says which contact it is, from step to step: both indices.</summary>
     public readonly long Key => ((long)First << 32) | (uint)(Second + 1);

@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Physics.Islands;
@@ -12,8 +13,11 @@ namespace FractalEngine.Core.Physics.Islands;
 /// </remarks>
 internal sealed class ContactSolver
 {
-    /// <summary>Maximum number of rounds.</summary>
-    public const int MaxRounds = 60;
+    // Most rounds of a solve: islands of up to so many contacts may take many, and all others as many as solve so many contacts.
+    private const int ManyRounds = 250;
+    private const int MaxContactsOfManyRounds = 500;
+    private const int MaxContactSolves = 60_000;
+    private const int MinRounds = 12;
 
     // Of the largest impulse: a round that changes less has converged.
     private const double Tolerance = 1e-9;
@@ -24,6 +28,14 @@ internal sealed class ContactSolver
 
     private const int InitialCapacity = 256;
 
+    // Of a change of friction, in late rounds: where balls pass their slip to and fro, smaller changes come to an end.
+    private const double LateFrictionShare = 0.5;
+
+    // Of the momentum of a contact's bodies.
+    private const double RelativeRounding = 1e-14;
+
+    private double _frictionShare = 1;
+    private double _rounding;
     private SolverBody[] _bodies = new SolverBody[InitialCapacity];
     private Direction[] _changes = new Direction[InitialCapacity];
     private Direction[] _directions = new Direction[InitialCapacity];
@@ -62,10 +74,12 @@ internal sealed class ContactSolver
     }
 
     /// <summary>Velocity of the first body relative to the second.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Vector RelativeVelocity(in ContactRow row) =>
         row.Second >= 0 ? _bodies[row.First].Velocity - _bodies[row.Second].Velocity : _bodies[row.First].Velocity;
 
     /// <summary>Velocity of the first body's touching point relative to the second's, across the normal.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Vector Slip(in ContactRow row)
     {
         var relative = RelativeVelocity(in row);
@@ -84,15 +98,36 @@ internal sealed class ContactSolver
     /// <param name="across">Its part across the normal.</param>
     public void Apply(in ContactRow row, double alongNormal, Vector across)
     {
-        var impulse = (alongNormal * row.Normal) + across;
+        ApplyAlongNormal(in row, alongNormal);
+        if (row.Friction > 0)
+        {
+            ApplyAcross(in row, across);
+        }
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private void ApplyAlongNormal(in ContactRow row, double impulse)
+    {
+        ref var first = ref _bodies[row.First];
+        first.Velocity += first.InverseMass * impulse * row.Normal;
+        if (row.Second >= 0)
+        {
+            ref var second = ref _bodies[row.Second];
+            second.Velocity -= second.InverseMass * impulse * row.Normal;
+        }
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private void ApplyAcross(in ContactRow row, Vector across)
+    {
         var torque = Vector.Cross(row.Normal, across);
         ref var first = ref _bodies[row.First];
-        first.Velocity += first.InverseMass * impulse;
+        first.Velocity += first.InverseMass * across;
         first.Spin -= first.InverseInertia * row.FirstRadius * torque;
         if (row.Second >= 0)
         {
             ref var second = ref _bodies[row.Second];
-            second.Velocity -= second.InverseMass * impulse;
+            second.Velocity -= second.InverseMass * across;
             second.Spin -= second.InverseInertia * row.SecondRadius * torque;
         }
     }
@@ -108,8 +143,11 @@ internal sealed class ContactSolver
             Array.Resize(ref _directions, _changes.Length);
         }
 
+        _rounding = ComputeRounding(rows);
         var previousNorm = 0.0;
-        for (Rounds = 1; Rounds < MaxRounds; Rounds++)
+        var maxRounds = rows.Length <= MaxContactsOfManyRounds ? ManyRounds : Math.Max(MinRounds, MaxContactSolves / rows.Length);
+        _frictionShare = 1;
+        for (Rounds = 1; Rounds < maxRounds; Rounds++)
         {
             var isConverged = MakeRound(rows, Rounds <= FineRounds ? FineTolerance : Tolerance, out var norm);
             if (isConverged)
@@ -117,7 +155,10 @@ internal sealed class ContactSolver
                 return true;
             }
 
-            Extrapolate(rows, previousNorm > 0 && norm <= previousNorm ? norm / previousNorm : 0);
+            _frictionShare = Rounds < maxRounds / 2 ? 1 : LateFrictionShare;
+            // Directions that have not led to the end by now may never do so where balls begin and cease to slip.
+            var isConjugate = previousNorm > 0 && norm <= previousNorm && Rounds < maxRounds / 2;
+            Extrapolate(rows, isConjugate ? norm / previousNorm : 0);
             previousNorm = norm;
         }
 
@@ -146,7 +187,21 @@ internal sealed class ContactSolver
             maxImpulse = Math.Max(maxImpulse, rows[i].NormalImpulse);
         }
 
-        return maxChange <= tolerance * maxImpulse;
+        return maxChange <= Math.Max(tolerance * maxImpulse, _rounding);
+    }
+
+    /// <summary>Impulses that rounding cannot tell from 0: those of bodies that barely approach have no larger digits.</summary>
+    private double ComputeRounding(Span<ContactRow> rows)
+    {
+        var impulse = 0.0;
+        foreach (ref readonly var row in rows)
+        {
+            var speed = _bodies[row.First].Velocity.MaxAbsComponent();
+            speed = row.Second >= 0 ? Math.Max(speed, _bodies[row.Second].Velocity.MaxAbsComponent()) : speed;
+            impulse = Math.Max(impulse, row.NormalMass * speed);
+        }
+
+        return RelativeRounding * impulse;
     }
 
     private void SolveContact(ref ContactRow row, ref Direction change)
@@ -154,19 +209,24 @@ internal sealed class ContactSolver
         var missing = row.MinNormalVelocity - Vector.Dot(RelativeVelocity(in row), row.Normal);
         var impulse = Math.Max(0, row.NormalImpulse + (row.NormalMass * missing));
         var normalChange = impulse - row.NormalImpulse;
-        row.NormalImpulse = impulse;
-        change.Normal += normalChange;
-        Apply(in row, normalChange, Vector.Zero);
-        if (row.Friction > 0)
+        if (normalChange != 0)
+        {
+            row.NormalImpulse = impulse;
+            change.Normal += normalChange;
+            ApplyAlongNormal(in row, normalChange);
+        }
+
+        if (row.Friction > 0 && (impulse > 0 || row.FrictionImpulse != Vector.Zero))
         {
             var across = row.FrictionImpulse - (row.FrictionMass * Slip(in row));
-            var length = across.Length();
+            var lengthSquared = across.LengthSquared();
             var limit = row.Friction * impulse;
-            across = length > limit ? limit / length * across : across;
-            var acrossChange = across - row.FrictionImpulse;
+            across = lengthSquared > limit * limit ? limit / Math.Sqrt(lengthSquared) * across : across;
+            var acrossChange = _frictionShare * (across - row.FrictionImpulse);
+            across = row.FrictionImpulse + acrossChange;
             row.FrictionImpulse = across;
             change.Across += acrossChange;
-            Apply(in row, 0, acrossChange);
+            ApplyAcross(in row, acrossChange);
         }
 
         if (row.RollingArm + row.SpinningArm > 0 && double.IsFinite(row.TurnInertia))
@@ -208,23 +268,37 @@ internal sealed class ContactSolver
         for (var i = 0; i < rows.Length; i++)
         {
             ref var direction = ref _directions[i];
+            ref readonly var change = ref _changes[i];
             if (share > 0)
             {
+                ref var row = ref rows[i];
                 direction.Normal *= share;
-                direction.Across *= share;
-                direction.Turn *= share;
-                rows[i].TurnImpulse += direction.Turn;
-                ApplyTurn(in rows[i], direction.Turn);
-                rows[i].NormalImpulse += direction.Normal;
-                rows[i].FrictionImpulse += direction.Across;
-                Apply(in rows[i], direction.Normal, direction.Across);
-                direction.Normal += _changes[i].Normal;
-                direction.Across += _changes[i].Across;
-                direction.Turn += _changes[i].Turn;
+                if (direction.Normal != 0)
+                {
+                    row.NormalImpulse += direction.Normal;
+                    ApplyAlongNormal(in row, direction.Normal);
+                }
+
+                direction.Normal += change.Normal;
+                if (row.Friction > 0)
+                {
+                    direction.Across *= share;
+                    row.FrictionImpulse += direction.Across;
+                    ApplyAcross(in row, direction.Across);
+                    direction.Across += change.Across;
+                }
+
+                if (row.RollingArm + row.SpinningArm > 0)
+                {
+                    direction.Turn *= share;
+                    row.TurnImpulse += direction.Turn;
+                    ApplyTurn(in row, direction.Turn);
+                    direction.Turn += change.Turn;
+                }
             }
             else
             {
-                direction = _changes[i];
+                direction = change;
             }
         }
     }

@@ -10,9 +10,12 @@ internal sealed class ImpulseCache
     // Cosine between normals from which on two contacts with one surface count as the same.
     private const double MinCosine = 0.99;
 
-    private long[] _keys = new long[InitialCapacity];
+    // Marks a slot of the hash table without an entry.
+    private const int None = -1;
+
     private Entry[] _entries = new Entry[InitialCapacity];
-    private int _count;
+    private int[] _slots = CreateSlots(4 * InitialCapacity);
+    private int _mask = (4 * InitialCapacity) - 1;
 
     /// <summary>Gives contacts the impulses that they had in the step before; 0 to new ones.</summary>
     public void Recall(Span<ContactRow> rows)
@@ -22,59 +25,77 @@ internal sealed class ImpulseCache
             row.NormalImpulse = 0;
             row.FrictionImpulse = Vector.Zero;
             row.TurnImpulse = Vector.Zero;
-            var index = Array.BinarySearch(_keys, 0, _count, row.Key);
-            if (index < 0)
+            for (var slot = SlotOf(row.Key); _slots[slot] != None; slot = (slot + 1) & _mask)
             {
-                continue;
-            }
-
-            while (index > 0 && _keys[index - 1] == row.Key)
-            {
-                index--;
-            }
-
-            for (; index < _count && _keys[index] == row.Key; index++)
-            {
-                if (Vector.Dot(_entries[index].Normal, row.Normal) >= MinCosine)
+                ref readonly var entry = ref _entries[_slots[slot]];
+                if (entry.Key == row.Key && Vector.Dot(entry.Normal, row.Normal) >= MinCosine)
                 {
-                    row.NormalImpulse = _entries[index].NormalImpulse;
-                    row.FrictionImpulse = _entries[index].FrictionImpulse;
-                    row.TurnImpulse = _entries[index].TurnImpulse;
+                    row.NormalImpulse = entry.NormalImpulse;
+                    row.FrictionImpulse = entry.FrictionImpulse;
+                    row.TurnImpulse = entry.TurnImpulse;
                     break;
                 }
             }
         }
     }
 
-    /// <summary>Stores the impulses of all contacts.</summary>
+    /// <summary>Stores the impulses of all contacts that push.</summary>
     public void Store(ContactGraph graph)
     {
-        _count = graph.RowCount;
-        if (_keys.Length < _count)
+        Reserve(graph.RowCount);
+        Array.Fill(_slots, None);
+        var count = 0;
+        for (var i = 0; i < graph.RowCount; i++)
         {
-            _keys = new long[2 * _count];
-            _entries = new Entry[2 * _count];
-        }
-
-        for (var i = 0; i < _count; i++)
-        {
-            ref var row = ref graph.Row(i);
-            _keys[i] = row.Key;
-            _entries[i] = new()
+            ref readonly var row = ref graph.Row(i);
+            if (row.NormalImpulse > 0)
             {
-                Normal = row.Normal, NormalImpulse = row.NormalImpulse,
-                FrictionImpulse = row.FrictionImpulse, TurnImpulse = row.TurnImpulse,
-            };
-        }
+                _entries[count] = new()
+                {
+                    Key = row.Key, Normal = row.Normal, NormalImpulse = row.NormalImpulse, FrictionImpulse = row.FrictionImpulse,
+                    TurnImpulse = row.TurnImpulse,
+                };
+                var slot = SlotOf(row.Key);
+                while (_slots[slot] != None)
+                {
+                    slot = (slot + 1) & _mask;
+                }
 
-        Array.Sort(_keys, _entries, 0, _count);
+                _slots[slot] = count++;
+            }
+        }
     }
 
     /// <summary>Discards the impulses of all contacts.</summary>
-    public void Clear() => _count = 0;
+    public void Clear() => Array.Fill(_slots, None);
+
+    private void Reserve(int count)
+    {
+        if (_entries.Length < count)
+        {
+            _entries = new Entry[2 * count];
+        }
+
+        if (_slots.Length < 2 * count)
+        {
+            _slots = CreateSlots(4 << int.Log2(count));
+            _mask = _slots.Length - 1;
+        }
+    }
+
+    private static int[] CreateSlots(int count)
+    {
+        var slots = new int[count];
+        Array.Fill(slots, None);
+        return slots;
+    }
+
+    // A multiplication by 2^64 divided by the golden ratio mixes the bits.
+    private int SlotOf(long key) => (int)((ulong)key * 0x9E3779B97F4A7C15 >> 32) & _mask;
 
     private struct Entry
     {
+        public long Key;
         public Vector Normal;
         public double NormalImpulse;
         public Vector FrictionImpulse;

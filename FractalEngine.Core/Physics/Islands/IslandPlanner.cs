@@ -10,13 +10,15 @@ namespace FractalEngine.Core.Physics.Islands;
 /// The forces are constant during the step, so that each body follows a parabola. They act along the mean of the line of contact before
 /// and after the step. Along it, two balls that stay in touch do not come closer, so that the forces between them do no work.
 /// </remarks>
-internal sealed class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies, SleepIslands islands)
+internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies)
 {
     // Rounds of bounces, one contact after the other: more of them are balls that pass their speed to and fro.
     private const int MaxBounceRounds = 64;
 
     // Times that the lines of contact are corrected for how far the bodies move in the step.
     private const int MaxTurns = 4;
+    private const int MinTurns = 2;
+    private const int MaxRowsOfManyTurns = 300;
 
     // Radians: lines of contact that turn by less need no further correction.
     private const double TurnTolerance = 1e-10;
@@ -27,24 +29,17 @@ internal sealed class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies
     // Of the speed: what rounding leaves of a velocity along a normal.
     private const double RelativeTolerance = 1e-13;
 
-    // Of the touch tolerance: smaller gaps are rounding, and stay.
-    private const double NegligibleGap = 1e-9;
-
     // Of what gravity and forces add to the speed: less is what the solve leaves of it, and the body rests.
     private const double RestFraction = 1e-10;
 
     private readonly ContactSolver _solver = new();
     private readonly ImpulseCache _cache = new();
-    private readonly MoveOrder _order = new(bodies);
 
     /// <summary>The contacts and islands of this step.</summary>
     public ContactGraph Graph { get; } = new(bodies, nearbyBodies);
 
     /// <summary>What has been solved so far.</summary>
     public IslandStatistics Statistics { get; private set; }
-
-    /// <summary>Planned bodies, in an order in which each moves into what others have left.</summary>
-    public ReadOnlySpan<int> Order => _order.Bodies;
 
     /// <summary>Forgets what has been solved before.</summary>
     public void Reset()
@@ -53,43 +48,53 @@ internal sealed class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies
         _cache.Clear();
     }
 
-    /// <summary>Plans a step. All awake bodies must have been prepared for it.</summary>
-    /// <param name="stepLength">Seconds.</param>
-    /// <returns>True where bodies were woken instead: they must be prepared, and the step planned again.</returns>
-    public bool TryPlan(double stepLength)
+    /// <summary>Takes away all approaching velocities of bodies that touch. The pairs must have been collected.</summary>
+    public void StopApproaches()
     {
-        if (Graph.Build(islands, stepLength))
-        {
-            return true;
-        }
-
+        Graph.GroupTouching();
         _solver.Reserve(bodies.Count);
-        _order.Clear();
+        foreach (var island in Graph.Islands)
+        {
+            var rows = Graph.RowsOf(in island);
+            Load(Graph.BodiesOf(in island), rows);
+            _ = StopApproaches(rows);
+            StoreVelocities(Graph.BodiesOf(in island));
+        }
+    }
+
+    /// <summary>Plans the step of all islands.</summary>
+    /// <param name="stepLength">Seconds.</param>
+    public void Plan(double stepLength)
+    {
+        Graph.GroupForStep();
         for (var index = 0; index < Graph.Islands.Count; index++)
         {
             var island = Graph.Islands[index];
             var rows = Graph.RowsOf(in island);
-            Load(Graph.BodiesOf(in island), rows, index);
+            foreach (var body in Graph.BodiesOf(in island))
+            {
+                bodies[body].IslandIndex = index;
+            }
+
+            Load(Graph.BodiesOf(in island), rows);
+            // Of bodies that have joined without touching another: they may run into surfaces.
             var isConverged = StopApproaches(rows);
             StoreVelocities(Graph.BodiesOf(in island));
             isConverged &= FindForces(in island, rows, stepLength);
             Statistics = new(Statistics.Solves + 1, Statistics.Rounds, Statistics.Unconverged + (isConverged ? 0 : 1));
             StorePlan(Graph.BodiesOf(in island), stepLength);
             StopRebounds(Graph.BodiesOf(in island), rows);
-            _order.Append(Graph.BodiesOf(in island), rows, stepLength);
         }
 
         _cache.Store(Graph);
-        return false;
     }
 
-    private void Load(ReadOnlySpan<int> island, Span<ContactRow> rows, int islandIndex)
+    private void Load(ReadOnlySpan<int> island, Span<ContactRow> rows)
     {
         var solverBodies = _solver.Bodies;
         foreach (var index in island)
         {
             var body = bodies[index];
-            body.IslandIndex = islandIndex;
             solverBodies[index] = new()
             {
                 Velocity = body.Velocity, Spin = body.AngularVelocity, InverseMass = 1 / body.Description.Mass,
@@ -171,7 +176,8 @@ internal sealed class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies
         _cache.Recall(rows);
         var isConverged = false;
         var turn = double.PositiveInfinity;
-        for (var i = 0; i < MaxTurns && turn > TurnTolerance; i++)
+        var maxTurns = rows.Length <= MaxRowsOfManyTurns ? MaxTurns : MinTurns;
+        for (var i = 0; i < maxTurns && turn > TurnTolerance; i++)
         {
             turn = 0;
             foreach (ref var row in rows)
@@ -212,31 +218,6 @@ internal sealed class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies
         return isConverged;
     }
 
-    /// <summary>Demands that two bodies be at least as far apart after the step as when they touch.</summary>
-    /// <returns>By how much the line of contact has turned, radians.</returns>
-    private double SetConstraint(ref ContactRow row, double stepLength, bool isFirst)
-    {
-        var velocity = bodies[row.First].Velocity - (row.Second >= 0 ? bodies[row.Second].Velocity : Vector.Zero);
-        var distance = row.Offset.Length();
-        var gap = distance - row.MinDistance;
-        gap = gap > NegligibleGap * row.MinDistance ? gap : 0;
-        var turn = 0.0;
-        if (row.IsBall)
-        {
-            var finalVelocity = isFirst ? velocity : _solver.RelativeVelocity(in row);
-            var sum = (2 * row.Offset) + (0.5 * stepLength * (velocity + finalVelocity));
-            var length = sum.Length();
-            var normal = sum / length;
-            // |r₁|² − |r₀|² = (r₀ + r₁)·(r₁ − r₀) must not fall below d² − |r₀|².
-            gap *= (distance + row.MinDistance) / length;
-            turn = (normal - row.Normal).MaxAbsComponent();
-            row.Normal = normal;
-        }
-
-        row.MinNormalVelocity = (-2 * gap / stepLength) - Vector.Dot(velocity, row.Normal);
-        return turn;
-    }
-
     private void StoreVelocities(ReadOnlySpan<int> island)
     {
         foreach (var index in island)
@@ -253,12 +234,12 @@ internal sealed class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies
             var body = bodies[index];
             var negligible = RestFraction * stepLength * body.FreeAcceleration.Length();
             var change = _solver.Bodies[index].Velocity - body.Velocity;
-            body.PlannedSpinChange = _solver.Bodies[index].Spin - body.AngularVelocity;
+            body.PlannedVelocity = body.Velocity;
+            body.PlannedStartEnergy = body.KineticEnergy;
             if (change.MaxAbsComponent() <= negligible && body.Velocity.MaxAbsComponent() <= negligible
                 && _solver.Bodies[index].Spin.MaxAbsComponent() * body.Radius <= negligible)
             {
                 body.AngularVelocity = Vector.Zero;
-                body.PlannedSpinChange = Vector.Zero;
                 body.Velocity = Vector.Zero;
                 change = Vector.Zero;
             }
@@ -292,8 +273,9 @@ internal sealed class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies
         foreach (var index in island)
         {
             var body = bodies[index];
-            body.PlannedChange = body.NetAcceleration == Vector.Zero && body.Velocity == Vector.Zero
-                ? Vector.Zero : _solver.Bodies[index].Velocity - body.Velocity;
+            var isResting = body.NetAcceleration == Vector.Zero && body.Velocity == Vector.Zero;
+            body.PlannedChange = isResting ? Vector.Zero : _solver.Bodies[index].Velocity - body.Velocity;
+            body.PlannedSpinChange = isResting ? Vector.Zero : _solver.Bodies[index].Spin - body.AngularVelocity;
         }
     }
 }
