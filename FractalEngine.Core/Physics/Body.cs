@@ -164,6 +164,9 @@ public sealed class Body
     /// <summary>Faces that the body touches or may meet in this step, and no contact knows of.</summary>
     internal Contact[] NearSurfaces { get; } = new Contact[MaxNearSurfaces];
 
+    /// <summary>True once these faces have been searched for in this step.</summary>
+    internal bool AreNearSurfacesKnown { get; set; }
+
     /// <summary>Number of these faces.</summary>
     internal int NearSurfaceCount { get; set; }
 
@@ -215,6 +218,7 @@ public sealed class Body
         IsPrepared = false;
         IslandIndex = NoIsland;
         NearSurfaceCount = 0;
+        AreNearSurfacesKnown = false;
         PreviousPosition = Position;
         PreviousOrientation = Orientation;
         PreviousScale = Scale;

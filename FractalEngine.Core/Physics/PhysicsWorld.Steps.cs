@@ -75,25 +75,27 @@ public sealed partial class PhysicsWorld
     private void PlanIslands(CharacterController? character, double seconds)
     {
         CollectPairs(character, seconds);
+        _planner.Graph.JoinTouching();
         FindNearSurfaces(seconds);
         _planner.StopApproaches();
         if (_planner.Graph.HasOutrun())
         {
             CollectPairs(character, seconds);
-            FindNearSurfaces(seconds);
         }
 
+        _planner.Graph.JoinForStep();
+        FindNearSurfaces(seconds);
         _planner.Plan(seconds);
     }
 
-    /// <summary>Finds the surfaces that bodies may meet which are near others.</summary>
+    /// <summary>Finds the surfaces that bodies of islands may meet, unless they are known.</summary>
     private void FindNearSurfaces(double seconds)
     {
         foreach (var body in _bodies)
         {
-            body.NearSurfaceCount = 0;
-            if (_planner.Graph.HasPair(body.Index))
+            if (!body.AreNearSurfacesKnown && _planner.Graph.IsJoined(body.Index))
             {
+                body.AreNearSurfacesKnown = true;
                 var reach = _planner.Graph.Reach(body.Index);
                 _stepper.FindNearSurfaces(body, _statics.CollidersOf(ColliderKindOf(body)), reach, seconds);
             }

@@ -184,7 +184,8 @@ public sealed partial class SceneParser
         {
             var valueStart = rest;
             var success = ParseNumber(valueStart, out var inertia, out rest);
-            Require(!success || inertia is > 0 and <= PhysicsObject.ShellInertia, valueStart, "the inertia must be positive and at most 2/3");
+            var isInRange = inertia is > 0 and <= PhysicsObject.ShellInertia;
+            Require(!success || isInRange, valueStart, "the inertia must be positive and at most 2/3");
             body = body with { Inertia = inertia };
             return success;
         }

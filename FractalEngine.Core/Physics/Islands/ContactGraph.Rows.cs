@@ -7,7 +7,7 @@ namespace FractalEngine.Core.Physics.Islands;
 internal sealed partial class ContactGraph
 {
     /// <summary>Makes islands of the joined sets, and contacts of their pairs and surfaces.</summary>
-    private void Group()
+    public void Group()
     {
         _islands.Clear();
         _islandBodies.Clear();

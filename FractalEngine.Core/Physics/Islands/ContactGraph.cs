@@ -45,8 +45,8 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     public ReadOnlySpan<int> BodiesOf(in Island island) =>
         CollectionsMarshal.AsSpan(_islandBodies).Slice(island.FirstBody, island.BodyCount);
 
-    /// <summary>True for a body that another one is near.</summary>
-    public bool HasPair(int body) => _hasPair[body];
+    /// <summary>True for a body that is joined with others.</summary>
+    public bool IsJoined(int body) => _sets.IsJoined(body);
 
     /// <summary>How far a body may get in the step.</summary>
     public double Reach(int body) => _reach[body];
@@ -82,8 +82,8 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         return hasOutrun;
     }
 
-    /// <summary>Groups the bodies that touch, for the impulses of what approaches.</summary>
-    public void GroupTouching()
+    /// <summary>Joins the bodies that touch, for the impulses of what approaches.</summary>
+    public void JoinTouching()
     {
         _sets.Reset(bodies.Count);
         foreach (ref var pair in CollectionsMarshal.AsSpan(_pairs))
@@ -94,14 +94,12 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
                 _sets.Join(pair.First, pair.Second);
             }
         }
-
-        Group();
     }
 
     /// <summary>
-    /// Groups the bodies that stay in touch, with all that they may meet in the step. Bodies that touch nothing go their exact ways alone.
+    /// Joins the bodies that stay in touch, with all that they may meet in the step. Bodies that touch nothing go their exact ways alone.
     /// </summary>
-    public void GroupForStep()
+    public void JoinForStep()
     {
         _sets.Reset(bodies.Count);
         var pairs = CollectionsMarshal.AsSpan(_pairs);
@@ -133,8 +131,6 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
                 }
             }
         }
-
-        Group();
     }
 
     private static bool CanMove(Body body) => !body.IsAsleep && !body.IsStuck && body.IsOverlapResolved;

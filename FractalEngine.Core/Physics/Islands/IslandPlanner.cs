@@ -48,10 +48,10 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         _cache.Clear();
     }
 
-    /// <summary>Takes away all approaching velocities of bodies that touch. The pairs must have been collected.</summary>
+    /// <summary>Takes away all approaching velocities of bodies that touch. They must have been joined.</summary>
     public void StopApproaches()
     {
-        Graph.GroupTouching();
+        Graph.Group();
         _solver.Reserve(bodies.Count);
         foreach (var island in Graph.Islands)
         {
@@ -62,11 +62,11 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         }
     }
 
-    /// <summary>Plans the step of all islands.</summary>
+    /// <summary>Plans the step of all islands. Their bodies must have been joined.</summary>
     /// <param name="stepLength">Seconds.</param>
     public void Plan(double stepLength)
     {
-        Graph.GroupForStep();
+        Graph.Group();
         for (var index = 0; index < Graph.Islands.Count; index++)
         {
             var island = Graph.Islands[index];
