@@ -11,6 +11,8 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
 {
     private const int InitialCapacity = 256;
 
+    private const int ContactsPerBody = 4;
+
     // Of the radius: how much farther than its free path a body is expected to get, pushed by others.
     private const double ReachMargin = 0.1;
 
@@ -146,6 +148,13 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
             _reach = new double[2 * bodies.Count];
             _push = new double[2 * bodies.Count];
             _hasPair = new bool[2 * bodies.Count];
+            // Room for as many contacts as bodies in a heap have, so that steps need not allocate.
+            var contacts = ContactsPerBody * _hasPair.Length;
+            _pairs.EnsureCapacity(contacts);
+            _islands.EnsureCapacity(_hasPair.Length);
+            _islandBodies.EnsureCapacity(_hasPair.Length);
+            Array.Resize(ref _found, Math.Max(contacts, _found.Length));
+            Array.Resize(ref _rows, _found.Length);
         }
 
         for (var i = 0; i < bodies.Count; i++)

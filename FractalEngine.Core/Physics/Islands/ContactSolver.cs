@@ -27,6 +27,7 @@ internal sealed class ContactSolver
     private const int FineRounds = 32;
 
     private const int InitialCapacity = 256;
+    private const int ContactsPerBody = 4;
 
     // Of a change of friction, in late rounds: where balls pass their slip to and fro, smaller changes come to an end.
     private const double LateFrictionShare = 0.5;
@@ -52,6 +53,8 @@ internal sealed class ContactSolver
         if (_bodies.Length < bodyCount)
         {
             Array.Resize(ref _bodies, Math.Max(bodyCount, 2 * _bodies.Length));
+            Array.Resize(ref _changes, Math.Max(ContactsPerBody * _bodies.Length, _changes.Length));
+            Array.Resize(ref _directions, _changes.Length);
         }
     }
 

@@ -6,6 +6,7 @@ namespace FractalEngine.Core.Physics.Islands;
 internal sealed class ImpulseCache
 {
     private const int InitialCapacity = 256;
+    private const int ContactsPerBody = 4;
 
     // Cosine between normals from which on two contacts with one surface count as the same.
     private const double MinCosine = 0.99;
@@ -38,6 +39,9 @@ internal sealed class ImpulseCache
             }
         }
     }
+
+    /// <summary>Makes room for the contacts of so many bodies in a heap. Discards what is stored where it has to grow.</summary>
+    public void ReserveForBodies(int bodyCount) => Reserve(ContactsPerBody * bodyCount);
 
     /// <summary>Stores the impulses of all contacts that push.</summary>
     public void Store(ContactGraph graph)
@@ -73,7 +77,7 @@ internal sealed class ImpulseCache
     {
         if (_entries.Length < count)
         {
-            _entries = new Entry[2 * count];
+            Array.Resize(ref _entries, 2 * count);
         }
 
         if (_slots.Length < 2 * count)

@@ -53,6 +53,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     {
         Graph.Group();
         _solver.Reserve(bodies.Count);
+        _cache.ReserveForBodies(bodies.Count);
         foreach (var island in Graph.Islands)
         {
             var rows = Graph.RowsOf(in island);

@@ -13,6 +13,7 @@ internal sealed class OverlapSeparator
     public const double NegligibleOverlap = 3e-7;
 
     private const int InitialCapacity = 256;
+    private const int ContactsPerBody = 4;
 
     // Rounds over the contacts that are near touching, and times that these are chosen anew.
     private const int MaxRounds = 60;
@@ -36,6 +37,7 @@ internal sealed class OverlapSeparator
         if (_movers.Length < bodyCount)
         {
             Array.Resize(ref _movers, Math.Max(bodyCount, 2 * _movers.Length));
+            Array.Resize(ref _gaps, Math.Max(ContactsPerBody * _movers.Length, _gaps.Length));
         }
     }
 
