@@ -11,7 +11,7 @@ namespace FractalEngine.App;
 internal sealed class BodyCsvWriter(TextWriter writer)
 {
     /// <summary>The header row with the column names.</summary>
-    public const string Header = "time,body,x,y,z,vx,vy,vz,asleep,faceTests";
+    public const string Header = "time,body,x,y,z,vx,vy,vz,asleep,faceTests,wx,wy,wz,rx,ry,rz";
 
     /// <summary>Writes the header row.</summary>
     public void WriteHeader() => writer.Write($"{Header}\n");
@@ -27,7 +27,11 @@ internal sealed class BodyCsvWriter(TextWriter writer)
             writer.Write(string.Create(
                 CultureInfo.InvariantCulture, $"{world.Time:R},{Quote(body.Name)},{position.X:R},{position.Y:R},{position.Z:R},"));
             writer.Write(string.Create(
-                CultureInfo.InvariantCulture, $"{velocity.X:R},{velocity.Y:R},{velocity.Z:R},{asleep},{body.FaceTests}\n"));
+                CultureInfo.InvariantCulture, $"{velocity.X:R},{velocity.Y:R},{velocity.Z:R},{asleep},{body.FaceTests},"));
+            var spin = body.AngularVelocity;
+            var turn = body.Orientation.RotationVector;
+            writer.Write(string.Create(
+                CultureInfo.InvariantCulture, $"{spin.X:R},{spin.Y:R},{spin.Z:R},{turn.X:R},{turn.Y:R},{turn.Z:R}\n"));
         }
     }
 

@@ -7,10 +7,14 @@ namespace FractalEngine.Benchmarks.Physics;
 /// <summary>Runs the command <c>physics</c>, whose arguments are names of fractals and options.</summary>
 internal static class PhysicsCommand
 {
+    private const string Heaps = "heaps";
+
     private const string Usage = """
         physics [NAME[:DEPTH] ...] [--balls N] [--collider NAME] [--rounds N] [--output FOLDER]
-          What a step costs while balls fall on a fractal; menger:5 and 1,000 balls unless stated.
-          --output: also as physics.csv.
+        physics heaps [--rounds N] [--output FOLDER]
+          What a step costs while balls fall on a fractal; menger:5 and 1,000 balls unless stated. heaps: how heaps of balls come to
+          rest in a box and on a floor. Without names both are measured.
+          --output: also as physics.csv and physics-heaps.csv.
         """;
 
     /// <summary>Runs the command and returns the exit code.</summary>
@@ -27,7 +31,7 @@ internal static class PhysicsCommand
             .Count("--balls", count => bodyCount = count)
             .Option("--collider", text => TryParse(text, out collider))
             .Option("--output", value => folder = value)
-            .Names(FractalCase.IsKnown, names);
+            .Names(name => name == Heaps || FractalCase.IsKnown(name), names);
         if (!parser.TryParse(args))
         {
             return 2;
@@ -38,13 +42,34 @@ internal static class PhysicsCommand
         var command = FormattableString.Invariant($"physics{nameList} --balls {bodyCount} --collider {colliderName} --rounds {rounds}");
         var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "physics.csv"), command, PhysicsTable.Columns);
         var table = new PhysicsTable(rounds, Console.Out, csv);
-        foreach (var name in names.Count > 0 ? names : ["menger:5"])
+        foreach (var name in names.Count > 0 ? names.Where(static name => name != Heaps) : ["menger:5"])
         {
             table.Write(FractalCase.Parse(name), bodyCount, collider);
         }
 
-        csv?.Save();
+        if (names is not [Heaps])
+        {
+            csv?.Save();
+        }
+
+        if (names.Count == 0 || names.Contains(Heaps))
+        {
+            WriteHeaps(rounds, folder);
+        }
+
         return 0;
+    }
+
+    private static void WriteHeaps(int rounds, string? folder)
+    {
+        var command = FormattableString.Invariant($"physics heaps --rounds {rounds}");
+        var csv = folder is null ? null : new CsvTable(Path.Combine(folder, "physics-heaps.csv"), command, HeapTable.Columns);
+        var table = new HeapTable(rounds, Console.Out, csv);
+        table.Write(1000, friction: 0, isOpen: false, seconds: 10);
+        table.Write(1000, friction: 0.5, isOpen: false, seconds: 10);
+        table.Write(1000, friction: 0.5, isOpen: true, seconds: 10);
+        table.Write(10_000, friction: 0.5, isOpen: false, seconds: 3);
+        csv?.Save();
     }
 
     private static bool TryParse(string text, out ColliderKind collider)

@@ -104,6 +104,8 @@ internal sealed class PhysicsTable(int rounds, TextWriter output, CsvTable? tabl
         {
             Restitution = 0.5,
             Friction = 0.4,
+            // Else balls on a level face would roll for ever.
+            IsRotationLocked = true,
         }));
         return world;
     }

@@ -35,6 +35,16 @@ public sealed class Body
     /// <summary>Current velocity in units per second, see <see cref="PhysicsWorld.SetVelocity"/>.</summary>
     public Vector Velocity { get; internal set; }
 
+    /// <summary>Current angular velocity in radians per second, about the world's axes.</summary>
+    /// <remarks>In the left-handed world, a ball that turns about +z by a positive angle turns x towards y.</remarks>
+    public Vector AngularVelocity { get; internal set; }
+
+    /// <summary>How the body has turned since the beginning.</summary>
+    public Orientation Orientation { get; internal set; } = Orientation.Identity;
+
+    /// <summary>Orientation before the last step, for interpolation between steps.</summary>
+    public Orientation PreviousOrientation { get; internal set; } = Orientation.Identity;
+
     /// <summary>
     /// Constant force besides gravity, in kilograms times units per second², see <see cref="PhysicsWorld.SetForce"/>.
     /// </summary>
@@ -64,13 +74,25 @@ public sealed class Body
     /// <summary>Name for messages and tables: the description's, or the index after a number sign.</summary>
     public string Name => Description.Name ?? string.Create(CultureInfo.InvariantCulture, $"#{Index}");
 
-    /// <summary>Map that draws the body's object between its last two states, moved and shrunk.</summary>
+    /// <summary>Map that draws the body's object between its last two states, moved, turned and shrunk.</summary>
     /// <param name="alpha">Fraction of the last step that has passed, from 0 to 1: steps and frames have different rates.</param>
     public AffineMap InterpolatedMap(double alpha)
     {
         var scale = PreviousScale + (alpha * (Scale - PreviousScale));
-        return new(scale * Description.LinearPart, PreviousPosition + (alpha * (Position - PreviousPosition)));
+        var linear = scale * Description.LinearPart;
+        if (Orientation != Orientation.Identity || PreviousOrientation != Orientation.Identity)
+        {
+            linear = Orientation.Interpolate(PreviousOrientation, Orientation, alpha).ToMatrix() * linear;
+        }
+
+        return new(linear, PreviousPosition + (alpha * (Position - PreviousPosition)));
     }
+
+    /// <summary>Maximum number of faces that are near a body without being touched.</summary>
+    internal const int MaxNearSurfaces = 4;
+
+    /// <summary>The index of no island.</summary>
+    internal const int NoIsland = -1;
 
     /// <summary>Surfaces and bodies that this body touches.</summary>
     internal ContactSet Contacts { get; } = new();
@@ -87,8 +109,66 @@ public sealed class Body
     /// <summary>Acceleration that remains after contacts have taken their part.</summary>
     internal Vector NetAcceleration { get; set; }
 
-    /// <summary>Change of velocity by the load of other bodies, to be applied in the body's own turn.</summary>
-    internal Vector PendingLoadVelocity { get; set; }
+    /// <summary>1/(kilogram · unit²); 0 for a body that does not turn.</summary>
+    internal double InverseInertia =>
+        Description.IsRotationLocked ? 0 : 1 / (Description.Inertia * Description.Mass * Radius * Radius);
+
+    /// <summary>Energy of motion and rotation, joules.</summary>
+    internal double KineticEnergy => (0.5 * Description.Mass * Velocity.LengthSquared()) + SpinEnergy;
+
+    /// <summary>Energy of rotation, joules.</summary>
+    internal double SpinEnergy => Description.IsRotationLocked ? 0 : 0.5 * AngularVelocity.LengthSquared() / InverseInertia;
+
+    /// <summary>Angular velocity before the step.</summary>
+    internal Vector SpinBefore { get; set; }
+
+    /// <summary>Acceleration by gravity and forces in this step, units per second².</summary>
+    internal Vector FreeAcceleration { get; set; }
+
+    /// <summary>Approach speed below which the body does not bounce in this step, units per second.</summary>
+    internal double RestitutionThreshold { get; set; }
+
+    /// <summary>Index of the island that the body belongs to in this step; negative where it touches no other body.</summary>
+    internal int IslandIndex { get; set; } = NoIsland;
+
+    /// <summary>True once the step has begun for the body: it has shrunk, and its contacts with surfaces are up to date.</summary>
+    internal bool IsPrepared { get; set; }
+
+    /// <summary>What gravity and all contacts add to the velocity in the step.</summary>
+    internal Vector PlannedChange { get; set; }
+
+    /// <summary>What all contacts add to the angular velocity in the step.</summary>
+    internal Vector PlannedSpinChange { get; set; }
+
+    /// <summary>Position at the beginning of the planned path.</summary>
+    internal Vector PlannedStart { get; set; }
+
+    /// <summary>Velocity at the beginning of the planned path.</summary>
+    internal Vector PlannedVelocity { get; set; }
+
+    /// <summary>Energy of motion and rotation at the beginning of the planned path, joules.</summary>
+    internal double PlannedStartEnergy { get; set; }
+
+    /// <summary>Where the planned path leads.</summary>
+    internal Vector Target { get; set; }
+
+    /// <summary>The target up to which the way is known to be free.</summary>
+    internal Vector CheckedTarget { get; set; }
+
+    /// <summary>True where something stops the body on its planned path that no plan knew.</summary>
+    internal bool IsHeld { get; set; }
+
+    /// <summary>What has stopped the body on its planned path; null for nothing.</summary>
+    internal Contact? PlannedHit { get; set; }
+
+    /// <summary>Faces that the body touches or may meet in this step, and no contact knows of.</summary>
+    internal Contact[] NearSurfaces { get; } = new Contact[MaxNearSurfaces];
+
+    /// <summary>True once these faces have been searched for in this step.</summary>
+    internal bool AreNearSurfacesKnown { get; set; }
+
+    /// <summary>Number of these faces.</summary>
+    internal int NearSurfaceCount { get; set; }
 
     /// <summary>True while the body shrinks and has not reached its minimum scale.</summary>
     internal bool IsShrinking => Description.Shrinkage > 0 && Scale > Description.MinimumScale;
@@ -100,6 +180,9 @@ public sealed class Body
         Position = Description.Position;
         PreviousPosition = Description.Position;
         Velocity = Description.Velocity;
+        AngularVelocity = Description.IsRotationLocked ? Vector.Zero : Description.AngularVelocity;
+        Orientation = Orientation.Identity;
+        PreviousOrientation = Orientation.Identity;
         Force = Vector.Zero;
         Scale = 1;
         PreviousScale = 1;
@@ -110,7 +193,6 @@ public sealed class Body
         SleepTimer = 0;
         IsOverlapResolved = false;
         NetAcceleration = acceleration;
-        PendingLoadVelocity = Vector.Zero;
         Contacts.Clear();
         SafeDistance.Invalidate();
     }
@@ -121,6 +203,9 @@ public sealed class Body
         Position = other.Position;
         PreviousPosition = other.PreviousPosition;
         Velocity = other.Velocity;
+        AngularVelocity = other.AngularVelocity;
+        Orientation = other.Orientation;
+        PreviousOrientation = other.PreviousOrientation;
         Force = other.Force;
         Scale = other.Scale;
         PreviousScale = other.PreviousScale;
@@ -130,10 +215,26 @@ public sealed class Body
     /// <summary>Saves the state before a step, and sets the costs to 0.</summary>
     internal void BeginStep()
     {
+        IsPrepared = false;
+        IslandIndex = NoIsland;
+        NearSurfaceCount = 0;
+        AreNearSurfacesKnown = false;
         PreviousPosition = Position;
+        PreviousOrientation = Orientation;
         PreviousScale = Scale;
+        SpinBefore = AngularVelocity;
         FaceTests = 0;
         BoundTests = 0;
+    }
+
+    /// <summary>Turns the body by its mean angular velocity of the step.</summary>
+    /// <param name="stepLength">Seconds.</param>
+    internal void Turn(double stepLength)
+    {
+        if (AngularVelocity != Vector.Zero || SpinBefore != Vector.Zero)
+        {
+            Orientation = Orientation.TurnedBy(0.5 * stepLength * (SpinBefore + AngularVelocity));
+        }
     }
 
     /// <summary>Discards everything that is known of surfaces and contacts, and wakes the body.</summary>
@@ -160,6 +261,7 @@ public sealed class Body
     {
         IsAsleep = true;
         Velocity = Vector.Zero;
+        AngularVelocity = Vector.Zero;
         NetAcceleration = Vector.Zero;
     }
 }

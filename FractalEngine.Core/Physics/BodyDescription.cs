@@ -14,6 +14,9 @@ public sealed record BodyDescription(Vector Position, double Radius)
     /// <summary>Initial velocity in units per second.</summary>
     public Vector Velocity { get; init; }
 
+    /// <summary>Initial angular velocity in radians per second, about the world's axes.</summary>
+    public Vector AngularVelocity { get; init; }
+
     /// <summary>Mass in kilograms, positive.</summary>
     public double Mass { get; init; } = 1;
 
@@ -25,6 +28,18 @@ public sealed record BodyDescription(Vector Position, double Radius)
 
     /// <summary>Coulomb's coefficient of friction against surfaces and other bodies; at 0 a body slides for ever.</summary>
     public double Friction { get; init; }
+
+    /// <summary>Moment of inertia over mass · radius²: 0.4 for a solid ball, 2/3 for a shell; positive and at most 2/3.</summary>
+    public double Inertia { get; init; } = PhysicsObject.SolidInertia;
+
+    /// <summary>True for a body that does not turn, so that friction makes it slide instead of roll.</summary>
+    public bool IsRotationLocked { get; init; }
+
+    /// <summary>Coefficient of rolling friction: the torque against rolling, over the normal force · radius.</summary>
+    public double RollingFriction { get; init; }
+
+    /// <summary>Coefficient of spinning friction: the torque about the normal, over the normal force · radius.</summary>
+    public double SpinningFriction { get; init; }
 
     /// <summary>Rate at which the body loses speed, per second: v falls by exp(−rate·t).</summary>
     public double Damping { get; init; }
@@ -59,6 +74,10 @@ public sealed record BodyDescription(Vector Position, double Radius)
         Mass = declared.Mass,
         Restitution = declared.Restitution,
         Friction = declared.Friction,
+        Inertia = declared.Inertia,
+        IsRotationLocked = declared.IsRotationLocked,
+        RollingFriction = declared.RollingFriction,
+        SpinningFriction = declared.SpinningFriction,
         Damping = declared.Damping,
         Shrinkage = declared.Shrinkage,
         MinimumScale = declared.MinimumScale,
@@ -75,12 +94,16 @@ public sealed record BodyDescription(Vector Position, double Radius)
     /// <summary>Describes the first number that no body can have; null for a valid description.</summary>
     internal string? FindFault() =>
         !(Position.IsFinite() && Velocity.IsFinite()) ? "position and velocity must be finite"
+        : !AngularVelocity.IsFinite() ? "the angular velocity must be finite"
         : !LinearPart.IsFinite() ? "rotation and scale must be finite"
         : Radius > 0 && !double.IsFinite(Radius) ? "the radius is beyond the range of a double"
         : !(Radius > 0) ? "the radius must be positive"
         : !(Mass > 0 && double.IsFinite(Mass)) ? "the mass must be positive"
         : !(Restitution is >= 0 and <= 1) ? "the coefficient of restitution must lie between 0 and 1"
         : !(Friction >= 0 && double.IsFinite(Friction)) ? "the friction must not be negative"
+        : !(Inertia is > 0 and <= PhysicsObject.ShellInertia) ? "the inertia must be positive and at most 2/3"
+        : !(RollingFriction >= 0 && double.IsFinite(RollingFriction)) ? "the rolling friction must not be negative"
+        : !(SpinningFriction >= 0 && double.IsFinite(SpinningFriction)) ? "the spinning friction must not be negative"
         : !(Damping >= 0 && double.IsFinite(Damping)) ? "the damping must not be negative"
         : !(Shrinkage >= 0 && double.IsFinite(Shrinkage)) ? "the shrinkage must not be negative"
         : !(MinimumScale is > 0 and <= 1) ? "the minimum scale must lie between 0 and 1"

@@ -6,7 +6,7 @@ namespace FractalEngine.Core.Physics;
 /// Moves a body through one step: free flight to the moment of an impact, the response there, and the same again with the remaining time.
 /// What a body rests on cancels its part of the acceleration, so that nothing is pressed in and pushed out again.
 /// </summary>
-internal sealed class BodyMover
+internal sealed partial class BodyMover
 {
     private const int MaxImpacts = 1000;
 
@@ -25,9 +25,13 @@ internal sealed class BodyMover
     // Of the touch tolerance: overlaps up to this are taken back as rounding.
     private const double MaxRoundingOverlap = 10;
 
+    // Of the squared speeds: what rounding adds.
+    private const double EnergyRounding = 1e-12;
+
     private readonly List<Body> _bodies;
     private readonly Obstacles _obstacles;
     private readonly ContactResponse _response;
+    private readonly SpinFriction _spinFriction;
     private readonly SphereSweep _sweep;
     private readonly OverlapResolver _overlapResolver;
     private readonly HalfSpaces _planes = new();
@@ -37,31 +41,35 @@ internal sealed class BodyMover
         _bodies = bodies;
         _obstacles = obstacles;
         _response = new(bodies, islands);
+        _spinFriction = new(bodies);
         _sweep = new(obstacles);
         _overlapResolver = new(obstacles);
     }
 
-    /// <summary>Moves a body. The obstacles must be set up for it.</summary>
-    /// <param name="body">Awake.</param>
-    /// <param name="acceleration">By gravity and forces, units per second².</param>
+    /// <summary>Moves a body that touches no other, or only such as do not move. The obstacles must be set up for it.</summary>
+    /// <param name="body">Awake and prepared.</param>
     /// <param name="stepLength">Seconds.</param>
-    /// <param name="restitutionThreshold">Approach speed below which the body does not bounce, units per second.</param>
-    public void Move(Body body, Vector acceleration, double stepLength, double restitutionThreshold)
+    public void Move(Body body, double stepLength)
     {
-        var position = body.Position;
-        var contacts = body.Contacts;
-        var contactSlop = _obstacles.ContactSlop(position);
-        if (!body.IsOverlapResolved && !TryResolveOverlap(body, ref position))
+        if (!body.IsOverlapResolved)
         {
             return;
         }
 
+        var position = body.Position;
         _sweep.ResetStepBudget();
-        contacts.Refresh(position, contactSlop, body.Radius);
         _obstacles.CollectNearbyBodies(new(position, Vector.Zero, Vector.Zero), 0, body.Index);
-        _obstacles.AddTouchedBodies(position, contactSlop, contacts);
-        _response.ApplyPendingLoad(body, position);
-        var timeLeft = stepLength;
+        _obstacles.AddTouchedBodies(position, _obstacles.ContactSlop(position), body.Contacts);
+        MoveOn(body, ref position, stepLength, stepLength);
+        body.Position = position;
+    }
+
+    /// <summary>Moves a body from contact to contact.</summary>
+    private void MoveOn(Body body, ref Vector position, double timeLeft, double stepLength)
+    {
+        var contacts = body.Contacts;
+        var acceleration = body.FreeAcceleration;
+        var restitutionThreshold = body.RestitutionThreshold;
         var simultaneousImpacts = 0;
         var isBlocked = false;
         var negligibleSpeed = NegligibleSpeedFraction * restitutionThreshold;
@@ -69,7 +77,7 @@ internal sealed class BodyMover
         {
             var velocityBefore = body.Velocity;
             _response.ResolveContacts(body, position, restitutionThreshold);
-            body.Velocity = contacts.RemoveSeparating(position, body.Velocity, _bodies, negligibleSpeed, isBlocked);
+            body.Velocity = contacts.RemoveSeparating(position, body.Velocity, _bodies, negligibleSpeed, true);
             var hasResponded = (body.Velocity - velocityBefore).MaxAbsComponent() > negligibleSpeed;
             var elapsed = Advance(body, acceleration, ref position, timeLeft, negligibleSpeed, isBlocked);
             timeLeft -= elapsed;
@@ -77,9 +85,6 @@ internal sealed class BodyMover
             // A body that is run into gives way, but in its own turn. Until then it is as firm as the ground: this one slides or waits.
             isBlocked |= !hasResponded && elapsed < NegligibleTimeFraction * stepLength && contacts.HasAwakeBody(_bodies);
         }
-
-        // The response to an impact in the last moment follows in the next step.
-        body.Position = position;
     }
 
     /// <summary>Chooses where contacts let the body go, and moves it there.</summary>
@@ -93,6 +98,9 @@ internal sealed class BodyMover
     private double Advance(Body body, Vector acceleration, ref Vector position, double duration, double negligibleSpeed, bool isBlocked)
     {
         var contacts = body.Contacts;
+        var start = position;
+        var energy = body.KineticEnergy;
+        var mayGain = contacts.HasBody || (body.Description is { Friction: > 0, IsRotationLocked: false } && contacts.Count > 0);
         var projectedVelocity = isBlocked ? contacts.ProjectVelocity(body.Velocity, position, _planes) : body.Velocity;
         var blockedVelocity = body.Velocity - projectedVelocity;
         if (blockedVelocity.Length() > MaxBlockedSpeedRatio * projectedVelocity.Length())
@@ -102,12 +110,29 @@ internal sealed class BodyMover
         }
 
         body.Velocity = projectedVelocity;
-        var netAcceleration = contacts.ProjectAcceleration(acceleration, position, projectedVelocity, _bodies, _planes, isBlocked,
+        var netAcceleration = contacts.ProjectAcceleration(acceleration, position, projectedVelocity, _bodies, _planes, true,
             out var validDuration);
         var elapsed =
             AdvanceAlong(body, netAcceleration, acceleration, ref position, Math.Min(duration, validDuration), negligibleSpeed);
         body.Velocity += blockedVelocity;
+        if (mayGain)
+        {
+            LimitEnergy(body, energy + (body.Description.Mass * Vector.Dot(acceleration, position - start)));
+        }
+
         return elapsed;
+    }
+
+    /// <summary>Takes back what contacts have added to the energy of a body: what is firm does no work.</summary>
+    private static void LimitEnergy(Body body, double limit)
+    {
+        var energy = body.KineticEnergy;
+        if (energy > 0 && energy > limit + (EnergyRounding * (energy + Math.Abs(limit))))
+        {
+            var scale = Math.Sqrt(Math.Max(0, limit) / energy);
+            body.Velocity *= scale;
+            body.AngularVelocity *= scale;
+        }
     }
 
     /// <summary>Moves the body until it touches something new, friction has stopped or turned it, or the time is up.</summary>
@@ -123,10 +148,18 @@ internal sealed class BodyMover
     {
         var contacts = body.Contacts;
         var isStopping = false;
+        var spinAcceleration = Vector.Zero;
         var maxDuration = duration;
         if (body.Description.Friction > 0 && contacts.Count > 0)
         {
-            isStopping = ContactResponse.ApplyFriction(body, acceleration, ref netAcceleration, ref duration);
+            if (body.Description.IsRotationLocked)
+            {
+                isStopping = ContactResponse.ApplyFriction(body, acceleration, ref netAcceleration, ref duration);
+            }
+            else
+            {
+                _spinFriction.Apply(body, position, acceleration, ref netAcceleration, ref duration, out spinAcceleration);
+            }
         }
 
         var isSlow = contacts.Count > 0 && body.Velocity.MaxAbsComponent() <= negligibleSpeed;
@@ -134,16 +167,16 @@ internal sealed class BodyMover
         body.NetAcceleration = netAcceleration;
         if (body.Velocity == Vector.Zero && netAcceleration == Vector.Zero)
         {
-            _response.TransmitLoad(body, acceleration, position, maxDuration);
-            return maxDuration;
+            body.AngularVelocity += (spinAcceleration == Vector.Zero ? 0 : duration) * spinAcceleration;
+            return spinAcceleration == Vector.Zero ? maxDuration : duration;
         }
 
         var motion = new Motion(position, body.Velocity, netAcceleration);
         _obstacles.CollectNearbyBodies(in motion, duration, body.Index);
         var isHit = _sweep.TryFindImpact(in motion, duration, out var hit, out var elapsed);
-        _response.TransmitLoad(body, acceleration, position, elapsed);
         position = motion.PositionAt(elapsed);
         body.Velocity = motion.VelocityAt(elapsed);
+        body.AngularVelocity += elapsed * spinAcceleration;
         if (isHit)
         {
             position = RemoveRoundingOverlap(position, in hit);
@@ -159,8 +192,9 @@ internal sealed class BodyMover
     }
 
     /// <summary>Pushes a body out that overlaps something; one that cannot be pushed out stops.</summary>
-    private bool TryResolveOverlap(Body body, ref Vector position)
+    private bool TryResolveOverlap(Body body)
     {
+        var position = body.Position;
         body.SafeDistance.Invalidate();
         body.Contacts.Clear();
         body.IsStuck = !_overlapResolver.TryResolve(ref position, body.Index);

@@ -37,19 +37,16 @@ internal sealed class BodyStepper
         _mover = new(bodies, obstacles, islands);
     }
 
-    /// <summary>Makes the step of a body that is awake.</summary>
+    /// <summary>Begins the step of a body that is awake: all but its motion.</summary>
     /// <param name="body">Its previous state must have been saved.</param>
     /// <param name="staticColliders">Colliders of the body's kind; null where there are no static objects.</param>
     /// <param name="character">Character that is in the way; null for none.</param>
     /// <param name="gravity">Units per second².</param>
     /// <param name="stepLength">Seconds, positive.</param>
-    /// <param name="stepIndex">Number of steps before this one, for the message.</param>
-    /// <exception cref="InvalidOperationException">The body has left the range of a double; the message names it.</exception>
-    public void Step(
-        Body body, StaticColliders? staticColliders, CharacterController? character, Vector gravity, double stepLength, long stepIndex)
+    public void Prepare(Body body, StaticColliders? staticColliders, CharacterController? character, Vector gravity, double stepLength)
     {
-        var faceTestsBefore = _queryContext.Statistics.FaceTests;
-        var boundTestsBefore = _queryContext.Statistics.BoundTests;
+        body.IsPrepared = true;
+        var (faceTests, boundTests) = BeginCount();
         var description = body.Description;
         if (body.IsShrinking)
         {
@@ -60,16 +57,82 @@ internal sealed class BodyStepper
         if (description.Damping > 0)
         {
             body.Velocity *= Math.Exp(-description.Damping * stepLength);
+            body.AngularVelocity *= Math.Exp(-description.Damping * stepLength);
         }
 
-        var motion = new Motion(body.Position, body.Velocity, acceleration);
-        var maxTravel = motion.MaxTravelDistance(stepLength);
-        _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 2 * maxTravel, character);
+        body.FreeAcceleration = acceleration;
+        body.RestitutionThreshold =
+            _settings.RestitutionThreshold ?? RestitutionThresholdFraction * acceleration.Length() * stepLength;
+        var wasResolved = body.IsOverlapResolved;
+        SetMover(body, staticColliders, character, stepLength);
+        _mover.Prepare(body);
+        if (!wasResolved)
+        {
+            _grid.Update(body.Index);
+        }
+
+        EndCount(body, faceTests, boundTests);
+    }
+
+    /// <summary>Finds the surfaces that a body may meet in the step.</summary>
+    /// <param name="body">Must have been prepared.</param>
+    /// <param name="staticColliders">Colliders of the body's kind; null where there are no static objects.</param>
+    /// <param name="reach">How far it may move.</param>
+    /// <param name="stepLength">Seconds, positive.</param>
+    public void FindNearSurfaces(Body body, StaticColliders? staticColliders, double reach, double stepLength)
+    {
+        var (faceTests, boundTests) = BeginCount();
+        SetMover(body, staticColliders, character: null, stepLength);
+        _mover.FindNearSurfaces(body, reach, stepLength);
+        EndCount(body, faceTests, boundTests);
+    }
+
+    /// <summary>Makes the step of a body that is awake and of no island.</summary>
+    /// <param name="body">Must have been prepared.</param>
+    /// <param name="staticColliders">Colliders of the body's kind; null where there are no static objects.</param>
+    /// <param name="character">Character that is in the way; null for none.</param>
+    /// <param name="stepLength">Seconds, positive.</param>
+    /// <param name="stepIndex">Number of steps before this one, for the message.</param>
+    /// <exception cref="InvalidOperationException">The body has left the range of a double; the message names it.</exception>
+    public void Step(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength, long stepIndex)
+    {
+        var (faceTests, boundTests) = BeginCount();
+        var motion = new Motion(body.Position, body.Velocity, body.FreeAcceleration);
+        SetMover(body, staticColliders, character, stepLength);
         _nearbyBodies.Prepare(motion.SweptBox(stepLength), body.Radius * ContactTolerances.NeighbourRadiusFactor);
-        var accelerationMagnitude = acceleration.Length();
-        var restitutionThreshold =
-            _settings.RestitutionThreshold ?? RestitutionThresholdFraction * accelerationMagnitude * stepLength;
-        _mover.Move(body, acceleration, stepLength, restitutionThreshold);
+        _mover.Move(body, stepLength);
+        EndCount(body, faceTests, boundTests);
+        Finish(body, stepLength, stepIndex);
+    }
+
+    /// <summary>Moves a body of an island, before it is known whether all of them have room.</summary>
+    /// <inheritdoc cref="Step"/>
+    public void MovePlanned(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength)
+    {
+        var (faceTests, boundTests) = BeginCount();
+        SetMover(body, staticColliders, character, stepLength);
+        _mover.MovePlanned(body, stepLength);
+        EndCount(body, faceTests, boundTests);
+    }
+
+    /// <summary>Ends the step of a body of an island, whose position is known.</summary>
+    /// <inheritdoc cref="Step"/>
+    public void FinishPlanned(Body body, StaticColliders? staticColliders, double stepLength, long stepIndex)
+    {
+        var (faceTests, boundTests) = BeginCount();
+        SetMover(body, staticColliders, character: null, stepLength);
+        _mover.FinishPlanned(body);
+        EndCount(body, faceTests, boundTests);
+        Finish(body, stepLength, stepIndex);
+    }
+
+    /// <summary>Ends the step of a body that has moved.</summary>
+    /// <param name="body">Must have been moved.</param>
+    /// <param name="stepLength">Seconds, positive.</param>
+    /// <param name="stepIndex">Number of steps before this one, for the message.</param>
+    /// <exception cref="InvalidOperationException">The body has left the range of a double; the message names it.</exception>
+    private void Finish(Body body, double stepLength, long stepIndex)
+    {
         if (!body.Position.IsFinite() || !body.Velocity.IsFinite())
         {
             var state = $"position {body.Position}, velocity {body.Velocity}";
@@ -77,11 +140,27 @@ internal sealed class BodyStepper
                 CultureInfo.InvariantCulture, $"body {body.Name} has left the range of a double in step {stepIndex}: {state}"));
         }
 
-        body.FaceTests = _queryContext.Statistics.FaceTests - faceTestsBefore;
-        body.BoundTests = _queryContext.Statistics.BoundTests - boundTestsBefore;
-        var sleepSpeed = _settings.SleepSpeed ?? SleepSpeedFraction * Math.Sqrt(accelerationMagnitude * body.Radius);
+        body.Turn(stepLength);
+        var sleepSpeed = _settings.SleepSpeed ?? SleepSpeedFraction * Math.Sqrt(body.FreeAcceleration.Length() * body.Radius);
         _islands.Update(body, sleepSpeed, _settings.TimeBeforeSleep, stepLength);
         // Last, so that what was collected for this body serves its islands too.
         _grid.Update(body.Index);
+    }
+
+    /// <summary>Makes a body the mover of the obstacles.</summary>
+    /// <returns>How far it may move in free flight.</returns>
+    private double SetMover(Body body, StaticColliders? staticColliders, CharacterController? character, double stepLength)
+    {
+        var maxTravel = new Motion(body.Position, body.Velocity, body.FreeAcceleration).MaxTravelDistance(stepLength);
+        _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 2 * maxTravel, character);
+        return maxTravel;
+    }
+
+    private (long FaceTests, long BoundTests) BeginCount() => (_queryContext.Statistics.FaceTests, _queryContext.Statistics.BoundTests);
+
+    private void EndCount(Body body, long faceTestsBefore, long boundTestsBefore)
+    {
+        body.FaceTests += _queryContext.Statistics.FaceTests - faceTestsBefore;
+        body.BoundTests += _queryContext.Statistics.BoundTests - boundTestsBefore;
     }
 }

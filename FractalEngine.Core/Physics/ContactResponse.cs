@@ -3,8 +3,7 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
-/// How contacts change the velocity of a body: the paper's response v ← −e·vₙ + vₛ (§4.4.4), friction, and the load that bodies transmit to
-/// each other.
+/// How contacts change the velocity of a body: the paper's response v ← −e·vₙ + vₛ (§4.4.4), and friction.
 /// </summary>
 internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
 {
@@ -90,62 +89,6 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
         return true;
     }
 
-    /// <summary>
-    /// Applies the load that other bodies have transmitted: a body gives way where it can, and passes the load on to bodies it lies on.
-    /// Nothing bounces from a load.
-    /// </summary>
-    public void ApplyPendingLoad(Body body, Vector position)
-    {
-        var loadVelocity = body.PendingLoadVelocity;
-        body.PendingLoadVelocity = Vector.Zero;
-        if (loadVelocity == Vector.Zero)
-        {
-            return;
-        }
-
-        var contacts = body.Contacts;
-        body.Velocity += contacts.ProjectVelocity(loadVelocity, position, _planes);
-        for (var i = 0; i < contacts.Count; i++)
-        {
-            var normal = contacts[i].Normal(position);
-            if (!contacts[i].IsBody || bodies[contacts[i].BodyIndex] is not { IsAsleep: false } other)
-            {
-                continue;
-            }
-
-            var normalSpeed = Vector.Dot(loadVelocity, normal);
-            if (normalSpeed < 0)
-            {
-                other.PendingLoadVelocity += normalSpeed * (body.Description.Mass / other.Description.Mass) * normal;
-            }
-        }
-    }
-
-    /// <summary>Transmits the load of a body to the bodies that it lies on. They apply it in their own turn.</summary>
-    /// <param name="body">The body that presses.</param>
-    /// <param name="acceleration">By gravity and forces.</param>
-    /// <param name="position">Position of the body, world space.</param>
-    /// <param name="duration">Seconds for which it presses.</param>
-    public void TransmitLoad(Body body, Vector acceleration, Vector position, double duration)
-    {
-        for (var i = 0; i < body.Contacts.Count; i++)
-        {
-            var contact = body.Contacts[i];
-            if (!contact.IsBody || bodies[contact.BodyIndex] is { IsAsleep: true })
-            {
-                continue;
-            }
-
-            var other = bodies[contact.BodyIndex];
-            var normal = contact.Normal(position);
-            var loadAcceleration = -Vector.Dot(acceleration - other.NetAcceleration, normal);
-            if (loadAcceleration > 0)
-            {
-                other.PendingLoadVelocity -= duration * loadAcceleration * (body.Description.Mass / other.Description.Mass) * normal;
-            }
-        }
-    }
-
     private Vector RelativeVelocity(Body body, in Contact contact) =>
         contact.IsBody ? body.Velocity - bodies[contact.BodyIndex].Velocity : body.Velocity;
 
@@ -159,24 +102,54 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
 
         // A body that sleeps on is as firm as the ground.
         var movable = other is { IsAsleep: false, IsStuck: false } ? other : null;
-        var massShare = movable is null ? 1 : movable.Description.Mass / (body.Description.Mass + movable.Description.Mass);
+        var inverseMass = 1 / body.Description.Mass;
+        var otherInverseMass = movable is null ? 0 : 1 / movable.Description.Mass;
         var restitution = approachSpeed > restitutionThreshold ? CombinedRestitution(body, other) : 0;
-        var velocityChange = (1 + restitution) * approachSpeed * normal;
-        var relativeVelocity = RelativeVelocity(body, in contact);
-        var tangentialVelocity = relativeVelocity - (Vector.Dot(relativeVelocity, normal) * normal);
-        var tangentialSpeed = tangentialVelocity.Length();
-        var maxFrictionSpeed = body.Description.Friction * (1 + restitution) * approachSpeed;
-        if (maxFrictionSpeed > 0 && tangentialSpeed > 0)
+        var impulse = (1 + restitution) * approachSpeed / (inverseMass + otherInverseMass) * normal;
+        var friction = other is null ? body.Description.Friction : Math.Min(body.Description.Friction, other.Description.Friction);
+        if (friction > 0)
         {
-            velocityChange -= Math.Min(maxFrictionSpeed / tangentialSpeed, 1) * tangentialVelocity;
+            var across = StopSlip(body, other, movable, in contact, normal, friction * impulse.Length());
+            impulse += across;
+            Turn(body, body.Radius, normal, across);
+            if (movable is not null)
+            {
+                Turn(movable, movable.Radius, normal, across);
+            }
         }
 
-        body.Velocity += massShare * velocityChange;
+        body.Velocity += inverseMass * impulse;
         if (movable is not null)
         {
-            movable.Velocity -= (1 - massShare) * velocityChange;
+            movable.Velocity -= otherInverseMass * impulse;
         }
     }
+
+    /// <summary>Impulse across the normal that stops the slip of the touching points, as far as friction allows.</summary>
+    private Vector StopSlip(Body body, Body? other, Body? movable, in Contact contact, Vector normal, double limit)
+    {
+        var relative = RelativeVelocity(body, in contact);
+        var spin = body.Radius * body.AngularVelocity;
+        var inverseMass = InverseMassAcross(body);
+        if (other is not null)
+        {
+            spin += other.Radius * other.AngularVelocity;
+            inverseMass += movable is null ? 0 : InverseMassAcross(movable);
+        }
+
+        var slip = relative - (Vector.Dot(relative, normal) * normal) + Vector.Cross(normal, spin);
+        var impulse = -slip / inverseMass;
+        var length = impulse.Length();
+        return length > limit ? limit / length * impulse : impulse;
+    }
+
+    /// <summary>Inverse of the mass that an impulse at the surface and along it moves.</summary>
+    private static double InverseMassAcross(Body body) =>
+        (1 / body.Description.Mass) + (body.InverseInertia * body.Radius * body.Radius);
+
+    /// <summary>Turns a body by an impulse at its touching point; both bodies of a contact turn alike.</summary>
+    private static void Turn(Body body, double radius, Vector normal, Vector across) =>
+        body.AngularVelocity -= body.InverseInertia * radius * Vector.Cross(normal, across);
 
     private static double CombinedRestitution(Body body, Body? other) => other is null
         ? body.Description.Restitution

@@ -55,6 +55,21 @@ internal sealed class ContactSet
         _contacts[Count++] = contact with { CachedNormal = normal };
     }
 
+    /// <summary>True where another body is touched.</summary>
+    public bool HasBody
+    {
+        get
+        {
+            var hasBody = false;
+            for (var i = 0; i < Count; i++)
+            {
+                hasBody |= _contacts[i].IsBody;
+            }
+
+            return hasBody;
+        }
+    }
+
     /// <summary>True where another body is touched that does not sleep.</summary>
     public bool HasAwakeBody(List<Body> bodies)
     {

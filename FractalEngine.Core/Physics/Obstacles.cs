@@ -107,6 +107,38 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
         return isFound;
     }
 
+    /// <summary>Finds the closest surface.</summary>
+    /// <param name="position">Position of the mover, world space.</param>
+    /// <param name="maxDistance">Largest free distance of interest.</param>
+    /// <param name="contact">The surface, if there is one.</param>
+    /// <returns>False where no surface is within the distance.</returns>
+    public bool TryFindNearSurface(Vector position, double maxDistance, out Contact contact)
+    {
+        contact = default;
+        return _safeDistance.LowerBoundAt(position) - _radius <= maxDistance && TryFindClosestSurface(position, maxDistance, out contact);
+    }
+
+    /// <summary>Finds the face closest to a point, if the mover's sphere is near its plane.</summary>
+    /// <param name="point">Where the search begins, world space.</param>
+    /// <param name="position">Position of the mover, world space.</param>
+    /// <param name="maxDistance">Largest free distance from the plane of interest.</param>
+    /// <param name="contact">The face, with the mover's foot on its plane.</param>
+    /// <param name="normal">Unit normal towards the mover.</param>
+    public bool TryFindFace(Vector point, Vector position, double maxDistance, out Contact contact, out Vector normal)
+    {
+        contact = default;
+        normal = Vector.Zero;
+        if (!TryFindClosestPoint(point, _radius + maxDistance, out var closest, out _) || closest.Feature != TriangleFeature.Interior)
+        {
+            return false;
+        }
+
+        normal = (point - closest.Point).UnitVectorOrZero();
+        var height = Vector.Dot(position - closest.Point, normal);
+        contact = new(position - (height * normal), _radius, Vector.Zero, Contact.NoBody, IsFlat: true);
+        return height > 0 && height <= _radius + maxDistance;
+    }
+
     /// <summary>Adds contacts with all collected bodies that are touched.</summary>
     /// <param name="position">Position of the mover, world space.</param>
     /// <param name="tolerance">Largest gap that counts as touching.</param>

@@ -7,6 +7,9 @@ namespace FractalEngine.Core.Physics;
 /// <content>How time passes in the world.</content>
 public sealed partial class PhysicsWorld
 {
+    // Times that the bodies of an island go around one that something unforeseen holds.
+    private const int MaxPasses = 4;
+
     /// <summary>Makes as many steps of <see cref="PhysicsSettings.TimeStep"/> as fit into the time that has passed.</summary>
     /// <param name="seconds">Time since the last call; a negative one counts as 0. What does not fill a step is kept.</param>
     /// <returns>The number of steps.</returns>
@@ -44,26 +47,147 @@ public sealed partial class PhysicsWorld
         var faceTestsBefore = _queryContext.Statistics.FaceTests;
         var boundTestsBefore = _queryContext.Statistics.BoundTests;
         var character = Character is { IsActive: true } active ? active : null;
+        _islands.HasSleeping = false;
+        foreach (var body in _bodies)
+        {
+            body.BeginStep();
+            _islands.HasSleeping |= body.IsAsleep;
+        }
+
+        PlanIslands(character, seconds);
+        MoveIslands(character, seconds);
         for (var i = 0; i < _bodies.Count; i++)
         {
-            var body = _bodies[i];
-            body.BeginStep();
-            if (!body.IsAsleep)
+            if (!_bodies[i].IsAsleep && _bodies[i].IslandIndex < 0)
             {
-                StepBody(body, character, seconds);
+                StepBody(_bodies[i], character, seconds);
             }
         }
+
+        _islands.PutToSleep(_planner.Graph, Settings.TimeBeforeSleep);
 
         StepCharacter(character, seconds);
         _clock.Tick(seconds);
         LastStepCost = (_queryContext.Statistics.FaceTests - faceTestsBefore, _queryContext.Statistics.BoundTests - boundTestsBefore);
     }
 
+    /// <summary>Prepares all bodies that are awake, and solves their islands.</summary>
+    private void PlanIslands(CharacterController? character, double seconds)
+    {
+        CollectPairs(character, seconds);
+        _planner.Graph.JoinTouching();
+        FindNearSurfaces(seconds);
+        _planner.StopApproaches();
+        if (_planner.Graph.HasOutrun())
+        {
+            CollectPairs(character, seconds);
+        }
+
+        _planner.Graph.JoinForStep();
+        FindNearSurfaces(seconds);
+        _planner.Plan(seconds);
+    }
+
+    /// <summary>Finds the surfaces that bodies of islands may meet, unless they are known.</summary>
+    private void FindNearSurfaces(double seconds)
+    {
+        foreach (var body in _bodies)
+        {
+            if (!body.AreNearSurfacesKnown && _planner.Graph.IsJoined(body.Index))
+            {
+                body.AreNearSurfacesKnown = true;
+                var reach = _planner.Graph.Reach(body.Index);
+                _stepper.FindNearSurfaces(body, _statics.CollidersOf(ColliderKindOf(body)), reach, seconds);
+            }
+        }
+    }
+
+    /// <summary>Finds which bodies are near each other, all of them prepared.</summary>
+    private void CollectPairs(CharacterController? character, double seconds)
+    {
+        do
+        {
+            foreach (var body in _bodies)
+            {
+                if (!body.IsAsleep && !body.IsPrepared)
+                {
+                    _stepper.Prepare(body, _statics.CollidersOf(ColliderKindOf(body)), character, _gravity, seconds);
+                }
+            }
+        }
+        while (_planner.Graph.CollectPairs(_islands, seconds));
+    }
+
+    /// <summary>Moves the bodies of each island at once.</summary>
+    private void MoveIslands(CharacterController? character, double seconds)
+    {
+        foreach (var island in _planner.Graph.Islands)
+        {
+            var members = _planner.Graph.BodiesOf(in island);
+            _islandMover.SetTargets(in island, seconds);
+            var hasHeld = true;
+            for (var pass = 0; pass < MaxPasses && hasHeld; pass++)
+            {
+                _islandMover.FindUnplanned(in island, seconds);
+                _islandMover.SeparateTargets(in island);
+                hasHeld = false;
+                foreach (var index in members)
+                {
+                    var body = _bodies[index];
+                    if (!body.IsHeld && (pass == 0 || body.Target != body.CheckedTarget))
+                    {
+                        MoveBody(body, character, seconds, isPlanned: true);
+                        hasHeld |= body.IsHeld;
+                        if (body.PlannedHit is { } hit && pass < MaxPasses - 2)
+                        {
+                            _islandMover.AddSurface(body, in hit);
+                        }
+                        else if (body.IsHeld)
+                        {
+                            body.Target = body.Position;
+                        }
+                    }
+                }
+            }
+
+            _islandMover.ReturnOverlapping(in island, seconds);
+            foreach (var index in members)
+            {
+                _bodies[index].Velocity += _bodies[index].PlannedChange;
+                _bodies[index].AngularVelocity += _bodies[index].PlannedSpinChange;
+            }
+
+            _energyGuard.Check(in island);
+            foreach (var index in members)
+            {
+                _stepper.FinishPlanned(_bodies[index], _statics.CollidersOf(ColliderKindOf(_bodies[index])), seconds, StepCount);
+            }
+        }
+    }
+
     private void StepBody(Body body, CharacterController? character, double seconds)
+    {
+        if (!body.IsPrepared)
+        {
+            _stepper.Prepare(body, _statics.CollidersOf(ColliderKindOf(body)), character, _gravity, seconds);
+        }
+
+        MoveBody(body, character, seconds, isPlanned: false);
+    }
+
+    private void MoveBody(Body body, CharacterController? character, double seconds, bool isPlanned)
     {
         try
         {
-            _stepper.Step(body, _statics.CollidersOf(ColliderKindOf(body)), character, _gravity, seconds, StepCount);
+            var colliders = _statics.CollidersOf(ColliderKindOf(body));
+            if (isPlanned)
+            {
+                _stepper.MovePlanned(body, colliders, character, seconds);
+            }
+            else
+            {
+                _stepper.Step(body, colliders, character, seconds, StepCount);
+            }
         }
         catch (ArgumentOutOfRangeException exception)
         {

@@ -2,6 +2,7 @@ using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Character;
+using FractalEngine.Core.Physics.Islands;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;
@@ -25,6 +26,9 @@ public sealed partial class PhysicsWorld
     private readonly SleepIslands _islands;
     private readonly Obstacles _obstacles;
     private readonly BodyStepper _stepper;
+    private readonly IslandPlanner _planner;
+    private readonly IslandMover _islandMover;
+    private readonly EnergyGuard _energyGuard;
     private readonly int _sceneBodyCount;
     private Vector _gravity;
     private ColliderKind? _colliderOverride;
@@ -68,6 +72,9 @@ public sealed partial class PhysicsWorld
         _islands = new(_bodies, nearbyBodies);
         _obstacles = new(_bodies, nearbyBodies, _queryContext);
         _stepper = new(Settings, _bodies, _grid, nearbyBodies, _obstacles, _islands, _queryContext);
+        _planner = new(_bodies, nearbyBodies);
+        _islandMover = new(_bodies, _planner.Graph, _grid, nearbyBodies);
+        _energyGuard = new(_bodies, _planner.Graph, _islandMover);
         _staticOfObject = new StaticObject?[scene.Objects.Length];
         for (var i = 0; i < scene.Objects.Length; i++)
         {
@@ -136,6 +143,9 @@ public sealed partial class PhysicsWorld
     /// <summary>Triangles and bounding volumes that the last step tested, for all bodies and the character together.</summary>
     public (long FaceTests, long BoundTests) LastStepCost { get; private set; }
 
+    /// <summary>What the joint solve of touching bodies has done since the world began or was reset.</summary>
+    public IslandStatistics IslandStatistics => _planner.Statistics;
+
     /// <summary>Collider of all bodies instead of their own; null for their own. Setting another one wakes all bodies.</summary>
     public ColliderKind? ColliderOverride
     {
@@ -178,6 +188,7 @@ public sealed partial class PhysicsWorld
         _clock.Reset();
         _accumulatedTime = 0;
         LastStepCost = default;
+        _planner.Reset();
     }
 
     /// <summary>The world's scene with all objects where they are now, followed by the static objects that were added.</summary>
@@ -192,6 +203,12 @@ public sealed partial class PhysicsWorld
                 var original = _scene.Objects[index];
                 var placement = original.Declaration.Placement;
                 placement = placement with { Position = body.Position, Scale = body.Scale * placement.Scale };
+                if (body.Orientation != Orientation.Identity)
+                {
+                    var axes = body.Orientation.ToMatrix() * placement.Rotation.LocalAxesFromDegrees();
+                    placement = placement with { Rotation = 180 / Math.PI * axes.EulerAngles() };
+                }
+
                 objects[index] = new(original.Declaration with { Placement = placement }, original.Model);
             }
         }

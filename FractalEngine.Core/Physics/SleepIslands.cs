@@ -1,4 +1,5 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Islands;
 
 namespace FractalEngine.Core.Physics;
 
@@ -12,6 +13,9 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
     private readonly List<int> _candidates = new(InitialNeighbourCapacity);
     private readonly Stack<Body> _stack = new(InitialNeighbourCapacity);
 
+    /// <summary>True where a body may sleep; else nothing need be woken.</summary>
+    public bool HasSleeping { get; set; }
+
     /// <summary>Puts a body to sleep that has barely moved for some time; one that moves wakes what touched it before.</summary>
     /// <param name="body">Awake, after its step.</param>
     /// <param name="sleepSpeed">Average speed below which it counts as resting, units per second; at 0 it never rests.</param>
@@ -19,19 +23,43 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
     /// <param name="stepLength">Length of the last step, seconds.</param>
     public void Update(Body body, double sleepSpeed, double timeBeforeSleep, double stepLength)
     {
+        // What turns in place in a pile sleeps too: without spinning friction it would turn for ever.
         // Measured by distance: a jammed body may be pushed about and go nowhere.
         var maxDistance = sleepSpeed * stepLength;
-        var isSlow = (body.Position - body.PreviousPosition).LengthSquared() < maxDistance * maxDistance && body.Contacts.Count > 0;
+        var isSlow = (body.Position - body.PreviousPosition).LengthSquared() < maxDistance * maxDistance
+            && (body.IslandIndex >= 0 || body.AngularVelocity.LengthSquared() * body.Radius * body.Radius < sleepSpeed * sleepSpeed)
+            && (body.Contacts.Count > 0 || body.IslandIndex >= 0);
         var isResting = sleepSpeed > 0 && !body.IsShrinking && (isSlow || body.IsStuck);
         body.SleepTimer = isResting ? body.SleepTimer + stepLength : 0;
-        if (body.SleepTimer >= timeBeforeSleep && isResting)
+        if (body.SleepTimer >= timeBeforeSleep && isResting && body.IslandIndex < 0)
         {
             body.Sleep();
+            HasSleeping = true;
         }
-        else if (!isResting)
+        else if (!isResting && HasSleeping)
         {
             // A body that slept on this one may have lost its support.
             WakeOverlapping(body.PreviousPosition, body.PreviousScale * body.Description.Radius, body.Index);
+        }
+    }
+
+    /// <summary>Puts islands to sleep whose bodies have all rested for some time.</summary>
+    /// <param name="graph">The islands of this step.</param>
+    /// <param name="timeBeforeSleep">Seconds for which they must rest.</param>
+    public void PutToSleep(ContactGraph graph, double timeBeforeSleep)
+    {
+        foreach (var island in graph.Islands)
+        {
+            var isResting = true;
+            foreach (var index in graph.BodiesOf(in island))
+            {
+                isResting &= bodies[index].SleepTimer > 0 && bodies[index].SleepTimer >= timeBeforeSleep;
+            }
+
+            foreach (var index in isResting ? graph.BodiesOf(in island) : [])
+            {
+                bodies[index].Sleep();
+            }
         }
     }
 

@@ -30,6 +30,24 @@ public sealed record PhysicsObject : SceneObject
     /// <summary>Coulomb's coefficient of friction; 0 for the paper's bodies, which keep their speed along a surface.</summary>
     public double Friction { get; init; }
 
+    /// <summary>The inertia of a solid ball: 2/5.</summary>
+    public const double SolidInertia = 0.4;
+
+    /// <summary>The inertia of a thin shell, the largest that a ball can have: 2/3.</summary>
+    public const double ShellInertia = 2.0 / 3;
+
+    /// <summary>Moment of inertia over mass · radius²: positive, and at most <see cref="ShellInertia"/>.</summary>
+    public double Inertia { get; init; } = SolidInertia;
+
+    /// <summary>True for a body that does not turn, so that friction makes it slide instead of roll.</summary>
+    public bool IsRotationLocked { get; init; }
+
+    /// <summary>Coefficient of rolling friction: the torque against rolling, over the normal force · radius.</summary>
+    public double RollingFriction { get; init; }
+
+    /// <summary>Coefficient of spinning friction: the torque about the normal, over the normal force · radius.</summary>
+    public double SpinningFriction { get; init; }
+
     /// <summary>Rate of damping in 1/s: the speed falls by the factor exp(−rate·t).</summary>
     public double Damping { get; init; }
 

@@ -76,6 +76,10 @@ internal static class SceneFormatter
             body is { Velocity: var velocity } && !AreBitEqual(velocity, Vector.Zero) ? $"velocity {velocity}" : null,
             body is { Mass: not 1.0 and var mass } ? $"mass {FormatNumber(mass)}" : null,
             body is { Friction: var friction } && !AreBitEqual(friction, 0) ? $"friction {FormatNumber(friction)}" : null,
+            body is { RollingFriction: var rolling } && !AreBitEqual(rolling, 0) ? $"rolling {FormatNumber(rolling)}" : null,
+            body is { SpinningFriction: var spinning } && !AreBitEqual(spinning, 0) ? $"spinning {FormatNumber(spinning)}" : null,
+            body is { Inertia: not PhysicsObject.SolidInertia and var inertia } ? $"inertia {FormatNumber(inertia)}" : null,
+            body is { IsRotationLocked: true } ? "rotation locked" : null,
             body is { Damping: var damping } && !AreBitEqual(damping, 0) ? $"damping {FormatNumber(damping)}" : null,
             body is not null ? FormatShrinkage(body.Shrinkage, body.MinimumScale) : null,
             body is { Collider: not ColliderKind.Exact and var collider } ? $"collider {SceneParser.GetColliderName(collider)}" : null);

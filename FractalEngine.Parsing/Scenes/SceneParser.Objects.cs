@@ -175,6 +175,36 @@ public sealed partial class SceneParser
             return success;
         }
 
+        if (ParseKeyword(start, "rolling", out rest))
+        {
+            var success = ParseNonNegative(rest, "the rolling friction", out var rolling, out rest);
+            body = body with { RollingFriction = rolling };
+            return success;
+        }
+
+        if (ParseKeyword(start, "spinning", out rest))
+        {
+            var success = ParseNonNegative(rest, "the spinning friction", out var spinning, out rest);
+            body = body with { SpinningFriction = spinning };
+            return success;
+        }
+
+        if (ParseKeyword(start, "inertia", out rest))
+        {
+            var valueStart = rest;
+            var success = ParseNumber(valueStart, out var inertia, out rest);
+            var isInRange = inertia is > 0 and <= PhysicsObject.ShellInertia;
+            Require(!success || isInRange, valueStart, "the inertia must be positive and at most 2/3");
+            body = body with { Inertia = inertia };
+            return success;
+        }
+
+        if (ParseKeyword(start, "rotation", out rest))
+        {
+            body = body with { IsRotationLocked = true };
+            return ParseWord(rest, "locked", out rest);
+        }
+
         if (ParseKeyword(start, "shrink", out rest))
         {
             return ParseShrinkage(rest, ref body, out rest);

@@ -4,7 +4,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics;
 
-/// <summary>Checks friction, damping and forces against their formulas.</summary>
+/// <summary>Checks friction, damping and forces against their formulas, for bodies that do not turn.</summary>
 public class FrictionTests
 {
     [Fact]
@@ -40,7 +40,10 @@ public class FrictionTests
         var speed = random.Between(0.5, 5);
         var friction = random.Between(0.1, 1);
         var world = TestWorlds.Create(TestWorlds.Gravity, random.Between(0.002, 0.05), TestWorlds.Place(PhysicsMeshes.FloorMesh()));
-        var body = world.AddSphere(new(0, 0.5, 0), 0.5, velocity: new(speed, 0, 0), friction: friction);
+        var body = world.Add(new(new(0, 0.5, 0), 0.5)
+        {
+            Velocity = new(speed, 0, 0), Friction = friction, IsRotationLocked = true,
+        });
         var time = speed / (friction * 9.8);
         world.Run((int)(time / world.Settings.TimeStep) + 60);
         Assert.Equal(Vector.Zero, body.Velocity);
@@ -55,7 +58,10 @@ public class FrictionTests
         var along = random.Between(0, 10);
         var into = random.Between(1, 5);
         var world = TestWorlds.Create(Vector.Zero, 0.01, TestWorlds.Place(PhysicsMeshes.FloorMesh()));
-        var body = world.AddSphere(new(0, 1, 0), 0.5, restitution, new(along, -into, 0), friction: friction);
+        var body = world.Add(new(new(0, 1, 0), 0.5)
+        {
+            Restitution = restitution, Velocity = new(along, -into, 0), Friction = friction, IsRotationLocked = true,
+        });
         world.Run(60);
         // Coulomb's friction stops the body at most. The impact is found to 1e-10 of the radius.
         Near.Equal(new(Math.Max(0, along - (friction * (1 + restitution) * into)), restitution * into, 0), body.Velocity, 1e-8);
@@ -117,7 +123,7 @@ public class FrictionTests
             // Without sleep, into which a body so slow would fall.
             var world = TestWorlds.Create(TestWorlds.Gravity, new PhysicsSettings { TimeStep = 0.01, SleepSpeed = 0 },
                 TestWorlds.Place(PhysicsMeshes.FloorMesh()));
-            var body = world.Add(new(new(0, 0.5, 0), 0.5) { Mass = 3, Friction = 0.4 });
+            var body = world.Add(new(new(0, 0.5, 0), 0.5) { Mass = 3, Friction = 0.4, IsRotationLocked = true });
             world.Run(10);
             world.SetForce(body, new(force, 0, 0));
             world.Run(100);
@@ -134,6 +140,9 @@ public class FrictionTests
         down = new(Math.Cos(angle) * Math.Cos(heading), -Math.Sin(angle), Math.Cos(angle) * Math.Sin(heading));
         var slope = PhysicsMeshes.FromTriangles(PhysicsMeshes.PlaneTriangle(Vector.Zero, normal));
         world = TestWorlds.Create(TestWorlds.Gravity, random.Between(0.002, 0.02), TestWorlds.Place(slope));
-        return world.Add(new(radius * normal, radius) { Friction = friction, Mass = random.Between(0.1, 10) });
+        return world.Add(new(radius * normal, radius)
+        {
+            Friction = friction, Mass = random.Between(0.1, 10), IsRotationLocked = true,
+        });
     }
 }

@@ -79,13 +79,13 @@ public class ManyBodiesTests
         var box = PhysicsMeshes.FlipWinding(PhysicsMeshes.Cube.Transform(v => (2 * Half * v).Stretch(new(1, 4, 1))));
         var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(box));
         // One is 50 times as large as the smallest.
-        world.AddSphere(new(0.2, -8, 0.1), 2, mass: 50, friction: 0.5);
+        world.Add(new(new(0.2, -8, 0.1), 2) { Mass = 50, Friction = 0.5, IsRotationLocked = true });
         world.AddRange(Enumerable.Range(0, count - 1).Select(i =>
         {
             var position = new Vector(-2.5 + (i % 6), -5 + (1.1 * (i / 36)), -2.5 + (i / 6 % 6)) + random.Vector(0.04);
             return new BodyDescription(position, i == 0 ? 0.04 : 0.04 * Math.Pow(11, random.NextDouble()))
             {
-                Mass = random.Between(0.1, 5), Friction = 0.5, Restitution = random.Between(0, 0.5),
+                Mass = random.Between(0.1, 5), Friction = 0.5, Restitution = random.Between(0, 0.5), IsRotationLocked = true,
             };
         }));
         world.Run(steps, () =>

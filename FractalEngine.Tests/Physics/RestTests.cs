@@ -60,7 +60,10 @@ public class RestTests
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(AssetFractals.Load("menger", 3)));
         world.AddRange(Enumerable.Range(0, 9)
-            .Select(i => new BodyDescription(new((i % 3 * 0.33) - 0.33, 0.8, (i / 3 * 0.33) - 0.33), 0.1) { Friction = 0.5 }));
+            .Select(i => new BodyDescription(new((i % 3 * 0.33) - 0.33, 0.8, (i / 3 * 0.33) - 0.33), 0.1)
+            {
+                Friction = 0.5, IsRotationLocked = true,
+            }));
         world.Add(new(new(0, 1.2, 0), 0.2));
         world.Run(600);
         // The widest one has fallen through the middle hole or rests; all that rest are asleep.

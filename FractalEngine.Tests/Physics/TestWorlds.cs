@@ -34,8 +34,8 @@ internal static class TestWorlds
 
     /// <summary>Kinetic and potential energy of all bodies, joules.</summary>
     public static double Energy(this PhysicsWorld world) =>
-        world.Bodies.Sum(body => body.Description.Mass
-            * ((0.5 * body.Velocity.LengthSquared()) - Vector.Dot(world.Gravity, body.Position)));
+        world.Bodies.Sum(body => body.SpinEnergy + (body.Description.Mass
+            * ((0.5 * body.Velocity.LengthSquared()) - Vector.Dot(world.Gravity, body.Position))));
 
     public static Vector Momentum(this PhysicsWorld world) =>
         world.Bodies.Aggregate(Vector.Zero, (sum, body) => sum + (body.Description.Mass * body.Velocity));

@@ -7,7 +7,7 @@ namespace FractalEngine.Tests.App.Commands;
 /// <summary>Tests the command <c>simulate</c>, which writes one row per body and step, the same in every run.</summary>
 public sealed class SimulateCommandTests : IDisposable
 {
-    private const string Header = "time,body,x,y,z,vx,vy,vz,asleep,faceTests";
+    private const string Header = "time,body,x,y,z,vx,vy,vz,asleep,faceTests,wx,wy,wz,rx,ry,rz";
 
     private readonly TemporaryFolder _folder = new();
 
@@ -241,7 +241,7 @@ public sealed class SimulateCommandTests : IDisposable
     private static (string Body, double[] Numbers) Row(string line)
     {
         var (first, end) = (line.IndexOf(',', StringComparison.Ordinal), line.Length);
-        for (var number = 0; number < 8; number++)
+        for (var number = 0; number < 14; number++)
         {
             end = line.LastIndexOf(',', end - 1);
         }

@@ -122,6 +122,7 @@ public class SceneWriterTests
 
     [Theory]
     [InlineData("p \"a.obj\" # 0.5")]
+    [InlineData("p \"a.obj\" # 0.5 friction 0.5 rolling 0.01 spinning 0.02 inertia 0.5 rotation locked")]
     [InlineData("p \"a.obj\" # 0.5 friction 0.5 damping 0.25 shrink 0.1 0.2 collider simple")]
     [InlineData("p \"a.obj\" # 0.5 shrink 0.1")]
     [InlineData("p \"a.obj\" # 0.5 shrink 0 0.5")]
@@ -135,6 +136,7 @@ public class SceneWriterTests
     }
 
     [Theory]
+    [InlineData("p \"a.obj\" # 0.5 inertia 0.4 spinning 0 rolling 0", "p \"a.obj\" # 0.5\n")]
     [InlineData("p \"a.obj\" # 0.5 friction 0 damping 0 shrink 0 0.05 mass 1 collider exact", "p \"a.obj\" # 0.5\n")]
     [InlineData("player (0, 0, 0) 0.3 1.8 slope 50", "player (0, 0, 0) 0.3 1.8\n")]
     public void Write_OfStatedDefaults_OmitsThem(string line, string expected) =>

@@ -1,0 +1,82 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics.Islands;
+
+/// <summary>One contact of an island: who touches whom and where, and the impulse that the solver has found for it.</summary>
+internal struct ContactRow
+{
+    /// <summary>In place of a second body: a surface, or a body that does not give way.</summary>
+    public const int Firm = -1;
+
+    /// <summary>Index of the body on the normal's side.</summary>
+    public int First;
+
+    /// <summary>Index of the other body, or <see cref="Firm"/>.</summary>
+    public int Second;
+
+    /// <summary>Unit vector from the second to the first.</summary>
+    public Vector Normal;
+
+    /// <summary>Vector between the centres, or from the surface's point, at the beginning of the step.</summary>
+    public Vector Offset;
+
+    /// <summary>Length that the offset must keep.</summary>
+    public double MinDistance;
+
+    /// <summary>True for two balls, whose line of contact turns as they move; false for the plane of a surface.</summary>
+    public bool IsBall;
+
+    /// <summary>True where the normal is that of an impact ahead, and stays as it is.</summary>
+    public bool HasFixedNormal;
+
+    /// <summary>True for what will bounce when it touches, and gives no impulse before.</summary>
+    public bool IsBouncingAhead;
+
+    /// <summary>True for what does not touch yet, and may meet in this step.</summary>
+    public bool IsAhead;
+
+    /// <summary>Radius of the first body.</summary>
+    public double FirstRadius;
+
+    /// <summary>Radius of the second body; 0 where it does not turn.</summary>
+    public double SecondRadius;
+
+    /// <summary>Coulomb's coefficient of this pair.</summary>
+    public double Friction;
+
+    /// <summary>Torque against rolling over the normal force, scene units.</summary>
+    public double RollingArm;
+
+    /// <summary>Torque about the normal over the normal force, scene units.</summary>
+    public double SpinningArm;
+
+    /// <summary>Restitution of this pair.</summary>
+    public double Restitution;
+
+    /// <summary>Smallest allowed relative velocity along the normal, units per second.</summary>
+    public double MinNormalVelocity;
+
+    /// <summary>Impulse along the normal, not negative.</summary>
+    public double NormalImpulse;
+
+    /// <summary>Impulse across the normal.</summary>
+    public Vector FrictionImpulse;
+
+    /// <summary>Angular impulse against rolling and spinning.</summary>
+    public Vector TurnImpulse;
+
+    /// <summary>Moment of inertia against an angular impulse of this contact; infinite where nothing turns.</summary>
+    public double TurnInertia;
+
+    /// <summary>Mass that an impulse along the normal moves, kilograms.</summary>
+    public double NormalMass;
+
+    /// <summary>Mass that an impulse across the normal moves, kilograms.</summary>
+    public double FrictionMass;
+
+    /// <summary>Radius of the smaller one of two balls, as a share of the distance between them.</summary>
+    public readonly double SmallerRadiusShare => Math.Min(FirstRadius, SecondRadius) / MinDistance;
+
+    /// <summary>Says which contact it is, from step to step: both indices.</summary>
+    public readonly long Key => ((long)First << 32) | (uint)(Second + 1);
+}

@@ -1,0 +1,316 @@
+using System.Runtime.CompilerServices;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics.Islands;
+
+/// <summary>
+/// Finds the impulses of all contacts of an island at once: along each normal the bodies come apart at least as fast as demanded, the
+/// impulse pushes only, and pushes nothing that is faster. Across the normal it stops the slip, or is as large as friction allows.
+/// </summary>
+/// <remarks>
+/// Projected Gauss–Seidel, whose changes are taken as the gradients of a nonlinear conjugate gradient method (Silcowitz, Niebe and
+/// Erleben 2010). Plain rounds pass a load on by one body each; with the conjugate directions far fewer are needed.
+/// </remarks>
+internal sealed class ContactSolver
+{
+    // Most rounds of a solve: islands of up to so many contacts may take many, and all others as many as solve so many contacts.
+    private const int ManyRounds = 250;
+    private const int MaxContactsOfManyRounds = 500;
+    private const int MaxContactSolves = 60_000;
+    private const int MinRounds = 12;
+
+    // Of the largest impulse: a round that changes less has converged.
+    private const double Tolerance = 1e-9;
+
+    // Small islands converge to rounding in a few rounds, and large ones need not.
+    private const double FineTolerance = 1e-13;
+    private const int FineRounds = 32;
+
+    private const int InitialCapacity = 256;
+    private const int ContactsPerBody = 4;
+
+    // Of a change of friction, in late rounds: where balls pass their slip to and fro, smaller changes come to an end.
+    private const double LateFrictionShare = 0.5;
+
+    // Of the momentum of a contact's bodies.
+    private const double RelativeRounding = 1e-14;
+
+    private double _frictionShare = 1;
+    private double _rounding;
+    private SolverBody[] _bodies = new SolverBody[InitialCapacity];
+    private Direction[] _changes = new Direction[InitialCapacity];
+    private Direction[] _directions = new Direction[InitialCapacity];
+
+    /// <summary>Bodies by their index in the world.</summary>
+    public Span<SolverBody> Bodies => _bodies;
+
+    /// <summary>Rounds of the last solve.</summary>
+    public int Rounds { get; private set; }
+
+    /// <summary>Makes room for bodies.</summary>
+    public void Reserve(int bodyCount)
+    {
+        if (_bodies.Length < bodyCount)
+        {
+            Array.Resize(ref _bodies, Math.Max(bodyCount, 2 * _bodies.Length));
+            Array.Resize(ref _changes, Math.Max(ContactsPerBody * _bodies.Length, _changes.Length));
+            Array.Resize(ref _directions, _changes.Length);
+        }
+    }
+
+    /// <summary>Computes the masses of a contact from those of its bodies.</summary>
+    public void ComputeMasses(ref ContactRow row)
+    {
+        ref readonly var first = ref _bodies[row.First];
+        var normal = first.InverseMass;
+        var spin = first.InverseInertia * row.FirstRadius * row.FirstRadius;
+        if (row.Second >= 0)
+        {
+            ref readonly var second = ref _bodies[row.Second];
+            normal += second.InverseMass;
+            spin += second.InverseInertia * row.SecondRadius * row.SecondRadius;
+        }
+
+        row.TurnInertia = 1 / (first.InverseInertia + (row.Second >= 0 ? _bodies[row.Second].InverseInertia : 0));
+        row.NormalMass = 1 / normal;
+        row.FrictionMass = 1 / (normal + spin);
+    }
+
+    /// <summary>Velocity of the first body relative to the second.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Vector RelativeVelocity(in ContactRow row) =>
+        row.Second >= 0 ? _bodies[row.First].Velocity - _bodies[row.Second].Velocity : _bodies[row.First].Velocity;
+
+    /// <summary>Velocity of the first body's touching point relative to the second's, across the normal.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public Vector Slip(in ContactRow row)
+    {
+        var relative = RelativeVelocity(in row);
+        var spin = row.FirstRadius * _bodies[row.First].Spin;
+        if (row.Second >= 0)
+        {
+            spin += row.SecondRadius * _bodies[row.Second].Spin;
+        }
+
+        return relative - (Vector.Dot(relative, row.Normal) * row.Normal) + Vector.Cross(row.Normal, spin);
+    }
+
+    /// <summary>Gives both bodies an impulse.</summary>
+    /// <param name="row">The contact.</param>
+    /// <param name="alongNormal">Its part along the normal.</param>
+    /// <param name="across">Its part across the normal.</param>
+    public void Apply(in ContactRow row, double alongNormal, Vector across)
+    {
+        ApplyAlongNormal(in row, alongNormal);
+        if (row.Friction > 0)
+        {
+            ApplyAcross(in row, across);
+        }
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private void ApplyAlongNormal(in ContactRow row, double impulse)
+    {
+        ref var first = ref _bodies[row.First];
+        first.Velocity += first.InverseMass * impulse * row.Normal;
+        if (row.Second >= 0)
+        {
+            ref var second = ref _bodies[row.Second];
+            second.Velocity -= second.InverseMass * impulse * row.Normal;
+        }
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private void ApplyAcross(in ContactRow row, Vector across)
+    {
+        var torque = Vector.Cross(row.Normal, across);
+        ref var first = ref _bodies[row.First];
+        first.Velocity += first.InverseMass * across;
+        first.Spin -= first.InverseInertia * row.FirstRadius * torque;
+        if (row.Second >= 0)
+        {
+            ref var second = ref _bodies[row.Second];
+            second.Velocity -= second.InverseMass * across;
+            second.Spin -= second.InverseInertia * row.SecondRadius * torque;
+        }
+    }
+
+    /// <summary>Solves for the impulses. Those of the rows must have been given to the bodies already.</summary>
+    /// <param name="rows">All contacts of an island; receive the impulses.</param>
+    /// <returns>False where it has not converged: then the impulses are those of the last round.</returns>
+    public bool Solve(Span<ContactRow> rows)
+    {
+        if (_changes.Length < rows.Length)
+        {
+            Array.Resize(ref _changes, Math.Max(rows.Length, 2 * _changes.Length));
+            Array.Resize(ref _directions, _changes.Length);
+        }
+
+        _rounding = ComputeRounding(rows);
+        var previousNorm = 0.0;
+        var maxRounds = rows.Length <= MaxContactsOfManyRounds ? ManyRounds : Math.Max(MinRounds, MaxContactSolves / rows.Length);
+        _frictionShare = 1;
+        for (Rounds = 1; Rounds < maxRounds; Rounds++)
+        {
+            var isConverged = MakeRound(rows, Rounds <= FineRounds ? FineTolerance : Tolerance, out var norm);
+            if (isConverged)
+            {
+                return true;
+            }
+
+            _frictionShare = Rounds < maxRounds / 2 ? 1 : LateFrictionShare;
+            // Directions that have not led to the end by now may never do so where balls begin and cease to slip.
+            var isConjugate = previousNorm > 0 && norm <= previousNorm && Rounds < maxRounds / 2;
+            Extrapolate(rows, isConjugate ? norm / previousNorm : 0);
+            previousNorm = norm;
+        }
+
+        return MakeRound(rows, Tolerance, out _);
+    }
+
+    /// <summary>Solves each contact once in the order of the list, and once in the opposite one.</summary>
+    /// <remarks>Both together make the round symmetric, as conjugate directions need it.</remarks>
+    private bool MakeRound(Span<ContactRow> rows, double tolerance, out double norm)
+    {
+        for (var i = 0; i < rows.Length; i++)
+        {
+            _changes[i] = default;
+            SolveContact(ref rows[i], ref _changes[i]);
+        }
+
+        norm = 0;
+        var maxChange = 0.0;
+        var maxImpulse = 0.0;
+        for (var i = rows.Length - 1; i >= 0; i--)
+        {
+            ref var change = ref _changes[i];
+            SolveContact(ref rows[i], ref change);
+            norm += ((change.Normal * change.Normal) + change.Across.LengthSquared()) / rows[i].NormalMass;
+            maxChange = Math.Max(maxChange, Math.Max(Math.Abs(change.Normal), change.Across.MaxAbsComponent()));
+            maxImpulse = Math.Max(maxImpulse, rows[i].NormalImpulse);
+        }
+
+        return maxChange <= Math.Max(tolerance * maxImpulse, _rounding);
+    }
+
+    /// <summary>Impulses that rounding cannot tell from 0: those of bodies that barely approach have no larger digits.</summary>
+    private double ComputeRounding(Span<ContactRow> rows)
+    {
+        var impulse = 0.0;
+        foreach (ref readonly var row in rows)
+        {
+            var speed = _bodies[row.First].Velocity.MaxAbsComponent();
+            speed = row.Second >= 0 ? Math.Max(speed, _bodies[row.Second].Velocity.MaxAbsComponent()) : speed;
+            impulse = Math.Max(impulse, row.NormalMass * speed);
+        }
+
+        return RelativeRounding * impulse;
+    }
+
+    private void SolveContact(ref ContactRow row, ref Direction change)
+    {
+        var missing = row.MinNormalVelocity - Vector.Dot(RelativeVelocity(in row), row.Normal);
+        var impulse = Math.Max(0, row.NormalImpulse + (row.NormalMass * missing));
+        var normalChange = impulse - row.NormalImpulse;
+        if (normalChange != 0)
+        {
+            row.NormalImpulse = impulse;
+            change.Normal += normalChange;
+            ApplyAlongNormal(in row, normalChange);
+        }
+
+        if (row.Friction > 0 && (impulse > 0 || row.FrictionImpulse != Vector.Zero))
+        {
+            var across = row.FrictionImpulse - (row.FrictionMass * Slip(in row));
+            var lengthSquared = across.LengthSquared();
+            var limit = row.Friction * impulse;
+            across = lengthSquared > limit * limit ? limit / Math.Sqrt(lengthSquared) * across : across;
+            var acrossChange = _frictionShare * (across - row.FrictionImpulse);
+            across = row.FrictionImpulse + acrossChange;
+            row.FrictionImpulse = across;
+            change.Across += acrossChange;
+            ApplyAcross(in row, acrossChange);
+        }
+
+        if (row.RollingArm + row.SpinningArm > 0 && double.IsFinite(row.TurnInertia))
+        {
+            change.Turn += StopTurning(ref row);
+        }
+    }
+
+    /// <summary>Slows down rolling and spinning as far as the normal impulse allows.</summary>
+    private Vector StopTurning(ref ContactRow row)
+    {
+        var spin = _bodies[row.First].Spin - (row.Second >= 0 ? _bodies[row.Second].Spin : Vector.Zero);
+        var turn = row.TurnImpulse - (row.TurnInertia * spin);
+        var about = Vector.Dot(turn, row.Normal);
+        var rolling = turn - (about * row.Normal);
+        var length = rolling.Length();
+        var limit = row.RollingArm * row.NormalImpulse;
+        rolling = length > limit ? limit / length * rolling : rolling;
+        var spinningLimit = row.SpinningArm * row.NormalImpulse;
+        var turnChange = rolling + (Math.Clamp(about, -spinningLimit, spinningLimit) * row.Normal) - row.TurnImpulse;
+        row.TurnImpulse += turnChange;
+        ApplyTurn(in row, turnChange);
+        return turnChange;
+    }
+
+    /// <summary>Gives both bodies an angular impulse.</summary>
+    public void ApplyTurn(in ContactRow row, Vector turn)
+    {
+        _bodies[row.First].Spin += _bodies[row.First].InverseInertia * turn;
+        if (row.Second >= 0)
+        {
+            _bodies[row.Second].Spin -= _bodies[row.Second].InverseInertia * turn;
+        }
+    }
+
+    /// <summary>Goes on along the direction of the rounds before; at a share of 0 it begins anew.</summary>
+    private void Extrapolate(Span<ContactRow> rows, double share)
+    {
+        for (var i = 0; i < rows.Length; i++)
+        {
+            ref var direction = ref _directions[i];
+            ref readonly var change = ref _changes[i];
+            if (share > 0)
+            {
+                ref var row = ref rows[i];
+                direction.Normal *= share;
+                if (direction.Normal != 0)
+                {
+                    row.NormalImpulse += direction.Normal;
+                    ApplyAlongNormal(in row, direction.Normal);
+                }
+
+                direction.Normal += change.Normal;
+                if (row.Friction > 0)
+                {
+                    direction.Across *= share;
+                    row.FrictionImpulse += direction.Across;
+                    ApplyAcross(in row, direction.Across);
+                    direction.Across += change.Across;
+                }
+
+                if (row.RollingArm + row.SpinningArm > 0)
+                {
+                    direction.Turn *= share;
+                    row.TurnImpulse += direction.Turn;
+                    ApplyTurn(in row, direction.Turn);
+                    direction.Turn += change.Turn;
+                }
+            }
+            else
+            {
+                direction = change;
+            }
+        }
+    }
+
+    /// <summary>A change of the impulse of one contact.</summary>
+    private struct Direction
+    {
+        public double Normal;
+        public Vector Across;
+        public Vector Turn;
+    }
+}

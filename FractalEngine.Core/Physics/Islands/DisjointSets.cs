@@ -1,0 +1,50 @@
+namespace FractalEngine.Core.Physics.Islands;
+
+/// <summary>Sets of indices that are joined two by two (union–find). The lowest index stands for its set, whatever the order.</summary>
+internal sealed class DisjointSets
+{
+    private int[] _parents = [];
+    private bool[] _isJoined = [];
+
+    /// <summary>Puts each index into a set of its own.</summary>
+    /// <param name="count">Number of indices.</param>
+    public void Reset(int count)
+    {
+        if (_parents.Length < count)
+        {
+            _parents = new int[2 * count];
+            _isJoined = new bool[2 * count];
+        }
+
+        for (var i = 0; i < count; i++)
+        {
+            _parents[i] = i;
+            _isJoined[i] = false;
+        }
+    }
+
+    /// <summary>Joins the sets of two indices.</summary>
+    public void Join(int first, int second)
+    {
+        _isJoined[first] = true;
+        _isJoined[second] = true;
+        var root1 = RootOf(first);
+        var root2 = RootOf(second);
+        _parents[Math.Max(root1, root2)] = Math.Min(root1, root2);
+    }
+
+    /// <summary>True for an index that is not alone in its set.</summary>
+    public bool IsJoined(int index) => _isJoined[index];
+
+    /// <summary>The lowest index of a set.</summary>
+    public int RootOf(int index)
+    {
+        while (_parents[index] != index)
+        {
+            _parents[index] = _parents[_parents[index]];
+            index = _parents[index];
+        }
+
+        return index;
+    }
+}

@@ -1,0 +1,108 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics.Islands;
+
+/// <summary>Keeps the impulses of a step, from which the solve of the next one begins: what rests is then solved at once.</summary>
+internal sealed class ImpulseCache
+{
+    private const int InitialCapacity = 256;
+    private const int ContactsPerBody = 4;
+
+    // Cosine between normals from which on two contacts with one surface count as the same.
+    private const double MinCosine = 0.99;
+
+    // Marks a slot of the hash table without an entry.
+    private const int None = -1;
+
+    private Entry[] _entries = new Entry[InitialCapacity];
+    private int[] _slots = CreateSlots(4 * InitialCapacity);
+    private int _mask = (4 * InitialCapacity) - 1;
+
+    /// <summary>Gives contacts the impulses that they had in the step before; 0 to new ones.</summary>
+    public void Recall(Span<ContactRow> rows)
+    {
+        foreach (ref var row in rows)
+        {
+            row.NormalImpulse = 0;
+            row.FrictionImpulse = Vector.Zero;
+            row.TurnImpulse = Vector.Zero;
+            for (var slot = SlotOf(row.Key); _slots[slot] != None; slot = (slot + 1) & _mask)
+            {
+                ref readonly var entry = ref _entries[_slots[slot]];
+                if (entry.Key == row.Key && Vector.Dot(entry.Normal, row.Normal) >= MinCosine)
+                {
+                    row.NormalImpulse = entry.NormalImpulse;
+                    row.FrictionImpulse = entry.FrictionImpulse;
+                    row.TurnImpulse = entry.TurnImpulse;
+                    break;
+                }
+            }
+        }
+    }
+
+    /// <summary>Makes room for the contacts of so many bodies in a heap. Discards what is stored where it has to grow.</summary>
+    public void ReserveForBodies(int bodyCount) => Reserve(ContactsPerBody * bodyCount);
+
+    /// <summary>Stores the impulses of all contacts that push.</summary>
+    public void Store(ContactGraph graph)
+    {
+        Reserve(graph.RowCount);
+        Array.Fill(_slots, None);
+        var count = 0;
+        for (var i = 0; i < graph.RowCount; i++)
+        {
+            ref readonly var row = ref graph.Row(i);
+            if (row.NormalImpulse > 0)
+            {
+                _entries[count] = new()
+                {
+                    Key = row.Key, Normal = row.Normal, NormalImpulse = row.NormalImpulse, FrictionImpulse = row.FrictionImpulse,
+                    TurnImpulse = row.TurnImpulse,
+                };
+                var slot = SlotOf(row.Key);
+                while (_slots[slot] != None)
+                {
+                    slot = (slot + 1) & _mask;
+                }
+
+                _slots[slot] = count++;
+            }
+        }
+    }
+
+    /// <summary>Discards the impulses of all contacts.</summary>
+    public void Clear() => Array.Fill(_slots, None);
+
+    private void Reserve(int count)
+    {
+        if (_entries.Length < count)
+        {
+            Array.Resize(ref _entries, 2 * count);
+        }
+
+        if (_slots.Length < 2 * count)
+        {
+            _slots = CreateSlots(4 << int.Log2(count));
+            _mask = _slots.Length - 1;
+        }
+    }
+
+    private static int[] CreateSlots(int count)
+    {
+        var slots = new int[count];
+        Array.Fill(slots, None);
+        return slots;
+    }
+
+    // A multiplication by 2^64 divided by the golden ratio mixes the bits.
+    private int SlotOf(long key) => (int)((ulong)key * 0x9E3779B97F4A7C15 >> 32) & _mask;
+
+    private struct Entry
+    {
+        public long Key;
+        public Vector Normal;
+        public double NormalImpulse;
+        public Vector FrictionImpulse;
+        public Vector TurnImpulse;
+    }
+}

@@ -1,0 +1,282 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics.Islands;
+
+/// <summary>
+/// Plans the step of all bodies that touch others: the impulses of what approaches, then the forces that all contacts exert during the
+/// step. Both are solved for a whole island at once.
+/// </summary>
+/// <remarks>
+/// The forces are constant during the step, so that each body follows a parabola. They act along the mean of the line of contact before
+/// and after the step. Along it, two balls that stay in touch do not come closer, so that the forces between them do no work.
+/// </remarks>
+internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies)
+{
+    // Rounds of bounces, one contact after the other: more of them are balls that pass their speed to and fro.
+    private const int MaxBounceRounds = 64;
+
+    // Times that the lines of contact are corrected for how far the bodies move in the step.
+    private const int MaxTurns = 4;
+    private const int MinTurns = 2;
+    private const int MaxRowsOfManyTurns = 300;
+
+    // Radians: lines of contact that turn by less need no further correction.
+    private const double TurnTolerance = 1e-10;
+
+    // Each takes energy away, so that none must converge.
+    private const int MaxReboundRounds = 8;
+
+    // Of the speed: what rounding leaves of a velocity along a normal.
+    private const double RelativeTolerance = 1e-13;
+
+    // Of what gravity and forces add to the speed: less is what the solve leaves of it, and the body rests.
+    private const double RestFraction = 1e-10;
+
+    private readonly ContactSolver _solver = new();
+    private readonly ImpulseCache _cache = new();
+
+    /// <summary>The contacts and islands of this step.</summary>
+    public ContactGraph Graph { get; } = new(bodies, nearbyBodies);
+
+    /// <summary>What has been solved so far.</summary>
+    public IslandStatistics Statistics { get; private set; }
+
+    /// <summary>Forgets what has been solved before.</summary>
+    public void Reset()
+    {
+        Statistics = default;
+        _cache.Clear();
+    }
+
+    /// <summary>Takes away all approaching velocities of bodies that touch. They must have been joined.</summary>
+    public void StopApproaches()
+    {
+        Graph.Group();
+        _solver.Reserve(bodies.Count);
+        _cache.ReserveForBodies(bodies.Count);
+        foreach (var island in Graph.Islands)
+        {
+            var rows = Graph.RowsOf(in island);
+            Load(Graph.BodiesOf(in island), rows);
+            _ = StopApproaches(rows);
+            StoreVelocities(Graph.BodiesOf(in island));
+        }
+    }
+
+    /// <summary>Plans the step of all islands. Their bodies must have been joined.</summary>
+    /// <param name="stepLength">Seconds.</param>
+    public void Plan(double stepLength)
+    {
+        Graph.Group();
+        for (var index = 0; index < Graph.Islands.Count; index++)
+        {
+            var island = Graph.Islands[index];
+            var rows = Graph.RowsOf(in island);
+            foreach (var body in Graph.BodiesOf(in island))
+            {
+                bodies[body].IslandIndex = index;
+            }
+
+            Load(Graph.BodiesOf(in island), rows);
+            // Of bodies that have joined without touching another: they may run into surfaces.
+            var isConverged = StopApproaches(rows);
+            StoreVelocities(Graph.BodiesOf(in island));
+            isConverged &= FindForces(in island, rows, stepLength);
+            Statistics = new(Statistics.Solves + 1, Statistics.Rounds, Statistics.Unconverged + (isConverged ? 0 : 1));
+            StorePlan(Graph.BodiesOf(in island), stepLength);
+            StopRebounds(Graph.BodiesOf(in island), rows);
+        }
+
+        _cache.Store(Graph);
+    }
+
+    private void Load(ReadOnlySpan<int> island, Span<ContactRow> rows)
+    {
+        var solverBodies = _solver.Bodies;
+        foreach (var index in island)
+        {
+            var body = bodies[index];
+            solverBodies[index] = new()
+            {
+                Velocity = body.Velocity, Spin = body.AngularVelocity, InverseMass = 1 / body.Description.Mass,
+                InverseInertia = body.InverseInertia,
+            };
+        }
+
+        foreach (ref var row in rows)
+        {
+            _solver.ComputeMasses(ref row);
+        }
+    }
+
+    /// <summary>Takes away all approaching velocities: by bounces where they are fast enough, else by one solve.</summary>
+    private bool StopApproaches(Span<ContactRow> rows)
+    {
+        for (var round = 0; round < MaxBounceRounds && Bounce(rows); round++)
+        {
+        }
+
+        var isApproaching = false;
+        foreach (ref var row in rows)
+        {
+            isApproaching |= !row.IsAhead && NormalVelocity(in row) < -Rounding(in row);
+        }
+
+        if (!isApproaching)
+        {
+            return true;
+        }
+
+        // What does not touch yet exerts no impulse.
+        foreach (ref var row in rows)
+        {
+            row.MinNormalVelocity = row.IsAhead ? double.NegativeInfinity : 0;
+        }
+
+        return Solve(rows);
+    }
+
+    /// <summary>Lets all pairs bounce that approach fast enough, one after the other.</summary>
+    private bool Bounce(Span<ContactRow> rows)
+    {
+        var hasBounced = false;
+        foreach (ref var row in rows)
+        {
+            var speed = -NormalVelocity(in row);
+            if (!row.IsAhead && row.Restitution > 0 && speed > Math.Max(Threshold(in row), Rounding(in row)))
+            {
+                var impulse = (1 + row.Restitution) * speed * row.NormalMass;
+                var across = -row.FrictionMass * _solver.Slip(in row);
+                var limit = row.Friction * impulse;
+                var length = across.Length();
+                _solver.Apply(in row, impulse, length > limit ? limit / length * across : across);
+                hasBounced = true;
+            }
+        }
+
+        return hasBounced;
+    }
+
+    private double Threshold(in ContactRow row)
+    {
+        var threshold = bodies[row.First].RestitutionThreshold;
+        return row.Second >= 0 ? Math.Max(threshold, bodies[row.Second].RestitutionThreshold) : threshold;
+    }
+
+    private double NormalVelocity(in ContactRow row) => Vector.Dot(_solver.RelativeVelocity(in row), row.Normal);
+
+    private double Rounding(in ContactRow row)
+    {
+        var rounding = RelativeTolerance * _solver.Bodies[row.First].Velocity.MaxAbsComponent();
+        return row.Second >= 0
+            ? Math.Max(rounding, RelativeTolerance * _solver.Bodies[row.Second].Velocity.MaxAbsComponent()) : rounding;
+    }
+
+    private bool FindForces(in Island island, Span<ContactRow> rows, double stepLength)
+    {
+        _cache.Recall(rows);
+        var isConverged = false;
+        var turn = double.PositiveInfinity;
+        var maxTurns = rows.Length <= MaxRowsOfManyTurns ? MaxTurns : MinTurns;
+        for (var i = 0; i < maxTurns && turn > TurnTolerance; i++)
+        {
+            turn = 0;
+            foreach (ref var row in rows)
+            {
+                turn = Math.Max(turn, SetConstraint(ref row, stepLength, isFirst: i == 0));
+            }
+
+            // Lines of contact of forces that have not converged need no correction.
+            if (i > 0 && (turn <= TurnTolerance || (i > 1 && !isConverged)))
+            {
+                break;
+            }
+
+            foreach (var index in Graph.BodiesOf(in island))
+            {
+                ref var solverBody = ref _solver.Bodies[index];
+                solverBody.Velocity = bodies[index].Velocity + (stepLength * bodies[index].FreeAcceleration);
+                solverBody.Spin = bodies[index].AngularVelocity;
+            }
+
+            foreach (ref var row in rows)
+            {
+                row.FrictionImpulse -= Vector.Dot(row.FrictionImpulse, row.Normal) * row.Normal;
+                _solver.Apply(in row, row.NormalImpulse, row.FrictionImpulse);
+                _solver.ApplyTurn(in row, row.TurnImpulse);
+            }
+
+            isConverged = Solve(rows);
+        }
+
+        return isConverged;
+    }
+
+    private bool Solve(Span<ContactRow> rows)
+    {
+        var isConverged = _solver.Solve(rows);
+        Statistics = Statistics with { Rounds = Statistics.Rounds + _solver.Rounds };
+        return isConverged;
+    }
+
+    private void StoreVelocities(ReadOnlySpan<int> island)
+    {
+        foreach (var index in island)
+        {
+            bodies[index].Velocity = _solver.Bodies[index].Velocity;
+            bodies[index].AngularVelocity = _solver.Bodies[index].Spin;
+        }
+    }
+
+    private void StorePlan(ReadOnlySpan<int> island, double stepLength)
+    {
+        foreach (var index in island)
+        {
+            var body = bodies[index];
+            var negligible = RestFraction * stepLength * body.FreeAcceleration.Length();
+            var change = _solver.Bodies[index].Velocity - body.Velocity;
+            body.PlannedVelocity = body.Velocity;
+            body.PlannedStartEnergy = body.KineticEnergy;
+            if (change.MaxAbsComponent() <= negligible && body.Velocity.MaxAbsComponent() <= negligible
+                && _solver.Bodies[index].Spin.MaxAbsComponent() * body.Radius <= negligible)
+            {
+                body.AngularVelocity = Vector.Zero;
+                body.Velocity = Vector.Zero;
+                change = Vector.Zero;
+            }
+
+            body.NetAcceleration = change / stepLength;
+        }
+    }
+
+    /// <summary>
+    /// Lets those stay together that meet in this step and are too slow to bounce. The forces of a whole step would throw them back.
+    /// </summary>
+    private void StopRebounds(ReadOnlySpan<int> island, Span<ContactRow> rows)
+    {
+        for (var round = 0; round < MaxReboundRounds; round++)
+        {
+            foreach (ref var row in rows)
+            {
+                if (row.IsAhead && row.NormalImpulse > 0)
+                {
+                    // It pushes less, but does not pull.
+                    var impulse = Math.Min(row.NormalImpulse, row.NormalMass * NormalVelocity(in row));
+                    if (impulse > 0)
+                    {
+                        row.NormalImpulse -= impulse;
+                        _solver.Apply(in row, -impulse, Vector.Zero);
+                    }
+                }
+            }
+        }
+
+        foreach (var index in island)
+        {
+            var body = bodies[index];
+            var isResting = body.NetAcceleration == Vector.Zero && body.Velocity == Vector.Zero;
+            body.PlannedChange = isResting ? Vector.Zero : _solver.Bodies[index].Velocity - body.Velocity;
+            body.PlannedSpinChange = isResting ? Vector.Zero : _solver.Bodies[index].Spin - body.AngularVelocity;
+        }
+    }
+}

@@ -1,0 +1,19 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics.Islands;
+
+/// <summary>Velocities and inverse masses of a body, which is all that the solver needs of it.</summary>
+internal struct SolverBody
+{
+    /// <summary>Velocity of the centre, units per second.</summary>
+    public Vector Velocity;
+
+    /// <summary>Angular velocity, radians per second.</summary>
+    public Vector Spin;
+
+    /// <summary>Inverse of the mass, 1/kg.</summary>
+    public double InverseMass;
+
+    /// <summary>Inverse moment of inertia; 0 for a body that does not turn.</summary>
+    public double InverseInertia;
+}
