@@ -44,7 +44,7 @@ internal static class LightCommand
 
         if (scenes.Count == 0)
         {
-            scenes.AddRange(isQuick ? ["menger"] : ["menger", "playground", "gallery", "inside"]);
+            scenes.AddRange(isQuick ? ["menger"] : ["menger", "playground", "gallery"]);
         }
 
         var table = new TableOptions("light", isQuick, folder).CreateTable("light.csv", Columns);
@@ -71,7 +71,7 @@ internal static class LightCommand
         var (_, moving) = error.Count(new() { FitShadowsToView = false });
 
         // A traced image takes long: half the size shows the same.
-        var (smallWidth, smallHeight, samples) = (width / 2, height / 2, isQuick ? 32 : 128);
+        var (smallWidth, smallHeight, samples) = (width / 2, height / 2, isQuick ? 32 : 64);
         var tracer = new PathTracer(scene, view, smallWidth, smallHeight);
         for (var i = 0; i < samples; i++)
         {
@@ -79,7 +79,7 @@ internal static class LightCommand
         }
 
         var truth = tracer.ToImage();
-        var (without, with) = MeasureFrames(scene, view, isQuick ? 5 : 25);
+        var (without, with) = MeasureFrames(scene, view, isQuick ? 5 : 20);
         return
         [
             name, width, height, facing, Percent(resting, facing), Percent(moving, facing), samples,
