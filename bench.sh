@@ -27,7 +27,7 @@ if [ "${1:-}" = quick ]; then
     shift
 fi
 
-commands=(front growth loading precision rays trace frames skips physics window paper stability classes)
+commands=(front growth loading precision rays trace light frames skips physics window paper stability classes)
 [ $# = 0 ] || commands=("$@")
 
 classes='*'
@@ -36,7 +36,7 @@ classes='*'
 # Prints the words that a command is called with.
 words() {
     case "$1" in
-        front | growth | loading | precision | rays | trace) echo "$1 ${quick:+--quick}" ;;
+        front | growth | loading | precision | rays | trace | light) echo "$1 ${quick:+--quick}" ;;
         frames) echo "frames ${quick:+menger:5:afar menger:5:inside --rounds 1 --no-truth}" ;;
         skips | physics) echo "$1 ${quick:+--rounds 1}" ;;
         # The paper's models have one size, and a window one cost.

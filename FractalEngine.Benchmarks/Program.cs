@@ -2,6 +2,7 @@ using BenchmarkDotNet.Running;
 using FractalEngine.Benchmarks.Colliders;
 using FractalEngine.Benchmarks.Drawing;
 using FractalEngine.Benchmarks.Growth;
+using FractalEngine.Benchmarks.Light;
 using FractalEngine.Benchmarks.Loading;
 using FractalEngine.Benchmarks.Measuring;
 using FractalEngine.Benchmarks.Paper;
@@ -23,6 +24,7 @@ var commands = new Dictionary<string, Func<string[], int>>
     ["window"] = arguments => WindowCommand.Run(arguments),
     ["rays"] = arguments => RaysCommand.Run(arguments),
     ["trace"] = arguments => TraceCommand.Run(arguments),
+    ["light"] = arguments => LightCommand.Run(arguments),
     ["physics"] = arguments => PhysicsCommand.Run(arguments),
     ["precision"] = arguments => PrecisionCommand.Run(arguments),
     ["paper"] = arguments => PaperCommand.Run(arguments),

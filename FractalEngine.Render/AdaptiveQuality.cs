@@ -3,7 +3,8 @@ using FractalEngine.Core.Visibility;
 namespace FractalEngine.Render;
 
 /// <summary>
-/// Adapts render settings to a moving camera: no multisampling, at most 150,000 instances, and coarser detail while frames are slow.
+/// Adapts render settings to a moving camera: no multisampling, at most 150,000 instances, kept shadow maps, and
+/// coarser detail while frames are slow.
 /// </summary>
 /// <remarks>
 /// The minimum projected size stays between 3 and 24 pixels, and follows the frame time so that ten frames a second are drawn. It changes
@@ -38,7 +39,7 @@ public sealed class AdaptiveQuality
         if (_lastAdapted is not { } last || last.Source != settings || last.MinProjectedSize != _minProjectedSize)
         {
             var culling = settings.Culling is null ? null : Adapt(settings.Culling);
-            last = (settings, _minProjectedSize, settings with { Samples = 0, Culling = culling });
+            last = (settings, _minProjectedSize, settings with { Samples = 0, FitShadowsToView = false, Culling = culling });
             _lastAdapted = last;
         }
 

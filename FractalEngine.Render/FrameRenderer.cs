@@ -53,9 +53,10 @@ public sealed class FrameRenderer : IDisposable
         _context.MakeCurrent();
         _context.ApplySettings(settings);
         var target = EnsureTarget(width, height, Math.Clamp(settings.Samples, 0, _context.MaxSampleCount));
-        target.Bind();
         var bounds = scene is null ? BoundingBox.Empty : LinesPass.BoundsIncludingLines(scene.Bounds, settings);
         var frame = FrameView.Create(view, width, height, bounds);
+        scene?.UpdateShadows(in frame, settings);
+        target.Bind();
         Clear(view.Background ?? scene?.Scene.Source.Scene.Background ?? settings.Background, in frame, width, height);
         if (scene is null)
         {

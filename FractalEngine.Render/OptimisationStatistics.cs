@@ -11,4 +11,8 @@ namespace FractalEngine.Render;
 /// <param name="StateChanges">Bindings and uniforms of the last frame: performed, and skipped since they were in effect.</param>
 public readonly record struct OptimisationStatistics(
     int ObjectCount, int BackFaceCulledCount, int ModelCount, int PlaceholderCount, int TextureCount, long DegenerateTriangleCount,
-    RedundancyCounts Uploads, RedundancyCounts StateChanges);
+    RedundancyCounts Uploads, RedundancyCounts StateChanges)
+{
+    /// <summary>Depth maps of lights: drawn for the frame, and kept from an earlier one.</summary>
+    public RedundancyCounts ShadowMaps { get; init; }
+}

@@ -60,6 +60,15 @@ public sealed record RenderSettings
     /// <summary>Points of a surface at which lighting is computed.</summary>
     public Shading Shading { get; init; } = Shading.PerPixel;
 
+    /// <summary>Draws the shadows of directional, spot and point lights, where lighting is computed at every pixel.</summary>
+    public bool Shadows { get; init; } = true;
+
+    /// <summary>
+    /// Fits the depth maps of parallel lights to what the frame shows: sharper shadows, and new maps whenever the view changes. Otherwise
+    /// they show the whole scene, and stay while nothing moves but the camera.
+    /// </summary>
+    public bool FitShadowsToView { get; init; } = true;
+
     /// <summary>Draws only the edges of the triangles.</summary>
     public bool Wireframe { get; init; }
 

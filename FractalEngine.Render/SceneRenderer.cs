@@ -96,7 +96,10 @@ public sealed class SceneRenderer : IDisposable
     private OptimisationStatistics OptimisationStatistics => new(
         Scene.Objects.Length, _objectsPass.BackFaceCulledCount, Scene.Models.Length,
         Scene.Models.Count(static model => model.IsPlaceholder), Scene.Textures.Length,
-        Scene.Models.Sum(static model => (long)model.DegenerateTriangleCount), _frameUploads, _frameStateChanges);
+        Scene.Models.Sum(static model => (long)model.DegenerateTriangleCount), _frameUploads, _frameStateChanges)
+    {
+        ShadowMaps = _objectsPass.ShadowMapCounts,
+    };
 
     /// <summary>Replaces the models by those of a further preparation of the same scene, on the context's thread.</summary>
     /// <param name="scene">Same scene, with more of its models prepared. Objects keep their current positions.</param>
@@ -144,6 +147,7 @@ public sealed class SceneRenderer : IDisposable
         var item = Scene.Objects[index];
         _transforms.Set(index, map, item.Model.Bounds);
         Culler.Move(index, map);
+        _objectsPass.ObjectMoved(index, map);
         if (!item.IsDynamic)
         {
             _bounds = null;
@@ -168,6 +172,12 @@ public sealed class SceneRenderer : IDisposable
         _buffers.Dispose();
         _objectsPass.Dispose();
     }
+
+    /// <summary>Draws the depth maps of the lights, where they are not up to date. Binds a framebuffer of its own.</summary>
+    /// <param name="frame">View of the frame.</param>
+    /// <param name="settings">Style and optimisations.</param>
+    internal void UpdateShadows(in FrameView frame, RenderSettings settings) =>
+        _objectsPass.UpdateShadows(in frame, _spheres, Bounds, settings);
 
     /// <summary>Draws into the bound framebuffer's viewport.</summary>
     /// <param name="frame">View of the frame.</param>

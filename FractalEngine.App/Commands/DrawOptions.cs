@@ -47,6 +47,8 @@ internal sealed class DrawOptions
         "--shading", "Compute the lighting at each vertex or at each pixel (default: pixel).",
         ("vertex", Shading.PerVertex), ("pixel", Shading.PerPixel));
 
+    private readonly Option<bool> _noShadows = new("--no-shadows") { Description = "Draw no shadows." };
+
     private readonly Option<Optimisation[]> _disabled = WordOption.Repeatable(
         "--without", "OPTIMISATION",
         "Disable one optimisation, for comparison; repeatable. "
@@ -60,7 +62,7 @@ internal sealed class DrawOptions
     public void AddTo(Command command)
     {
         Option[] options =
-            [_resolution, _projection, _shading, _wireframe, _grid, _minProjectedSize, _maxInstances, _sampleCount, _disabled];
+            [_resolution, _projection, _shading, _noShadows, _wireframe, _grid, _minProjectedSize, _maxInstances, _sampleCount, _disabled];
         foreach (var option in options)
         {
             command.Add(option);
@@ -103,6 +105,7 @@ internal sealed class DrawOptions
             InstanceBudget = maxInstances ?? DefaultSettings.InstanceBudget,
             Samples = result.GetValue(_sampleCount) ?? DefaultSettings.Samples,
             Shading = result.GetValue(_shading) ?? DefaultSettings.Shading,
+            Shadows = !result.GetValue(_noShadows),
             BackFaceCulling = IsEnabled(result, Optimisation.BackFaceCulling),
             RemoveDegenerateTriangles = IsEnabled(result, Optimisation.DegenerateRemoval),
             FilterRedundantState = IsEnabled(result, Optimisation.StateFiltering),

@@ -9,7 +9,7 @@ namespace FractalEngine.Render.Gl;
 internal sealed class GlState
 {
     /// <summary>Number of binding points for uniform buffers.</summary>
-    public const int UniformBindingCount = 2;
+    public const int UniformBindingCount = 3;
 
     // No GL object has this name, and no face this value, so that the next call always takes effect.
     private const int Unknown = -1;

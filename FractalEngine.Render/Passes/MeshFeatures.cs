@@ -35,4 +35,10 @@ internal enum MeshFeatures
 
     /// <summary>Haze, exposure or a tone curve between the surface and the screen.</summary>
     Atmosphere = 256,
+
+    /// <summary>Shadows of the lights, at every pixel.</summary>
+    Shadows = 512,
+
+    /// <summary>Shadows of lights that have a position are among them.</summary>
+    PointShadows = 1024,
 }

@@ -15,7 +15,13 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     /// <summary>Binding point of the uniform block <c>LightBlock</c>.</summary>
     public const int LightBinding = 1;
 
-    private const int FeatureCombinations = 512;
+    /// <summary>Binding point of the uniform block <c>ShadowBlock</c>.</summary>
+    public const int ShadowBinding = 2;
+
+    /// <summary>Texture unit of the depth maps.</summary>
+    public const int ShadowTextureUnit = 1;
+
+    private const int FeatureCombinations = 2048;
     private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);
 
     // Indexed by features. Each program is built when it is first needed.

@@ -21,6 +21,8 @@ internal sealed class MeshProgram : IDisposable
         (MeshFeatures.CutOut, "CUT_OUT"),
         (MeshFeatures.Emissive, "EMISSIVE"),
         (MeshFeatures.Atmosphere, "ATMOSPHERE"),
+        (MeshFeatures.Shadows, "SHADOWS"),
+        (MeshFeatures.PointShadows, "POINT_SHADOWS"),
     ];
 
     private readonly RedundancyFilter _filter;
@@ -38,10 +40,16 @@ internal sealed class MeshProgram : IDisposable
         _program = ShaderProgram.Load(context.Resources, "mesh", symbols);
         _program.BindBlock("ObjectBlock", MeshPass.ObjectBinding);
         _program.BindBlock("LightBlock", MeshPass.LightBinding);
+        if (features.HasFlag(MeshFeatures.Shadows))
+        {
+            _program.BindBlock("ShadowBlock", MeshPass.ShadowBinding);
+        }
+
         View = new(_program, _filter, context.HasReversedDepth);
         _flatColourLocation = _program.UniformLocation("flatColour");
         _program.Use();
         GL.Uniform1(_program.UniformLocation("surfaceTexture"), 0);
+        GL.Uniform1(_program.UniformLocation("shadowMap"), MeshPass.ShadowTextureUnit);
         _materialUniforms = new(_program, _filter);
     }
 

@@ -2,6 +2,7 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Shadows;
 using FractalEngine.Render.Windowing;
 
 namespace FractalEngine.Render.Passes;
@@ -28,6 +29,7 @@ internal sealed class ObjectsPass : IDisposable
     private readonly SkyPass? _skyPass;
     private DrawableScene _scene;
     private TransparentOrder _transparentOrder;
+    private readonly ShadowPass _shadowPass;
     private SphereBatch? _sphereBatch;
 
     /// <summary>Creates the uniform buffers of a scene's lights and objects.</summary>
@@ -45,18 +47,31 @@ internal sealed class ObjectsPass : IDisposable
         _lightBlock = new(_resources, scene.Source);
         _objectBlocks = [.. scene.Objects.Select(item => new ObjectBlock(_resources, item.Name))];
         _transparentOrder = TransparentOrder.Create(scene);
+        _shadowPass = new(context, scene, buffers, transforms);
         _skyPass = scene.Source.Scene is { Sky: { } sky, Background: null } ? new(_resources, sky) : null;
     }
 
     /// <summary>Number of objects that the last frame drew with one face of their triangles culled.</summary>
     public int BackFaceCulledCount { get; private set; }
 
+    /// <summary>Depth maps of lights: drawn for the last frame, and kept from an earlier one.</summary>
+    public RedundancyCounts ShadowMapCounts => new(_shadowPass.DrawnMapCount, _shadowPass.MapCount - _shadowPass.DrawnMapCount);
+
     /// <summary>Draws another preparation of the same scene from now on.</summary>
     public void SetScene(DrawableScene scene)
     {
         _scene = scene;
         _transparentOrder = TransparentOrder.Create(scene);
+        _shadowPass.SetScene(scene);
     }
+
+    /// <summary>Notes that an object stands elsewhere now.</summary>
+    public void ObjectMoved(int index, AffineMap map) => _shadowPass.ObjectMoved(index, map);
+
+    /// <summary>Draws the depth maps of the lights, where they are not up to date.</summary>
+    public void UpdateShadows(
+        in FrameView frame, IReadOnlyList<SphereInstance> spheres, BoundingBox bounds, RenderSettings settings) =>
+        _shadowPass.Update(in frame, LightScaleOf(frame.View), spheres, bounds, settings);
 
     /// <summary>Draws all objects into the bound framebuffer's viewport.</summary>
     /// <param name="frame">View of the frame.</param>
@@ -65,13 +80,13 @@ internal sealed class ObjectsPass : IDisposable
     public void Draw(in FrameView frame, IReadOnlyList<SphereInstance> spheres, RenderSettings settings)
     {
         var view = frame.View;
-        var lightScale = view.DeepZoom is { } zoom ? Math.Exp(Math.Min(-zoom.LogUnit, MaxLogLightScale)) : 1;
-        _lightBlock.Bind(MeshPass.LightBinding, view.Camera.Position, lightScale);
+        _lightBlock.Bind(MeshPass.LightBinding, view.Camera.Position, LightScaleOf(view));
         if (_skyPass is not null && view.Background is null)
         {
             _skyPass.Draw(in frame);
         }
 
+        _shadowPass.Bind();
         _meshPass.Begin(in frame, settings.Wireframe, FrameFeatures(settings));
         DrawOpaque(in frame, settings);
         if (spheres.Count > 0 && view.DeepZoom is null)
@@ -99,13 +114,19 @@ internal sealed class ObjectsPass : IDisposable
         }
 
         _skyPass?.Dispose();
+        _shadowPass.Dispose();
         _sphereBatch?.Dispose();
         _lightBlock.Dispose();
         _meshPass.Dispose();
     }
 
     private MeshFeatures FrameFeatures(RenderSettings settings) =>
-        (settings.Shading == Shading.PerPixel ? MeshFeatures.PerPixel : 0) | (_lightBlock.HasAtmosphere ? MeshFeatures.Atmosphere : 0);
+        (settings.Shading == Shading.PerPixel ? MeshFeatures.PerPixel : 0) | (_lightBlock.HasAtmosphere ? MeshFeatures.Atmosphere : 0)
+        | (_shadowPass.HasShadows ? MeshFeatures.Shadows : 0)
+        | (_shadowPass.HasPointShadows ? MeshFeatures.PointShadows : 0);
+
+    private static double LightScaleOf(View view) =>
+        view.DeepZoom is { } zoom ? Math.Exp(Math.Min(-zoom.LogUnit, MaxLogLightScale)) : 1;
 
     private void DrawOpaque(in FrameView frame, RenderSettings settings)
     {

@@ -10,9 +10,14 @@ internal sealed class SceneBuffers(GlResources resources) : IDisposable
     private readonly TextureSet _textures = new();
     private readonly Dictionary<DrawableModel, ModelBuffers> _models = [];
     private SceneCuller? _culler;
+    private SceneCuller? _shadowCuller;
+    private DrawableScene? _scene;
 
     /// <summary>Culls the instances of the scene and holds the visible ones.</summary>
     public SceneCuller Culler => _culler!;
+
+    /// <summary>Culls the instances for the depth maps of lights, one map after the other. Made anew when models are uploaded.</summary>
+    public SceneCuller ShadowCuller => _shadowCuller ??= new(resources, _scene!, _models);
 
     /// <summary>Uploads what is not on the GPU yet, and deletes the buffers of models that the scene no longer has.</summary>
     /// <exception cref="GlException">The GPU's memory does not suffice. What was uploaded before stays until disposal.</exception>
@@ -20,6 +25,9 @@ internal sealed class SceneBuffers(GlResources resources) : IDisposable
     {
         _culler?.Dispose();
         _culler = null;
+        _shadowCuller?.Dispose();
+        _shadowCuller = null;
+        _scene = scene;
         foreach (var model in _models.Keys.Except(scene.Models).ToArray())
         {
             _models[model].Dispose();
@@ -45,6 +53,7 @@ internal sealed class SceneBuffers(GlResources resources) : IDisposable
     public void Dispose()
     {
         _culler?.Dispose();
+        _shadowCuller?.Dispose();
         foreach (var buffers in _models.Values)
         {
             buffers.Dispose();

@@ -1,6 +1,7 @@
 #version 330 core
+#extension GL_ARB_texture_gather : enable
 // The colour of the visible face. Front faces are wound clockwise on the screen in a left-handed scene, the other way in a right-handed one.
-// PER_PIXEL, TEXTURED, GLOSSY, FRONT_FACES_ONLY, CUT_OUT, EMISSIVE and ATMOSPHERE are defined where they apply.
+// PER_PIXEL, TEXTURED, GLOSSY, FRONT_FACES_ONLY, CUT_OUT, EMISSIVE, ATMOSPHERE and SHADOWS are defined where they apply.
 
 #include "material.glsl"
 #if defined(PER_PIXEL) || defined(ATMOSPHERE)
@@ -13,6 +14,9 @@ in vec3 pixelPosition;
 #endif
 #ifdef ATMOSPHERE
 #include "display.glsl"
+#endif
+#ifdef SHADOWS
+#include "shadows.glsl"
 #endif
 #ifdef PER_PIXEL
 in vec3 pixelNormal;
@@ -42,12 +46,21 @@ void main()
     vec3 highlights = vec3(0.0);
 #ifdef PER_PIXEL
     vec3 n = direction(gl_FrontFacing ? pixelNormal : -pixelNormal);
+#ifdef SHADOWS
+    vec3 faceNormal = faceNormalTowardsEye(pixelPosition, towardsEye(pixelPosition, cameraAxes[2], depthScale), n);
+#endif
     vec3 light = material[2].rgb * ambientLight(n.y);
     for (int i = 0; i < lightCount.x; i++)
     {
         vec3 toLight;
         vec3 incoming = incomingLight(lights[i], pixelPosition, toLight);
         float cosine = dot(n, toLight);
+#ifdef SHADOWS
+        if (cosine > 0.0)
+        {
+            incoming *= lightThatArrives(i, pixelPosition, faceNormal, toLight);
+        }
+#endif
         light += max(cosine, 0.0) * incoming;
 #ifdef GLOSSY
         vec3 toEye = towardsEye(pixelPosition, cameraAxes[2], depthScale);

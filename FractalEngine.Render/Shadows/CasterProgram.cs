@@ -1,0 +1,60 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Render.Gl;
+using FractalEngine.Render.Passes;
+using OpenTK.Graphics.OpenGL4;
+
+namespace FractalEngine.Render.Shadows;
+
+/// <summary>The program that draws depths alone, with or without holes of a texture.</summary>
+internal sealed class CasterProgram : IDisposable
+{
+    private readonly ShaderProgram _program;
+    private readonly int _axesLocation;
+    private readonly int _viewScaleLocation;
+    private readonly int _depthScaleLocation;
+    private readonly int _textureTransformLocation;
+    private readonly float[] _rows = new float[9];
+
+    /// <summary>Compiles and links the program.</summary>
+    /// <param name="resources">Resources of the current context.</param>
+    /// <param name="isRelative">Whether instances are given in world axes about the eye.</param>
+    /// <param name="isCutOut">Whether a texture cuts holes.</param>
+    /// <exception cref="GlException">The driver refuses the program.</exception>
+    public CasterProgram(GlResources resources, bool isRelative, bool isCutOut)
+    {
+        string[] symbols = [.. isRelative ? ["CAMERA_RELATIVE"] : Array.Empty<string>(), .. isCutOut ? ["CUT_OUT"] : Array.Empty<string>()];
+        _program = ShaderProgram.Load(resources, "shadow", symbols);
+        if (!isRelative)
+        {
+            _program.BindBlock("ObjectBlock", MeshPass.ObjectBinding);
+        }
+
+        _axesLocation = _program.UniformLocation("lightAxes");
+        _viewScaleLocation = _program.UniformLocation("viewScale");
+        _depthScaleLocation = _program.UniformLocation("depthScale");
+        _textureTransformLocation = _program.UniformLocation("textureTransform");
+        _program.Use();
+        GL.Uniform1(_program.UniformLocation("surfaceTexture"), 0);
+    }
+
+    /// <summary>Makes the program current.</summary>
+    public void Use() => _program.Use();
+
+    /// <summary>Makes the program current, and sets the view of a light.</summary>
+    public void SetView(in ShadowView view)
+    {
+        _program.Use();
+        ViewUniforms.WriteRows(view.Axes.Transpose(), _rows);
+        GL.Uniform3(_axesLocation, 3, _rows);
+        GL.Uniform2(_viewScaleLocation, (float)(1 / view.HalfWidth), (float)(1 / view.HalfHeight));
+        var (zByDepth, z, wByDepth, w) = view.DepthScale;
+        GL.Uniform4(_depthScaleLocation, (float)zByDepth, (float)z, (float)wByDepth, (float)w);
+    }
+
+    /// <summary>Sets how texture coordinates are moved. The program must be in use.</summary>
+    public void SetTexture(MaterialTexture texture) => GL.Uniform4(
+        _textureTransformLocation, (float)texture.Scale.U, (float)texture.Scale.V, (float)texture.Offset.U, (float)texture.Offset.V);
+
+    /// <inheritdoc/>
+    public void Dispose() => _program.Dispose();
+}

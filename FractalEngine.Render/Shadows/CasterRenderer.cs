@@ -1,0 +1,156 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Visibility;
+using FractalEngine.Render.Gl;
+using FractalEngine.Render.Passes;
+using FractalEngine.Render.Preparation;
+
+namespace FractalEngine.Render.Shadows;
+
+/// <summary>Draws the depths of a scene's objects as a light sees them. Transparent surfaces cast no shadow.</summary>
+internal sealed class CasterRenderer : IDisposable
+{
+    private readonly GlResources _resources;
+    private readonly SceneBuffers _buffers;
+    private readonly ObjectTransforms _transforms;
+    private readonly ObjectBlock?[] _objectBlocks;
+
+    // By whether instances are relative to the eye, then by whether a texture cuts holes.
+    private readonly CasterProgram?[] _programs = new CasterProgram?[4];
+    private SphereBatch? _sphereBatch;
+    private ShadowView _view;
+    private int _programsWithView;
+
+    /// <summary>Prepares to draw the objects of a scene.</summary>
+    public CasterRenderer(GlResources resources, DrawableScene scene, SceneBuffers buffers, ObjectTransforms transforms)
+    {
+        _resources = resources;
+        Scene = scene;
+        _buffers = buffers;
+        _transforms = transforms;
+        _objectBlocks = new ObjectBlock?[scene.Objects.Length];
+    }
+
+    /// <summary>Scene whose objects are drawn.</summary>
+    public DrawableScene Scene { get; set; }
+
+    /// <summary>Begins drawing into the map of a view.</summary>
+    public void Begin(in ShadowView view)
+    {
+        _view = view;
+        _programsWithView = 0;
+    }
+
+    /// <summary>Draws the objects that stand, as far as the view shows them.</summary>
+    /// <param name="culling">Settings of culling; null to draw all instances.</param>
+    /// <param name="zoom">Deep zoom of the frame, with roots about the view's eye; null where the camera is in world space.</param>
+    public void DrawStatic(CullingSettings? culling, DeepZoom? zoom)
+    {
+        var culler = _buffers.ShadowCuller;
+        if (culling is not null)
+        {
+            culler.Cull(_view.ToCullingView(), culling, zoom);
+        }
+
+        for (var i = 0; i < Scene.Objects.Length; i++)
+        {
+            var item = Scene.Objects[i];
+            if (culler.SelectsInstances(i))
+            {
+                Draw(i, isRelative: true, FaceToCull(i, culler.WindingSign(i)));
+            }
+            else if (!item.IsDynamic && zoom is null)
+            {
+                DrawWhole(i);
+            }
+        }
+    }
+
+    /// <summary>Draws one object with all of its instances, where it is now.</summary>
+    public void DrawWhole(int index)
+    {
+        var item = Scene.Objects[index];
+        var objectToWorld = _transforms.ObjectToWorld[index];
+        var block = _objectBlocks[index] ??= new(_resources, $"shadow of {item.Name}");
+        var modelToWorld = new AffineMap(objectToWorld.Linear, objectToWorld * item.Model.Origin);
+        block.Bind(MeshPass.ObjectBinding, modelToWorld, Colour.White, Colour.White, _view.Position);
+        // A light with a position may stand within a solid.
+        Draw(index, isRelative: false, CullFace.None);
+    }
+
+    /// <summary>Draws the spheres beside the objects.</summary>
+    public void DrawSpheres(IReadOnlyList<SphereInstance> spheres)
+    {
+        _sphereBatch ??= new(_resources);
+        _resources.State.Cull(CullFace.None);
+        UseProgram(isRelative: true, isCutOut: false);
+        _sphereBatch.Draw(spheres, _view.Position, Colour.White);
+    }
+
+    /// <inheritdoc/>
+    public void Dispose()
+    {
+        foreach (var block in _objectBlocks)
+        {
+            block?.Dispose();
+        }
+
+        foreach (var program in _programs)
+        {
+            program?.Dispose();
+        }
+
+        _sphereBatch?.Dispose();
+    }
+
+    private void Draw(int index, bool isRelative, CullFace culledFace)
+    {
+        var model = Scene.Objects[index].Model;
+        foreach (ref readonly var batch in model.Batches.AsSpan())
+        {
+            if (batch.IsTransparent)
+            {
+                continue;
+            }
+
+            var isCutOut = batch.Material is { IsCutOut: true };
+            _resources.State.Cull(culledFace);
+            var program = UseProgram(isRelative, isCutOut);
+            if (isCutOut)
+            {
+                _buffers.BindTexture(batch.Material);
+                program.SetTexture(batch.Material!.Material.Texture!);
+            }
+
+            if (isRelative)
+            {
+                _buffers.ShadowCuller.Draw(index, batch);
+            }
+            else
+            {
+                _buffers.BuffersOf(model).Draw(batch);
+            }
+        }
+    }
+
+    private CasterProgram UseProgram(bool isRelative, bool isCutOut)
+    {
+        var index = (isRelative ? 2 : 0) + (isCutOut ? 1 : 0);
+        var program = _programs[index] ??= new(_resources, isRelative, isCutOut);
+        program.Use();
+        if ((_programsWithView & (1 << index)) == 0)
+        {
+            program.SetView(in _view);
+            _programsWithView |= 1 << index;
+        }
+
+        return program;
+    }
+
+    /// <summary>Returns the faces of a closed solid that point away from the light; none where that is not known.</summary>
+    private CullFace FaceToCull(int index, int windingSign)
+    {
+        var sign = windingSign * Math.Sign(_transforms.ObjectToWorld[index].Linear.Determinant());
+        return sign == 0 ? CullFace.None : sign < 0 ? CullFace.Front : CullFace.Back;
+    }
+}

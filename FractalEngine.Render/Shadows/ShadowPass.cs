@@ -1,0 +1,283 @@
+using System.Collections.Immutable;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility;
+using FractalEngine.Render.Gl;
+using FractalEngine.Render.Passes;
+using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Windowing;
+using OpenTK.Graphics.OpenGL4;
+
+namespace FractalEngine.Render.Shadows;
+
+/// <summary>The shadows of a scene: which maps a frame needs, drawn where they are not up to date.</summary>
+/// <remarks>
+/// Maps that fit the view and maps of the whole scene are kept apart, so that a camera which moves and rests in turn finds the latter as
+/// they were. In a deep zoom all is relative to the camera, and maps fit the view.
+/// </remarks>
+internal sealed class ShadowPass : IDisposable
+{
+    // In a deep zoom, shadows fall up to so many times farther than the near plane: fifty times the distance of the closest surface.
+    private const double DeepZoomReach = 2500;
+
+    private readonly GlResources _resources;
+    private readonly SceneBuffers _buffers;
+    private readonly ObjectTransforms _transforms;
+    private readonly ImmutableArray<Light> _lights;
+    private readonly ShadowFit _fit = new();
+    private readonly ShadowMaps _fittedMaps;
+    private readonly ShadowMaps _wholeMaps;
+    private readonly ShadowBlock _block;
+    private readonly CasterRenderer _casters;
+    private readonly Action<ShadowView> _drawStanding;
+    private readonly List<int> _movingObjects = [];
+    private SceneCuller? _lastCuller;
+    private (CullingSettings Source, CullingSettings Resolved)? _lastCulling;
+    private CullingSettings? _culling;
+    private DeepZoom? _zoom;
+    private ShadowMaps _maps;
+    private bool _hasMoving;
+    private IReadOnlyList<SphereInstance> _lastSpheres = [];
+    private long _version;
+    private long _movingVersion;
+
+    /// <summary>Prepares the shadows of a scene; nothing is allocated until a light casts some.</summary>
+    public ShadowPass(RenderContext context, DrawableScene scene, SceneBuffers buffers, ObjectTransforms transforms)
+    {
+        _resources = context.Resources;
+        _buffers = buffers;
+        _transforms = transforms;
+        _lights = LightBlock.LightsOf(scene.Source);
+        _fittedMaps = new(_resources);
+        _wholeMaps = new(_resources);
+        _maps = _fittedMaps;
+        _block = new(_resources, context.HasReversedDepth);
+        _casters = new(_resources, scene, buffers, transforms);
+        _drawStanding = DrawStanding;
+        SetScene(scene);
+    }
+
+    /// <summary>Whether the frame has lights with shadows.</summary>
+    public bool HasShadows { get; private set; }
+
+    /// <summary>Whether any of them has a position.</summary>
+    public bool HasPointShadows { get; private set; }
+
+    /// <summary>Number of depth maps of the frame.</summary>
+    public int MapCount => HasShadows ? _fit.Views.Count : 0;
+
+    /// <summary>Number of depth maps that were drawn for the frame; the others were kept.</summary>
+    public int DrawnMapCount { get; private set; }
+
+    /// <summary>Draws another preparation of the same scene from now on.</summary>
+    public void SetScene(DrawableScene scene)
+    {
+        _casters.Scene = scene;
+        _movingObjects.Clear();
+        _movingObjects.AddRange(Enumerable.Range(0, scene.Objects.Length).Where(i => scene.Objects[i].IsDynamic));
+        _version++;
+    }
+
+    /// <summary>Notes that an object stands elsewhere now.</summary>
+    public void ObjectMoved(int index, AffineMap map)
+    {
+        if (_casters.Scene.Objects[index].IsDynamic)
+        {
+            _movingVersion++;
+        }
+        else
+        {
+            _version++;
+            _lastCuller?.Move(index, map);
+        }
+    }
+
+    /// <summary>Draws the maps that are not up to date. Another framebuffer is bound then.</summary>
+    /// <param name="frame">View of the frame.</param>
+    /// <param name="unitsPerSceneUnit">1, or more where the frame is drawn in a smaller unit.</param>
+    /// <param name="spheres">Spheres beside the objects.</param>
+    /// <param name="bounds">Bounds of all that is drawn, world space.</param>
+    /// <param name="settings">Whether there are shadows, and whether they fit the view.</param>
+    public void Update(
+        in FrameView frame, double unitsPerSceneUnit, IReadOnlyList<SphereInstance> spheres, BoundingBox bounds, RenderSettings settings)
+    {
+        HasShadows = false;
+        HasPointShadows = false;
+        DrawnMapCount = 0;
+        if (!settings.Shadows || settings.Wireframe || settings.Shading != Shading.PerPixel || _lights.IsEmpty)
+        {
+            return;
+        }
+
+        _zoom = frame.View.DeepZoom;
+        var origin = _zoom is null ? frame.View.Camera.Position : Vector.Zero;
+        var reach = Math.Min(frame.Far, DeepZoomReach * frame.Near);
+        var casters = _zoom is null ? bounds : new BoundingBox(-frame.Far * Vector.One, frame.Far * Vector.One);
+        var fitsToView = settings.FitShadowsToView || _zoom is not null;
+        var receivers = _zoom is null ? StandingBounds(bounds) : new(-reach * Vector.One, reach * Vector.One);
+        _fit.Fit(_lights, in frame, origin, unitsPerSceneUnit, receivers, casters, fitsToView);
+        if (_fit.Views.Count == 0)
+        {
+            return;
+        }
+
+        HasShadows = true;
+        foreach (var view in _fit.Views)
+        {
+            HasPointShadows |= view.IsPerspective;
+        }
+
+        RefreshCuller();
+        _culling = Resolve(settings.Culling);
+        _maps = fitsToView ? _fittedMaps : _wholeMaps;
+        BeginDrawing();
+        _maps.DrawStanding(_fit.Views, _culling, _zoom, _version, settings.ReuseBuffers, _drawStanding);
+        DrawnMapCount = _maps.DrawnCount;
+        _hasMoving = _zoom is null && (_movingObjects.Count > 0 || spheres.Count > 0);
+        if (_hasMoving)
+        {
+            // A list of spheres may change within.
+            _movingVersion += spheres.Count > 0 || _lastSpheres.Count > 0 || !settings.ReuseBuffers ? 1 : 0;
+            _lastSpheres = spheres;
+            DrawMoving(spheres);
+        }
+
+        EndDrawing();
+        _block.Upload(_fit.Ranges, _fit.Views, _maps.Corners, origin);
+    }
+
+    /// <summary>Binds the maps and their views, where the frame has any.</summary>
+    public void Bind()
+    {
+        if (HasShadows)
+        {
+            _block.Bind();
+            _maps.BindTexture(MeshPass.ShadowTextureUnit, _hasMoving);
+        }
+    }
+
+    /// <inheritdoc/>
+    public void Dispose()
+    {
+        _fittedMaps.Dispose();
+        _wholeMaps.Dispose();
+        _block.Dispose();
+        _casters.Dispose();
+    }
+
+    private static void BeginDrawing()
+    {
+        GL.Enable(EnableCap.DepthTest);
+        GL.DepthMask(true);
+        GL.DepthFunc(DepthFunction.Greater);
+        // Axes of lights are left-handed, whichever way the scene is shown.
+        GL.FrontFace(FrontFaceDirection.Cw);
+    }
+
+    private static void EndDrawing() => GL.Disable(EnableCap.DepthClamp);
+
+    /// <summary>Bounds of what stands; all bounds where nothing does.</summary>
+    private BoundingBox StandingBounds(BoundingBox bounds)
+    {
+        if (_movingObjects.Count == 0)
+        {
+            return bounds;
+        }
+
+        var standing = BoundingBox.Empty;
+        for (var i = 0; i < _casters.Scene.Objects.Length; i++)
+        {
+            standing = _casters.Scene.Objects[i].IsDynamic ? standing : BoundingBox.Union(standing, _transforms.Bounds[i]);
+        }
+
+        return standing.IsEmpty ? bounds : standing;
+    }
+
+    /// <summary>Notes when models were uploaded anew: their culler then has the places that the scene declares.</summary>
+    private void RefreshCuller()
+    {
+        var culler = _buffers.ShadowCuller;
+        if (culler == _lastCuller)
+        {
+            return;
+        }
+
+        _lastCuller = culler;
+        _version++;
+        for (var i = 0; i < _casters.Scene.Objects.Length; i++)
+        {
+            culler.Move(i, _transforms.ObjectToWorld[i]);
+        }
+    }
+
+    /// <summary>Maps have their own level of detail: that of a moving camera does not change them.</summary>
+    private CullingSettings? Resolve(CullingSettings? settings)
+    {
+        if (settings is null)
+        {
+            return null;
+        }
+
+        if (_lastCulling is not { } last || !ReferenceEquals(last.Source, settings))
+        {
+            var resolved = new CullingSettings
+            {
+                FrustumCulling = settings.FrustumCulling, OcclusionCulling = settings.OcclusionCulling, ThreadCount = settings.ThreadCount,
+            };
+            last = (settings, resolved == _culling ? _culling : resolved);
+            _lastCulling = last;
+        }
+
+        return last.Resolved;
+    }
+
+    private void DrawStanding(ShadowView view)
+    {
+        _casters.Begin(in view);
+        _casters.DrawStatic(_culling, _zoom is null ? null : AboutEye(_zoom, view.Position));
+    }
+
+    /// <summary>Moves the roots of a deep zoom from the camera to the eye of a view.</summary>
+    private static DeepZoom AboutEye(DeepZoom zoom, Vector eye) => zoom with
+    {
+        Roots = [.. zoom.Roots.Select(root => root with
+        {
+            FrameToCamera = root.FrameToCamera with { Translation = root.FrameToCamera.Translation - eye },
+        })],
+    };
+
+    private void DrawMoving(IReadOnlyList<SphereInstance> spheres)
+    {
+        if (!_maps.TryBeginMoving(_movingVersion))
+        {
+            return;
+        }
+
+        for (var i = 0; i < _fit.Views.Count; i++)
+        {
+            var view = _fit.Views[i];
+            _maps.SelectMap(i, in view);
+            _casters.Begin(in view);
+            foreach (var index in _movingObjects)
+            {
+                if (_maps.TryMark(i, in view, _transforms.Bounds[index]))
+                {
+                    _casters.DrawWhole(index);
+                }
+            }
+
+            var hasSpheres = false;
+            for (var j = 0; j < spheres.Count; j++)
+            {
+                var (centre, radius) = spheres[j];
+                hasSpheres |= _maps.TryMark(i, in view, new(centre - (radius * Vector.One), centre + (radius * Vector.One)));
+            }
+
+            if (hasSpheres)
+            {
+                _casters.DrawSpheres(spheres);
+            }
+        }
+    }
+}
