@@ -5,7 +5,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
 
-/// <summary>Tests the frames of <c>animate --trace</c>, for which no display is needed.</summary>
+/// <summary>Tests the frames of <c>animate --trace</c>, for which no display is needed, and what a terminal shows meanwhile.</summary>
 public sealed class TracedAnimationTests : IDisposable
 {
     private static readonly string[] Traced = ["--trace", "2", "--resolution", "24x16"];
@@ -77,6 +77,30 @@ public sealed class TracedAnimationTests : IDisposable
         var (height2, height25, height3) = (HeightAt(2), HeightAt(2.5), HeightAt(3));
         Assert.True(height2 > height3);
         Assert.Equal((height2 + height3) / 2, height25, 1e-12);
+    }
+
+    [SkippableTheory]
+    [InlineData("", true)]
+    [InlineData("--quiet", false)]
+    public void Progress_OnATerminal_CountsFramesAndIsClearedAtTheEnd(string option, bool isTold)
+    {
+        var program = typeof(AnimatedBodies).Assembly.Location;
+        var output = Terminal.Run(
+            _folder.Path,
+            $"dotnet exec '{program}' animate scene.sdo --turntable --frames 3 --trace 1 --resolution 8x8 --output f.png {option}");
+        Assert.Equal(3, Directory.GetFiles(_folder.Path, "f-*.png").Length);
+        if (isTold)
+        {
+            Assert.Matches(
+                @"\rframe 1 of 3, \d+ s left +\rframe 2 of 3, \d+ s left +\rframe 3 of 3, 0 s left +\r +\r"
+                + @"wrote f-0001\.png to f-0003\.png: 3 frames, [0-9.]+ s\r\n",
+                output);
+        }
+        else
+        {
+            // The runtime tells the terminal some of its own.
+            Assert.DoesNotMatch("frame|wrote", output);
+        }
     }
 
     /// <summary>Requires the two frames of an animation to be two still images, to the bit, which differ.</summary>
