@@ -32,21 +32,37 @@ internal static class SceneWorld
 
     /// <summary>Advances a world by one step.</summary>
     /// <exception cref="SourceException">A body leaves the range of a double.</exception>
-    public static void Step(string path, PhysicsWorld world) => Guard(path, world.Step);
-
-    /// <summary>Advances a world by some time, in whole steps; the rest counts for the next time.</summary>
-    /// <exception cref="SourceException">A body leaves the range of a double.</exception>
-    public static void Advance(string path, PhysicsWorld world, double seconds) => Guard(path, () => world.Advance(seconds));
-
-    private static void Guard(string path, Action advance)
+    public static void Step(string path, PhysicsWorld world)
     {
         try
         {
-            advance();
+            world.Step();
         }
         catch (InvalidOperationException exception)
         {
             throw new SourceException(path, exception.Message);
         }
+    }
+
+    /// <summary>Returns a scene as it is after some time, to the nearest step.</summary>
+    /// <param name="path">Path of the scene, for messages.</param>
+    /// <param name="file">The file that the scene was loaded from.</param>
+    /// <param name="scene">The scene, perhaps with another projection.</param>
+    /// <param name="seconds">Time since the beginning; at 0 the scene stays as it is.</param>
+    /// <exception cref="SourceException">A body is invalid, or leaves the range of a double.</exception>
+    public static LoadedScene After(string path, LoadedFile file, LoadedScene scene, double seconds)
+    {
+        if (!(seconds > 0))
+        {
+            return scene;
+        }
+
+        var world = Create(file, scene, new());
+        while (world.Time + (0.5 * world.Settings.TimeStep) < seconds)
+        {
+            Step(path, world);
+        }
+
+        return world.GetCurrentScene();
     }
 }

@@ -20,6 +20,35 @@ internal sealed record TracedImage(int Samples, int Seed, bool KeepsPartial)
     /// <exception cref="OperationCanceledException">The user interrupted it, and nothing shall be written.</exception>
     public PixelImage Draw(LoadedScene scene, View view, RenderJob job, WrittenReport report, out bool isComplete)
     {
+        var tracer = Prepare(scene, view, job, report);
+        isComplete = report.Measure("trace", () => TryAddSamples(tracer, report.IsQuiet));
+        return tracer.ToImage();
+    }
+
+    /// <summary>Prepares an image without samples, and tells about textures that can't be decoded.</summary>
+    /// <param name="scene">With its models loaded.</param>
+    /// <param name="view">Camera and projection.</param>
+    /// <param name="job">Size, background and settings of the image.</param>
+    /// <param name="report">Tells how long it took.</param>
+    /// <exception cref="UsageException">The background is transparent.</exception>
+    public PathTracer Prepare(LoadedScene scene, View view, RenderJob job, WrittenReport report)
+    {
+        var tracer = report.Measure("prepare", () => CreateTracer(scene, view, job));
+        foreach (var notice in tracer.Notices)
+        {
+            Console.Error.WriteLine(notice);
+        }
+
+        return tracer;
+    }
+
+    /// <summary>Prepares an image without samples.</summary>
+    /// <param name="scene">With its models loaded.</param>
+    /// <param name="view">Camera and projection.</param>
+    /// <param name="job">Size, background and settings of the image.</param>
+    /// <exception cref="UsageException">The background is transparent.</exception>
+    public PathTracer CreateTracer(LoadedScene scene, View view, RenderJob job)
+    {
         if (job.Background.IsTransparent)
         {
             throw new UsageException("--trace draws no transparent background: expected a colour");
@@ -27,29 +56,30 @@ internal sealed record TracedImage(int Samples, int Seed, bool KeepsPartial)
 
         var background = job.Background.Colour ?? scene.Scene.Background;
         scene = scene with { Scene = scene.Scene with { Background = background } };
-        var tracer = report.Measure(
-            "prepare", () => new PathTracer(scene, view, job.Size.Width, job.Size.Height, job.Settings, Seed));
-        foreach (var notice in tracer.Notices)
-        {
-            Console.Error.WriteLine(notice);
-        }
-
-        isComplete = report.Measure("trace", () => AddSamples(tracer, report.IsQuiet));
-        return tracer.ToImage();
+        return new(scene, view, job.Size.Width, job.Size.Height, job.Settings, Seed);
     }
 
-    private bool AddSamples(PathTracer tracer, bool isQuiet)
+    /// <summary>Adds all samples to an image.</summary>
+    /// <param name="tracer">An image without samples.</param>
+    /// <param name="cancellation">Cancels between two rows.</param>
+    /// <param name="added">Called with the number of samples after each one.</param>
+    /// <exception cref="OperationCanceledException">The samples were cancelled.</exception>
+    public void AddSamples(PathTracer tracer, CancellationToken cancellation, Action<int>? added = null)
+    {
+        for (var done = 1; done <= Samples; done++)
+        {
+            tracer.AddSample(cancellation: cancellation);
+            added?.Invoke(done);
+        }
+    }
+
+    private bool TryAddSamples(PathTracer tracer, bool isQuiet)
     {
         var progress = new TerminalProgress("sample", Samples, isQuiet);
         using var signal = new InterruptSignal();
         try
         {
-            for (var done = 1; done <= Samples; done++)
-            {
-                tracer.AddSample(cancellation: signal.Token);
-                progress.Report(done);
-            }
-
+            AddSamples(tracer, signal.Token, progress.Report);
             return true;
         }
         catch (OperationCanceledException)

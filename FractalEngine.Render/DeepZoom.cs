@@ -14,7 +14,8 @@ public sealed record DeepZoom(int ObjectIndex, ImmutableArray<LodRoot> Roots, do
 {
     /// <summary>Tells whether two cameras see the same, whenever their sub-fractals were collected.</summary>
     public bool Equals(DeepZoom? other) =>
-        other is not null && ObjectIndex == other.ObjectIndex && LogUnit == other.LogUnit && Roots.AsSpan().SequenceEqual(other.Roots.AsSpan());
+        other is not null && ObjectIndex == other.ObjectIndex && LogUnit == other.LogUnit
+        && Roots.AsSpan().SequenceEqual(other.Roots.AsSpan());
 
     /// <inheritdoc/>
     public override int GetHashCode() => HashCode.Combine(ObjectIndex, LogUnit, Roots.Length);

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Scenes;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 
@@ -14,6 +15,9 @@ namespace FractalEngine.App.Animation;
 internal sealed record AnimationJob(
     RenderJob Images, string Output, int FrameCount, double FramesPerSecond, bool IsTurntable, string? CameraList, bool IsSimulated)
 {
+    /// <summary>How the frames are traced; null where they are drawn.</summary>
+    public TracedImage? Trace { get; init; }
+
     /// <summary>Requires something to move, and at most one motion of the camera.</summary>
     /// <exception cref="UsageException">Nothing moves, or the motions contradict each other.</exception>
     public void Check()
@@ -30,19 +34,20 @@ internal sealed record AnimationJob(
         }
     }
 
+    /// <summary>Returns the physics time of a frame, in seconds.</summary>
+    /// <param name="frame">Index of the frame, from 0.</param>
+    public double TimeOf(int frame) => Images.Time + (frame / FramesPerSecond);
+
     /// <summary>Creates the motion of the camera: the view of each frame.</summary>
-    /// <param name="drawable">The prepared scene.</param>
+    /// <param name="scene">The scene as it is at first.</param>
+    /// <param name="prepare">Prepares the scene for drawing, which only a zoom needs.</param>
     /// <param name="view">The view of a still image.</param>
     /// <exception cref="UsageException">The scene or a list does not fit the motion.</exception>
-    public Func<int, View> CreateMotion(DrawableScene drawable, View view)
+    public Func<int, View> CreateMotion(LoadedScene scene, Func<DrawableScene> prepare, View view) => this switch
     {
-        var scene = drawable.Source;
-        return this switch
-        {
-            { IsTurntable: true } => CameraMotion.Turntable(view, scene.Bounds.Centre, FrameCount),
-            { CameraList: { } list } => CameraMotion.Along(CameraPath.Read(list, scene.Scene.Handedness), view, FrameCount),
-            { Images.ZoomLevels: > 0 and var levels } => CameraMotion.Zoom(drawable, view, levels, FrameCount),
-            _ => CameraMotion.Still(view),
-        };
-    }
+        { IsTurntable: true } => CameraMotion.Turntable(view, scene.Bounds.Centre, FrameCount),
+        { CameraList: { } list } => CameraMotion.Along(CameraPath.Read(list, scene.Scene.Handedness), view, FrameCount),
+        { Images.ZoomLevels: > 0 and var levels } => CameraMotion.Zoom(prepare(), view, levels, FrameCount),
+        _ => CameraMotion.Still(view),
+    };
 }

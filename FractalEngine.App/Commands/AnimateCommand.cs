@@ -1,8 +1,7 @@
 using System.CommandLine;
 using FractalEngine.App.Animation;
-using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Assets;
+using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 
 namespace FractalEngine.App.Commands;
@@ -20,6 +19,8 @@ internal static class AnimateCommand
         var shared = new SharedOptions();
         var draw = new DrawOptions();
         var camera = new CameraOptions();
+        var trace = new TraceOptions(canKeepPartial: false);
+        var time = SharedOptions.TimeOption();
         var report = new ReportOptions();
         var output = new Option<string>("--output", "-o")
         {
@@ -48,6 +49,8 @@ internal static class AnimateCommand
         draw.AddTo(command);
         camera.AddTo(command);
         command.Add(background);
+        command.Add(time);
+        trace.AddTo(command);
         report.AddTo(command);
         command.SetAction(result =>
         {
@@ -55,6 +58,7 @@ internal static class AnimateCommand
                 result.GetRequiredValue(shared.File), draw.WithLoadOptions(result, shared.LoadOptions(result)), draw.Resolution(result),
                 draw.Projection(result), draw.Settings(result))
             {
+                Time = result.GetValue(time) ?? 0,
                 Background = BackgroundChoice.Parse(result.GetValue(background)),
                 CreateView = (scene, aspect) => camera.View(result, scene, draw.Projection(result) is not null, aspect),
                 ZoomLevels = camera.Zoom(result),
@@ -62,13 +66,16 @@ internal static class AnimateCommand
             var animation = new AnimationJob(
                 job, result.GetRequiredValue(output), result.GetValue(frames) ?? DefaultFrameCount,
                 result.GetValue(rate) ?? DefaultFramesPerSecond, result.GetValue(turntable), result.GetValue(path),
-                result.GetValue(simulate));
-            return Run(animation, report.Begin(result), report.IsQuiet(result));
+                result.GetValue(simulate))
+            {
+                Trace = trace.Choice(result),
+            };
+            return Run(animation, report.Begin(result));
         });
         return command;
     }
 
-    private static int Run(AnimationJob animation, WrittenReport report, bool isQuiet)
+    private static int Run(AnimationJob animation, WrittenReport report)
     {
         animation.Check();
         // Before anything is loaded, since a video needs a program that may be missing.
@@ -76,30 +83,58 @@ internal static class AnimateCommand
         var job = animation.Images;
         var file = report.Measure("load", () => ConsoleLoader.Load(job.Path, job.Load));
         var scene = job.WithProjection(file.Scene);
-        var world = animation.IsSimulated ? CreateWorld(job.Path, file, scene, animation.FramesPerSecond) : null;
+        // A default camera frames the scene as it is at time 0, as in a still image.
+        var view = job.CreateView(scene, (double)job.Size.Width / job.Size.Height);
+        var bodies = animation.IsSimulated ? new AnimatedBodies(job.Path, file, scene) : null;
+        scene = bodies is null ? SceneWorld.After(job.Path, file, scene, job.Time) : scene;
+        using var frames = CreateFrames(animation, scene, view, report, out var motion);
+        return Write(animation, frames, motion, bodies, output, report);
+    }
+
+    /// <summary>Prepares a scene for drawing or tracing, and the motion of the camera.</summary>
+    private static FrameSource CreateFrames(
+        AnimationJob animation, LoadedScene scene, View view, WrittenReport report, out Func<int, View> motion)
+    {
+        var job = animation.Images;
+        if (animation.Trace is { } trace)
+        {
+            motion = animation.CreateMotion(scene, () => DrawableScene.Prepare(scene, job.Settings), view);
+            return new TracedFrames(trace.Prepare(scene, view, job, report), job, trace);
+        }
+
         var drawable = report.Measure("prepare", () => DrawableScene.Prepare(scene, job.Settings));
         foreach (var notice in drawable.Notices)
         {
             Console.Error.WriteLine(notice);
         }
 
-        var motion = animation.CreateMotion(drawable, job.CreateView(scene, (double)job.Size.Width / job.Size.Height));
-        using var renderer = new ImageRenderer(drawable, job.Size, job.Settings, job.Background);
+        motion = animation.CreateMotion(scene, () => drawable, view);
+        return new DrawnFrames(drawable, job);
+    }
+
+    private static int Write(
+        AnimationJob animation, FrameSource frames, Func<int, View> motion, AnimatedBodies? bodies, AnimationOutput output,
+        WrittenReport report)
+    {
         using var interruption = new InterruptSignal();
-        var progress = new TerminalProgress("frame", animation.FrameCount, isQuiet);
+        var progress = new TerminalProgress("frame", animation.FrameCount, report.IsQuiet);
         var done = 0;
         try
         {
             for (; done < animation.FrameCount; done++)
             {
-                interruption.ThrowIfRequested();
-                output.Add(renderer.Draw(motion(done)));
+                if (bodies?.AdvanceTo(animation.TimeOf(done), interruption.Token) == true)
+                {
+                    frames.Move(bodies);
+                }
+
+                output.Add(frames.CreateFrame(motion(done), interruption.Token));
                 progress.Report(done + 1);
-                Advance(job.Path, world, renderer, 1 / animation.FramesPerSecond);
             }
         }
         catch (OperationCanceledException)
         {
+            interruption.Acknowledge();
             // What is done stays, in whole frames.
             progress.End();
             Complete(output, report, done);
@@ -117,37 +152,6 @@ internal static class AnimateCommand
         {
             output.Complete();
             report.Written(output.Name, frameCount == 1 ? "1 frame" : $"{frameCount} frames");
-        }
-    }
-
-    private static PhysicsWorld CreateWorld(string path, LoadedFile file, LoadedScene scene, double framesPerSecond)
-    {
-        if (!scene.Objects.Any(static placed => placed.Declaration is PhysicsObject))
-        {
-            throw new UsageException($"{path} has no physics objects, so there is nothing to simulate");
-        }
-
-        // A window drops steps where it can't keep up; here each frame gets all of its time, and what is left of the last one.
-        var settings = new PhysicsSettings();
-        var stepsPerFrame = (int)Math.Ceiling(1 / (framesPerSecond * settings.TimeStep)) + 1;
-        return SceneWorld.Create(file, scene, settings with { MaxStepsPerAdvance = stepsPerFrame });
-    }
-
-    /// <summary>Advances the bodies by the time of one frame, and places their objects.</summary>
-    private static void Advance(string path, PhysicsWorld? world, ImageRenderer renderer, double seconds)
-    {
-        if (world is null)
-        {
-            return;
-        }
-
-        SceneWorld.Advance(path, world, seconds);
-        foreach (var body in world.Bodies)
-        {
-            if (body.Description.ObjectIndex is >= 0 and var index)
-            {
-                renderer.Move(index, body.InterpolatedMap(world.InterpolationAlpha));
-            }
         }
     }
 }

@@ -1,7 +1,6 @@
 using System.CommandLine;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 using FractalEngine.Render.Preparation;
 
@@ -10,8 +9,6 @@ namespace FractalEngine.App.Commands;
 /// <summary>The command <c>render FILE --output X.png</c>, which draws a file into an image without a window.</summary>
 internal static class RenderCommand
 {
-    private const double MaxTime = 3600;
-
     /// <summary>Creates the command with its arguments and options.</summary>
     public static Command Create()
     {
@@ -22,7 +19,7 @@ internal static class RenderCommand
         var trace = new TraceOptions();
         var report = new ReportOptions();
         var output = SharedOptions.OutputOption(".png", "Image to write.", isText: false);
-        var time = NumberOption.Decimal("--time", "SECONDS", 0, MaxTime, "Simulate the physics for this time first (default: 0).");
+        var time = SharedOptions.TimeOption();
         var background = SharedOptions.BackgroundOption();
         var command = new DocumentedCommand(
             "render", "Draw FILE into a PNG image, without a window.",
@@ -71,7 +68,7 @@ internal static class RenderCommand
         var scene = job.WithProjection(file.Scene);
         // A default camera frames the scene as it is at time 0, so that images of several times show the same view.
         var view = job.CreateView(scene, (double)job.Size.Width / job.Size.Height);
-        scene = job.Time > 0 ? Simulate(job.Path, file, scene, job.Time) : scene;
+        scene = SceneWorld.After(job.Path, file, scene, job.Time);
         if (trace is not null)
         {
             return Trace(scene, view, job, trace, output, report);
@@ -114,16 +111,5 @@ internal static class RenderCommand
     {
         report.Measure("write", () => OutputFile.Write(output, stream => PngWriter.Write(image, stream)));
         report.Written(output, $"{image.Width}×{image.Height} pixels");
-    }
-
-    private static LoadedScene Simulate(string path, LoadedFile file, LoadedScene scene, double seconds)
-    {
-        var world = SceneWorld.Create(file, scene, new());
-        while (world.Time + (0.5 * world.Settings.TimeStep) < seconds)
-        {
-            SceneWorld.Step(path, world);
-        }
-
-        return world.GetCurrentScene();
     }
 }

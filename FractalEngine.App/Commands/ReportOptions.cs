@@ -15,9 +15,6 @@ internal sealed class ReportOptions
         command.Add(_verbose);
     }
 
-    /// <summary>Returns whether nothing is to be told.</summary>
-    public bool IsQuiet(ParseResult result) => result.GetValue(_quiet);
-
     /// <summary>Begins the report of a command, and its time.</summary>
     public WrittenReport Begin(ParseResult result) => new(result.GetValue(_quiet), result.GetValue(_verbose));
 }

@@ -11,6 +11,7 @@ namespace FractalEngine.App.Commands;
 internal sealed class SharedOptions
 {
     private const int MaxImageSide = 1_000_000;
+    private const double MaxTime = 3600;
 
     /// <summary>Width and height of an image or window unless <c>--resolution</c> is given, in pixels.</summary>
     public static (int Width, int Height) DefaultResolution => (1280, 720);
@@ -103,6 +104,10 @@ internal sealed class SharedOptions
         Description = "Colour behind the scene, sRGB from 0 to 1, overriding the scene's; or transparent.",
         HelpName = "transparent|\"(r, g, b)\"",
     };
+
+    /// <summary>Creates the option for the physics time at which a scene is shown, in seconds.</summary>
+    public static Option<double?> TimeOption() => NumberOption.Decimal(
+        "--time", "SECONDS", 0, MaxTime, "Simulate the physics for this time first (default: 0).");
 
     /// <summary>Creates the option for the size of an image or window in pixels.</summary>
     public static Option<(int Width, int Height)?> ResolutionOption() => new("--resolution")

@@ -3,7 +3,8 @@ using System.CommandLine;
 namespace FractalEngine.App.Commands;
 
 /// <summary>The options of images that are traced instead of drawn.</summary>
-internal sealed class TraceOptions
+/// <param name="canKeepPartial">Whether the command can write an image that is interrupted.</param>
+internal sealed class TraceOptions(bool canKeepPartial = true)
 {
     /// <summary>Largest number of samples of each pixel.</summary>
     public const int MaxSamples = 1_000_000;
@@ -24,7 +25,10 @@ internal sealed class TraceOptions
     {
         command.Add(_samples);
         command.Add(_seed);
-        command.Add(_keepsPartial);
+        if (canKeepPartial)
+        {
+            command.Add(_keepsPartial);
+        }
     }
 
     /// <summary>How the image is traced; null where it is drawn.</summary>
@@ -33,9 +37,10 @@ internal sealed class TraceOptions
     {
         var samples = result.GetValue(_samples);
         var seed = result.GetValue(_seed);
-        var keepsPartial = result.GetValue(_keepsPartial);
+        var keepsPartial = canKeepPartial && result.GetValue(_keepsPartial);
         return samples is { } count ? new(count, seed ?? 0, keepsPartial)
-            : seed is not null || keepsPartial ? throw new UsageException("--seed and --keep-partial need --trace")
+            : seed is not null || keepsPartial
+                ? throw new UsageException(canKeepPartial ? "--seed and --keep-partial need --trace" : "--seed needs --trace")
             : null;
     }
 }

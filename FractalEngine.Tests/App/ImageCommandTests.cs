@@ -223,13 +223,16 @@ public sealed class ImageCommandTests : IDisposable
         Assert.Equal((byte)255, ReadImage("f-0003.png")[32, 32].Blue);
     }
 
-    [SkippableFact]
-    public void Animate_WhenInterrupted_LeavesWholeFrames()
+    [SkippableTheory]
+    [InlineData]
+    [InlineData("--trace", "8")]
+    public void Animate_WhenInterrupted_LeavesWholeFrames(params string[] options)
     {
         RequireDisplay();
         Skip.If(OperatingSystem.IsWindows(), "there is no SIGINT");
         using var process = AppProcess.Start(
-            _folder.Path, [], "animate", "scene.sdo", "--turntable", "--frames", "100000", "--output", "f.png", "--resolution", "64x64");
+            _folder.Path, [],
+            ["animate", "scene.sdo", "--turntable", "--frames", "100000", "--output", "f.png", "--resolution", "64x64", .. options]);
         var error = process.StandardError.ReadToEndAsync();
         Polling.WaitFor(() => File.Exists(_folder["f-000005.png"]) ? "" : null, "fifth frame");
         Process.Start("kill", ["-INT", $"{process.Id}"]).WaitForExit();
@@ -245,6 +248,11 @@ public sealed class ImageCommandTests : IDisposable
     [InlineData("--turntable, --zoom and --path exclude each other", "--output", "a.apng", "--turntable", "--zoom", "2")]
     [InlineData("--output 'a.avi' must end in .png, .apng, .mp4, .webm or .gif", "--output", "a.avi", "--turntable")]
     [InlineData("scene.sdo has no physics objects, so there is nothing to simulate", "--output", "a.apng", "--simulate")]
+    [InlineData("--seed needs --trace", "--output", "a.apng", "--turntable", "--seed", "1")]
+    [InlineData("--trace draws no transparent background: expected a colour",
+        "--output", "a.apng", "--turntable", "--trace", "1", "--background", "transparent")]
+    [InlineData("--zoom needs a fractal, or a scene whose only object is one, and --detail above 0",
+        "--output", "a.apng", "--zoom", "1", "--trace", "1")]
     public void Animate_OfFaultyOptions_IsWrongUsage(string message, params string[] options) => Assert.Equal(
         new AppResult(2, "", $"error: {message}\n"), Run(["animate", "scene.sdo", .. options]));
 

@@ -125,16 +125,8 @@ public sealed class ShellTests : IDisposable
     [InlineData("2.5", true)]
     public void Build_OnATerminal_SaysSoWhenItTakesMoreThanTwoSeconds(string seconds, bool isAnnounced)
     {
-        Skip.IfNot(File.Exists("/usr/bin/script"), "the program 'script', which makes a terminal, is not installed");
         var setup = Repository.Full("eng/setup.sh");
-        var start = new ProcessStartInfo(
-            "script", ["-qec", $"bash -c '. {setup}; announce_build App; sleep {seconds}; stop_announcing'", "/dev/null"])
-        {
-            RedirectStandardOutput = true,
-        };
-        using var process = Process.Start(start)!;
-        var output = process.StandardOutput.ReadToEnd();
-        process.WaitForExit();
+        var output = Terminal.Run(_folder.Path, $"bash -c '. {setup}; announce_build App; sleep {seconds}; stop_announcing'");
         Assert.Equal(isAnnounced, output.Contains("building App", StringComparison.Ordinal));
     }
 

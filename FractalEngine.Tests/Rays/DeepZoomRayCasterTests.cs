@@ -70,8 +70,9 @@ public class DeepZoomRayCasterTests
     [InlineData("menger", 7)]
     [InlineData("sierpinski", 0)]
     [Trait("Category", "Soak")]
-    public void TryFindNearest_AMillionLevelsDeep_IsThatOfDepth50(string name, int mapIndex) =>
-        CheckSameAsAt50(name, mapIndex, FractalLimits.MaxDepth);
+    public void TryFindNearest_NearlyAMillionLevelsDeep_IsThatOfDepth50(string name, int mapIndex) =>
+        // Short of the last level that a camera can enter: there it sees its sub-fractal from nearer.
+        CheckSameAsAt50(name, mapIndex, FractalLimits.MaxDepth - 1000);
 
     [Fact]
     public void TryFindNearest_OnceWarm_AllocatesNothing()

@@ -1,0 +1,91 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing.Assets;
+
+namespace FractalEngine.App.Animation;
+
+/// <summary>The bodies of a scene at the times of frames, which lie on a step of the physics or between two.</summary>
+internal sealed class AnimatedBodies
+{
+    // In steps: times are sums with rounding. A frame at the end of a step shows the bits of that step, as a still image does.
+    private const double TimeTolerance = 1e-6;
+
+    private readonly string _path;
+    private readonly LoadedScene _scene;
+    private readonly PhysicsWorld _world;
+    private double _alpha = 1;
+
+    /// <summary>Creates the bodies at time 0.</summary>
+    /// <param name="path">Path of the scene, for messages.</param>
+    /// <param name="file">The file that the scene was loaded from.</param>
+    /// <param name="scene">The scene, perhaps with another projection.</param>
+    /// <exception cref="UsageException">The scene has no physics objects.</exception>
+    public AnimatedBodies(string path, LoadedFile file, LoadedScene scene)
+    {
+        if (!scene.Objects.Any(static placed => placed.Declaration is PhysicsObject))
+        {
+            throw new UsageException($"{path} has no physics objects, so there is nothing to simulate");
+        }
+
+        _path = path;
+        _scene = scene;
+        _world = SceneWorld.Create(file, scene, new());
+        Maps = CurrentMaps();
+    }
+
+    /// <summary>Index of each body's object in the scene, and the map from its frame to world space.</summary>
+    public IReadOnlyList<(int Index, AffineMap Map)> Maps { get; private set; }
+
+    /// <summary>Lets the bodies move until a time.</summary>
+    /// <param name="seconds">Since the beginning; no less than before.</param>
+    /// <param name="cancellation">Cancels between two steps.</param>
+    /// <returns>Whether anything is elsewhere than before.</returns>
+    /// <exception cref="OperationCanceledException">The steps were cancelled.</exception>
+    public bool AdvanceTo(double seconds, CancellationToken cancellation)
+    {
+        var step = _world.Settings.TimeStep;
+        while (_world.Time + (TimeTolerance * step) < seconds)
+        {
+            cancellation.ThrowIfCancellationRequested();
+            SceneWorld.Step(_path, _world);
+        }
+
+        var stepsAhead = (_world.Time - seconds) / step;
+        _alpha = stepsAhead > TimeTolerance ? Math.Clamp(1 - stepsAhead, 0, 1) : 1;
+        var before = Maps;
+        Maps = CurrentMaps();
+        return !Maps.SequenceEqual(before);
+    }
+
+    /// <summary>The scene with its objects where they are now.</summary>
+    public LoadedScene GetScene()
+    {
+        var current = _world.GetCurrentScene();
+        if (_alpha == 1)
+        {
+            return current;
+        }
+
+        var objects = current.Objects.ToBuilder();
+        foreach (var body in SceneBodies())
+        {
+            var index = body.Description.ObjectIndex!.Value;
+            var (declared, model) = (_scene.Objects[index].Declaration, _scene.Objects[index].Model);
+            var scale = body.PreviousScale + (_alpha * (body.Scale - body.PreviousScale));
+            var placement = declared.Placement with
+            {
+                Position = body.InterpolatedMap(_alpha).Translation,
+                Scale = scale * declared.Placement.Scale,
+            };
+            objects[index] = new(declared with { Placement = placement }, model);
+        }
+
+        return current with { Objects = objects.ToImmutable() };
+    }
+
+    private (int Index, AffineMap Map)[] CurrentMaps() =>
+        [.. SceneBodies().Select(body => (body.Description.ObjectIndex!.Value, body.InterpolatedMap(_alpha)))];
+
+    private IEnumerable<Body> SceneBodies() => _world.Bodies.Where(static body => body.Description.ObjectIndex is >= 0);
+}

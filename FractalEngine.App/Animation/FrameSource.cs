@@ -1,0 +1,22 @@
+using FractalEngine.Core.Images;
+using FractalEngine.Render;
+
+namespace FractalEngine.App.Animation;
+
+/// <summary>Makes the frames of an animation from one scene, of which the bodies may move.</summary>
+internal abstract class FrameSource : IDisposable
+{
+    /// <summary>Makes the image of a view.</summary>
+    /// <param name="view">Camera and projection.</param>
+    /// <param name="cancellation">Ends the work on an image that takes long.</param>
+    /// <exception cref="OperationCanceledException">The work was cancelled.</exception>
+    public abstract PixelImage CreateFrame(View view, CancellationToken cancellation);
+
+    /// <summary>Shows the bodies of the scene where they are now.</summary>
+    public abstract void Move(AnimatedBodies bodies);
+
+    /// <inheritdoc/>
+    public virtual void Dispose()
+    {
+    }
+}

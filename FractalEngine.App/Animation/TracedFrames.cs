@@ -1,0 +1,30 @@
+using FractalEngine.Core.Images;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Render;
+using FractalEngine.Render.Tracing;
+
+namespace FractalEngine.App.Animation;
+
+/// <summary>Traces the frames of an animation. The scene is prepared again only when a body has moved.</summary>
+/// <param name="prepared">A tracer of the scene, whose preparation the frames share.</param>
+/// <param name="job">Size, background and settings of the frames.</param>
+/// <param name="trace">Samples and seed of each frame.</param>
+internal sealed class TracedFrames(PathTracer prepared, RenderJob job, TracedImage trace) : FrameSource
+{
+    private PathTracer _tracer = prepared;
+    private LoadedScene? _movedScene;
+
+    /// <inheritdoc/>
+    public override PixelImage CreateFrame(View view, CancellationToken cancellation)
+    {
+        _tracer = _movedScene is { } scene
+            ? trace.CreateTracer(scene, view, job)
+            : _tracer.WithView(view, job.Size.Width, job.Size.Height);
+        _movedScene = null;
+        trace.AddSamples(_tracer, cancellation);
+        return _tracer.ToImage();
+    }
+
+    /// <inheritdoc/>
+    public override void Move(AnimatedBodies bodies) => _movedScene = bodies.GetScene();
+}

@@ -1,0 +1,135 @@
+using FractalEngine.App.Animation;
+using FractalEngine.Core.Images;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.App;
+
+/// <summary>Tests the frames of <c>animate --trace</c>, for which no display is needed, and what a terminal shows meanwhile.</summary>
+public sealed class TracedAnimationTests : IDisposable
+{
+    private static readonly string[] Traced = ["--trace", "2", "--resolution", "24x16"];
+
+    private readonly TemporaryFolder _folder = new();
+
+    public TracedAnimationTests()
+    {
+        _folder.Write("cube.obj", SampleFiles.Cube);
+        _folder.Write("scene.sdo", "background (0, 0, 1)\no \"cube.obj\" # colour (1, 0, 0)\nc (0, 0, -3) # 60\n");
+        _folder.Write(
+            "drop.sdo", "p \"cube.obj\" ((0, 1.5, 0), #, #) 0.5 colour (1, 0, 0)\no \"cube.obj\" ((0, -2, 0), #, #)\nc (0, 0, -5) # 60\n");
+    }
+
+    public void Dispose() => _folder.Dispose();
+
+    [Fact]
+    public void Path_Traced_HasTheFramesOfStillImages()
+    {
+        _folder.Write("cameras.txt", "(0, 0, -3) look-at (0, 0, 0) 60\n(3, 0, 0) look-at (0, 0, 0) 60\n");
+        AssertFrames(
+            "scene.sdo", ["--path", "cameras.txt"], ["--look-from", "(0, 0, -3)", "--look-at", "(0, 0, 0)"],
+            ["--look-from", "(3, 0, 0)", "--look-at", "(0, 0, 0)"]);
+    }
+
+    [Fact]
+    public void Turntable_Traced_BeginsWithTheStillImageAndSharesItsSeed()
+    {
+        Animate("scene.sdo", "--turntable", "--seed", "5");
+        Assert.Equal(Render("scene.sdo", "--seed", "5"), Pixels("f-0001.png"));
+        Assert.NotEqual(Render("scene.sdo"), Pixels("f-0001.png"));
+    }
+
+    [Fact]
+    public void Zoom_Traced_EndsWithTheStillImage()
+    {
+        var zoom = Repository.Full("assets/examples/zoom.sdo");
+        Animate(zoom, "--zoom", "2");
+        Assert.Equal(Render(zoom, "--zoom", "2"), Pixels("f-0002.png"));
+    }
+
+    [Fact]
+    public void Simulate_Traced_HasTheFramesOfStillImages() =>
+        AssertFrames("drop.sdo", ["--simulate", "--fps", "5", "--time", "0.2"], ["--time", "0.2"], ["--time", "0.4"]);
+
+    [Fact]
+    public void Time_OfAStillScene_IsThatOfItsFrames()
+    {
+        Animate("drop.sdo", "--turntable", "--time", "0.4");
+        Assert.Equal(Render("drop.sdo", "--time", "0.4"), Pixels("f-0001.png"));
+        Assert.NotEqual(Render("drop.sdo"), Pixels("f-0001.png"));
+    }
+
+    [Fact]
+    public void Bodies_BetweenTwoSteps_AreBetweenTheirPlaces()
+    {
+        var file = AssetLoader.Load(_folder["drop.sdo"]);
+        var bodies = new AnimatedBodies("drop.sdo", file, file.Scene);
+        Assert.False(bodies.AdvanceTo(0, CancellationToken.None));
+        double HeightAt(double steps)
+        {
+            Assert.True(bodies.AdvanceTo(steps / 60, CancellationToken.None));
+            var height = bodies.GetScene().Objects[0].ObjectToWorld.Translation.Y;
+            // The map of a drawn frame is computed by another formula, so that it may differ by rounding.
+            Assert.Equal(height, bodies.Maps[0].Map.Translation.Y, 1e-12);
+            return height;
+        }
+
+        var (height2, height25, height3) = (HeightAt(2), HeightAt(2.5), HeightAt(3));
+        Assert.True(height2 > height3);
+        Assert.Equal((height2 + height3) / 2, height25, 1e-12);
+    }
+
+    [SkippableTheory]
+    [InlineData("", true)]
+    [InlineData("--quiet", false)]
+    public void Progress_OnATerminal_CountsFramesAndIsClearedAtTheEnd(string option, bool isTold)
+    {
+        var program = typeof(AnimatedBodies).Assembly.Location;
+        var output = Terminal.Run(
+            _folder.Path,
+            $"dotnet exec '{program}' animate scene.sdo --turntable --frames 3 --trace 1 --resolution 8x8 --output f.png {option}");
+        Assert.Equal(3, Directory.GetFiles(_folder.Path, "f-*.png").Length);
+        if (isTold)
+        {
+            Assert.Matches(
+                @"\rframe 1 of 3, \d+ s left +\rframe 2 of 3, \d+ s left +\rframe 3 of 3, 0 s left +\r +\r"
+                + @"wrote f-0001\.png to f-0003\.png: 3 frames, [0-9.]+ s\r\n",
+                output);
+        }
+        else
+        {
+            // The runtime tells the terminal some of its own.
+            Assert.DoesNotMatch("frame|wrote", output);
+        }
+    }
+
+    /// <summary>Requires the two frames of an animation to be two still images, to the bit, which differ.</summary>
+    private void AssertFrames(string file, string[] motion, string[] first, string[] second)
+    {
+        Animate(file, motion);
+        Assert.Equal(Render(file, first), Pixels("f-0001.png"));
+        Assert.Equal(Render(file, second), Pixels("f-0002.png"));
+        Assert.NotEqual(Pixels("f-0001.png"), Pixels("f-0002.png"));
+    }
+
+    private void Animate(string file, params string[] options) =>
+        Run(["animate", file, "--frames", "2", "--output", "f.png", .. Traced, .. options]);
+
+    private byte[] Render(string file, params string[] options)
+    {
+        Run(["render", file, "--output", "a.png", .. Traced, .. options]);
+        return Pixels("a.png");
+    }
+
+    private void Run(string[] arguments)
+    {
+        var (exitCode, _, error) = AppProcess.Run(_folder.Path, arguments);
+        Assert.True(exitCode == 0, error);
+    }
+
+    private byte[] Pixels(string file)
+    {
+        using var stream = File.OpenRead(_folder[file]);
+        return PngReader.Read(stream).Pixels;
+    }
+}
