@@ -266,6 +266,23 @@ public sealed class ImageCommandTests : IDisposable
             AppProcess.Run(_folder.Path, environment, "animate", "scene.sdo", "--turntable", "--output", "a.mp4"));
     }
 
+    [SkippableTheory]
+    [InlineData("a.mp4", 4, "ftyp")]
+    [InlineData("a.webm", 0, "\u001aE\u00df\u00a3")]
+    [InlineData("a.gif", 0, "GIF8")]
+    public void Animate_OfAVideo_IsWrittenThroughFfmpeg(string file, int offset, string signature)
+    {
+        RequireDisplay();
+        var folders = (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator);
+        Skip.IfNot(Array.Exists(folders, folder => File.Exists(Path.Combine(folder, "ffmpeg"))), "ffmpeg is not installed");
+        // Odd sizes, which codecs don't have.
+        var (exitCode, _, error) = Run(
+            "animate", "scene.sdo", "--turntable", "--output", file, "--frames", "3", "--fps", "10", "--resolution", "33x21");
+        Assert.True(exitCode == 0, error);
+        Assert.Equal(signature, Encoding.Latin1.GetString(File.ReadAllBytes(_folder[file]).AsSpan(offset, signature.Length)));
+        Assert.Equal([_folder[file]], Directory.GetFiles(_folder.Path, "a.*"));
+    }
+
     private static int CountChunks(string chunk, byte[] bytes) =>
         Encoding.Latin1.GetString(bytes).Split(chunk).Length - 1;
 
