@@ -122,7 +122,8 @@ public sealed class SceneWindowTests : IDisposable
         Assert.True(DifferingFraction(start, window.Screenshot()) > 0.001, "the key B changed nothing");
 
         window.Send("key r key p");
-        Assert.True(DifferingFraction(start, window.Screenshot()) > 0.01, "the key P changed nothing");
+        // The player walks as soon as its colliders are built.
+        Polling.WaitUntil(() => DifferingFraction(start, window.Screenshot()) > 0.01, "view of the player after key P");
 
         // Walking has moved the camera, so that closing asks.
         window.Send("key p");
