@@ -41,7 +41,7 @@ internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choo
         {
             double level = shown.Tool.Boxes.Level;
             ui.Row(1);
-            if (ui.Slider("boxes of level", ref level, -1, 8, 1))
+            if (ui.Slider("level boxes", ref level, -1, 8, 1))
             {
                 shown.Tool.Boxes.Level = (int)level;
                 actions.RequestDraw();
@@ -88,6 +88,15 @@ internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choo
 
             ui.Tooltip("leaves out what other parts hide; the image is the same");
         }
+
+        var shadows = actions.Settings.Shadows;
+        if (ui.CheckBox("Shadows", ref shadows))
+        {
+            actions.Settings = actions.Settings with { Shadows = shadows };
+            actions.RequestDraw();
+        }
+
+        ui.Tooltip("shadows of all lights, where lighting is computed at every pixel (--no-shadows)");
     }
 
     private void BuildBookmarks(UserInterface ui, Document document)
