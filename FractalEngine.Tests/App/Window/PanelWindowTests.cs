@@ -167,7 +167,7 @@ public sealed class PanelWindowTests : IDisposable
             window.Send($"key {XName(chord)}");
             if (chord == new KeyChord(Key.H))
             {
-                window.FindText("list all actions");
+                window.FindText("open a file");
                 window.Send("key Escape");
             }
 
@@ -182,12 +182,18 @@ public sealed class PanelWindowTests : IDisposable
         foreach (var action in actions.Where(static action => action.Id is not ("menu-bar" or "larger-text" or "smaller-text")))
         {
             other.ClickText(action.Menu);
-            if (other.ShowsText(action.Name))
+            var isShown = other.ShowsText(action.Name);
+            if (isShown)
             {
                 other.ClickText(action.Name);
             }
 
-            other.Send("key Escape");
+            // Closes the menu, or the list; elsewhere it would close the window.
+            if (!isShown || action.Id == "keys")
+            {
+                other.Send("key Escape");
+            }
+
             Assert.False(other.HasExited, $"ended after {action.Name}");
             if (action.Id == "light-colours")
             {
