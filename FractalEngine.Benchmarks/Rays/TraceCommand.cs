@@ -13,9 +13,10 @@ namespace FractalEngine.Benchmarks.Rays;
 internal static class TraceCommand
 {
     private const string Usage = """
-        trace [--quick] [--output FOLDER]
-          Milliseconds of a sample at 960x540 on all cores beside those of a drawn frame, and how close the image is after
-          5 and 10 seconds to one of many samples; writes trace.csv.
+        trace [SCENE...] [--quick] [--output FOLDER]
+          Milliseconds of a sample at 960x540 on all cores, with one bounce and with all, beside those of a drawn frame,
+          and how close the image is after 5 and 10 seconds to one of many samples; writes trace.csv. Scenes: menger,
+          gallery, playground, inside; all unless stated, which takes about half an hour.
         """;
 
     private static readonly string[] Scenes = ["menger", "gallery", "playground", "inside"];
@@ -24,20 +25,31 @@ internal static class TraceCommand
     /// <param name="args">The words after the command's name.</param>
     public static int Run(ReadOnlySpan<string> args)
     {
-        if (TableOptions.TryParse("trace", Usage, args) is not { } options)
+        var isQuick = false;
+        var folder = CommandLineParser.DefaultFolder;
+        var names = new List<string>();
+        var parser = new CommandLineParser(Usage)
+            .Flag("--quick", () => isQuick = true)
+            .Option("--output", value => folder = value)
+            .Names(name => Scenes.Contains(name) && !names.Contains(name), names);
+        if (!parser.TryParse(args))
         {
             return 2;
         }
 
-        var table = options.CreateTable(
-            "trace.csv", "scene", "width", "height", "sample_ms", "drawn_frame_ms", "samples_of_truth", "db_after_5_s", "db_after_10_s");
-        var (width, height) = options.IsQuick ? (160, 90) : (960, 540);
-        var truthSamples = options.IsQuick ? 64 : 1024;
-        foreach (var name in options.IsQuick ? Scenes[..1] : Scenes)
+        var table = new CsvTable(
+            Path.Combine(folder, "trace.csv"), string.Join(' ', ["trace", .. names, .. isQuick ? ["--quick"] : Array.Empty<string>()]),
+            "scene", "width", "height", "sample_ms_one_bounce", "sample_ms", "drawn_frame_ms", "samples_of_truth", "db_after_5_s",
+            "db_after_10_s");
+        var (width, height) = isQuick ? (160, 90) : (960, 540);
+        var truthSamples = isQuick ? 64 : 1024;
+        foreach (var name in names.Count > 0 ? names.ToArray() : isQuick ? Scenes[..1] : Scenes)
         {
             var scene = AssetLoader.Load(Path.Combine(FractalCase.Assets, "scenes", name + ".sdo")).Scene;
             var view = View.Of(scene, (double)width / height);
             var (after5, after10, sampleMilliseconds) = Converge(new PathTracer(scene, view, width, height, seed: 1));
+            var oneBounce = new PathTracer(scene, view, width, height) { BounceLimit = 1 };
+            var oneBounceMilliseconds = InterleavedTiming.MeasureBestMilliseconds(() => oneBounce.AddSample(), 8);
             var truth = new PathTracer(scene, view, width, height, seed: 2);
             for (var i = 0; i < truthSamples; i++)
             {
@@ -50,7 +62,7 @@ internal static class TraceCommand
             var image = truth.ToImage();
             object[] row =
             [
-                name, width, height, Math.Round(sampleMilliseconds, 1), Math.Round(drawn, 1), truthSamples,
+                name, width, height, Math.Round(oneBounceMilliseconds, 1), Math.Round(sampleMilliseconds, 1), Math.Round(drawn, 1), truthSamples,
                 Math.Round(ImageError.PeakSignalToNoiseRatio(after5, image), 2),
                 Math.Round(ImageError.PeakSignalToNoiseRatio(after10, image), 2),
             ];

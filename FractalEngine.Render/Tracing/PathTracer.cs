@@ -106,6 +106,19 @@ public sealed class PathTracer
     /// <summary>Height of the image in pixels.</summary>
     public int Height { get; }
 
+    /// <summary>Number of surfaces that a path of light goes on from, from 0 to <see cref="MaxBounces"/>; that many unless stated.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">The number is negative, or larger than that.</exception>
+    public int BounceLimit
+    {
+        get;
+        init
+        {
+            ArgumentOutOfRangeException.ThrowIfNegative(value);
+            ArgumentOutOfRangeException.ThrowIfGreaterThan(value, MaxBounces);
+            field = value;
+        }
+    } = MaxBounces;
+
     /// <summary>Number of samples that every pixel has.</summary>
     public int SampleCount => _rowSamples.Min();
 
@@ -118,7 +131,7 @@ public sealed class PathTracer
     /// <param name="height">Pixels, at least 1.</param>
     /// <exception cref="ArgumentOutOfRangeException">Width or height is less than 1.</exception>
     public PathTracer WithView(View view, int width, int height) =>
-        new(view, width, height, _scene, _lights, _declared, _seed);
+        new(view, width, height, _scene, _lights, _declared, _seed) { BounceLimit = BounceLimit };
 
     /// <summary>Adds one sample to each pixel.</summary>
     /// <param name="threads">The most threads to use; null for one a core.</param>
@@ -256,7 +269,7 @@ public sealed class PathTracer
             var width = footprint.RadiusAt(passed);
             var origin = surface.Position + (_scene.OffsetAt(surface.Position) * surface.FaceNormal);
             radiance += throughput.Stretch(DirectLight(in surface, origin, -ray.Direction, width, ref samples, context));
-            if (++bounce > MaxBounces
+            if (++bounce > BounceLimit
                 || !Reflection.TrySample(in surface, -ray.Direction, ref samples, out var direction, out var weight, out var spread))
             {
                 return radiance;
