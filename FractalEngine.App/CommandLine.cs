@@ -19,9 +19,13 @@ internal static class CommandLine
         }
 
         var result = root.Parse(args.Contains("--version") ? ["--version"] : WithDefaultCommand(root, args));
-        return HelpText.IsRequested(result) ? HelpText.Print(result)
+        return HelpText.IsRequested(result) ? Guard(() => HelpText.Print(result))
             : result.Errors.Count > 0 ? UsageErrors.Report(result)
-            : Invoke(result);
+            : Guard(() =>
+            {
+                Limits.Apply(result);
+                return result.Invoke(new() { EnableDefaultExceptionHandler = false });
+            });
     }
 
     private static RootCommand CreateRootCommand()
@@ -49,12 +53,11 @@ internal static class CommandLine
         _ => ["view", .. args],
     };
 
-    private static int Invoke(ParseResult result)
+    private static int Guard(Func<int> run)
     {
         try
         {
-            Limits.Apply(result);
-            return result.Invoke(new() { EnableDefaultExceptionHandler = false });
+            return run();
         }
         catch (Exception exception)
         {

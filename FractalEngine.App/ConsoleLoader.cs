@@ -15,7 +15,9 @@ internal static class ConsoleLoader
     public static LoadedFile Load(string path, LoadOptions options)
     {
         options = StandardInput.AddTo(options, path);
-        var file = Console.IsErrorRedirected ? AssetLoader.Load(path, options) : LoadWithProgressBar(path, options);
+        var cache = new AssetCache();
+        var file = Console.IsErrorRedirected ? AssetLoader.Load(path, options, null, cache) : LoadWithProgressBar(path, options, cache);
+        InputFiles.Add(cache);
         foreach (var warning in file.Warnings)
         {
             Console.Error.WriteLine(warning);
@@ -24,10 +26,10 @@ internal static class ConsoleLoader
         return file;
     }
 
-    private static LoadedFile LoadWithProgressBar(string path, LoadOptions options)
+    private static LoadedFile LoadWithProgressBar(string path, LoadOptions options, AssetCache cache)
     {
         var progress = new ThrottledProgress();
-        var load = Task.Run(() => AssetLoader.Load(path, options, progress));
+        var load = Task.Run(() => AssetLoader.Load(path, options, progress, cache));
         if (Task.WaitAny([load], ProgressBarDelay) < 0)
         {
             ShowProgressBar(load, progress);

@@ -89,6 +89,8 @@ internal sealed record FileSummary(
         null => "null",
         bool flag => flag ? "true" : "false",
         string text => $"\"{JavaScriptEncoder.UnsafeRelaxedJsonEscaping.Encode(text)}\"",
+        // JSON has no infinity.
+        Vector vector when !vector.IsFinite() => "null",
         Vector(var x, var y, var z) => $"[{JsonSerializer.Serialize(x)}, {JsonSerializer.Serialize(y)}, {JsonSerializer.Serialize(z)}]",
         IFormattable number => number.ToString(null, CultureInfo.InvariantCulture),
         _ => throw new ArgumentOutOfRangeException(nameof(value)),

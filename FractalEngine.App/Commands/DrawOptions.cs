@@ -78,6 +78,14 @@ internal sealed class DrawOptions
     /// <summary>Returns true unless <c>--without</c> names the optimisation.</summary>
     public bool IsEnabled(ParseResult result, Optimisation optimisation) => !(result.GetValue(_disabled) ?? []).Contains(optimisation);
 
+    /// <summary>Names an option that was given and changes nothing in a traced image; null for none.</summary>
+    public string? FindDrawnOnly(ParseResult result) =>
+        result.GetValue(_wireframe) ? "--wireframe"
+        : result.GetValue(_grid) ? "--grid"
+        : result.GetValue(_noShadows) ? "--no-shadows"
+        : result.GetValue(_shading) == Shading.PerVertex ? "--shading vertex"
+        : null;
+
     /// <summary>Applies the drawing options that concern loading.</summary>
     /// <param name="result">The parsed command line.</param>
     /// <param name="options">The load options of a command that does not draw.</param>

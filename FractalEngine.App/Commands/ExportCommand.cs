@@ -38,12 +38,7 @@ internal static class ExportCommand
         }
 
         var file = report.Measure("load", () => ConsoleLoader.Load(path, options));
-        if (output != StandardInput.Name
-            && file.Scene.Models.Select(model => model.SourcePath).Append(file.Path).Contains(Path.GetFullPath(output)))
-        {
-            throw new UsageException($"{output} is one of the files to export, and is not overwritten");
-        }
-
+        InputFiles.Protect(output);
         if (options.Depth is not null && !file.Scene.Models.Any(model => model is FractalModel { Fractal.Description.HasDepth: true }))
         {
             throw new UsageException($"{path} has no recursive fractal, so --depth has no effect");

@@ -62,12 +62,17 @@ internal static class QueryCommand
                     path, options, pointsPath, result.GetValue(collider) ?? ColliderKind.Exact,
                     result.GetValue(maxDistance) ?? double.PositiveInfinity, result.GetValue(epsilon) ?? 0,
                     new(result.GetValue(json), result.GetValue(errorBound), result.GetValue(header))),
+                (null, not null) when HasOptionOfPoints(result) =>
+                    throw new UsageException("--collider, --within, --epsilon and --error-bound need --points"),
                 (null, { } raysPath) => RayQueries.Run(
                     ConsoleLoader.Load(path, options), raysPath, result.GetValue(json), result.GetValue(header)),
                 _ => throw new UsageException("expected either --points or --rays"),
             };
         });
         return command;
+
+        bool HasOptionOfPoints(ParseResult result) => result.GetValue(collider) is not null || result.GetValue(maxDistance) is not null
+            || result.GetValue(epsilon) is not null || result.GetValue(errorBound);
     }
 
     private static int Run(

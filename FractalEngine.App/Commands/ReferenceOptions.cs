@@ -40,6 +40,7 @@ internal sealed class ReferenceOptions
         }
 
         var reference = ReadReference(path);
+        InputFiles.Add(path);
         return (image, output) => Compare(image, reference, output, result.GetValue(_threshold) ?? DefaultThreshold);
     }
 

@@ -49,7 +49,13 @@ internal static class RenderCommand
                 CreateView = (scene, aspect) => camera.View(result, scene, draw.Projection(result) is not null, aspect),
                 ZoomLevels = camera.Zoom(result),
             };
-            var image = Run(job, trace.Choice(result), path, report.Begin(result));
+            var traced = trace.Choice(result);
+            if (traced is not null && draw.FindDrawnOnly(result) is { } option)
+            {
+                throw new UsageException($"{option} draws triangles, and has no effect with --trace");
+            }
+
+            var image = Run(job, traced, path, report.Begin(result));
             return compare?.Invoke(image, path) ?? ExitCode.Done;
         });
         return command;
@@ -65,6 +71,7 @@ internal static class RenderCommand
     public static PixelImage Run(RenderJob job, TracedImage? trace, string output, WrittenReport report)
     {
         var file = report.Measure("load", () => ConsoleLoader.Load(job.Path, job.Load));
+        InputFiles.Protect(output);
         var scene = job.WithProjection(file.Scene);
         // A default camera frames the scene as it is at time 0, so that images of several times show the same view.
         var view = job.CreateView(scene, (double)job.Size.Width / job.Size.Height);

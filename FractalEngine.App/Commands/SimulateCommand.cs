@@ -58,7 +58,17 @@ internal static class SimulateCommand
                 $"{seconds:R} s take {steps:G4} steps of {step:R} s, which exceeds the limit of {MaxSteps} steps"));
         }
 
+        if (step > seconds && seconds > 0)
+        {
+            throw new UsageException(FormattableString.Invariant($"a step of {step:R} s is longer than the {seconds:R} s to simulate"));
+        }
+
         var file = ConsoleLoader.Load(path, options);
+        if (output is not null)
+        {
+            InputFiles.Protect(output);
+        }
+
         if (!file.Scene.Objects.Any(placed => placed.Declaration is PhysicsObject))
         {
             throw new UsageException($"{path} has no physics objects, so there is nothing to simulate");

@@ -45,7 +45,10 @@ public static class CameraFraming
     /// <exception cref="ArgumentException">A number is NaN or infinite, or the angle of view is out of its range.</exception>
     public static Camera LookAt(Vector position, Vector target, Vector up, double fieldOfView, Handedness handedness)
     {
-        var rotation = LookRotation(handedness.Mirror(target - position), handedness.Mirror(up.UnitVector()));
+        var direction = target - position;
+        // Points at opposite ends of the range of doubles.
+        direction = direction.IsFinite() ? direction : (0.5 * target) - (0.5 * position);
+        var rotation = LookRotation(handedness.Mirror(direction), handedness.Mirror(up.UnitVector()));
         return new(position, rotation, fieldOfView) { Handedness = handedness };
     }
 

@@ -1,5 +1,7 @@
 using System.Collections.Immutable;
+using System.Runtime.ExceptionServices;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
@@ -138,6 +140,7 @@ public sealed class PathTracer
     /// <param name="scheduler">Owns the threads, beside the calling one; null for those of the pool.</param>
     /// <param name="cancellation">Cancels between two rows; rows then differ by a sample.</param>
     /// <exception cref="OperationCanceledException">The samples were cancelled.</exception>
+    /// <exception cref="FractalLimitException">A model can't be prepared, see <see cref="RayCaster.For(Model)"/>.</exception>
     public void AddSample(int? threads = null, TaskScheduler? scheduler = null, CancellationToken cancellation = default)
     {
         var options = new ParallelOptions
@@ -156,16 +159,24 @@ public sealed class PathTracer
             }
         }
 
-        Parallel.For(top, top + height, options, static () => new QueryContext(), (y, _, context) =>
+        try
         {
-            if (_rowSamples[y] == sample)
+            Parallel.For(top, top + height, options, static () => new QueryContext(), (y, _, context) =>
             {
-                AddRow(y, sample, context);
-                _rowSamples[y]++;
-            }
+                if (_rowSamples[y] == sample)
+                {
+                    AddRow(y, sample, context);
+                    _rowSamples[y]++;
+                }
 
-            return context;
-        }, static _ => { });
+                return context;
+            }, static _ => { });
+        }
+        catch (AggregateException exception) when (exception.InnerException is { } first)
+        {
+            // Whichever thread was first: each has met the same model.
+            ExceptionDispatchInfo.Throw(first);
+        }
     }
 
     /// <summary>Converts the present image to sRGB.</summary>
