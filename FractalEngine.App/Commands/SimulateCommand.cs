@@ -58,11 +58,6 @@ internal static class SimulateCommand
                 $"{seconds:R} s take {steps:G4} steps of {step:R} s, which exceeds the limit of {MaxSteps} steps"));
         }
 
-        if (step > seconds && seconds > 0)
-        {
-            throw new UsageException(FormattableString.Invariant($"a step of {step:R} s is longer than the {seconds:R} s to simulate"));
-        }
-
         var file = ConsoleLoader.Load(path, options);
         if (output is not null)
         {

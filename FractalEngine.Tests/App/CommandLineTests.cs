@@ -244,7 +244,6 @@ public sealed class CommandLineTests : IDisposable
     [InlineData("render", "cube.obj", "--output", "a.png", "--trace", "1", "--wireframe")]
     [InlineData("render", "cube.obj", "--output", "a.png", "--trace", "1", "--no-shadows")]
     [InlineData("query", "cube.obj", "--rays", "cube.obj", "--within", "1")]
-    [InlineData("simulate", "cube.obj", "--seconds", "1", "--step", "5")]
     [InlineData("render", "cube.obj", "--output", "a.png", "--resolution", "0x10")]
     [InlineData("render", "cube.obj", "--output", "a.png", "--projection", "fisheye")]
     [InlineData("render", "cube.obj", "--output", "a.png", "--shading", "flat")]
@@ -254,6 +253,25 @@ public sealed class CommandLineTests : IDisposable
         Assert.Equal((2, ""), (exitCode, output));
         Assert.StartsWith("error: ", error, StringComparison.Ordinal);
         Assert.DoesNotContain("   at ", error, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Check_OfACameraAcrossAllNumbers_Succeeds()
+    {
+        _folder.Write("far.sdo", "o \"cube.obj\" #\nc (1e308,0,0) look-at (-1e308,0,0) 60\n");
+        Assert.Equal(0, Run("check", "far.sdo").ExitCode);
+    }
+
+    [Fact]
+    public void Render_TracingAModelBeyondALimit_ExitsWith3()
+    {
+        _folder.Write(
+            "sums.fdo",
+            "composition componentwise\nv 1.1 0 0\nv 0 1.2 0\nv 0 0 1.3\nv 1.01 0 0\nv 0 1.7 0\nt.a. (a, #, #)\n"
+            + "x. \"cube.obj\"\nz<x>. [t.1, t.2, t.3, t.4, t.5] x\n<$>. z 1000\n");
+        var (exitCode, _, error) = Run("render", "sums.fdo", "--output", "a.png", "--trace", "1", "--resolution", "16x16");
+        Assert.Equal(3, exitCode);
+        Assert.StartsWith("error: the sums of all levels are more than the limit", error, StringComparison.Ordinal);
     }
 
     [Theory]

@@ -51,6 +51,19 @@ public sealed class OutputFileTests : IDisposable
         Assert.Equal((130, ""), (process.ExitCode, process.StandardError.ReadToEnd()));
     }
 
+    [SkippableTheory]
+    [InlineData("cube.obj")]
+    [InlineData("link.obj")]
+    public void Export_OntoAFileThatWasRead_IsRefusedAndReplacesNothing(string output)
+    {
+        Skip.If(OperatingSystem.IsWindows(), "links need rights there");
+        _folder.Write("row.fdo", SampleFiles.Row("3"));
+        File.CreateSymbolicLink(_folder["link.obj"], _folder["cube.obj"]);
+        var (exitCode, _, error) = AppProcess.Run(_folder.Path, "export", "row.fdo", "--output", output);
+        Assert.Equal((2, $"error: {output} is one of the files that are read, and is not overwritten"), (exitCode, error.Trim()));
+        Assert.Equal(SampleFiles.Cube, File.ReadAllText(_folder["cube.obj"]));
+    }
+
     [SkippableFact]
     public void Export_IntoAPipeThatNothingReads_IsAnErrorInsteadOfAWait()
     {
@@ -82,6 +95,7 @@ public sealed class OutputFileTests : IDisposable
     [InlineData("query cube.obj --points points.txt 2>FULL", 0, "1 0.5 ")]
     [InlineData("query cube.obj --wrong 2>FULL", 2, "")]
     [InlineData("count cube.obj >FULL", 2, "error: the standard output can't be written: ")]
+    [InlineData("--help >FULL", 2, "error: the standard output can't be written: ")]
     [InlineData("simulate scene.sdo >FULL", 2, "error: the standard output can't be written: ")]
     public void Streams_ThatAreFullOrClosed_DoNotChangeTheRest(string command, int exitCode, string output)
     {
