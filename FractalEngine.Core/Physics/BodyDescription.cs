@@ -1,13 +1,26 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Compounds;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;
 
 /// <summary>The initial state and the constants of a body, as plain immutable data.</summary>
-/// <param name="Position">Initial position of the centre in world space, scene units.</param>
-/// <param name="Radius">Initial radius in scene units, positive.</param>
+/// <param name="Position">Initial position of the centre of mass in world space, scene units.</param>
+/// <param name="Radius">Initial radius in scene units, positive; for a compound that of its <see cref="CompoundShape.Radius"/>.</param>
 public sealed record BodyDescription(Vector Position, double Radius)
 {
+    /// <summary>Describes a rigid body of several balls.</summary>
+    /// <param name="position">Initial position of the centre of mass in world space, scene units.</param>
+    /// <param name="shape">Its balls, and how its mass is spread.</param>
+    public BodyDescription(Vector position, CompoundShape shape)
+        : this(position, shape?.Radius ?? throw new ArgumentNullException(nameof(shape))) => Shape = shape;
+
+    /// <summary>The balls of a compound; null for one ball.</summary>
+    public CompoundShape? Shape { get; init; }
+
+    /// <summary>Offset of the drawn object's origin from the centre of mass at the start, world space; zero for one ball.</summary>
+    public Vector ObjectOffset { get; init; }
+
     /// <summary>Name for messages and tables; null for the body's index.</summary>
     public string? Name { get; init; }
 
@@ -29,7 +42,9 @@ public sealed record BodyDescription(Vector Position, double Radius)
     /// <summary>Coulomb's coefficient of friction against surfaces and other bodies; at 0 a body slides for ever.</summary>
     public double Friction { get; init; }
 
-    /// <summary>Moment of inertia over mass · radius²: 0.4 for a solid ball, 2/3 for a shell; positive and at most 2/3.</summary>
+    /// <summary>
+    /// Moment of inertia over mass · radius²: 0.4 for a solid ball, 2/3 for a shell; positive and at most 2/3. A compound has its own.
+    /// </summary>
     public double Inertia { get; init; } = PhysicsObject.SolidInertia;
 
     /// <summary>True for a body that does not turn, so that friction makes it slide instead of roll.</summary>
@@ -93,9 +108,10 @@ public sealed record BodyDescription(Vector Position, double Radius)
 
     /// <summary>Describes the first number that no body can have; null for a valid description.</summary>
     internal string? FindFault() =>
-        !(Position.IsFinite() && Velocity.IsFinite()) ? "position and velocity must be finite"
+        Shape is not null && Shape.Radius != Radius ? "the radius must be that of the shape"
+        : !(Position.IsFinite() && Velocity.IsFinite()) ? "position and velocity must be finite"
         : !AngularVelocity.IsFinite() ? "the angular velocity must be finite"
-        : !LinearPart.IsFinite() ? "rotation and scale must be finite"
+        : !(LinearPart.IsFinite() && ObjectOffset.IsFinite()) ? "rotation and scale must be finite"
         : Radius > 0 && !double.IsFinite(Radius) ? "the radius is beyond the range of a double"
         : !(Radius > 0) ? "the radius must be positive"
         : !(Mass > 0 && double.IsFinite(Mass)) ? "the mass must be positive"

@@ -5,15 +5,6 @@ namespace FractalEngine.Core.Physics;
 /// <content>What comes before and after the joint solve of islands: the surfaces that bodies may meet, and their planned motion.</content>
 internal sealed partial class BodyMover
 {
-    // Cosine between normals from which on two surfaces near a body count as one.
-    private const double SameNormal = 0.999;
-
-    // Of the radius.
-    private const double MaxLift = 0.5;
-
-    // Searches for surfaces near a body: in a corner it has three.
-    private const int MaxSurfaceQueries = 3;
-
     /// <summary>
     /// Updates what a body touches of surfaces, at the beginning of a step. One that overlaps something is pushed out, or it stops.
     /// </summary>
@@ -32,31 +23,10 @@ internal sealed partial class BodyMover
     /// <param name="stepLength">Seconds.</param>
     public void FindNearSurfaces(Body body, double maxTravel, double stepLength)
     {
-        if (!_obstacles.TryFindNearSurface(body.Position, maxTravel, out var surface))
+        if (_nearSurfaceSearch.TryFind(body.Position, maxTravel, body.Contacts, body.NearSurfaces, out _))
         {
-            return;
+            FindSurfaceAhead(body, stepLength);
         }
-
-        var lift = surface.Normal(body.Position);
-        if (surface.IsFlat)
-        {
-            AddNearSurface(body, in surface, lift);
-        }
-
-        // From somewhat farther off all that is known, the next surface is the closest one. No surface is within half a radius of there.
-        var height = Math.Min(maxTravel, MaxLift * body.Radius);
-        for (var i = 1; i < MaxSurfaceQueries && surface.IsFlat; i++)
-        {
-            if (!_obstacles.TryFindFace(body.Position + (height * lift), body.Position, height, out surface, out var normal))
-            {
-                break;
-            }
-
-            lift = (lift + normal).UnitVectorOrZero();
-            AddNearSurface(body, in surface, normal);
-        }
-
-        FindSurfaceAhead(body, stepLength);
     }
 
     /// <summary>Finds what the body runs into along the surfaces that it touches, if nothing else turns it aside.</summary>
@@ -67,26 +37,7 @@ internal sealed partial class BodyMover
         if (velocity != Vector.Zero
             && _sweep.TryFindImpact(new(body.Position, velocity, Vector.Zero), stepLength, out var hit, out var elapsed))
         {
-            AddNearSurface(body, in hit, hit.Normal(body.Position + (elapsed * velocity)));
-        }
-    }
-
-    private static void AddNearSurface(Body body, in Contact surface, Vector normal)
-    {
-        var isKnown = body.NearSurfaceCount == Body.MaxNearSurfaces;
-        for (var i = 0; i < body.NearSurfaceCount; i++)
-        {
-            isKnown |= Vector.Dot(body.NearSurfaces[i].CachedNormal, normal) > SameNormal;
-        }
-
-        for (var i = 0; i < body.Contacts.Count; i++)
-        {
-            isKnown |= !body.Contacts[i].IsBody && Vector.Dot(body.Contacts[i].Normal(body.Position), normal) > SameNormal;
-        }
-
-        if (!isKnown)
-        {
-            body.NearSurfaces[body.NearSurfaceCount++] = surface with { CachedNormal = normal };
+            body.NearSurfaces.Add(in hit, hit.Normal(body.Position + (elapsed * velocity)), body.Contacts, body.Position);
         }
     }
 

@@ -34,6 +34,7 @@ internal sealed partial class BodyMover
     private readonly SpinFriction _spinFriction;
     private readonly SphereSweep _sweep;
     private readonly OverlapResolver _overlapResolver;
+    private readonly NearSurfaceSearch _nearSurfaceSearch;
     private readonly HalfSpaces _planes = new();
 
     public BodyMover(List<Body> bodies, Obstacles obstacles, SleepIslands islands)
@@ -44,6 +45,7 @@ internal sealed partial class BodyMover
         _spinFriction = new(bodies);
         _sweep = new(obstacles);
         _overlapResolver = new(obstacles);
+        _nearSurfaceSearch = new(obstacles);
     }
 
     /// <summary>Moves a body that touches no other, or only such as do not move. The obstacles must be set up for it.</summary>
@@ -60,6 +62,7 @@ internal sealed partial class BodyMover
         _sweep.ResetStepBudget();
         _obstacles.CollectNearbyBodies(new(position, Vector.Zero, Vector.Zero), 0, body.Index);
         _obstacles.AddTouchedBodies(position, _obstacles.ContactSlop(position), body.Contacts);
+        body.MayTouchBodies |= body.Contacts.HasBody;
         MoveOn(body, ref position, stepLength, stepLength);
         body.Position = position;
     }
@@ -181,6 +184,11 @@ internal sealed partial class BodyMover
         {
             position = RemoveRoundingOverlap(position, in hit);
             contacts.Add(in hit, position);
+            if (hit.IsBody)
+            {
+                body.MayTouchBodies = true;
+                _bodies[hit.BodyIndex].MayTouchBodies = true;
+            }
         }
         else if (isStopping)
         {

@@ -2,6 +2,8 @@ using System.Globalization;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Character;
+using FractalEngine.Core.Physics.Compounds;
+using FractalEngine.Core.Physics.Islands;
 
 namespace FractalEngine.Core.Physics;
 
@@ -23,10 +25,11 @@ internal sealed class BodyStepper
     private readonly SleepIslands _islands;
     private readonly QueryContext _queryContext;
     private readonly BodyMover _mover;
+    private readonly CompoundMover _compoundMover;
 
     public BodyStepper(
         PhysicsSettings settings, List<Body> bodies, BodyGrid grid, NearbyBodies nearbyBodies, Obstacles obstacles, SleepIslands islands,
-        QueryContext queryContext)
+        IslandPlanner planner, QueryContext queryContext)
     {
         _settings = settings;
         _grid = grid;
@@ -35,6 +38,7 @@ internal sealed class BodyStepper
         _islands = islands;
         _queryContext = queryContext;
         _mover = new(bodies, obstacles, islands);
+        _compoundMover = new(bodies, obstacles, islands, planner);
     }
 
     /// <summary>Begins the step of a body that is awake: all but its motion.</summary>
@@ -51,6 +55,7 @@ internal sealed class BodyStepper
         if (body.IsShrinking)
         {
             body.Scale = Math.Max(description.MinimumScale, body.Scale - (description.Shrinkage * stepLength));
+            body.UpdateBalls();
         }
 
         var acceleration = gravity + (body.Force / description.Mass);
@@ -65,7 +70,15 @@ internal sealed class BodyStepper
             _settings.RestitutionThreshold ?? RestitutionThresholdFraction * acceleration.Length() * stepLength;
         var wasResolved = body.IsOverlapResolved;
         SetMover(body, staticColliders, character, stepLength);
-        _mover.Prepare(body);
+        if (body.IsCompound)
+        {
+            _compoundMover.Prepare(body);
+        }
+        else
+        {
+            _mover.Prepare(body);
+        }
+
         if (!wasResolved)
         {
             _grid.Update(body.Index);
@@ -83,7 +96,15 @@ internal sealed class BodyStepper
     {
         var (faceTests, boundTests) = BeginCount();
         SetMover(body, staticColliders, character: null, stepLength);
-        _mover.FindNearSurfaces(body, reach, stepLength);
+        if (body.IsCompound)
+        {
+            _compoundMover.FindNearSurfaces(body, reach, stepLength);
+        }
+        else
+        {
+            _mover.FindNearSurfaces(body, reach, stepLength);
+        }
+
         EndCount(body, faceTests, boundTests);
     }
 
@@ -100,7 +121,15 @@ internal sealed class BodyStepper
         var motion = new Motion(body.Position, body.Velocity, body.FreeAcceleration);
         SetMover(body, staticColliders, character, stepLength);
         _nearbyBodies.Prepare(motion.SweptBox(stepLength), body.Radius * ContactTolerances.NeighbourRadiusFactor);
-        _mover.Move(body, stepLength);
+        if (body.IsCompound)
+        {
+            _compoundMover.Move(body, stepLength);
+        }
+        else
+        {
+            _mover.Move(body, stepLength);
+        }
+
         EndCount(body, faceTests, boundTests);
         Finish(body, stepLength, stepIndex);
     }
@@ -111,7 +140,15 @@ internal sealed class BodyStepper
     {
         var (faceTests, boundTests) = BeginCount();
         SetMover(body, staticColliders, character, stepLength);
-        _mover.MovePlanned(body, stepLength);
+        if (body.IsCompound)
+        {
+            _compoundMover.MovePlanned(body, stepLength);
+        }
+        else
+        {
+            _mover.MovePlanned(body, stepLength);
+        }
+
         EndCount(body, faceTests, boundTests);
     }
 
@@ -121,7 +158,15 @@ internal sealed class BodyStepper
     {
         var (faceTests, boundTests) = BeginCount();
         SetMover(body, staticColliders, character: null, stepLength);
-        _mover.FinishPlanned(body);
+        if (body.IsCompound)
+        {
+            _compoundMover.FinishPlanned(body);
+        }
+        else
+        {
+            _mover.FinishPlanned(body);
+        }
+
         EndCount(body, faceTests, boundTests);
         Finish(body, stepLength, stepIndex);
     }

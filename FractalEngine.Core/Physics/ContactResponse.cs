@@ -90,7 +90,10 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
     }
 
     private Vector RelativeVelocity(Body body, in Contact contact) =>
-        contact.IsBody ? body.Velocity - bodies[contact.BodyIndex].Velocity : body.Velocity;
+        contact.IsBody ? body.Velocity - bodies[contact.BodyIndex].VelocityAt(ArmOf(in contact)) : body.Velocity;
+
+    /// <summary>Centre of the touched ball relative to its body.</summary>
+    private Vector ArmOf(in Contact contact) => contact.Point - bodies[contact.BodyIndex].Position;
 
     private void Bounce(Body body, in Contact contact, Vector normal, double approachSpeed, double restitutionThreshold)
     {
@@ -103,10 +106,17 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
         // A body that sleeps on is as firm as the ground.
         var movable = other is { IsAsleep: false, IsStuck: false } ? other : null;
         var inverseMass = 1 / body.Description.Mass;
-        var otherInverseMass = movable is null ? 0 : 1 / movable.Description.Mass;
+        var otherInverseMass = movable is null ? 0
+            : movable.IsCompound ? movable.InverseMassAt(ArmOf(in contact), normal) : 1 / movable.Description.Mass;
         var restitution = approachSpeed > restitutionThreshold ? CombinedRestitution(body, other) : 0;
         var impulse = (1 + restitution) * approachSpeed / (inverseMass + otherInverseMass) * normal;
         var friction = other is null ? body.Description.Friction : Math.Min(body.Description.Friction, other.Description.Friction);
+        if (movable is { IsCompound: true })
+        {
+            BounceOffCompound(body, movable, in contact, normal, impulse, friction);
+            return;
+        }
+
         if (friction > 0)
         {
             var across = StopSlip(body, other, movable, in contact, normal, friction * impulse.Length());
@@ -125,6 +135,21 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
         }
     }
 
+    /// <summary>Gives a ball and a compound the impulse of a bounce, then that of friction: both together could add energy.</summary>
+    private void BounceOffCompound(Body body, Body other, in Contact contact, Vector normal, Vector impulse, double friction)
+    {
+        var arm = ArmOf(in contact) + ((contact.CombinedRadius - body.Radius) * normal);
+        body.Velocity += impulse / body.Description.Mass;
+        other.ApplyImpulse(arm, -impulse);
+        if (friction > 0)
+        {
+            var across = StopSlip(body, other, other, in contact, normal, friction * impulse.Length());
+            Turn(body, body.Radius, normal, across);
+            body.Velocity += across / body.Description.Mass;
+            other.ApplyImpulse(arm, -across);
+        }
+    }
+
     /// <summary>Impulse across the normal that stops the slip of the touching points, as far as friction allows.</summary>
     private Vector StopSlip(Body body, Body? other, Body? movable, in Contact contact, Vector normal, double limit)
     {
@@ -133,7 +158,7 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
         var inverseMass = InverseMassAcross(body);
         if (other is not null)
         {
-            spin += other.Radius * other.AngularVelocity;
+            spin += (other.IsCompound ? contact.CombinedRadius - body.Radius : other.Radius) * other.AngularVelocity;
             inverseMass += movable is null ? 0 : InverseMassAcross(movable);
         }
 

@@ -140,7 +140,7 @@ internal sealed class ContactSet
         for (var i = Count - 1; i >= 0; i--)
         {
             var isSurface = !_contacts[i].IsBody;
-            var relative = isSurface ? velocity : velocity - bodies[_contacts[i].BodyIndex].Velocity;
+            var relative = isSurface ? velocity : velocity - VelocityOf(bodies, in _contacts[i]);
             var normal = _contacts[i].Normal(position);
             var rounding = RelativeTolerance * relative.MaxAbsComponent();
             var separationSpeed = Vector.Dot(relative, normal);
@@ -245,6 +245,12 @@ internal sealed class ContactSet
         }
 
         return ProjectWithoutRounding(acceleration, planes);
+    }
+
+    private static Vector VelocityOf(List<Body> bodies, in Contact contact)
+    {
+        var other = bodies[contact.BodyIndex];
+        return other.VelocityAt(contact.Point - other.Position);
     }
 
     private static Vector ProjectWithoutRounding(Vector vector, HalfSpaces planes)

@@ -49,6 +49,15 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
         _candidates.Clear();
     }
 
+    /// <summary>Makes one ball of a compound the mover, whose nearby bodies stay collected.</summary>
+    /// <param name="radius">Its radius, scene units.</param>
+    /// <param name="safeDistance">What is known of the distance from its centre to surfaces.</param>
+    public void SelectBall(double radius, SafeDistance safeDistance)
+    {
+        _radius = radius;
+        _safeDistance = safeDistance;
+    }
+
     /// <summary>Collects the other bodies near a path. Only these are tested until the next call.</summary>
     /// <param name="motion">Path of the mover.</param>
     /// <param name="duration">Seconds that it takes.</param>
@@ -147,10 +156,13 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
     {
         foreach (var candidate in _candidates)
         {
-            var contact = CreateBodyContact(candidate, Vector.Zero);
-            if (contact.Gap(position) <= tolerance)
+            for (var ball = 0; ball < bodies[candidate].BallCount; ball++)
             {
-                contacts.Add(contact, position);
+                var contact = CreateBodyContact(candidate, ball, Vector.Zero);
+                if (contact.Gap(position) <= tolerance)
+                {
+                    contacts.Add(contact, position);
+                }
             }
         }
     }
@@ -235,9 +247,12 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
         var isFound = false;
         foreach (var candidate in _candidates)
         {
-            foreach (var sphere in _sphereOffsets)
+            for (var ball = 0; ball < bodies[candidate].BallCount; ball++)
             {
-                isFound |= TryUpdateClosest(CreateBodyContact(candidate, sphere), position, ref maxDistance, ref closestContact);
+                foreach (var sphere in _sphereOffsets)
+                {
+                    isFound |= TryUpdateClosest(CreateBodyContact(candidate, ball, sphere), position, ref maxDistance, ref closestContact);
+                }
             }
         }
 
@@ -329,9 +344,9 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
         return isFound;
     }
 
-    private Contact CreateBodyContact(int candidate, Vector sphere)
+    private Contact CreateBodyContact(int candidate, int ball, Vector sphere)
     {
         var other = bodies[candidate];
-        return new(other.Position, _radius + other.Radius, sphere, candidate, IsFlat: false);
+        return new(other.BallCentre(ball), _radius + other.BallRadius(ball), sphere, candidate, IsFlat: false);
     }
 }

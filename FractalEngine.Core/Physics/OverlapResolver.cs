@@ -68,7 +68,7 @@ internal sealed class OverlapResolver(Obstacles obstacles)
     }
 
     /// <summary>True when a centre can go straight to a position without meeting a surface.</summary>
-    private bool IsReachable(Vector from, Vector to)
+    public bool IsReachable(Vector from, Vector to)
     {
         var path = to - from;
         var length = path.Length();

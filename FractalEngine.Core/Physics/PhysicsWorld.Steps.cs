@@ -1,6 +1,8 @@
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Character;
+using FractalEngine.Core.Physics.Islands;
 
 namespace FractalEngine.Core.Physics;
 
@@ -58,7 +60,7 @@ public sealed partial class PhysicsWorld
         MoveIslands(character, seconds);
         for (var i = 0; i < _bodies.Count; i++)
         {
-            if (!_bodies[i].IsAsleep && _bodies[i].IslandIndex < 0)
+            if (_bodies[i] is { IsAsleep: false, HasMoved: false, IslandIndex: < 0 })
             {
                 StepBody(_bodies[i], character, seconds);
             }
@@ -74,15 +76,9 @@ public sealed partial class PhysicsWorld
     /// <summary>Prepares all bodies that are awake, and solves their islands.</summary>
     private void PlanIslands(CharacterController? character, double seconds)
     {
-        CollectPairs(character, seconds);
+        CollectTouching(character, seconds);
         _planner.Graph.JoinTouching();
-        FindNearSurfaces(seconds);
         _planner.StopApproaches();
-        if (_planner.Graph.HasOutrun())
-        {
-            CollectPairs(character, seconds);
-        }
-
         _planner.Graph.JoinForStep();
         FindNearSurfaces(seconds);
         _planner.Plan(seconds);
@@ -96,14 +92,14 @@ public sealed partial class PhysicsWorld
             if (!body.AreNearSurfacesKnown && _planner.Graph.IsJoined(body.Index))
             {
                 body.AreNearSurfacesKnown = true;
-                var reach = _planner.Graph.Reach(body.Index);
+                var reach = _planner.Graph.Reach(body);
                 _stepper.FindNearSurfaces(body, _statics.CollidersOf(ColliderKindOf(body)), reach, seconds);
             }
         }
     }
 
-    /// <summary>Finds which bodies are near each other, all of them prepared.</summary>
-    private void CollectPairs(CharacterController? character, double seconds)
+    /// <summary>Finds which bodies touch each other, all of them prepared.</summary>
+    private void CollectTouching(CharacterController? character, double seconds)
     {
         do
         {
@@ -115,42 +111,23 @@ public sealed partial class PhysicsWorld
                 }
             }
         }
-        while (_planner.Graph.CollectPairs(_islands, seconds));
+        while (_planner.Graph.CollectTouching(_islands, seconds));
     }
 
-    /// <summary>Moves the bodies of each island at once.</summary>
+    /// <summary>Moves the bodies of all islands at once.</summary>
     private void MoveIslands(CharacterController? character, double seconds)
     {
+        _islandMover.SetTargets(seconds);
+        MoveWhatIsInTheWay(character, seconds);
+        foreach (var island in _planner.Graph.Islands)
+        {
+            MoveIsland(in island, character, seconds);
+        }
+
+        _islandMover.ReturnOverlapping();
         foreach (var island in _planner.Graph.Islands)
         {
             var members = _planner.Graph.BodiesOf(in island);
-            _islandMover.SetTargets(in island, seconds);
-            var hasHeld = true;
-            for (var pass = 0; pass < MaxPasses && hasHeld; pass++)
-            {
-                _islandMover.FindUnplanned(in island, seconds);
-                _islandMover.SeparateTargets(in island);
-                hasHeld = false;
-                foreach (var index in members)
-                {
-                    var body = _bodies[index];
-                    if (!body.IsHeld && (pass == 0 || body.Target != body.CheckedTarget))
-                    {
-                        MoveBody(body, character, seconds, isPlanned: true);
-                        hasHeld |= body.IsHeld;
-                        if (body.PlannedHit is { } hit && pass < MaxPasses - 2)
-                        {
-                            _islandMover.AddSurface(body, in hit);
-                        }
-                        else if (body.IsHeld)
-                        {
-                            body.Target = body.Position;
-                        }
-                    }
-                }
-            }
-
-            _islandMover.ReturnOverlapping(in island, seconds);
             foreach (var index in members)
             {
                 _bodies[index].Velocity += _bodies[index].PlannedChange;
@@ -165,6 +142,56 @@ public sealed partial class PhysicsWorld
         }
     }
 
+    /// <summary>Moves bodies of no island first that stand where those of islands will be, such as what falls ahead of them.</summary>
+    private void MoveWhatIsInTheWay(CharacterController? character, double seconds)
+    {
+        var hasMoved = false;
+        for (var pair = 0; _islandMover.FindInTheWay(ref pair) is { } body;)
+        {
+            StepBody(body, character, seconds);
+            hasMoved = true;
+        }
+
+        for (var i = 0; hasMoved && i < _bodies.Count; i++)
+        {
+            // It may have pushed them.
+            _bodies[i].PlannedStartEnergy = _bodies[i].KineticEnergy;
+        }
+    }
+
+    private void MoveIsland(in Island island, CharacterController? character, double seconds)
+    {
+        _islandMover.BeginIsland();
+        var hasHeld = true;
+        for (var pass = 0; pass < MaxPasses && hasHeld; pass++)
+        {
+            _islandMover.FindUnplanned(in island, seconds);
+            _islandMover.SeparateTargets(in island);
+            hasHeld = false;
+            foreach (var index in _planner.Graph.BodiesOf(in island))
+            {
+                var body = _bodies[index];
+                if (!body.IsHeld && (pass == 0 || body.Target != body.CheckedTarget))
+                {
+                    MoveBody(body, character, seconds, isPlanned: true);
+                    hasHeld |= body.IsHeld;
+                    if (body.PlannedHit is { } hit && pass < MaxPasses - 2)
+                    {
+                        var ball = body.PlannedHitBall;
+                        var offset = body.IsCompound
+                            ? body.PlannedStartOrientation.TurnedBy(body.PlannedTurn).Rotate(body.Scale * body.Description.Shape!.Balls[ball].Offset)
+                            : Vector.Zero;
+                        _islandMover.AddSurface(body, body.IsCompound ? ball : 0, offset, in hit);
+                    }
+                    else if (body.IsHeld)
+                    {
+                        body.Target = body.Position;
+                    }
+                }
+            }
+        }
+    }
+
     private void StepBody(Body body, CharacterController? character, double seconds)
     {
         if (!body.IsPrepared)
@@ -172,6 +199,7 @@ public sealed partial class PhysicsWorld
             _stepper.Prepare(body, _statics.CollidersOf(ColliderKindOf(body)), character, _gravity, seconds);
         }
 
+        body.HasMoved = true;
         MoveBody(body, character, seconds, isPlanned: false);
     }
 

@@ -71,8 +71,8 @@ public sealed partial class PhysicsWorld
         var nearbyBodies = new NearbyBodies(_grid);
         _islands = new(_bodies, nearbyBodies);
         _obstacles = new(_bodies, nearbyBodies, _queryContext);
-        _stepper = new(Settings, _bodies, _grid, nearbyBodies, _obstacles, _islands, _queryContext);
         _planner = new(_bodies, nearbyBodies);
+        _stepper = new(Settings, _bodies, _grid, nearbyBodies, _obstacles, _islands, _planner, _queryContext);
         _islandMover = new(_bodies, _planner.Graph, _grid, nearbyBodies);
         _energyGuard = new(_bodies, _planner.Graph, _islandMover);
         _staticOfObject = new StaticObject?[scene.Objects.Length];
@@ -202,7 +202,9 @@ public sealed partial class PhysicsWorld
             {
                 var original = _scene.Objects[index];
                 var placement = original.Declaration.Placement;
-                placement = placement with { Position = body.Position, Scale = body.Scale * placement.Scale };
+                var origin = body.Description.ObjectOffset == Vector.Zero
+                    ? body.Position : body.Position + (body.Scale * body.Orientation.Rotate(body.Description.ObjectOffset));
+                placement = placement with { Position = origin, Scale = body.Scale * placement.Scale };
                 if (body.Orientation != Orientation.Identity)
                 {
                     var axes = body.Orientation.ToMatrix() * placement.Rotation.LocalAxesFromDegrees();

@@ -8,6 +8,9 @@ internal struct ContactRow
     /// <summary>In place of a second body: a surface, or a body that does not give way.</summary>
     public const int Firm = -1;
 
+    // Above the bits of both indices, unless there are millions of bodies: then contacts may be taken for others, and begin badly.
+    private const int PartShift = 52;
+
     /// <summary>Index of the body on the normal's side.</summary>
     public int First;
 
@@ -34,6 +37,21 @@ internal struct ContactRow
 
     /// <summary>True for what does not touch yet, and may meet in this step.</summary>
     public bool IsAhead;
+
+    /// <summary>True where one of them is a ball of a compound: then what happens along the normal turns it too.</summary>
+    public bool HasArms;
+
+    /// <summary>Centre of the first ball relative to the first body's position.</summary>
+    public Vector FirstArm;
+
+    /// <summary>Centre of the second ball relative to the second body's position.</summary>
+    public Vector SecondArm;
+
+    /// <summary>How far the planned turns of both bodies change the offset, beyond what their velocities tell.</summary>
+    public Vector TurnShift;
+
+    /// <summary>Which balls of the two bodies touch.</summary>
+    public int Part;
 
     /// <summary>Radius of the first body.</summary>
     public double FirstRadius;
@@ -77,6 +95,6 @@ internal struct ContactRow
     /// <summary>Radius of the smaller one of two balls, as a share of the distance between them.</summary>
     public readonly double SmallerRadiusShare => Math.Min(FirstRadius, SecondRadius) / MinDistance;
 
-    /// <summary>Says which contact it is, from step to step: both indices.</summary>
-    public readonly long Key => ((long)First << 32) | (uint)(Second + 1);
+    /// <summary>Says which contact it is, from step to step: both indices, and which of their balls.</summary>
+    public readonly long Key => (((long)First << 32) | (uint)(Second + 1)) ^ ((long)Part << PartShift);
 }

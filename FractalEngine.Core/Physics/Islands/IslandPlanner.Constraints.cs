@@ -15,7 +15,9 @@ internal sealed partial class IslandPlanner
     /// <returns>By how much the line of contact has turned, radians.</returns>
     private double SetConstraint(ref ContactRow row, double stepLength, bool isFirst)
     {
-        var velocity = bodies[row.First].Velocity - (row.Second >= 0 ? bodies[row.Second].Velocity : Vector.Zero);
+        var velocity = row.HasArms ? BaseVelocity(in row)
+            : bodies[row.First].Velocity - (row.Second >= 0 ? bodies[row.Second].Velocity : Vector.Zero);
+        var shift = row.HasArms ? TurnShift(in row, stepLength, isFirst) : Vector.Zero;
         var distance = row.Offset.Length();
         var gap = distance - row.MinDistance;
         var turn = 0.0;
@@ -35,17 +37,26 @@ internal sealed partial class IslandPlanner
         if (row.HasFixedNormal || !row.IsBall)
         {
             gap = RemoveRounding(Vector.Dot(row.Offset, row.Normal) - row.MinDistance, row.MinDistance);
+            turn = row.HasArms ? (shift - row.TurnShift).MaxAbsComponent() / row.MinDistance : 0;
         }
         else if (row.IsBall)
         {
             var finalVelocity = isFirst ? velocity : _solver.RelativeVelocity(in row);
             var sum = (2 * row.Offset) + (0.5 * stepLength * (velocity + finalVelocity));
+            sum = row.HasArms ? sum + shift : sum;
             var length = sum.Length();
             var normal = sum / length;
             // |r₁|² − |r₀|² = (r₀ + r₁)·(r₁ − r₀) must not fall below d² − |r₀|².
             gap = RemoveRounding(gap, row.MinDistance) * (distance + row.MinDistance) / length;
             turn = (normal - row.Normal).MaxAbsComponent();
             row.Normal = normal;
+        }
+
+        if (row.HasArms)
+        {
+            row.TurnShift = shift;
+            _solver.ComputeMasses(ref row);
+            gap += Vector.Dot(shift, row.Normal);
         }
 
         row.MinNormalVelocity = (-2 * gap / stepLength) - Vector.Dot(velocity, row.Normal);

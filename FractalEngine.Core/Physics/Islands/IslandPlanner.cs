@@ -75,15 +75,17 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             foreach (var body in Graph.BodiesOf(in island))
             {
                 bodies[body].IslandIndex = index;
+                bodies[body].MayTouchBodies = true;
             }
 
             Load(Graph.BodiesOf(in island), rows);
             // Of bodies that have joined without touching another: they may run into surfaces.
             var isConverged = StopApproaches(rows);
             StoreVelocities(Graph.BodiesOf(in island));
-            isConverged &= FindForces(in island, rows, stepLength);
+            isConverged &= FindForces(Graph.BodiesOf(in island), rows, stepLength);
             Statistics = new(Statistics.Solves + 1, Statistics.Rounds, Statistics.Unconverged + (isConverged ? 0 : 1));
             StorePlan(Graph.BodiesOf(in island), stepLength);
+            StoreTurns(Graph.BodiesOf(in island), rows, stepLength);
             StopRebounds(Graph.BodiesOf(in island), rows);
         }
 
@@ -92,15 +94,9 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
 
     private void Load(ReadOnlySpan<int> island, Span<ContactRow> rows)
     {
-        var solverBodies = _solver.Bodies;
         foreach (var index in island)
         {
-            var body = bodies[index];
-            solverBodies[index] = new()
-            {
-                Velocity = body.Velocity, Spin = body.AngularVelocity, InverseMass = 1 / body.Description.Mass,
-                InverseInertia = body.InverseInertia,
-            };
+            _solver.Load(index, bodies[index]);
         }
 
         foreach (ref var row in rows)
@@ -146,10 +142,16 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             if (!row.IsAhead && row.Restitution > 0 && speed > Math.Max(Threshold(in row), Rounding(in row)))
             {
                 var impulse = (1 + row.Restitution) * speed * row.NormalMass;
+                if (row.HasArms)
+                {
+                    // First alone, since it changes the slip: both together could add energy.
+                    _solver.Apply(in row, impulse, Vector.Zero);
+                }
+
                 var across = -row.FrictionMass * _solver.Slip(in row);
                 var limit = row.Friction * impulse;
                 var length = across.Length();
-                _solver.Apply(in row, impulse, length > limit ? limit / length * across : across);
+                _solver.Apply(in row, row.HasArms ? 0 : impulse, length > limit ? limit / length * across : across);
                 hasBounced = true;
             }
         }
@@ -172,9 +174,10 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             ? Math.Max(rounding, RelativeTolerance * _solver.Bodies[row.Second].Velocity.MaxAbsComponent()) : rounding;
     }
 
-    private bool FindForces(in Island island, Span<ContactRow> rows, double stepLength)
+    private bool FindForces(ReadOnlySpan<int> island, Span<ContactRow> rows, double stepLength)
     {
         _cache.Recall(rows);
+        FindFreeTurns(island, stepLength);
         var isConverged = false;
         var turn = double.PositiveInfinity;
         var maxTurns = rows.Length <= MaxRowsOfManyTurns ? MaxTurns : MinTurns;
@@ -192,11 +195,11 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
                 break;
             }
 
-            foreach (var index in Graph.BodiesOf(in island))
+            foreach (var index in island)
             {
                 ref var solverBody = ref _solver.Bodies[index];
                 solverBody.Velocity = bodies[index].Velocity + (stepLength * bodies[index].FreeAcceleration);
-                solverBody.Spin = bodies[index].AngularVelocity;
+                solverBody.Spin = bodies[index].IsCompound ? bodies[index].FreeSpin : bodies[index].AngularVelocity;
             }
 
             foreach (ref var row in rows)

@@ -202,7 +202,7 @@ internal sealed class OverlapSeparator
         {
             First = row.First;
             Second = row.Second;
-            Offset = row.Offset;
+            Offset = row.HasArms ? row.Offset + row.TurnShift : row.Offset;
             Normal = row.Normal;
             MinDistance = row.MinDistance;
             var unit = row.IsBall ? row.MinDistance * row.SmallerRadiusShare : 0;

@@ -1,0 +1,30 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics.Compounds;
+
+/// <summary>One ball of a moving compound: where it is now, and what it touches.</summary>
+internal sealed class BodyBall
+{
+    /// <summary>Centre relative to the body's position, world space.</summary>
+    public Vector Offset { get; set; }
+
+    /// <summary>Present radius, scene units.</summary>
+    public double Radius { get; set; }
+
+    /// <summary>Surfaces that the ball touches.</summary>
+    public ContactSet Contacts { get; } = new();
+
+    /// <summary>Known lower bound on the distance from its centre to all surfaces.</summary>
+    public SafeDistance SafeDistance { get; } = new();
+
+    /// <summary>Faces that the ball touches or may meet, and no contact knows of.</summary>
+    public NearSurfaceList NearSurfaces { get; } = new();
+
+    /// <summary>Discards everything that is known of surfaces.</summary>
+    public void InvalidateSurroundings()
+    {
+        Contacts.Clear();
+        SafeDistance.Invalidate();
+        NearSurfaces.Clear();
+    }
+}

@@ -1,0 +1,109 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics.Compounds;
+
+/// <summary>Finds and keeps what the balls of a compound touch. Obstacles must be set up for the compound.</summary>
+internal sealed class CompoundContacts(List<Body> bodies, Obstacles obstacles)
+{
+    // Of a ball's radius: overlaps up to this are taken back as rounding.
+    private const double MaxRoundingOverlap = 1e-6;
+
+    private readonly NearSurfaceSearch _search = new(obstacles);
+    private readonly HalfSpaces _planes = new();
+
+    /// <summary>Removes what is not touched any more, and all other bodies, since those move.</summary>
+    public void Refresh(Body body)
+    {
+        for (var i = 0; i < body.Balls.Length; i++)
+        {
+            var centre = Select(body, i);
+            body.Balls[i].Contacts.Refresh(centre, obstacles.ContactSlop(centre), body.Balls[i].Radius);
+        }
+    }
+
+    /// <summary>Finds the surfaces that the balls touch or may meet.</summary>
+    /// <param name="body">The compound.</param>
+    /// <param name="reach">How far its centre of mass may get.</param>
+    /// <param name="turn">Angle by which it may turn, radians.</param>
+    public void FindNearSurfaces(Body body, double reach, double turn)
+    {
+        for (var i = 0; i < body.Balls.Length; i++)
+        {
+            var ball = body.Balls[i];
+            var centre = Select(body, i);
+            ball.NearSurfaces.Clear();
+            var ballReach = reach + (turn * ball.Offset.Length());
+            if (_search.TryFind(centre, ballReach, ball.Contacts, ball.NearSurfaces, out var closest)
+                && !closest.IsFlat && closest.Gap(centre) <= obstacles.ContactSlop(centre))
+            {
+                ball.Contacts.Add(in closest, centre);
+            }
+        }
+    }
+
+    /// <summary>Adds the other bodies that the balls touch.</summary>
+    public void AddTouchedBodies(Body body)
+    {
+        obstacles.SelectBall(body.Radius, body.SafeDistance);
+        obstacles.CollectNearbyBodies(new(body.Position, Vector.Zero, Vector.Zero), 0, body.Index);
+        for (var i = 0; i < body.Balls.Length; i++)
+        {
+            var centre = Select(body, i);
+            obstacles.AddTouchedBodies(centre, obstacles.ContactSlop(centre), body.Balls[i].Contacts);
+        }
+    }
+
+    /// <summary>Finds the new closest points of surfaces after a move, and removes contacts that are not touched any more.</summary>
+    public void UpdateAfterMove(Body body)
+    {
+        for (var i = 0; i < body.Balls.Length; i++)
+        {
+            var centre = Select(body, i);
+            body.Balls[i].Contacts.UpdateAfterMove(centre, obstacles.ContactSlop(centre), obstacles);
+        }
+    }
+
+    /// <summary>Moves a body out of what it overlaps by no more than rounding.</summary>
+    public void TakeBackRounding(Body body)
+    {
+        _planes.Clear();
+        foreach (var ball in body.Balls)
+        {
+            for (var i = 0; i < ball.Contacts.Count; i++)
+            {
+                var contact = ball.Contacts[i];
+                var gap = contact.Gap(body.Position + ball.Offset);
+                if (gap < 0 && gap >= -MaxRoundingOverlap * ball.Radius)
+                {
+                    // Of the way of the whole body.
+                    _planes.Add(contact.Normal(body.Position + ball.Offset), -gap);
+                }
+            }
+        }
+
+        if (_planes.Count > 0)
+        {
+            body.Position += _planes.ProjectOrZero(Vector.Zero);
+        }
+    }
+
+    /// <summary>True where a ball touches a body that is awake.</summary>
+    public bool TouchesAwake(Body body)
+    {
+        foreach (var ball in body.Balls)
+        {
+            if (ball.Contacts.HasAwakeBody(bodies))
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    private Vector Select(Body body, int ball)
+    {
+        obstacles.SelectBall(body.Balls[ball].Radius, body.Balls[ball].SafeDistance);
+        return body.BallCentre(ball);
+    }
+}
