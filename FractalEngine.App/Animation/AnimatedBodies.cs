@@ -78,6 +78,13 @@ internal sealed class AnimatedBodies
                 Position = body.InterpolatedMap(_alpha).Translation,
                 Scale = scale * declared.Placement.Scale,
             };
+            var orientation = Orientation.Interpolate(body.PreviousOrientation, body.Orientation, _alpha);
+            if (orientation != Orientation.Identity)
+            {
+                var axes = orientation.ToMatrix() * placement.Rotation.LocalAxesFromDegrees();
+                placement = placement with { Rotation = 180 / Math.PI * axes.EulerAngles() };
+            }
+
             objects[index] = new(declared with { Placement = placement }, model);
         }
 

@@ -35,9 +35,11 @@ internal sealed class MovedScene(LoadedScene scene)
         var moved = world.GetCurrentScene();
         var spheres = world.Bodies
             .Where(static body => body.Description.ObjectIndex is null or < 0)
-            .Select(body => new PlacedModel(new(_sphere ??= new(MeshGenerators.Create("icosphere", 0, SphereFaceCount)))
+            .SelectMany(static body => Enumerable.Range(0, body.BallCount)
+                .Select(ball => Transformation.At(body.BallCentre(ball), body.BallRadius(ball))))
+            .Select(placement => new PlacedModel(new(_sphere ??= new(MeshGenerators.Create("icosphere", 0, SphereFaceCount)))
             {
-                Placement = Transformation.At(body.Position, body.Radius),
+                Placement = placement,
                 Colour = SphereInstance.Colour,
             }));
         return moved with { Objects = [.. moved.Objects, .. spheres] };

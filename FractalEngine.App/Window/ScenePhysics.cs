@@ -1,6 +1,7 @@
 using System.Diagnostics;
 using FractalEngine.Core;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Character;
 using FractalEngine.Core.Scenes;
@@ -257,7 +258,11 @@ internal sealed class ScenePhysics : IDisposable
             }
             else
             {
-                spheres.Add(new(map.Translation, body.Radius));
+                for (var ball = 0; ball < body.BallCount; ball++)
+                {
+                    var offset = body.Description.Shape?.Balls[ball].Offset ?? Vector.Zero;
+                    spheres.Add(new(map * offset, body.BallRadius(ball)));
+                }
             }
         }
 

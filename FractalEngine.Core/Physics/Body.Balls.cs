@@ -67,7 +67,7 @@ public sealed partial class Body
             var isTouching = Contacts.Count > 0;
             foreach (var ball in Balls)
             {
-                isTouching |= ball.Contacts.Count > 0;
+                isTouching |= ball.IsOnSurface || ball.Contacts.Count > 0;
             }
 
             return isTouching;

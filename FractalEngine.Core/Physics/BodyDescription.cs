@@ -75,15 +75,25 @@ public sealed record BodyDescription(Vector Position, double Radius)
     public Matrix LinearPart { get; init; } = Matrix.Identity;
 
     /// <summary>
-    /// Creates the description of a physics object: the sphere about its position that holds all its vertices (paper §4.3.3).
+    /// Creates the description of a physics object: the sphere about its position that holds all its vertices (paper §4.3.3), or the shape
+    /// that the object states, fitted to its model.
     /// </summary>
     /// <param name="placed">The object with its model.</param>
     /// <param name="declared">What the scene declares of it.</param>
     /// <param name="index">Index of the object in the scene.</param>
+    /// <exception cref="ArgumentException">The model is too long for a capsule.</exception>
     /// <remarks>An object whose model has no vertices gets the radius 0, which no world accepts.</remarks>
-    public static BodyDescription FromPhysicsObject(PlacedModel placed, PhysicsObject declared, int index) =>
-        new(placed.ObjectToWorld.Translation, BodyRadius.Compute(placed))
+    public static BodyDescription FromPhysicsObject(PlacedModel placed, PhysicsObject declared, int index)
     {
+        var shape = declared.Shape == BodyShape.Ball ? null : CompoundFit.Fit(placed, declared.Shape);
+        var offset = shape?.Centre ?? Vector.Zero;
+        return FromPhysicsObject(placed, declared, index, shape?.Radius ?? BodyRadius.Compute(placed), offset) with { Shape = shape };
+    }
+
+    private static BodyDescription FromPhysicsObject(PlacedModel placed, PhysicsObject declared, int index, double radius, Vector centre) =>
+        new(centre == Vector.Zero ? placed.ObjectToWorld.Translation : placed.ObjectToWorld.Translation + centre, radius)
+    {
+        ObjectOffset = Vector.Zero - centre,
         Name = declared.Name,
         Velocity = declared.Velocity,
         Mass = declared.Mass,

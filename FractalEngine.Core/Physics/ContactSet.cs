@@ -125,6 +125,25 @@ internal sealed class ContactSet
         }
     }
 
+    /// <summary>Removes contacts that have become the same one.</summary>
+    public void RemoveDuplicates(Vector position)
+    {
+        for (var i = Count - 1; i > 0; i--)
+        {
+            var isKnown = false;
+            for (var j = 0; j < i; j++)
+            {
+                isKnown |= _contacts[i].BodyIndex == _contacts[j].BodyIndex
+                    && (_contacts[i].Normal(position) - _contacts[j].Normal(position)).LengthSquared() < SameNormalToleranceSquared;
+            }
+
+            if (isKnown)
+            {
+                RemoveAt(i);
+            }
+        }
+    }
+
     /// <summary>Removes the contacts from which a velocity leads away.</summary>
     /// <param name="position">Position of the body, world space.</param>
     /// <param name="velocity">Velocity of the body.</param>

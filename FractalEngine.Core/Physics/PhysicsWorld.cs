@@ -264,6 +264,10 @@ public sealed partial class PhysicsWorld
         {
             throw new SceneObjectException(index, exception.Kind, $"body {declared.DisplayName}: {exception.Message}", exception);
         }
+        catch (ArgumentException exception)
+        {
+            throw new SceneObjectException(index, ErrorKind.Input, $"body {declared.DisplayName}: {exception.Message}", exception);
+        }
 
         if (description.FindFault() is { } fault)
         {

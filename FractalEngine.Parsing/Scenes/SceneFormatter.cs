@@ -79,6 +79,7 @@ internal static class SceneFormatter
             body is { RollingFriction: var rolling } && !AreBitEqual(rolling, 0) ? $"rolling {FormatNumber(rolling)}" : null,
             body is { SpinningFriction: var spinning } && !AreBitEqual(spinning, 0) ? $"spinning {FormatNumber(spinning)}" : null,
             body is { Inertia: not PhysicsObject.SolidInertia and var inertia } ? $"inertia {FormatNumber(inertia)}" : null,
+            body is { Shape: var shape } ? FormatShape(shape) : null,
             body is { IsRotationLocked: true } ? "rotation locked" : null,
             body is { Damping: var damping } && !AreBitEqual(damping, 0) ? $"damping {FormatNumber(damping)}" : null,
             body is not null ? FormatShrinkage(body.Shrinkage, body.MinimumScale) : null,
@@ -87,6 +88,9 @@ internal static class SceneFormatter
 
     private static string Format(Gradient gradient) =>
         $"gradient {(gradient.Kind == GradientKind.Level ? "level" : "path")} {gradient.EndColour}";
+
+    private static string? FormatShape(BodyShape shape) =>
+        shape.IsCapsule ? "shape capsule" : shape.BallCount > 0 ? $"shape balls {FormatNumber(shape.BallCount)}" : null;
 
     private static string? FormatShrinkage(double rate, double minimum)
     {

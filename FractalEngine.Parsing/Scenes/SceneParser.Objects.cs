@@ -199,6 +199,13 @@ public sealed partial class SceneParser
             return success;
         }
 
+        if (ParseKeyword(start, "shape", out rest))
+        {
+            var success = ParseShape(rest, out var shape, out rest);
+            body = body with { Shape = shape };
+            return success;
+        }
+
         if (ParseKeyword(start, "rotation", out rest))
         {
             body = body with { IsRotationLocked = true };
@@ -224,6 +231,25 @@ public sealed partial class SceneParser
         }
 
         return false;
+    }
+
+    /// <summary>Parses what of a body collides: a number of balls or a capsule.</summary>
+    private bool ParseShape(Cursor cursor, out BodyShape shape, out Cursor rest)
+    {
+        shape = BodyShape.Ball;
+        if (ParseKeyword(cursor, "balls", out rest))
+        {
+            var countStart = rest;
+            var success = ParseNumber(countStart, out var count, out rest);
+            Require(
+                !success || (count is >= 1 and <= BodyShape.MaxBallCount && count == Math.Floor(count)), countStart,
+                $"a body has 1 to {BodyShape.MaxBallCount} balls");
+            shape = success ? BodyShape.Balls((int)count) : shape;
+            return success;
+        }
+
+        shape = BodyShape.Capsule;
+        return ParseWord(cursor, "capsule", out rest);
     }
 
     /// <summary>Parses a rate and an optional scale at which shrinking ends.</summary>

@@ -11,6 +11,9 @@ internal sealed class BodyBall
     /// <summary>Present radius, scene units.</summary>
     public double Radius { get; set; }
 
+    /// <summary>True where the closest surface is touched, as far as it was searched for.</summary>
+    public bool IsOnSurface { get; set; }
+
     /// <summary>Surfaces that the ball touches.</summary>
     public ContactSet Contacts { get; } = new();
 
@@ -26,5 +29,6 @@ internal sealed class BodyBall
         Contacts.Clear();
         SafeDistance.Invalidate();
         NearSurfaces.Clear();
+        IsOnSurface = false;
     }
 }

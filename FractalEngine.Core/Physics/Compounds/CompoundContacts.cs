@@ -8,6 +8,10 @@ internal sealed class CompoundContacts(List<Body> bodies, Obstacles obstacles)
     // Of a ball's radius: overlaps up to this are taken back as rounding.
     private const double MaxRoundingOverlap = 1e-6;
 
+    // Of a ball's radius: an edge or corner within it is met in the next moment, and acts as a plane till then. Without it a body that lies
+    // on the dust of an infinite fractal would fall on one corner after the other.
+    private const double MaxEdgeGap = 1e-4;
+
     private readonly NearSurfaceSearch _search = new(obstacles);
     private readonly HalfSpaces _planes = new();
 
@@ -33,10 +37,15 @@ internal sealed class CompoundContacts(List<Body> bodies, Obstacles obstacles)
             var centre = Select(body, i);
             ball.NearSurfaces.Clear();
             var ballReach = reach + (turn * ball.Offset.Length());
-            if (_search.TryFind(centre, ballReach, ball.Contacts, ball.NearSurfaces, out var closest)
-                && !closest.IsFlat && closest.Gap(centre) <= obstacles.ContactSlop(centre))
+            ball.IsOnSurface = _search.TryFind(centre, ballReach, ball.Contacts, ball.NearSurfaces, out var closest)
+                && closest.Gap(centre) <= obstacles.ContactSlop(centre);
+            if (ball.IsOnSurface && !closest.IsFlat)
             {
                 ball.Contacts.Add(in closest, centre);
+            }
+            else if (closest is { CombinedRadius: > 0, IsFlat: false } && closest.Gap(centre) <= MaxEdgeGap * ball.Radius)
+            {
+                ball.NearSurfaces.Add(in closest, closest.Normal(centre), ball.Contacts, centre);
             }
         }
     }
@@ -60,6 +69,7 @@ internal sealed class CompoundContacts(List<Body> bodies, Obstacles obstacles)
         {
             var centre = Select(body, i);
             body.Balls[i].Contacts.UpdateAfterMove(centre, obstacles.ContactSlop(centre), obstacles);
+            body.Balls[i].Contacts.RemoveDuplicates(centre);
         }
     }
 

@@ -10,7 +10,8 @@ namespace FractalEngine.Core.Physics.Compounds;
 /// </summary>
 internal sealed class CompoundMover
 {
-    private const int MaxImpacts = 1000;
+    // Where there is no end of tiny impacts, as on the dust of an infinite fractal, the body loses the time that is left.
+    private const int MaxImpacts = 60;
 
     // Impacts without time in between: more of them are a corner that leaves no path.
     private const int MaxSimultaneousImpacts = 16;
@@ -225,8 +226,15 @@ internal sealed class CompoundMover
 
             for (var j = 0; j < ball.NearSurfaces.Count; j++)
             {
-                _rows.Add(ContactRows.OfNearSurface(body, i, in ball.NearSurfaces[j]));
+                var row = ContactRows.OfNearSurface(body, i, in ball.NearSurfaces[j]);
+                row.IsMetExactly = true;
+                _rows.Add(row);
             }
+        }
+
+        if (body.Description.Shape!.IsCapsule)
+        {
+            CollectionsMarshal.SetCount(_rows, CapsuleRows.RemoveInner(CollectionsMarshal.AsSpan(_rows)));
         }
     }
 
@@ -256,16 +264,18 @@ internal sealed class CompoundMover
             minRadius = Math.Min(minRadius, ball.Radius);
         }
 
+        Contact? touched = null;
+        var touchedBall = 0;
         for (var plan = 1; ; plan++)
         {
-            Plan(body, duration, out var velocity, out var spin);
-            if (velocity == Vector.Zero && body.Velocity == Vector.Zero && spin == Vector.Zero && body.AngularVelocity == Vector.Zero)
+            var end = Plan(body, duration, out var planned);
+            if (planned == default && body.Velocity == Vector.Zero && body.AngularVelocity == Vector.Zero)
             {
                 return duration;
             }
 
-            var turn = 0.5 * (body.SpinBase + spin);
-            var path = new RigidPath(new(start, body.Velocity, (velocity - body.Velocity) / duration), turn);
+            var turn = 0.5 * (body.SpinBase + planned.Spin);
+            var path = new RigidPath(new(start, body.Velocity, (planned.Velocity - body.Velocity) / duration), turn);
             _obstacles.SelectBall(body.Radius, body.SafeDistance);
             _obstacles.CollectNearbyBodies(path.Motion, duration, body.Index);
             var allowance = _rows.Count > 0 ? path.Sagitta(body.MaxArm, duration) : 0;
@@ -274,6 +284,8 @@ internal sealed class CompoundMover
             if (isHit && elapsed > 0 && 4 * allowance * share * (1 - share) > MaxDip * minRadius && plan < MaxPlans)
             {
                 duration = elapsed;
+                touched = hit;
+                touchedBall = ballIndex;
                 continue;
             }
 
@@ -283,46 +295,61 @@ internal sealed class CompoundMover
                 share = elapsed / duration;
             }
 
+            if (!isHit && elapsed < duration)
+            {
+                // Somewhere on the way it may be as deep as is allowed there.
+                return double.PositiveInfinity;
+            }
+
             // Between both ends the angular momentum changes evenly: in free flight not at all.
             body.Position = path.Motion.PositionAt(elapsed);
             body.SetOrientation(orientation.TurnedBy(duration * turn));
-            var finalMomentum = body.InertiaTensor * spin;
+            var finalMomentum = body.InertiaTensor * planned.Spin;
             body.SetOrientation(orientation.TurnedBy(elapsed * turn));
-            body.AngularVelocity = share < 1 ? body.InverseInertiaTensor * (momentum + (share * (finalMomentum - momentum))) : spin;
+            body.AngularVelocity = share < 1 ? body.InverseInertiaTensor * (momentum + (share * (finalMomentum - momentum))) : end.Spin;
             body.NetAcceleration = path.Motion.Acceleration;
-            body.Velocity = share < 1 ? path.Motion.VelocityAt(elapsed) : velocity;
+            body.Velocity = share < 1 ? path.Motion.VelocityAt(elapsed) : end.Velocity;
             if (isHit)
             {
                 body.Balls[ballIndex].Contacts.Add(in hit, body.BallCentre(ballIndex));
             }
+            else if (touched is { } last)
+            {
+                // What the shorter plan does not quite meet is as near as a contact.
+                body.Balls[touchedBall].Contacts.Add(in last, body.BallCentre(touchedBall));
+            }
 
             _contacts.UpdateAfterMove(body);
             LimitEnergy(body, energy + (body.Description.Mass * Vector.Dot(body.FreeAcceleration, body.Position - start)));
-            return isHit || elapsed >= duration ? elapsed : double.PositiveInfinity;
+            return elapsed;
         }
     }
 
     /// <summary>Finds the velocities at the end of a time, with the forces of all contacts; 0 for a body that rests.</summary>
-    private void Plan(Body body, double duration, out Vector velocity, out Vector spin)
+    /// <param name="body">The compound.</param>
+    /// <param name="duration">Seconds.</param>
+    /// <param name="planned">Receives the velocities whose mean with those at the beginning is the way.</param>
+    private (Vector Velocity, Vector Spin) Plan(Body body, double duration, out (Vector Velocity, Vector Spin) planned)
     {
         if (_rows.Count == 0)
         {
             FreeTurn.Plan(body, duration);
-            velocity = body.Velocity + (duration * body.FreeAcceleration);
-            spin = body.FreeSpin;
-            return;
+            planned = (body.Velocity + (duration * body.FreeAcceleration), body.FreeSpin);
+            return planned;
         }
 
-        _planner.FindForcesOn([body.Index], CollectionsMarshal.AsSpan(_rows), duration, out velocity, out spin);
+        var end = _planner.FindForcesOn([body.Index], CollectionsMarshal.AsSpan(_rows), duration, out planned);
         var negligible = RestFraction * duration * body.FreeAcceleration.Length();
-        if (velocity.MaxAbsComponent() <= negligible && body.Velocity.MaxAbsComponent() <= negligible
-            && spin.MaxAbsComponent() * body.Radius <= negligible && body.AngularVelocity.MaxAbsComponent() * body.Radius <= negligible)
+        if (planned.Velocity.MaxAbsComponent() <= negligible && body.Velocity.MaxAbsComponent() <= negligible
+            && planned.Spin.MaxAbsComponent() * body.Radius <= negligible && body.AngularVelocity.MaxAbsComponent() * body.Radius <= negligible)
         {
-            velocity = Vector.Zero;
-            spin = Vector.Zero;
+            planned = default;
+            end = default;
             body.Velocity = Vector.Zero;
             body.AngularVelocity = Vector.Zero;
         }
+
+        return end;
     }
 
     /// <summary>Takes back what contacts have added to the energy of a body: what is firm does no work.</summary>

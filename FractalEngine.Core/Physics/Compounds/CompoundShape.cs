@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Physics.Compounds;
 public sealed class CompoundShape
 {
     /// <summary>Maximum number of balls of a shape.</summary>
-    public const int MaxBalls = 64;
+    public const int MaxBalls = Scenes.BodyShape.MaxBallCount;
 
     // Of the radius: distance between the balls of a capsule. In between, they lie 1/32 of the radius deeper than its surface.
     private const double CapsuleSpacing = 0.5;
@@ -24,6 +24,9 @@ public sealed class CompoundShape
 
     /// <summary>The balls, with offsets from the centre of mass.</summary>
     public ImmutableArray<CompoundBall> Balls { get; }
+
+    /// <summary>True for a capsule, whose balls stand in a row and evenly.</summary>
+    public bool IsCapsule { get; private init; }
 
     /// <summary>The centre of mass in the frame that the shape was described in, scene units.</summary>
     public Vector Centre { get; }
@@ -83,7 +86,7 @@ public sealed class CompoundShape
         var gaps = Math.Ceiling(length / (CapsuleSpacing * radius));
         Require(gaps < MaxBalls, $"a capsule may be {(MaxBalls - 1) * CapsuleSpacing} radii longer than its ends");
         var balls = Enumerable.Range(0, (int)gaps + 1).Select(i => new CompoundBall(from + (i / Math.Max(1, gaps) * segment), radius));
-        return new(balls, 0.5 * (from + to), CapsuleInertia(segment, length, radius));
+        return new(balls, 0.5 * (from + to), CapsuleInertia(segment, length, radius)) { IsCapsule = true };
     }
 
     /// <summary>Inertia tensor of one kilogram of a cylinder between two half balls.</summary>

@@ -9,7 +9,7 @@ namespace FractalEngine.Core.Physics.Compounds;
 internal static class FreeTurn
 {
     // Radians: a turn in one step of the integration.
-    private const double MaxAngle = 0.02;
+    private const double MaxAngle = 0.01;
 
     private const int MaxSteps = 1000;
 

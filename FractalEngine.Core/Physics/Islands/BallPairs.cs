@@ -10,15 +10,10 @@ internal static class BallPairs
         (body.BallCentre(ball) - other.BallCentre(otherBall)).Length() - body.BallRadius(ball) - other.BallRadius(otherBall);
 
     /// <summary>True where two bodies touch.</summary>
-    public static bool AreTouching(Body body, Body other) => Exists(body, other, static (_, _, _, _) => true);
+    public static bool AreTouching(Body body, Body other) => HasContact(body, other, double.NegativeInfinity);
 
     /// <summary>True where two bodies that touch approach fast enough to bounce.</summary>
-    public static bool AreHitting(Body body, Body other) => Exists(body, other, static (body, ball, other, otherBall) =>
-    {
-        var normal = (body.BallCentre(ball) - other.BallCentre(otherBall)).UnitVectorOrZero();
-        var velocity = body.VelocityAt(body.BallOffset(ball)) - other.VelocityAt(other.BallOffset(otherBall));
-        return -Vector.Dot(velocity, normal) > body.RestitutionThreshold;
-    });
+    public static bool AreHitting(Body body, Body other) => HasContact(body, other, body.RestitutionThreshold);
 
     /// <summary>True where two bodies overlap by more than a share of the smaller ball's radius.</summary>
     public static bool AreOverlapping(Body body, Body other, double share)
@@ -40,14 +35,14 @@ internal static class BallPairs
         return false;
     }
 
-    private static bool Exists(Body body, Body other, Func<Body, int, Body, int, bool> condition)
+    private static bool HasContact(Body body, Body other, double minApproach)
     {
         for (var i = 0; i < body.BallCount; i++)
         {
             for (var j = 0; j < other.BallCount; j++)
             {
                 var slop = ContactTolerances.Slop(Math.Min(body.BallRadius(i), other.BallRadius(j)), body.Position);
-                if (Gap(body, i, other, j) <= slop && condition(body, i, other, j))
+                if (Gap(body, i, other, j) <= slop && Approach(body, i, other, j) > minApproach)
                 {
                     return true;
                 }
@@ -55,5 +50,12 @@ internal static class BallPairs
         }
 
         return false;
+    }
+
+    /// <summary>Speed at which two balls approach.</summary>
+    private static double Approach(Body body, int ball, Body other, int otherBall)
+    {
+        var normal = (body.BallCentre(ball) - other.BallCentre(otherBall)).UnitVectorOrZero();
+        return -Vector.Dot(body.VelocityAt(body.BallOffset(ball)) - other.VelocityAt(other.BallOffset(otherBall)), normal);
     }
 }

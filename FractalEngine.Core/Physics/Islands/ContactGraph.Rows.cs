@@ -1,4 +1,5 @@
 using System.Runtime.InteropServices;
+using FractalEngine.Core.Physics.Compounds;
 
 namespace FractalEngine.Core.Physics.Islands;
 
@@ -98,9 +99,15 @@ internal sealed partial class ContactGraph
 
     private void AddSurfaces(Body body)
     {
+        var firstRow = _count;
         for (var ball = 0; ball < body.Balls.Length; ball++)
         {
             AddSurfaces(body, ball, body.Balls[ball].Contacts, body.Balls[ball].NearSurfaces);
+        }
+
+        if (body.Description.Shape is { IsCapsule: true })
+        {
+            _count = firstRow + CapsuleRows.RemoveInner(_found.AsSpan(firstRow, _count - firstRow));
         }
 
         if (!body.IsCompound)

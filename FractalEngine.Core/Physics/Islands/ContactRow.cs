@@ -35,6 +35,9 @@ internal struct ContactRow
     /// <summary>True for what will bounce when it touches, and gives no impulse before.</summary>
     public bool IsBouncingAhead;
 
+    /// <summary>True where a way ends when it touches what is ahead, even too slowly to bounce.</summary>
+    public bool IsMetExactly;
+
     /// <summary>True for what does not touch yet, and may meet in this step.</summary>
     public bool IsAhead;
 

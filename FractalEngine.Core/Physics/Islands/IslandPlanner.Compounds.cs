@@ -21,15 +21,17 @@ internal sealed partial class IslandPlanner
     /// <param name="members">Its index.</param>
     /// <param name="rows">Its contacts, all with what is firm.</param>
     /// <param name="duration">Seconds.</param>
-    /// <param name="velocity">Receives its velocity at the end of that time.</param>
-    /// <param name="spin">Receives its angular velocity then.</param>
-    public void FindForcesOn(ReadOnlySpan<int> members, Span<ContactRow> rows, double duration, out Vector velocity, out Vector spin)
+    /// <param name="planned">Receives the velocities whose mean with those at the beginning is the way.</param>
+    /// <returns>The velocities at the end of that time: what it has met meanwhile does not throw it back.</returns>
+    public (Vector Velocity, Vector Spin) FindForcesOn(
+        ReadOnlySpan<int> members, Span<ContactRow> rows, double duration, out (Vector Velocity, Vector Spin) planned)
     {
         Load(members, rows);
         var isConverged = FindForces(members, rows, duration);
         Statistics = Statistics with { Solves = Statistics.Solves + 1, Unconverged = Statistics.Unconverged + (isConverged ? 0 : 1) };
-        velocity = _solver.Bodies[members[0]].Velocity;
-        spin = _solver.Bodies[members[0]].Spin;
+        planned = (_solver.Bodies[members[0]].Velocity, _solver.Bodies[members[0]].Spin);
+        StopRebounds(rows);
+        return (_solver.Bodies[members[0]].Velocity, _solver.Bodies[members[0]].Spin);
     }
 
     /// <summary>Finds how compounds would turn if nothing touched them.</summary>

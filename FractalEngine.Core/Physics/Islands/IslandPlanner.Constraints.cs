@@ -8,6 +8,9 @@ internal sealed partial class IslandPlanner
     // Of the distance at which balls touch: on a longer way the mean line of contact may be far from that of the impact.
     private const double MaxShortWay = 0.25;
 
+    // Of the restitution threshold: what is met more slowly is met at the end of the time, wherever that is known to a small part of it.
+    private const double SlowFraction = 0.01;
+
     // Of the touch tolerance: smaller gaps are rounding, and stay.
     private const double NegligibleGap = 1e-9;
 
@@ -23,7 +26,9 @@ internal sealed partial class IslandPlanner
         var turn = 0.0;
         if (isFirst && row.IsAhead)
         {
-            row.IsBouncingAhead = row.Restitution > 0 && -Vector.Dot(velocity, row.Normal) > Threshold(in row);
+            var approach = -Vector.Dot(velocity, row.Normal);
+            row.IsBouncingAhead = row.IsMetExactly ? approach > SlowFraction * Threshold(in row)
+                : row.Restitution > 0 && approach > Threshold(in row);
             row.HasFixedNormal = row.IsBall && TryFindImpactNormal(in row, stepLength * velocity, out row.Normal);
         }
 

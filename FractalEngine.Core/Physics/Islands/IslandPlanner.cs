@@ -257,6 +257,18 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     /// </summary>
     private void StopRebounds(ReadOnlySpan<int> island, Span<ContactRow> rows)
     {
+        StopRebounds(rows);
+        foreach (var index in island)
+        {
+            var body = bodies[index];
+            var isResting = body.NetAcceleration == Vector.Zero && body.Velocity == Vector.Zero;
+            body.PlannedChange = isResting ? Vector.Zero : _solver.Bodies[index].Velocity - body.Velocity;
+            body.PlannedSpinChange = isResting ? Vector.Zero : _solver.Bodies[index].Spin - body.AngularVelocity;
+        }
+    }
+
+    private void StopRebounds(Span<ContactRow> rows)
+    {
         for (var round = 0; round < MaxReboundRounds; round++)
         {
             foreach (ref var row in rows)
@@ -272,14 +284,6 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
                     }
                 }
             }
-        }
-
-        foreach (var index in island)
-        {
-            var body = bodies[index];
-            var isResting = body.NetAcceleration == Vector.Zero && body.Velocity == Vector.Zero;
-            body.PlannedChange = isResting ? Vector.Zero : _solver.Bodies[index].Velocity - body.Velocity;
-            body.PlannedSpinChange = isResting ? Vector.Zero : _solver.Bodies[index].Spin - body.AngularVelocity;
         }
     }
 }

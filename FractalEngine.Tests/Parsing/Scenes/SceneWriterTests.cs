@@ -126,6 +126,8 @@ public class SceneWriterTests
     [InlineData("p \"a.obj\" # 0.5 friction 0.5 damping 0.25 shrink 0.1 0.2 collider simple")]
     [InlineData("p \"a.obj\" # 0.5 shrink 0.1")]
     [InlineData("p \"a.obj\" # 0.5 shrink 0 0.5")]
+    [InlineData("p \"a.obj\" # 0.5 shape capsule")]
+    [InlineData("p \"a.obj\" # 0.5 friction 0.5 shape balls 3 rotation locked")]
     [InlineData("handed right")]
     [InlineData("player (0, 0, 0) 0.3 1.8")]
     [InlineData("player (0, 0, 0) 0.3 1.8 speed 4.5 jump 3 slope 45 step 0")]
