@@ -59,6 +59,10 @@ public sealed partial class Body
     /// <summary>Centre of a ball relative to the body's position.</summary>
     internal Vector BallOffset(int ball) => IsCompound ? Balls[ball].Offset : Vector.Zero;
 
+    /// <summary>Centre of a compound's ball relative to its position, after the planned turn.</summary>
+    internal Vector PlannedOffset(int ball) =>
+        PlannedStartOrientation.TurnedBy(PlannedTurn).Rotate(Scale * Description.Shape!.Balls[ball].Offset);
+
     /// <summary>True where the body touches a surface, or another body that it has met by itself.</summary>
     internal bool IsTouching
     {

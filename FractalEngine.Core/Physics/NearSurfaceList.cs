@@ -19,7 +19,7 @@ internal sealed class NearSurfaceList
     /// <summary>The face at an index from 0 to <see cref="Count"/> − 1, with its normal.</summary>
     public ref readonly Contact this[int index] => ref _surfaces[index];
 
-    /// <summary>Removes all faces.</summary>
+    /// <summary>Removes all faces of the list.</summary>
     public void Clear() => Count = 0;
 
     /// <summary>Adds a face, unless it is known or there is no room.</summary>

@@ -1,6 +1,5 @@
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Character;
 using FractalEngine.Core.Physics.Islands;
 
@@ -177,11 +176,7 @@ public sealed partial class PhysicsWorld
                     hasHeld |= body.IsHeld;
                     if (body.PlannedHit is { } hit && pass < MaxPasses - 2)
                     {
-                        var ball = body.PlannedHitBall;
-                        var offset = body.IsCompound
-                            ? body.PlannedStartOrientation.TurnedBy(body.PlannedTurn).Rotate(body.Scale * body.Description.Shape!.Balls[ball].Offset)
-                            : Vector.Zero;
-                        _islandMover.AddSurface(body, body.IsCompound ? ball : 0, offset, in hit);
+                        _islandMover.AddSurface(body, in hit);
                     }
                     else if (body.IsHeld)
                     {

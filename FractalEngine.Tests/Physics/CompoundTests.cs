@@ -28,7 +28,8 @@ public class CompoundTests
     {
         var world = TestWorlds.Create(Vector.Zero, 1 / 60.0);
         // Dzhanibekov's effect: of three different moments, that about the middle axis is unstable.
-        var shape = CompoundShape.OfBalls([new(new(-2, 0, 0), 0.5), new(new(2, 0, 0), 0.5), new(new(0, 1, 0), 0.5), new(new(0, -1, 0), 0.5)]);
+        Vector[] places = [new(-2, 0, 0), new(2, 0, 0), new(0, 1, 0), new(0, -1, 0)];
+        var shape = CompoundShape.OfBalls(places.Select(static place => new CompoundBall(place, 0.5)));
         var body = world.Add(new(Vector.Zero, shape) { AngularVelocity = new(0.01, 10, 0) });
         var least = 1.0;
         world.Run(600, () => least = Math.Min(least, body.Orientation.Rotate(Vector.J).Y));
@@ -170,7 +171,7 @@ public class CompoundTests
                     var half = 0.5 / 27 * Vector.One;
                     var distance = cubes.Min(cube => Vector.Max((centre - cube).Absolute() - half, Vector.Zero).LengthSquared());
                     distance = Math.Sqrt(distance);
-                    Assert.True(distance >= Radius * (1 - 1e-6), $"{body.Name} is {distance:R} from the sponge after {world.StepCount} steps");
+                    Assert.True(distance >= Radius * (1 - 1e-6), $"{body.Name} is {distance:R} away after {world.StepCount} steps");
                     touching += distance < Radius * (1 + 1e-6) ? 1 : 0;
                 }
             }
@@ -231,7 +232,8 @@ public class CompoundTests
             var plate = PhysicsMeshes.Cube.Transform(v => v.Stretch(new(200, 0.001, 200)));
             var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(plate));
             var speed = Math.Pow(10, random.Between(1, 4));
-            var body = world.Add(new(new(random.Between(-1, 1), random.Between(2.5, 4.5), random.Between(-1, 1)), shot % 2 == 0 ? dumbbell : capsule)
+            var position = new Vector(random.Between(-1, 1), random.Between(2.5, 4.5), random.Between(-1, 1));
+            var body = world.Add(new(position, shot % 2 == 0 ? dumbbell : capsule)
             {
                 Velocity = new(random.Between(-0.1, 0.1) * speed, -speed, random.Between(-0.1, 0.1) * speed),
                 AngularVelocity = random.Between(0, speed) * random.Vector(1),
@@ -274,7 +276,8 @@ public class CompoundTests
             {
                 var centre = body.BallCentre(i);
                 var clearance = Math.Min(centre.Y, 2 - Math.Max(Math.Abs(centre.X), Math.Abs(centre.Z)));
-                Assert.True(clearance >= body.BallRadius(i) * (1 - 1e-6), $"{body.Name} is {clearance:R} from a wall after {world.StepCount} steps");
+                var message = $"{body.Name} is {clearance:R} from a wall after {world.StepCount} steps";
+                Assert.True(clearance >= body.BallRadius(i) * (1 - 1e-6), message);
                 foreach (var other in world.Bodies.Take(body.Index))
                 {
                     for (var j = 0; j < other.BallCount; j++)

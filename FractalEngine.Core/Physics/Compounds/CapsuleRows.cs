@@ -27,7 +27,8 @@ internal static class CapsuleRows
             {
                 for (var k = 0; k < rows.Length && !isInner[i]; k++)
                 {
-                    isInner[i] = rows[j].Part < rows[i].Part && rows[k].Part > rows[i].Part && IsBetween(in rows[i], in rows[j], in rows[k]);
+                    isInner[i] = rows[j].Part < rows[i].Part && rows[k].Part > rows[i].Part
+                        && IsBetween(in rows[i], in rows[j], in rows[k]);
                 }
             }
         }

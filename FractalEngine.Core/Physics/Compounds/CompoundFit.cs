@@ -110,7 +110,9 @@ internal static class CompoundFit
         return balls.Count > 0 ? CompoundShape.OfBalls(balls) : null;
     }
 
-    /// <summary>Chooses centres far from each other: each is the point farthest from those before, the first one that from the middle.</summary>
+    /// <summary>
+    /// Chooses centres far from each other: each is the point farthest from those before, and the first one that from the middle.
+    /// </summary>
     private static Vector[] Spread(List<Vector> points, int count)
     {
         var middle = points.Aggregate((sum, point) => sum + point) / points.Count;

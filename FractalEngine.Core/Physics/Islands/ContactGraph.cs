@@ -183,7 +183,9 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         return false;
     }
 
-    /// <summary>Finds what the bodies of islands may meet: all that are near and no faster, since faster ones look for themselves.</summary>
+    /// <summary>
+    /// Finds what the bodies of islands may meet: all that are near and no faster, since faster ones look for themselves.
+    /// </summary>
     private void CollectNear()
     {
         for (var i = 0; i < bodies.Count; i++)

@@ -51,7 +51,9 @@ internal sealed partial class ContactSolver
         return Vector.Dot(torque, SpinChange(body, torque));
     }
 
-    /// <summary>The symmetric 2 × 2 matrix of inverse masses across the normal: both diagonal entries, and in between the other one.</summary>
+    /// <summary>
+    /// The symmetric 2 × 2 matrix of inverse masses across the normal: both diagonal entries, and in between the other one.
+    /// </summary>
     private Vector AcrossMatrix(int body, Vector arm, Vector tangent, Vector bitangent)
     {
         var first = Vector.Cross(arm, tangent);
@@ -59,7 +61,9 @@ internal sealed partial class ContactSolver
         var change = SpinChange(body, first);
         var inverseMass = _bodies[body].InverseMass;
         return new(
-            inverseMass + Vector.Dot(first, change), Vector.Dot(second, change), inverseMass + Vector.Dot(second, SpinChange(body, second)));
+            inverseMass + Vector.Dot(first, change),
+            Vector.Dot(second, change),
+            inverseMass + Vector.Dot(second, SpinChange(body, second)));
     }
 
     /// <summary>Velocity of the first ball's centre relative to the second's.</summary>

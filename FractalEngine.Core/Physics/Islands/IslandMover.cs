@@ -74,11 +74,11 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
 
     /// <summary>Adds a surface that a body has met on its way. It gives way along the surface's plane.</summary>
     /// <param name="body">Body of the present island.</param>
-    /// <param name="ball">Index of its ball.</param>
-    /// <param name="offset">Centre of the ball after the planned turn, relative to the body.</param>
     /// <param name="hit">What it has met.</param>
-    public void AddSurface(Body body, int ball, Vector offset, in Contact hit)
+    public void AddSurface(Body body, in Contact hit)
     {
+        var ball = body.IsCompound ? body.PlannedHitBall : 0;
+        var offset = body.IsCompound ? body.PlannedOffset(ball) : Vector.Zero;
         body.IsHeld = false;
         var radius = body.BallRadius(ball);
         _unplanned.Add(new()
