@@ -131,6 +131,9 @@ public sealed class Body
     /// <summary>Index of the island that the body belongs to in this step; negative where it touches no other body.</summary>
     internal int IslandIndex { get; set; } = NoIsland;
 
+    /// <summary>How far a kinematic object pushes the body in this step at most; 0 for one that none pushes.</summary>
+    internal double KinematicPush { get; set; }
+
     /// <summary>True once the step has begun for the body: it has shrunk, and its contacts with surfaces are up to date.</summary>
     internal bool IsPrepared { get; set; }
 
@@ -215,16 +218,22 @@ public sealed class Body
     /// <summary>Saves the state before a step, and sets the costs to 0.</summary>
     internal void BeginStep()
     {
+        PreviousPosition = Position;
+        PreviousOrientation = Orientation;
+        PreviousScale = Scale;
+        FaceTests = 0;
+        BoundTests = 0;
+    }
+
+    /// <summary>Begins one of the parts that a step is made in.</summary>
+    internal void BeginPart()
+    {
         IsPrepared = false;
         IslandIndex = NoIsland;
         NearSurfaceCount = 0;
         AreNearSurfacesKnown = false;
-        PreviousPosition = Position;
-        PreviousOrientation = Orientation;
-        PreviousScale = Scale;
+        KinematicPush = 0;
         SpinBefore = AngularVelocity;
-        FaceTests = 0;
-        BoundTests = 0;
     }
 
     /// <summary>Turns the body by its mean angular velocity of the step.</summary>

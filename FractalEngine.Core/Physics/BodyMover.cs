@@ -75,6 +75,7 @@ internal sealed partial class BodyMover
         var negligibleSpeed = NegligibleSpeedFraction * restitutionThreshold;
         for (var impact = 0; impact < MaxImpacts && simultaneousImpacts < MaxSimultaneousImpacts && timeLeft > 0; impact++)
         {
+            _obstacles.Time = stepLength - timeLeft;
             var velocityBefore = body.Velocity;
             _response.ResolveContacts(body, position, restitutionThreshold);
             body.Velocity = contacts.RemoveSeparating(position, body.Velocity, _bodies, negligibleSpeed, true);
@@ -100,7 +101,8 @@ internal sealed partial class BodyMover
         var contacts = body.Contacts;
         var start = position;
         var energy = body.KineticEnergy;
-        var mayGain = contacts.HasBody || (body.Description is { Friction: > 0, IsRotationLocked: false } && contacts.Count > 0);
+        var mayGain = (contacts.HasBody || (body.Description is { Friction: > 0, IsRotationLocked: false } && contacts.Count > 0))
+            && !contacts.HasMovingSurface;
         var projectedVelocity = isBlocked ? contacts.ProjectVelocity(body.Velocity, position, _planes) : body.Velocity;
         var blockedVelocity = body.Velocity - projectedVelocity;
         if (blockedVelocity.Length() > MaxBlockedSpeedRatio * projectedVelocity.Length())
@@ -148,13 +150,15 @@ internal sealed partial class BodyMover
     {
         var contacts = body.Contacts;
         var isStopping = false;
+        var stoppedVelocity = Vector.Zero;
         var spinAcceleration = Vector.Zero;
         var maxDuration = duration;
+        var isCarried = contacts.HasMovingSurface;
         if (body.Description.Friction > 0 && contacts.Count > 0)
         {
             if (body.Description.IsRotationLocked)
             {
-                isStopping = ContactResponse.ApplyFriction(body, acceleration, ref netAcceleration, ref duration);
+                isStopping = ApplyFriction(body, position, acceleration, ref netAcceleration, ref duration, out stoppedVelocity);
             }
             else
             {
@@ -162,16 +166,16 @@ internal sealed partial class BodyMover
             }
         }
 
-        var isSlow = contacts.Count > 0 && body.Velocity.MaxAbsComponent() <= negligibleSpeed;
+        var isSlow = contacts.Count > 0 && !isCarried && body.Velocity.MaxAbsComponent() <= negligibleSpeed;
         body.Velocity = netAcceleration == Vector.Zero && isSlow ? Vector.Zero : body.Velocity;
         body.NetAcceleration = netAcceleration;
-        if (body.Velocity == Vector.Zero && netAcceleration == Vector.Zero)
+        var motion = new Motion(position, body.Velocity, netAcceleration);
+        if (body.Velocity == Vector.Zero && netAcceleration == Vector.Zero && _obstacles.MaxKinematicSpeed(in motion, duration) == 0)
         {
             body.AngularVelocity += (spinAcceleration == Vector.Zero ? 0 : duration) * spinAcceleration;
             return spinAcceleration == Vector.Zero ? maxDuration : duration;
         }
 
-        var motion = new Motion(position, body.Velocity, netAcceleration);
         _obstacles.CollectNearbyBodies(in motion, duration, body.Index);
         var isHit = _sweep.TryFindImpact(in motion, duration, out var hit, out var elapsed);
         position = motion.PositionAt(elapsed);
@@ -184,11 +188,32 @@ internal sealed partial class BodyMover
         }
         else if (isStopping)
         {
-            body.Velocity = Vector.Zero;
+            body.Velocity = stoppedVelocity;
         }
 
         contacts.UpdateAfterMove(position, _obstacles.ContactSlop(position), _obstacles);
         return isHit || elapsed >= duration ? elapsed : double.PositiveInfinity;
+    }
+
+    /// <summary>Slows down a body that does not turn, relative to what carries it.</summary>
+    /// <returns>True when the body has the velocity of what carries it after that time.</returns>
+    private static bool ApplyFriction(
+        Body body, Vector position, Vector acceleration, ref Vector netAcceleration, ref double duration, out Vector stoppedVelocity)
+    {
+        var maxDuration = duration;
+        var carrying = body.Contacts.CarryingVelocity(position, out var carryingAcceleration);
+        netAcceleration -= carryingAcceleration;
+        var isStopping = ContactResponse.ApplyFriction(
+            body, body.Velocity - carrying, acceleration - carryingAcceleration, ref netAcceleration, ref duration);
+        netAcceleration += carryingAcceleration;
+        if (body.Contacts.HasMovingSurface && !(duration > 0))
+        {
+            // It goes along already.
+            duration = maxDuration;
+        }
+
+        stoppedVelocity = carrying + (duration * carryingAcceleration);
+        return isStopping;
     }
 
     /// <summary>Pushes a body out that overlaps something; one that cannot be pushed out stops.</summary>

@@ -14,7 +14,8 @@ internal sealed class BodyStepper
     // Of √(acceleration · radius), the speed that a body reaches by falling half its radius.
     private const double SleepSpeedFraction = 0.02;
 
-    private static readonly Vector[] SingleSphereOffset = [Vector.Zero];
+    /// <summary>The offset of the only sphere of a body.</summary>
+    public static readonly Vector[] SingleSphereOffset = [Vector.Zero];
 
     private readonly PhysicsSettings _settings;
     private readonly BodyGrid _grid;
@@ -65,13 +66,24 @@ internal sealed class BodyStepper
             _settings.RestitutionThreshold ?? RestitutionThresholdFraction * acceleration.Length() * stepLength;
         var wasResolved = body.IsOverlapResolved;
         SetMover(body, staticColliders, character, stepLength);
-        _mover.Prepare(body);
+        _mover.Prepare(body, stepLength);
         if (!wasResolved)
         {
             _grid.Update(body.Index);
         }
 
         EndCount(body, faceTests, boundTests);
+    }
+
+    /// <summary>Tells whether a kinematic object may come to touch a body that sleeps.</summary>
+    /// <param name="body">Any body.</param>
+    /// <param name="staticColliders">Colliders of the body's kind; null where there are no static objects.</param>
+    /// <param name="distance">How far the object moves.</param>
+    public bool IsNearKinematic(Body body, StaticColliders? staticColliders, double distance)
+    {
+        _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 0);
+        _obstacles.Time = 0;
+        return _obstacles.TryFindNearKinematic(body.Position, distance + _obstacles.ContactSlop(body.Position), out _);
     }
 
     /// <summary>Finds the surfaces that a body may meet in the step.</summary>
@@ -121,9 +133,24 @@ internal sealed class BodyStepper
     {
         var (faceTests, boundTests) = BeginCount();
         SetMover(body, staticColliders, character: null, stepLength);
+        _obstacles.Time = stepLength;
         _mover.FinishPlanned(body);
         EndCount(body, faceTests, boundTests);
         Finish(body, stepLength, stepIndex);
+    }
+
+    /// <summary>Moves a body on that a kinematic object has overrun, at the end of the step.</summary>
+    /// <param name="body">Must have been moved.</param>
+    /// <param name="staticColliders">Colliders of the body's kind; null where there are no static objects.</param>
+    /// <param name="stepLength">Seconds, positive.</param>
+    public void PushOut(Body body, StaticColliders? staticColliders, double stepLength)
+    {
+        var (faceTests, boundTests) = BeginCount();
+        SetMover(body, staticColliders, character: null, stepLength);
+        _obstacles.Time = stepLength;
+        _mover.PushOut(body);
+        EndCount(body, faceTests, boundTests);
+        _grid.Update(body.Index);
     }
 
     /// <summary>Ends the step of a body that has moved.</summary>
@@ -153,6 +180,7 @@ internal sealed class BodyStepper
     {
         var maxTravel = new Motion(body.Position, body.Velocity, body.FreeAcceleration).MaxTravelDistance(stepLength);
         _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 2 * maxTravel, character);
+        _obstacles.Time = 0;
         return maxTravel;
     }
 

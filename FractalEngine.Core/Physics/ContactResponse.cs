@@ -28,7 +28,7 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
             var fastestSpeed = 0.0;
             for (var i = 0; i < contacts.Count; i++)
             {
-                var velocity = RelativeVelocity(body, contacts[i]);
+                var velocity = RelativeVelocity(body, contacts[i], position);
                 var speed = Vector.Dot(velocity, contacts[i].Normal(position));
                 if (speed < fastestSpeed && speed < -RelativeTolerance * velocity.MaxAbsComponent()
                     && (contacts[i].IsBody || -speed > restitutionThreshold))
@@ -43,7 +43,7 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
                 break;
             }
 
-            Bounce(body, contacts[fastestIndex], contacts[fastestIndex].Normal(position), -fastestSpeed, restitutionThreshold);
+            Bounce(body, contacts[fastestIndex], position, -fastestSpeed, restitutionThreshold);
         }
 
         // Slow approaches to surfaces, all at once.
@@ -55,14 +55,15 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
     /// holds slow bodies.
     /// </summary>
     /// <param name="body">Touches something.</param>
+    /// <param name="velocity">Velocity of the body relative to what it touches.</param>
     /// <param name="acceleration">By gravity and forces.</param>
     /// <param name="netAcceleration">What the contacts leave of it; receives what friction leaves of that.</param>
     /// <param name="duration">Seconds; receives the time until the body stops or turns, if that is sooner.</param>
     /// <returns>True when the body stops then.</returns>
-    public static bool ApplyFriction(Body body, Vector acceleration, ref Vector netAcceleration, ref double duration)
+    public static bool ApplyFriction(
+        Body body, Vector velocity, Vector acceleration, ref Vector netAcceleration, ref double duration)
     {
         var frictionDeceleration = body.Description.Friction * (acceleration - netAcceleration).Length();
-        var velocity = body.Velocity;
         var velocityDotAcceleration = Vector.Dot(velocity, netAcceleration);
         var speedSquared = velocity.LengthSquared();
         if (velocityDotAcceleration < 0)
@@ -89,11 +90,12 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
         return true;
     }
 
-    private Vector RelativeVelocity(Body body, in Contact contact) =>
-        contact.IsBody ? body.Velocity - bodies[contact.BodyIndex].Velocity : body.Velocity;
+    private Vector RelativeVelocity(Body body, in Contact contact, Vector position) =>
+        body.Velocity - (contact.IsBody ? bodies[contact.BodyIndex].Velocity : contact.SurfaceVelocity(position));
 
-    private void Bounce(Body body, in Contact contact, Vector normal, double approachSpeed, double restitutionThreshold)
+    private void Bounce(Body body, in Contact contact, Vector position, double approachSpeed, double restitutionThreshold)
     {
+        var normal = contact.Normal(position);
         var other = contact.IsBody ? bodies[contact.BodyIndex] : null;
         if (other is { IsAsleep: true } && approachSpeed > restitutionThreshold)
         {
@@ -109,7 +111,8 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
         var friction = other is null ? body.Description.Friction : Math.Min(body.Description.Friction, other.Description.Friction);
         if (friction > 0)
         {
-            var across = StopSlip(body, other, movable, in contact, normal, friction * impulse.Length());
+            var relative = RelativeVelocity(body, in contact, position);
+            var across = StopSlip(body, other, movable, relative, normal, friction * impulse.Length());
             impulse += across;
             Turn(body, body.Radius, normal, across);
             if (movable is not null)
@@ -126,9 +129,8 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
     }
 
     /// <summary>Impulse across the normal that stops the slip of the touching points, as far as friction allows.</summary>
-    private Vector StopSlip(Body body, Body? other, Body? movable, in Contact contact, Vector normal, double limit)
+    private static Vector StopSlip(Body body, Body? other, Body? movable, Vector relative, Vector normal, double limit)
     {
-        var relative = RelativeVelocity(body, in contact);
         var spin = body.Radius * body.AngularVelocity;
         var inverseMass = InverseMassAcross(body);
         if (other is not null)

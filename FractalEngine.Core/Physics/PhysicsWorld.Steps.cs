@@ -47,13 +47,35 @@ public sealed partial class PhysicsWorld
         var faceTestsBefore = _queryContext.Statistics.FaceTests;
         var boundTestsBefore = _queryContext.Statistics.BoundTests;
         var character = Character is { IsActive: true } active ? active : null;
-        _islands.HasSleeping = false;
+        _kinematics.BeginStep(_clock.Time, seconds);
         foreach (var body in _bodies)
         {
             body.BeginStep();
+        }
+
+        character?.BeginStep();
+        var parts = CountParts(seconds);
+        for (var part = 0; part < parts; part++)
+        {
+            StepPart(character, part * seconds / parts, seconds / parts);
+        }
+
+        _clock.Tick(seconds);
+        LastStepCost = (_queryContext.Statistics.FaceTests - faceTestsBefore, _queryContext.Statistics.BoundTests - boundTestsBefore);
+    }
+
+    /// <summary>Makes one of the parts of a step.</summary>
+    private void StepPart(CharacterController? character, double elapsed, double seconds)
+    {
+        _islands.HasSleeping = false;
+        foreach (var body in _bodies)
+        {
+            body.BeginPart();
             _islands.HasSleeping |= body.IsAsleep;
         }
 
+        _kinematics.BeginPart(_clock.Time + elapsed, seconds);
+        WakeNearKinematics(seconds);
         PlanIslands(character, seconds);
         MoveIslands(character, seconds);
         for (var i = 0; i < _bodies.Count; i++)
@@ -64,11 +86,18 @@ public sealed partial class PhysicsWorld
             }
         }
 
+        foreach (var body in _bodies)
+        {
+            if (body is { KinematicPush: > 0, IsAsleep: false, IsOverlapResolved: true })
+            {
+                _stepper.PushOut(body, _statics.CollidersOf(ColliderKindOf(body)), seconds);
+            }
+        }
+
         _islands.PutToSleep(_planner.Graph, Settings.TimeBeforeSleep);
 
         StepCharacter(character, seconds);
-        _clock.Tick(seconds);
-        LastStepCost = (_queryContext.Statistics.FaceTests - faceTestsBefore, _queryContext.Statistics.BoundTests - boundTestsBefore);
+        _kinematics.EndPart();
     }
 
     /// <summary>Prepares all bodies that are awake, and solves their islands.</summary>
@@ -140,6 +169,7 @@ public sealed partial class PhysicsWorld
                         hasHeld |= body.IsHeld;
                         if (body.PlannedHit is { } hit && pass < MaxPasses - 2)
                         {
+                            _kinematics.Time = seconds;
                             _islandMover.AddSurface(body, in hit);
                         }
                         else if (body.IsHeld)

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Physics.Kinematics;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;
@@ -15,11 +16,18 @@ internal sealed class StaticColliders
     public StaticColliders(StaticObjectSet set, ColliderKind kind, ColliderCache? cache)
     {
         _set = set;
-        Scene = new(new LoadedScene(new(), [.. set.Objects.Select(static placed => placed.Placed)]), kind, cache);
+        Scene = new(new LoadedScene(new(), [.. set.Objects.Select(static placed => placed.Reference)]), kind, cache);
+        foreach (var kinematic in set.Objects.Select(static candidate => candidate.Kinematic).OfType<KinematicObject>())
+        {
+            AddKinematic(kinematic);
+        }
     }
 
     /// <summary>Answers queries for the closest point, in world space.</summary>
     public SceneCollider Scene { get; private set; }
+
+    /// <summary>The kinematic objects, which <see cref="Scene"/> has not, each with its collider at the reference placement.</summary>
+    public List<(KinematicObject Object, ColliderInstance Collider)> Kinematics { get; } = [];
 
     /// <summary>
     /// Tells whether an object is a closed solid, or consists of such. What is behind its faces is then inside it.
@@ -43,6 +51,22 @@ internal sealed class StaticColliders
     /// <summary>Adds an object. The colliders of the others are kept.</summary>
     public void Add(PlacedModel placed) => Scene = Scene.WithAddedObject(placed);
 
+    /// <summary>Takes an object out of the scene that moves by itself from now on.</summary>
+    public void AddKinematic(KinematicObject kinematic)
+    {
+        Scene = Scene.WithoutObject(kinematic.Target.Index, out var collider);
+        Kinematics.Add((kinematic, collider));
+    }
+
     /// <summary>Replaces an object by the same one at another placement.</summary>
-    public void Replace(int index, PlacedModel placed) => Scene = Scene.WithObject(index, placed);
+    public void Replace(int index, PlacedModel placed)
+    {
+        Scene = Scene.WithObject(index, placed);
+        var place = Kinematics.FindIndex(pair => pair.Object.Target.Index == index);
+        if (place >= 0)
+        {
+            Scene = Scene.WithoutObject(index, out var collider);
+            Kinematics[place] = (Kinematics[place].Object, collider);
+        }
+    }
 }

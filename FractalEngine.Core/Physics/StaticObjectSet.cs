@@ -1,6 +1,7 @@
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Physics.Kinematics;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;
@@ -41,7 +42,16 @@ internal sealed class StaticObjectSet(ColliderCache? cache)
     {
         foreach (var colliders in _colliders.Values)
         {
-            colliders.Replace(moved.Index, moved.Placed);
+            colliders.Replace(moved.Index, moved.Reference);
+        }
+    }
+
+    /// <summary>Tells the colliders that an object moves by itself from now on.</summary>
+    public void AddKinematic(KinematicObject kinematic)
+    {
+        foreach (var colliders in _colliders.Values)
+        {
+            colliders.AddKinematic(kinematic);
         }
     }
 

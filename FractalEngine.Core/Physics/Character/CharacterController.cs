@@ -115,12 +115,15 @@ public sealed class CharacterController
     /// <summary>Discards what is known of surfaces, and lets the next step check for overlaps.</summary>
     internal void InvalidateSurroundings() => _capsule.InvalidateSurroundings();
 
-    /// <summary>Moves the character through one step.</summary>
+    /// <summary>Saves the position before a step.</summary>
+    internal void BeginStep() => PreviousPosition = Position;
+
+    /// <summary>Moves the character through one step, or a part of one.</summary>
     /// <param name="stepLength">Seconds, positive.</param>
     internal void Step(double stepLength)
     {
         var speed = Math.Max(Description.WalkingSpeed, Velocity.Length());
-        PreviousPosition = Position;
+        var previousPosition = Position;
         if (!_capsule.TryBeginStep((2 * stepLength * speed) + Description.StepHeight))
         {
             Velocity = Vector.Zero;
@@ -135,7 +138,7 @@ public sealed class CharacterController
         bool isGrounded;
         if (IsGrounded && !isJumping)
         {
-            Velocity = _groundMovement.Walk(desiredVelocity, stepLength, PreviousPosition, out isGrounded);
+            Velocity = _groundMovement.Walk(desiredVelocity, stepLength, previousPosition, out isGrounded);
         }
         else
         {
@@ -150,7 +153,7 @@ public sealed class CharacterController
         }
         else
         {
-            _capsule.WakeTouchingBodies(PreviousPosition);
+            _capsule.WakeTouchingBodies(previousPosition);
         }
     }
 }

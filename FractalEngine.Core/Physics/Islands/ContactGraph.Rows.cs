@@ -127,6 +127,13 @@ internal sealed partial class ContactGraph
         row.MinDistance = body.Radius;
         row.Normal = row.Offset.UnitVectorOrZero();
         row.FirstRadius = body.Radius;
+        if (contact.Kinematic is { } kinematic)
+        {
+            row.SurfaceVelocity = contact.SurfaceVelocity(body.Position);
+            row.SurfaceSpin = kinematic.AngularVelocity;
+            row.SurfaceWay = _stepLength * kinematic.VelocityAt(contact.Point);
+        }
+
         row.Friction = body.Description.Friction;
         row.Restitution = body.Description.Restitution;
         row.IsAhead = isAhead;
@@ -150,7 +157,9 @@ internal sealed partial class ContactGraph
         row.IsBall = true;
         row.IsAhead = !pair.IsTouching;
         row.Friction = Math.Min(body.Description.Friction, other.Description.Friction);
-        row.Restitution = Math.Min(body.Description.Restitution, other.Description.Restitution);
+        // What bounces first goes as far as it touches only, and would be overrun.
+        row.Restitution =
+            row.IsAhead && IsPushed(in pair) ? 0 : Math.Min(body.Description.Restitution, other.Description.Restitution);
         row.RollingArm = radius * Math.Min(body.Description.RollingFriction, other.Description.RollingFriction);
         row.SpinningArm = radius * Math.Min(body.Description.SpinningFriction, other.Description.SpinningFriction);
     }

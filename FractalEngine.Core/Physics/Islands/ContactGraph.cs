@@ -27,6 +27,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     private int[] _next = new int[InitialCapacity];
     private double[] _reach = new double[InitialCapacity];
     private double[] _push = new double[InitialCapacity];
+    private double[] _kinematicPush = new double[InitialCapacity];
     private bool[] _hasPair = new bool[InitialCapacity];
     private double _stepLength;
     private int _count;
@@ -54,7 +55,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     public double Reach(int body) => _reach[body];
 
     /// <summary>How far a body may get from where it would be without others, before it may meet what no contact knows of.</summary>
-    public double DeviationLimit(int body) => Slack(bodies[body]) + _push[body];
+    public double DeviationLimit(int body) => Slack(bodies[body]) + _push[body] + _kinematicPush[body];
 
     /// <summary>Finds all pairs of bodies that touch or may meet.</summary>
     /// <param name="islands">Wakes bodies that sleep and are hit.</param>
@@ -109,7 +110,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         var hasChanged = false;
         foreach (ref var pair in pairs)
         {
-            pair.IsRow = pair.IsTouching && (pair.IsSecondFirm || !IsSeparating(in pair));
+            pair.IsRow = IsPushed(in pair) ? MayMeet(in pair) : pair.IsTouching && (pair.IsSecondFirm || !IsSeparating(in pair));
             if (pair is { IsRow: true, IsSecondFirm: false })
             {
                 _sets.Join(pair.First, pair.Second);
@@ -147,6 +148,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
             _next = new int[2 * bodies.Count];
             _reach = new double[2 * bodies.Count];
             _push = new double[2 * bodies.Count];
+            _kinematicPush = new double[2 * bodies.Count];
             _hasPair = new bool[2 * bodies.Count];
             // Room for as many contacts as bodies in a heap have, so that steps need not allocate.
             var contacts = ContactsPerBody * _hasPair.Length;
@@ -186,12 +188,15 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
             }
 
             var isTouching = gap <= ContactTolerances.Slop(Math.Min(body.Radius, other.Radius), body.Position);
-            if (isTouching && other.IsAsleep && IsHit(body, other))
+            body.KinematicPush = Math.Max(body.KinematicPush, other.KinematicPush - Math.Max(0, gap));
+            var push = body.KinematicPush - Math.Max(0, gap);
+            if (other.IsAsleep && (push > 0 || (isTouching && IsHit(body, other))))
             {
                 islands.Wake(other);
                 return true;
             }
 
+            other.KinematicPush = Math.Max(other.KinematicPush, push);
             var isFirm = !CanMove(other);
             _hasPair[index] = true;
             _hasPair[neighbour] |= !isFirm;
@@ -202,7 +207,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     }
 
     /// <summary>How far a body may get in the step. Never 0, which is for bodies that do not move.</summary>
-    private double Reach(Body body) => (_stepLength * body.Velocity.Length()) + Slack(body);
+    private double Reach(Body body) => (_stepLength * body.Velocity.Length()) + Slack(body) + body.KinematicPush;
 
     private double Slack(Body body) => (_stepLength * _stepLength * body.FreeAcceleration.Length()) + (ReachMargin * body.Radius);
 
@@ -218,7 +223,49 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
             _push[pair.First] = Math.Max(_push[pair.First], push);
             _push[pair.Second] = Math.Max(_push[pair.Second], push);
         }
+
+        FindKinematicPushes(pairs);
     }
+
+    /// <summary>Finds how far bodies are pushed by those that kinematic objects push, and so on.</summary>
+    private void FindKinematicPushes(ReadOnlySpan<BodyPair> pairs)
+    {
+        var hasChanged = false;
+        for (var i = 0; i < bodies.Count; i++)
+        {
+            _kinematicPush[i] = bodies[i].KinematicPush;
+            hasChanged |= _kinematicPush[i] > 0;
+        }
+
+        while (hasChanged)
+        {
+            hasChanged = false;
+            foreach (ref readonly var pair in pairs)
+            {
+                if (!pair.IsSecondFirm && _kinematicPush[pair.First] + _kinematicPush[pair.Second] > 0)
+                {
+                    var gap = (bodies[pair.First].Position - bodies[pair.Second].Position).Length()
+                        - bodies[pair.First].Radius - bodies[pair.Second].Radius;
+                    hasChanged |= PassPush(pair.First, pair.Second, gap) | PassPush(pair.Second, pair.First, gap);
+                }
+            }
+        }
+    }
+
+    private bool PassPush(int from, int to, double gap)
+    {
+        var push = _kinematicPush[from] - Math.Max(0, gap);
+        if (!(push > _kinematicPush[to]))
+        {
+            return false;
+        }
+
+        _kinematicPush[to] = push;
+        return true;
+    }
+
+    private bool IsPushed(in BodyPair pair) =>
+        _kinematicPush[pair.First] > 0 || (!pair.IsSecondFirm && _kinematicPush[pair.Second] > 0);
 
     /// <summary>Tells whether two bodies come so near on their straight ways that they may touch.</summary>
     private bool MayMeet(in BodyPair pair)

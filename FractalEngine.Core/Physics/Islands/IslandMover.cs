@@ -52,7 +52,7 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
         _unplanned.Add(new()
         {
             First = body.Index, Second = ContactRow.Firm, Offset = hit.PointToCentre(body.PlannedStart), MinDistance = body.Radius,
-            Normal = hit.Normal(body.Position), FirstRadius = body.Radius,
+            Normal = hit.CachedNormal, FirstRadius = body.Radius,
         });
     }
 

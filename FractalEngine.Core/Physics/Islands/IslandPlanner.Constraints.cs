@@ -15,7 +15,7 @@ internal sealed partial class IslandPlanner
     /// <returns>By how much the line of contact has turned, radians.</returns>
     private double SetConstraint(ref ContactRow row, double stepLength, bool isFirst)
     {
-        var velocity = bodies[row.First].Velocity - (row.Second >= 0 ? bodies[row.Second].Velocity : Vector.Zero);
+        var velocity = bodies[row.First].Velocity - (row.Second >= 0 ? bodies[row.Second].Velocity : row.SurfaceVelocity);
         var distance = row.Offset.Length();
         var gap = distance - row.MinDistance;
         var turn = 0.0;

@@ -258,7 +258,8 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         {
             foreach (ref var row in rows)
             {
-                if (row.IsAhead && row.NormalImpulse > 0)
+                // What moves pushes on those that were slower than itself, which then rebound from what they push.
+                if ((row.IsAhead || row.SurfaceVelocity != Vector.Zero) && row.NormalImpulse > 0)
                 {
                     // It pushes less, but does not pull.
                     var impulse = Math.Min(row.NormalImpulse, row.NormalMass * NormalVelocity(in row));
