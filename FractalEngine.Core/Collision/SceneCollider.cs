@@ -119,6 +119,9 @@ public sealed partial class SceneCollider
         return new(objects.With(new(index, removed.Collider, Similarity.Identity, null, BoundingBox.Empty)), _sharedColliders, _kind);
     }
 
+    /// <summary>The collider of one object at its place.</summary>
+    internal ColliderInstance ColliderOf(int index) => _objects.ToArray()[index];
+
     private ColliderInstance CreateInstance(int index, PlacedModel placed)
     {
         var isSimilar = Similarity.TryCreate(placed.ObjectToWorld, out var similarity);

@@ -119,6 +119,12 @@ public sealed class Body
     /// <summary>Energy of rotation, joules.</summary>
     internal double SpinEnergy => Description.IsRotationLocked ? 0 : 0.5 * AngularVelocity.LengthSquared() / InverseInertia;
 
+    /// <summary>Force in the next step besides the constant one.</summary>
+    internal Vector StepForce { get; set; }
+
+    /// <summary>Torque in the next step.</summary>
+    internal Vector StepTorque { get; set; }
+
     /// <summary>Angular velocity before the step.</summary>
     internal Vector SpinBefore { get; set; }
 
@@ -187,6 +193,8 @@ public sealed class Body
         Orientation = Orientation.Identity;
         PreviousOrientation = Orientation.Identity;
         Force = Vector.Zero;
+        StepForce = Vector.Zero;
+        StepTorque = Vector.Zero;
         Scale = 1;
         PreviousScale = 1;
         IsAsleep = false;

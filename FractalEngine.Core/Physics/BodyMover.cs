@@ -1,4 +1,5 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Events;
 
 namespace FractalEngine.Core.Physics;
 
@@ -31,16 +32,18 @@ internal sealed partial class BodyMover
     private readonly List<Body> _bodies;
     private readonly Obstacles _obstacles;
     private readonly ContactResponse _response;
+    private readonly ContactLog _contactLog;
     private readonly SpinFriction _spinFriction;
     private readonly SphereSweep _sweep;
     private readonly OverlapResolver _overlapResolver;
     private readonly HalfSpaces _planes = new();
 
-    public BodyMover(List<Body> bodies, Obstacles obstacles, SleepIslands islands)
+    public BodyMover(List<Body> bodies, Obstacles obstacles, SleepIslands islands, ContactLog contactLog)
     {
         _bodies = bodies;
         _obstacles = obstacles;
-        _response = new(bodies, islands);
+        _response = new(bodies, islands, contactLog);
+        _contactLog = contactLog;
         _spinFriction = new(bodies);
         _sweep = new(obstacles);
         _overlapResolver = new(obstacles);
@@ -117,6 +120,7 @@ internal sealed partial class BodyMover
         var elapsed =
             AdvanceAlong(body, netAcceleration, acceleration, ref position, Math.Min(duration, validDuration), negligibleSpeed);
         body.Velocity += blockedVelocity;
+        _contactLog.AddRest(body, position, acceleration, netAcceleration, Math.Min(elapsed, duration));
         if (mayGain)
         {
             LimitEnergy(body, energy + (body.Description.Mass * Vector.Dot(acceleration, position - start)));

@@ -2,6 +2,7 @@ using System.Globalization;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Character;
+using FractalEngine.Core.Physics.Events;
 
 namespace FractalEngine.Core.Physics;
 
@@ -27,7 +28,7 @@ internal sealed class BodyStepper
 
     public BodyStepper(
         PhysicsSettings settings, List<Body> bodies, BodyGrid grid, NearbyBodies nearbyBodies, Obstacles obstacles, SleepIslands islands,
-        QueryContext queryContext)
+        QueryContext queryContext, ContactLog contactLog)
     {
         _settings = settings;
         _grid = grid;
@@ -35,7 +36,7 @@ internal sealed class BodyStepper
         _obstacles = obstacles;
         _islands = islands;
         _queryContext = queryContext;
-        _mover = new(bodies, obstacles, islands);
+        _mover = new(bodies, obstacles, islands, contactLog);
     }
 
     /// <summary>Begins the step of a body that is awake: all but its motion.</summary>
@@ -54,11 +55,16 @@ internal sealed class BodyStepper
             body.Scale = Math.Max(description.MinimumScale, body.Scale - (description.Shrinkage * stepLength));
         }
 
-        var acceleration = gravity + (body.Force / description.Mass);
+        var acceleration = gravity + ((body.Force + body.StepForce) / description.Mass);
         if (description.Damping > 0)
         {
             body.Velocity *= Math.Exp(-description.Damping * stepLength);
             body.AngularVelocity *= Math.Exp(-description.Damping * stepLength);
+        }
+
+        if (body.StepTorque != Vector.Zero)
+        {
+            body.AngularVelocity += stepLength * body.InverseInertia * body.StepTorque;
         }
 
         body.FreeAcceleration = acceleration;

@@ -1,11 +1,12 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Events;
 
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
 /// How contacts change the velocity of a body: the paper's response v ← −e·vₙ + vₛ (§4.4.4), and friction.
 /// </summary>
-internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
+internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands, ContactLog contactLog)
 {
     // Bounces at the same moment, one after the other: more of them are a corner that leaves no path.
     private const int MaxBounces = 16;
@@ -47,7 +48,12 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
         }
 
         // Slow approaches to surfaces, all at once.
+        var velocityBefore = body.Velocity;
         body.Velocity = contacts.ProjectVelocity(body.Velocity, position, _planes, onlySurfaces: true);
+        if (body.Velocity != velocityBefore)
+        {
+            contactLog.AddSum(body, position, body.Description.Mass * (body.Velocity - velocityBefore));
+        }
     }
 
     /// <summary>
@@ -108,6 +114,7 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
         var otherInverseMass = movable is null ? 0 : 1 / movable.Description.Mass;
         var restitution = approachSpeed > restitutionThreshold ? CombinedRestitution(body, other) : 0;
         var impulse = (1 + restitution) * approachSpeed / (inverseMass + otherInverseMass) * normal;
+        contactLog.Add(body, in contact, position, impulse.Length());
         var friction = other is null ? body.Description.Friction : Math.Min(body.Description.Friction, other.Description.Friction);
         if (friction > 0)
         {

@@ -41,6 +41,13 @@ internal sealed partial class Obstacles
     public bool TryFindNearKinematic(Vector position, double maxDistance, out Contact contact) =>
         TryFindCloserKinematic(position, ref maxDistance, out contact);
 
+    /// <summary>Finds the static object with the surface closest to a point.</summary>
+    /// <param name="point">World space.</param>
+    /// <param name="maxDistance">Largest distance of interest.</param>
+    /// <param name="index">Its index among the static objects.</param>
+    public bool TryFindObject(Vector point, double maxDistance, out int index) =>
+        TryFindClosestPoint(point, maxDistance, out _, out index, out _);
+
     private Contact CreateSurfaceContact(Vector point, Vector sphere, bool isFlat, KinematicObject? kinematic) =>
         new(kinematic?.ToReference(point) ?? point, _radius, sphere, Contact.NoBody, isFlat) { Kinematic = kinematic };
 

@@ -111,7 +111,7 @@ public sealed partial class PhysicsWorld
     {
         foreach (var kind in _bodies.Select(ColliderKindOf).Append(CharacterColliderKind).Distinct())
         {
-            _statics.CollidersOf(kind)?.Build(cancellation);
+            _statics.AllCollidersOf(kind)?.Build(cancellation);
         }
     }
 
@@ -233,6 +233,7 @@ public sealed partial class PhysicsWorld
     {
         var body = new Body(description, _bodies.Count, _gravity);
         _bodies.Add(body);
+        _nearbyBodies.HasFilters |= description.Mask != Layers.All || description.Layer != 0;
         return body;
     }
 

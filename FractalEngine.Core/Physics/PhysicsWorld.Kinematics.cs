@@ -58,6 +58,9 @@ public sealed partial class PhysicsWorld
         }
     }
 
+    /// <summary>Lets the character see the objects that move where they are at a time of the step.</summary>
+    internal void SetKinematicTime(double time) => _kinematics.Time = time;
+
     /// <summary>
     /// Number of equal parts that a step is made in: several where an object goes far, compared with the bodies before it. In each of them
     /// those that it pushes together find each other.
@@ -71,6 +74,11 @@ public sealed partial class PhysicsWorld
             if (!(way > 0))
             {
                 continue;
+            }
+
+            if (Character is { IsActive: true } character && character.IsNear(moved.SweptBounds))
+            {
+                parts = Math.Max(parts, Math.Ceiling(way / (MaxKinematicWay * character.Description.Radius)));
             }
 
             _nearKinematic.Clear();
@@ -99,7 +107,7 @@ public sealed partial class PhysicsWorld
             foreach (var index in _nearKinematic)
             {
                 var body = _bodies[index];
-                if (body.IsAsleep && _stepper.IsNearKinematic(body, _statics.CollidersOf(ColliderKindOf(body)), moved.MaxSpeed * seconds))
+                if (body.IsAsleep && _stepper.IsNearKinematic(body, CollidersOf(body), moved.MaxSpeed * seconds))
                 {
                     _islands.Wake(body);
                 }

@@ -1,5 +1,6 @@
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Character;
 
 namespace FractalEngine.Core.Physics;
@@ -60,6 +61,13 @@ public sealed partial class PhysicsWorld
             StepPart(character, part * seconds / parts, seconds / parts);
         }
 
+        foreach (var body in _bodies)
+        {
+            body.StepForce = Vector.Zero;
+            body.StepTorque = Vector.Zero;
+        }
+
+        FinishEvents();
         _clock.Tick(seconds);
         LastStepCost = (_queryContext.Statistics.FaceTests - faceTestsBefore, _queryContext.Statistics.BoundTests - boundTestsBefore);
     }
@@ -90,7 +98,7 @@ public sealed partial class PhysicsWorld
         {
             if (body is { KinematicPush: > 0, IsAsleep: false, IsOverlapResolved: true })
             {
-                _stepper.PushOut(body, _statics.CollidersOf(ColliderKindOf(body)), seconds);
+                _stepper.PushOut(body, CollidersOf(body), seconds);
             }
         }
 
@@ -126,7 +134,7 @@ public sealed partial class PhysicsWorld
             {
                 body.AreNearSurfacesKnown = true;
                 var reach = _planner.Graph.Reach(body.Index);
-                _stepper.FindNearSurfaces(body, _statics.CollidersOf(ColliderKindOf(body)), reach, seconds);
+                _stepper.FindNearSurfaces(body, CollidersOf(body), reach, seconds);
             }
         }
     }
@@ -140,7 +148,7 @@ public sealed partial class PhysicsWorld
             {
                 if (!body.IsAsleep && !body.IsPrepared)
                 {
-                    _stepper.Prepare(body, _statics.CollidersOf(ColliderKindOf(body)), character, _gravity, seconds);
+                    _stepper.Prepare(body, CollidersOf(body), character, _gravity, seconds);
                 }
             }
         }
@@ -190,7 +198,7 @@ public sealed partial class PhysicsWorld
             _energyGuard.Check(in island);
             foreach (var index in members)
             {
-                _stepper.FinishPlanned(_bodies[index], _statics.CollidersOf(ColliderKindOf(_bodies[index])), seconds, StepCount);
+                _stepper.FinishPlanned(_bodies[index], CollidersOf(_bodies[index]), seconds, StepCount);
             }
         }
     }
@@ -199,7 +207,7 @@ public sealed partial class PhysicsWorld
     {
         if (!body.IsPrepared)
         {
-            _stepper.Prepare(body, _statics.CollidersOf(ColliderKindOf(body)), character, _gravity, seconds);
+            _stepper.Prepare(body, CollidersOf(body), character, _gravity, seconds);
         }
 
         MoveBody(body, character, seconds, isPlanned: false);
@@ -209,7 +217,7 @@ public sealed partial class PhysicsWorld
     {
         try
         {
-            var colliders = _statics.CollidersOf(ColliderKindOf(body));
+            var colliders = CollidersOf(body);
             if (isPlanned)
             {
                 _stepper.MovePlanned(body, colliders, character, seconds);
@@ -230,11 +238,23 @@ public sealed partial class PhysicsWorld
     {
         try
         {
-            character?.Step(seconds);
+            if (character is not null)
+            {
+                // The ground carries it first. Then it walks among objects where they are at the end of the step.
+                _kinematics.Time = 0;
+                character.Carry(seconds);
+                _kinematics.Time = seconds;
+                _kinematics.IsFrozen = true;
+                character.Step(seconds);
+            }
         }
         catch (ArgumentOutOfRangeException exception)
         {
             throw new InvalidOperationException($"the character has left the range of a double in step {StepCount}", exception);
+        }
+        finally
+        {
+            _kinematics.IsFrozen = false;
         }
 
         if (character is not null && !(character.Position.IsFinite() && character.Velocity.IsFinite()))

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Kinematics;
 using FractalEngine.Core.Scenes;
 
@@ -8,6 +9,7 @@ namespace FractalEngine.Core.Physics;
 internal sealed class StaticColliders
 {
     private readonly StaticObjectSet _set;
+    private readonly Dictionary<PlacedModel, ColliderInstance> _single = new(ReferenceEqualityComparer.Instance);
 
     /// <summary>Creates the view of a set. No collider is built yet.</summary>
     /// <param name="set">The objects, at least one.</param>
@@ -21,6 +23,47 @@ internal sealed class StaticColliders
         {
             AddKinematic(kinematic);
         }
+    }
+
+    private StaticColliders(StaticColliders all, Func<StaticObject, bool> condition)
+    {
+        _set = all._set;
+        Scene = all.Scene;
+        foreach (var hidden in _set.Objects.Where(candidate => candidate.Kinematic is null && !condition(candidate)))
+        {
+            Scene = Scene.WithoutObject(hidden.Index, out _);
+        }
+
+        Kinematics.AddRange(all.Kinematics.Where(pair => condition(pair.Object.Target)));
+    }
+
+    /// <summary>The same colliders without those of some objects.</summary>
+    public StaticColliders Where(Func<StaticObject, bool> condition) => new(this, condition);
+
+    /// <summary>Finds the closest point of one object.</summary>
+    public bool TryFindClosestOf(
+        StaticObject target, Vector position, double maxDistance, QueryContext context, out ClosestPoint closest)
+    {
+        if (!_single.TryGetValue(target.Reference, out var collider))
+        {
+            collider = FindCollider(target);
+            _single[target.Reference] = collider;
+        }
+
+        if (target.Kinematic is not { } kinematic)
+        {
+            return collider.TryFindClosest(position, maxDistance, context, out closest, epsilon: 0);
+        }
+
+        var isFound = collider.TryFindClosest(kinematic.ToReference(position), maxDistance, context, out closest, epsilon: 0);
+        closest = closest with { Point = kinematic.ToWorld(closest.Point), Normal = kinematic.Rotate(closest.Normal) };
+        return isFound;
+    }
+
+    private ColliderInstance FindCollider(StaticObject target)
+    {
+        var index = Kinematics.FindIndex(pair => pair.Object.Target == target);
+        return index >= 0 ? Kinematics[index].Collider : Scene.ColliderOf(target.Index);
     }
 
     /// <summary>Answers queries for the closest point, in world space.</summary>

@@ -44,6 +44,47 @@ public sealed partial class StaticObject
     /// <summary>The current placement as a map from the model's frame to world space.</summary>
     public AffineMap ObjectToWorld => Placed.ObjectToWorld;
 
+    /// <summary>Layer of the object, from 0 to 31. Two things meet when the mask of each has the other's layer.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such layer.</exception>
+    /// <remarks>Setting another one wakes all bodies.</remarks>
+    public int Layer
+    {
+        get;
+        set
+        {
+            ArgumentCheck.RequireLayer(value, nameof(Layer));
+            field = value;
+            _world.ChangeFilter();
+        }
+    }
+
+    /// <summary>The layers that the object meets: bit n for layer n. Setting others wakes all bodies.</summary>
+    public uint Mask
+    {
+        get;
+        set
+        {
+            field = value;
+            _world.ChangeFilter();
+        }
+    }
+
+    = Layers.All;
+
+    /// <summary>
+    /// True for an object that stops nothing, and only reports the bodies that reach into it, see
+    /// <see cref="PhysicsWorld.ContactEvents"/>. Setting it wakes all bodies.
+    /// </summary>
+    public bool IsTrigger
+    {
+        get;
+        set
+        {
+            field = value;
+            _world.ChangeFilter();
+        }
+    }
+
     /// <summary>Box that holds the object in world space.</summary>
     public BoundingBox Bounds => Placed.Bounds;
 

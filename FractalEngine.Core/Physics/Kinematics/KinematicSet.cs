@@ -8,7 +8,20 @@ internal sealed class KinematicSet
     private readonly List<KinematicObject> _objects = [];
 
     /// <summary>Seconds since the beginning of the step's present part.</summary>
-    public double Time { get; set; }
+    public double Time
+    {
+        get;
+        set
+        {
+            if (!IsFrozen)
+            {
+                field = value;
+            }
+        }
+    }
+
+    /// <summary>True while queries see the objects at one time, whatever they set.</summary>
+    public bool IsFrozen { get; set; }
 
     /// <summary>The objects, in the order in which they became kinematic.</summary>
     public List<KinematicObject> Objects => _objects;
@@ -70,7 +83,7 @@ internal sealed class KinematicSet
     public double MaxSpeedNear(in Motion motion, double duration, double reach)
     {
         var maxSpeed = 0.0;
-        if (_objects.Count == 0)
+        if (_objects.Count == 0 || IsFrozen)
         {
             return maxSpeed;
         }
