@@ -71,7 +71,10 @@ internal sealed class ScenePhysics : IDisposable
     /// <summary>Whether the player walks, so that the camera is at the player's eyes.</summary>
     public bool IsWalking => Character is { IsActive: true };
 
-    /// <summary>Whether anything can move: a body, an object that the scene moves, or the player who walks. While colliders are built, whether they have to be.</summary>
+    /// <summary>
+    /// Whether anything can move: a body, an object that the scene moves, or the player who walks. While colliders are built, whether they
+    /// have to be.
+    /// </summary>
     public bool HasMovers => (World ?? _continued) is { } world ? world.Bodies.Count > 0 || world.MovingObjects.Any() || IsWalking
         : !_worldTask.IsCompleted;
 

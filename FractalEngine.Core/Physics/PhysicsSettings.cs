@@ -29,7 +29,7 @@ public sealed record PhysicsSettings
     /// </summary>
     public int MaxStepsPerAdvance { get; init; } = 6;
 
-    /// <summary>Whether <see cref="PhysicsWorld.ContactEvents"/> tells of contacts and triggers, which costs some time in each step.</summary>
+    /// <summary>Whether <see cref="PhysicsWorld.ContactEvents"/> tells of contacts and triggers, which costs time.</summary>
     public bool ReportsContacts { get; init; }
 
     /// <summary>Throws for settings that no world can have.</summary>

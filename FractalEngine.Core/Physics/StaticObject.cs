@@ -101,7 +101,8 @@ public sealed partial class StaticObject
     /// 1 where faces look out of the object as they are wound, −1 where its matrix mirrors it, 0 where its instances differ.
     /// </summary>
     internal int WindingSign =>
-        Model is FractalModel { Fractal.Description.PreservesOrientation: false } ? 0 : Math.Sign(Reference.ObjectToWorld.Linear.Determinant());
+        Model is FractalModel { Fractal.Description.PreservesOrientation: false }
+            ? 0 : Math.Sign(Reference.ObjectToWorld.Linear.Determinant());
 
     /// <summary>
     /// Puts the object elsewhere at once, and its collider with it, without building the collider anew. Bodies that it then overlaps are

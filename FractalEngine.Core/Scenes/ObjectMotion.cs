@@ -17,7 +17,7 @@ public sealed record ObjectMotion
     /// </summary>
     public Vector Spin { get; init; }
 
-    /// <summary>Where a path begins along which the object goes to and fro, world space; null for an object that goes straight on.</summary>
+    /// <summary>Where a path begins along which the object goes to and fro, world space; null for one that goes straight on.</summary>
     public Vector? From { get; init; }
 
     /// <summary>Where that path ends, world space; null together with <see cref="From"/>.</summary>

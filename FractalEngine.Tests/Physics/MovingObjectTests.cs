@@ -66,7 +66,8 @@ public class MovingObjectTests
         world.Run(120, () => Assert.All(world.Bodies, body =>
         {
             Assert.True(world.TryFindClosest(body.Position, ColliderKind.Exact, out var closest));
-            Assert.True(body.IsStuck || closest.Distance - body.Radius > -2e-6, $"{body.Name} overlaps by {body.Radius - closest.Distance:R}");
+            var overlap = body.Radius - closest.Distance;
+            Assert.True(body.IsStuck || overlap < 2e-6, $"{body.Name} overlaps by {overlap:R}");
         }));
     });
 
@@ -258,7 +259,8 @@ public class MovingObjectTests
     [Fact]
     public void Scene_WithAnImpossiblePath_IsRefused()
     {
-        var lift = new SceneObject(PhysicsMeshes.Cube) { Motion = new() { Velocity = new(1, 0, 0), From = Vector.Zero, To = new(0, 3, 0) } };
+        var motion = new ObjectMotion { Velocity = new(1, 0, 0), From = Vector.Zero, To = new(0, 3, 0) };
+        var lift = new SceneObject(PhysicsMeshes.Cube) { Motion = motion };
         var exception = Assert.Throws<SceneObjectException>(() => new PhysicsWorld(new Scene { Objects = [lift] }));
         Assert.EndsWith("the velocity must lead along the path", exception.Message, StringComparison.Ordinal);
     }

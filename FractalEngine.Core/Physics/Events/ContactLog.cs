@@ -3,7 +3,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Physics.Events;
 
-/// <summary>Collects the contacts of a step with their impulses, and tells what has begun, stayed and ended since the step before.</summary>
+/// <summary>Collects the contacts of a step with their impulses, and tells which have begun, stayed and ended.</summary>
 internal sealed class ContactLog(List<Body> bodies, StaticObjectSet statics)
 {
     private const int InitialCapacity = 256;
@@ -20,7 +20,7 @@ internal sealed class ContactLog(List<Body> bodies, StaticObjectSet statics)
     /// <summary>Number of contacts that have been collected in this step.</summary>
     public int Count => _records.Count;
 
-    /// <summary>Forgets all contacts.</summary>
+    /// <summary>Forgets the contacts of all steps so far.</summary>
     public void Clear()
     {
         _records.Clear();

@@ -4,7 +4,9 @@ namespace FractalEngine.Core.Physics.Events;
 
 /// <summary>One contact of a step, as it is collected.</summary>
 /// <param name="First">Index of the body, the lower one of two.</param>
-/// <param name="Second">Index of the other body; for a static object −2 less its index, and <see cref="Unknown"/> until it is found.</param>
+/// <param name="Second">
+/// Index of the other body; for a static object −2 less its index, and <see cref="Unknown"/> until it is found.
+/// </param>
 /// <param name="Point">World space.</param>
 /// <param name="Normal">Unit vector towards the first body.</param>
 /// <param name="Impulse">Along the normal.</param>
