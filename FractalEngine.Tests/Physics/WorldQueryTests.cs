@@ -1,6 +1,5 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
-using FractalEngine.Core.Rays;
 using FractalEngine.Tests.Collision;
 using FractalEngine.Tests.Support;
 

@@ -1,7 +1,6 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Character;
-using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Physics.Character;
