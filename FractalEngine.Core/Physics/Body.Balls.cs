@@ -78,6 +78,21 @@ public sealed partial class Body
         }
     }
 
+    /// <summary>True where a surface is touched that moves.</summary>
+    internal bool HasMovingSurface
+    {
+        get
+        {
+            var hasMoving = Contacts.HasMovingSurface;
+            foreach (var ball in Balls)
+            {
+                hasMoving |= ball.Contacts.HasMovingSurface || ball.NearSurfaces.HasMovingSurface;
+            }
+
+            return hasMoving;
+        }
+    }
+
     /// <summary>Velocity of the centre of a ball.</summary>
     /// <param name="offset">Its centre relative to the body's position.</param>
     internal Vector VelocityAt(Vector offset) => IsCompound ? Velocity + Vector.Cross(AngularVelocity, offset) : Velocity;

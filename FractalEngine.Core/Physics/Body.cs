@@ -124,6 +124,12 @@ public sealed partial class Body
         : IsCompound ? 0.5 * Vector.Dot(AngularVelocity, InertiaTensor * AngularVelocity)
         : 0.5 * AngularVelocity.LengthSquared() / InverseInertia;
 
+    /// <summary>Force in the next step besides the constant one.</summary>
+    internal Vector StepForce { get; set; }
+
+    /// <summary>Torque in the next step.</summary>
+    internal Vector StepTorque { get; set; }
+
     /// <summary>Angular velocity before the step.</summary>
     internal Vector SpinBefore { get; set; }
 
@@ -135,6 +141,9 @@ public sealed partial class Body
 
     /// <summary>Index of the island that the body belongs to in this step; negative where it touches no other body.</summary>
     internal int IslandIndex { get; set; } = NoIsland;
+
+    /// <summary>How far a kinematic object pushes the body in this step at most; 0 for one that none pushes.</summary>
+    internal double KinematicPush { get; set; }
 
     /// <summary>True once the step has begun for the body: it has shrunk, and its contacts with surfaces are up to date.</summary>
     internal bool IsPrepared { get; set; }
@@ -192,6 +201,8 @@ public sealed partial class Body
         Orientation = Orientation.Identity;
         PreviousOrientation = Orientation.Identity;
         Force = Vector.Zero;
+        StepForce = Vector.Zero;
+        StepTorque = Vector.Zero;
         Scale = 1;
         PreviousScale = 1;
         IsAsleep = false;
@@ -226,17 +237,23 @@ public sealed partial class Body
     /// <summary>Saves the state before a step, and sets the costs to 0.</summary>
     internal void BeginStep()
     {
+        PreviousPosition = Position;
+        PreviousOrientation = Orientation;
+        PreviousScale = Scale;
+        FaceTests = 0;
+        BoundTests = 0;
+    }
+
+    /// <summary>Begins one of the parts that a step is made in.</summary>
+    internal void BeginPart()
+    {
         IsPrepared = false;
         HasMoved = false;
         IslandIndex = NoIsland;
         NearSurfaces.Clear();
         AreNearSurfacesKnown = false;
-        PreviousPosition = Position;
-        PreviousOrientation = Orientation;
-        PreviousScale = Scale;
+        KinematicPush = 0;
         SpinBefore = AngularVelocity;
-        FaceTests = 0;
-        BoundTests = 0;
     }
 
     /// <summary>Turns a ball by its mean angular velocity of the step. Compounds turn as they move.</summary>

@@ -68,6 +68,12 @@ public sealed record BodyDescription(Vector Position, double Radius)
     /// <summary>Collider that finds what the body touches. Only exact ones miss nothing.</summary>
     public ColliderKind Collider { get; init; }
 
+    /// <summary>Layer of the body, from 0 to 31. Two things meet when the mask of each has the other's layer.</summary>
+    public int Layer { get; init; }
+
+    /// <summary>The layers that the body meets: bit n for layer n.</summary>
+    public uint Mask { get; init; } = Layers.All;
+
     /// <summary>Index in the world's scene of the object that moves with the body; null for none.</summary>
     public int? ObjectIndex { get; init; }
 
@@ -122,6 +128,7 @@ public sealed record BodyDescription(Vector Position, double Radius)
         : !(Position.IsFinite() && Velocity.IsFinite()) ? "position and velocity must be finite"
         : !AngularVelocity.IsFinite() ? "the angular velocity must be finite"
         : !(LinearPart.IsFinite() && ObjectOffset.IsFinite()) ? "rotation and scale must be finite"
+        : Layer is < 0 or >= Layers.Count ? "the layer must lie between 0 and 31"
         : Radius > 0 && !double.IsFinite(Radius) ? "the radius is beyond the range of a double"
         : !(Radius > 0) ? "the radius must be positive"
         : !(Mass > 0 && double.IsFinite(Mass)) ? "the mass must be positive"

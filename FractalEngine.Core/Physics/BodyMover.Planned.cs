@@ -5,15 +5,49 @@ namespace FractalEngine.Core.Physics;
 /// <content>What comes before and after the joint solve of islands: the surfaces that bodies may meet, and their planned motion.</content>
 internal sealed partial class BodyMover
 {
+    // Of the radius: more than the solve leaves, and less than can be seen.
+    private const double MaxKinematicOverlap = 2e-6;
+
     /// <summary>
     /// Updates what a body touches of surfaces, at the beginning of a step. One that overlaps something is pushed out, or it stops.
     /// </summary>
     /// <param name="body">Awake; the obstacles must be set up for it.</param>
-    public void Prepare(Body body)
+    /// <param name="stepLength">Seconds.</param>
+    public void Prepare(Body body, double stepLength)
     {
+        // What has moved may have come to overlap a body that had nowhere to go.
+        body.IsOverlapResolved &= !_obstacles.TryFindNearKinematic(body.Position, -MaxKinematicOverlap * body.Radius, out _);
         if (body.IsOverlapResolved || TryResolveOverlap(body))
         {
             body.Contacts.Refresh(body.Position, _obstacles.ContactSlop(body.Position), body.Radius);
+            FindKinematicPush(body, stepLength);
+        }
+    }
+
+    /// <summary>
+    /// Moves a body on that a kinematic object overlaps at the end of the step: others were in its way, and are pushed in the next one.
+    /// </summary>
+    /// <param name="body">The obstacles must be set up for it, at the end of the step.</param>
+    public void PushOut(Body body)
+    {
+        var position = body.Position;
+        if (_obstacles.TryFindNearKinematic(position, -MaxKinematicOverlap * body.Radius, out _)
+            && _overlapResolver.TryResolve(ref position, body.Index, ignoresBodies: true))
+        {
+            body.Position = position;
+            body.Contacts.Clear();
+        }
+    }
+
+    /// <summary>Finds how far the closest kinematic object pushes a body that stays where it is.</summary>
+    private void FindKinematicPush(Body body, double stepLength)
+    {
+        var motion = new Motion(body.Position, body.Velocity, body.FreeAcceleration);
+        var way = stepLength * _obstacles.MaxKinematicSpeed(in motion, stepLength);
+        if (way > 0 && _obstacles.TryFindNearKinematic(body.Position, way + motion.MaxTravelDistance(stepLength), out var surface))
+        {
+            // Whichever way: another face of the same object may be as near.
+            body.KinematicPush = stepLength * surface.Kinematic!.VelocityAt(surface.Point).Length();
         }
     }
 
@@ -23,9 +57,18 @@ internal sealed partial class BodyMover
     /// <param name="stepLength">Seconds.</param>
     public void FindNearSurfaces(Body body, double maxTravel, double stepLength)
     {
-        if (_nearSurfaceSearch.TryFind(body.Position, maxTravel, body.Contacts, body.NearSurfaces, out _))
+        var isFound = _nearSurfaceSearch.TryFind(body.Position, maxTravel, body.Contacts, body.NearSurfaces, out _);
+        var approach = stepLength * _obstacles.MaxKinematicSpeed(new(body.Position, Vector.Zero, Vector.Zero), 0);
+        if (_obstacles.TryFindNearKinematic(body.Position, maxTravel + approach, out var kinematic))
+        {
+            body.NearSurfaces.Add(in kinematic, kinematic.Normal(body.Position), body.Contacts, body.Position);
+            isFound = true;
+        }
+
+        if (isFound)
         {
             FindSurfaceAhead(body, stepLength);
+            _obstacles.Time = 0;
         }
     }
 
@@ -52,7 +95,7 @@ internal sealed partial class BodyMover
         body.CheckedTarget = body.Target;
         body.PlannedHit = null;
         var way = body.Target - body.PlannedStart;
-        if (way == Vector.Zero)
+        if (way == Vector.Zero && _obstacles.MaxKinematicSpeed(new(body.PlannedStart, Vector.Zero, Vector.Zero), 0) == 0)
         {
             body.Position = body.Target;
             return;
@@ -68,7 +111,7 @@ internal sealed partial class BodyMover
         {
             body.Position = RemoveRoundingOverlap(body.Position, in hit);
             body.Contacts.Add(in hit, body.Position);
-            body.PlannedHit = hit;
+            body.PlannedHit = hit with { CachedNormal = hit.Normal(body.Position) };
         }
     }
 
@@ -76,7 +119,7 @@ internal sealed partial class BodyMover
     /// <param name="body">The obstacles must be set up for it.</param>
     public void FinishPlanned(Body body)
     {
-        if (body.Position != body.PlannedStart)
+        if (body.Position != body.PlannedStart || body.Contacts.HasMovingSurface)
         {
             body.Contacts.UpdateAfterMove(body.Position, _obstacles.ContactSlop(body.Position), _obstacles);
         }

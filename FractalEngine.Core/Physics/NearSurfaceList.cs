@@ -19,6 +19,21 @@ internal sealed class NearSurfaceList
     /// <summary>The face at an index from 0 to <see cref="Count"/> − 1, with its normal.</summary>
     public ref readonly Contact this[int index] => ref _surfaces[index];
 
+    /// <summary>True where one of them moves.</summary>
+    public bool HasMovingSurface
+    {
+        get
+        {
+            var hasMoving = false;
+            for (var i = 0; i < Count; i++)
+            {
+                hasMoving |= _surfaces[i].Kinematic is { IsCarrying: true };
+            }
+
+            return hasMoving;
+        }
+    }
+
     /// <summary>Removes all faces of the list.</summary>
     public void Clear() => Count = 0;
 
@@ -32,12 +47,13 @@ internal sealed class NearSurfaceList
         var isKnown = Count == Capacity;
         for (var i = 0; i < Count; i++)
         {
-            isKnown |= Vector.Dot(_surfaces[i].CachedNormal, normal) > SameNormal;
+            isKnown |= _surfaces[i].Kinematic == surface.Kinematic && Vector.Dot(_surfaces[i].CachedNormal, normal) > SameNormal;
         }
 
         for (var i = 0; i < contacts.Count; i++)
         {
-            isKnown |= !contacts[i].IsBody && Vector.Dot(contacts[i].Normal(centre), normal) > SameNormal;
+            isKnown |= !contacts[i].IsBody && contacts[i].Kinematic == surface.Kinematic
+                && Vector.Dot(contacts[i].Normal(centre), normal) > SameNormal;
         }
 
         if (!isKnown)

@@ -1,5 +1,6 @@
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Character;
 using FractalEngine.Core.Physics.Islands;
 
@@ -48,13 +49,42 @@ public sealed partial class PhysicsWorld
         var faceTestsBefore = _queryContext.Statistics.FaceTests;
         var boundTestsBefore = _queryContext.Statistics.BoundTests;
         var character = Character is { IsActive: true } active ? active : null;
-        _islands.HasSleeping = false;
+        _kinematics.BeginStep(_clock.Time, seconds);
         foreach (var body in _bodies)
         {
             body.BeginStep();
+        }
+
+        character?.BeginStep();
+        var parts = CountParts(seconds);
+        for (var part = 0; part < parts; part++)
+        {
+            StepPart(character, part * seconds / parts, seconds / parts);
+        }
+
+        foreach (var body in _bodies)
+        {
+            body.StepForce = Vector.Zero;
+            body.StepTorque = Vector.Zero;
+        }
+
+        FinishEvents();
+        _clock.Tick(seconds);
+        LastStepCost = (_queryContext.Statistics.FaceTests - faceTestsBefore, _queryContext.Statistics.BoundTests - boundTestsBefore);
+    }
+
+    /// <summary>Makes one of the parts of a step.</summary>
+    private void StepPart(CharacterController? character, double elapsed, double seconds)
+    {
+        _islands.HasSleeping = false;
+        foreach (var body in _bodies)
+        {
+            body.BeginPart();
             _islands.HasSleeping |= body.IsAsleep;
         }
 
+        _kinematics.BeginPart(_clock.Time + elapsed, seconds);
+        WakeNearKinematics(seconds);
         PlanIslands(character, seconds);
         MoveIslands(character, seconds);
         for (var i = 0; i < _bodies.Count; i++)
@@ -65,11 +95,18 @@ public sealed partial class PhysicsWorld
             }
         }
 
+        foreach (var body in _bodies)
+        {
+            if (body is { KinematicPush: > 0, IsAsleep: false, IsOverlapResolved: true })
+            {
+                _stepper.PushOut(body, CollidersOf(body), seconds);
+            }
+        }
+
         _islands.PutToSleep(_planner.Graph, Settings.TimeBeforeSleep);
 
         StepCharacter(character, seconds);
-        _clock.Tick(seconds);
-        LastStepCost = (_queryContext.Statistics.FaceTests - faceTestsBefore, _queryContext.Statistics.BoundTests - boundTestsBefore);
+        _kinematics.EndPart();
     }
 
     /// <summary>Prepares all bodies that are awake, and solves their islands.</summary>
@@ -92,7 +129,7 @@ public sealed partial class PhysicsWorld
             {
                 body.AreNearSurfacesKnown = true;
                 var reach = _planner.Graph.Reach(body);
-                _stepper.FindNearSurfaces(body, _statics.CollidersOf(ColliderKindOf(body)), reach, seconds);
+                _stepper.FindNearSurfaces(body, CollidersOf(body), reach, seconds);
             }
         }
     }
@@ -106,7 +143,7 @@ public sealed partial class PhysicsWorld
             {
                 if (!body.IsAsleep && !body.IsPrepared)
                 {
-                    _stepper.Prepare(body, _statics.CollidersOf(ColliderKindOf(body)), character, _gravity, seconds);
+                    _stepper.Prepare(body, CollidersOf(body), character, _gravity, seconds);
                 }
             }
         }
@@ -136,7 +173,7 @@ public sealed partial class PhysicsWorld
             _energyGuard.Check(in island);
             foreach (var index in members)
             {
-                _stepper.FinishPlanned(_bodies[index], _statics.CollidersOf(ColliderKindOf(_bodies[index])), seconds, StepCount);
+                _stepper.FinishPlanned(_bodies[index], CollidersOf(_bodies[index]), seconds, StepCount);
             }
         }
     }
@@ -176,6 +213,7 @@ public sealed partial class PhysicsWorld
                     hasHeld |= body.IsHeld;
                     if (body.PlannedHit is { } hit && pass < MaxPasses - 2)
                     {
+                        _kinematics.Time = seconds;
                         _islandMover.AddSurface(body, in hit);
                     }
                     else if (body.IsHeld)
@@ -191,7 +229,7 @@ public sealed partial class PhysicsWorld
     {
         if (!body.IsPrepared)
         {
-            _stepper.Prepare(body, _statics.CollidersOf(ColliderKindOf(body)), character, _gravity, seconds);
+            _stepper.Prepare(body, CollidersOf(body), character, _gravity, seconds);
         }
 
         body.HasMoved = true;
@@ -202,7 +240,7 @@ public sealed partial class PhysicsWorld
     {
         try
         {
-            var colliders = _statics.CollidersOf(ColliderKindOf(body));
+            var colliders = CollidersOf(body);
             if (isPlanned)
             {
                 _stepper.MovePlanned(body, colliders, character, seconds);
@@ -223,11 +261,23 @@ public sealed partial class PhysicsWorld
     {
         try
         {
-            character?.Step(seconds);
+            if (character is not null)
+            {
+                // The ground carries it first. Then it walks among objects where they are at the end of the step.
+                _kinematics.Time = 0;
+                character.Carry(seconds);
+                _kinematics.Time = seconds;
+                _kinematics.IsFrozen = true;
+                character.Step(seconds);
+            }
         }
         catch (ArgumentOutOfRangeException exception)
         {
             throw new InvalidOperationException($"the character has left the range of a double in step {StepCount}", exception);
+        }
+        finally
+        {
+            _kinematics.IsFrozen = false;
         }
 
         if (character is not null && !(character.Position.IsFinite() && character.Velocity.IsFinite()))

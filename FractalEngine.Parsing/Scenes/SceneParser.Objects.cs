@@ -13,6 +13,8 @@ public sealed partial class SceneParser
     // With the blank that follows each.
     private static readonly string[] BodyOptions = ["velocity ", "mass ", "friction ", "damping ", "shrink ", "collider "];
 
+    private static readonly string[] ObjectOptions = ["moving ", "belt "];
+
     private delegate bool OptionParser<T>(Cursor cursor, ref T declared, out Cursor rest);
 
     /// <summary>Returns the name of a collider in scene files and on the command line.</summary>
@@ -109,8 +111,28 @@ public sealed partial class SceneParser
 
         if (declared is PhysicsObject body)
         {
+            foreach (var option in ObjectOptions)
+            {
+                Require(!cursor.Rest.StartsWith(option, StringComparison.Ordinal), cursor,
+                    $"unexpected '{option.TrimEnd()}': it is an option of objects that no force moves, which an 'o' line declares");
+            }
+
             var success = ParseBodyOption(cursor, ref body, out rest);
             declared = body;
+            return success;
+        }
+
+        if (ParseKeyword(cursor, "moving", out rest))
+        {
+            var success = ParseMotion(rest, declared.Placement.Position, out var motion, out rest);
+            declared = declared with { Motion = motion };
+            return success;
+        }
+
+        if (ParseKeyword(cursor, "belt", out rest))
+        {
+            var success = ParseVector(rest, out var belt, out rest);
+            declared = declared with { Belt = belt };
             return success;
         }
 

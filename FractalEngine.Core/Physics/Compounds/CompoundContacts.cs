@@ -12,6 +12,9 @@ internal sealed class CompoundContacts(List<Body> bodies, Obstacles obstacles)
     // on the dust of an infinite fractal would fall on one corner after the other.
     private const double MaxEdgeGap = 1e-4;
 
+    // Of a ball's radius: more than the solve leaves, and less than can be seen.
+    private const double MaxKinematicOverlap = 2e-6;
+
     private readonly NearSurfaceSearch _search = new(obstacles);
     private readonly HalfSpaces _planes = new();
 
@@ -29,8 +32,11 @@ internal sealed class CompoundContacts(List<Body> bodies, Obstacles obstacles)
     /// <param name="body">The compound.</param>
     /// <param name="reach">How far its centre of mass may get.</param>
     /// <param name="turn">Angle by which it may turn, radians.</param>
-    public void FindNearSurfaces(Body body, double reach, double turn)
+    /// <param name="duration">Seconds for which it is planned.</param>
+    public void FindNearSurfaces(Body body, double reach, double turn, double duration)
     {
+        obstacles.SelectBall(body.Radius, body.SafeDistance);
+        var approach = duration * obstacles.MaxKinematicSpeed(new(body.Position, Vector.Zero, Vector.Zero), 0);
         for (var i = 0; i < body.Balls.Length; i++)
         {
             var ball = body.Balls[i];
@@ -46,6 +52,45 @@ internal sealed class CompoundContacts(List<Body> bodies, Obstacles obstacles)
             else if (closest is { CombinedRadius: > 0, IsFlat: false } && closest.Gap(centre) <= MaxEdgeGap * ball.Radius)
             {
                 ball.NearSurfaces.Add(in closest, closest.Normal(centre), ball.Contacts, centre);
+            }
+
+            if (obstacles.TryFindNearKinematic(centre, ballReach + approach, out var kinematic))
+            {
+                ball.IsOnSurface |= kinematic.Gap(centre) <= obstacles.ContactSlop(centre);
+                ball.NearSurfaces.Add(in kinematic, kinematic.Normal(centre), ball.Contacts, centre);
+            }
+        }
+    }
+
+    /// <summary>True where an object that moves by itself has come to overlap a ball.</summary>
+    public bool IsOverrun(Body body)
+    {
+        for (var i = 0; i < body.Balls.Length; i++)
+        {
+            var centre = Select(body, i);
+            if (obstacles.TryFindNearKinematic(centre, -MaxKinematicOverlap * body.Balls[i].Radius, out _))
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    /// <summary>Finds how far objects that move by themselves push a compound that stays where it is.</summary>
+    public void FindKinematicPush(Body body, double duration)
+    {
+        obstacles.SelectBall(body.Radius, body.SafeDistance);
+        var motion = new Motion(body.Position, body.Velocity, body.FreeAcceleration);
+        var way = duration * obstacles.MaxKinematicSpeed(in motion, duration);
+        var reach = way + motion.MaxTravelDistance(duration) + (duration * body.AngularVelocity.Length() * body.MaxArm);
+        for (var i = 0; i < body.Balls.Length && way > 0; i++)
+        {
+            var centre = Select(body, i);
+            if (obstacles.TryFindNearKinematic(centre, reach, out var surface))
+            {
+                var push = duration * surface.Kinematic!.VelocityAt(surface.Point).Length();
+                body.KinematicPush = Math.Max(body.KinematicPush, push);
             }
         }
     }

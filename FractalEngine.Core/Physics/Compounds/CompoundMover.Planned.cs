@@ -9,8 +9,11 @@ internal sealed partial class CompoundMover
     /// Updates what a compound touches of surfaces, at the beginning of a step. One that overlaps something is pushed out.
     /// </summary>
     /// <param name="body">Awake; the obstacles must be set up for it.</param>
-    public void Prepare(Body body)
+    /// <param name="stepLength">Seconds.</param>
+    public void Prepare(Body body, double stepLength)
     {
+        // What has moved may have come to overlap a body that had nowhere to go.
+        body.IsOverlapResolved &= !_contacts.IsOverrun(body);
         if (!body.IsOverlapResolved)
         {
             foreach (var ball in body.Balls)
@@ -25,11 +28,12 @@ internal sealed partial class CompoundMover
         }
 
         _contacts.Refresh(body);
+        _contacts.FindKinematicPush(body, stepLength);
     }
 
     /// <summary>Finds faces that a compound of an island touches or may meet in the step.</summary>
     public void FindNearSurfaces(Body body, double reach, double stepLength) =>
-        _contacts.FindNearSurfaces(body, reach, stepLength * body.AngularVelocity.Length());
+        _contacts.FindNearSurfaces(body, reach, stepLength * body.AngularVelocity.Length(), stepLength);
 
     /// <summary>Moves a compound of an island to its target, or as far as surfaces and the character let it.</summary>
     /// <param name="body">Awake, prepared and planned. The obstacles must be set up for it.</param>
@@ -41,7 +45,7 @@ internal sealed partial class CompoundMover
         body.Position = body.PlannedStart;
         body.SetOrientation(body.PlannedStartOrientation);
         var way = body.Target - body.PlannedStart;
-        if (way == Vector.Zero && body.PlannedTurn == Vector.Zero)
+        if (way == Vector.Zero && body.PlannedTurn == Vector.Zero && !body.HasMovingSurface && body.KinematicPush == 0)
         {
             return;
         }
@@ -52,6 +56,7 @@ internal sealed partial class CompoundMover
         var isHit = _sweep.TryFindImpact(body, in path, stepLength, allowance, out var hit, out var ball, out var elapsed);
         if (isHit && allowance > 0)
         {
+            _obstacles.Time = 0;
             isHit = _sweep.TryFindImpact(body, in path, stepLength, allowance: 0, out hit, out ball, out elapsed);
         }
 
@@ -61,7 +66,7 @@ internal sealed partial class CompoundMover
         if (isHit)
         {
             body.Balls[ball].Contacts.Add(in hit, body.BallCentre(ball));
-            body.PlannedHit = hit;
+            body.PlannedHit = hit with { CachedNormal = hit.Normal(body.BallCentre(ball)) };
             body.PlannedHitBall = ball;
         }
     }

@@ -67,10 +67,11 @@ internal sealed partial class CompoundMover
         var timeLeft = stepLength;
         for (var impact = 0; impact < MaxImpacts && simultaneousImpacts < MaxSimultaneousImpacts && timeLeft > 0; impact++)
         {
+            _obstacles.Time = stepLength - timeLeft;
             _contacts.TakeBackRounding(body);
             var speed = body.Velocity.Length() + (timeLeft * body.FreeAcceleration.Length());
             var turn = Math.Min(MaxTurn, timeLeft * body.AngularVelocity.Length());
-            _contacts.FindNearSurfaces(body, timeLeft * speed, turn);
+            _contacts.FindNearSurfaces(body, timeLeft * speed, turn, timeLeft);
             _contacts.AddTouchedBodies(body);
             if (!TryRespond(body))
             {
@@ -146,7 +147,7 @@ internal sealed partial class CompoundMover
                 var contact = ball.Contacts[j];
                 if (!contact.IsBody)
                 {
-                    _rows.Add(ContactRows.OfSurface(body, i, in contact, isAhead: false));
+                    _rows.Add(ContactRows.OfSurface(body, i, in contact, isAhead: false, duration: 0));
                     continue;
                 }
 
@@ -164,7 +165,7 @@ internal sealed partial class CompoundMover
 
             for (var j = 0; j < ball.NearSurfaces.Count; j++)
             {
-                var row = ContactRows.OfNearSurface(body, i, in ball.NearSurfaces[j]);
+                var row = ContactRows.OfNearSurface(body, i, in ball.NearSurfaces[j], duration: 0);
                 row.IsMetExactly = true;
                 _rows.Add(row);
             }
@@ -193,6 +194,8 @@ internal sealed partial class CompoundMover
     {
         CollectRows(body, withAwake: false);
         var start = body.Position;
+        var startTime = _obstacles.Time;
+        var isCarried = body.HasMovingSurface;
         var orientation = body.Orientation;
         var energy = body.KineticEnergy;
         var momentum = body.InertiaTensor * body.AngularVelocity;
@@ -207,7 +210,9 @@ internal sealed partial class CompoundMover
         for (var plan = 1; ; plan++)
         {
             var end = Plan(body, duration, out var planned);
-            if (planned == default && body.Velocity == Vector.Zero && body.AngularVelocity == Vector.Zero)
+            _obstacles.Time = startTime;
+            if (planned == default && body.Velocity == Vector.Zero && body.AngularVelocity == Vector.Zero && !isCarried
+                && body.KinematicPush == 0)
             {
                 return duration;
             }
@@ -229,6 +234,7 @@ internal sealed partial class CompoundMover
 
             if (isHit && 4 * allowance * share * (1 - share) > MaxDip * minRadius)
             {
+                _obstacles.Time = startTime;
                 isHit = _sweep.TryFindImpact(body, in path, duration, allowance: 0, out hit, out ballIndex, out elapsed);
                 share = elapsed / duration;
             }
@@ -258,6 +264,13 @@ internal sealed partial class CompoundMover
             }
 
             _contacts.UpdateAfterMove(body);
+            _planner.Report(CollectionsMarshal.AsSpan(_rows));
+            if (isCarried || body.HasMovingSurface)
+            {
+                // What moves does work.
+                return elapsed;
+            }
+
             LimitEnergy(body, energy + (body.Description.Mass * Vector.Dot(body.FreeAcceleration, body.Position - start)));
             return elapsed;
         }

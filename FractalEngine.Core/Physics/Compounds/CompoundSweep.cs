@@ -19,6 +19,10 @@ internal sealed class CompoundSweep(Obstacles obstacles)
 
     private int _stepsLeft = MaxSteps;
 
+    // Time of the obstacles at which the present path begins, and how fast they are at most.
+    private double _startTime;
+    private double _obstacleSpeed;
+
     /// <summary>Restores the number of advances that may be spent, for another body or time step.</summary>
     public void ResetStepBudget() => _stepsLeft = MaxSteps;
 
@@ -41,12 +45,16 @@ internal sealed class CompoundSweep(Obstacles obstacles)
         hit = default;
         ball = 0;
         elapsed = 0;
+        _startTime = obstacles.Time;
+        obstacles.SelectBall(body.Radius, body.SafeDistance);
+        _obstacleSpeed = obstacles.MaxKinematicSpeed(path.Motion, duration);
         for (; _stepsLeft > 0 && elapsed < duration; _stepsLeft--)
         {
             var advance = FindFreeTime(body, in path, elapsed, duration - elapsed);
             if (double.IsPositiveInfinity(advance))
             {
                 elapsed = duration;
+                obstacles.Time = _startTime + elapsed;
                 return false;
             }
 
@@ -56,6 +64,7 @@ internal sealed class CompoundSweep(Obstacles obstacles)
                 hit = overlapped;
                 ball = overlappedBall;
                 elapsed = FindTimeOfImpact(body, in path, elapsed, target, duration, allowance, ref hit, ref ball);
+                obstacles.Time = _startTime + elapsed;
                 return true;
             }
 
@@ -74,18 +83,19 @@ internal sealed class CompoundSweep(Obstacles obstacles)
     {
         var isFree = true;
         var minTime = timeLeft;
+        obstacles.Time = _startTime + time;
         for (var i = 0; i < body.Balls.Length; i++)
         {
             var ball = body.Balls[i];
             obstacles.SelectBall(ball.Radius, ball.SafeDistance);
             var arm = ball.Offset.Length();
-            var maxTravel = path.MaxTravelDistance(time, arm, timeLeft);
+            var maxTravel = path.MaxTravelDistance(time, arm, timeLeft) + (_obstacleSpeed * timeLeft);
             var freeDistance = obstacles.FreeDistance(CentreAt(body, i, in path, time), maxTravel);
             if (maxTravel > freeDistance)
             {
                 isFree = false;
                 minTime = Math.Min(
-                    minTime, path.MinTimeToTravel(time, arm, Math.Max(freeDistance, 0) + (MaxOverstep * ball.Radius)));
+                    minTime, path.MinTimeToTravel(time, arm, _obstacleSpeed, Math.Max(freeDistance, 0) + (MaxOverstep * ball.Radius)));
             }
         }
 
@@ -99,6 +109,7 @@ internal sealed class CompoundSweep(Obstacles obstacles)
     {
         contact = default;
         ball = 0;
+        obstacles.Time = _startTime + time;
         var minGap = double.PositiveInfinity;
         var allowed = 4 * allowance * (time / duration) * (1 - (time / duration));
         for (var i = 0; i < body.Balls.Length; i++)

@@ -20,8 +20,12 @@ internal readonly record struct RigidPath(Motion Motion, Vector Spin)
     }
 
     /// <summary>Lower bound on the time that a distance takes for a point that turns with the body; infinite at rest.</summary>
-    public double MinTimeToTravel(double from, double arm, double distance) =>
-        new Motion(Vector.Zero, (Motion.VelocityAt(from).Length() + (Spin.Length() * arm)) * Vector.I, Motion.Acceleration)
+    /// <param name="from">Seconds after which it begins.</param>
+    /// <param name="arm">Distance of the point from the centre of mass.</param>
+    /// <param name="approach">Speed at which what is in the way comes nearer.</param>
+    /// <param name="distance">The distance, scene units.</param>
+    public double MinTimeToTravel(double from, double arm, double approach, double distance) =>
+        new Motion(Vector.Zero, (Motion.VelocityAt(from).Length() + (Spin.Length() * arm) + approach) * Vector.I, Motion.Acceleration)
             .MinTimeToTravel(distance);
 
     /// <summary>Upper bound on how far a point gets that turns with the body.</summary>

@@ -122,13 +122,13 @@ internal sealed partial class ContactGraph
         {
             if (contacts[i] is { IsBody: false } contact)
             {
-                AddRow() = ContactRows.OfSurface(body, ball, in contact, isAhead: false);
+                AddRow() = ContactRows.OfSurface(body, ball, in contact, isAhead: false, _stepLength);
             }
         }
 
         for (var i = 0; i < nearSurfaces.Count; i++)
         {
-            AddRow() = ContactRows.OfNearSurface(body, ball, in nearSurfaces[i]);
+            AddRow() = ContactRows.OfNearSurface(body, ball, in nearSurfaces[i], _stepLength);
         }
     }
 
@@ -138,7 +138,7 @@ internal sealed partial class ContactGraph
         var other = bodies[pair.Second];
         if (!body.IsCompound && !other.IsCompound)
         {
-            AddRow() = ContactRows.OfBalls(body, 0, other, 0, pair.IsSecondFirm, !pair.IsTouching);
+            AddBalls(in pair, 0, 0, !pair.IsTouching);
             return;
         }
 
@@ -152,11 +152,18 @@ internal sealed partial class ContactGraph
                 var gap = BallPairs.Gap(body, i, other, j);
                 if (gap <= limit)
                 {
-                    var slop = ContactTolerances.Slop(Math.Min(body.BallRadius(i), other.BallRadius(j)), body.Position);
-                    AddRow() = ContactRows.OfBalls(body, i, other, j, pair.IsSecondFirm, gap > slop);
+                    AddBalls(in pair, i, j, gap > ContactTolerances.Slop(Math.Min(body.BallRadius(i), other.BallRadius(j)), body.Position));
                 }
             }
         }
+    }
+
+    private void AddBalls(in BodyPair pair, int ball, int otherBall, bool isAhead)
+    {
+        ref var row = ref AddRow();
+        row = ContactRows.OfBalls(bodies[pair.First], ball, bodies[pair.Second], otherBall, pair.IsSecondFirm, isAhead);
+        // What bounces first goes as far as it touches only, and would be overrun.
+        row.Restitution = isAhead && IsPushed(in pair) ? 0 : row.Restitution;
     }
 
     private ref ContactRow AddRow()

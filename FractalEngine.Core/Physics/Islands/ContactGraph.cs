@@ -54,10 +54,10 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     public ReadOnlySpan<BodyPair> Pairs => CollectionsMarshal.AsSpan(_pairs);
 
     /// <summary>How far a body may get in the step. Never 0, which is for bodies that do not move.</summary>
-    public double Reach(Body body) => (_stepLength * body.Velocity.Length()) + Slack(body);
+    public double Reach(Body body) => (_stepLength * body.Velocity.Length()) + Slack(body) + body.KinematicPush;
 
     /// <summary>How far a body may get from where it would be without others, before it may meet what no contact knows of.</summary>
-    public double DeviationLimit(int body) => Slack(bodies[body]) + _push[body];
+    public double DeviationLimit(int body) => Slack(bodies[body]) + _push[body] + bodies[body].KinematicPush;
 
     /// <summary>True for a body of an island that is farther from where it was than any pair foresees.</summary>
     public bool IsBeyondReach(Body body) => (body.Position - body.PlannedStart).LengthSquared() > _reach[body.Index] * _reach[body.Index];
@@ -75,7 +75,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
             hasWoken = MaySearch(bodies[i]) && CollectTouching(bodies[i], islands);
         }
 
-        return hasWoken;
+        return hasWoken || PassPushes(islands);
     }
 
     /// <summary>Joins the bodies that touch, for the impulses of what approaches.</summary>
@@ -113,10 +113,11 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
             _hasLooked[i] = false;
         }
 
+        CollectNearPushed();
         var hasChanged = false;
         foreach (ref var pair in CollectionsMarshal.AsSpan(_pairs))
         {
-            pair.IsRow = pair.IsSecondFirm || !IsSeparating(in pair);
+            pair.IsRow = IsPushed(in pair) ? MayMeet(in pair) : pair.IsTouching && (pair.IsSecondFirm || !IsSeparating(in pair));
             if (pair is { IsRow: true, IsSecondFirm: false })
             {
                 _sets.Join(pair.First, pair.Second);
@@ -130,6 +131,87 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
             hasChanged = JoinNear();
         }
     }
+
+    /// <summary>Finds how far bodies are pushed by those that kinematic objects push, and so on.</summary>
+    /// <returns>True where a body was woken.</returns>
+    private bool PassPushes(SleepIslands islands)
+    {
+        var hasChanged = true;
+        while (hasChanged)
+        {
+            hasChanged = false;
+            foreach (var body in bodies)
+            {
+                if (body.KinematicPush > 0 && CanMove(body))
+                {
+                    if (TryWakePushed(body, islands))
+                    {
+                        return true;
+                    }
+
+                    hasChanged |= PassPush(body);
+                }
+            }
+        }
+
+        return false;
+    }
+
+    private void CollectPushedBy(Body body)
+    {
+        _neighbours.Clear();
+        nearbyBodies.CollectOverlaps(new(body.Position, body.Position), body.Radius + body.KinematicPush, body.Index, _neighbours);
+        _neighbours.Sort();
+    }
+
+    private bool TryWakePushed(Body body, SleepIslands islands)
+    {
+        CollectPushedBy(body);
+        foreach (var neighbour in _neighbours)
+        {
+            if (bodies[neighbour].IsAsleep)
+            {
+                islands.Wake(bodies[neighbour]);
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    private bool PassPush(Body body)
+    {
+        var hasChanged = false;
+        CollectPushedBy(body);
+        foreach (var neighbour in _neighbours)
+        {
+            var other = bodies[neighbour];
+            var push = body.KinematicPush - Math.Max(0, (body.Position - other.Position).Length() - body.Radius - other.Radius);
+            if (push > other.KinematicPush)
+            {
+                other.KinematicPush = push;
+                hasChanged = true;
+            }
+        }
+
+        return hasChanged;
+    }
+
+    /// <summary>Finds what bodies may meet that are pushed, which touch nothing yet.</summary>
+    private void CollectNearPushed()
+    {
+        for (var i = 0; i < bodies.Count; i++)
+        {
+            if (bodies[i].KinematicPush > 0 && CanMove(bodies[i]))
+            {
+                _hasLooked[i] = true;
+                CollectNear(i);
+            }
+        }
+    }
+
+    private bool IsPushed(in BodyPair pair) =>
+        bodies[pair.First].KinematicPush > 0 || (!pair.IsSecondFirm && bodies[pair.Second].KinematicPush > 0);
 
     private static bool MaySearch(Body body) => CanMove(body) && (body.MayTouchBodies || body.IsCompound);
 

@@ -74,6 +74,15 @@ internal struct ContactRow
     /// <summary>Restitution of this pair.</summary>
     public double Restitution;
 
+    /// <summary>Velocity of a firm surface that moves, at the touching point.</summary>
+    public Vector SurfaceVelocity;
+
+    /// <summary>Angular velocity of a firm surface that turns.</summary>
+    public Vector SurfaceSpin;
+
+    /// <summary>How far a firm surface goes in the step, its belt aside.</summary>
+    public Vector SurfaceWay;
+
     /// <summary>Smallest allowed relative velocity along the normal, units per second.</summary>
     public double MinNormalVelocity;
 

@@ -13,7 +13,8 @@ internal static class ContactRows
     /// <param name="ball">Index of its ball.</param>
     /// <param name="contact">The surface.</param>
     /// <param name="isAhead">True where it is not touched yet.</param>
-    public static ContactRow OfSurface(Body body, int ball, in Contact contact, bool isAhead)
+    /// <param name="duration">Seconds for which it is planned.</param>
+    public static ContactRow OfSurface(Body body, int ball, in Contact contact, bool isAhead, double duration)
     {
         var row = new ContactRow
         {
@@ -32,6 +33,13 @@ internal static class ContactRows
             Part = ball,
         };
         row.Normal = row.Offset.UnitVectorOrZero();
+        if (contact.Kinematic is { } kinematic)
+        {
+            row.SurfaceVelocity = contact.SurfaceVelocity(body.BallCentre(ball));
+            row.SurfaceSpin = kinematic.AngularVelocity;
+            row.SurfaceWay = duration * kinematic.VelocityAt(contact.Point);
+        }
+
         return row;
     }
 
@@ -39,11 +47,12 @@ internal static class ContactRows
     /// <param name="body">The body.</param>
     /// <param name="ball">Index of its ball.</param>
     /// <param name="face">The face, with its normal.</param>
-    public static ContactRow OfNearSurface(Body body, int ball, in Contact face)
+    /// <param name="duration">Seconds for which it is planned.</param>
+    public static ContactRow OfNearSurface(Body body, int ball, in Contact face, double duration)
     {
         var centre = body.BallCentre(ball);
         var gap = Vector.Dot(face.PointToCentre(centre), face.CachedNormal) - body.BallRadius(ball);
-        var row = OfSurface(body, ball, in face, gap > ContactTolerances.Slop(body.BallRadius(ball), centre));
+        var row = OfSurface(body, ball, in face, gap > ContactTolerances.Slop(body.BallRadius(ball), centre), duration);
         row.Normal = face.CachedNormal;
         return row;
     }

@@ -74,10 +74,10 @@ internal sealed partial class ContactSolver
         if (row.Second >= 0)
         {
             ref readonly var second = ref _bodies[row.Second];
-            velocity -= second.Velocity + Vector.Cross(second.Spin, row.SecondArm);
+            return velocity - second.Velocity - Vector.Cross(second.Spin, row.SecondArm);
         }
 
-        return velocity;
+        return velocity - row.SurfaceVelocity;
     }
 
     /// <summary>Gives both bodies an impulse where they touch.</summary>

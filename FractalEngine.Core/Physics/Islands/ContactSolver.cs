@@ -85,8 +85,8 @@ internal sealed partial class ContactSolver
 
     /// <summary>Velocity of the first body relative to the second.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public Vector RelativeVelocity(in ContactRow row) => row.HasArms ? RelativeVelocityOfArms(in row) :
-        row.Second >= 0 ? _bodies[row.First].Velocity - _bodies[row.Second].Velocity : _bodies[row.First].Velocity;
+    public Vector RelativeVelocity(in ContactRow row) => row.HasArms ? RelativeVelocityOfArms(in row)
+        : _bodies[row.First].Velocity - (row.Second >= 0 ? _bodies[row.Second].Velocity : row.SurfaceVelocity);
 
     /// <summary>Velocity of the first body's touching point relative to the second's, across the normal.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -260,7 +260,7 @@ internal sealed partial class ContactSolver
     /// <summary>Slows down rolling and spinning as far as the normal impulse allows.</summary>
     private Vector StopTurning(ref ContactRow row)
     {
-        var spin = _bodies[row.First].Spin - (row.Second >= 0 ? _bodies[row.Second].Spin : Vector.Zero);
+        var spin = _bodies[row.First].Spin - (row.Second >= 0 ? _bodies[row.Second].Spin : row.SurfaceSpin);
         var turn = row.TurnImpulse - (row.TurnInertia * spin);
         var about = Vector.Dot(turn, row.Normal);
         var rolling = turn - (about * row.Normal);

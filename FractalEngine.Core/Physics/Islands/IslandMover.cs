@@ -84,7 +84,7 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
         _unplanned.Add(new()
         {
             First = body.Index, Second = ContactRow.Firm, Offset = hit.PointToCentre(body.PlannedStart + offset), MinDistance = radius,
-            Normal = hit.Normal(body.Position + body.BallOffset(ball)), FirstRadius = radius,
+            Normal = hit.CachedNormal, FirstRadius = radius,
         });
     }
 

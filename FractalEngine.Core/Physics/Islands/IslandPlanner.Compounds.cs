@@ -34,6 +34,9 @@ internal sealed partial class IslandPlanner
         return (_solver.Bodies[members[0]].Velocity, _solver.Bodies[members[0]].Spin);
     }
 
+    /// <summary>Reports the contacts that the last forces on one body came from.</summary>
+    public void Report(ReadOnlySpan<ContactRow> rows) => Log(rows);
+
     /// <summary>Finds how compounds would turn if nothing touched them.</summary>
     private void FindFreeTurns(ReadOnlySpan<int> island, double duration)
     {
@@ -84,7 +87,7 @@ internal sealed partial class IslandPlanner
     private Vector BaseVelocity(in ContactRow row)
     {
         var velocity = BaseVelocity(bodies[row.First], row.FirstArm);
-        return row.Second >= 0 ? velocity - BaseVelocity(bodies[row.Second], row.SecondArm) : velocity;
+        return velocity - (row.Second >= 0 ? BaseVelocity(bodies[row.Second], row.SecondArm) : row.SurfaceVelocity);
     }
 
     private static Vector BaseVelocity(Body body, Vector arm) =>

@@ -19,7 +19,7 @@ internal sealed partial class IslandPlanner
     private double SetConstraint(ref ContactRow row, double stepLength, bool isFirst)
     {
         var velocity = row.HasArms ? BaseVelocity(in row)
-            : bodies[row.First].Velocity - (row.Second >= 0 ? bodies[row.Second].Velocity : Vector.Zero);
+            : bodies[row.First].Velocity - (row.Second >= 0 ? bodies[row.Second].Velocity : row.SurfaceVelocity);
         var shift = row.HasArms ? TurnShift(in row, stepLength, isFirst) : Vector.Zero;
         var distance = row.Offset.Length();
         var gap = distance - row.MinDistance;

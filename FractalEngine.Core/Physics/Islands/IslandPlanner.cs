@@ -1,4 +1,5 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Events;
 
 namespace FractalEngine.Core.Physics.Islands;
 
@@ -10,7 +11,7 @@ namespace FractalEngine.Core.Physics.Islands;
 /// The forces are constant during the step, so that each body follows a parabola. They act along the mean of the line of contact before
 /// and after the step. Along it, two balls that stay in touch do not come closer, so that the forces between them do no work.
 /// </remarks>
-internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies)
+internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies, ContactLog contactLog)
 {
     // Rounds of bounces, one contact after the other: more of them are balls that pass their speed to and fro.
     private const int MaxBounceRounds = 64;
@@ -87,6 +88,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             StorePlan(Graph.BodiesOf(in island), stepLength);
             StoreTurns(Graph.BodiesOf(in island), rows, stepLength);
             StopRebounds(Graph.BodiesOf(in island), rows);
+            Log(rows);
         }
 
         _cache.Store(Graph);
@@ -129,8 +131,29 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             row.MinNormalVelocity = row.IsAhead ? double.NegativeInfinity : 0;
         }
 
-        return Solve(rows);
+        var isConverged = Solve(rows);
+        Log(rows);
+        return isConverged;
     }
+
+    private void Log(ReadOnlySpan<ContactRow> rows)
+    {
+        if (!contactLog.IsEnabled)
+        {
+            return;
+        }
+
+        foreach (ref readonly var row in rows)
+        {
+            if (row.NormalImpulse > 0 || !row.IsAhead)
+            {
+                Log(in row, row.NormalImpulse);
+            }
+        }
+    }
+
+    private void Log(in ContactRow row, double impulse) => contactLog.Add(
+        row.First, row.Second, bodies[row.First].Position + row.FirstArm - (row.FirstRadius * row.Normal), row.Normal, impulse);
 
     /// <summary>Lets all pairs bounce that approach fast enough, one after the other.</summary>
     private bool Bounce(Span<ContactRow> rows)
@@ -152,6 +175,7 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
                 var limit = row.Friction * impulse;
                 var length = across.Length();
                 _solver.Apply(in row, row.HasArms ? 0 : impulse, length > limit ? limit / length * across : across);
+                Log(in row, impulse);
                 hasBounced = true;
             }
         }
@@ -273,7 +297,8 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
         {
             foreach (ref var row in rows)
             {
-                if (row.IsAhead && row.NormalImpulse > 0)
+                // What moves pushes on those that were slower than itself, which then rebound from what they push.
+                if ((row.IsAhead || row.SurfaceVelocity != Vector.Zero) && row.NormalImpulse > 0)
                 {
                     // It pushes less, but does not pull.
                     var impulse = Math.Min(row.NormalImpulse, row.NormalMass * NormalVelocity(in row));

@@ -59,6 +59,18 @@ public class SceneParserErrorTests
     [InlineData("p \"a.obj\" # -0.5", 13, "the coefficient of restitution must lie between 0 and 1")]
     [InlineData("p \"a.obj\" # 1 mass 0", 20, "the mass must be positive")]
     [InlineData("o \"a.obj\" # mass 5", 13, "unexpected 'mass': it is an option of physics objects, which a 'p' line declares")]
+    [InlineData("p \"a.obj\" # 1 belt (1, 0, 0)", 15,
+        "unexpected 'belt': it is an option of objects that no force moves, which an 'o' line declares")]
+    [InlineData("o \"a.obj\" # moving", 19, "unexpected end of file, expected 'velocity' or 'spin'")]
+    [InlineData("o \"a.obj\" # moving (1, 0, 0)", 20, "unexpected '(', expected 'velocity' or 'spin'")]
+    [InlineData("o \"a.obj\" # moving velocity (1, 0, 0) from (0, 0, 0)", 53, "unexpected end of file, expected 'to'")]
+    [InlineData("o \"a.obj\" # moving velocity (1, 0, 0) from (0, 0, 0) to (0, 0, 0)", 44, "the ends of the path must differ")]
+    [InlineData("o \"a.obj\" # moving velocity (1, 0, 0) from (0, 0, 0) to (0, 3, 0)", 29, "the velocity must lead along the path")]
+    [InlineData("o \"a.obj\" # moving velocity (0, 0, 0) from (0, 0, 0) to (0, 3, 0)", 29,
+        "the velocity along a path must not be (0, 0, 0)")]
+    [InlineData("o \"a.obj\" # moving velocity (1, 0, 0) from (1, 0, 0) to (3, 0, 0)", 44,
+        "the object's position must lie on the path, between its ends")]
+    [InlineData("o \"a.obj\" # belt 3", 18, "unexpected '3', expected '('")]
     [InlineData("handed up", 8, "unexpected 'up', expected 'left' or 'right'")]
     [InlineData("projection fisheye", 12, "unexpected 'fisheye', expected 'perspective' or 'orthographic'")]
     [InlineData("projection orthographic 0", 25, "the visible height must be positive")]
