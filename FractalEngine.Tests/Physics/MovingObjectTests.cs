@@ -1,5 +1,6 @@
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Compounds;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Tests.Support;
 
@@ -208,6 +209,31 @@ public class MovingObjectTests
         Assert.True(body.IsAsleep);
         world.Run(120);
         Assert.Equal(1, body.Velocity.X, 1e-9);
+    }
+
+    [Fact]
+    public void Capsule_OnLiftBeltAndBeforeAPlate_IsCarriedAndPushed()
+    {
+        var world = new PhysicsWorld();
+        var lift = world.AddStatic(PhysicsMeshes.Cube, Box(new(0, -0.5, 0), new(4, 1, 4)));
+        var belt = world.AddStatic(PhysicsMeshes.Cube, Box(new(100, -0.5, 0), new(100, 1, 8)));
+        world.AddStatic(PhysicsMeshes.Cube, Box(new(500, -0.5, 100), new(1000, 1, 20)));
+        var plate = world.AddStatic(PhysicsMeshes.Cube, Box(new(-4, 2.05, 100), new(0.1, 4, 8)));
+        var capsule = CompoundShape.Capsule(new(-0.5, 0, 0), new(0.5, 0, 0), 0.3);
+        var bodies = ((Vector[])[new(0, 0.3, 0), new(80, 0.3, 0), new(5, 0.3, 100)])
+            .Select(position => world.Add(new(position, capsule) { Friction = 0.5, RollingFriction = 0.1 })).ToArray();
+        lift.SetMotion(new(0, -1, 0));
+        belt.SetBelt(new(2, 0, 0));
+        plate.SetMotion(new(20, 0, 0));
+        world.Run(60);
+        world.Run(120, () =>
+        {
+            Near.Equal(lift.Placement.Position.Y + 0.5 + 0.3, bodies[0].Position.Y, 1e-6);
+            // It may stand across the plate: then only its radius is before it.
+            Assert.True(bodies[2].Position.X - 0.3 > plate.Placement.Position.X + 0.05 - 1e-6, "passed");
+        });
+        Near.Equal(new(2, 0, 0), bodies[1].Velocity, 1e-3);
+        Assert.True(bodies[2].Velocity.X > 15, $"{bodies[2].Velocity}");
     }
 
     [Fact]
