@@ -5,14 +5,13 @@ using FractalEngine.Parsing.Assets;
 
 namespace FractalEngine.App.Animation;
 
-/// <summary>The bodies of a scene at the times of frames, which lie on a step of the physics or between two.</summary>
+/// <summary>The bodies and moving objects of a scene at the times of frames, which lie on a step of the physics or between two.</summary>
 internal sealed class AnimatedBodies
 {
     // In steps: times are sums with rounding. A frame at the end of a step shows the bits of that step, as a still image does.
     private const double TimeTolerance = 1e-6;
 
     private readonly string _path;
-    private readonly LoadedScene _scene;
     private readonly PhysicsWorld _world;
     private double _alpha = 1;
 
@@ -20,16 +19,15 @@ internal sealed class AnimatedBodies
     /// <param name="path">Path of the scene, for messages.</param>
     /// <param name="file">The file that the scene was loaded from.</param>
     /// <param name="scene">The scene, perhaps with another projection.</param>
-    /// <exception cref="UsageException">The scene has no physics objects.</exception>
+    /// <exception cref="UsageException">The scene has neither physics objects nor moving ones.</exception>
     public AnimatedBodies(string path, LoadedFile file, LoadedScene scene)
     {
-        if (!scene.Objects.Any(static placed => placed.Declaration is PhysicsObject))
+        if (!scene.Objects.Any(static placed => placed.Declaration is PhysicsObject or { Motion: not null }))
         {
             throw new UsageException($"{path} has no physics objects, so there is nothing to simulate");
         }
 
         _path = path;
-        _scene = scene;
         _world = SceneWorld.Create(file, scene, new());
         Maps = CurrentMaps();
     }
@@ -59,33 +57,13 @@ internal sealed class AnimatedBodies
     }
 
     /// <summary>The scene with its objects where they are now.</summary>
-    public LoadedScene GetScene()
-    {
-        var current = _world.GetCurrentScene();
-        if (_alpha == 1)
-        {
-            return current;
-        }
-
-        var objects = current.Objects.ToBuilder();
-        foreach (var body in SceneBodies())
-        {
-            var index = body.Description.ObjectIndex!.Value;
-            var (declared, model) = (_scene.Objects[index].Declaration, _scene.Objects[index].Model);
-            var scale = body.PreviousScale + (_alpha * (body.Scale - body.PreviousScale));
-            var placement = declared.Placement with
-            {
-                Position = body.InterpolatedMap(_alpha).Translation,
-                Scale = scale * declared.Placement.Scale,
-            };
-            objects[index] = new(declared with { Placement = placement }, model);
-        }
-
-        return current with { Objects = objects.ToImmutable() };
-    }
+    public LoadedScene GetScene() => _world.GetCurrentScene(_alpha);
 
     private (int Index, AffineMap Map)[] CurrentMaps() =>
-        [.. SceneBodies().Select(body => (body.Description.ObjectIndex!.Value, body.InterpolatedMap(_alpha)))];
-
-    private IEnumerable<Body> SceneBodies() => _world.Bodies.Where(static body => body.Description.ObjectIndex is >= 0);
+    [
+        .. _world.Bodies.Where(static body => body.Description.ObjectIndex is >= 0)
+            .Select(body => (body.Description.ObjectIndex!.Value, body.InterpolatedMap(_alpha))),
+        .. _world.MovingObjects.Where(static moving => moving.ObjectIndex is not null)
+            .Select(moving => (moving.ObjectIndex!.Value, moving.InterpolatedMap(_alpha))),
+    ];
 }

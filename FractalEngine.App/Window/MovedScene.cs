@@ -6,7 +6,7 @@ using FractalEngine.Render;
 
 namespace FractalEngine.App.Window;
 
-/// <summary>A scene with its bodies where they are. It stays the same object until one of them moves.</summary>
+/// <summary>A scene with its bodies and moving objects where they are. It stays the same object until one of them moves.</summary>
 /// <param name="scene">The scene as it was loaded.</param>
 internal sealed class MovedScene(LoadedScene scene)
 {
@@ -20,7 +20,13 @@ internal sealed class MovedScene(LoadedScene scene)
     /// <param name="world">The bodies of the scene; null where there are none yet.</param>
     public LoadedScene With(PhysicsWorld? world)
     {
-        AffineMap[] maps = world is null ? [] : [.. world.Bodies.Select(static body => body.InterpolatedMap(1))];
+        AffineMap[] maps = world is null
+            ? []
+            :
+            [
+                .. world.Bodies.Select(static body => body.InterpolatedMap(1)),
+                .. world.MovingObjects.Select(static moving => moving.InterpolatedMap(1)),
+            ];
         if (_latest is null || !maps.SequenceEqual(_latestMaps))
         {
             _latestMaps = maps;
@@ -35,9 +41,11 @@ internal sealed class MovedScene(LoadedScene scene)
         var moved = world.GetCurrentScene();
         var spheres = world.Bodies
             .Where(static body => body.Description.ObjectIndex is null or < 0)
-            .Select(body => new PlacedModel(new(_sphere ??= new(MeshGenerators.Create("icosphere", 0, SphereFaceCount)))
+            .SelectMany(static body => Enumerable.Range(0, body.BallCount)
+                .Select(ball => Transformation.At(body.BallCentre(ball), body.BallRadius(ball))))
+            .Select(placement => new PlacedModel(new(_sphere ??= new(MeshGenerators.Create("icosphere", 0, SphereFaceCount)))
             {
-                Placement = Transformation.At(body.Position, body.Radius),
+                Placement = placement,
                 Colour = SphereInstance.Colour,
             }));
         return moved with { Objects = [.. moved.Objects, .. spheres] };

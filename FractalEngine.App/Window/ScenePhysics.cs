@@ -1,6 +1,7 @@
 using System.Diagnostics;
 using FractalEngine.Core;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Character;
 using FractalEngine.Core.Scenes;
@@ -62,7 +63,7 @@ internal sealed class ScenePhysics : IDisposable
         _worldTask.ContinueWith(_ => completed(), TaskScheduler.Default);
     }
 
-    /// <summary>True while bodies or the player move, so that <see cref="Advance"/> must be called.</summary>
+    /// <summary>True while bodies, objects or the player move, so that <see cref="Advance"/> must be called.</summary>
     public bool IsRunning => !IsPaused && World is { } world && (world.IsMoving || IsWalking);
 
     /// <summary>Whether the simulation is paused.</summary>
@@ -71,8 +72,12 @@ internal sealed class ScenePhysics : IDisposable
     /// <summary>Whether the player walks, so that the camera is at the player's eyes.</summary>
     public bool IsWalking => Character is { IsActive: true };
 
-    /// <summary>Whether anything can move: a body, or the player who walks. While colliders are built, whether they have to be.</summary>
-    public bool HasMovers => (World ?? _continued) is { } world ? world.Bodies.Count > 0 || IsWalking : !_worldTask.IsCompleted;
+    /// <summary>
+    /// Whether anything can move: a body, an object that the scene moves, or the player who walks. While colliders are built, whether they
+    /// have to be.
+    /// </summary>
+    public bool HasMovers => (World ?? _continued) is { } world ? world.Bodies.Count > 0 || world.MovingObjects.Any() || IsWalking
+        : !_worldTask.IsCompleted;
 
     /// <summary>The player; null where there is none.</summary>
     public CharacterController? Character => (World ?? _continued)?.Character;
@@ -193,7 +198,7 @@ internal sealed class ScenePhysics : IDisposable
         });
     }
 
-    /// <summary>Returns all bodies to their initial states, and removes those that were dropped.</summary>
+    /// <summary>Returns all bodies and moving objects to their initial states, and removes those that were dropped.</summary>
     public string Reset()
     {
         World?.Reset();
@@ -238,7 +243,7 @@ internal sealed class ScenePhysics : IDisposable
         return ShowsClosestPoints ? "closest points and normals: shown" : "closest points and normals: hidden";
     }
 
-    /// <summary>Moves the drawn bodies to their interpolated positions.</summary>
+    /// <summary>Moves the drawn bodies and moving objects to their interpolated positions.</summary>
     public void ApplyTo(SceneRenderer renderer)
     {
         if ((World ?? _continued) is not { } world)
@@ -257,7 +262,19 @@ internal sealed class ScenePhysics : IDisposable
             }
             else
             {
-                spheres.Add(new(map.Translation, body.Radius));
+                for (var ball = 0; ball < body.BallCount; ball++)
+                {
+                    var offset = body.Description.Shape?.Balls[ball].Offset ?? Vector.Zero;
+                    spheres.Add(new(map * offset, body.BallRadius(ball)));
+                }
+            }
+        }
+
+        foreach (var moving in world.MovingObjects)
+        {
+            if (moving.ObjectIndex is { } index)
+            {
+                renderer.Move(index, moving.InterpolatedMap(alpha));
             }
         }
 

@@ -15,6 +15,9 @@ internal sealed class WalkControls
     private readonly HeldKeys _heldKeys = new();
     private bool _isLooking;
 
+    // How far the ground had turned the player when its gaze was last asked for, radians.
+    private double _carriedAngle;
+
     /// <summary>The camera that looks in the player's direction; its position is not used.</summary>
     public Camera Direction { get; set; } = Camera.Default;
 
@@ -24,6 +27,7 @@ internal sealed class WalkControls
         Direction = other.Direction;
         _heldKeys.CopyFrom(other._heldKeys);
         _isLooking = other._isLooking;
+        _carriedAngle = other._carriedAngle;
     }
 
     /// <summary>Releases all keys and mouse buttons.</summary>
@@ -62,11 +66,20 @@ internal sealed class WalkControls
         return Direction != directionBefore;
     }
 
-    /// <summary>Returns the camera at the player's eyes.</summary>
+    /// <summary>Returns the camera at the player's eyes. Ground that turns has turned its gaze.</summary>
     /// <param name="controller">The player.</param>
     /// <param name="alpha">The fraction of a step since the last one, from 0 to 1; see <see cref="Body.InterpolatedMap"/>.</param>
     public Camera EyeCamera(CharacterController controller, double alpha)
     {
+        var angle = controller.PreviousCarriedAngle + (alpha * (controller.CarriedAngle - controller.PreviousCarriedAngle));
+        if (angle != _carriedAngle)
+        {
+            var turn = Direction.Handedness == Handedness.Right ? _carriedAngle - angle : angle - _carriedAngle;
+            Direction = CameraNavigation.Turn(Direction, turn, 0);
+            _carriedAngle = angle;
+            controller.MoveInput = ComputeMoveInput(controller.Up);
+        }
+
         var centre = controller.PreviousPosition + (alpha * (controller.Position - controller.PreviousPosition));
         return Direction with { Position = centre + ((0.5 - EyeDepthFraction) * controller.Description.Height * controller.Up) };
     }

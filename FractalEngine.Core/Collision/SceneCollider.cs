@@ -108,6 +108,20 @@ public sealed partial class SceneCollider
         return new(objects.Add(withModel.CreateInstance(objects.Count, placed)), sharedColliders, _kind);
     }
 
+    /// <summary>Makes the collider of the same scene without one of its objects. The indices of the others stay.</summary>
+    /// <param name="index">Index of the object in the scene, from 0.</param>
+    /// <param name="removed">Receives the object's own collider.</param>
+    internal SceneCollider WithoutObject(int index, out ColliderInstance removed)
+    {
+        var objects = _objects;
+        removed = objects.ToArray()[index];
+        // No query comes near an empty box.
+        return new(objects.With(new(index, removed.Collider, Similarity.Identity, null, BoundingBox.Empty)), _sharedColliders, _kind);
+    }
+
+    /// <summary>The collider of one object at its place.</summary>
+    internal ColliderInstance ColliderOf(int index) => _objects.ToArray()[index];
+
     private ColliderInstance CreateInstance(int index, PlacedModel placed)
     {
         var isSimilar = Similarity.TryCreate(placed.ObjectToWorld, out var similarity);

@@ -34,6 +34,16 @@ internal static class ArgumentCheck
         }
     }
 
+    /// <summary>Throws for a layer that there is not.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">The layer is not from 0 to 31.</exception>
+    public static void RequireLayer(int layer, string parameterName)
+    {
+        if (layer is < 0 or >= Layers.Count)
+        {
+            throw new ArgumentOutOfRangeException(parameterName, layer, "expected a layer from 0 to 31");
+        }
+    }
+
     /// <summary>Throws for a time step that is not positive or not finite.</summary>
     /// <exception cref="ArgumentOutOfRangeException">The time step is NaN, infinite, negative or zero.</exception>
     public static void RequireTimeStep(double seconds, string parameterName)

@@ -1,13 +1,14 @@
 using System.Globalization;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Compounds;
 
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
-/// A sphere that falls, bounces and rests: the bounding sphere of a physics object (paper §4.3.3, §4.4.1), or one of its own. Owned by a
-/// <see cref="PhysicsWorld"/>.
+/// What falls, bounces and rests: the bounding sphere of a physics object (paper §4.3.3, §4.4.1), a sphere of its own, or several that are
+/// rigidly joined. Owned by a <see cref="PhysicsWorld"/>.
 /// </summary>
-public sealed class Body
+public sealed partial class Body
 {
     /// <summary>Creates a body in its initial state.</summary>
     /// <param name="description">Already validated.</param>
@@ -17,6 +18,7 @@ public sealed class Body
     {
         Description = description;
         Index = index;
+        Balls = description.Shape is { } shape ? [.. shape.Balls.Select(static _ => new BodyBall())] : [];
         Reset(acceleration);
     }
 
@@ -26,7 +28,7 @@ public sealed class Body
     /// <summary>Index among the bodies of its world, from 0.</summary>
     public int Index { get; }
 
-    /// <summary>Current position of the centre in world space, scene units.</summary>
+    /// <summary>Current position of the centre of mass in world space, scene units.</summary>
     public Vector Position { get; internal set; }
 
     /// <summary>Position of the centre before the last step, for interpolation between steps.</summary>
@@ -50,7 +52,7 @@ public sealed class Body
     /// </summary>
     public Vector Force { get; internal set; }
 
-    /// <summary>Current radius of the sphere, scene units.</summary>
+    /// <summary>Current radius of the sphere, or of that about the centre of mass which holds all of them; scene units.</summary>
     public double Radius => Scale * Description.Radius;
 
     /// <summary>Current size relative to the initial one: 1, or less for a body that shrinks (paper §5.5).</summary>
@@ -80,16 +82,17 @@ public sealed class Body
     {
         var scale = PreviousScale + (alpha * (Scale - PreviousScale));
         var linear = scale * Description.LinearPart;
+        var origin = scale * Description.ObjectOffset;
         if (Orientation != Orientation.Identity || PreviousOrientation != Orientation.Identity)
         {
-            linear = Orientation.Interpolate(PreviousOrientation, Orientation, alpha).ToMatrix() * linear;
+            var rotation = Orientation.Interpolate(PreviousOrientation, Orientation, alpha).ToMatrix();
+            linear = rotation * linear;
+            origin = rotation * origin;
         }
 
-        return new(linear, PreviousPosition + (alpha * (Position - PreviousPosition)));
+        var translation = PreviousPosition + (alpha * (Position - PreviousPosition));
+        return new(linear, Description.ObjectOffset == Vector.Zero ? translation : translation + origin);
     }
-
-    /// <summary>Maximum number of faces that are near a body without being touched.</summary>
-    internal const int MaxNearSurfaces = 4;
 
     /// <summary>The index of no island.</summary>
     internal const int NoIsland = -1;
@@ -109,15 +112,23 @@ public sealed class Body
     /// <summary>Acceleration that remains after contacts have taken their part.</summary>
     internal Vector NetAcceleration { get; set; }
 
-    /// <summary>1/(kilogram · unit²); 0 for a body that does not turn.</summary>
+    /// <summary>1/(kilogram · unit²); 0 for a body that does not turn. Of a compound, at least that about any axis.</summary>
     internal double InverseInertia =>
-        Description.IsRotationLocked ? 0 : 1 / (Description.Inertia * Description.Mass * Radius * Radius);
+        Description.IsRotationLocked ? 0 : IsCompound ? MaxInverseInertia : 1 / (Description.Inertia * Description.Mass * Radius * Radius);
 
     /// <summary>Energy of motion and rotation, joules.</summary>
     internal double KineticEnergy => (0.5 * Description.Mass * Velocity.LengthSquared()) + SpinEnergy;
 
     /// <summary>Energy of rotation, joules.</summary>
-    internal double SpinEnergy => Description.IsRotationLocked ? 0 : 0.5 * AngularVelocity.LengthSquared() / InverseInertia;
+    internal double SpinEnergy => Description.IsRotationLocked ? 0
+        : IsCompound ? 0.5 * Vector.Dot(AngularVelocity, InertiaTensor * AngularVelocity)
+        : 0.5 * AngularVelocity.LengthSquared() / InverseInertia;
+
+    /// <summary>Force in the next step besides the constant one.</summary>
+    internal Vector StepForce { get; set; }
+
+    /// <summary>Torque in the next step.</summary>
+    internal Vector StepTorque { get; set; }
 
     /// <summary>Angular velocity before the step.</summary>
     internal Vector SpinBefore { get; set; }
@@ -131,8 +142,17 @@ public sealed class Body
     /// <summary>Index of the island that the body belongs to in this step; negative where it touches no other body.</summary>
     internal int IslandIndex { get; set; } = NoIsland;
 
+    /// <summary>How far a kinematic object pushes the body in this step at most; 0 for one that none pushes.</summary>
+    internal double KinematicPush { get; set; }
+
     /// <summary>True once the step has begun for the body: it has shrunk, and its contacts with surfaces are up to date.</summary>
     internal bool IsPrepared { get; set; }
+
+    /// <summary>True where the body may touch others: it has met one, was of an island, or has just come.</summary>
+    internal bool MayTouchBodies { get; set; }
+
+    /// <summary>True once a body of no island has made its step.</summary>
+    internal bool HasMoved { get; set; }
 
     /// <summary>What gravity and all contacts add to the velocity in the step.</summary>
     internal Vector PlannedChange { get; set; }
@@ -162,13 +182,10 @@ public sealed class Body
     internal Contact? PlannedHit { get; set; }
 
     /// <summary>Faces that the body touches or may meet in this step, and no contact knows of.</summary>
-    internal Contact[] NearSurfaces { get; } = new Contact[MaxNearSurfaces];
+    internal NearSurfaceList NearSurfaces { get; } = new();
 
     /// <summary>True once these faces have been searched for in this step.</summary>
     internal bool AreNearSurfacesKnown { get; set; }
-
-    /// <summary>Number of these faces.</summary>
-    internal int NearSurfaceCount { get; set; }
 
     /// <summary>True while the body shrinks and has not reached its minimum scale.</summary>
     internal bool IsShrinking => Description.Shrinkage > 0 && Scale > Description.MinimumScale;
@@ -184,6 +201,8 @@ public sealed class Body
         Orientation = Orientation.Identity;
         PreviousOrientation = Orientation.Identity;
         Force = Vector.Zero;
+        StepForce = Vector.Zero;
+        StepTorque = Vector.Zero;
         Scale = 1;
         PreviousScale = 1;
         IsAsleep = false;
@@ -192,9 +211,10 @@ public sealed class Body
         BoundTests = 0;
         SleepTimer = 0;
         IsOverlapResolved = false;
+        MayTouchBodies = true;
         NetAcceleration = acceleration;
-        Contacts.Clear();
-        SafeDistance.Invalidate();
+        DiscardSurfaces();
+        UpdateBalls();
     }
 
     /// <summary>Takes over the movement of a body with the same description, and discards everything that is known of surfaces.</summary>
@@ -210,27 +230,41 @@ public sealed class Body
         Scale = other.Scale;
         PreviousScale = other.PreviousScale;
         IsOverlapResolved = false;
+        MayTouchBodies = true;
+        UpdateBalls();
     }
 
     /// <summary>Saves the state before a step, and sets the costs to 0.</summary>
     internal void BeginStep()
     {
-        IsPrepared = false;
-        IslandIndex = NoIsland;
-        NearSurfaceCount = 0;
-        AreNearSurfacesKnown = false;
         PreviousPosition = Position;
         PreviousOrientation = Orientation;
         PreviousScale = Scale;
-        SpinBefore = AngularVelocity;
         FaceTests = 0;
         BoundTests = 0;
     }
 
-    /// <summary>Turns the body by its mean angular velocity of the step.</summary>
+    /// <summary>Begins one of the parts that a step is made in.</summary>
+    internal void BeginPart()
+    {
+        IsPrepared = false;
+        HasMoved = false;
+        IslandIndex = NoIsland;
+        NearSurfaces.Clear();
+        AreNearSurfacesKnown = false;
+        KinematicPush = 0;
+        SpinBefore = AngularVelocity;
+    }
+
+    /// <summary>Turns a ball by its mean angular velocity of the step. Compounds turn as they move.</summary>
     /// <param name="stepLength">Seconds.</param>
     internal void Turn(double stepLength)
     {
+        if (IsCompound)
+        {
+            return;
+        }
+
         if (AngularVelocity != Vector.Zero || SpinBefore != Vector.Zero)
         {
             Orientation = Orientation.TurnedBy(0.5 * stepLength * (SpinBefore + AngularVelocity));
@@ -244,8 +278,7 @@ public sealed class Body
     {
         Wake();
         NetAcceleration = acceleration;
-        SafeDistance.Invalidate();
-        Contacts.Clear();
+        DiscardSurfaces();
         IsOverlapResolved &= !mayOverlap;
     }
 
@@ -254,6 +287,7 @@ public sealed class Body
     {
         IsAsleep = false;
         SleepTimer = 0;
+        MayTouchBodies = true;
     }
 
     /// <summary>Puts the body to sleep at rest.</summary>

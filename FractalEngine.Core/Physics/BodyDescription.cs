@@ -1,13 +1,26 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Compounds;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;
 
 /// <summary>The initial state and the constants of a body, as plain immutable data.</summary>
-/// <param name="Position">Initial position of the centre in world space, scene units.</param>
-/// <param name="Radius">Initial radius in scene units, positive.</param>
+/// <param name="Position">Initial position of the centre of mass in world space, scene units.</param>
+/// <param name="Radius">Initial radius in scene units, positive; for a compound that of its <see cref="CompoundShape.Radius"/>.</param>
 public sealed record BodyDescription(Vector Position, double Radius)
 {
+    /// <summary>Describes a rigid body of several balls.</summary>
+    /// <param name="position">Initial position of the centre of mass in world space, scene units.</param>
+    /// <param name="shape">Its balls, and how its mass is spread.</param>
+    public BodyDescription(Vector position, CompoundShape shape)
+        : this(position, shape?.Radius ?? throw new ArgumentNullException(nameof(shape))) => Shape = shape;
+
+    /// <summary>The balls of a compound; null for one ball.</summary>
+    public CompoundShape? Shape { get; init; }
+
+    /// <summary>Offset of the drawn object's origin from the centre of mass at the start, world space; zero for one ball.</summary>
+    public Vector ObjectOffset { get; init; }
+
     /// <summary>Name for messages and tables; null for the body's index.</summary>
     public string? Name { get; init; }
 
@@ -29,7 +42,9 @@ public sealed record BodyDescription(Vector Position, double Radius)
     /// <summary>Coulomb's coefficient of friction against surfaces and other bodies; at 0 a body slides for ever.</summary>
     public double Friction { get; init; }
 
-    /// <summary>Moment of inertia over mass · radius²: 0.4 for a solid ball, 2/3 for a shell; positive and at most 2/3.</summary>
+    /// <summary>
+    /// Moment of inertia over mass · radius²: 0.4 for a solid ball, 2/3 for a shell; positive and at most 2/3. A compound has its own.
+    /// </summary>
     public double Inertia { get; init; } = PhysicsObject.SolidInertia;
 
     /// <summary>True for a body that does not turn, so that friction makes it slide instead of roll.</summary>
@@ -53,6 +68,12 @@ public sealed record BodyDescription(Vector Position, double Radius)
     /// <summary>Collider that finds what the body touches. Only exact ones miss nothing.</summary>
     public ColliderKind Collider { get; init; }
 
+    /// <summary>Layer of the body, from 0 to 31. Two things meet when the mask of each has the other's layer.</summary>
+    public int Layer { get; init; }
+
+    /// <summary>The layers that the body meets: bit n for layer n.</summary>
+    public uint Mask { get; init; } = Layers.All;
+
     /// <summary>Index in the world's scene of the object that moves with the body; null for none.</summary>
     public int? ObjectIndex { get; init; }
 
@@ -60,15 +81,25 @@ public sealed record BodyDescription(Vector Position, double Radius)
     public Matrix LinearPart { get; init; } = Matrix.Identity;
 
     /// <summary>
-    /// Creates the description of a physics object: the sphere about its position that holds all its vertices (paper §4.3.3).
+    /// Creates the description of a physics object: the sphere about its position that holds all its vertices (paper §4.3.3), or the shape
+    /// that the object states, fitted to its model.
     /// </summary>
     /// <param name="placed">The object with its model.</param>
     /// <param name="declared">What the scene declares of it.</param>
     /// <param name="index">Index of the object in the scene.</param>
+    /// <exception cref="ArgumentException">The model is too long for a capsule.</exception>
     /// <remarks>An object whose model has no vertices gets the radius 0, which no world accepts.</remarks>
-    public static BodyDescription FromPhysicsObject(PlacedModel placed, PhysicsObject declared, int index) =>
-        new(placed.ObjectToWorld.Translation, BodyRadius.Compute(placed))
+    public static BodyDescription FromPhysicsObject(PlacedModel placed, PhysicsObject declared, int index)
     {
+        var shape = declared.Shape == BodyShape.Ball ? null : CompoundFit.Fit(placed, declared.Shape);
+        var offset = shape?.Centre ?? Vector.Zero;
+        return FromPhysicsObject(placed, declared, index, shape?.Radius ?? BodyRadius.Compute(placed), offset) with { Shape = shape };
+    }
+
+    private static BodyDescription FromPhysicsObject(PlacedModel placed, PhysicsObject declared, int index, double radius, Vector centre) =>
+        new(centre == Vector.Zero ? placed.ObjectToWorld.Translation : placed.ObjectToWorld.Translation + centre, radius)
+    {
+        ObjectOffset = Vector.Zero - centre,
         Name = declared.Name,
         Velocity = declared.Velocity,
         Mass = declared.Mass,
@@ -93,9 +124,11 @@ public sealed record BodyDescription(Vector Position, double Radius)
 
     /// <summary>Describes the first number that no body can have; null for a valid description.</summary>
     internal string? FindFault() =>
-        !(Position.IsFinite() && Velocity.IsFinite()) ? "position and velocity must be finite"
+        Shape is not null && Shape.Radius != Radius ? "the radius must be that of the shape"
+        : !(Position.IsFinite() && Velocity.IsFinite()) ? "position and velocity must be finite"
         : !AngularVelocity.IsFinite() ? "the angular velocity must be finite"
-        : !LinearPart.IsFinite() ? "rotation and scale must be finite"
+        : !(LinearPart.IsFinite() && ObjectOffset.IsFinite()) ? "rotation and scale must be finite"
+        : Layer is < 0 or >= Layers.Count ? "the layer must lie between 0 and 31"
         : Radius > 0 && !double.IsFinite(Radius) ? "the radius is beyond the range of a double"
         : !(Radius > 0) ? "the radius must be positive"
         : !(Mass > 0 && double.IsFinite(Mass)) ? "the mass must be positive"

@@ -5,24 +5,49 @@ namespace FractalEngine.Core.Physics;
 /// <content>What comes before and after the joint solve of islands: the surfaces that bodies may meet, and their planned motion.</content>
 internal sealed partial class BodyMover
 {
-    // Cosine between normals from which on two surfaces near a body count as one.
-    private const double SameNormal = 0.999;
-
-    // Of the radius.
-    private const double MaxLift = 0.5;
-
-    // Searches for surfaces near a body: in a corner it has three.
-    private const int MaxSurfaceQueries = 3;
+    // Of the radius: more than the solve leaves, and less than can be seen.
+    private const double MaxKinematicOverlap = 2e-6;
 
     /// <summary>
     /// Updates what a body touches of surfaces, at the beginning of a step. One that overlaps something is pushed out, or it stops.
     /// </summary>
     /// <param name="body">Awake; the obstacles must be set up for it.</param>
-    public void Prepare(Body body)
+    /// <param name="stepLength">Seconds.</param>
+    public void Prepare(Body body, double stepLength)
     {
+        // What has moved may have come to overlap a body that had nowhere to go.
+        body.IsOverlapResolved &= !_obstacles.TryFindNearKinematic(body.Position, -MaxKinematicOverlap * body.Radius, out _);
         if (body.IsOverlapResolved || TryResolveOverlap(body))
         {
             body.Contacts.Refresh(body.Position, _obstacles.ContactSlop(body.Position), body.Radius);
+            FindKinematicPush(body, stepLength);
+        }
+    }
+
+    /// <summary>
+    /// Moves a body on that a kinematic object overlaps at the end of the step: others were in its way, and are pushed in the next one.
+    /// </summary>
+    /// <param name="body">The obstacles must be set up for it, at the end of the step.</param>
+    public void PushOut(Body body)
+    {
+        var position = body.Position;
+        if (_obstacles.TryFindNearKinematic(position, -MaxKinematicOverlap * body.Radius, out _)
+            && _overlapResolver.TryResolve(ref position, body.Index, ignoresBodies: true))
+        {
+            body.Position = position;
+            body.Contacts.Clear();
+        }
+    }
+
+    /// <summary>Finds how far the closest kinematic object pushes a body that stays where it is.</summary>
+    private void FindKinematicPush(Body body, double stepLength)
+    {
+        var motion = new Motion(body.Position, body.Velocity, body.FreeAcceleration);
+        var way = stepLength * _obstacles.MaxKinematicSpeed(in motion, stepLength);
+        if (way > 0 && _obstacles.TryFindNearKinematic(body.Position, way + motion.MaxTravelDistance(stepLength), out var surface))
+        {
+            // Whichever way: another face of the same object may be as near.
+            body.KinematicPush = stepLength * surface.Kinematic!.VelocityAt(surface.Point).Length();
         }
     }
 
@@ -32,31 +57,19 @@ internal sealed partial class BodyMover
     /// <param name="stepLength">Seconds.</param>
     public void FindNearSurfaces(Body body, double maxTravel, double stepLength)
     {
-        if (!_obstacles.TryFindNearSurface(body.Position, maxTravel, out var surface))
+        var isFound = _nearSurfaceSearch.TryFind(body.Position, maxTravel, body.Contacts, body.NearSurfaces, out _);
+        var approach = stepLength * _obstacles.MaxKinematicSpeed(new(body.Position, Vector.Zero, Vector.Zero), 0);
+        if (_obstacles.TryFindNearKinematic(body.Position, maxTravel + approach, out var kinematic))
         {
-            return;
+            body.NearSurfaces.Add(in kinematic, kinematic.Normal(body.Position), body.Contacts, body.Position);
+            isFound = true;
         }
 
-        var lift = surface.Normal(body.Position);
-        if (surface.IsFlat)
+        if (isFound)
         {
-            AddNearSurface(body, in surface, lift);
+            FindSurfaceAhead(body, stepLength);
+            _obstacles.Time = 0;
         }
-
-        // From somewhat farther off all that is known, the next surface is the closest one. No surface is within half a radius of there.
-        var height = Math.Min(maxTravel, MaxLift * body.Radius);
-        for (var i = 1; i < MaxSurfaceQueries && surface.IsFlat; i++)
-        {
-            if (!_obstacles.TryFindFace(body.Position + (height * lift), body.Position, height, out surface, out var normal))
-            {
-                break;
-            }
-
-            lift = (lift + normal).UnitVectorOrZero();
-            AddNearSurface(body, in surface, normal);
-        }
-
-        FindSurfaceAhead(body, stepLength);
     }
 
     /// <summary>Finds what the body runs into along the surfaces that it touches, if nothing else turns it aside.</summary>
@@ -67,26 +80,7 @@ internal sealed partial class BodyMover
         if (velocity != Vector.Zero
             && _sweep.TryFindImpact(new(body.Position, velocity, Vector.Zero), stepLength, out var hit, out var elapsed))
         {
-            AddNearSurface(body, in hit, hit.Normal(body.Position + (elapsed * velocity)));
-        }
-    }
-
-    private static void AddNearSurface(Body body, in Contact surface, Vector normal)
-    {
-        var isKnown = body.NearSurfaceCount == Body.MaxNearSurfaces;
-        for (var i = 0; i < body.NearSurfaceCount; i++)
-        {
-            isKnown |= Vector.Dot(body.NearSurfaces[i].CachedNormal, normal) > SameNormal;
-        }
-
-        for (var i = 0; i < body.Contacts.Count; i++)
-        {
-            isKnown |= !body.Contacts[i].IsBody && Vector.Dot(body.Contacts[i].Normal(body.Position), normal) > SameNormal;
-        }
-
-        if (!isKnown)
-        {
-            body.NearSurfaces[body.NearSurfaceCount++] = surface with { CachedNormal = normal };
+            body.NearSurfaces.Add(in hit, hit.Normal(body.Position + (elapsed * velocity)), body.Contacts, body.Position);
         }
     }
 
@@ -101,7 +95,7 @@ internal sealed partial class BodyMover
         body.CheckedTarget = body.Target;
         body.PlannedHit = null;
         var way = body.Target - body.PlannedStart;
-        if (way == Vector.Zero)
+        if (way == Vector.Zero && _obstacles.MaxKinematicSpeed(new(body.PlannedStart, Vector.Zero, Vector.Zero), 0) == 0)
         {
             body.Position = body.Target;
             return;
@@ -117,7 +111,7 @@ internal sealed partial class BodyMover
         {
             body.Position = RemoveRoundingOverlap(body.Position, in hit);
             body.Contacts.Add(in hit, body.Position);
-            body.PlannedHit = hit;
+            body.PlannedHit = hit with { CachedNormal = hit.Normal(body.Position) };
         }
     }
 
@@ -125,7 +119,7 @@ internal sealed partial class BodyMover
     /// <param name="body">The obstacles must be set up for it.</param>
     public void FinishPlanned(Body body)
     {
-        if (body.Position != body.PlannedStart)
+        if (body.Position != body.PlannedStart || body.Contacts.HasMovingSurface)
         {
             body.Contacts.UpdateAfterMove(body.Position, _obstacles.ContactSlop(body.Position), _obstacles);
         }

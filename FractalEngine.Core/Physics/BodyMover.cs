@@ -1,4 +1,5 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Events;
 
 namespace FractalEngine.Core.Physics;
 
@@ -31,19 +32,23 @@ internal sealed partial class BodyMover
     private readonly List<Body> _bodies;
     private readonly Obstacles _obstacles;
     private readonly ContactResponse _response;
+    private readonly ContactLog _contactLog;
     private readonly SpinFriction _spinFriction;
     private readonly SphereSweep _sweep;
     private readonly OverlapResolver _overlapResolver;
+    private readonly NearSurfaceSearch _nearSurfaceSearch;
     private readonly HalfSpaces _planes = new();
 
-    public BodyMover(List<Body> bodies, Obstacles obstacles, SleepIslands islands)
+    public BodyMover(List<Body> bodies, Obstacles obstacles, SleepIslands islands, ContactLog contactLog)
     {
         _bodies = bodies;
         _obstacles = obstacles;
-        _response = new(bodies, islands);
+        _response = new(bodies, islands, contactLog);
+        _contactLog = contactLog;
         _spinFriction = new(bodies);
         _sweep = new(obstacles);
         _overlapResolver = new(obstacles);
+        _nearSurfaceSearch = new(obstacles);
     }
 
     /// <summary>Moves a body that touches no other, or only such as do not move. The obstacles must be set up for it.</summary>
@@ -60,6 +65,7 @@ internal sealed partial class BodyMover
         _sweep.ResetStepBudget();
         _obstacles.CollectNearbyBodies(new(position, Vector.Zero, Vector.Zero), 0, body.Index);
         _obstacles.AddTouchedBodies(position, _obstacles.ContactSlop(position), body.Contacts);
+        body.MayTouchBodies |= body.Contacts.HasBody;
         MoveOn(body, ref position, stepLength, stepLength);
         body.Position = position;
     }
@@ -75,6 +81,7 @@ internal sealed partial class BodyMover
         var negligibleSpeed = NegligibleSpeedFraction * restitutionThreshold;
         for (var impact = 0; impact < MaxImpacts && simultaneousImpacts < MaxSimultaneousImpacts && timeLeft > 0; impact++)
         {
+            _obstacles.Time = stepLength - timeLeft;
             var velocityBefore = body.Velocity;
             _response.ResolveContacts(body, position, restitutionThreshold);
             body.Velocity = contacts.RemoveSeparating(position, body.Velocity, _bodies, negligibleSpeed, true);
@@ -100,7 +107,8 @@ internal sealed partial class BodyMover
         var contacts = body.Contacts;
         var start = position;
         var energy = body.KineticEnergy;
-        var mayGain = contacts.HasBody || (body.Description is { Friction: > 0, IsRotationLocked: false } && contacts.Count > 0);
+        var mayGain = (contacts.HasBody || (body.Description is { Friction: > 0, IsRotationLocked: false } && contacts.Count > 0))
+            && !contacts.HasMovingSurface;
         var projectedVelocity = isBlocked ? contacts.ProjectVelocity(body.Velocity, position, _planes) : body.Velocity;
         var blockedVelocity = body.Velocity - projectedVelocity;
         if (blockedVelocity.Length() > MaxBlockedSpeedRatio * projectedVelocity.Length())
@@ -115,6 +123,7 @@ internal sealed partial class BodyMover
         var elapsed =
             AdvanceAlong(body, netAcceleration, acceleration, ref position, Math.Min(duration, validDuration), negligibleSpeed);
         body.Velocity += blockedVelocity;
+        _contactLog.AddRest(body, position, acceleration, netAcceleration, Math.Min(elapsed, duration));
         if (mayGain)
         {
             LimitEnergy(body, energy + (body.Description.Mass * Vector.Dot(acceleration, position - start)));
@@ -148,13 +157,15 @@ internal sealed partial class BodyMover
     {
         var contacts = body.Contacts;
         var isStopping = false;
+        var stoppedVelocity = Vector.Zero;
         var spinAcceleration = Vector.Zero;
         var maxDuration = duration;
+        var isCarried = contacts.HasMovingSurface;
         if (body.Description.Friction > 0 && contacts.Count > 0)
         {
             if (body.Description.IsRotationLocked)
             {
-                isStopping = ContactResponse.ApplyFriction(body, acceleration, ref netAcceleration, ref duration);
+                isStopping = ApplyFriction(body, position, acceleration, ref netAcceleration, ref duration, out stoppedVelocity);
             }
             else
             {
@@ -162,16 +173,16 @@ internal sealed partial class BodyMover
             }
         }
 
-        var isSlow = contacts.Count > 0 && body.Velocity.MaxAbsComponent() <= negligibleSpeed;
+        var isSlow = contacts.Count > 0 && !isCarried && body.Velocity.MaxAbsComponent() <= negligibleSpeed;
         body.Velocity = netAcceleration == Vector.Zero && isSlow ? Vector.Zero : body.Velocity;
         body.NetAcceleration = netAcceleration;
-        if (body.Velocity == Vector.Zero && netAcceleration == Vector.Zero)
+        var motion = new Motion(position, body.Velocity, netAcceleration);
+        if (body.Velocity == Vector.Zero && netAcceleration == Vector.Zero && _obstacles.MaxKinematicSpeed(in motion, duration) == 0)
         {
             body.AngularVelocity += (spinAcceleration == Vector.Zero ? 0 : duration) * spinAcceleration;
             return spinAcceleration == Vector.Zero ? maxDuration : duration;
         }
 
-        var motion = new Motion(position, body.Velocity, netAcceleration);
         _obstacles.CollectNearbyBodies(in motion, duration, body.Index);
         var isHit = _sweep.TryFindImpact(in motion, duration, out var hit, out var elapsed);
         position = motion.PositionAt(elapsed);
@@ -181,14 +192,40 @@ internal sealed partial class BodyMover
         {
             position = RemoveRoundingOverlap(position, in hit);
             contacts.Add(in hit, position);
+            if (hit.IsBody)
+            {
+                body.MayTouchBodies = true;
+                _bodies[hit.BodyIndex].MayTouchBodies = true;
+            }
         }
         else if (isStopping)
         {
-            body.Velocity = Vector.Zero;
+            body.Velocity = stoppedVelocity;
         }
 
         contacts.UpdateAfterMove(position, _obstacles.ContactSlop(position), _obstacles);
         return isHit || elapsed >= duration ? elapsed : double.PositiveInfinity;
+    }
+
+    /// <summary>Slows down a body that does not turn, relative to what carries it.</summary>
+    /// <returns>True when the body has the velocity of what carries it after that time.</returns>
+    private static bool ApplyFriction(
+        Body body, Vector position, Vector acceleration, ref Vector netAcceleration, ref double duration, out Vector stoppedVelocity)
+    {
+        var maxDuration = duration;
+        var carrying = body.Contacts.CarryingVelocity(position, out var carryingAcceleration);
+        netAcceleration -= carryingAcceleration;
+        var isStopping = ContactResponse.ApplyFriction(
+            body, body.Velocity - carrying, acceleration - carryingAcceleration, ref netAcceleration, ref duration);
+        netAcceleration += carryingAcceleration;
+        if (body.Contacts.HasMovingSurface && !(duration > 0))
+        {
+            // It goes along already.
+            duration = maxDuration;
+        }
+
+        stoppedVelocity = carrying + (duration * carryingAcceleration);
+        return isStopping;
     }
 
     /// <summary>Pushes a body out that overlaps something; one that cannot be pushed out stops.</summary>

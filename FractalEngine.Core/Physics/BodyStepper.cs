@@ -2,6 +2,9 @@ using System.Globalization;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Character;
+using FractalEngine.Core.Physics.Compounds;
+using FractalEngine.Core.Physics.Events;
+using FractalEngine.Core.Physics.Islands;
 
 namespace FractalEngine.Core.Physics;
 
@@ -14,7 +17,8 @@ internal sealed class BodyStepper
     // Of √(acceleration · radius), the speed that a body reaches by falling half its radius.
     private const double SleepSpeedFraction = 0.02;
 
-    private static readonly Vector[] SingleSphereOffset = [Vector.Zero];
+    /// <summary>The offset of the only sphere of a body.</summary>
+    public static readonly Vector[] SingleSphereOffset = [Vector.Zero];
 
     private readonly PhysicsSettings _settings;
     private readonly BodyGrid _grid;
@@ -23,10 +27,11 @@ internal sealed class BodyStepper
     private readonly SleepIslands _islands;
     private readonly QueryContext _queryContext;
     private readonly BodyMover _mover;
+    private readonly CompoundMover _compoundMover;
 
     public BodyStepper(
         PhysicsSettings settings, List<Body> bodies, BodyGrid grid, NearbyBodies nearbyBodies, Obstacles obstacles, SleepIslands islands,
-        QueryContext queryContext)
+        IslandPlanner planner, QueryContext queryContext, ContactLog contactLog)
     {
         _settings = settings;
         _grid = grid;
@@ -34,7 +39,8 @@ internal sealed class BodyStepper
         _obstacles = obstacles;
         _islands = islands;
         _queryContext = queryContext;
-        _mover = new(bodies, obstacles, islands);
+        _mover = new(bodies, obstacles, islands, contactLog);
+        _compoundMover = new(bodies, obstacles, islands, planner);
     }
 
     /// <summary>Begins the step of a body that is awake: all but its motion.</summary>
@@ -51,13 +57,20 @@ internal sealed class BodyStepper
         if (body.IsShrinking)
         {
             body.Scale = Math.Max(description.MinimumScale, body.Scale - (description.Shrinkage * stepLength));
+            body.UpdateBalls();
         }
 
-        var acceleration = gravity + (body.Force / description.Mass);
+        var acceleration = gravity + ((body.Force + body.StepForce) / description.Mass);
         if (description.Damping > 0)
         {
             body.Velocity *= Math.Exp(-description.Damping * stepLength);
             body.AngularVelocity *= Math.Exp(-description.Damping * stepLength);
+        }
+
+        if (body.StepTorque != Vector.Zero)
+        {
+            body.AngularVelocity += stepLength * (body.IsCompound
+                ? body.InverseInertiaTensor * body.StepTorque : body.InverseInertia * body.StepTorque);
         }
 
         body.FreeAcceleration = acceleration;
@@ -65,13 +78,32 @@ internal sealed class BodyStepper
             _settings.RestitutionThreshold ?? RestitutionThresholdFraction * acceleration.Length() * stepLength;
         var wasResolved = body.IsOverlapResolved;
         SetMover(body, staticColliders, character, stepLength);
-        _mover.Prepare(body);
+        if (body.IsCompound)
+        {
+            _compoundMover.Prepare(body, stepLength);
+        }
+        else
+        {
+            _mover.Prepare(body, stepLength);
+        }
+
         if (!wasResolved)
         {
             _grid.Update(body.Index);
         }
 
         EndCount(body, faceTests, boundTests);
+    }
+
+    /// <summary>Tells whether a kinematic object may come to touch a body that sleeps.</summary>
+    /// <param name="body">Any body.</param>
+    /// <param name="staticColliders">Colliders of the body's kind; null where there are no static objects.</param>
+    /// <param name="distance">How far the object moves.</param>
+    public bool IsNearKinematic(Body body, StaticColliders? staticColliders, double distance)
+    {
+        _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 0);
+        _obstacles.Time = 0;
+        return _obstacles.TryFindNearKinematic(body.Position, distance + _obstacles.ContactSlop(body.Position), out _);
     }
 
     /// <summary>Finds the surfaces that a body may meet in the step.</summary>
@@ -83,7 +115,15 @@ internal sealed class BodyStepper
     {
         var (faceTests, boundTests) = BeginCount();
         SetMover(body, staticColliders, character: null, stepLength);
-        _mover.FindNearSurfaces(body, reach, stepLength);
+        if (body.IsCompound)
+        {
+            _compoundMover.FindNearSurfaces(body, reach, stepLength);
+        }
+        else
+        {
+            _mover.FindNearSurfaces(body, reach, stepLength);
+        }
+
         EndCount(body, faceTests, boundTests);
     }
 
@@ -100,7 +140,15 @@ internal sealed class BodyStepper
         var motion = new Motion(body.Position, body.Velocity, body.FreeAcceleration);
         SetMover(body, staticColliders, character, stepLength);
         _nearbyBodies.Prepare(motion.SweptBox(stepLength), body.Radius * ContactTolerances.NeighbourRadiusFactor);
-        _mover.Move(body, stepLength);
+        if (body.IsCompound)
+        {
+            _compoundMover.Move(body, stepLength);
+        }
+        else
+        {
+            _mover.Move(body, stepLength);
+        }
+
         EndCount(body, faceTests, boundTests);
         Finish(body, stepLength, stepIndex);
     }
@@ -111,7 +159,15 @@ internal sealed class BodyStepper
     {
         var (faceTests, boundTests) = BeginCount();
         SetMover(body, staticColliders, character, stepLength);
-        _mover.MovePlanned(body, stepLength);
+        if (body.IsCompound)
+        {
+            _compoundMover.MovePlanned(body, stepLength);
+        }
+        else
+        {
+            _mover.MovePlanned(body, stepLength);
+        }
+
         EndCount(body, faceTests, boundTests);
     }
 
@@ -121,9 +177,38 @@ internal sealed class BodyStepper
     {
         var (faceTests, boundTests) = BeginCount();
         SetMover(body, staticColliders, character: null, stepLength);
-        _mover.FinishPlanned(body);
+        _obstacles.Time = stepLength;
+        if (body.IsCompound)
+        {
+            _compoundMover.FinishPlanned(body);
+        }
+        else
+        {
+            _mover.FinishPlanned(body);
+        }
+
         EndCount(body, faceTests, boundTests);
         Finish(body, stepLength, stepIndex);
+    }
+
+    /// <summary>Moves a body on that a kinematic object has overrun, at the end of the step.</summary>
+    /// <param name="body">Must have been moved.</param>
+    /// <param name="staticColliders">Colliders of the body's kind; null where there are no static objects.</param>
+    /// <param name="stepLength">Seconds, positive.</param>
+    public void PushOut(Body body, StaticColliders? staticColliders, double stepLength)
+    {
+        var (faceTests, boundTests) = BeginCount();
+        SetMover(body, staticColliders, character: null, stepLength);
+        body.MayTouchBodies = true;
+        _obstacles.Time = stepLength;
+        if (!body.IsCompound)
+        {
+            // A compound is moved on when its next step begins.
+            _mover.PushOut(body);
+        }
+
+        EndCount(body, faceTests, boundTests);
+        _grid.Update(body.Index);
     }
 
     /// <summary>Ends the step of a body that has moved.</summary>
@@ -153,6 +238,7 @@ internal sealed class BodyStepper
     {
         var maxTravel = new Motion(body.Position, body.Velocity, body.FreeAcceleration).MaxTravelDistance(stepLength);
         _obstacles.SetMover(staticColliders, SingleSphereOffset, body.Radius, body.SafeDistance, 2 * maxTravel, character);
+        _obstacles.Time = 0;
         return maxTravel;
     }
 

@@ -1,11 +1,12 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Events;
 
 namespace FractalEngine.Core.Physics;
 
 /// <summary>
 /// How contacts change the velocity of a body: the paper's response v ← −e·vₙ + vₛ (§4.4.4), and friction.
 /// </summary>
-internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
+internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands, ContactLog contactLog)
 {
     // Bounces at the same moment, one after the other: more of them are a corner that leaves no path.
     private const int MaxBounces = 16;
@@ -28,7 +29,7 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
             var fastestSpeed = 0.0;
             for (var i = 0; i < contacts.Count; i++)
             {
-                var velocity = RelativeVelocity(body, contacts[i]);
+                var velocity = RelativeVelocity(body, contacts[i], position);
                 var speed = Vector.Dot(velocity, contacts[i].Normal(position));
                 if (speed < fastestSpeed && speed < -RelativeTolerance * velocity.MaxAbsComponent()
                     && (contacts[i].IsBody || -speed > restitutionThreshold))
@@ -43,11 +44,16 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
                 break;
             }
 
-            Bounce(body, contacts[fastestIndex], contacts[fastestIndex].Normal(position), -fastestSpeed, restitutionThreshold);
+            Bounce(body, contacts[fastestIndex], position, -fastestSpeed, restitutionThreshold);
         }
 
         // Slow approaches to surfaces, all at once.
+        var velocityBefore = body.Velocity;
         body.Velocity = contacts.ProjectVelocity(body.Velocity, position, _planes, onlySurfaces: true);
+        if (body.Velocity != velocityBefore)
+        {
+            contactLog.AddSum(body, position, body.Description.Mass * (body.Velocity - velocityBefore));
+        }
     }
 
     /// <summary>
@@ -55,14 +61,15 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
     /// holds slow bodies.
     /// </summary>
     /// <param name="body">Touches something.</param>
+    /// <param name="velocity">Velocity of the body relative to what it touches.</param>
     /// <param name="acceleration">By gravity and forces.</param>
     /// <param name="netAcceleration">What the contacts leave of it; receives what friction leaves of that.</param>
     /// <param name="duration">Seconds; receives the time until the body stops or turns, if that is sooner.</param>
     /// <returns>True when the body stops then.</returns>
-    public static bool ApplyFriction(Body body, Vector acceleration, ref Vector netAcceleration, ref double duration)
+    public static bool ApplyFriction(
+        Body body, Vector velocity, Vector acceleration, ref Vector netAcceleration, ref double duration)
     {
         var frictionDeceleration = body.Description.Friction * (acceleration - netAcceleration).Length();
-        var velocity = body.Velocity;
         var velocityDotAcceleration = Vector.Dot(velocity, netAcceleration);
         var speedSquared = velocity.LengthSquared();
         if (velocityDotAcceleration < 0)
@@ -89,11 +96,15 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
         return true;
     }
 
-    private Vector RelativeVelocity(Body body, in Contact contact) =>
-        contact.IsBody ? body.Velocity - bodies[contact.BodyIndex].Velocity : body.Velocity;
+    private Vector RelativeVelocity(Body body, in Contact contact, Vector position) => body.Velocity
+        - (contact.IsBody ? bodies[contact.BodyIndex].VelocityAt(ArmOf(in contact)) : contact.SurfaceVelocity(position));
 
-    private void Bounce(Body body, in Contact contact, Vector normal, double approachSpeed, double restitutionThreshold)
+    /// <summary>Centre of the touched ball relative to its body.</summary>
+    private Vector ArmOf(in Contact contact) => contact.Point - bodies[contact.BodyIndex].Position;
+
+    private void Bounce(Body body, in Contact contact, Vector position, double approachSpeed, double restitutionThreshold)
     {
+        var normal = contact.Normal(position);
         var other = contact.IsBody ? bodies[contact.BodyIndex] : null;
         if (other is { IsAsleep: true } && approachSpeed > restitutionThreshold)
         {
@@ -103,13 +114,23 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
         // A body that sleeps on is as firm as the ground.
         var movable = other is { IsAsleep: false, IsStuck: false } ? other : null;
         var inverseMass = 1 / body.Description.Mass;
-        var otherInverseMass = movable is null ? 0 : 1 / movable.Description.Mass;
+        var otherInverseMass = movable is null ? 0
+            : movable.IsCompound ? movable.InverseMassAt(ArmOf(in contact), normal) : 1 / movable.Description.Mass;
         var restitution = approachSpeed > restitutionThreshold ? CombinedRestitution(body, other) : 0;
         var impulse = (1 + restitution) * approachSpeed / (inverseMass + otherInverseMass) * normal;
+        contactLog.Add(body, in contact, position, impulse.Length());
         var friction = other is null ? body.Description.Friction : Math.Min(body.Description.Friction, other.Description.Friction);
+        if (movable is { IsCompound: true })
+        {
+            BounceOffCompound(body, movable, in contact, position, impulse, friction);
+            return;
+        }
+
         if (friction > 0)
         {
-            var across = StopSlip(body, other, movable, in contact, normal, friction * impulse.Length());
+            var relative = RelativeVelocity(body, in contact, position);
+            var otherRadius = other is { IsCompound: true } ? contact.CombinedRadius - body.Radius : other?.Radius ?? 0;
+            var across = StopSlip(body, other, otherRadius, movable, relative, normal, friction * impulse.Length());
             impulse += across;
             Turn(body, body.Radius, normal, across);
             if (movable is not null)
@@ -125,15 +146,32 @@ internal sealed class ContactResponse(List<Body> bodies, SleepIslands islands)
         }
     }
 
-    /// <summary>Impulse across the normal that stops the slip of the touching points, as far as friction allows.</summary>
-    private Vector StopSlip(Body body, Body? other, Body? movable, in Contact contact, Vector normal, double limit)
+    /// <summary>Gives a ball and a compound the impulse of a bounce, then that of friction: both together could add energy.</summary>
+    private void BounceOffCompound(Body body, Body other, in Contact contact, Vector position, Vector impulse, double friction)
     {
-        var relative = RelativeVelocity(body, in contact);
+        var normal = contact.Normal(position);
+        var arm = ArmOf(in contact) + ((contact.CombinedRadius - body.Radius) * normal);
+        body.Velocity += impulse / body.Description.Mass;
+        other.ApplyImpulse(arm, -impulse);
+        if (friction > 0)
+        {
+            var relative = RelativeVelocity(body, in contact, position);
+            var across = StopSlip(body, other, contact.CombinedRadius - body.Radius, other, relative, normal, friction * impulse.Length());
+            Turn(body, body.Radius, normal, across);
+            body.Velocity += across / body.Description.Mass;
+            other.ApplyImpulse(arm, -across);
+        }
+    }
+
+    /// <summary>Impulse across the normal that stops the slip of the touching points, as far as friction allows.</summary>
+    private static Vector StopSlip(
+        Body body, Body? other, double otherRadius, Body? movable, Vector relative, Vector normal, double limit)
+    {
         var spin = body.Radius * body.AngularVelocity;
         var inverseMass = InverseMassAcross(body);
         if (other is not null)
         {
-            spin += other.Radius * other.AngularVelocity;
+            spin += otherRadius * other.AngularVelocity;
             inverseMass += movable is null ? 0 : InverseMassAcross(movable);
         }
 

@@ -70,6 +70,40 @@ internal sealed class ContactSet
         }
     }
 
+    /// <summary>True where a surface is touched that moves.</summary>
+    public bool HasMovingSurface
+    {
+        get
+        {
+            var hasMoving = false;
+            for (var i = 0; i < Count; i++)
+            {
+                hasMoving |= _contacts[i].Kinematic is { IsCarrying: true };
+            }
+
+            return hasMoving;
+        }
+    }
+
+    /// <summary>Velocity of the surfaces that carry a body: of the first one that moves.</summary>
+    /// <param name="position">Position of the body, world space.</param>
+    /// <param name="acceleration">Receives how it changes for a body that goes along, units per second².</param>
+    public Vector CarryingVelocity(Vector position, out Vector acceleration)
+    {
+        for (var i = 0; i < Count; i++)
+        {
+            if (_contacts[i].Kinematic is { IsCarrying: true } kinematic)
+            {
+                var velocity = _contacts[i].SurfaceVelocity(position);
+                acceleration = Vector.Cross(kinematic.AngularVelocity, velocity - kinematic.Velocity);
+                return velocity;
+            }
+        }
+
+        acceleration = Vector.Zero;
+        return Vector.Zero;
+    }
+
     /// <summary>True where another body is touched that does not sleep.</summary>
     public bool HasAwakeBody(List<Body> bodies)
     {
@@ -125,6 +159,25 @@ internal sealed class ContactSet
         }
     }
 
+    /// <summary>Removes contacts that have become the same one.</summary>
+    public void RemoveDuplicates(Vector position)
+    {
+        for (var i = Count - 1; i > 0; i--)
+        {
+            var isKnown = false;
+            for (var j = 0; j < i; j++)
+            {
+                isKnown |= _contacts[i].BodyIndex == _contacts[j].BodyIndex
+                    && (_contacts[i].Normal(position) - _contacts[j].Normal(position)).LengthSquared() < SameNormalToleranceSquared;
+            }
+
+            if (isKnown)
+            {
+                RemoveAt(i);
+            }
+        }
+    }
+
     /// <summary>Removes the contacts from which a velocity leads away.</summary>
     /// <param name="position">Position of the body, world space.</param>
     /// <param name="velocity">Velocity of the body.</param>
@@ -140,11 +193,12 @@ internal sealed class ContactSet
         for (var i = Count - 1; i >= 0; i--)
         {
             var isSurface = !_contacts[i].IsBody;
-            var relative = isSurface ? velocity : velocity - bodies[_contacts[i].BodyIndex].Velocity;
+            var relative = velocity
+                - (isSurface ? _contacts[i].SurfaceVelocity(position) : VelocityOf(bodies, in _contacts[i]));
             var normal = _contacts[i].Normal(position);
-            var rounding = RelativeTolerance * relative.MaxAbsComponent();
+            var rounding = RelativeTolerance * Math.Max(relative.MaxAbsComponent(), velocity.MaxAbsComponent());
             var separationSpeed = Vector.Dot(relative, normal);
-            separationSpeed = treatBodiesAsStatic ? Math.Min(separationSpeed, Vector.Dot(velocity, normal)) : separationSpeed;
+            separationSpeed = treatBodiesAsStatic && !isSurface ? Math.Min(separationSpeed, Vector.Dot(velocity, normal)) : separationSpeed;
             if (separationSpeed > negligibleSpeed + rounding)
             {
                 RemoveAt(i);
@@ -158,11 +212,12 @@ internal sealed class ContactSet
         return isSeparatingSlowly ? ProjectOntoSurfaces(velocity, position) : velocity;
     }
 
-    /// <summary>The part of a velocity along all surfaces at once: zero where there are three.</summary>
+    /// <summary>The part of a velocity along all surfaces at once, relative to them: zero where there are three.</summary>
     private Vector ProjectOntoSurfaces(Vector velocity, Vector position)
     {
         var firstAxis = Vector.Zero;
         var secondAxis = Vector.Zero;
+        var target = Vector.Zero;
         for (var i = 0; i < Count; i++)
         {
             if (_contacts[i].IsBody)
@@ -171,6 +226,7 @@ internal sealed class ContactSet
             }
 
             var normal = _contacts[i].Normal(position);
+            var speed = Vector.Dot(normal, _contacts[i].SurfaceVelocity(position) - target);
             normal -= (Vector.Dot(normal, firstAxis) * firstAxis) + (Vector.Dot(normal, secondAxis) * secondAxis);
             if (normal.LengthSquared() <= MinSineSquared)
             {
@@ -178,7 +234,9 @@ internal sealed class ContactSet
             }
 
             var direction = normal.UnitVector();
-            velocity -= Vector.Dot(velocity, direction) * direction;
+            speed /= normal.Length();
+            target += speed * direction;
+            velocity -= (Vector.Dot(velocity, direction) - speed) * direction;
             if (firstAxis == Vector.Zero)
             {
                 firstAxis = direction;
@@ -204,7 +262,8 @@ internal sealed class ContactSet
         {
             if (!onlySurfaces || !_contacts[i].IsBody)
             {
-                planes.Add(_contacts[i].Normal(position), 0);
+                var normal = _contacts[i].Normal(position);
+                planes.Add(normal, Vector.Dot(normal, _contacts[i].SurfaceVelocity(position)));
             }
         }
 
@@ -240,11 +299,22 @@ internal sealed class ContactSet
                     - (tangentialVelocity.LengthSquared() / _contacts[i].CombinedRadius);
                 validDuration = Math.Min(validDuration, MaxTurnAngle * _contacts[i].CombinedRadius / tangentialVelocity.Length());
             }
+            else if (_contacts[i].Kinematic is { } kinematic && kinematic.AngularVelocity != Vector.Zero)
+            {
+                minNormalAcceleration = kinematic.NormalAccelerationAt(position, normal, velocity);
+                validDuration = Math.Min(validDuration, MaxTurnAngle / kinematic.AngularVelocity.Length());
+            }
 
             planes.Add(normal, minNormalAcceleration);
         }
 
         return ProjectWithoutRounding(acceleration, planes);
+    }
+
+    private static Vector VelocityOf(List<Body> bodies, in Contact contact)
+    {
+        var other = bodies[contact.BodyIndex];
+        return other.VelocityAt(contact.Point - other.Position);
     }
 
     private static Vector ProjectWithoutRounding(Vector vector, HalfSpaces planes)

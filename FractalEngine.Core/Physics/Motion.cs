@@ -27,9 +27,11 @@ internal readonly record struct Motion(Vector Start, Vector Velocity, Vector Acc
     }
 
     /// <summary>Lower bound on the time that a distance takes; infinite at rest.</summary>
-    public double MinTimeToTravel(double distance)
+    /// <param name="distance">Scene units, not negative.</param>
+    /// <param name="obstacleSpeed">Speed at which obstacles may come nearer.</param>
+    public double MinTimeToTravel(double distance, double obstacleSpeed = 0)
     {
-        var speed = Velocity.Length();
+        var speed = Velocity.Length() + obstacleSpeed;
         var acceleration = Acceleration.Length();
         // v·t + a·t²/2 = s, in the form that loses nothing where a is small.
         var divisor = speed + double.Hypot(speed, Math.Sqrt(2 * acceleration * distance));

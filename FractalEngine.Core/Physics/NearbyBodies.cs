@@ -6,7 +6,7 @@ namespace FractalEngine.Core.Physics;
 /// Finds the bodies that one mover may meet. What the cells around it hold is collected once; each search then tests these bodies only,
 /// as long as it stays within the cells.
 /// </summary>
-internal sealed class NearbyBodies(BodyGrid grid)
+internal sealed class NearbyBodies(BodyGrid grid, List<Body>? bodies = null)
 {
     // Room for so many bodies near a mover; beyond it the list grows.
     private const int InitialCapacity = 256;
@@ -29,7 +29,7 @@ internal sealed class NearbyBodies(BodyGrid grid)
     {
         foreach (var index in grid.LargeBodies)
         {
-            if (index != excludedIndex && grid.Overlaps(index, in pathBounds, radius))
+            if (index != excludedIndex && grid.Overlaps(index, in pathBounds, radius) && CanMeet(index, excludedIndex))
             {
                 results.Add(index);
             }
@@ -46,11 +46,26 @@ internal sealed class NearbyBodies(BodyGrid grid)
 
         foreach (var index in _inCells)
         {
-            if (index != excludedIndex && (!isCollected || grid.IsWithin(index, in cells)) && grid.Overlaps(index, in pathBounds, radius))
+            if (index != excludedIndex && (!isCollected || grid.IsWithin(index, in cells)) && grid.Overlaps(index, in pathBounds, radius)
+                && CanMeet(index, excludedIndex))
             {
                 results.Add(index);
             }
         }
+    }
+
+    /// <summary>True once a body has another layer or mask than others.</summary>
+    public bool HasFilters { get; set; }
+
+    private bool CanMeet(int index, int excludedIndex)
+    {
+        if (!HasFilters || excludedIndex < 0 || bodies is null)
+        {
+            return true;
+        }
+
+        var (first, second) = (bodies[index].Description, bodies[excludedIndex].Description);
+        return Layers.CanMeet(first.Layer, first.Mask, second.Layer, second.Mask);
     }
 
     private bool TryCollect(in BodyGrid.CellRange cells)

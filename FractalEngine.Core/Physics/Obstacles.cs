@@ -2,6 +2,7 @@ using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Character;
+using FractalEngine.Core.Physics.Kinematics;
 
 namespace FractalEngine.Core.Physics;
 
@@ -9,7 +10,8 @@ namespace FractalEngine.Core.Physics;
 /// Everything that one mover can collide with: static surfaces, nearby bodies and the character. Set up anew for each mover and step. A
 /// mover is one sphere, or several at fixed offsets from its position.
 /// </summary>
-internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, QueryContext queryContext)
+internal sealed partial class Obstacles(
+    List<Body> bodies, NearbyBodies nearbyBodies, QueryContext queryContext, KinematicSet kinematics)
 {
     // Room for so many bodies near a mover; beyond it the list grows.
     private const int InitialCandidateCapacity = 256;
@@ -49,6 +51,15 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
         _candidates.Clear();
     }
 
+    /// <summary>Makes one ball of a compound the mover, whose nearby bodies stay collected.</summary>
+    /// <param name="radius">Its radius, scene units.</param>
+    /// <param name="safeDistance">What is known of the distance from its centre to surfaces.</param>
+    public void SelectBall(double radius, SafeDistance safeDistance)
+    {
+        _radius = radius;
+        _safeDistance = safeDistance;
+    }
+
     /// <summary>Collects the other bodies near a path. Only these are tested until the next call.</summary>
     /// <param name="motion">Path of the mover.</param>
     /// <param name="duration">Seconds that it takes.</param>
@@ -78,7 +89,8 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
     {
         if (_safeDistance.LowerBoundAt(position) - _radius >= maxDistance)
         {
-            return Math.Min(maxDistance, FreeDistanceToBodies(position, maxDistance));
+            var distance = Math.Min(maxDistance, FreeDistanceToBodies(position, maxDistance));
+            return TryFindCloserKinematic(position, ref distance, out var kinematic) ? kinematic.Gap(position) : distance;
         }
 
         return TryFindClosestContact(position, maxDistance, out var closestContact) ? closestContact.Gap(position) : maxDistance;
@@ -93,15 +105,23 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
     {
         var isFound = TryFindClosestBody(position, ref maxDistance, out closestContact);
         // A body that is overlapped by more than the radius hides all surfaces.
-        if (_safeDistance.LowerBoundAt(position) - _radius > maxDistance || maxDistance < -_radius)
+        if (maxDistance < -_radius)
         {
             return isFound;
         }
 
-        if (TryFindClosestSurface(position, maxDistance, out var surface))
+        if (!(_safeDistance.LowerBoundAt(position) - _radius > maxDistance)
+            && TryFindClosestSurface(position, maxDistance, out var surface))
         {
             closestContact = surface;
-            return true;
+            maxDistance = surface.Gap(position);
+            isFound = true;
+        }
+
+        if (TryFindCloserKinematic(position, ref maxDistance, out var kinematic))
+        {
+            closestContact = kinematic;
+            isFound = true;
         }
 
         return isFound;
@@ -128,14 +148,15 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
     {
         contact = default;
         normal = Vector.Zero;
-        if (!TryFindClosestPoint(point, _radius + maxDistance, out var closest, out _) || closest.Feature != TriangleFeature.Interior)
+        if (!TryFindClosestPoint(point, _radius + maxDistance, out var closest, out _, out var kinematic)
+            || closest.Feature != TriangleFeature.Interior)
         {
             return false;
         }
 
         normal = (point - closest.Point).UnitVectorOrZero();
         var height = Vector.Dot(position - closest.Point, normal);
-        contact = new(position - (height * normal), _radius, Vector.Zero, Contact.NoBody, IsFlat: true);
+        contact = CreateSurfaceContact(position - (height * normal), Vector.Zero, isFlat: true, kinematic);
         return height > 0 && height <= _radius + maxDistance;
     }
 
@@ -147,17 +168,20 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
     {
         foreach (var candidate in _candidates)
         {
-            var contact = CreateBodyContact(candidate, Vector.Zero);
-            if (contact.Gap(position) <= tolerance)
+            for (var ball = 0; ball < bodies[candidate].BallCount; ball++)
             {
-                contacts.Add(contact, position);
+                var contact = CreateBodyContact(candidate, ball, Vector.Zero);
+                if (contact.Gap(position) <= tolerance)
+                {
+                    contacts.Add(contact, position);
+                }
             }
         }
     }
 
     /// <summary>Finds the surface point closest to a point, whatever the mover.</summary>
     public bool TryFindClosestPoint(Vector point, double maxDistance, out ClosestPoint closest) =>
-        TryFindClosestPoint(point, maxDistance, out closest, out _);
+        TryFindClosestPoint(point, maxDistance, out closest, out _, out _);
 
     /// <summary>Distance from the closest centre of the mover's spheres to a surface, at most a maximum.</summary>
     /// <param name="position">Position of the mover, world space.</param>
@@ -166,7 +190,7 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
     {
         foreach (var sphere in _sphereOffsets)
         {
-            maxDistance = TryFindClosestPoint(position + sphere, maxDistance, out var closest, out _) ? closest.Distance : maxDistance;
+            maxDistance = TryFindClosestPoint(position + sphere, maxDistance, out var closest) ? closest.Distance : maxDistance;
         }
 
         return maxDistance;
@@ -184,12 +208,17 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
     {
         updated = contact;
         var halfway = position + contact.SphereOffset - (UpdateDepth * _radius * contact.CachedNormal);
-        if (!TryFindClosestPoint(halfway, UpdateSearchRadius * _radius, out var closest, out _))
+        if (!TryFindClosestPoint(halfway, UpdateSearchRadius * _radius, out var closest, out _, out var kinematic))
         {
             return false;
         }
 
-        updated = contact with { Point = closest.Point, IsFlat = closest.Feature == TriangleFeature.Interior };
+        updated = contact with
+        {
+            FixedPoint = kinematic?.ToReference(closest.Point) ?? closest.Point,
+            Kinematic = kinematic,
+            IsFlat = closest.Feature == TriangleFeature.Interior,
+        };
         updated = updated with { CachedNormal = updated.Normal(position) };
         return true;
     }
@@ -202,7 +231,7 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
     public bool TryFindSurfaceSide(Vector position, out ClosestPoint closest, out bool isInside)
     {
         isInside = false;
-        if (!TryFindClosestPoint(position, _radius, out closest, out var index))
+        if (!TryFindClosestPoint(position, _radius, out closest, out var index, out _))
         {
             return false;
         }
@@ -214,16 +243,26 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
         return true;
     }
 
-    private bool TryFindClosestPoint(Vector point, double maxDistance, out ClosestPoint closest, out int objectIndex)
+    private bool TryFindClosestPoint(
+        Vector point, double maxDistance, out ClosestPoint closest, out int objectIndex, out KinematicObject? kinematic)
     {
-        if (_staticColliders is not null)
-        {
-            return _staticColliders.Scene.TryFindClosest(point, maxDistance, queryContext, out closest, out objectIndex);
-        }
-
         closest = default;
         objectIndex = -1;
-        return false;
+        kinematic = null;
+        if (_staticColliders is null)
+        {
+            return false;
+        }
+
+        var isFound = _staticColliders.Scene.TryFindClosest(point, maxDistance, queryContext, out closest, out objectIndex);
+        maxDistance = isFound ? closest.Distance : maxDistance;
+        if (TryFindOnKinematics(point, maxDistance, ref closest, ref kinematic))
+        {
+            objectIndex = kinematic!.Target.Index;
+            isFound = true;
+        }
+
+        return isFound;
     }
 
     private double FreeDistanceToBodies(Vector position, double maxDistance) =>
@@ -235,9 +274,12 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
         var isFound = false;
         foreach (var candidate in _candidates)
         {
-            foreach (var sphere in _sphereOffsets)
+            for (var ball = 0; ball < bodies[candidate].BallCount; ball++)
             {
-                isFound |= TryUpdateClosest(CreateBodyContact(candidate, sphere), position, ref maxDistance, ref closestContact);
+                foreach (var sphere in _sphereOffsets)
+                {
+                    isFound |= TryUpdateClosest(CreateBodyContact(candidate, ball, sphere), position, ref maxDistance, ref closestContact);
+                }
             }
         }
 
@@ -290,7 +332,7 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
         if (!_safeDistance.TryRecall(position, out var distance, out var point, out var isFlat))
         {
             distance = maxCentreDistance + _searchMargin;
-            if (!TryFindClosestPoint(position + sphere, distance, out var closest))
+            if (!TryFindStaticPoint(position + sphere, distance, out var closest))
             {
                 closestContact = default;
                 _safeDistance.Store(position, distance);
@@ -314,7 +356,7 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
         var searchDistance = maxCentreDistance + _searchMargin;
         foreach (var sphere in _sphereOffsets)
         {
-            if (TryFindClosestPoint(position + sphere, searchDistance, out var closest))
+            if (TryFindStaticPoint(position + sphere, searchDistance, out var closest))
             {
                 searchDistance = closest.Distance;
                 if (searchDistance <= maxCentreDistance)
@@ -329,9 +371,9 @@ internal sealed class Obstacles(List<Body> bodies, NearbyBodies nearbyBodies, Qu
         return isFound;
     }
 
-    private Contact CreateBodyContact(int candidate, Vector sphere)
+    private Contact CreateBodyContact(int candidate, int ball, Vector sphere)
     {
         var other = bodies[candidate];
-        return new(other.Position, _radius + other.Radius, sphere, candidate, IsFlat: false);
+        return new(other.BallCentre(ball), _radius + other.BallRadius(ball), sphere, candidate, IsFlat: false);
     }
 }

@@ -58,6 +58,9 @@ public readonly record struct Orientation(double Cosine, Vector Axis)
         return vector + (2 * ((Cosine * cross) + Vector.Cross(Axis, cross)));
     }
 
+    /// <summary>Rotates a vector from the body's present axes to its initial ones.</summary>
+    public Vector RotateBack(Vector vector) => new Orientation(Cosine, -Axis).Rotate(vector);
+
     private Orientation Normalized()
     {
         var length = Math.Sqrt((Cosine * Cosine) + Axis.LengthSquared());

@@ -22,8 +22,9 @@ internal sealed class OverlapResolver(Obstacles obstacles)
     /// <summary>Finds a free position. It keeps clear of all obstacles that were met so far at once, not only of the last one.</summary>
     /// <param name="position">Position of the mover; receives the free position, and is unchanged where there is none.</param>
     /// <param name="excludedIndex">Index of the mover itself, or <see cref="Contact.NoBody"/>.</param>
+    /// <param name="ignoresBodies">True where only surfaces are in the way.</param>
     /// <returns>False where the mover is closed in.</returns>
-    public bool TryResolve(ref Vector position, int excludedIndex)
+    public bool TryResolve(ref Vector position, int excludedIndex, bool ignoresBodies = false)
     {
         var touchTolerance = obstacles.TouchTolerance(position);
         var start = MoveOutOfSurface(position);
@@ -31,7 +32,11 @@ internal sealed class OverlapResolver(Obstacles obstacles)
         _planes.Clear();
         for (var push = 0; push < MaxPushes; push++)
         {
-            obstacles.CollectNearbyBodies(new(current, Vector.Zero, Vector.Zero), 0, excludedIndex);
+            if (!ignoresBodies)
+            {
+                obstacles.CollectNearbyBodies(new(current, Vector.Zero, Vector.Zero), 0, excludedIndex);
+            }
+
             if (!obstacles.TryFindClosestContact(current, 0, out var overlap) || overlap.Gap(current) >= -touchTolerance)
             {
                 position = current;
@@ -68,7 +73,7 @@ internal sealed class OverlapResolver(Obstacles obstacles)
     }
 
     /// <summary>True when a centre can go straight to a position without meeting a surface.</summary>
-    private bool IsReachable(Vector from, Vector to)
+    public bool IsReachable(Vector from, Vector to)
     {
         var path = to - from;
         var length = path.Length();

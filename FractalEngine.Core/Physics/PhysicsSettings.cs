@@ -29,6 +29,9 @@ public sealed record PhysicsSettings
     /// </summary>
     public int MaxStepsPerAdvance { get; init; } = 6;
 
+    /// <summary>Whether <see cref="PhysicsWorld.ContactEvents"/> tells of contacts and triggers, which costs time.</summary>
+    public bool ReportsContacts { get; init; }
+
     /// <summary>Throws for settings that no world can have.</summary>
     /// <exception cref="ArgumentException">A number is not finite, or outside its range; the message names it.</exception>
     internal void Validate()

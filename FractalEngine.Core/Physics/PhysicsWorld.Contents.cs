@@ -111,7 +111,7 @@ public sealed partial class PhysicsWorld
     {
         foreach (var kind in _bodies.Select(ColliderKindOf).Append(CharacterColliderKind).Distinct())
         {
-            _statics.CollidersOf(kind)?.Build(cancellation);
+            _statics.AllCollidersOf(kind)?.Build(cancellation);
         }
     }
 
@@ -144,6 +144,7 @@ public sealed partial class PhysicsWorld
         _grid.Build(_bodies);
         _clock.ContinueFrom(previous._clock);
         _accumulatedTime = previous._accumulatedTime;
+        ResetKinematics();
         if (previous.Character is { } walker)
         {
             ContinueCharacter(walker, isOfScene: previous._scene.Scene.Player == walker.Description);
@@ -206,6 +207,7 @@ public sealed partial class PhysicsWorld
     {
         ArgumentCheck.RequirePlacement(placement, nameof(placement));
         target.SetPlacement(placement);
+        target.Kinematic?.Place(target.Reference, _clock.Time);
         _statics.Refresh(target);
         InvalidateSurroundings(mayOverlap: true);
     }
@@ -213,7 +215,17 @@ public sealed partial class PhysicsWorld
     private StaticObject AppendStatic(PlacedModel placed, int? objectIndex)
     {
         var added = new StaticObject(this, placed, _statics.Objects.Count, objectIndex);
+        if (placed.Declaration.Motion?.FindFault(placed.ObjectToWorld.Translation) is { } fault)
+        {
+            throw new SceneObjectException(objectIndex ?? 0, ErrorKind.Input, $"object {placed.Declaration.DisplayName}: {fault}");
+        }
+
         _statics.Add(added);
+        if (placed.Declaration.Motion is not null || placed.Declaration.Belt != Vector.Zero)
+        {
+            RequireKinematic(added);
+        }
+
         return added;
     }
 
@@ -221,6 +233,7 @@ public sealed partial class PhysicsWorld
     {
         var body = new Body(description, _bodies.Count, _gravity);
         _bodies.Add(body);
+        _nearbyBodies.HasFilters |= description.Mask != Layers.All || description.Layer != 0;
         return body;
     }
 

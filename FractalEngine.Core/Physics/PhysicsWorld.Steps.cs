@@ -1,6 +1,8 @@
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Character;
+using FractalEngine.Core.Physics.Islands;
 
 namespace FractalEngine.Core.Physics;
 
@@ -47,42 +49,72 @@ public sealed partial class PhysicsWorld
         var faceTestsBefore = _queryContext.Statistics.FaceTests;
         var boundTestsBefore = _queryContext.Statistics.BoundTests;
         var character = Character is { IsActive: true } active ? active : null;
-        _islands.HasSleeping = false;
+        _kinematics.BeginStep(_clock.Time, seconds);
         foreach (var body in _bodies)
         {
             body.BeginStep();
+        }
+
+        character?.BeginStep();
+        var parts = CountParts(seconds);
+        for (var part = 0; part < parts; part++)
+        {
+            StepPart(character, part * seconds / parts, seconds / parts);
+        }
+
+        foreach (var body in _bodies)
+        {
+            body.StepForce = Vector.Zero;
+            body.StepTorque = Vector.Zero;
+        }
+
+        FinishEvents();
+        _clock.Tick(seconds);
+        LastStepCost = (_queryContext.Statistics.FaceTests - faceTestsBefore, _queryContext.Statistics.BoundTests - boundTestsBefore);
+    }
+
+    /// <summary>Makes one of the parts of a step.</summary>
+    private void StepPart(CharacterController? character, double elapsed, double seconds)
+    {
+        _islands.HasSleeping = false;
+        foreach (var body in _bodies)
+        {
+            body.BeginPart();
             _islands.HasSleeping |= body.IsAsleep;
         }
 
+        _kinematics.BeginPart(_clock.Time + elapsed, seconds);
+        WakeNearKinematics(seconds);
         PlanIslands(character, seconds);
         MoveIslands(character, seconds);
         for (var i = 0; i < _bodies.Count; i++)
         {
-            if (!_bodies[i].IsAsleep && _bodies[i].IslandIndex < 0)
+            if (_bodies[i] is { IsAsleep: false, HasMoved: false, IslandIndex: < 0 })
             {
                 StepBody(_bodies[i], character, seconds);
+            }
+        }
+
+        foreach (var body in _bodies)
+        {
+            if (body is { KinematicPush: > 0, IsAsleep: false, IsOverlapResolved: true })
+            {
+                _stepper.PushOut(body, CollidersOf(body), seconds);
             }
         }
 
         _islands.PutToSleep(_planner.Graph, Settings.TimeBeforeSleep);
 
         StepCharacter(character, seconds);
-        _clock.Tick(seconds);
-        LastStepCost = (_queryContext.Statistics.FaceTests - faceTestsBefore, _queryContext.Statistics.BoundTests - boundTestsBefore);
+        _kinematics.EndPart();
     }
 
     /// <summary>Prepares all bodies that are awake, and solves their islands.</summary>
     private void PlanIslands(CharacterController? character, double seconds)
     {
-        CollectPairs(character, seconds);
+        CollectTouching(character, seconds);
         _planner.Graph.JoinTouching();
-        FindNearSurfaces(seconds);
         _planner.StopApproaches();
-        if (_planner.Graph.HasOutrun())
-        {
-            CollectPairs(character, seconds);
-        }
-
         _planner.Graph.JoinForStep();
         FindNearSurfaces(seconds);
         _planner.Plan(seconds);
@@ -96,14 +128,14 @@ public sealed partial class PhysicsWorld
             if (!body.AreNearSurfacesKnown && _planner.Graph.IsJoined(body.Index))
             {
                 body.AreNearSurfacesKnown = true;
-                var reach = _planner.Graph.Reach(body.Index);
-                _stepper.FindNearSurfaces(body, _statics.CollidersOf(ColliderKindOf(body)), reach, seconds);
+                var reach = _planner.Graph.Reach(body);
+                _stepper.FindNearSurfaces(body, CollidersOf(body), reach, seconds);
             }
         }
     }
 
-    /// <summary>Finds which bodies are near each other, all of them prepared.</summary>
-    private void CollectPairs(CharacterController? character, double seconds)
+    /// <summary>Finds which bodies touch each other, all of them prepared.</summary>
+    private void CollectTouching(CharacterController? character, double seconds)
     {
         do
         {
@@ -111,46 +143,27 @@ public sealed partial class PhysicsWorld
             {
                 if (!body.IsAsleep && !body.IsPrepared)
                 {
-                    _stepper.Prepare(body, _statics.CollidersOf(ColliderKindOf(body)), character, _gravity, seconds);
+                    _stepper.Prepare(body, CollidersOf(body), character, _gravity, seconds);
                 }
             }
         }
-        while (_planner.Graph.CollectPairs(_islands, seconds));
+        while (_planner.Graph.CollectTouching(_islands, seconds));
     }
 
-    /// <summary>Moves the bodies of each island at once.</summary>
+    /// <summary>Moves the bodies of all islands at once.</summary>
     private void MoveIslands(CharacterController? character, double seconds)
     {
+        _islandMover.SetTargets(seconds);
+        MoveWhatIsInTheWay(character, seconds);
+        foreach (var island in _planner.Graph.Islands)
+        {
+            MoveIsland(in island, character, seconds);
+        }
+
+        _islandMover.ReturnOverlapping();
         foreach (var island in _planner.Graph.Islands)
         {
             var members = _planner.Graph.BodiesOf(in island);
-            _islandMover.SetTargets(in island, seconds);
-            var hasHeld = true;
-            for (var pass = 0; pass < MaxPasses && hasHeld; pass++)
-            {
-                _islandMover.FindUnplanned(in island, seconds);
-                _islandMover.SeparateTargets(in island);
-                hasHeld = false;
-                foreach (var index in members)
-                {
-                    var body = _bodies[index];
-                    if (!body.IsHeld && (pass == 0 || body.Target != body.CheckedTarget))
-                    {
-                        MoveBody(body, character, seconds, isPlanned: true);
-                        hasHeld |= body.IsHeld;
-                        if (body.PlannedHit is { } hit && pass < MaxPasses - 2)
-                        {
-                            _islandMover.AddSurface(body, in hit);
-                        }
-                        else if (body.IsHeld)
-                        {
-                            body.Target = body.Position;
-                        }
-                    }
-                }
-            }
-
-            _islandMover.ReturnOverlapping(in island, seconds);
             foreach (var index in members)
             {
                 _bodies[index].Velocity += _bodies[index].PlannedChange;
@@ -160,7 +173,54 @@ public sealed partial class PhysicsWorld
             _energyGuard.Check(in island);
             foreach (var index in members)
             {
-                _stepper.FinishPlanned(_bodies[index], _statics.CollidersOf(ColliderKindOf(_bodies[index])), seconds, StepCount);
+                _stepper.FinishPlanned(_bodies[index], CollidersOf(_bodies[index]), seconds, StepCount);
+            }
+        }
+    }
+
+    /// <summary>Moves bodies of no island first that stand where those of islands will be, such as what falls ahead of them.</summary>
+    private void MoveWhatIsInTheWay(CharacterController? character, double seconds)
+    {
+        var hasMoved = false;
+        for (var pair = 0; _islandMover.FindInTheWay(ref pair) is { } body;)
+        {
+            StepBody(body, character, seconds);
+            hasMoved = true;
+        }
+
+        for (var i = 0; hasMoved && i < _bodies.Count; i++)
+        {
+            // It may have pushed them.
+            _bodies[i].PlannedStartEnergy = _bodies[i].KineticEnergy;
+        }
+    }
+
+    private void MoveIsland(in Island island, CharacterController? character, double seconds)
+    {
+        _islandMover.BeginIsland();
+        var hasHeld = true;
+        for (var pass = 0; pass < MaxPasses && hasHeld; pass++)
+        {
+            _islandMover.FindUnplanned(in island, seconds);
+            _islandMover.SeparateTargets(in island);
+            hasHeld = false;
+            foreach (var index in _planner.Graph.BodiesOf(in island))
+            {
+                var body = _bodies[index];
+                if (!body.IsHeld && (pass == 0 || body.Target != body.CheckedTarget))
+                {
+                    MoveBody(body, character, seconds, isPlanned: true);
+                    hasHeld |= body.IsHeld;
+                    if (body.PlannedHit is { } hit && pass < MaxPasses - 2)
+                    {
+                        _kinematics.Time = seconds;
+                        _islandMover.AddSurface(body, in hit);
+                    }
+                    else if (body.IsHeld)
+                    {
+                        body.Target = body.Position;
+                    }
+                }
             }
         }
     }
@@ -169,9 +229,10 @@ public sealed partial class PhysicsWorld
     {
         if (!body.IsPrepared)
         {
-            _stepper.Prepare(body, _statics.CollidersOf(ColliderKindOf(body)), character, _gravity, seconds);
+            _stepper.Prepare(body, CollidersOf(body), character, _gravity, seconds);
         }
 
+        body.HasMoved = true;
         MoveBody(body, character, seconds, isPlanned: false);
     }
 
@@ -179,7 +240,7 @@ public sealed partial class PhysicsWorld
     {
         try
         {
-            var colliders = _statics.CollidersOf(ColliderKindOf(body));
+            var colliders = CollidersOf(body);
             if (isPlanned)
             {
                 _stepper.MovePlanned(body, colliders, character, seconds);
@@ -200,11 +261,23 @@ public sealed partial class PhysicsWorld
     {
         try
         {
-            character?.Step(seconds);
+            if (character is not null)
+            {
+                // The ground carries it first. Then it walks among objects where they are at the end of the step.
+                _kinematics.Time = 0;
+                character.Carry(seconds);
+                _kinematics.Time = seconds;
+                _kinematics.IsFrozen = true;
+                character.Step(seconds);
+            }
         }
         catch (ArgumentOutOfRangeException exception)
         {
             throw new InvalidOperationException($"the character has left the range of a double in step {StepCount}", exception);
+        }
+        finally
+        {
+            _kinematics.IsFrozen = false;
         }
 
         if (character is not null && !(character.Position.IsFinite() && character.Velocity.IsFinite()))

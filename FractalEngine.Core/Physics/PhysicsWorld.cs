@@ -2,7 +2,9 @@ using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Character;
+using FractalEngine.Core.Physics.Events;
 using FractalEngine.Core.Physics.Islands;
+using FractalEngine.Core.Physics.Kinematics;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;
@@ -21,8 +23,13 @@ public sealed partial class PhysicsWorld
     private readonly StaticObjectSet _statics;
     private readonly List<Body> _bodies = [];
     private readonly BodyGrid _grid = new();
+    private readonly NearbyBodies _nearbyBodies;
     private readonly QueryContext _queryContext = new();
+    private readonly SafeDistance _querySafeDistance = new();
+    private readonly ContactLog _contactLog;
+    private readonly WorldQueries _queries;
     private readonly StepClock _clock = new();
+    private readonly KinematicSet _kinematics = new();
     private readonly SleepIslands _islands;
     private readonly Obstacles _obstacles;
     private readonly BodyStepper _stepper;
@@ -68,11 +75,14 @@ public sealed partial class PhysicsWorld
         _gravity = scene.Scene.Gravity;
         Settings = settings ?? new();
         Settings.Validate();
-        var nearbyBodies = new NearbyBodies(_grid);
+        var nearbyBodies = new NearbyBodies(_grid, _bodies);
+        _nearbyBodies = nearbyBodies;
         _islands = new(_bodies, nearbyBodies);
-        _obstacles = new(_bodies, nearbyBodies, _queryContext);
-        _stepper = new(Settings, _bodies, _grid, nearbyBodies, _obstacles, _islands, _queryContext);
-        _planner = new(_bodies, nearbyBodies);
+        _obstacles = new(_bodies, nearbyBodies, _queryContext, _kinematics);
+        _contactLog = new(_bodies, _statics) { IsEnabled = Settings.ReportsContacts };
+        _queries = new(_bodies, _statics, _obstacles, _kinematics, _queryContext);
+        _planner = new(_bodies, nearbyBodies, _contactLog);
+        _stepper = new(Settings, _bodies, _grid, nearbyBodies, _obstacles, _islands, _planner, _queryContext, _contactLog);
         _islandMover = new(_bodies, _planner.Graph, _grid, nearbyBodies);
         _energyGuard = new(_bodies, _planner.Graph, _islandMover);
         _staticOfObject = new StaticObject?[scene.Objects.Length];
@@ -137,8 +147,8 @@ public sealed partial class PhysicsWorld
     /// </summary>
     public double InterpolationAlpha => Math.Clamp(_accumulatedTime / Settings.TimeStep, 0, 1);
 
-    /// <summary>True while a body is awake, unless it is stuck and does not shrink.</summary>
-    public bool IsMoving => _bodies.Exists(static body => !body.IsAsleep && (!body.IsStuck || body.IsShrinking));
+    /// <summary>True while an object moves by itself, or a body is awake, unless it is stuck and does not shrink.</summary>
+    public bool IsMoving => _kinematics.IsMoving || _bodies.Exists(static body => !body.IsAsleep && (!body.IsStuck || body.IsShrinking));
 
     /// <summary>Triangles and bounding volumes that the last step tested, for all bodies and the character together.</summary>
     public (long FaceTests, long BoundTests) LastStepCost { get; private set; }
@@ -165,8 +175,11 @@ public sealed partial class PhysicsWorld
     /// </summary>
     public (int Built, int All) ColliderCounts => _statics.CountColliders(CharacterColliderKind);
 
-    /// <summary>Hash of positions, velocities, sizes and sleep of all bodies: 16 hexadecimal digits, equal for equal bits.</summary>
-    public string StateHash => BodyStateHash.Compute(_bodies);
+    /// <summary>
+    /// Hash of positions, velocities, sizes and sleep of all bodies, and of the motion of all moving objects: 16 hexadecimal digits, equal
+    /// for equal bits.
+    /// </summary>
+    public string StateHash => BodyStateHash.Compute(_bodies, _kinematics.Objects);
 
     private ColliderKind CharacterColliderKind => _colliderOverride ?? ColliderKind.Exact;
 
@@ -186,14 +199,17 @@ public sealed partial class PhysicsWorld
         Character?.Reset();
         _grid.Build(_bodies);
         _clock.Reset();
+        ResetKinematics();
+        _contactLog.Clear();
         _accumulatedTime = 0;
         LastStepCost = default;
         _planner.Reset();
     }
 
     /// <summary>The world's scene with all objects where they are now, followed by the static objects that were added.</summary>
+    /// <param name="alpha">Fraction of the last step that has passed, from 0 to 1: frames between two steps show what lies between.</param>
     /// <remarks>Bodies that were added have no model and are not part of it.</remarks>
-    public LoadedScene GetCurrentScene()
+    public LoadedScene GetCurrentScene(double alpha = 1)
     {
         var objects = _scene.Objects.ToBuilder();
         foreach (var body in _bodies)
@@ -202,10 +218,14 @@ public sealed partial class PhysicsWorld
             {
                 var original = _scene.Objects[index];
                 var placement = original.Declaration.Placement;
-                placement = placement with { Position = body.Position, Scale = body.Scale * placement.Scale };
-                if (body.Orientation != Orientation.Identity)
+                var scale = alpha == 1 ? body.Scale : body.PreviousScale + (alpha * (body.Scale - body.PreviousScale));
+                var position = alpha == 1 ? body.Position : body.InterpolatedMap(alpha).Translation;
+                var orientation =
+                    alpha == 1 ? body.Orientation : Orientation.Interpolate(body.PreviousOrientation, body.Orientation, alpha);
+                placement = placement with { Position = position, Scale = scale * placement.Scale };
+                if (orientation != Orientation.Identity)
                 {
-                    var axes = body.Orientation.ToMatrix() * placement.Rotation.LocalAxesFromDegrees();
+                    var axes = orientation.ToMatrix() * placement.Rotation.LocalAxesFromDegrees();
                     placement = placement with { Rotation = 180 / Math.PI * axes.EulerAngles() };
                 }
 
@@ -215,13 +235,14 @@ public sealed partial class PhysicsWorld
 
         foreach (var placed in _statics.Objects)
         {
+            var present = alpha == 1 ? placed.Placed : placed.PlaceAt(alpha);
             if (placed.ObjectIndex is { } index)
             {
-                objects[index] = placed.Placed;
+                objects[index] = present;
             }
             else
             {
-                objects.Add(placed.Placed);
+                objects.Add(present);
             }
         }
 
@@ -237,9 +258,8 @@ public sealed partial class PhysicsWorld
     /// <exception cref="ArgumentOutOfRangeException">A coordinate is not finite.</exception>
     public bool TryFindClosest(Vector position, ColliderKind kind, out ClosestPoint closest)
     {
-        closest = default;
-        return _statics.CollidersOf(kind) is { } colliders
-            && colliders.Scene.TryFindClosest(position, double.PositiveInfinity, _queryContext, out closest, out _);
+        _obstacles.SetMover(_statics.CollidersOf(kind), BodyStepper.SingleSphereOffset, 0, _querySafeDistance, 0);
+        return _obstacles.TryFindClosestPoint(position, double.PositiveInfinity, out closest);
     }
 
     /// <summary>Prepares the obstacles for the character, see <see cref="Obstacles.SetMover"/>.</summary>
@@ -261,6 +281,10 @@ public sealed partial class PhysicsWorld
         catch (FractalLimitException exception)
         {
             throw new SceneObjectException(index, exception.Kind, $"body {declared.DisplayName}: {exception.Message}", exception);
+        }
+        catch (ArgumentException exception)
+        {
+            throw new SceneObjectException(index, ErrorKind.Input, $"body {declared.DisplayName}: {exception.Message}", exception);
         }
 
         if (description.FindFault() is { } fault)

@@ -28,7 +28,7 @@ internal sealed class SleepIslands(List<Body> bodies, NearbyBodies nearbyBodies)
         var maxDistance = sleepSpeed * stepLength;
         var isSlow = (body.Position - body.PreviousPosition).LengthSquared() < maxDistance * maxDistance
             && (body.IslandIndex >= 0 || body.AngularVelocity.LengthSquared() * body.Radius * body.Radius < sleepSpeed * sleepSpeed)
-            && (body.Contacts.Count > 0 || body.IslandIndex >= 0);
+            && (body.IsTouching || body.IslandIndex >= 0) && !body.HasMovingSurface;
         var isResting = sleepSpeed > 0 && !body.IsShrinking && (isSlow || body.IsStuck);
         body.SleepTimer = isResting ? body.SleepTimer + stepLength : 0;
         if (body.SleepTimer >= timeBeforeSleep && isResting && body.IslandIndex < 0)

@@ -27,10 +27,15 @@ internal sealed class SphereSweep(Obstacles obstacles)
 
     private int _stepsLeft = MaxSteps;
 
+    // Time of the obstacles at which the present path begins.
+    private double _startTime;
+
     /// <summary>Restores the number of advances that may be spent, for another mover or time step.</summary>
     public void ResetStepBudget() => _stepsLeft = MaxSteps;
 
-    /// <summary>Follows a path that begins where nothing is overlapped.</summary>
+    /// <summary>
+    /// Follows a path that begins where nothing is overlapped, at the time of the obstacles. It leaves them at the end of what it followed.
+    /// </summary>
     /// <param name="motion">The path.</param>
     /// <param name="maxTime">Duration of the path, seconds.</param>
     /// <param name="hit">The first obstacle that was touched.</param>
@@ -41,24 +46,31 @@ internal sealed class SphereSweep(Obstacles obstacles)
         hit = default;
         elapsed = 0;
         var radius = obstacles.Radius;
+        _startTime = obstacles.Time;
+        var obstacleSpeed = obstacles.MaxKinematicSpeed(in motion, maxTime);
         for (; _stepsLeft > 0 && elapsed < maxTime; _stepsLeft--)
         {
             var remaining = new Motion(motion.PositionAt(elapsed), motion.VelocityAt(elapsed), motion.Acceleration);
             var timeLeft = maxTime - elapsed;
-            var maxTravel = remaining.MaxTravelDistance(timeLeft);
+            var maxTravel = remaining.MaxTravelDistance(timeLeft) + (obstacleSpeed * timeLeft);
+            obstacles.Time = _startTime + elapsed;
             var freeDistance = obstacles.FreeDistance(remaining.Start, maxTravel);
             if (maxTravel <= freeDistance)
             {
                 elapsed = maxTime;
+                obstacles.Time = _startTime + elapsed;
                 return false;
             }
 
-            var duration = Math.Min(timeLeft, remaining.MinTimeToTravel(Math.Max(freeDistance, 0) + (MaxOverstep * radius)));
+            var duration = Math.Min(
+                timeLeft, remaining.MinTimeToTravel(Math.Max(freeDistance, 0) + (MaxOverstep * radius), obstacleSpeed));
             var isLast = duration >= timeLeft;
             var target = isLast ? motion.PositionAt(maxTime) : remaining.PositionAt(duration);
+            obstacles.Time = _startTime + elapsed + duration;
             if (obstacles.TryFindClosestContact(target, maxTravel, out var overlapped)
                 && overlapped.Gap(target) < -obstacles.TouchTolerance(target))
             {
+                _startTime += elapsed;
                 elapsed += FindTimeOfImpact(in remaining, duration, overlapped, out hit);
                 return true;
             }
@@ -83,7 +95,7 @@ internal sealed class SphereSweep(Obstacles obstacles)
         {
             // When the obstacle overlapped last would be touched; every fourth time the middle, which always shortens the interval.
             var time = i % 4 == 3 ? 0.5 * (lowerTime + upperTime) : FindTouchTime(in motion, in hit, lowerTime, upperTime);
-            var position = motion.PositionAt(time);
+            var position = PositionAt(in motion, time);
             var tolerance = (ImpactTolerance * obstacles.Radius) + (RoundingFraction * position.MaxAbsComponent());
             var gap = obstacles.TryFindClosestContact(position, MaxOverstep * obstacles.Radius, out var found)
                 ? found.Gap(position)
@@ -117,7 +129,7 @@ internal sealed class SphereSweep(Obstacles obstacles)
             }
         }
 
-        hit = RefreshContact(motion.PositionAt(lowerTime), in hit, in motion, upperTime);
+        hit = RefreshContact(PositionAt(in motion, lowerTime), in hit, in motion, upperTime);
         return lowerTime;
     }
 
@@ -129,20 +141,31 @@ internal sealed class SphereSweep(Obstacles obstacles)
             return contact;
         }
 
-        var later = contact with { CachedNormal = contact.Normal(motion.PositionAt(overlapTime)) };
+        var time = obstacles.Time;
+        var later = contact with { CachedNormal = contact.Normal(PositionAt(in motion, overlapTime)) };
+        obstacles.Time = time;
         return obstacles.TryUpdateContact(position, in later, out var updated) ? updated : contact;
     }
 
-    private static bool IsApproaching(in Motion motion, double time, in Contact contact)
+    /// <summary>Position at a time, to which the obstacles are set as well.</summary>
+    private Vector PositionAt(in Motion motion, double time)
     {
-        var velocity = motion.VelocityAt(time);
-        return Vector.Dot(velocity, contact.Normal(motion.PositionAt(time))) < -GrazingSine * velocity.MaxAbsComponent();
+        obstacles.Time = _startTime + time;
+        return motion.PositionAt(time);
+    }
+
+    private bool IsApproaching(in Motion motion, double time, in Contact contact)
+    {
+        var position = PositionAt(in motion, time);
+        var velocity = motion.VelocityAt(time) - contact.SurfaceVelocity(position);
+        return Vector.Dot(velocity, contact.Normal(position)) < -GrazingSine * velocity.MaxAbsComponent();
     }
 
     /// <summary>Finds when one obstacle alone would be touched, between a time before and a time of overlap.</summary>
-    private static double FindTouchTime(in Motion motion, in Contact contact, double lowerTime, double upperTime)
+    private double FindTouchTime(in Motion motion, in Contact contact, double lowerTime, double upperTime)
     {
-        var normal = contact.Normal(motion.PositionAt(upperTime));
+        var normal = contact.Normal(PositionAt(in motion, upperTime));
+        normal = contact.Kinematic?.RotateBack(normal) ?? normal;
         var isFlat = contact.IsFlat;
         var gapAtLower = Gap(in motion, in contact, normal, isFlat, lowerTime);
         if (isFlat && gapAtLower <= 0)
@@ -210,9 +233,10 @@ internal sealed class SphereSweep(Obstacles obstacles)
     }
 
     /// <summary>Free distance from an obstacle at a time; for a flat one the distance from its plane, which may be negative.</summary>
-    private static double Gap(in Motion motion, in Contact contact, Vector normal, bool isFlat, double time)
+    private double Gap(in Motion motion, in Contact contact, Vector normal, bool isFlat, double time)
     {
-        var pointToCentre = contact.PointToCentre(motion.PositionAt(time));
+        var pointToCentre = contact.PointToCentre(PositionAt(in motion, time));
+        normal = contact.Kinematic?.Rotate(normal) ?? normal;
         return (isFlat ? Vector.Dot(pointToCentre, normal) : pointToCentre.Length()) - contact.CombinedRadius;
     }
 }

@@ -47,19 +47,22 @@ internal sealed class SpinFriction(List<Body> bodies)
         for (var i = 0; i < rows.Length; i++)
         {
             rows[i] = CreateRow(body, body.Contacts[i], position);
+            rows[i].SurfaceVelocity = body.Contacts[i].SurfaceVelocity(position);
             _solver.ComputeMasses(ref rows[i]);
         }
 
         if (rows.Length == 1)
         {
-            LimitToSlide(body, in rows[0], acceleration, netAcceleration, ref duration);
+            LimitToSlide(body, in rows[0], position, acceleration, netAcceleration, ref duration);
         }
 
+        SetFinalSurfaceVelocities(body, position, rows, duration);
         foreach (ref var row in rows)
         {
             // What is left of the acceleration along the normal, as without friction.
             row.MinNormalVelocity = Vector.Dot(
-                body.Velocity + (duration * Math.Min(0, Vector.Dot(netAcceleration, row.Normal)) * row.Normal), row.Normal);
+                body.Velocity - row.SurfaceVelocity + (duration * Math.Min(0, Vector.Dot(netAcceleration, row.Normal)) * row.Normal),
+                row.Normal);
         }
 
         solverBody.Velocity += duration * acceleration;
@@ -71,6 +74,20 @@ internal sealed class SpinFriction(List<Body> bodies)
         {
             netAcceleration = Vector.Zero;
             spinAcceleration = Vector.Zero;
+        }
+    }
+
+    /// <summary>What turns has other velocities where the body will be.</summary>
+    private static void SetFinalSurfaceVelocities(Body body, Vector position, Span<ContactRow> rows, double duration)
+    {
+        for (var i = 0; i < rows.Length; i++)
+        {
+            if (body.Contacts[i].Kinematic is { } kinematic && kinematic.AngularVelocity != Vector.Zero)
+            {
+                rows[i].SurfaceSpin = kinematic.AngularVelocity;
+                rows[i].SurfaceVelocity +=
+                    duration * Vector.Cross(kinematic.AngularVelocity, body.Velocity - kinematic.Velocity);
+            }
         }
     }
 
@@ -94,10 +111,12 @@ internal sealed class SpinFriction(List<Body> bodies)
     }
 
     /// <summary>Ends the time when friction has stopped the slip: |w + s·t| = f·t, as for a body that does not turn.</summary>
-    private void LimitToSlide(Body body, in ContactRow row, Vector acceleration, Vector netAcceleration, ref double duration)
+    private void LimitToSlide(
+        Body body, in ContactRow row, Vector position, Vector acceleration, Vector netAcceleration, ref double duration)
     {
         var slip = _solver.Slip(in row);
-        var slipAcceleration = netAcceleration - (Vector.Dot(netAcceleration, row.Normal) * row.Normal);
+        _ = body.Contacts.CarryingVelocity(position, out var surfaceAcceleration);
+        var slipAcceleration = netAcceleration - (Vector.Dot(netAcceleration, row.Normal) * row.Normal) - surfaceAcceleration;
         var normalAcceleration = Math.Max(0, Vector.Dot(netAcceleration - acceleration, row.Normal));
         var deceleration = row.Friction * normalAcceleration * body.Description.Mass / row.FrictionMass;
         var excess = (deceleration * deceleration) - slipAcceleration.LengthSquared();

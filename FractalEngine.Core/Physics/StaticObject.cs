@@ -8,10 +8,11 @@ namespace FractalEngine.Core.Physics;
 /// A mesh or fractal that bodies collide with and that no force moves. Owned by a <see cref="PhysicsWorld"/>: its scene declares the
 /// object, or <see cref="PhysicsWorld.AddStatic(Model, Transformation?)"/> adds it.
 /// </summary>
-public sealed class StaticObject
+public sealed partial class StaticObject
 {
     private readonly PhysicsWorld _world;
     private readonly PlacedModel _initial;
+    private PlacedModel _placed;
 
     /// <summary>Creates the handle of an object at its initial placement.</summary>
     /// <param name="world">The world that owns the object.</param>
@@ -22,7 +23,8 @@ public sealed class StaticObject
     {
         _world = world;
         _initial = placed;
-        Placed = placed;
+        _placed = placed;
+        Reference = placed;
         Index = index;
         ObjectIndex = objectIndex;
     }
@@ -34,7 +36,7 @@ public sealed class StaticObject
     public int? ObjectIndex { get; }
 
     /// <summary>The mesh or fractal in its own frame, shared by all objects that show it.</summary>
-    public Model Model => Placed.Model;
+    public Model Model => _initial.Model;
 
     /// <summary>Current placement in world space: the paper's global matrix m.</summary>
     public Transformation Placement => Placed.Declaration.Placement;
@@ -42,24 +44,69 @@ public sealed class StaticObject
     /// <summary>The current placement as a map from the model's frame to world space.</summary>
     public AffineMap ObjectToWorld => Placed.ObjectToWorld;
 
+    /// <summary>Layer of the object, from 0 to 31. Two things meet when the mask of each has the other's layer.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such layer.</exception>
+    /// <remarks>Setting another one wakes all bodies.</remarks>
+    public int Layer
+    {
+        get;
+        set
+        {
+            ArgumentCheck.RequireLayer(value, nameof(Layer));
+            field = value;
+            _world.ChangeFilter();
+        }
+    }
+
+    /// <summary>The layers that the object meets: bit n for layer n. Setting others wakes all bodies.</summary>
+    public uint Mask
+    {
+        get;
+        set
+        {
+            field = value;
+            _world.ChangeFilter();
+        }
+    }
+
+    = Layers.All;
+
+    /// <summary>
+    /// True for an object that stops nothing, and only reports the bodies that reach into it, see
+    /// <see cref="PhysicsWorld.ContactEvents"/>. Setting it wakes all bodies.
+    /// </summary>
+    public bool IsTrigger
+    {
+        get;
+        set
+        {
+            field = value;
+            _world.ChangeFilter();
+        }
+    }
+
     /// <summary>Box that holds the object in world space.</summary>
     public BoundingBox Bounds => Placed.Bounds;
 
     /// <summary>The object as a scene would hold it, at its current placement.</summary>
-    internal PlacedModel Placed { get; private set; }
+    internal PlacedModel Placed => Kinematic is null ? _placed : PlaceKinematic();
+
+    /// <summary>The object where its collider is, from which one that moves by itself may have gone.</summary>
+    internal PlacedModel Reference { get; private set; }
 
     /// <summary>True while the object is where the world first had it.</summary>
-    internal bool IsAtInitialPlacement => ReferenceEquals(Placed, _initial);
+    internal bool IsAtInitialPlacement => ReferenceEquals(Reference, _initial);
 
     /// <summary>
     /// 1 where faces look out of the object as they are wound, −1 where its matrix mirrors it, 0 where its instances differ.
     /// </summary>
     internal int WindingSign =>
-        Model is FractalModel { Fractal.Description.PreservesOrientation: false } ? 0 : Math.Sign(ObjectToWorld.Linear.Determinant());
+        Model is FractalModel { Fractal.Description.PreservesOrientation: false }
+            ? 0 : Math.Sign(Reference.ObjectToWorld.Linear.Determinant());
 
     /// <summary>
-    /// Moves the object, and its collider with it, without building the collider anew. Bodies that it then overlaps are pushed out in the
-    /// next step; they are not given its speed.
+    /// Puts the object elsewhere at once, and its collider with it, without building the collider anew. Bodies that it then overlaps are
+    /// pushed out in the next step; they are not given a speed. To push and carry bodies, see <see cref="SetMotion"/>, which this ends.
     /// </summary>
     /// <param name="placement">New placement in world space, finite and with a scale that has an inverse.</param>
     /// <exception cref="ArgumentException">A number is not finite, or the scale has no inverse.</exception>
@@ -71,8 +118,9 @@ public sealed class StaticObject
     public void MoveTo(Transformation placement) => _world.MoveStatic(this, placement);
 
     /// <summary>Replaces the placement, of which the caller tells the colliders.</summary>
-    internal void SetPlacement(Transformation placement) => Placed = new(Placed.Declaration with { Placement = placement }, Model);
+    internal void SetPlacement(Transformation placement) =>
+        Reference = _placed = new(_initial.Declaration with { Placement = placement }, Model);
 
     /// <summary>Returns to the initial placement, of which the caller tells the colliders.</summary>
-    internal void ResetPlacement() => Placed = _initial;
+    internal void ResetPlacement() => Reference = _placed = _initial;
 }

@@ -1,6 +1,8 @@
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Kinematics;
 using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Core.Physics;
@@ -11,8 +13,10 @@ internal sealed class StaticObjectSet(ColliderCache? cache)
 {
     private readonly List<StaticObject> _objects = [];
     private readonly Dictionary<ColliderKind, StaticColliders> _colliders = [];
+    private readonly Dictionary<(ColliderKind Kind, int Layer, uint Mask), StaticColliders> _filtered = [];
     private readonly Dictionary<object, Model> _models = [];
     private readonly Dictionary<Mesh, bool> _isSolid = new(ReferenceEqualityComparer.Instance);
+    private bool _hasFilters;
 
     /// <summary>All static objects, in the order in which they were added.</summary>
     public IReadOnlyList<StaticObject> Objects => _objects;
@@ -34,6 +38,8 @@ internal sealed class StaticObjectSet(ColliderCache? cache)
         {
             colliders.Add(added.Placed);
         }
+
+        _filtered.Clear();
     }
 
     /// <summary>Tells the colliders that an object has moved.</summary>
@@ -41,8 +47,21 @@ internal sealed class StaticObjectSet(ColliderCache? cache)
     {
         foreach (var colliders in _colliders.Values)
         {
-            colliders.Replace(moved.Index, moved.Placed);
+            colliders.Replace(moved.Index, moved.Reference);
         }
+
+        _filtered.Clear();
+    }
+
+    /// <summary>Tells the colliders that an object moves by itself from now on.</summary>
+    public void AddKinematic(KinematicObject kinematic)
+    {
+        foreach (var colliders in _colliders.Values)
+        {
+            colliders.AddKinematic(kinematic);
+        }
+
+        _filtered.Clear();
     }
 
     /// <summary>Returns all objects to their initial placements.</summary>
@@ -55,8 +74,46 @@ internal sealed class StaticObjectSet(ColliderCache? cache)
         }
     }
 
+    /// <summary>True where an object stops what has a layer and a mask.</summary>
+    public static bool CanMeet(StaticObject target, int layer, uint mask) =>
+        !target.IsTrigger && Layers.CanMeet(target.Layer, target.Mask, layer, mask);
+
+    /// <summary>Tells that an object has another layer, mask or trigger.</summary>
+    public void ChangeFilters()
+    {
+        _filtered.Clear();
+        _hasFilters = _objects.Exists(static candidate => candidate.IsTrigger || candidate.Layer != 0 || candidate.Mask != Layers.All);
+    }
+
+    /// <summary>Tells whether a ball reaches into an object: touches its surface, or is inside where that is closed.</summary>
+    /// <param name="target">One of the objects.</param>
+    /// <param name="centre">World space.</param>
+    /// <param name="radius">Scene units.</param>
+    /// <param name="context">Receives the cost.</param>
+    /// <param name="point">Receives the closest point of the surface.</param>
+    public bool TryEnter(StaticObject target, Vector centre, double radius, QueryContext context, out Vector point)
+    {
+        var isSolid = IsSolid(target.Model.Mesh) && target.WindingSign != 0;
+        var colliders = AllCollidersOf(ColliderKind.Exact)!;
+        var isNear = colliders.TryFindClosestOf(target, centre, isSolid ? double.PositiveInfinity : radius, context, out var closest);
+        point = closest.Point;
+        return isNear && (closest.Distance <= radius || (isSolid && closest.Feature == TriangleFeature.Interior
+            && target.WindingSign * Vector.Dot(centre - closest.Point, closest.Normal) < 0));
+    }
+
+    /// <summary>The colliders of one kind for what has a layer and a mask; null where there are no objects.</summary>
+    public StaticColliders? CollidersOf(ColliderKind kind, int layer = 0, uint mask = Layers.All)
+    {
+        if (!_hasFilters && mask == Layers.All)
+        {
+            return AllCollidersOf(kind);
+        }
+
+        return _filtered.TryGetValue((kind, layer, mask), out var colliders) ? colliders : CreateFiltered(kind, layer, mask);
+    }
+
     /// <summary>The colliders of one kind for all objects; null where there are no objects.</summary>
-    public StaticColliders? CollidersOf(ColliderKind kind)
+    public StaticColliders? AllCollidersOf(ColliderKind kind)
     {
         if (_objects.Count == 0)
         {
@@ -67,6 +124,17 @@ internal sealed class StaticObjectSet(ColliderCache? cache)
         {
             colliders = new(this, kind, cache);
             _colliders[kind] = colliders;
+        }
+
+        return colliders;
+    }
+
+    private StaticColliders? CreateFiltered(ColliderKind kind, int layer, uint mask)
+    {
+        var colliders = AllCollidersOf(kind)?.Where(target => CanMeet(target, layer, mask));
+        if (colliders is not null)
+        {
+            _filtered[(kind, layer, mask)] = colliders;
         }
 
         return colliders;

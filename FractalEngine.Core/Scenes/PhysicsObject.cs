@@ -6,7 +6,7 @@ namespace FractalEngine.Core.Scenes;
 public sealed record PhysicsObject : SceneObject
 {
     /// <summary>Makes a body that shows a model.</summary>
-    /// <param name="model">What the body shows; its bounding sphere collides.</param>
+    /// <param name="model">What the body shows; its bounding sphere collides, unless <see cref="Shape"/> is another.</param>
     /// <param name="restitution">The paper's e, from 0 (steel) to 1 (rubber).</param>
     public PhysicsObject(Model model, double restitution = 0)
         : base(model) => Restitution = restitution;
@@ -36,7 +36,10 @@ public sealed record PhysicsObject : SceneObject
     /// <summary>The inertia of a thin shell, the largest that a ball can have: 2/3.</summary>
     public const double ShellInertia = 2.0 / 3;
 
-    /// <summary>Moment of inertia over mass · radius²: positive, and at most <see cref="ShellInertia"/>.</summary>
+    /// <summary>What of the object collides.</summary>
+    public BodyShape Shape { get; init; }
+
+    /// <summary>Moment of inertia of a ball over mass · radius²: positive, and at most <see cref="ShellInertia"/>.</summary>
     public double Inertia { get; init; } = SolidInertia;
 
     /// <summary>True for a body that does not turn, so that friction makes it slide instead of roll.</summary>

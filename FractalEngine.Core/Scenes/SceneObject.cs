@@ -54,6 +54,13 @@ public record SceneObject
     /// <summary>How the instances of a fractal differ in colour; null for not at all.</summary>
     public Gradient? Gradient { get; init; }
 
+    /// <summary>How the object moves by itself; null for one that stands. Bodies move by forces instead, and ignore it.</summary>
+    public ObjectMotion? Motion { get; init; }
+
+    /// <summary>Velocity of the object's surface along itself, as that of a belt; units a second, about the placed object's axes.</summary>
+    /// <remarks>The object stands, or moves as <see cref="Motion"/> says, and what lies on it is carried along besides.</remarks>
+    public Vector Belt { get; init; }
+
     /// <summary>The name for messages: the object's own, or that of its file or model.</summary>
     public string DisplayName => Name ?? File ?? Model?.Name ?? "object";
 
@@ -61,8 +68,8 @@ public record SceneObject
     public virtual bool Equals(SceneObject? other) =>
         other is not null && EqualityContract == other.EqualityContract && File == other.File
         && (File is not null || ReferenceEquals(Model, other.Model)) && Placement == other.Placement && Name == other.Name
-        && Colour == other.Colour && Gradient == other.Gradient;
+        && Colour == other.Colour && Gradient == other.Gradient && Motion == other.Motion && Belt == other.Belt;
 
     /// <inheritdoc/>
-    public override int GetHashCode() => HashCode.Combine(EqualityContract, File, Placement, Name, Colour, Gradient);
+    public override int GetHashCode() => HashCode.Combine(EqualityContract, File, Placement, Name, Colour, Gradient, Motion, Belt);
 }

@@ -73,20 +73,36 @@ internal static class SceneFormatter
             declared.Name is { } name ? $"name \"{name}\"" : null,
             declared.Colour is { } colour ? $"colour {colour}" : null,
             declared.Gradient is { } gradient ? Format(gradient) : null,
+            body is null && declared.Motion is { } motion ? Format(motion) : null,
+            body is null && declared.Belt is var belt && !AreBitEqual(belt, Vector.Zero) ? $"belt {belt}" : null,
             body is { Velocity: var velocity } && !AreBitEqual(velocity, Vector.Zero) ? $"velocity {velocity}" : null,
             body is { Mass: not 1.0 and var mass } ? $"mass {FormatNumber(mass)}" : null,
             body is { Friction: var friction } && !AreBitEqual(friction, 0) ? $"friction {FormatNumber(friction)}" : null,
             body is { RollingFriction: var rolling } && !AreBitEqual(rolling, 0) ? $"rolling {FormatNumber(rolling)}" : null,
             body is { SpinningFriction: var spinning } && !AreBitEqual(spinning, 0) ? $"spinning {FormatNumber(spinning)}" : null,
             body is { Inertia: not PhysicsObject.SolidInertia and var inertia } ? $"inertia {FormatNumber(inertia)}" : null,
+            body is { Shape: var shape } ? FormatShape(shape) : null,
             body is { IsRotationLocked: true } ? "rotation locked" : null,
             body is { Damping: var damping } && !AreBitEqual(damping, 0) ? $"damping {FormatNumber(damping)}" : null,
             body is not null ? FormatShrinkage(body.Shrinkage, body.MinimumScale) : null,
             body is { Collider: not ColliderKind.Exact and var collider } ? $"collider {SceneParser.GetColliderName(collider)}" : null);
     }
 
+    private static string Format(ObjectMotion motion)
+    {
+        var hasVelocity = !AreBitEqual(motion.Velocity, Vector.Zero) || AreBitEqual(motion.Spin, Vector.Zero);
+        return Join(
+            "moving",
+            hasVelocity ? $"velocity {motion.Velocity}" : null,
+            AreBitEqual(motion.Spin, Vector.Zero) ? null : $"spin {motion.Spin}",
+            motion is { From: { } from, To: { } to } ? $"from {from} to {to}" : null);
+    }
+
     private static string Format(Gradient gradient) =>
         $"gradient {(gradient.Kind == GradientKind.Level ? "level" : "path")} {gradient.EndColour}";
+
+    private static string? FormatShape(BodyShape shape) =>
+        shape.IsCapsule ? "shape capsule" : shape.BallCount > 0 ? $"shape balls {FormatNumber(shape.BallCount)}" : null;
 
     private static string? FormatShrinkage(double rate, double minimum)
     {

@@ -13,6 +13,8 @@ public sealed partial class SceneParser
     // With the blank that follows each.
     private static readonly string[] BodyOptions = ["velocity ", "mass ", "friction ", "damping ", "shrink ", "collider "];
 
+    private static readonly string[] ObjectOptions = ["moving ", "belt "];
+
     private delegate bool OptionParser<T>(Cursor cursor, ref T declared, out Cursor rest);
 
     /// <summary>Returns the name of a collider in scene files and on the command line.</summary>
@@ -109,8 +111,28 @@ public sealed partial class SceneParser
 
         if (declared is PhysicsObject body)
         {
+            foreach (var option in ObjectOptions)
+            {
+                Require(!cursor.Rest.StartsWith(option, StringComparison.Ordinal), cursor,
+                    $"unexpected '{option.TrimEnd()}': it is an option of objects that no force moves, which an 'o' line declares");
+            }
+
             var success = ParseBodyOption(cursor, ref body, out rest);
             declared = body;
+            return success;
+        }
+
+        if (ParseKeyword(cursor, "moving", out rest))
+        {
+            var success = ParseMotion(rest, declared.Placement.Position, out var motion, out rest);
+            declared = declared with { Motion = motion };
+            return success;
+        }
+
+        if (ParseKeyword(cursor, "belt", out rest))
+        {
+            var success = ParseVector(rest, out var belt, out rest);
+            declared = declared with { Belt = belt };
             return success;
         }
 
@@ -199,6 +221,13 @@ public sealed partial class SceneParser
             return success;
         }
 
+        if (ParseKeyword(start, "shape", out rest))
+        {
+            var success = ParseShape(rest, out var shape, out rest);
+            body = body with { Shape = shape };
+            return success;
+        }
+
         if (ParseKeyword(start, "rotation", out rest))
         {
             body = body with { IsRotationLocked = true };
@@ -224,6 +253,25 @@ public sealed partial class SceneParser
         }
 
         return false;
+    }
+
+    /// <summary>Parses what of a body collides: a number of balls or a capsule.</summary>
+    private bool ParseShape(Cursor cursor, out BodyShape shape, out Cursor rest)
+    {
+        shape = BodyShape.Ball;
+        if (ParseKeyword(cursor, "balls", out rest))
+        {
+            var countStart = rest;
+            var success = ParseNumber(countStart, out var count, out rest);
+            Require(
+                !success || (count is >= 1 and <= BodyShape.MaxBallCount && count == Math.Floor(count)), countStart,
+                $"a body has 1 to {BodyShape.MaxBallCount} balls");
+            shape = success ? BodyShape.Balls((int)count) : shape;
+            return success;
+        }
+
+        shape = BodyShape.Capsule;
+        return ParseWord(cursor, "capsule", out rest);
     }
 
     /// <summary>Parses a rate and an optional scale at which shrinking ends.</summary>

@@ -99,7 +99,7 @@ public sealed class DrawableScene
         {
             Tint = declaration.Colour ?? Colour.White,
             Gradient = declaration.Gradient,
-            IsDynamic = placed is { Declaration: PhysicsObject, Model: MeshModel },
+            IsDynamic = placed.Model is MeshModel && (declaration is PhysicsObject || declaration.Motion is not null),
         };
     }
 }

@@ -135,7 +135,7 @@ internal sealed class ScenePanel(WindowActions actions)
             var offset = 0.25 * actions.Document!.File.Scene.Objects[index].Bounds.Size.X * Vector.I;
             var placement = declared.Placement with { Position = declared.Placement.Position + offset };
             actions.ChangeScene(
-                ui, present => present with { Objects = present.Objects.Add(present.Objects[index] with { Placement = placement }) });
+                ui, present => present with { Objects = present.Objects.Add(Place(present.Objects[index], placement)) });
             _object = actions.Document.File.Scene.Scene.Objects.Length;
             actions.Document.Tool.Selected = null;
         }
@@ -165,9 +165,14 @@ internal sealed class ScenePanel(WindowActions actions)
         var changed = new Transformation(position, rotation, scale);
         if (changed != placement)
         {
-            SetObject(ui, index, present => present with { Placement = changed });
+            SetObject(ui, index, present => Place(present, changed));
         }
     }
+
+    private static SceneObject Place(SceneObject declared, Transformation placement) => declared with
+    {
+        Placement = placement, Motion = declared.Motion?.MovedBy(placement.Position - declared.Placement.Position),
+    };
 
     private void SetObject(UserInterface ui, int index, Func<SceneObject, SceneObject> change) => actions.ChangeScene(
         ui, scene => scene with { Objects = scene.Objects.SetItem(index, change(scene.Objects[index])) });

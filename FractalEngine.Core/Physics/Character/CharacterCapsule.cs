@@ -19,6 +19,9 @@ internal sealed class CharacterCapsule
     private const double EdgeProbeDistance = 1e-3;
     private const double EdgeProbeMargin = 1.01;
 
+    // Of the radius: more than rounding.
+    private const double MaxKinematicOverlap = 1e-6;
+
     // Of the radius: a shorter move counts as none, so that a standing character stands.
     private const double MinMoveFraction = 1e-7;
 
@@ -93,7 +96,8 @@ internal sealed class CharacterCapsule
     {
         _world.PrepareObstacles(_sphereOffsets, _player.Radius, _safeDistance, searchMargin);
         _sweep.ResetStepBudget();
-        if (!_isOverlapResolved)
+        // What moves may have come to overlap the capsule.
+        if (!_isOverlapResolved || _obstacles.TryFindNearKinematic(Position, -MaxKinematicOverlap * _player.Radius, out _))
         {
             var position = Position;
             _isOverlapResolved = _overlapResolver.TryResolve(ref position, Contact.NoBody);
@@ -139,6 +143,13 @@ internal sealed class CharacterCapsule
     /// <param name="normal">Its normal at the present position.</param>
     public bool IsWalkable(in Contact contact, Vector normal)
     {
+        var isWalkable = IsGround(in contact, normal);
+        Ground = isWalkable ? contact : Ground;
+        return isWalkable;
+    }
+
+    private bool IsGround(in Contact contact, Vector normal)
+    {
         if (Vector.Dot(normal, Up) >= MinGroundCosine)
         {
             return true;
@@ -155,6 +166,30 @@ internal sealed class CharacterCapsule
         var probe = contact.Point + (probeDistance * (Up - horizontalNormal.UnitVectorOrZero()));
         return _obstacles.TryFindClosestPoint(probe, EdgeProbeMargin * probeDistance, out var closest)
             && Math.Abs(Vector.Dot(closest.Normal, Up)) >= MinGroundCosine && Vector.Dot(probe - closest.Point, Up) > 0;
+    }
+
+    /// <summary>The ground that was found last; none where it does not move.</summary>
+    public Contact? Ground { get; private set; }
+
+    /// <summary>Forgets what ground was found.</summary>
+    public void ForgetGround() => Ground = null;
+
+    /// <summary>Moves the capsule on with the ground that moves, for a step.</summary>
+    /// <param name="stepLength">Seconds.</param>
+    /// <returns>The angle by which the ground has turned about <see cref="Up"/>, radians.</returns>
+    public double Carry(double stepLength)
+    {
+        if (Ground is not { Kinematic: { IsCarrying: true } ground } contact)
+        {
+            return 0;
+        }
+
+        var belt = contact.SurfaceVelocity(Position) - ground.VelocityAt(contact.Point);
+        var reference = ground.ToReference(Position);
+        _world.SetKinematicTime(stepLength);
+        Position = ground.ToWorld(reference) + (stepLength * belt);
+        _safeDistance.Invalidate();
+        return stepLength * Vector.Dot(ground.AngularVelocity, Up);
     }
 
     /// <summary>Removes all planes that velocities are projected onto.</summary>

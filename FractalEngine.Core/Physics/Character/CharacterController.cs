@@ -1,3 +1,4 @@
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 
@@ -18,6 +19,7 @@ public sealed class CharacterController
     private readonly GroundMovement _groundMovement;
     private readonly AirMovement _airMovement;
     private double _jumpBufferTime;
+    private Vector _positionBeforeCarry;
     private bool _isActive;
 
     /// <summary>Creates a character at the position of its description, not active.</summary>
@@ -48,6 +50,15 @@ public sealed class CharacterController
 
     /// <summary>Current velocity in units per second.</summary>
     public Vector Velocity { get; private set; }
+
+    /// <summary>
+    /// How far the ground has turned the character about <see cref="Up"/> since it began, radians: a turntable turns it with it.
+    /// </summary>
+    /// <remarks>Positive in the sense of an angular velocity along <see cref="Up"/>.</remarks>
+    public double CarriedAngle { get; private set; }
+
+    /// <summary>That angle before the last step, for interpolation between steps.</summary>
+    public double PreviousCarriedAngle { get; private set; }
 
     /// <summary>True where the character stands on something that is not too steep, or is caught between steep walls.</summary>
     public bool IsGrounded { get; private set; }
@@ -91,6 +102,9 @@ public sealed class CharacterController
         PreviousPosition = position;
         Velocity = Vector.Zero;
         IsGrounded = false;
+        CarriedAngle = 0;
+        PreviousCarriedAngle = 0;
+        _capsule.ForgetGround();
         _jumpBufferTime = 0;
         InvalidateSurroundings();
     }
@@ -105,6 +119,8 @@ public sealed class CharacterController
         PreviousPosition = other.PreviousPosition;
         Velocity = other.Velocity;
         IsGrounded = other.IsGrounded;
+        CarriedAngle = other.CarriedAngle;
+        PreviousCarriedAngle = other.PreviousCarriedAngle;
         MoveInput = other.MoveInput;
         IsActive = other.IsActive;
     }
@@ -115,12 +131,30 @@ public sealed class CharacterController
     /// <summary>Discards what is known of surfaces, and lets the next step check for overlaps.</summary>
     internal void InvalidateSurroundings() => _capsule.InvalidateSurroundings();
 
-    /// <summary>Moves the character through one step.</summary>
+    /// <summary>True where an object may come near the capsule in a step.</summary>
+    internal bool IsNear(BoundingBox bounds) => bounds.DistanceSquared(Position) <= Description.Height * Description.Height;
+
+    /// <summary>Saves the position before a step.</summary>
+    internal void BeginStep()
+    {
+        PreviousPosition = Position;
+        PreviousCarriedAngle = CarriedAngle;
+    }
+
+    /// <summary>Moves the character on with the ground, at the beginning of a step.</summary>
+    /// <param name="stepLength">Seconds, positive.</param>
+    internal void Carry(double stepLength)
+    {
+        _positionBeforeCarry = Position;
+        CarriedAngle += IsGrounded ? _capsule.Carry(stepLength) : 0;
+    }
+
+    /// <summary>Moves the character through one step, or a part of one.</summary>
     /// <param name="stepLength">Seconds, positive.</param>
     internal void Step(double stepLength)
     {
         var speed = Math.Max(Description.WalkingSpeed, Velocity.Length());
-        PreviousPosition = Position;
+        var previousPosition = _positionBeforeCarry;
         if (!_capsule.TryBeginStep((2 * stepLength * speed) + Description.StepHeight))
         {
             Velocity = Vector.Zero;
@@ -135,22 +169,30 @@ public sealed class CharacterController
         bool isGrounded;
         if (IsGrounded && !isJumping)
         {
-            Velocity = _groundMovement.Walk(desiredVelocity, stepLength, PreviousPosition, out isGrounded);
+            Velocity = _groundMovement.Walk(desiredVelocity, stepLength, previousPosition, out isGrounded);
         }
         else
         {
-            var speedUpwards = isJumping ? Description.JumpSpeed(_world.Gravity.Length()) : Vector.Dot(Velocity, Up);
+            // A jump from a lift begins with its speed; below a walker, ground that falls away takes none along.
+            var liftSpeed = isJumping ? Math.Max(0, Vector.Dot(Position - previousPosition, Up) / stepLength) : 0;
+            var speedUpwards = isJumping ? Description.JumpSpeed(_world.Gravity.Length()) + liftSpeed : Vector.Dot(Velocity, Up);
+            _capsule.ForgetGround();
             Velocity = _airMovement.Fly(desiredVelocity + (speedUpwards * Up), _world.Gravity, stepLength, out isGrounded);
         }
 
         IsGrounded = isGrounded;
+        if (!isGrounded)
+        {
+            _capsule.ForgetGround();
+        }
+
         if ((Position - start).MaxAbsComponent() <= _capsule.MinMoveDistance)
         {
             _capsule.Position = start;
         }
         else
         {
-            _capsule.WakeTouchingBodies(PreviousPosition);
+            _capsule.WakeTouchingBodies(previousPosition);
         }
     }
 }

@@ -1,5 +1,5 @@
 using System.Runtime.InteropServices;
-using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Compounds;
 
 namespace FractalEngine.Core.Physics.Islands;
 
@@ -15,7 +15,7 @@ internal sealed partial class ContactGraph
         _count = 0;
         foreach (var index in _islandBodies)
         {
-            AddSurfaces(index);
+            AddSurfaces(bodies[index]);
         }
 
         foreach (ref readonly var pair in CollectionsMarshal.AsSpan(_pairs))
@@ -97,62 +97,73 @@ internal sealed partial class ContactGraph
         }
     }
 
-    private void AddSurfaces(int index)
+    private void AddSurfaces(Body body)
     {
-        var body = bodies[index];
-        for (var i = 0; i < body.Contacts.Count; i++)
+        var firstRow = _count;
+        for (var ball = 0; ball < body.Balls.Length; ball++)
         {
-            if (body.Contacts[i] is { IsBody: false } contact)
-            {
-                AddSurface(index, in contact, isAhead: false);
-            }
+            AddSurfaces(body, ball, body.Balls[ball].Contacts, body.Balls[ball].NearSurfaces);
         }
 
-        for (var i = 0; i < body.NearSurfaceCount; i++)
+        if (body.Description.Shape is { IsCapsule: true })
         {
-            ref readonly var near = ref body.NearSurfaces[i];
-            var gap = Vector.Dot(near.PointToCentre(body.Position), near.CachedNormal) - body.Radius;
-            AddSurface(index, in near, gap > ContactTolerances.Slop(body.Radius, body.Position));
-            _found[_count - 1].Normal = near.CachedNormal;
+            _count = firstRow + CapsuleRows.RemoveInner(_found.AsSpan(firstRow, _count - firstRow));
+        }
+
+        if (!body.IsCompound)
+        {
+            AddSurfaces(body, 0, body.Contacts, body.NearSurfaces);
         }
     }
 
-    private void AddSurface(int index, in Contact contact, bool isAhead)
+    private void AddSurfaces(Body body, int ball, ContactSet contacts, NearSurfaceList nearSurfaces)
     {
-        var body = bodies[index];
-        ref var row = ref AddRow();
-        row.First = index;
-        row.Second = ContactRow.Firm;
-        row.Offset = contact.PointToCentre(body.Position);
-        row.MinDistance = body.Radius;
-        row.Normal = row.Offset.UnitVectorOrZero();
-        row.FirstRadius = body.Radius;
-        row.Friction = body.Description.Friction;
-        row.Restitution = body.Description.Restitution;
-        row.IsAhead = isAhead;
-        row.RollingArm = body.Description.RollingFriction * body.Radius;
-        row.SpinningArm = body.Description.SpinningFriction * body.Radius;
+        for (var i = 0; i < contacts.Count; i++)
+        {
+            if (contacts[i] is { IsBody: false } contact)
+            {
+                AddRow() = ContactRows.OfSurface(body, ball, in contact, isAhead: false, _stepLength);
+            }
+        }
+
+        for (var i = 0; i < nearSurfaces.Count; i++)
+        {
+            AddRow() = ContactRows.OfNearSurface(body, ball, in nearSurfaces[i], _stepLength);
+        }
     }
 
     private void AddPair(in BodyPair pair)
     {
         var body = bodies[pair.First];
         var other = bodies[pair.Second];
-        var radius = Math.Min(body.Radius, other.Radius);
+        if (!body.IsCompound && !other.IsCompound)
+        {
+            AddBalls(in pair, 0, 0, !pair.IsTouching);
+            return;
+        }
+
+        var limit = DeviationLimit(pair.First) + (_stepLength * body.AngularVelocity.Length() * body.MaxArm)
+            + (_stepLength * RelativeVelocity(in pair).Length());
+        limit += pair.IsSecondFirm ? 0 : DeviationLimit(pair.Second) + (_stepLength * other.AngularVelocity.Length() * other.MaxArm);
+        for (var i = 0; i < body.BallCount; i++)
+        {
+            for (var j = 0; j < other.BallCount; j++)
+            {
+                var gap = BallPairs.Gap(body, i, other, j);
+                if (gap <= limit)
+                {
+                    AddBalls(in pair, i, j, gap > ContactTolerances.Slop(Math.Min(body.BallRadius(i), other.BallRadius(j)), body.Position));
+                }
+            }
+        }
+    }
+
+    private void AddBalls(in BodyPair pair, int ball, int otherBall, bool isAhead)
+    {
         ref var row = ref AddRow();
-        row.First = pair.First;
-        row.Second = pair.IsSecondFirm ? ContactRow.Firm : pair.Second;
-        row.Offset = body.Position - other.Position;
-        row.MinDistance = body.Radius + other.Radius;
-        row.Normal = row.Offset.UnitVectorOrZero();
-        row.FirstRadius = body.Radius;
-        row.SecondRadius = other.Radius;
-        row.IsBall = true;
-        row.IsAhead = !pair.IsTouching;
-        row.Friction = Math.Min(body.Description.Friction, other.Description.Friction);
-        row.Restitution = Math.Min(body.Description.Restitution, other.Description.Restitution);
-        row.RollingArm = radius * Math.Min(body.Description.RollingFriction, other.Description.RollingFriction);
-        row.SpinningArm = radius * Math.Min(body.Description.SpinningFriction, other.Description.SpinningFriction);
+        row = ContactRows.OfBalls(bodies[pair.First], ball, bodies[pair.Second], otherBall, pair.IsSecondFirm, isAhead);
+        // What bounces first goes as far as it touches only, and would be overrun.
+        row.Restitution = isAhead && IsPushed(in pair) ? 0 : row.Restitution;
     }
 
     private ref ContactRow AddRow()

@@ -27,7 +27,7 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     private int[] _next = new int[InitialCapacity];
     private double[] _reach = new double[InitialCapacity];
     private double[] _push = new double[InitialCapacity];
-    private bool[] _hasPair = new bool[InitialCapacity];
+    private bool[] _hasLooked = new bool[InitialCapacity];
     private double _stepLength;
     private int _count;
 
@@ -50,46 +50,47 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     /// <summary>True for a body that is joined with others.</summary>
     public bool IsJoined(int body) => _sets.IsJoined(body);
 
-    /// <summary>How far a body may get in the step.</summary>
-    public double Reach(int body) => _reach[body];
+    /// <summary>All pairs that are known: those that touch, and those that bodies of islands may meet.</summary>
+    public ReadOnlySpan<BodyPair> Pairs => CollectionsMarshal.AsSpan(_pairs);
+
+    /// <summary>How far a body may get in the step. Never 0, which is for bodies that do not move.</summary>
+    public double Reach(Body body) => (_stepLength * body.Velocity.Length()) + Slack(body) + body.KinematicPush;
 
     /// <summary>How far a body may get from where it would be without others, before it may meet what no contact knows of.</summary>
-    public double DeviationLimit(int body) => Slack(bodies[body]) + _push[body];
+    public double DeviationLimit(int body) => Slack(bodies[body]) + _push[body] + bodies[body].KinematicPush;
 
-    /// <summary>Finds all pairs of bodies that touch or may meet.</summary>
+    /// <summary>True for a body of an island that is farther from where it was than any pair foresees.</summary>
+    public bool IsBeyondReach(Body body) => (body.Position - body.PlannedStart).LengthSquared() > _reach[body.Index] * _reach[body.Index];
+
+    /// <summary>Finds all pairs of bodies that touch. Only those search that may: most bodies in flight have met no other.</summary>
     /// <param name="islands">Wakes bodies that sleep and are hit.</param>
     /// <param name="stepLength">Seconds.</param>
     /// <returns>True where bodies were woken, and the pairs must be collected again.</returns>
-    public bool CollectPairs(SleepIslands islands, double stepLength)
+    public bool CollectTouching(SleepIslands islands, double stepLength)
     {
         Begin(stepLength);
         var hasWoken = false;
         for (var i = 0; i < bodies.Count && !hasWoken; i++)
         {
-            hasWoken = _reach[i] > 0 && CollectPairsOf(i, islands);
+            hasWoken = MaySearch(bodies[i]) && CollectTouching(bodies[i], islands);
         }
 
-        return hasWoken;
-    }
-
-    /// <summary>True where impulses have made a body so fast that it may meet others than those of its pairs.</summary>
-    public bool HasOutrun()
-    {
-        var hasOutrun = false;
-        for (var i = 0; i < bodies.Count; i++)
-        {
-            hasOutrun |= _hasPair[i] && CanMove(bodies[i]) && Reach(bodies[i]) > _reach[i] * (1 + ReachMargin);
-        }
-
-        return hasOutrun;
+        return hasWoken || PassPushes(islands);
     }
 
     /// <summary>Joins the bodies that touch, for the impulses of what approaches.</summary>
     public void JoinTouching()
     {
         _sets.Reset(bodies.Count);
+        foreach (var body in bodies)
+        {
+            body.MayTouchBodies &= body.IsAsleep;
+        }
+
         foreach (ref var pair in CollectionsMarshal.AsSpan(_pairs))
         {
+            bodies[pair.First].MayTouchBodies = true;
+            bodies[pair.Second].MayTouchBodies = true;
             pair.IsRow = pair.IsTouching;
             if (pair.IsTouching && !pair.IsSecondFirm)
             {
@@ -99,17 +100,24 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     }
 
     /// <summary>
-    /// Joins the bodies that stay in touch, with all that they may meet in the step. Bodies that touch nothing go their exact ways alone.
+    /// Joins the bodies that stay in touch, with all that they may meet in the step. Bodies that touch nothing go their exact ways alone,
+    /// and look for no others.
     /// </summary>
     public void JoinForStep()
     {
         _sets.Reset(bodies.Count);
-        var pairs = CollectionsMarshal.AsSpan(_pairs);
-        FindPushes(pairs);
-        var hasChanged = false;
-        foreach (ref var pair in pairs)
+        for (var i = 0; i < bodies.Count; i++)
         {
-            pair.IsRow = pair.IsTouching && (pair.IsSecondFirm || !IsSeparating(in pair));
+            _reach[i] = CanMove(bodies[i]) ? Reach(bodies[i]) : 0;
+            _push[i] = 0;
+            _hasLooked[i] = false;
+        }
+
+        CollectNearPushed();
+        var hasChanged = false;
+        foreach (ref var pair in CollectionsMarshal.AsSpan(_pairs))
+        {
+            pair.IsRow = IsPushed(in pair) ? MayMeet(in pair) : pair.IsTouching && (pair.IsSecondFirm || !IsSeparating(in pair));
             if (pair is { IsRow: true, IsSecondFirm: false })
             {
                 _sets.Join(pair.First, pair.Second);
@@ -119,21 +127,93 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
 
         while (hasChanged)
         {
+            CollectNear();
+            hasChanged = JoinNear();
+        }
+    }
+
+    /// <summary>Finds how far bodies are pushed by those that kinematic objects push, and so on.</summary>
+    /// <returns>True where a body was woken.</returns>
+    private bool PassPushes(SleepIslands islands)
+    {
+        var hasChanged = true;
+        while (hasChanged)
+        {
             hasChanged = false;
-            foreach (ref var pair in pairs)
+            foreach (var body in bodies)
             {
-                if (!pair.IsRow && (_sets.IsJoined(pair.First) || (!pair.IsSecondFirm && _sets.IsJoined(pair.Second))) && MayMeet(in pair))
+                if (body.KinematicPush > 0 && CanMove(body))
                 {
-                    pair.IsRow = true;
-                    if (!pair.IsSecondFirm)
+                    if (TryWakePushed(body, islands))
                     {
-                        _sets.Join(pair.First, pair.Second);
-                        hasChanged = true;
+                        return true;
                     }
+
+                    hasChanged |= PassPush(body);
                 }
             }
         }
+
+        return false;
     }
+
+    private void CollectPushedBy(Body body)
+    {
+        _neighbours.Clear();
+        nearbyBodies.CollectOverlaps(new(body.Position, body.Position), body.Radius + body.KinematicPush, body.Index, _neighbours);
+        _neighbours.Sort();
+    }
+
+    private bool TryWakePushed(Body body, SleepIslands islands)
+    {
+        CollectPushedBy(body);
+        foreach (var neighbour in _neighbours)
+        {
+            if (bodies[neighbour].IsAsleep)
+            {
+                islands.Wake(bodies[neighbour]);
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    private bool PassPush(Body body)
+    {
+        var hasChanged = false;
+        CollectPushedBy(body);
+        foreach (var neighbour in _neighbours)
+        {
+            var other = bodies[neighbour];
+            var push = body.KinematicPush - Math.Max(0, (body.Position - other.Position).Length() - body.Radius - other.Radius);
+            if (push > other.KinematicPush)
+            {
+                other.KinematicPush = push;
+                hasChanged = true;
+            }
+        }
+
+        return hasChanged;
+    }
+
+    /// <summary>Finds what bodies may meet that are pushed, which touch nothing yet.</summary>
+    private void CollectNearPushed()
+    {
+        for (var i = 0; i < bodies.Count; i++)
+        {
+            if (bodies[i].KinematicPush > 0 && CanMove(bodies[i]))
+            {
+                _hasLooked[i] = true;
+                CollectNear(i);
+            }
+        }
+    }
+
+    private bool IsPushed(in BodyPair pair) =>
+        bodies[pair.First].KinematicPush > 0 || (!pair.IsSecondFirm && bodies[pair.Second].KinematicPush > 0);
+
+    private static bool MaySearch(Body body) => CanMove(body) && (body.MayTouchBodies || body.IsCompound);
 
     private static bool CanMove(Body body) => !body.IsAsleep && !body.IsStuck && body.IsOverlapResolved;
 
@@ -147,24 +227,60 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
             _next = new int[2 * bodies.Count];
             _reach = new double[2 * bodies.Count];
             _push = new double[2 * bodies.Count];
-            _hasPair = new bool[2 * bodies.Count];
+            _hasLooked = new bool[2 * bodies.Count];
             // Room for as many contacts as bodies in a heap have, so that steps need not allocate.
-            var contacts = ContactsPerBody * _hasPair.Length;
+            var contacts = ContactsPerBody * _hasLooked.Length;
             _pairs.EnsureCapacity(contacts);
-            _islands.EnsureCapacity(_hasPair.Length);
-            _islandBodies.EnsureCapacity(_hasPair.Length);
+            _islands.EnsureCapacity(_hasLooked.Length);
+            _islandBodies.EnsureCapacity(_hasLooked.Length);
             Array.Resize(ref _found, Math.Max(contacts, _found.Length));
             Array.Resize(ref _rows, _found.Length);
         }
+    }
 
+    private bool CollectTouching(Body body, SleepIslands islands)
+    {
+        _neighbours.Clear();
+        var radius = body.Radius + ContactTolerances.Slop(body.Radius, body.Position);
+        nearbyBodies.CollectOverlaps(new(body.Position, body.Position), radius, body.Index, _neighbours);
+        _neighbours.Sort();
+        foreach (var neighbour in _neighbours)
+        {
+            var other = bodies[neighbour];
+            var isFirm = !CanMove(other);
+            // Of two that search, the first one finds the pair.
+            var isInOrder = isFirm || body.Index < neighbour;
+            if ((isInOrder || !MaySearch(other)) && (isInOrder ? BallPairs.AreTouching(body, other) : BallPairs.AreTouching(other, body)))
+            {
+                if (other.IsAsleep && BallPairs.AreHitting(body, other))
+                {
+                    islands.Wake(other);
+                    return true;
+                }
+
+                _pairs.Add(isInOrder ? new(body.Index, neighbour, isFirm, true) : new(neighbour, body.Index, false, true));
+            }
+        }
+
+        return false;
+    }
+
+    /// <summary>
+    /// Finds what the bodies of islands may meet: all that are near and no faster, since faster ones look for themselves.
+    /// </summary>
+    private void CollectNear()
+    {
         for (var i = 0; i < bodies.Count; i++)
         {
-            _reach[i] = CanMove(bodies[i]) ? Reach(bodies[i]) : 0;
-            _hasPair[i] = false;
+            if (_sets.IsJoined(i) && !_hasLooked[i])
+            {
+                _hasLooked[i] = true;
+                CollectNear(i);
+            }
         }
     }
 
-    private bool CollectPairsOf(int index, SleepIslands islands)
+    private void CollectNear(int index)
     {
         var body = bodies[index];
         _neighbours.Clear();
@@ -172,53 +288,56 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
         _neighbours.Sort();
         foreach (var neighbour in _neighbours)
         {
-            // The one that reaches farther finds the pair.
-            if (_reach[neighbour] > _reach[index] || (_reach[neighbour] == _reach[index] && neighbour < index))
-            {
-                continue;
-            }
-
             var other = bodies[neighbour];
             var gap = (body.Position - other.Position).Length() - body.Radius - other.Radius;
-            if (gap > _reach[index] + _reach[neighbour])
+            var isFound = _hasLooked[neighbour] && gap <= 2 * _reach[neighbour];
+            if (isFound || gap > _reach[index] + _reach[neighbour])
             {
                 continue;
-            }
-
-            var isTouching = gap <= ContactTolerances.Slop(Math.Min(body.Radius, other.Radius), body.Position);
-            if (isTouching && other.IsAsleep && IsHit(body, other))
-            {
-                islands.Wake(other);
-                return true;
             }
 
             var isFirm = !CanMove(other);
-            _hasPair[index] = true;
-            _hasPair[neighbour] |= !isFirm;
-            _pairs.Add(isFirm || index < neighbour ? new(index, neighbour, isFirm, isTouching) : new(neighbour, index, false, isTouching));
+            var isInOrder = isFirm || index < neighbour;
+            if (!(isInOrder ? BallPairs.AreTouching(body, other) : BallPairs.AreTouching(other, body)))
+            {
+                AddNear(isInOrder ? new(index, neighbour, isFirm, false) : new(neighbour, index, false, false));
+            }
         }
-
-        return false;
     }
 
-    /// <summary>How far a body may get in the step. Never 0, which is for bodies that do not move.</summary>
-    private double Reach(Body body) => (_stepLength * body.Velocity.Length()) + Slack(body);
+    private void AddNear(BodyPair pair)
+    {
+        _pairs.Add(pair);
+        // How far each may be pushed by the other one.
+        var offset = bodies[pair.First].Position - bodies[pair.Second].Position;
+        var gap = offset.Length() - bodies[pair.First].Radius - bodies[pair.Second].Radius;
+        var push = (-_stepLength * Vector.Dot(RelativeVelocity(in pair), offset.UnitVectorOrZero())) - Math.Max(gap, 0);
+        _push[pair.First] = Math.Max(_push[pair.First], push);
+        _push[pair.Second] = Math.Max(_push[pair.Second], push);
+    }
+
+    /// <summary>Joins islands with all bodies that they may meet.</summary>
+    /// <returns>True where a body was joined.</returns>
+    private bool JoinNear()
+    {
+        var hasJoined = false;
+        foreach (ref var pair in CollectionsMarshal.AsSpan(_pairs))
+        {
+            if (!pair.IsRow && (_sets.IsJoined(pair.First) || (!pair.IsSecondFirm && _sets.IsJoined(pair.Second))) && MayMeet(in pair))
+            {
+                pair.IsRow = true;
+                if (!pair.IsSecondFirm)
+                {
+                    _sets.Join(pair.First, pair.Second);
+                    hasJoined = true;
+                }
+            }
+        }
+
+        return hasJoined;
+    }
 
     private double Slack(Body body) => (_stepLength * _stepLength * body.FreeAcceleration.Length()) + (ReachMargin * body.Radius);
-
-    /// <summary>Finds how far bodies may be pushed by those that run into them.</summary>
-    private void FindPushes(ReadOnlySpan<BodyPair> pairs)
-    {
-        Array.Clear(_push, 0, bodies.Count);
-        foreach (ref readonly var pair in pairs)
-        {
-            var offset = bodies[pair.First].Position - bodies[pair.Second].Position;
-            var gap = offset.Length() - bodies[pair.First].Radius - bodies[pair.Second].Radius;
-            var push = (-_stepLength * Vector.Dot(RelativeVelocity(in pair), offset.UnitVectorOrZero())) - gap;
-            _push[pair.First] = Math.Max(_push[pair.First], push);
-            _push[pair.Second] = Math.Max(_push[pair.Second], push);
-        }
-    }
 
     /// <summary>Tells whether two bodies come so near on their straight ways that they may touch.</summary>
     private bool MayMeet(in BodyPair pair)
@@ -238,10 +357,13 @@ internal sealed partial class ContactGraph(List<Body> bodies, NearbyBodies nearb
     /// <summary>True for two bodies that come apart faster than gravity could bring them together again in this step.</summary>
     private bool IsSeparating(in BodyPair pair)
     {
+        if (bodies[pair.First].IsCompound || bodies[pair.Second].IsCompound)
+        {
+            // Another part of them may come nearer.
+            return false;
+        }
+
         var normal = (bodies[pair.First].Position - bodies[pair.Second].Position).UnitVectorOrZero();
         return Vector.Dot(RelativeVelocity(in pair), normal) > _stepLength * bodies[pair.First].FreeAcceleration.Length();
     }
-
-    private static bool IsHit(Body body, Body other) =>
-        -Vector.Dot(body.Velocity - other.Velocity, (body.Position - other.Position).UnitVectorOrZero()) > body.RestitutionThreshold;
 }

@@ -8,6 +8,9 @@ internal struct ContactRow
     /// <summary>In place of a second body: a surface, or a body that does not give way.</summary>
     public const int Firm = -1;
 
+    // Above the bits of both indices, unless there are millions of bodies: then contacts may be taken for others, and begin badly.
+    private const int PartShift = 52;
+
     /// <summary>Index of the body on the normal's side.</summary>
     public int First;
 
@@ -32,8 +35,26 @@ internal struct ContactRow
     /// <summary>True for what will bounce when it touches, and gives no impulse before.</summary>
     public bool IsBouncingAhead;
 
+    /// <summary>True where a way ends when it touches what is ahead, even too slowly to bounce.</summary>
+    public bool IsMetExactly;
+
     /// <summary>True for what does not touch yet, and may meet in this step.</summary>
     public bool IsAhead;
+
+    /// <summary>True where one of them is a ball of a compound: then what happens along the normal turns it too.</summary>
+    public bool HasArms;
+
+    /// <summary>Centre of the first ball relative to the first body's position.</summary>
+    public Vector FirstArm;
+
+    /// <summary>Centre of the second ball relative to the second body's position.</summary>
+    public Vector SecondArm;
+
+    /// <summary>How far the planned turns of both bodies change the offset, beyond what their velocities tell.</summary>
+    public Vector TurnShift;
+
+    /// <summary>Which balls of the two bodies touch.</summary>
+    public int Part;
 
     /// <summary>Radius of the first body.</summary>
     public double FirstRadius;
@@ -52,6 +73,15 @@ internal struct ContactRow
 
     /// <summary>Restitution of this pair.</summary>
     public double Restitution;
+
+    /// <summary>Velocity of a firm surface that moves, at the touching point.</summary>
+    public Vector SurfaceVelocity;
+
+    /// <summary>Angular velocity of a firm surface that turns.</summary>
+    public Vector SurfaceSpin;
+
+    /// <summary>How far a firm surface goes in the step, its belt aside.</summary>
+    public Vector SurfaceWay;
 
     /// <summary>Smallest allowed relative velocity along the normal, units per second.</summary>
     public double MinNormalVelocity;
@@ -77,6 +107,6 @@ internal struct ContactRow
     /// <summary>Radius of the smaller one of two balls, as a share of the distance between them.</summary>
     public readonly double SmallerRadiusShare => Math.Min(FirstRadius, SecondRadius) / MinDistance;
 
-    /// <summary>Says which contact it is, from step to step: both indices.</summary>
-    public readonly long Key => ((long)First << 32) | (uint)(Second + 1);
+    /// <summary>Says which contact it is, from step to step: both indices, and which of their balls.</summary>
+    public readonly long Key => (((long)First << 32) | (uint)(Second + 1)) ^ ((long)Part << PartShift);
 }

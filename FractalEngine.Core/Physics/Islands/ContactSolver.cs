@@ -11,7 +11,7 @@ namespace FractalEngine.Core.Physics.Islands;
 /// Projected Gauss–Seidel, whose changes are taken as the gradients of a nonlinear conjugate gradient method (Silcowitz, Niebe and
 /// Erleben 2010). Plain rounds pass a load on by one body each; with the conjugate directions far fewer are needed.
 /// </remarks>
-internal sealed class ContactSolver
+internal sealed partial class ContactSolver
 {
     // Most rounds of a solve: islands of up to so many contacts may take many, and all others as many as solve so many contacts.
     private const int ManyRounds = 250;
@@ -53,6 +53,7 @@ internal sealed class ContactSolver
         if (_bodies.Length < bodyCount)
         {
             Array.Resize(ref _bodies, Math.Max(bodyCount, 2 * _bodies.Length));
+            Array.Resize(ref _inverseInertias, _bodies.Length);
             Array.Resize(ref _changes, Math.Max(ContactsPerBody * _bodies.Length, _changes.Length));
             Array.Resize(ref _directions, _changes.Length);
         }
@@ -61,6 +62,12 @@ internal sealed class ContactSolver
     /// <summary>Computes the masses of a contact from those of its bodies.</summary>
     public void ComputeMasses(ref ContactRow row)
     {
+        if (row.HasArms)
+        {
+            ComputeMassesOfArms(ref row);
+            return;
+        }
+
         ref readonly var first = ref _bodies[row.First];
         var normal = first.InverseMass;
         var spin = first.InverseInertia * row.FirstRadius * row.FirstRadius;
@@ -78,8 +85,8 @@ internal sealed class ContactSolver
 
     /// <summary>Velocity of the first body relative to the second.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public Vector RelativeVelocity(in ContactRow row) =>
-        row.Second >= 0 ? _bodies[row.First].Velocity - _bodies[row.Second].Velocity : _bodies[row.First].Velocity;
+    public Vector RelativeVelocity(in ContactRow row) => row.HasArms ? RelativeVelocityOfArms(in row)
+        : _bodies[row.First].Velocity - (row.Second >= 0 ? _bodies[row.Second].Velocity : row.SurfaceVelocity);
 
     /// <summary>Velocity of the first body's touching point relative to the second's, across the normal.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -111,6 +118,12 @@ internal sealed class ContactSolver
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private void ApplyAlongNormal(in ContactRow row, double impulse)
     {
+        if (row.HasArms)
+        {
+            ApplyToArms(in row, impulse * row.Normal);
+            return;
+        }
+
         ref var first = ref _bodies[row.First];
         first.Velocity += first.InverseMass * impulse * row.Normal;
         if (row.Second >= 0)
@@ -123,6 +136,12 @@ internal sealed class ContactSolver
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private void ApplyAcross(in ContactRow row, Vector across)
     {
+        if (row.HasArms)
+        {
+            ApplyToArms(in row, across);
+            return;
+        }
+
         var torque = Vector.Cross(row.Normal, across);
         ref var first = ref _bodies[row.First];
         first.Velocity += first.InverseMass * across;
@@ -241,7 +260,7 @@ internal sealed class ContactSolver
     /// <summary>Slows down rolling and spinning as far as the normal impulse allows.</summary>
     private Vector StopTurning(ref ContactRow row)
     {
-        var spin = _bodies[row.First].Spin - (row.Second >= 0 ? _bodies[row.Second].Spin : Vector.Zero);
+        var spin = _bodies[row.First].Spin - (row.Second >= 0 ? _bodies[row.Second].Spin : row.SurfaceSpin);
         var turn = row.TurnImpulse - (row.TurnInertia * spin);
         var about = Vector.Dot(turn, row.Normal);
         var rolling = turn - (about * row.Normal);
@@ -258,10 +277,10 @@ internal sealed class ContactSolver
     /// <summary>Gives both bodies an angular impulse.</summary>
     public void ApplyTurn(in ContactRow row, Vector turn)
     {
-        _bodies[row.First].Spin += _bodies[row.First].InverseInertia * turn;
+        _bodies[row.First].Spin += SpinChange(row.First, turn);
         if (row.Second >= 0)
         {
-            _bodies[row.Second].Spin -= _bodies[row.Second].InverseInertia * turn;
+            _bodies[row.Second].Spin -= SpinChange(row.Second, turn);
         }
     }
 

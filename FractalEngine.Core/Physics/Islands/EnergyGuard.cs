@@ -26,7 +26,7 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandM
             bodies[index].AngularVelocity *= scale;
         }
 
-        if (scale == 0 && centreVelocity == Vector.Zero)
+        if (scale == 0 && centreVelocity == Vector.Zero && !IsPushed(in island))
         {
             // What has lifted it has more energy than it can give back: it rests.
             _ = mover.TryReturn(in island);
@@ -44,7 +44,28 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandM
                 - (body.Description.Mass * Vector.Dot(body.FreeAcceleration, body.Position - body.PlannedStart));
         }
 
+        foreach (ref readonly var row in graph.RowsOf(in island))
+        {
+            // What moves does work.
+            gain -= Vector.Dot((row.NormalImpulse * row.Normal) + row.FrictionImpulse, row.SurfaceVelocity)
+                + Vector.Dot(row.TurnImpulse, row.SurfaceSpin);
+        }
+
         return gain;
+    }
+
+    /// <summary>True where a surface moves, which would overrun bodies that stay.</summary>
+    private bool IsPushed(in Island island)
+    {
+        foreach (ref readonly var row in graph.RowsOf(in island))
+        {
+            if (row.SurfaceWay != Vector.Zero)
+            {
+                return true;
+            }
+        }
+
+        return false;
     }
 
     private bool IsFree(in Island island)

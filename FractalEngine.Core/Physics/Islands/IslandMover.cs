@@ -26,61 +26,109 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
     /// <summary>Number of times that a body had to stay where it was.</summary>
     public long ReturnCount { get; private set; }
 
-    /// <summary>Sets the targets of all bodies of an island.</summary>
-    /// <param name="island">Planned.</param>
+    /// <summary>Sets the targets of all bodies of all islands, which have been planned.</summary>
     /// <param name="stepLength">Seconds.</param>
-    public void SetTargets(in Island island, double stepLength)
+    public void SetTargets(double stepLength)
     {
-        foreach (var index in graph.BodiesOf(in island))
+        foreach (var island in graph.Islands)
         {
-            var body = bodies[index];
-            body.PlannedStart = body.Position;
-            body.Target = body.Position + (stepLength * (body.Velocity + (0.5 * stepLength * body.NetAcceleration)));
-            body.IsHeld = false;
+            foreach (var index in graph.BodiesOf(in island))
+            {
+                var body = bodies[index];
+                body.PlannedStart = body.Position;
+                body.Target = body.Position + (stepLength * (body.Velocity + (0.5 * stepLength * body.NetAcceleration)));
+                body.IsHeld = false;
+            }
         }
 
         _separator.Reserve(bodies.Count);
-        _unplanned.Clear();
     }
+
+    /// <summary>Finds a body of no island that stands where one of an island will be. It has to go first.</summary>
+    /// <param name="pairIndex">Index of the pair from which to search; receives that after the one found.</param>
+    /// <returns>Null where there is none left.</returns>
+    public Body? FindInTheWay(ref int pairIndex)
+    {
+        var pairs = graph.Pairs;
+        while (pairIndex < pairs.Length)
+        {
+            ref readonly var pair = ref pairs[pairIndex++];
+            var first = bodies[pair.First];
+            var second = bodies[pair.Second];
+            if (!pair.IsSecondFirm && (first.IslandIndex >= 0) != (second.IslandIndex >= 0))
+            {
+                var (member, single) = first.IslandIndex >= 0 ? (first, second) : (second, first);
+                var distance = (member.Radius + single.Radius) * (1 - OverlapSeparator.NegligibleOverlap);
+                if (!single.HasMoved && (member.Target - single.Position).LengthSquared() < distance * distance)
+                {
+                    return single;
+                }
+            }
+        }
+
+        return null;
+    }
+
+    /// <summary>Begins the motion of an island.</summary>
+    public void BeginIsland() => _unplanned.Clear();
 
     /// <summary>Adds a surface that a body has met on its way. It gives way along the surface's plane.</summary>
     /// <param name="body">Body of the present island.</param>
     /// <param name="hit">What it has met.</param>
     public void AddSurface(Body body, in Contact hit)
     {
+        var ball = body.IsCompound ? body.PlannedHitBall : 0;
+        var offset = body.IsCompound ? body.PlannedOffset(ball) : Vector.Zero;
         body.IsHeld = false;
+        var radius = body.BallRadius(ball);
         _unplanned.Add(new()
         {
-            First = body.Index, Second = ContactRow.Firm, Offset = hit.PointToCentre(body.PlannedStart), MinDistance = body.Radius,
-            Normal = hit.Normal(body.Position), FirstRadius = body.Radius,
+            First = body.Index, Second = ContactRow.Firm, Offset = hit.PointToCentre(body.PlannedStart + offset), MinDistance = radius,
+            Normal = hit.CachedNormal, FirstRadius = radius,
         });
     }
 
     /// <summary>Puts an island back to where its step began, unless others have come there.</summary>
     public bool TryReturn(in Island island)
     {
-        foreach (var index in graph.BodiesOf(in island))
+        var members = graph.BodiesOf(in island);
+        foreach (var index in members)
         {
-            var body = bodies[index];
-            _neighbours.Clear();
-            nearbyBodies.CollectOverlaps(
-                new(body.PlannedStart, body.PlannedStart), body.Radius * (1 - MaxOverlap), index, _neighbours);
-            foreach (var neighbour in _neighbours)
-            {
-                if (bodies[neighbour].IslandIndex != body.IslandIndex)
-                {
-                    return false;
-                }
-            }
+            bodies[index].CheckedTarget = bodies[index].Position;
+            bodies[index].MovedOrientation = bodies[index].Orientation;
+            PutBack(bodies[index]);
         }
 
-        foreach (var index in graph.BodiesOf(in island))
+        var isFree = true;
+        foreach (var index in members)
         {
-            bodies[index].Position = bodies[index].PlannedStart;
+            isFree &= !OverlapsOthers(bodies[index]);
+        }
+
+        foreach (var index in isFree ? [] : members)
+        {
+            bodies[index].Position = bodies[index].CheckedTarget;
+            bodies[index].SetOrientation(bodies[index].MovedOrientation);
             grid.Update(index);
         }
 
-        return true;
+        return isFree;
+    }
+
+    /// <summary>True where a body overlaps one that is not of its island.</summary>
+    private bool OverlapsOthers(Body body)
+    {
+        _neighbours.Clear();
+        nearbyBodies.CollectOverlaps(new(body.Position, body.Position), body.Radius * (1 - MaxOverlap), body.Index, _neighbours);
+        foreach (var neighbour in _neighbours)
+        {
+            if (bodies[neighbour].IslandIndex != body.IslandIndex && BallPairs.AreOverlapping(body, bodies[neighbour], MaxOverlap))
+            {
+                return true;
+            }
+        }
+
+        return false;
     }
 
     /// <summary>Finds bodies that others meet which have got farther than was foreseen.</summary>
@@ -99,7 +147,7 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
             foreach (var neighbour in _neighbours)
             {
                 var other = bodies[neighbour];
-                if (other.IslandIndex == body.IslandIndex
+                if (other.IslandIndex == body.IslandIndex && !body.IsCompound && !other.IsCompound
                     && (body.Target - other.Target).Length() < (body.Radius + other.Radius) * (1 - OverlapSeparator.NegligibleOverlap))
                 {
                     _unplanned.Add(new()
@@ -132,30 +180,23 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
         }
     }
 
-    /// <summary>Puts bodies back to where they were that now overlap others, after all of an island have moved.</summary>
-    public void ReturnOverlapping(in Island island, double stepLength)
+    /// <summary>
+    /// Puts bodies back to where they were that now overlap others, after those of all islands have moved. What returns may overlap
+    /// others in turn, which return as well; where all began, none overlapped.
+    /// </summary>
+    public void ReturnOverlapping()
     {
-        var members = graph.BodiesOf(in island);
-        foreach (var index in members)
+        foreach (var island in graph.Islands)
         {
-            grid.Update(index);
-        }
-
-        var hasReturned = false;
-        foreach (var index in members)
-        {
-            var body = bodies[index];
-            if (HasDeviated(body, body.Position, stepLength))
+            foreach (var index in graph.BodiesOf(in island))
             {
-                hasReturned |= ReturnAmongAll(body);
+                grid.Update(index);
             }
         }
 
-        do
+        while (ReturnPairs() || ReturnBeyondReach())
         {
-            hasReturned = ReturnOverlapping(graph.RowsOf(in island));
         }
-        while (hasReturned);
     }
 
     private bool HasDeviated(Body body, Vector position, double stepLength)
@@ -165,36 +206,41 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
         return (position - free).LengthSquared() > limit * limit;
     }
 
-    private bool ReturnOverlapping(Span<ContactRow> rows)
+    private bool ReturnPairs()
     {
         var hasReturned = false;
-        foreach (ref readonly var row in rows)
+        foreach (ref readonly var pair in graph.Pairs)
         {
-            if (!row.IsBall)
-            {
-                continue;
-            }
-
-            var first = bodies[row.First];
-            var second = row.Second >= 0 ? bodies[row.Second] : null;
-            var offset = row.Offset + (first.Position - first.PlannedStart);
-            if (second is not null)
-            {
-                offset -= second.Position - second.PlannedStart;
-            }
-
-            var least = row.MinDistance * (1 - (MaxOverlap * row.SmallerRadiusShare));
-            if (offset.LengthSquared() < least * least)
+            var first = bodies[pair.First];
+            var second = bodies[pair.Second];
+            if (BallPairs.AreOverlapping(first, second, MaxOverlap))
             {
                 hasReturned |= Return(first);
-                hasReturned |= second is not null && Return(second);
+                hasReturned |= Return(second);
             }
         }
 
         return hasReturned;
     }
 
-    /// <summary>Puts a body back that overlaps any other, and that one with it.</summary>
+    /// <summary>Puts bodies back that have got farther than any pair foresees and overlap any other, and that one with them.</summary>
+    private bool ReturnBeyondReach()
+    {
+        var hasReturned = false;
+        foreach (var island in graph.Islands)
+        {
+            foreach (var index in graph.BodiesOf(in island))
+            {
+                if (graph.IsBeyondReach(bodies[index]))
+                {
+                    hasReturned |= ReturnAmongAll(bodies[index]);
+                }
+            }
+        }
+
+        return hasReturned;
+    }
+
     private bool ReturnAmongAll(Body body)
     {
         _neighbours.Clear();
@@ -203,8 +249,11 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
         var hasReturned = false;
         foreach (var neighbour in _neighbours)
         {
-            hasReturned |= Return(body);
-            hasReturned |= bodies[neighbour].IslandIndex == body.IslandIndex && Return(bodies[neighbour]);
+            if (BallPairs.AreOverlapping(body, bodies[neighbour], MaxOverlap))
+            {
+                hasReturned |= Return(body);
+                hasReturned |= Return(bodies[neighbour]);
+            }
         }
 
         return hasReturned;
@@ -212,14 +261,24 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
 
     private bool Return(Body body)
     {
-        if (body.Position == body.PlannedStart)
+        if (body.IslandIndex < 0
+            || (body.Position == body.PlannedStart && (!body.IsCompound || body.Orientation == body.PlannedStartOrientation)))
         {
             return false;
         }
 
         ReturnCount++;
+        PutBack(body);
+        return true;
+    }
+
+    private void PutBack(Body body)
+    {
         body.Position = body.PlannedStart;
         grid.Update(body.Index);
-        return true;
+        if (body.IsCompound)
+        {
+            body.SetOrientation(body.PlannedStartOrientation);
+        }
     }
 }

@@ -8,6 +8,9 @@ internal sealed partial class IslandPlanner
     // Of the distance at which balls touch: on a longer way the mean line of contact may be far from that of the impact.
     private const double MaxShortWay = 0.25;
 
+    // Of the restitution threshold: what is met more slowly is met at the end of the time, wherever that is known to a small part of it.
+    private const double SlowFraction = 0.01;
+
     // Of the touch tolerance: smaller gaps are rounding, and stay.
     private const double NegligibleGap = 1e-9;
 
@@ -15,13 +18,17 @@ internal sealed partial class IslandPlanner
     /// <returns>By how much the line of contact has turned, radians.</returns>
     private double SetConstraint(ref ContactRow row, double stepLength, bool isFirst)
     {
-        var velocity = bodies[row.First].Velocity - (row.Second >= 0 ? bodies[row.Second].Velocity : Vector.Zero);
+        var velocity = row.HasArms ? BaseVelocity(in row)
+            : bodies[row.First].Velocity - (row.Second >= 0 ? bodies[row.Second].Velocity : row.SurfaceVelocity);
+        var shift = row.HasArms ? TurnShift(in row, stepLength, isFirst) : Vector.Zero;
         var distance = row.Offset.Length();
         var gap = distance - row.MinDistance;
         var turn = 0.0;
         if (isFirst && row.IsAhead)
         {
-            row.IsBouncingAhead = row.Restitution > 0 && -Vector.Dot(velocity, row.Normal) > Threshold(in row);
+            var approach = -Vector.Dot(velocity, row.Normal);
+            row.IsBouncingAhead = row.IsMetExactly ? approach > SlowFraction * Threshold(in row)
+                : row.Restitution > 0 && approach > Threshold(in row);
             row.HasFixedNormal = row.IsBall && TryFindImpactNormal(in row, stepLength * velocity, out row.Normal);
         }
 
@@ -35,17 +42,26 @@ internal sealed partial class IslandPlanner
         if (row.HasFixedNormal || !row.IsBall)
         {
             gap = RemoveRounding(Vector.Dot(row.Offset, row.Normal) - row.MinDistance, row.MinDistance);
+            turn = row.HasArms ? (shift - row.TurnShift).MaxAbsComponent() / row.MinDistance : 0;
         }
         else if (row.IsBall)
         {
             var finalVelocity = isFirst ? velocity : _solver.RelativeVelocity(in row);
             var sum = (2 * row.Offset) + (0.5 * stepLength * (velocity + finalVelocity));
+            sum = row.HasArms ? sum + shift : sum;
             var length = sum.Length();
             var normal = sum / length;
             // |r₁|² − |r₀|² = (r₀ + r₁)·(r₁ − r₀) must not fall below d² − |r₀|².
             gap = RemoveRounding(gap, row.MinDistance) * (distance + row.MinDistance) / length;
             turn = (normal - row.Normal).MaxAbsComponent();
             row.Normal = normal;
+        }
+
+        if (row.HasArms)
+        {
+            row.TurnShift = shift;
+            _solver.ComputeMasses(ref row);
+            gap += Vector.Dot(shift, row.Normal);
         }
 
         row.MinNormalVelocity = (-2 * gap / stepLength) - Vector.Dot(velocity, row.Normal);

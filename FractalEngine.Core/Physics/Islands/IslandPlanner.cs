@@ -1,4 +1,5 @@
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Events;
 
 namespace FractalEngine.Core.Physics.Islands;
 
@@ -10,7 +11,7 @@ namespace FractalEngine.Core.Physics.Islands;
 /// The forces are constant during the step, so that each body follows a parabola. They act along the mean of the line of contact before
 /// and after the step. Along it, two balls that stay in touch do not come closer, so that the forces between them do no work.
 /// </remarks>
-internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies)
+internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies nearbyBodies, ContactLog contactLog)
 {
     // Rounds of bounces, one contact after the other: more of them are balls that pass their speed to and fro.
     private const int MaxBounceRounds = 64;
@@ -75,16 +76,19 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             foreach (var body in Graph.BodiesOf(in island))
             {
                 bodies[body].IslandIndex = index;
+                bodies[body].MayTouchBodies = true;
             }
 
             Load(Graph.BodiesOf(in island), rows);
             // Of bodies that have joined without touching another: they may run into surfaces.
             var isConverged = StopApproaches(rows);
             StoreVelocities(Graph.BodiesOf(in island));
-            isConverged &= FindForces(in island, rows, stepLength);
+            isConverged &= FindForces(Graph.BodiesOf(in island), rows, stepLength);
             Statistics = new(Statistics.Solves + 1, Statistics.Rounds, Statistics.Unconverged + (isConverged ? 0 : 1));
             StorePlan(Graph.BodiesOf(in island), stepLength);
+            StoreTurns(Graph.BodiesOf(in island), rows, stepLength);
             StopRebounds(Graph.BodiesOf(in island), rows);
+            Log(rows);
         }
 
         _cache.Store(Graph);
@@ -92,15 +96,9 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
 
     private void Load(ReadOnlySpan<int> island, Span<ContactRow> rows)
     {
-        var solverBodies = _solver.Bodies;
         foreach (var index in island)
         {
-            var body = bodies[index];
-            solverBodies[index] = new()
-            {
-                Velocity = body.Velocity, Spin = body.AngularVelocity, InverseMass = 1 / body.Description.Mass,
-                InverseInertia = body.InverseInertia,
-            };
+            _solver.Load(index, bodies[index]);
         }
 
         foreach (ref var row in rows)
@@ -133,8 +131,29 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             row.MinNormalVelocity = row.IsAhead ? double.NegativeInfinity : 0;
         }
 
-        return Solve(rows);
+        var isConverged = Solve(rows);
+        Log(rows);
+        return isConverged;
     }
+
+    private void Log(ReadOnlySpan<ContactRow> rows)
+    {
+        if (!contactLog.IsEnabled)
+        {
+            return;
+        }
+
+        foreach (ref readonly var row in rows)
+        {
+            if (row.NormalImpulse > 0 || !row.IsAhead)
+            {
+                Log(in row, row.NormalImpulse);
+            }
+        }
+    }
+
+    private void Log(in ContactRow row, double impulse) => contactLog.Add(
+        row.First, row.Second, bodies[row.First].Position + row.FirstArm - (row.FirstRadius * row.Normal), row.Normal, impulse);
 
     /// <summary>Lets all pairs bounce that approach fast enough, one after the other.</summary>
     private bool Bounce(Span<ContactRow> rows)
@@ -146,10 +165,17 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             if (!row.IsAhead && row.Restitution > 0 && speed > Math.Max(Threshold(in row), Rounding(in row)))
             {
                 var impulse = (1 + row.Restitution) * speed * row.NormalMass;
+                if (row.HasArms)
+                {
+                    // First alone, since it changes the slip: both together could add energy.
+                    _solver.Apply(in row, impulse, Vector.Zero);
+                }
+
                 var across = -row.FrictionMass * _solver.Slip(in row);
                 var limit = row.Friction * impulse;
                 var length = across.Length();
-                _solver.Apply(in row, impulse, length > limit ? limit / length * across : across);
+                _solver.Apply(in row, row.HasArms ? 0 : impulse, length > limit ? limit / length * across : across);
+                Log(in row, impulse);
                 hasBounced = true;
             }
         }
@@ -172,9 +198,10 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
             ? Math.Max(rounding, RelativeTolerance * _solver.Bodies[row.Second].Velocity.MaxAbsComponent()) : rounding;
     }
 
-    private bool FindForces(in Island island, Span<ContactRow> rows, double stepLength)
+    private bool FindForces(ReadOnlySpan<int> island, Span<ContactRow> rows, double stepLength)
     {
         _cache.Recall(rows);
+        FindFreeTurns(island, stepLength);
         var isConverged = false;
         var turn = double.PositiveInfinity;
         var maxTurns = rows.Length <= MaxRowsOfManyTurns ? MaxTurns : MinTurns;
@@ -192,11 +219,11 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
                 break;
             }
 
-            foreach (var index in Graph.BodiesOf(in island))
+            foreach (var index in island)
             {
                 ref var solverBody = ref _solver.Bodies[index];
                 solverBody.Velocity = bodies[index].Velocity + (stepLength * bodies[index].FreeAcceleration);
-                solverBody.Spin = bodies[index].AngularVelocity;
+                solverBody.Spin = bodies[index].IsCompound ? bodies[index].FreeSpin : bodies[index].AngularVelocity;
             }
 
             foreach (ref var row in rows)
@@ -254,11 +281,24 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
     /// </summary>
     private void StopRebounds(ReadOnlySpan<int> island, Span<ContactRow> rows)
     {
+        StopRebounds(rows);
+        foreach (var index in island)
+        {
+            var body = bodies[index];
+            var isResting = body.NetAcceleration == Vector.Zero && body.Velocity == Vector.Zero;
+            body.PlannedChange = isResting ? Vector.Zero : _solver.Bodies[index].Velocity - body.Velocity;
+            body.PlannedSpinChange = isResting ? Vector.Zero : _solver.Bodies[index].Spin - body.AngularVelocity;
+        }
+    }
+
+    private void StopRebounds(Span<ContactRow> rows)
+    {
         for (var round = 0; round < MaxReboundRounds; round++)
         {
             foreach (ref var row in rows)
             {
-                if (row.IsAhead && row.NormalImpulse > 0)
+                // What moves pushes on those that were slower than itself, which then rebound from what they push.
+                if ((row.IsAhead || row.SurfaceVelocity != Vector.Zero) && row.NormalImpulse > 0)
                 {
                     // It pushes less, but does not pull.
                     var impulse = Math.Min(row.NormalImpulse, row.NormalMass * NormalVelocity(in row));
@@ -269,14 +309,6 @@ internal sealed partial class IslandPlanner(List<Body> bodies, NearbyBodies near
                     }
                 }
             }
-        }
-
-        foreach (var index in island)
-        {
-            var body = bodies[index];
-            var isResting = body.NetAcceleration == Vector.Zero && body.Velocity == Vector.Zero;
-            body.PlannedChange = isResting ? Vector.Zero : _solver.Bodies[index].Velocity - body.Velocity;
-            body.PlannedSpinChange = isResting ? Vector.Zero : _solver.Bodies[index].Spin - body.AngularVelocity;
         }
     }
 }

@@ -22,6 +22,9 @@ internal sealed class OverlapSeparator
     // Of the distance at which two touch: those farther apart are not near touching.
     private const double MaxGap = 0.01;
 
+    // The same where something pushes bodies together: then all of a row come to touch at once.
+    private const double MaxPushedGap = 0.25;
+
     // Of an overlap: how much of it is taken back at once, since others will push in again.
     private const double Relaxation = 1.3;
 
@@ -30,6 +33,7 @@ internal sealed class OverlapSeparator
 
     private Mover[] _movers = new Mover[InitialCapacity];
     private Gap[] _gaps = new Gap[InitialCapacity];
+    private double _maxGap = MaxGap;
 
     /// <summary>Makes room for bodies.</summary>
     public void Reserve(int bodyCount)
@@ -60,6 +64,7 @@ internal sealed class OverlapSeparator
             _gaps = new Gap[2 * (rows.Length + others.Length)];
         }
 
+        _maxGap = IsPushed(rows) ? MaxPushedGap : MaxGap;
         // Chosen anew as long as what was not near touching comes to overlap.
         var hasMoved = true;
         for (var choice = 0; choice < MaxChoices && hasMoved; choice++)
@@ -77,6 +82,19 @@ internal sealed class OverlapSeparator
         TakeBackSurfaces(others);
     }
 
+    private static bool IsPushed(ReadOnlySpan<ContactRow> rows)
+    {
+        foreach (ref readonly var row in rows)
+        {
+            if (row.SurfaceWay != Vector.Zero)
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
     private int Choose(Span<ContactRow> rows, int count)
     {
         foreach (ref readonly var row in rows)
@@ -84,7 +102,7 @@ internal sealed class OverlapSeparator
             var gap = new Gap(in row);
             var offset = OffsetOf(in gap);
             var distance = gap.IsPlane ? Vector.Dot(offset, gap.Normal) : offset.Length();
-            if (distance < gap.MinDistance * (1 + MaxGap))
+            if (distance < gap.MinDistance * (1 + _maxGap))
             {
                 _gaps[count++] = gap;
             }
@@ -202,7 +220,7 @@ internal sealed class OverlapSeparator
         {
             First = row.First;
             Second = row.Second;
-            Offset = row.Offset;
+            Offset = row.HasArms ? row.Offset + row.TurnShift - row.SurfaceWay : row.Offset - row.SurfaceWay;
             Normal = row.Normal;
             MinDistance = row.MinDistance;
             var unit = row.IsBall ? row.MinDistance * row.SmallerRadiusShare : 0;

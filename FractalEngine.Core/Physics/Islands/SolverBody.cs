@@ -14,6 +14,9 @@ internal struct SolverBody
     /// <summary>Inverse of the mass, 1/kg.</summary>
     public double InverseMass;
 
+    /// <summary>True for a compound, whose inverse inertia is a tensor, and at most <see cref="InverseInertia"/> about any axis.</summary>
+    public bool IsCompound;
+
     /// <summary>Inverse moment of inertia; 0 for a body that does not turn.</summary>
     public double InverseInertia;
 }

@@ -1,0 +1,94 @@
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Core.Physics.Islands;
+
+/// <summary>Makes contacts of balls with surfaces and with each other.</summary>
+internal static class ContactRows
+{
+    // Balls of a compound for which contacts with one and the same body differ.
+    private const int MaxBalls = Compounds.CompoundShape.MaxBalls;
+
+    /// <summary>Makes the contact of a ball with a surface.</summary>
+    /// <param name="body">The body.</param>
+    /// <param name="ball">Index of its ball.</param>
+    /// <param name="contact">The surface.</param>
+    /// <param name="isAhead">True where it is not touched yet.</param>
+    /// <param name="duration">Seconds for which it is planned.</param>
+    public static ContactRow OfSurface(Body body, int ball, in Contact contact, bool isAhead, double duration)
+    {
+        var row = new ContactRow
+        {
+            First = body.Index,
+            Second = ContactRow.Firm,
+            Offset = contact.PointToCentre(body.BallCentre(ball)),
+            MinDistance = body.BallRadius(ball),
+            FirstRadius = body.BallRadius(ball),
+            Friction = body.Description.Friction,
+            Restitution = body.Description.Restitution,
+            IsAhead = isAhead,
+            RollingArm = body.Description.RollingFriction * body.BallRadius(ball),
+            SpinningArm = body.Description.SpinningFriction * body.BallRadius(ball),
+            HasArms = body.IsCompound,
+            FirstArm = body.BallOffset(ball),
+            Part = ball,
+        };
+        row.Normal = row.Offset.UnitVectorOrZero();
+        if (contact.Kinematic is { } kinematic)
+        {
+            row.SurfaceVelocity = contact.SurfaceVelocity(body.BallCentre(ball));
+            row.SurfaceSpin = kinematic.AngularVelocity;
+            row.SurfaceWay = duration * kinematic.VelocityAt(contact.Point);
+        }
+
+        return row;
+    }
+
+    /// <summary>Makes the contact of a ball with a face that it touches or may meet.</summary>
+    /// <param name="body">The body.</param>
+    /// <param name="ball">Index of its ball.</param>
+    /// <param name="face">The face, with its normal.</param>
+    /// <param name="duration">Seconds for which it is planned.</param>
+    public static ContactRow OfNearSurface(Body body, int ball, in Contact face, double duration)
+    {
+        var centre = body.BallCentre(ball);
+        var gap = Vector.Dot(face.PointToCentre(centre), face.CachedNormal) - body.BallRadius(ball);
+        var row = OfSurface(body, ball, in face, gap > ContactTolerances.Slop(body.BallRadius(ball), centre), duration);
+        row.Normal = face.CachedNormal;
+        return row;
+    }
+
+    /// <summary>Makes the contact of two balls.</summary>
+    /// <param name="body">A body that can move.</param>
+    /// <param name="ball">Index of its ball.</param>
+    /// <param name="other">The other body.</param>
+    /// <param name="otherBall">Index of the other one's ball.</param>
+    /// <param name="isFirm">True where the other one does not give way.</param>
+    /// <param name="isAhead">True where they do not touch yet.</param>
+    public static ContactRow OfBalls(Body body, int ball, Body other, int otherBall, bool isFirm, bool isAhead)
+    {
+        var firstRadius = body.BallRadius(ball);
+        var secondRadius = other.BallRadius(otherBall);
+        var radius = Math.Min(firstRadius, secondRadius);
+        var row = new ContactRow
+        {
+            First = body.Index,
+            Second = isFirm ? ContactRow.Firm : other.Index,
+            Offset = body.BallCentre(ball) - other.BallCentre(otherBall),
+            MinDistance = firstRadius + secondRadius,
+            FirstRadius = firstRadius,
+            SecondRadius = secondRadius,
+            IsBall = true,
+            IsAhead = isAhead,
+            Friction = Math.Min(body.Description.Friction, other.Description.Friction),
+            Restitution = Math.Min(body.Description.Restitution, other.Description.Restitution),
+            RollingArm = radius * Math.Min(body.Description.RollingFriction, other.Description.RollingFriction),
+            SpinningArm = radius * Math.Min(body.Description.SpinningFriction, other.Description.SpinningFriction),
+            HasArms = body.IsCompound || other.IsCompound,
+            FirstArm = body.BallOffset(ball),
+            SecondArm = other.BallOffset(otherBall),
+            Part = (MaxBalls * otherBall) + ball,
+        };
+        row.Normal = row.Offset.UnitVectorOrZero();
+        return row;
+    }
+}

@@ -1,0 +1,117 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Kinematics;
+
+namespace FractalEngine.Core.Physics;
+
+/// <content>Objects that move by themselves.</content>
+public sealed partial class PhysicsWorld
+{
+    private readonly List<int> _nearKinematic = new(InitialNeighbourCapacity);
+
+    // Of the radius of a body: how far an object goes in a part of a step at most.
+    private const double MaxKinematicWay = 0.25;
+
+    // Parts of a step at most: what is so fast still passes no body that is free.
+    private const int MaxParts = 64;
+
+    // Room for so many bodies near a moving object; beyond it the list grows.
+    private const int InitialNeighbourCapacity = 256;
+
+    /// <summary>The static objects that have begun to move by themselves, in the order in which they began.</summary>
+    public IEnumerable<StaticObject> MovingObjects => _kinematics.Objects.Select(static moved => moved.Target);
+
+    /// <summary>Lets an object move by itself.</summary>
+    internal void SetMotion(StaticObject target, Vector velocity, Vector angularVelocity)
+    {
+        ArgumentCheck.RequireFinite(velocity, nameof(velocity));
+        ArgumentCheck.RequireFinite(angularVelocity, nameof(angularVelocity));
+        RequireKinematic(target).SetMotion(velocity, angularVelocity, _clock.Time);
+        InvalidateSurroundings(mayOverlap: false);
+    }
+
+    /// <summary>Lets an object's surface move along itself.</summary>
+    internal void SetBelt(StaticObject target, Vector velocity)
+    {
+        ArgumentCheck.RequireFinite(velocity, nameof(velocity));
+        RequireKinematic(target).Belt = velocity;
+        InvalidateSurroundings(mayOverlap: false);
+    }
+
+    private KinematicObject RequireKinematic(StaticObject target)
+    {
+        if (target.Kinematic is null)
+        {
+            target.Kinematic = new(_kinematics, target);
+            _kinematics.Objects.Add(target.Kinematic);
+            _statics.AddKinematic(target.Kinematic);
+        }
+
+        return target.Kinematic;
+    }
+
+    /// <summary>Lets all objects move as the scene declares it, from where that has led at the world's time.</summary>
+    private void ResetKinematics()
+    {
+        foreach (var moved in _kinematics.Objects)
+        {
+            moved.Reset(_clock.Time);
+        }
+    }
+
+    /// <summary>Lets the character see the objects that move where they are at a time of the step.</summary>
+    internal void SetKinematicTime(double time) => _kinematics.Time = time;
+
+    /// <summary>
+    /// Number of equal parts that a step is made in: several where an object goes far, compared with the bodies before it. In each of them
+    /// those that it pushes together find each other.
+    /// </summary>
+    private int CountParts(double seconds)
+    {
+        var parts = 1.0;
+        foreach (var moved in _kinematics.Objects)
+        {
+            var way = moved.MaxSpeed * seconds;
+            if (!(way > 0))
+            {
+                continue;
+            }
+
+            if (Character is { IsActive: true } character && character.IsNear(moved.SweptBounds))
+            {
+                parts = Math.Max(parts, Math.Ceiling(way / (MaxKinematicWay * character.Description.Radius)));
+            }
+
+            _nearKinematic.Clear();
+            _nearbyBodies.CollectOverlaps(moved.SweptBounds, 0, Contact.NoBody, _nearKinematic);
+            foreach (var index in _nearKinematic)
+            {
+                parts = Math.Max(parts, Math.Ceiling(way / (MaxKinematicWay * _bodies[index].Radius)));
+            }
+        }
+
+        return (int)Math.Min(parts, MaxParts);
+    }
+
+    /// <summary>Wakes the bodies that objects may meet in the step.</summary>
+    private void WakeNearKinematics(double seconds)
+    {
+        foreach (var moved in _kinematics.Objects)
+        {
+            if (!moved.IsMoving || !_islands.HasSleeping)
+            {
+                continue;
+            }
+
+            _nearKinematic.Clear();
+            _nearbyBodies.CollectOverlaps(moved.SweptBounds, 0, Contact.NoBody, _nearKinematic);
+            foreach (var index in _nearKinematic)
+            {
+                var body = _bodies[index];
+                if (body.IsAsleep && _stepper.IsNearKinematic(body, CollidersOf(body), moved.MaxSpeed * seconds))
+                {
+                    _islands.Wake(body);
+                }
+            }
+        }
+    }
+}

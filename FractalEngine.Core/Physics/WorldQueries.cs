@@ -1,0 +1,159 @@
+using FractalEngine.Core.Collision;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Kinematics;
+using FractalEngine.Core.Rays;
+using FractalEngine.Core.Scenes;
+
+namespace FractalEngine.Core.Physics;
+
+/// <summary>Casts spheres and rays through a world as it is between two steps.</summary>
+internal sealed class WorldQueries(
+    List<Body> bodies, StaticObjectSet statics, Obstacles obstacles, KinematicSet kinematics, QueryContext queryContext)
+{
+    // Of the radius: contacts that a sphere begins with.
+    private const double TouchFraction = 1e-9;
+
+    private readonly SafeDistance _safeDistance = new();
+    private readonly SphereSweep _sweep = new(obstacles);
+    private readonly Dictionary<StaticObject, (PlacedModel Placed, SceneRayCaster Caster)> _rayCasters = [];
+
+    /// <summary>Finds what a sphere meets first on a straight way.</summary>
+    public bool TryCastSphere(StaticColliders? colliders, Vector start, double radius, Vector way, out CastHit hit)
+    {
+        _safeDistance.Invalidate();
+        obstacles.SetMover(colliders, BodyStepper.SingleSphereOffset, radius, _safeDistance, 0);
+        kinematics.Time = 0;
+        kinematics.IsFrozen = true;
+        try
+        {
+            var motion = new Motion(start, way, Vector.Zero);
+            obstacles.CollectNearbyBodies(in motion, 1, Contact.NoBody);
+            _sweep.ResetStepBudget();
+            var elapsed = 0.0;
+            var isHit = (obstacles.TryFindClosestContact(start, 0, out var contact)
+                    && contact.Gap(start) < -TouchFraction * radius)
+                || _sweep.TryFindImpact(in motion, 1, out contact, out elapsed);
+            var centre = start + (elapsed * way);
+            hit = isHit ? CreateHit(elapsed * way.Length(), centre, radius, in contact) : default;
+            return isHit;
+        }
+        finally
+        {
+            kinematics.IsFrozen = false;
+        }
+    }
+
+    /// <summary>Finds what a ray meets first.</summary>
+    public bool TryCastRay(Ray ray, double maxDistance, int layer, uint mask, out CastHit hit)
+    {
+        hit = default;
+        var direction = RayCaster.CheckedUnitDirection(in ray, 0, maxDistance);
+        var isHit = false;
+        for (var i = 0; i < statics.Objects.Count; i++)
+        {
+            var target = statics.Objects[i];
+            isHit |= StaticObjectSet.CanMeet(target, layer, mask) && TryHitObject(target, ray, ref maxDistance, ref hit);
+        }
+
+        foreach (var body in bodies)
+        {
+            if (Layers.CanMeet(layer, mask, body.Description.Layer, body.Description.Mask)
+                && TryHitBody(ray.Origin, direction, body, out var distance, out var centre) && distance <= maxDistance)
+            {
+                maxDistance = distance;
+                var point = ray.Origin + (distance * direction);
+                hit = new(distance, point, (point - centre).UnitVectorOrZero(), body, null);
+                isHit = true;
+            }
+        }
+
+        return isHit;
+    }
+
+    /// <summary>Finds the static object whose surface is at a point.</summary>
+    /// <returns>Its index; −1 where there is none.</returns>
+    public int FindObjectAt(StaticColliders? colliders, Vector point, double tolerance)
+    {
+        obstacles.SetMover(colliders, BodyStepper.SingleSphereOffset, 0, _safeDistance, 0);
+        return obstacles.TryFindObject(point, tolerance, out var index) ? index : -1;
+    }
+
+    private bool TryHitObject(StaticObject target, Ray ray, ref double maxDistance, ref CastHit hit)
+    {
+        if (target.Reference.Bounds.IsEmpty)
+        {
+            return false;
+        }
+
+        var kinematic = target.Kinematic;
+        var local = kinematic is null
+            ? ray : new Ray(kinematic.ToReference(ray.Origin), kinematic.RotateBack(ray.Direction));
+        if (!CasterOf(target).TryFindNearest(local, queryContext, out var found, out _, 0, maxDistance))
+        {
+            return false;
+        }
+
+        maxDistance = found.Distance;
+        var normal = found.IsFrontFace ? found.Normal : -found.Normal;
+        hit = new(
+            found.Distance, kinematic?.ToWorld(found.Point) ?? found.Point, kinematic?.Rotate(normal) ?? normal, null, target);
+        return true;
+    }
+
+    private SceneRayCaster CasterOf(StaticObject target)
+    {
+        if (!_rayCasters.TryGetValue(target, out var prepared))
+        {
+            prepared = (target.Reference, new(new LoadedScene(new(), [target.Reference])));
+        }
+        else if (!ReferenceEquals(prepared.Placed, target.Reference))
+        {
+            prepared = (target.Reference, prepared.Caster.WithObject(0, target.Reference));
+        }
+
+        _rayCasters[target] = prepared;
+        return prepared.Caster;
+    }
+
+    private static bool TryHitBody(Vector origin, Vector direction, Body body, out double distance, out Vector centre)
+    {
+        distance = double.PositiveInfinity;
+        centre = body.Position;
+        for (var ball = 0; ball < body.BallCount; ball++)
+        {
+            if (TryHitSphere(origin, direction, body.BallCentre(ball), body.BallRadius(ball), out var found) && found < distance)
+            {
+                distance = found;
+                centre = body.BallCentre(ball);
+            }
+        }
+
+        return distance < double.PositiveInfinity;
+    }
+
+    private static bool TryHitSphere(Vector origin, Vector direction, Vector centre, double radius, out double distance)
+    {
+        var toCentre = centre - origin;
+        var along = Vector.Dot(toCentre, direction);
+        var missSquared = (toCentre - (along * direction)).LengthSquared();
+        var halfChordSquared = (radius * radius) - missSquared;
+        distance = along - Math.Sqrt(Math.Max(0, halfChordSquared));
+        // From inside, the ball is met at once.
+        distance = distance < 0 && toCentre.LengthSquared() <= radius * radius ? 0 : distance;
+        return halfChordSquared >= 0 && distance >= 0;
+    }
+
+    private CastHit CreateHit(double distance, Vector centre, double radius, in Contact contact)
+    {
+        var normal = contact.Normal(centre);
+        if (contact.IsBody)
+        {
+            return new(distance, centre - (radius * normal), normal, bodies[contact.BodyIndex], null);
+        }
+
+        var tolerance = (1e-6 * radius) + (1e-12 * centre.MaxAbsComponent());
+        return new(
+            distance, contact.Point, normal, null,
+            obstacles.TryFindObject(contact.Point, tolerance, out var index) ? statics.Objects[index] : null);
+    }
+}

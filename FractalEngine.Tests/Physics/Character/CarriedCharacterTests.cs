@@ -1,0 +1,102 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Character;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Physics.Character;
+
+/// <summary>A character on objects that move: lifts, belts and turntables carry it, walls push it.</summary>
+public class CarriedCharacterTests
+{
+    [Theory]
+    [InlineData(1.5)]
+    [InlineData(-1.5)]
+    [InlineData(-8)]
+    public void Lift_CarriesWithoutJitter(double speed)
+    {
+        var walker = CreateOn(new(4, 1, 4), out var world, out var lift);
+        lift.SetMotion(new(0, speed, 0));
+        world.Run(120, () =>
+        {
+            Assert.True(walker.IsGrounded);
+            Near.Equal(lift.Placement.Position.Y + 0.5 + 0.9, walker.Position.Y, 1e-6);
+            Near.Equal(speed / 60, walker.Position.Y - walker.PreviousPosition.Y, 1e-7);
+        });
+    }
+
+    [Fact]
+    public void Belt_CarriesWhoStands_AndAddsToWhoWalks()
+    {
+        var walker = CreateOn(new(200, 1, 200), out var world, out var belt);
+        belt.SetBelt(new(2, 0, 0));
+        // From the step on in which it has found the ground that has begun to move.
+        world.Run(1);
+        var start = walker.Position.X;
+        world.Run(60);
+        Near.Equal(2, walker.Position.X - start, 1e-6);
+        walker.MoveInput = new(0, 0, 1);
+        world.Run(60);
+        Near.Equal(4, walker.Position.X - start, 1e-6);
+        Near.Equal(walker.Description.WalkingSpeed, walker.Position.Z, 1e-6);
+    }
+
+    [Fact]
+    public void Turntable_CarriesRoundAndTurns()
+    {
+        var walker = CreateOn(new(20, 1, 20), out var world, out var turntable);
+        walker.Teleport(new(3, 0.9, 0));
+        turntable.SetMotion(Vector.Zero);
+        world.Run(2);
+        turntable.SetMotion(Vector.Zero, new(0, 0.5, 0));
+        world.Run(120);
+        Near.Equal(new(3 * Math.Cos(1), 0.9, -3 * Math.Sin(1)), walker.Position, 1e-6);
+        Near.Equal(1, walker.CarriedAngle, 1e-12);
+    }
+
+    [Fact]
+    public void Jump_FromARisingLift_BeginsWithItsSpeed()
+    {
+        var walker = CreateOn(new(4, 1, 4), out var world, out var lift);
+        lift.SetMotion(new(0, 2, 0));
+        world.Run(10);
+        var start = walker.Position.Y;
+        var highest = start;
+        walker.Jump();
+        world.Run(60, () => highest = Math.Max(highest, walker.Position.Y));
+        var speed = walker.Description.JumpSpeed(9.8) + 2;
+        Near.Equal(speed * speed / 19.6, highest - start, 0.05);
+    }
+
+    [Theory]
+    [InlineData(1)]
+    [InlineData(50)]
+    public void Wall_ThatComes_PushesTheCharacter(double speed)
+    {
+        var walker = CreateOn(new(2000, 1, 40), out var world, out _);
+        var wall = world.AddStatic(PhysicsMeshes.Cube, new(new(-3, 3, 0), Vector.Zero, new(0.2, 5, 8)));
+        wall.SetMotion(new(speed, 0, 0));
+        world.Run(360, () => Assert.True(walker.Position.X > wall.Placement.Position.X + 0.1 + 0.3 - 1e-4, "passed"));
+        Assert.True(walker.Position.X > 1);
+    }
+
+    [Fact]
+    public void Walker_PushesABall()
+    {
+        var walker = CreateOn(new(200, 1, 40), out var world, out _);
+        var ball = world.AddSphere(new(2, 0.4, 0), 0.4);
+        walker.MoveInput = Vector.I;
+        world.Run(60);
+        Assert.True(ball.Position.X > walker.Position.X + 0.5);
+        Assert.True(ball.Velocity.X > 0.9 * walker.Description.WalkingSpeed);
+    }
+
+    private static CharacterController CreateOn(Vector size, out PhysicsWorld world, out StaticObject floor)
+    {
+        world = new();
+        floor = world.AddStatic(PhysicsMeshes.Cube, new(new(0, -0.5, 0), Vector.Zero, size));
+        var walker = world.AddCharacter(new(new(0, 0.9, 0), 0.3, 1.8));
+        walker.IsActive = true;
+        world.Run(2);
+        return walker;
+    }
+}

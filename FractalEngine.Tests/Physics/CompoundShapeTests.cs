@@ -1,0 +1,105 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
+using FractalEngine.Core.Physics.Compounds;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Physics;
+
+/// <summary>Mass properties of compounds against closed forms, and their fit to models.</summary>
+public class CompoundShapeTests
+{
+    [Fact]
+    public void OfBalls_OfADumbbell_HasTheInertiaOfTwoBalls()
+    {
+        var shape = CompoundShape.OfBalls([new(new(-2, 0, 0), 0.5), new(new(2, 0, 0), 0.5)]);
+        // 2/5·r², and d² of parallel axes.
+        Near.Equal(Matrix.Diagonal(new(0.1, 4.1, 4.1)), shape.Inertia, 1e-15);
+        Assert.Equal((Vector.Zero, 2.5), (shape.Centre, shape.Radius));
+    }
+
+    [Fact]
+    public void OfBalls_OfTwoSizes_HasItsCentreByVolume()
+    {
+        var shape = CompoundShape.OfBalls([new(Vector.Zero, 1), new(new(0, 9, 0), 2)]);
+        Near.Equal(new(0, 8, 0), shape.Centre, 1e-15);
+        Near.Equal(new(0, -8, 0), shape.Balls[0].Offset, 1e-15);
+    }
+
+    [Fact]
+    public void Inertia_OfACapsule_IsThatOfItsVolume() => Seeded.Run(3, random =>
+    {
+        var shape = CompoundShape.Capsule(random.Vector(), random.Vector(), 0.3);
+        var axis = shape.Balls[^1].Offset - shape.Balls[0].Offset;
+        var sum = 0 * Matrix.Identity;
+        var count = 0;
+        for (var i = 0; i < 400_000; i++)
+        {
+            var point = random.Vector(shape.Radius);
+            var share = Math.Clamp((Vector.Dot(point, axis) / axis.LengthSquared()) + 0.5, 0, 1);
+            if ((point - ((share - 0.5) * axis)).Length() <= 0.3)
+            {
+                sum += (point.LengthSquared() * Matrix.Identity) + (-1 * Matrix.Outer(point, point));
+                count++;
+            }
+        }
+
+        // Monte Carlo: some 10⁵ points tell three digits.
+        Near.Equal(shape.Inertia, sum / count, 0.01 * shape.Inertia.MaxAbsEntry());
+    });
+
+    [Fact]
+    public void Capsule_WithoutLength_IsABall()
+    {
+        var shape = CompoundShape.Capsule(Vector.One, Vector.One, 2);
+        Assert.Single(shape.Balls);
+        Near.Equal(1.6 * Matrix.Identity, shape.Inertia, 1e-15);
+    }
+
+    [Fact]
+    public void Shapes_OfWrongNumbers_AreRefused()
+    {
+        Assert.Throws<ArgumentException>(() => CompoundShape.OfBalls([]));
+        Assert.Throws<ArgumentException>(() => CompoundShape.OfBalls([new(Vector.Zero, 0)]));
+        Assert.Throws<ArgumentException>(() => CompoundShape.OfBalls([new(new(double.NaN, 0, 0), 1)]));
+        Assert.Throws<ArgumentException>(() => CompoundShape.Capsule(Vector.Zero, 100 * Vector.I, 1));
+        var ball = CompoundShape.OfBalls([new(Vector.Zero, 2)]);
+        Assert.Throws<ArgumentException>(() => new PhysicsWorld().Add(new(Vector.Zero, 1) { Shape = ball }));
+    }
+
+    [Fact]
+    public void Capsule_OfAPlank_HoldsAllItsVertices()
+    {
+        var placed = new PlacedModel(new PhysicsObject(Model.Of(PhysicsMeshes.Cube))
+        {
+            Placement = new(new(1, 2, 3), new(0, 30, 0), new(4, 0.5, 0.4)), Shape = BodyShape.Capsule,
+        });
+        var body = Assert.Single(new PhysicsWorld(new LoadedScene(new(), [placed])).Bodies);
+        Assert.True(body.BallCount > 5);
+        for (var vertex = 0; vertex < placed.Model.Mesh.VertexCount; vertex++)
+        {
+            var point = placed.ObjectToWorld * placed.Model.Mesh.Vertex(vertex);
+            // Balls half a radius apart lie 1/32 of it below the capsule.
+            Assert.Contains(
+                Enumerable.Range(0, body.BallCount), ball => (body.BallCentre(ball) - point).Length() <= body.BallRadius(ball) * 1.04);
+        }
+
+        // It is drawn where it was placed.
+        Near.Equal(placed.ObjectToWorld.Translation, body.InterpolatedMap(1).Translation, 1e-12);
+    }
+
+    [Fact]
+    public void Balls_OfACube_CoverItsVertices()
+    {
+        var placed = new PlacedModel(new PhysicsObject(Model.Of(PhysicsMeshes.Cube)) { Shape = BodyShape.Balls(8) });
+        var body = Assert.Single(new PhysicsWorld(new LoadedScene(new(), [placed])).Bodies);
+        Assert.Equal(8, body.BallCount);
+        for (var vertex = 0; vertex < placed.Model.Mesh.VertexCount; vertex++)
+        {
+            var point = placed.Model.Mesh.Vertex(vertex);
+            var distance = Enumerable.Range(0, body.BallCount)
+                .Min(ball => (body.BallCentre(ball) - point).Length() - body.BallRadius(ball));
+            Assert.InRange(distance, double.NegativeInfinity, 1e-12);
+        }
+    }
+}
