@@ -171,6 +171,11 @@ public sealed partial class PhysicsWorld
             }
 
             _energyGuard.Check(in island);
+            if (!_energyGuard.IsFree(in island))
+            {
+                _islandMover.DampJammed(in island, seconds);
+            }
+
             foreach (var index in members)
             {
                 _stepper.FinishPlanned(_bodies[index], CollidersOf(_bodies[index]), seconds, StepCount);

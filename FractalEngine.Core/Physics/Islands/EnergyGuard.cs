@@ -68,7 +68,8 @@ internal sealed class EnergyGuard(List<Body> bodies, ContactGraph graph, IslandM
         return false;
     }
 
-    private bool IsFree(in Island island)
+    /// <summary>True for an island that touches nothing firm, whose momentum is its own.</summary>
+    public bool IsFree(in Island island)
     {
         foreach (ref readonly var row in graph.RowsOf(in island))
         {

@@ -17,6 +17,10 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
     // Of the radius: how far others may have moved to where a body unexpectedly goes.
     private const double SearchMargin = 0.5;
 
+    // Of the way that the speed tells: a body that gets less far is held up, and for how many steps it may be.
+    private const double JamFraction = 0.25;
+    private const int MaxJammedSteps = 8;
+
     private readonly OverlapSeparator _separator = new();
     private readonly List<int> _neighbours = new(InitialCapacity);
 
@@ -196,6 +200,25 @@ internal sealed class IslandMover(List<Body> bodies, ContactGraph graph, BodyGri
 
         while (ReturnPairs() || ReturnBeyondReach())
         {
+        }
+    }
+
+    /// <summary>Slows down bodies that others have held up for some steps in a row: in a jam they would push for ever.</summary>
+    /// <param name="island">Has moved, and its bodies have their new velocities.</param>
+    /// <param name="stepLength">Seconds.</param>
+    public void DampJammed(in Island island, double stepLength)
+    {
+        foreach (var index in graph.BodiesOf(in island))
+        {
+            var body = bodies[index];
+            var way = JamFraction * stepLength * body.Velocity;
+            var isJammed = (body.Position - body.PlannedStart).LengthSquared() < way.LengthSquared();
+            body.JammedSteps = isJammed ? body.JammedSteps + 1 : 0;
+            if (body.JammedSteps >= MaxJammedSteps)
+            {
+                body.Velocity *= 0.5;
+                body.AngularVelocity *= 0.5;
+            }
         }
     }
 
