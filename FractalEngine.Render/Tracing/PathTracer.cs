@@ -76,6 +76,7 @@ public sealed class PathTracer
         ArgumentNullException.ThrowIfNull(view);
         ArgumentOutOfRangeException.ThrowIfLessThan(width, 1);
         ArgumentOutOfRangeException.ThrowIfLessThan(height, 1);
+        _scene = scene.ForView(view.DeepZoom, view.DeepZoom is null ? view.Section : view.RelativeSection);
         if (view.DeepZoom is { } zoom)
         {
             _eye = view.Camera.Position;
@@ -84,7 +85,6 @@ public sealed class PathTracer
         }
 
         _camera = new(view, width, height, FootprintPixels);
-        _scene = scene.ForView(view);
         _lights = lights;
         _declared = declared;
         _display = DisplayTransform.Of(declared);

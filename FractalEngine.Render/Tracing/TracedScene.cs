@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
 using FractalEngine.Core.Scenes;
@@ -18,6 +19,7 @@ internal sealed class TracedScene
     private readonly TracedScene _whole;
     private readonly DeepZoom? _zoom;
     private readonly DeepZoomRayCaster? _zoomCaster;
+    private readonly SectionPlane? _section;
     private readonly double _offset;
     private readonly ImmutableArray<PlacedModel> _objects;
     private readonly TracedModel[] _models;
@@ -45,10 +47,12 @@ internal sealed class TracedScene
         _offset = SurfaceOffset * scene.Bounds.FiniteDiagonalOr(1);
     }
 
-    private TracedScene(TracedScene scene, DeepZoom zoom)
+    private TracedScene(TracedScene scene, DeepZoom? zoom, SectionPlane? section)
     {
         _whole = scene;
         _caster = scene._caster;
+        _offset = scene._offset;
+        _section = section;
         _objects = scene._objects;
         _models = scene._models;
         _colours = scene._colours;
@@ -56,7 +60,7 @@ internal sealed class TracedScene
         IsSeeThrough = scene.IsSeeThrough;
         Notices = scene.Notices;
         _zoom = zoom;
-        _zoomCaster = new(((FractalModel)_objects[zoom.ObjectIndex].Model).Fractal, zoom.Roots);
+        _zoomCaster = zoom is null ? null : new(((FractalModel)_objects[zoom.ObjectIndex].Model).Fractal, zoom.Roots);
     }
 
     /// <summary>Sentences for the user about textures that can't be decoded.</summary>
@@ -70,19 +74,58 @@ internal sealed class TracedScene
     public double OffsetAt(Vector position) => _zoom is null ? _offset : SurfaceOffset * position.Length();
 
     /// <summary>The same surfaces for a view; those of a deep zoom are around the camera, in the unit of the zoom.</summary>
-    public TracedScene ForView(View view) => view.DeepZoom is { } zoom ? new(_whole, zoom) : _whole;
+    /// <param name="zoom">Deep zoom of the view; null for none.</param>
+    /// <param name="section">Plane that cuts the scene open, in the frame of the rays; null for none.</param>
+    public TracedScene ForView(DeepZoom? zoom, SectionPlane? section) =>
+        zoom is null && section is null ? _whole : new(_whole, zoom, section);
 
-    /// <summary>Finds the nearest surface along a ray.</summary>
+    /// <summary>Finds the nearest surface along a ray: a face, or the section through a solid.</summary>
     public bool TryIntersect(
         in Ray ray, RayFootprint footprint, double minDistance, double maxDistance, QueryContext context, out TracedSurface surface)
     {
-        int index;
-        var isHit = _zoomCaster is not null
-            ? _zoomCaster.TryFindNearest(ray, context, out var hit, out index, minDistance, maxDistance, footprint)
-            : _caster.TryFindNearest(ray, context, out hit, out index, minDistance, maxDistance, footprint);
-        surface = isHit ? CreateSurface(ray.Direction, in hit, index, context) : default;
-        return isHit;
+        surface = default;
+        var start = minDistance;
+        if ((_section is { } section && !section.TryClip(in ray, ref start, ref maxDistance))
+            || !TryFindNearest(in ray, footprint, start, maxDistance, context, out var hit, out var index))
+        {
+            return false;
+        }
+
+        surface = CreateSurface(ray.Direction, in hit, index, context);
+        if (start > minDistance && _section is { HasCap: true, Normal: var normal } && IsWithinSolid(in ray, in hit, index, footprint, context))
+        {
+            surface = surface with { Position = ray.Origin + (start * ray.Direction), FaceNormal = normal, Normal = normal };
+        }
+
+        return true;
     }
+
+    private bool TryFindNearest(
+        in Ray ray, RayFootprint footprint, double minDistance, double maxDistance, QueryContext context, out RayHit hit, out int index) =>
+        _zoomCaster is not null
+            ? _zoomCaster.TryFindNearest(ray, context, out hit, out index, minDistance, maxDistance, footprint)
+            : _caster.TryFindNearest(ray, context, out hit, out index, minDistance, maxDistance, footprint);
+
+    /// <summary>Tells whether a ray comes to its first face from within a solid.</summary>
+    private bool IsWithinSolid(in Ray ray, in RayHit hit, int index, RayFootprint footprint, QueryContext context)
+    {
+        if (IsInnerSide(in hit, index))
+        {
+            return true;
+        }
+
+        // Where solids touch, as the instances of a fractal do, the face of the next one may be found before that of the solid around.
+        // From the other side, the latter is then found first, and seen from outside.
+        var offset = OffsetAt(hit.Point);
+        var back = new Ray(hit.Point + (offset * ray.Direction), -ray.Direction);
+        return ModelOf(index).IsSolid && TryFindNearest(in back, footprint, 0, 2 * offset, context, out var twin, out var twinIndex)
+            && ModelOf(twinIndex).IsSolid && !IsInnerSide(in twin, twinIndex);
+    }
+
+    private bool IsInnerSide(in RayHit hit, int index) =>
+        ModelOf(index).IsSolid && hit.IsFrontFace == hit.InstanceMap.Linear.Determinant() < 0;
+
+    private TracedModel ModelOf(int index) => _models[_zoom?.ObjectIndex ?? index];
 
     /// <summary>Computes the part of light that reaches a point from a direction, from 0 to 1.</summary>
     /// <param name="ray">From the point towards the light.</param>
@@ -91,10 +134,16 @@ internal sealed class TracedScene
     /// <param name="context">Lends its memory.</param>
     public double Transmittance(Ray ray, RayFootprint footprint, double distance, QueryContext context)
     {
+        var minDistance = 0.0;
+        if (_section is { } section && !section.TryClip(in ray, ref minDistance, ref distance))
+        {
+            return 1;
+        }
+
         if (!IsSeeThrough)
         {
-            var isHit = _zoomCaster?.HitsAny(ray, context, 0, distance, footprint)
-                ?? _caster.HitsAny(ray, context, 0, distance, footprint);
+            var isHit = _zoomCaster?.HitsAny(ray, context, minDistance, distance, footprint)
+                ?? _caster.HitsAny(ray, context, minDistance, distance, footprint);
             return isHit ? 0 : 1;
         }
 
@@ -122,8 +171,7 @@ internal sealed class TracedScene
     /// <param name="context">Has the path to the instance.</param>
     private TracedSurface CreateSurface(Vector direction, in RayHit hit, int index, QueryContext context)
     {
-        var objectIndex = _zoom?.ObjectIndex ?? index;
-        var model = _models[objectIndex];
+        var model = ModelOf(index);
         var material = model.MaterialOf(hit.FaceIndex);
         var map = hit.InstanceMap;
         var faceNormal = hit.IsFrontFace ? hit.Normal : -hit.Normal;

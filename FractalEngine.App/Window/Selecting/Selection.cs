@@ -51,6 +51,28 @@ internal sealed record Selection(int ObjectIndex, PlacedModel Object, ImmutableA
     /// <summary>Selects the sub-fractal that the selected part belongs to; the same selection where that is a whole object.</summary>
     public Selection Up() => Depth > 0 ? this with { Depth = Depth - 1, Outline = ComputeOutline(Object, Path, Depth - 1, Hit) } : this;
 
+    /// <summary>Selects the same part of the same model under another matrix.</summary>
+    /// <param name="placed">The object with the same model.</param>
+    public Selection MovedTo(PlacedModel placed)
+    {
+        if (placed.ObjectToWorld == Object.ObjectToWorld)
+        {
+            return this with { Object = placed };
+        }
+
+        var move = placed.ObjectToWorld * Object.ObjectToWorld.Inverse();
+        var map = move * Hit.InstanceMap;
+        var (a, b, c) = placed.Model.Mesh.Face(Hit.FaceIndex);
+        var normal = Vector.Cross(map.Linear * (b - a), map.Linear * (c - a));
+        var hit = Hit with
+        {
+            InstanceMap = map,
+            Point = move * Hit.Point,
+            Normal = normal.Length() > 0 ? normal.UnitVector() : Hit.Normal,
+        };
+        return this with { Object = placed, Hit = hit, Outline = ComputeOutline(placed, Path, Depth, hit) };
+    }
+
     /// <summary>Adds lines around the selected part, and those of the clicked face and its normal. World space.</summary>
     public void AddLines(List<LineSegment> lines)
     {
