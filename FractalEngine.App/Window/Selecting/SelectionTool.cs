@@ -34,6 +34,9 @@ internal sealed class SelectionTool(Document document)
     /// <summary>The handles of the selected object.</summary>
     public HandleKind Handles { get; private set; }
 
+    /// <summary>Distance of the handles from the middle of the object, as a part of the frame's height.</summary>
+    public double HandleReach { get; set; } = 0.1;
+
     /// <summary>Shows handles at the selected object, or none where these are shown already.</summary>
     /// <returns>A message for the user.</returns>
     public string ToggleHandles(HandleKind kind)
@@ -52,6 +55,7 @@ internal sealed class SelectionTool(Document document)
         Boxes = other.Boxes;
         Normals = other.Normals;
         Handles = other.Handles;
+        HandleReach = other.HandleReach;
         var objects = document.File.Scene.Objects;
         if (other.Selected is { } selected && selected.ObjectIndex < objects.Length
             && ReferenceEquals(objects[selected.ObjectIndex].Model, selected.Object.Model))

@@ -16,6 +16,9 @@ internal readonly struct PointerMath(View view, int width, int height)
     // Sine of the smallest angle between a ray and a plane at which their meeting is stable.
     private const double MinPlaneSine = 0.1;
 
+    /// <summary>Height of the part of the frame that shows the scene, pixels.</summary>
+    public int FrameHeight => view.Viewport(width, height).Height;
+
     /// <summary>Pixels from the upper left corner to a point; null where it is behind the camera.</summary>
     public (double X, double Y)? Project(Vector point) => view.Project(point, width, height) is var (x, y, _) ? (x, y) : null;
 
@@ -25,7 +28,7 @@ internal readonly struct PointerMath(View view, int width, int height)
         var depth = view.Camera.ToCameraSpace(point).Z;
         var halfHeight = view.Projection == Core.Scenes.Projection.Perspective
             ? depth * view.Camera.HalfHeightAtUnitDepth : 0.5 * view.OrthographicHeight;
-        return pixels * 2 * halfHeight / view.Viewport(width, height).Height;
+        return pixels * 2 * halfHeight / FrameHeight;
     }
 
     /// <summary>Finds the place on a line that is closest to the ray of a pixel.</summary>

@@ -50,6 +50,13 @@ internal sealed class TransformHandles(WindowActions actions)
             return;
         }
 
+        var reach = Reach * ui.Scale / pointer.FrameHeight;
+        if (reach != document.Tool.HandleReach)
+        {
+            document.Tool.HandleReach = reach;
+            actions.RequestDraw();
+        }
+
         var length = _drag is null ? pointer.LengthOf(Reach * ui.Scale, middle) : _length;
         var isHeld = false;
         for (var axis = kind == HandleKind.Turn ? 2 : 3; axis >= 0; axis--)
@@ -108,8 +115,7 @@ internal sealed class TransformHandles(WindowActions actions)
         for (var axis = 0; axis < 3; axis++)
         {
             var colour = LineColour(Looks[axis].Colour);
-            // The rings and arrows are as large as their handles at a height of 720 pixels.
-            var length = frameHeight * Reach / 720;
+            var length = frameHeight * document.Tool.HandleReach;
             if (document.Tool.Handles != HandleKind.Turn)
             {
                 lines.Add(new(middle, middle + (length * DirectionOf(document.Tool.Handles, axis, declared.Placement)), colour));
