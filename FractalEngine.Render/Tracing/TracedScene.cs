@@ -1,3 +1,4 @@
+using System.Collections.Concurrent;
 using System.Collections.Immutable;
 using FractalEngine.Core.Collision;
 using FractalEngine.Core.Geometry;
@@ -15,10 +16,10 @@ internal sealed class TracedScene
     // Rays leave a surface by this part of the scene's size: far more than rounding, far less than a pixel.
     private const double SurfaceOffset = 1e-9;
 
-    private readonly SceneRayCaster _caster;
+    private readonly InstanceRayCaster _caster;
     private readonly TracedScene _whole;
     private readonly DeepZoom? _zoom;
-    private readonly DeepZoomRayCaster? _zoomCaster;
+    private readonly ConcurrentDictionary<Model, DeepZoomRayCaster> _zoomCasters;
     private readonly SectionPlane? _section;
     private readonly double _offset;
     private readonly ImmutableArray<PlacedModel> _objects;
@@ -32,7 +33,8 @@ internal sealed class TracedScene
     public TracedScene(LoadedScene scene, RenderSettings settings)
     {
         _whole = this;
-        _caster = new(scene);
+        _zoomCasters = [];
+        _caster = new SceneRayCaster(scene);
         _objects = scene.Objects;
         var notices = ImmutableArray.CreateBuilder<string>();
         var textures = new TextureCache(notices, shareTextures: true, []);
@@ -50,7 +52,10 @@ internal sealed class TracedScene
     private TracedScene(TracedScene scene, DeepZoom? zoom, SectionPlane? section)
     {
         _whole = scene;
-        _caster = scene._caster;
+        _caster = zoom is null ? scene._caster : scene._zoomCasters.GetOrAdd(
+            scene._objects[zoom.ObjectIndex].Model,
+            static model => new DeepZoomRayCaster(((FractalModel)model).Fractal, [])).WithRoots(zoom.Roots);
+        _zoomCasters = scene._zoomCasters;
         _offset = scene._offset;
         _section = section;
         _objects = scene._objects;
@@ -60,7 +65,6 @@ internal sealed class TracedScene
         IsSeeThrough = scene.IsSeeThrough;
         Notices = scene.Notices;
         _zoom = zoom;
-        _zoomCaster = zoom is null ? null : new(((FractalModel)_objects[zoom.ObjectIndex].Model).Fractal, zoom.Roots);
     }
 
     /// <summary>Sentences for the user about textures that can't be decoded.</summary>
@@ -86,25 +90,20 @@ internal sealed class TracedScene
         surface = default;
         var start = minDistance;
         if ((_section is { } section && !section.TryClip(in ray, ref start, ref maxDistance))
-            || !TryFindNearest(in ray, footprint, start, maxDistance, context, out var hit, out var index))
+            || !_caster.TryFindNearest(ray, context, out var hit, out var index, start, maxDistance, footprint))
         {
             return false;
         }
 
         surface = CreateSurface(ray.Direction, in hit, index, context);
-        if (start > minDistance && _section is { HasCap: true, Normal: var normal } && IsWithinSolid(in ray, in hit, index, footprint, context))
+        if (start > minDistance && _section is { HasCap: true, Normal: var normal }
+            && IsWithinSolid(in ray, in hit, index, footprint, context))
         {
             surface = surface with { Position = ray.Origin + (start * ray.Direction), FaceNormal = normal, Normal = normal };
         }
 
         return true;
     }
-
-    private bool TryFindNearest(
-        in Ray ray, RayFootprint footprint, double minDistance, double maxDistance, QueryContext context, out RayHit hit, out int index) =>
-        _zoomCaster is not null
-            ? _zoomCaster.TryFindNearest(ray, context, out hit, out index, minDistance, maxDistance, footprint)
-            : _caster.TryFindNearest(ray, context, out hit, out index, minDistance, maxDistance, footprint);
 
     /// <summary>Tells whether a ray comes to its first face from within a solid.</summary>
     private bool IsWithinSolid(in Ray ray, in RayHit hit, int index, RayFootprint footprint, QueryContext context)
@@ -118,7 +117,7 @@ internal sealed class TracedScene
         // From the other side, the latter is then found first, and seen from outside.
         var offset = OffsetAt(hit.Point);
         var back = new Ray(hit.Point + (offset * ray.Direction), -ray.Direction);
-        return ModelOf(index).IsSolid && TryFindNearest(in back, footprint, 0, 2 * offset, context, out var twin, out var twinIndex)
+        return ModelOf(index).IsSolid && _caster.TryFindNearest(back, context, out var twin, out var twinIndex, 0, 2 * offset, footprint)
             && ModelOf(twinIndex).IsSolid && !IsInnerSide(in twin, twinIndex);
     }
 
@@ -142,9 +141,7 @@ internal sealed class TracedScene
 
         if (!IsSeeThrough)
         {
-            var isHit = _zoomCaster?.HitsAny(ray, context, minDistance, distance, footprint)
-                ?? _caster.HitsAny(ray, context, minDistance, distance, footprint);
-            return isHit ? 0 : 1;
+            return _caster.HitsAny(ray, context, minDistance, distance, footprint) ? 0 : 1;
         }
 
         const int MaxLayers = 32;
@@ -226,7 +223,7 @@ internal sealed class TracedScene
             return _colours[objectIndex];
         }
 
-        var factor = _zoomCaster?.GradientFactorOf(kind, index, context)
+        var factor = (_caster as DeepZoomRayCaster)?.GradientFactorOf(kind, index, context)
             ?? ColourPath.GradientFactorOf(fractal, kind, context.InstancePath);
         return ((1 - factor) * _colours[objectIndex]) + (factor * _gradientEnds[objectIndex]);
     }
