@@ -52,6 +52,10 @@ internal sealed class Document : IDisposable
             previous.FirstSightLoader.Dispose();
             Renderer = previous.Renderer;
             Renderer.Replace(preparation.Scene);
+            // Until the first frame, which shows nearly the same: handles that are dragged need a view.
+            LatestView = previous.LatestView;
+            // A drag goes on, and stays one step.
+            _lastInteraction = previous._lastInteraction;
             (Draft, History) = ContinueView(previous);
             Tool.ContinueFrom(previous.Tool);
         }

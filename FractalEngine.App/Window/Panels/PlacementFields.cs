@@ -31,13 +31,20 @@ internal sealed class PlacementFields(WindowActions actions)
         var position = ui.Vector("position", placement.Position, _startPlacement.Position, reach, 0);
         var rotation = ui.Vector("rotation in degrees", placement.Rotation, _startPlacement.Rotation, 180, 1);
         var scale = ui.Vector("scale", placement.Scale, _startPlacement.Scale, null, 0.01);
-        var changed = new Transformation(position, rotation, scale);
-        if (changed != placement)
+        if (new Transformation(position, rotation, scale) == placement)
         {
-            actions.ChangeScene(ui, scene => scene with
-            {
-                Objects = scene.Objects.SetItem(index, scene.Objects[index] with { Placement = changed }),
-            });
+            return;
         }
+
+        // Only what was changed here: an earlier change of the rest may still be loading.
+        actions.ChangeScene(ui, scene =>
+        {
+            var present = scene.Objects[index].Placement;
+            var changed = new Transformation(
+                position == placement.Position ? present.Position : position,
+                rotation == placement.Rotation ? present.Rotation : rotation,
+                scale == placement.Scale ? present.Scale : scale);
+            return scene with { Objects = scene.Objects.SetItem(index, scene.Objects[index] with { Placement = changed }) };
+        });
     }
 }

@@ -57,10 +57,9 @@ internal sealed class SelectionTool(Document document)
         Handles = other.Handles;
         HandleReach = other.HandleReach;
         var objects = document.File.Scene.Objects;
-        if (other.Selected is { } selected && selected.ObjectIndex < objects.Length
-            && ReferenceEquals(objects[selected.ObjectIndex].Model, selected.Object.Model))
+        if (other.Selected is { } selected && selected.ObjectIndex < objects.Length)
         {
-            Selected = selected.MovedTo(objects[selected.ObjectIndex]);
+            Selected = selected.ContinueIn(objects[selected.ObjectIndex]);
         }
     }
 

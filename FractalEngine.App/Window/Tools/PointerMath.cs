@@ -31,6 +31,9 @@ internal readonly struct PointerMath(View view, int width, int height)
         return pixels * 2 * halfHeight / FrameHeight;
     }
 
+    /// <summary>Direction in which the camera looks, of length 1.</summary>
+    public Vector Forward => view.Camera.LocalAxes.V3;
+
     /// <summary>Finds the place on a line that is closest to the ray of a pixel.</summary>
     /// <param name="x">Pixels from the left edge.</param>
     /// <param name="y">Pixels from the upper edge.</param>

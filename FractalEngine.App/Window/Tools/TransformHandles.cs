@@ -195,7 +195,7 @@ internal sealed class TransformHandles(WindowActions actions)
 
     /// <summary>Returns the point in the plane of the frame through the middle.</summary>
     private static Vector? PointAt(PlacementDrag drag, UiHandle handle, PointerMath pointer) =>
-        pointer.OnPlane(handle.X, handle.Y, drag.Middle, pointer.DirectionTo(drag.Middle));
+        pointer.OnPlane(handle.X, handle.Y, drag.Middle, pointer.Forward);
 
     /// <summary>Returns the distance along an axis, the angle about it in radians, or for a whole scale the part of the reach.</summary>
     private static double? ParameterAt(PlacementDrag drag, UiHandle handle, PointerMath pointer)

@@ -51,10 +51,10 @@ public sealed class ToolWindowTests : IDisposable
         window.Send("key ctrl+shift+k");
         Assert.Equal(0, DrivenWindow.DifferingFraction(cut, window.Screenshot()));
         // The knob is in the middle of the scene. Looking along the normal, upwards comes nearer: the cubes are whole again.
-        var (x, y) = window.FindText("↔");
-        Drag(window, x, y, x, y - 120);
+        var (x, y) = At(1.5, 0);
+        Drag(window, x, y, x, y - 100);
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(whole, window.Screenshot()) == 0, "whole cubes");
-        Drag(window, x, y, x, y + 240);
+        window.Send("key ctrl+k");
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(whole, window.Screenshot()) > 0.01, "cubes that are gone");
         window.Send("key k");
         Assert.Equal(0, DrivenWindow.DifferingFraction(whole, window.Screenshot()));
@@ -66,54 +66,43 @@ public sealed class ToolWindowTests : IDisposable
     [Trait("Category", "Soak")]
     public void Section_InThePanel_TurnsMovesAndIsTakenFromTheCommandLine()
     {
-        PixelImage expected;
-        using (var window = DrivenWindow.Open(_folder, "scene.sdo", "--section", "1,0,0,0.25"))
-        {
-            window.WaitForError("missing.mtl");
-            expected = window.Screenshot();
-            Assert.Equal(0, window.CloseWith("key Escape"));
-        }
-
-        using var other = Open("scene.sdo");
+        var expected = Draw("--section", "1,0,0,0.25");
+        using var other = OpenLarge(size: "640x680");
         other.Send("key F3 key k");
-        other.FindText("distance");
         // Across the x axis, at a distance that is typed.
         other.ClickText("Flip", right: -210);
-        other.ClickText("distance", right: 120);
-        other.Send("key ctrl+a");
-        other.Type("0.25");
-        other.Send("key Return");
+        TypeAt(other, "distance", 120, 0, "0.25");
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(expected, other.Screenshot()) == 0, "the section of the command line");
-        other.ClickText("Flip");
+        Click(other, "Flip");
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(expected, other.Screenshot()) > 0.005, "the other side");
         other.ClickText("Flip", right: -140);
         other.ClickText("Flip", right: -70);
-        other.ClickText("Filled");
-        other.ClickText("Section");
-        Assert.Equal(0, other.CloseWith("key Escape"));
+        Click(other, "Filled");
+        Assert.Equal(0, other.CloseWith("key Escape key Escape"));
     }
 
     [SkippableFact]
     public void Handles_Dragged_MoveTheObjectInTheFileAndCanBeUndone()
     {
         using var window = Open("scene.sdo");
-        SelectLeft(window);
+        Select(window, 0, 0);
         window.Send("key 2");
-        var (x, y) = FindHandle(window, "x");
-        Drag(window, x, y, x + 60, y);
+        var (x, y) = At(0, 0);
+        Drag(window, x + Reach, y, x + Reach + 60, y);
         window.WaitForTitle("scene.sdo*");
+        // One step, however many moves the drag had.
         window.Send("key ctrl+z");
         window.WaitForTitle("scene.sdo -");
         window.Send("key ctrl+shift+z");
         window.WaitForTitle("scene.sdo*");
-        window.Send("key ctrl+s");
-        window.WaitForError("saved scene.sdo");
+        Save(window);
         var (position, rotation, scale) = LeftPlacement();
-        Assert.InRange(position.X, 0.7, 1.4);
+        Assert.InRange(position.X, 1.0, 1.3);
         Assert.Equal((0, 0), (position.Y, position.Z));
         Assert.Equal((Vector.Zero, Vector.One), (rotation, scale));
         Assert.StartsWith("# kept\nc (0, 0, -8) (0, 0, 0) 60\n", Text(), StringComparison.Ordinal);
         Assert.Contains("\n# between\n", Text(), StringComparison.Ordinal);
+        // What is selected has moved along, and Esc lets go of it.
         Assert.Equal(0, window.CloseWith("key Escape key Escape"));
     }
 
@@ -122,64 +111,63 @@ public sealed class ToolWindowTests : IDisposable
     public void Handles_WithCtrl_SnapInAllModes()
     {
         using var window = Open("scene.sdo");
-        SelectLeft(window);
+        Select(window, 0, 0);
         window.Send("key 2");
-        var (x, y) = FindHandle(window, "y");
-        Drag(window, x, y, x, y - 43, "ctrl");
+        var (x, y) = At(0, 0);
+        Drag(window, x, y - Reach, x, y - Reach - 43, "ctrl");
         Save(window);
-        var moved = LeftPlacement().Position;
-        Assert.Equal(Math.Round(moved.Y), moved.Y, 1e-9);
-        Assert.True(moved.Y >= 1);
+        Assert.Equal(new Vector(0, 1, 0), LeftPlacement().Position);
         // In the plane of the frame.
-        (x, y) = FindHandle(window, "o");
-        Drag(window, x, y, x - 50, y + 60);
+        (x, y) = At(0, 1);
+        Drag(window, x, y, x - 52, y + 104);
         Save(window);
-        Assert.True(LeftPlacement().Position.X < -0.3 && LeftPlacement().Position.Y < moved.Y - 0.3);
-        // Turned about z by whole steps of 15 degrees.
+        Near.Equal(new Vector(-1, -1, 0), LeftPlacement().Position, 0.1);
+        // About z, by whole steps of 15 degrees.
         window.Send("key 4");
-        (x, y) = FindHandle(window, "z");
-        Drag(window, x, y, x - 10, y - 60, "ctrl");
+        (x, y) = At(LeftPlacement().Position.X, LeftPlacement().Position.Y);
+        Drag(window, x + Reach, y, x + 60, y - 60, "ctrl");
         Save(window);
-        var rotation = LeftPlacement().Rotation;
-        Assert.Equal((0.0, 0.0), (rotation.X, rotation.Y));
-        Assert.True(Math.Abs(rotation.Z) >= 15 && Math.Abs(Math.IEEERemainder(rotation.Z, 15)) < 1e-9, $"turned by {rotation}");
-        // Scaled along its own x by tenths, then as a whole.
+        Assert.Equal(new Vector(0, 0, 45), LeftPlacement().Rotation.Absolute());
+        // As a whole, by tenths, and along its own x.
         window.Send("key 6");
         var before = LeftPlacement().Position;
-        (x, y) = FindHandle(window, "o");
+        (x, y) = At(before.X, before.Y);
         Drag(window, x, y, x + 40, y, "ctrl");
         Save(window);
-        var scale = LeftPlacement().Scale;
-        Assert.True(scale.X > 1.2 && scale.X == scale.Y && scale.Y == scale.Z, $"scaled by {scale}");
-        Assert.Equal(Math.Round(scale.X, 1), scale.X, 1e-9);
+        Assert.Equal(1.5 * Vector.One, LeftPlacement().Scale);
         Assert.Equal(before, LeftPlacement().Position);
+        var axis = LeftPlacement().Rotation.LocalAxesFromDegrees().V1;
+        Drag(window, x + (int)(Reach * axis.X), y - (int)(Reach * axis.Y), x + (int)(1.5 * Reach * axis.X), y - (int)(1.5 * Reach * axis.Y));
+        Save(window);
+        Assert.InRange(LeftPlacement().Scale.X, 2.1, 2.4);
+        Assert.Equal((1.5, 1.5), (LeftPlacement().Scale.Y, LeftPlacement().Scale.Z));
+        // The same key again: without handles a drag orbits.
         window.Send("key 6");
-        Assert.False(window.ShowsText("Ctrl snaps"));
-        Assert.Equal(0, window.CloseWith("key Escape key Escape"));
+        Drag(window, x, y, x + 30, y);
+        Save(window);
+        Assert.DoesNotContain("c (0, 0, -8) (0, 0, 0) 60", Text(), StringComparison.Ordinal);
+        Assert.Equal(0, window.CloseWith("key Escape key Escape key d"));
     }
 
     [SkippableFact]
     [Trait("Category", "Soak")]
     public void SelectionPanel_TypedNumbers_PlaceTheObject()
     {
-        using var window = Open("scene.sdo");
-        window.Send("key F6");
-        SelectLeft(window);
-        window.FindText("Handles");
-        // The panel covers the object, not its numbers.
-        window.Send("key 2");
-        TypeAt(window, "position", 0, 23, "-1.25");
-        TypeAt(window, "rotation in degrees", -60, 23, "30");
-        TypeAt(window, "scale", 10, 23, "2");
+        using var window = OpenLarge();
+        window.Send("key F6 mousemove --window {window} 450 350 click 1");
+        window.ClickText("Move");
+        MoveAway(window);
+        TypeAt(window, "position", 23, 23, "-1.25");
+        TypeAt(window, "rotation in degrees", -20, 23, "30");
+        TypeAt(window, "scale", 35, 23, "2.5");
         Save(window);
         var (position, rotation, scale) = LeftPlacement();
-        Assert.Contains(-1.25, new[] { position.X, position.Y, position.Z });
-        Assert.Contains(30, new[] { rotation.X, rotation.Y, rotation.Z });
-        Assert.Contains(2, new[] { scale.X, scale.Y, scale.Z });
+        Assert.Equal((new Vector(-1.25, 0, 0), new Vector(30, 0, 0), new Vector(2.5, 1, 1)), (position, rotation, scale));
+        // Three steps back.
         window.Send("key ctrl+z key ctrl+z key ctrl+z");
         window.WaitForTitle("scene.sdo*");
         Save(window);
-        Assert.Equal(Transformation.Identity, new(LeftPlacement().Position, LeftPlacement().Rotation, LeftPlacement().Scale));
+        Assert.Equal((Vector.Zero, Vector.Zero, Vector.One), LeftPlacement());
         Assert.Equal(0, window.CloseWith("key Escape key Escape"));
     }
 
@@ -187,77 +175,106 @@ public sealed class ToolWindowTests : IDisposable
     [Trait("Category", "Soak")]
     public void ScenePanel_SkyHazeAndCamera_AreSavedInTheirLines()
     {
-        using var window = DrivenWindow.Open(_folder, "scene.sdo", "--resolution", "900x700");
-        window.WaitForError("missing.mtl");
+        using var window = OpenLarge();
         var before = window.Screenshot();
         window.Send("key F2");
-        window.ClickText("Sky and haze");
-        window.ClickText("sky", right: 30);
-        Polling.WaitUntil(() => DrivenWindow.DifferingFraction(before, window.Screenshot()) > 0.5, "a sky");
-        window.FindText("zenith");
-        window.ClickText("filmic tone");
+        Click(window, "Sky and haze");
+        Click(window, "filmic tone");
         TypeAt(window, "exposure", 120, 0, "1.5");
         TypeAt(window, "haze", 120, 0, "0.05");
+        // The check box of the sky stands above.
+        var (x, y) = window.FindText("exposure");
+        window.Send($"mousemove --window {{window}} {x} {y - 23} click 1");
+        MoveAway(window);
+        window.FindText("zenith");
+        Polling.WaitUntil(() => DrivenWindow.DifferingFraction(before, window.Screenshot()) > 0.5, "a sky");
         Save(window);
         Assert.Contains("\nsky ", Text(), StringComparison.Ordinal);
         Assert.Contains("\nexposure 1.5\n", Text(), StringComparison.Ordinal);
         Assert.Contains("\ntone filmic\n", Text(), StringComparison.Ordinal);
         Assert.Contains("\nfog 0.05\n", Text(), StringComparison.Ordinal);
-        window.ClickText("sky", right: 30);
-        Save(window);
-        Assert.DoesNotContain("\nsky ", Text(), StringComparison.Ordinal);
-        window.ClickText("Sky and haze");
-        window.ClickText("Camera");
-        TypeAt(window, "rotation in degrees", -60, 23, "10");
+        Click(window, "Sky and haze");
+        Click(window, "Camera");
+        TypeAt(window, "rotation in degrees", -20, 23, "10");
         Save(window);
         Assert.DoesNotContain("c (0, 0, -8) (0, 0, 0) 60", Text(), StringComparison.Ordinal);
-        Assert.Equal(0, window.CloseWith("key Escape key Escape"));
+        window.Send("key ctrl+z key ctrl+z");
+        Assert.Equal(0, window.CloseWith("key Escape key d"));
     }
 
     [SkippableFact]
     [Trait("Category", "Soak")]
     public void ViewPanel_ClipPlanesAndNormals_AreShownAndSaved()
     {
-        using var window = DrivenWindow.Open(_folder, "scene.sdo", "--resolution", "900x700");
-        window.WaitForError("missing.mtl");
+        using var window = OpenLarge();
         var before = window.Screenshot();
         window.Send("key F3");
-        window.ClickText("Normals");
+        Click(window, "Normals");
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(before, window.Screenshot()) > 0.0001, "normals");
-        window.ClickText("Normals");
+        Click(window, "Normals");
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(before, window.Screenshot()) == 0, "no normals");
-        window.ClickText("Fixed clip planes");
+        Click(window, "Fixed clip planes");
         TypeAt(window, "near", 60, 0, "8");
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(before, window.Screenshot()) > 0.001, "clipped cubes");
         Save(window);
         Assert.Contains("\nclip 8 ", Text(), StringComparison.Ordinal);
-        window.ClickText("Fixed clip planes");
+        Click(window, "Fixed clip planes");
         Save(window);
         Assert.DoesNotContain("\nclip ", Text(), StringComparison.Ordinal);
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(before, window.Screenshot()) == 0, "whole cubes");
-        Assert.Equal(0, window.CloseWith("key Escape"));
+        // The first gives the keyboard back, which the check box has.
+        Assert.Equal(0, window.CloseWith("key Escape key Escape"));
     }
 
     [SkippableFact]
     [Trait("Category", "Soak")]
     public void FractalPanel_ArgumentOfACall_TakesAnotherVector()
     {
-        using var window = Open("row.fdo");
+        using var window = OpenLarge("row.fdo");
         var before = window.Screenshot();
         window.Send("key F4");
-        TypeAt(window, "call t 1: vectors", -70, 23, "3");
+        TypeAt(window, "call t 1: vectors", -10, 23, "3");
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(before, window.Screenshot()) > 0.003, "another position");
         Save(window, "row.fdo");
         Assert.Contains("z<x>. [#, t.3.2] x", File.ReadAllText(_folder["row.fdo"]), StringComparison.Ordinal);
-        // There is no vector 9: the largest number counts.
-        TypeAt(window, "call t 1: vectors", -70, 23, "9");
         window.Send("key ctrl+z");
+        window.WaitForTitle("row.fdo*");
+        // There is no vector 9: the largest number counts, which is the one that was saved.
+        var (x, y) = window.FindText("call t 1: vectors");
+        window.Send($"mousemove --window {{window}} {x - 10} {y + 23} click 1 key ctrl+a key 9 key Return");
         window.WaitForTitle("row.fdo -");
         Assert.Equal(0, window.CloseWith("key Escape"));
     }
 
+    // Pixels from the middle of an object to its handles.
+    private const int Reach = 80;
+
+    /// <summary>Returns the pixel of a point of the plane z = 0 in a frame of 640 × 480.</summary>
+    private static (int X, int Y) At(double x, double y)
+    {
+        const double PixelsPerUnit = 240 / (0.57735 * 8);
+        return ((int)Math.Round(320 + (PixelsPerUnit * x)), (int)Math.Round(240 - (PixelsPerUnit * y)));
+    }
+
+    private static void Select(DrivenWindow window, double x, double y)
+    {
+        var pixel = At(x, y);
+        window.Send($"mousemove --window {{window}} {pixel.X} {pixel.Y} click 1");
+    }
+
+    /// <summary>Moves the pointer off the panels, where no tooltip covers them.</summary>
+    private static void MoveAway(DrivenWindow window) => window.Send("mousemove --window {window} 450 600");
+
+    private static void Click(DrivenWindow window, string text)
+    {
+        window.ClickText(text);
+        MoveAway(window);
+    }
+
     private static void Drag(DrivenWindow window, int x, int y, int toX, int toY, string? key = null)
     {
+        // Handles stand where the frame before has shown them.
+        window.ScreenshotWithPanels();
         // In steps, as a hand does.
         window.Send($"mousemove --window {{window}} {x} {y} mousedown 1");
         window.Send(key is null ? "sleep 0.01" : $"keydown {key}");
@@ -270,12 +287,6 @@ public sealed class ToolWindowTests : IDisposable
         window.Send(key is null ? "sleep 0.01" : $"keyup {key}");
     }
 
-    /// <summary>Selects the left cube, which is in the middle of the frame.</summary>
-    private static void SelectLeft(DrivenWindow window) => window.Send("mousemove --window {window} 320 240 click 1");
-
-    /// <summary>Finds a handle; the knobs of the axes, which have the same letters, stand above it.</summary>
-    private static (int X, int Y) FindHandle(DrivenWindow window, string label) => window.FindText(label);
-
     private static void TypeAt(DrivenWindow window, string text, int right, int down, string number)
     {
         var (x, y) = window.FindText(text);
@@ -283,6 +294,9 @@ public sealed class ToolWindowTests : IDisposable
         window.Send("key ctrl+a");
         window.Type(number);
         window.Send("key Return");
+        MoveAway(window);
+        // Once the changed file is loaded.
+        window.FindText(number);
     }
 
     private void Save(DrivenWindow window, string file = "scene.sdo")
@@ -301,10 +315,30 @@ public sealed class ToolWindowTests : IDisposable
         return (placement.Position, placement.Rotation, placement.Scale);
     }
 
+    private PixelImage Draw(params string[] options)
+    {
+        using var window = DrivenWindow.Open(_folder, "scene.sdo", ["--resolution", "640x680", .. options]);
+        window.WaitForError("missing.mtl");
+        var image = window.Screenshot();
+        Assert.Equal(0, window.CloseWith("key Escape"));
+        return image;
+    }
+
+    private DrivenWindow OpenLarge(string file = "scene.sdo", string size = "900x700")
+    {
+        var window = DrivenWindow.Open(_folder, file, "--resolution", size);
+        window.WaitForError("missing.mtl");
+        // Clicks before the first frame would meet nothing.
+        window.Screenshot();
+        return window;
+    }
+
     private DrivenWindow Open(string file)
     {
         var window = DrivenWindow.Open(_folder, file);
         window.WaitForError("missing.mtl");
+        // Clicks before the first frame would meet nothing.
+        window.Screenshot();
         return window;
     }
 }
