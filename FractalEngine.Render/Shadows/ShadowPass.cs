@@ -188,7 +188,9 @@ internal sealed class ShadowPass : IDisposable
     }
 
     /// <summary>Gives all views the plane that cuts the scene open, about their own eyes.</summary>
-    /// <param name="section">In the frame of the views, which does not follow the camera unless that is in a deep zoom; null for none.</param>
+    /// <param name="section">
+    /// In the frame of the views, which does not follow the camera unless that is in a deep zoom; null for none.
+    /// </param>
     private void CutViews(SectionPlane? section)
     {
         for (var i = 0; section is { } plane && i < _fit.Views.Count; i++)

@@ -64,8 +64,9 @@ public sealed class SectionTests
             0, 0.005);
         // Hollow it is dark inside: the light comes from the front, and only the far wall is seen.
         var hollow = view with { Section = section with { HasCap = false } };
-        Assert.True(RenderScenes.Difference(
-            RenderScenes.Draw(SceneOf("cube"), view, Width, Height), RenderScenes.Draw(SceneOf("cube"), hollow, Width, Height)).Share > 0.02);
+        var (filled, open) = (
+            RenderScenes.Draw(SceneOf("cube"), view, Width, Height), RenderScenes.Draw(SceneOf("cube"), hollow, Width, Height));
+        Assert.True(RenderScenes.Difference(filled, open).Share > 0.02);
     }
 
     [SkippableFact]
@@ -82,7 +83,8 @@ public sealed class SectionTests
         var view = new View(camera, Projection.Perspective);
         var cut = view with { Section = SectionPlane.Of(Vector.I, 0) };
         var slanted = view with { Section = SectionPlane.Of(new(1, 1, 0), 1.3) };
-        foreach (var draw in (Func<View, PixelImage>[])[shown => RenderScenes.Draw(scene, shown, Width, Height), shown => Trace(scene, shown, 8)])
+        foreach (var draw in (Func<View, PixelImage>[])
+            [shown => RenderScenes.Draw(scene, shown, Width, Height), shown => Trace(scene, shown, 8)])
         {
             Assert.True(IsDark(draw(view), view, new(0.45, 0, -0.3)));
             Assert.False(IsDark(draw(view), view, new(-0.8, 0, -0.3)));

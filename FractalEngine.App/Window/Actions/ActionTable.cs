@@ -111,7 +111,8 @@ internal static class ActionTable
         },
         new("section-cap", "View", "Filled", "show solids filled where the section plane cuts them, or hollow")
         {
-            Keys = [KeyChord.ControlShift(Key.K)], IsAvailable = HasSection, IsOn = static a => a.Document?.Section.Shown is { HasCap: true },
+            Keys = [KeyChord.ControlShift(Key.K)], IsAvailable = HasSection,
+            IsOn = static a => a.Document?.Section.Shown is { HasCap: true },
             Run = static a => a.Show(a.Document!.Section.ToggleCap()) | Redraw.Scene,
         },
         new("papers-zoom", "View", "The paper's zoom",

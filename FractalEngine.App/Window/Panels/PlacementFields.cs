@@ -13,7 +13,7 @@ internal sealed class PlacementFields(WindowActions actions)
     private int _startInteraction = -1;
     private Transformation _startPlacement;
 
-    /// <summary>Adds the sliders.</summary>
+    /// <summary>Adds nine sliders, of which each change is a step that can be undone.</summary>
     /// <param name="ui">The interface that is being built.</param>
     /// <param name="declared">The object as the scene declares it.</param>
     /// <param name="index">Index of the object in the scene, from 0.</param>

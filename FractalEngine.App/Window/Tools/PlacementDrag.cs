@@ -2,7 +2,9 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.App.Window.Tools;
 
-/// <summary>A drag of a handle: where the object stood when it began, from which each place of the pointer gives another placement.</summary>
+/// <summary>
+/// A drag of a handle: where the object stood when it began, from which each place of the pointer gives another placement.
+/// </summary>
 /// <param name="Kind">What the handle does.</param>
 /// <param name="Axis">0, 1 and 2 for x, y and z; −1 for all of them.</param>
 /// <param name="Placement">Placement of the object when the drag began.</param>
@@ -18,7 +20,7 @@ internal sealed record PlacementDrag(HandleKind Kind, int Axis, Transformation P
     /// <summary>Unit vectors of the world.</summary>
     public static Vector UnitAxis(int axis) => axis switch { 0 => Vector.I, 1 => Vector.J, _ => Vector.K };
 
-    /// <summary>Moves the object.</summary>
+    /// <summary>Computes the placement of the moved object.</summary>
     /// <param name="displacement">From where it stood, world space.</param>
     /// <param name="grid">The changed coordinates become multiples of this; 0 to leave them.</param>
     public Transformation Move(Vector displacement, double grid)

@@ -71,12 +71,15 @@ public sealed class ToolWindowTests : IDisposable
         other.Send("key F3 key k");
         // Across the x axis, at a distance that is typed.
         other.ClickText("Flip", right: -210);
+        MoveAway(other);
         TypeAt(other, "distance", 120, 0, "0.25");
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(expected, other.Screenshot()) == 0, "the section of the command line");
         Click(other, "Flip");
         Polling.WaitUntil(() => DrivenWindow.DifferingFraction(expected, other.Screenshot()) > 0.005, "the other side");
         other.ClickText("Flip", right: -140);
+        MoveAway(other);
         other.ClickText("Flip", right: -70);
+        MoveAway(other);
         Click(other, "Filled");
         Assert.Equal(0, other.CloseWith("key Escape key Escape"));
     }
@@ -137,7 +140,8 @@ public sealed class ToolWindowTests : IDisposable
         Assert.Equal(1.5 * Vector.One, LeftPlacement().Scale);
         Assert.Equal(before, LeftPlacement().Position);
         var axis = LeftPlacement().Rotation.LocalAxesFromDegrees().V1;
-        Drag(window, x + (int)(Reach * axis.X), y - (int)(Reach * axis.Y), x + (int)(1.5 * Reach * axis.X), y - (int)(1.5 * Reach * axis.Y));
+        var (right, down) = ((int)(Reach * axis.X), (int)(-Reach * axis.Y));
+        Drag(window, x + right, y + down, x + (3 * right / 2), y + (3 * down / 2));
         Save(window);
         Assert.InRange(LeftPlacement().Scale.X, 2.1, 2.4);
         Assert.Equal((1.5, 1.5), (LeftPlacement().Scale.Y, LeftPlacement().Scale.Z));
@@ -244,6 +248,45 @@ public sealed class ToolWindowTests : IDisposable
         window.Send($"mousemove --window {{window}} {x - 10} {y + 23} click 1 key ctrl+a key 9 key Return");
         window.WaitForTitle("row.fdo -");
         Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
+    /// <summary>
+    /// What a newcomer does who has read the README's first screen: open a tree, turn its numbers, save it, plant it twice in a scene.
+    /// </summary>
+    [SkippableFact]
+    [Trait("Category", "Soak")]
+    public void Newcomer_WithoutAnEditor_MakesAndSavesATree()
+    {
+        var tree = File.ReadAllText(Repository.Full("assets/fractals/tree.fdo")).Replace("../models/", "", StringComparison.Ordinal);
+        _folder.Write("tree.fdo", tree);
+        _folder.Write("branch.obj", File.ReadAllText(Repository.Full("assets/models/branch.obj")));
+        using var window = OpenLarge();
+        window.Send("key ctrl+o");
+        window.Send("key ctrl+u");
+        window.Type("tree.fdo");
+        window.Send("key Return");
+        window.WaitForTitle("tree.fdo");
+        var before = window.Screenshot();
+        window.Send("key F4");
+        // The first side branch leans farther: the angles of vector 6, by keys.
+        TypeAt(window, "v6: rotation", 200, 23, "85");
+        Polling.WaitUntil(() => DrivenWindow.DifferingFraction(before, window.Screenshot()) > 0.005, "another tree");
+        window.WaitForTitle("tree.fdo*");
+        Save(window, "tree.fdo");
+        Assert.Contains("v 0 10 85\n", File.ReadAllText(_folder["tree.fdo"]), StringComparison.Ordinal);
+        Assert.Equal(tree.Split('\n').Length, File.ReadAllText(_folder["tree.fdo"]).Split('\n').Length);
+        // Planted twice in a scene of its own.
+        window.Send("key ctrl+shift+s key ctrl+u");
+        window.Type("garden.sdo");
+        window.Send("key Return");
+        window.WaitForTitle("garden.sdo");
+        window.Send("key F4 key F2");
+        Click(window, "tree");
+        Click(window, "Duplicate");
+        window.FindText("Objects (2)");
+        Save(window, "garden.sdo");
+        Assert.Equal(2, AssetLoader.Load(_folder["garden.sdo"]).Scene.Objects.Length);
+        Assert.Equal(0, window.CloseWith("key Escape key Escape key d"));
     }
 
     // Pixels from the middle of an object to its handles.
