@@ -281,7 +281,10 @@ public sealed class ToolWindowTests : IDisposable
         window.Send("key Return");
         window.WaitForTitle("garden.sdo");
         window.Send("key F4 key F2");
-        Click(window, "tree");
+        // The only object stands below the head of the list.
+        var (x, y) = window.FindText("Objects (1)");
+        window.Send($"mousemove --window {{window}} {x} {y + 23} click 1");
+        MoveAway(window);
         Click(window, "Duplicate");
         window.FindText("Objects (2)");
         Save(window, "garden.sdo");
