@@ -62,8 +62,8 @@ vec3 fillSection(vec3 position, out bool isCap)
     {
         float nearer = depth * (1.0 - capBias);
         float z = (depthScale.x * nearer + depthScale.y) / (depthScale.z * nearer + depthScale.w);
-        // Reversed depths are stored as they are.
-        gl_FragDepth = clamp(depthScale.x < 0.0 ? z : 0.5 * z + 0.5, 0.0, 1.0);
+        // Reversed depths are stored as they are. At the edge of a steep face, the middle of a pixel may lie beyond the far plane.
+        gl_FragDepth = clamp(depthScale.x < 0.0 ? z : 0.5 * z + 0.5, 1e-6, 1.0 - 1e-6);
     }
 
     return isCap ? mix(eye, position, atEye / (atEye - max(atPixel, 0.0))) : position;
