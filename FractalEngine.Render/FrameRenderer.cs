@@ -226,13 +226,20 @@ public sealed class FrameRenderer : IDisposable
             _imagePass.Draw(layer);
         }
 
-        if (ui is not null)
+        // An open menu or dialog lies over texts, which lie over panels.
+        var isInFront = ui?.IsModal == true;
+        if (ui is not null && !isInFront)
         {
             _overlayPass.Draw(ui, _resolvedTarget.Width, _resolvedTarget.Height);
         }
 
         var area = ui?.OverlayArea ?? new(0, 0, _resolvedTarget.Width, _resolvedTarget.Height);
         _overlayPass.Draw(overlay, area, _resolvedTarget.Width, _resolvedTarget.Height);
+        if (ui is not null && isInFront)
+        {
+            _overlayPass.Draw(ui, _resolvedTarget.Width, _resolvedTarget.Height);
+        }
+
         return _resolvedTarget;
     }
 }

@@ -15,6 +15,9 @@ public sealed record View(Camera Camera, Projection Projection)
     /// </summary>
     private const double MinNearToFarRatio = 1e-4;
 
+    // Natural logarithm of 1e11.
+    private const double MaxSectionLogMagnification = 25.3;
+
     // Clip planes and height where the scene has no bounds to derive them from, scene units.
     private static readonly (double Near, double Far) DefaultClipPlanes = (0.1, 1000);
     private const double DefaultHeight = 10;
@@ -38,6 +41,12 @@ public sealed record View(Camera Camera, Projection Projection)
     /// <summary>Object that the camera is deep inside; null where world space is precise enough for the camera's position.</summary>
     public DeepZoom? DeepZoom { get; init; }
 
+    /// <summary>Plane that cuts the scene open, world space; null for none. It moves with neither camera nor objects.</summary>
+    /// <remarks>
+    /// Beyond a magnification of 10¹¹ a plane in world space has no exact place beside the camera, and is left out.
+    /// </remarks>
+    public SectionPlane? Section { get; init; }
+
     /// <summary>Depths of the near and far clip planes, scene units; null to derive them from the scene's bounds.</summary>
     /// <exception cref="ArgumentException">The depths are not finite, or not 0 &lt; near &lt; far.</exception>
     public (double Near, double Far)? FixedClipPlanes
@@ -46,6 +55,16 @@ public sealed record View(Camera Camera, Projection Projection)
         init => field = value is null || (value is { Near: > 0, Far: < double.PositiveInfinity } planes && planes.Near < planes.Far)
             ? value
             : throw new ArgumentException("expected clip planes with 0 < near < far", nameof(FixedClipPlanes));
+    }
+
+    /// <summary>The section plane in world axes about the camera, in the unit of a deep zoom; null for none.</summary>
+    internal SectionPlane? RelativeSection
+    {
+        get
+        {
+            var logUnit = DeepZoom?.LogUnit ?? 0;
+            return logUnit < -MaxSectionLogMagnification ? null : Section?.About(Camera.Position, Math.Exp(logUnit));
+        }
     }
 
     /// <summary>Half of the visible height, scene units: at depth 1 in perspective, at any depth in orthographic projection.</summary>

@@ -8,7 +8,7 @@ namespace FractalEngine.App.Animation;
 /// <summary>How the view of an animation depends on the frame.</summary>
 internal static class CameraMotion
 {
-    /// <summary>A view that stays.</summary>
+    /// <summary>Shows the same view in every frame, for animations in which only bodies move.</summary>
     public static Func<int, View> Still(View view) => _ => view;
 
     /// <summary>Turns once around a point, so that the last frame leads on to the first.</summary>

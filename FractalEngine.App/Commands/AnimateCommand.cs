@@ -60,7 +60,8 @@ internal static class AnimateCommand
             {
                 Time = result.GetValue(time) ?? 0,
                 Background = BackgroundChoice.Parse(result.GetValue(background)),
-                CreateView = (scene, aspect) => camera.View(result, scene, draw.Projection(result) is not null, aspect),
+                CreateView = (scene, aspect) =>
+                    camera.View(result, scene, draw.Projection(result) is not null, aspect) with { Section = draw.Section(result) },
                 ZoomLevels = camera.Zoom(result),
             };
             var animation = new AnimationJob(

@@ -1,6 +1,7 @@
 using System.CommandLine;
 using System.Globalization;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Visibility;
 using FractalEngine.Parsing.Assets;
@@ -49,6 +50,12 @@ internal sealed class DrawOptions
 
     private readonly Option<bool> _noShadows = new("--no-shadows") { Description = "Draw no shadows." };
 
+    private readonly Option<string?> _section = new("--section")
+    {
+        Description = "Cut away what lies beyond the plane x*NX + y*NY + z*NZ = D, and show solids filled where it cuts them.",
+        HelpName = "NX,NY,NZ,D",
+    };
+
     private readonly Option<Optimisation[]> _disabled = WordOption.Repeatable(
         "--without", "OPTIMISATION",
         "Disable one optimisation, for comparison; repeatable. "
@@ -62,7 +69,10 @@ internal sealed class DrawOptions
     public void AddTo(Command command)
     {
         Option[] options =
-            [_resolution, _projection, _shading, _noShadows, _wireframe, _grid, _minProjectedSize, _maxInstances, _sampleCount, _disabled];
+        [
+            _resolution, _projection, _shading, _noShadows, _wireframe, _grid, _section, _minProjectedSize, _maxInstances, _sampleCount,
+            _disabled,
+        ];
         foreach (var option in options)
         {
             command.Add(option);
@@ -74,6 +84,10 @@ internal sealed class DrawOptions
 
     /// <summary>Returns the projection that overrides the scene's, or null.</summary>
     public Projection? Projection(ParseResult result) => result.GetValue(_projection);
+
+    /// <summary>Returns the plane that cuts the scene open; null for none.</summary>
+    /// <exception cref="UsageException">The value of the option is no plane.</exception>
+    public SectionPlane? Section(ParseResult result) => result.GetValue(_section) is { } text ? SectionText.Parse("--section", text) : null;
 
     /// <summary>Returns true unless <c>--without</c> names the optimisation.</summary>
     public bool IsEnabled(ParseResult result, Optimisation optimisation) => !(result.GetValue(_disabled) ?? []).Contains(optimisation);

@@ -46,7 +46,8 @@ internal static class RenderCommand
             {
                 Time = result.GetValue(time) ?? 0,
                 Background = BackgroundChoice.Parse(result.GetValue(background)),
-                CreateView = (scene, aspect) => camera.View(result, scene, draw.Projection(result) is not null, aspect),
+                CreateView = (scene, aspect) =>
+                    camera.View(result, scene, draw.Projection(result) is not null, aspect) with { Section = draw.Section(result) },
                 ZoomLevels = camera.Zoom(result),
             };
             var traced = trace.Choice(result);

@@ -1,6 +1,7 @@
 using System.CommandLine;
 using FractalEngine.App.Window;
 using FractalEngine.App.Window.Panels;
+using FractalEngine.Render;
 
 namespace FractalEngine.App.Commands;
 
@@ -51,6 +52,7 @@ internal static class ViewCommand
                 Load = draw.WithLoadOptions(result, shared.LoadOptions(result)),
                 Settings = draw.Settings(result),
                 Projection = draw.Projection(result),
+                Section = draw.Section(result),
                 TrailLength = result.GetValue(trailLength) ?? DefaultTrailLength,
                 IsTraced = result.GetValue(noTrace) ? false : result.GetValue(trace) is null ? null : true,
                 TraceSampleCount = result.GetValue(trace) ?? ProgressiveTrace.DefaultSampleCount,
@@ -71,7 +73,10 @@ internal static class ViewCommand
         }
 
         var output = Path.Combine("out", Path.GetFileNameWithoutExtension(path) + ".png");
-        var job = new RenderJob(path, options.Load, options.Size, options.Projection, options.Settings);
+        var job = new RenderJob(path, options.Load, options.Size, options.Projection, options.Settings)
+        {
+            CreateView = (scene, aspect) => View.Of(scene, aspect) with { Section = options.Section },
+        };
         RenderCommand.Run(job, trace: null, output, new(isQuiet: true, isVerbose: false));
         Console.Error.WriteLine($"there is no display for a window, so {output} was drawn instead");
         return ExitCode.Done;

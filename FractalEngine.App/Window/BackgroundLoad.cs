@@ -50,7 +50,7 @@ internal sealed class BackgroundLoad
         _task.ContinueWith(_ => completed(), TaskScheduler.Default);
     }
 
-    /// <summary>Path of the file.</summary>
+    /// <summary>The mesh, fractal or scene that is loaded, by the path under which it was opened.</summary>
     public string Path { get; }
 
     /// <summary>The document that the loaded one continues; null for none.</summary>

@@ -1,4 +1,5 @@
 using FractalEngine.App.Window.Editing;
+using FractalEngine.App.Window.Tools;
 using FractalEngine.App.Window.Selecting;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Scenes;
@@ -30,6 +31,7 @@ internal sealed class Document : IDisposable
         File = file;
         Edits = edits ?? FileEdits.None;
         Tool = new(this);
+        Section = previous?.Section ?? new(options.Section);
         FirstSightLoader = new(preparation, window.Wake);
         var scene = file.Scene.Scene;
         var camera = View.Of(file.Scene, window.Aspect).Camera;
@@ -50,6 +52,10 @@ internal sealed class Document : IDisposable
             previous.FirstSightLoader.Dispose();
             Renderer = previous.Renderer;
             Renderer.Replace(preparation.Scene);
+            // Until the first frame, which shows nearly the same: handles that are dragged need a view.
+            LatestView = previous.LatestView;
+            // A drag goes on, and stays one step.
+            _lastInteraction = previous._lastInteraction;
             (Draft, History) = ContinueView(previous);
             Tool.ContinueFrom(previous.Tool);
         }
@@ -78,6 +84,9 @@ internal sealed class Document : IDisposable
 
     /// <summary>Selects and measures what is clicked.</summary>
     public SelectionTool Tool { get; }
+
+    /// <summary>The plane that cuts the scene open.</summary>
+    public SectionTool Section { get; private set; }
 
     /// <summary>The paper's zoom into the fractal; null unless the scene is one fractal.</summary>
     public FractalTrail? Trail { get; }
@@ -130,8 +139,8 @@ internal sealed class Document : IDisposable
     private View ComputeView(double aspect)
     {
         Physics.ApplyTo(Renderer);
-        AddLines();
-        var view = View.Of(File.Scene with { Scene = GetCurrentScene() }, aspect);
+        var view = View.Of(File.Scene with { Scene = GetCurrentScene() }, aspect) with { Section = Section.Shown };
+        AddLines(view);
         if (Physics.IsWalking)
         {
             return view;
@@ -147,9 +156,11 @@ internal sealed class Document : IDisposable
     }
 
     /// <summary>Adds the lines of what is selected and measured to those of the bodies, in the frame of the view.</summary>
-    private void AddLines()
+    private void AddLines(View view)
     {
         var lines = Tool.Lines();
+        Section.AddLines(File.Scene.Bounds, lines);
+        TransformHandles.AddLines(this, view, lines);
         if (lines.Count == 0 && VisibleDepth == 0)
         {
             return;

@@ -136,7 +136,8 @@ internal sealed class FileCommands(
         {
             var isScene = path == document.File.Path && document.File.Kind == FileKind.Scene;
             var view = document.SceneView;
-            var written = isScene ? edited with { Text = document.Draft.Write(view) } : edited;
+            // The last edit may still be loading.
+            var written = isScene ? edited with { Text = document.Draft.WriteInto(view, edited.Text) } : edited;
             EditedFileWriter.Write(path, written);
             document.MarkSaved(path, edited.SavedText, written.Text);
             if (isScene)

@@ -51,6 +51,7 @@ internal readonly record struct FrameReport(
         [
             ("frustum culling", Invariant($"{culling.OutsideFrustum:N0} nodes outside")),
             ("occlusion culling", Invariant($"{culling.Occluded:N0} nodes hidden")),
+            ("section", Invariant($"{culling.CutAway:N0} nodes cut away")),
             ("zero coverage", Invariant($"{culling.ZeroCoverage:N0} instances")),
             ("back-face culling", Invariant($"{saved.BackFaceCulledCount:N0} of {saved.ObjectCount:N0} objects")),
             ("degenerate removal", Invariant($"{saved.DegenerateTriangleCount:N0} triangles")),

@@ -37,7 +37,7 @@ internal sealed class ProgressiveTrace(int sampleCount, RenderSettings settings,
     // Of the background: the last scene as it was prepared.
     private (TraceRequest Request, PathTracer Tracer)? _prepared;
 
-    /// <summary>What the trace does now.</summary>
+    /// <summary>Whether there is nothing to trace, samples are being added, all were added, or the trace has failed.</summary>
     public TraceState State { get; private set; }
 
     /// <summary>Number of samples that each pixel had when the trace was published last.</summary>

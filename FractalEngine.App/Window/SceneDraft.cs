@@ -1,5 +1,6 @@
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Scenes;
+using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.App.Window;
 
@@ -32,9 +33,18 @@ internal sealed class SceneDraft
     public bool IsChanged(SceneView view) => _layout is not null && view != SavedView;
 
     /// <summary>Returns the text of the scene with a view. Only what differs from the loaded view is written anew.</summary>
-    public string Write(SceneView view)
+    public string Write(SceneView view) => Write(view, _layout!);
+
+    /// <summary>Returns another text of the scene with a view, such as one that is edited and not loaded yet.</summary>
+    /// <param name="view">The view to write.</param>
+    /// <param name="text">A valid text of the scene, whose lines of the view are those that were loaded.</param>
+    /// <exception cref="SourceException">The text is no scene.</exception>
+    public string WriteInto(SceneView view, string text) =>
+        Write(view, text == _layout!.Source.Text ? _layout : SceneParser.Parse(new("scene", text)));
+
+    private string Write(SceneView view, ParsedScene layout)
     {
-        var scene = _layout!.Scene;
+        var scene = layout.Scene;
         return SceneWriter.Write(
             scene with
             {
@@ -43,7 +53,7 @@ internal sealed class SceneDraft
                 OrthographicHeight =
                     view.OrthographicHeight.Equals(LayoutView.OrthographicHeight) ? scene.OrthographicHeight : view.OrthographicHeight,
             },
-            _layout);
+            layout);
     }
 
     /// <summary>Records that the file has a text that contains the view.</summary>

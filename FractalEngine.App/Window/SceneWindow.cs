@@ -315,6 +315,7 @@ internal sealed class SceneWindow : IDisposable
         _overlay.HidesPhysics = _interface.IsShown && (_interface.IsOpen("physics") || !_interface.HasRoomForTexts);
         _actions.Document = Document;
         _interface.Update(_window.Width, _window.Height);
+        _redraw |= _actions.TakeRequested();
         _frameRenderer.Present(_window, _tracing.Layer, _interface.Ui, _overlay.Panels);
         if (needsDraw)
         {

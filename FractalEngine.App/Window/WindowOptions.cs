@@ -1,4 +1,5 @@
 using FractalEngine.App.Commands;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
@@ -16,6 +17,9 @@ internal sealed record WindowOptions
 
     /// <summary>The initial projection; null for that of the scene.</summary>
     public Projection? Projection { get; init; }
+
+    /// <summary>The plane that cuts every file open at first; null for none.</summary>
+    public SectionPlane? Section { get; init; }
 
     /// <summary>Length of the trail of the paper's zoom into a fractal.</summary>
     public int TrailLength { get; init; } = 3;

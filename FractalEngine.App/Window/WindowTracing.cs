@@ -72,5 +72,6 @@ internal sealed class WindowTracing(WindowOptions options, Action published) : I
         : !settings.Shadows ? "no shadows"
         : settings.Grid || settings.Axes ? "grid"
         : document.Physics.ShowsClosestPoints ? "closest points"
+        : document.Tool.Lines().Count > 0 ? "outlines of a selection"
         : null;
 }

@@ -64,6 +64,10 @@ public record SceneObject
     /// <summary>The name for messages: the object's own, or that of its file or model.</summary>
     public string DisplayName => Name ?? File ?? Model?.Name ?? "object";
 
+    /// <summary>The same object with another placement. Where it moves by itself, it does so from there.</summary>
+    public SceneObject MovedTo(Transformation placement) =>
+        this with { Placement = placement, Motion = Motion?.MovedBy(placement.Position - Placement.Position) };
+
     /// <inheritdoc/>
     public virtual bool Equals(SceneObject? other) =>
         other is not null && EqualityContract == other.EqualityContract && File == other.File

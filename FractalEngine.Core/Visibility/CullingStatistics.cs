@@ -18,6 +18,9 @@ public record struct CullingStatistics
     /// <summary>Number of tested sub-fractals that cover no sample, or none that closer ones leave free.</summary>
     public long ZeroCoverage { get; set; }
 
+    /// <summary>Number of tested sub-fractals beyond the section plane, whose children were skipped.</summary>
+    public long CutAway { get; set; }
+
     /// <summary>Adds the counts of two parts of a frame.</summary>
     public static CullingStatistics operator +(CullingStatistics statistics1, CullingStatistics statistics2) => new()
     {
@@ -26,5 +29,6 @@ public record struct CullingStatistics
         Occluded = statistics1.Occluded + statistics2.Occluded,
         Proxies = statistics1.Proxies + statistics2.Proxies,
         ZeroCoverage = statistics1.ZeroCoverage + statistics2.ZeroCoverage,
+        CutAway = statistics1.CutAway + statistics2.CutAway,
     };
 }

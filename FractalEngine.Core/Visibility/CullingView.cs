@@ -1,3 +1,4 @@
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Visibility;
@@ -15,6 +16,9 @@ namespace FractalEngine.Core.Visibility;
 public readonly record struct CullingView(
     Vector Position, Matrix Axes, bool IsPerspective, double HalfHeight, int Width, int Height, double Aspect, double Near, double Far)
 {
+    /// <summary>The plane beyond which nothing is visible, in world axes about the camera; null for none.</summary>
+    public SectionPlane? Section { get; init; }
+
     /// <summary>Pixels per scene unit to the right (at depth 1 in perspective).</summary>
     public double PixelsPerUnitX => 0.5 * Width / (HalfHeight * Aspect);
 

@@ -21,6 +21,9 @@ internal readonly struct Footprint
     /// <summary>Whether the box may be visible in other strips as well.</summary>
     public bool IsShared { get; init; }
 
+    /// <summary>Whether the section plane may cut the box.</summary>
+    public bool IsSectioned { get; init; }
+
     /// <summary>Larger side of the rectangle, pixels of the occlusion buffer.</summary>
     public double ProjectedSize { get; init; }
 

@@ -140,8 +140,29 @@ internal sealed class StripCuller
         }
     }
 
-    /// <summary>Visits a sub-fractal whose footprint was not culled: draws it, or visits its children.</summary>
+    /// <summary>Visits a sub-fractal whose footprint was not culled, unless it is cut away.</summary>
     private void Visit(in StripContext context, in LodInstance instance, in Footprint footprint)
+    {
+        ref readonly var frame = ref context.Frame;
+        if (!frame.HasSection)
+        {
+            VisitKept(in context, in instance, in footprint);
+            return;
+        }
+
+        var side = frame.SideOf(
+            instance.NodeToView.Apply(instance.Node.Centre), instance.NodeToView.TransformHalfSize(instance.Node.HalfSize));
+        if (side == SectionSide.CutAway)
+        {
+            context.Output.Statistics.CutAway++;
+            return;
+        }
+
+        VisitKept(in context, in instance, footprint with { IsSectioned = side == SectionSide.Cut });
+    }
+
+    /// <summary>Draws a sub-fractal, or visits its children.</summary>
+    private void VisitKept(in StripContext context, in LodInstance instance, in Footprint footprint)
     {
         if (!IsWithinBudget(in context))
         {
@@ -264,14 +285,15 @@ internal sealed class StripCuller
             instanceToView = SimdAffineMap.Compose(in instanceToView, in proxyMap);
         }
 
-        if (frame.HasOcclusionCulling && footprint.IsBeyondNearPlane && context.CanOcclude
+        // What is cut open hides nothing for certain.
+        if (frame.HasOcclusionCulling && footprint is { IsBeyondNearPlane: true, IsSectioned: false } && context.CanOcclude
             && !_rasterizer.Rasterize(in frame, context.Occluder, in instanceToView, context.WindingSign))
         {
             output.Statistics.ZeroCoverage++;
             return;
         }
 
-        output.IsNearClipped |= !footprint.IsBeyondNearPlane;
+        output.IsNearClipped |= !footprint.IsBeyondNearPlane || footprint.IsSectioned;
         var viewToWorld = frame.ViewToWorld;
         var instanceToWorld = SimdAffineMap.Compose(in viewToWorld, in instanceToView);
         var instances = footprint.IsShared || !footprint.IsBeyondNearPlane ? output.SharedInstances : output.Instances;

@@ -28,6 +28,12 @@ internal readonly struct StripFrame
     private const int MaxNodesPerInstance = 4;
     private const int MinInstancesForNodeLimit = 20_000;
 
+    // Of coordinates: more than the rounding of the maps from objects to the view.
+    private const double SectionMargin = 1e-12;
+
+    private readonly Vector256<double> _sectionNormal;
+    private readonly Vector256<double> _sectionExtent;
+    private readonly double _sectionDistance;
     private readonly float _minSampleOffset;
     private readonly float _maxSampleOffset;
 
@@ -63,6 +69,14 @@ internal readonly struct StripFrame
         _minSampleOffset = minOffset - PixelPadding;
         _maxSampleOffset = maxOffset + PixelPadding;
         ViewToWorld = new(new AffineMap(view.Axes, Vector.Zero));
+        if (view.Section is { } section)
+        {
+            HasSection = true;
+            _sectionDistance = section.Distance;
+            var normal = view.Axes.Inverse() * section.Normal;
+            _sectionNormal = SimdAffineMap.ToVector256(normal);
+            _sectionExtent = SimdAffineMap.ToVector256(normal.Absolute());
+        }
     }
 
     /// <summary>Camera position, world space.</summary>
@@ -85,6 +99,9 @@ internal readonly struct StripFrame
 
     /// <summary>Whether hidden boxes are culled.</summary>
     public bool HasOcclusionCulling { get; }
+
+    /// <summary>Whether boxes beyond a section plane are culled.</summary>
+    public bool HasSection { get; }
 
     /// <summary>Whether pixels of the frame have several samples.</summary>
     public bool IsMultisampled { get; }
@@ -121,6 +138,19 @@ internal readonly struct StripFrame
 
     /// <summary>Map from view space to world axes about the camera.</summary>
     public SimdAffineMap ViewToWorld { get; }
+
+    /// <summary>Tells on which side of the section plane a box in view space lies.</summary>
+    /// <param name="centre">Centre of the box: x, y, z, 0.</param>
+    /// <param name="halfSize">Half the size of the box: x, y, z, 0.</param>
+    public SectionSide SideOf(Vector256<double> centre, Vector256<double> halfSize)
+    {
+        var distance = Vector256.Dot(_sectionNormal, centre) - _sectionDistance;
+        var reach = Vector256.Dot(_sectionExtent, halfSize);
+        var margin = SectionMargin * (Math.Abs(distance) + reach + Math.Abs(_sectionDistance));
+        return distance - reach > margin ? SectionSide.CutAway
+            : distance + reach < -margin ? SectionSide.Kept
+            : SectionSide.Cut;
+    }
 
     /// <summary>Tests a box in view space against the frustum, and computes its footprint, in double precision.</summary>
     /// <param name="centre">Centre of the box: x, y, z, 0.</param>

@@ -16,7 +16,7 @@ internal sealed class StripOutput
     /// <summary>Statistics of the strip.</summary>
     public ref CullingStatistics Statistics => ref _statistics;
 
-    /// <summary>Whether the near plane clips an instance of the object in work.</summary>
+    /// <summary>Whether the near plane or a section plane clips an instance of the object in work.</summary>
     public bool IsNearClipped { get; set; }
 
     /// <summary>Whether the strip gave up because it exceeded its budget.</summary>
@@ -66,7 +66,7 @@ internal sealed class StripOutput
         return (start, _ends[rank].SharedInstances - start);
     }
 
-    /// <summary>Tells whether the near plane clips an instance of an object.</summary>
+    /// <summary>Tells whether the near plane or a section plane clips an instance of an object.</summary>
     /// <param name="rank">Rank of the object in the order of culling.</param>
     public bool HasNearClippedInstance(int rank) => _ends[rank].IsNearClipped;
 

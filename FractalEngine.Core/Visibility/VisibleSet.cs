@@ -137,7 +137,9 @@ public sealed class VisibleSet
         return sum;
     }
 
-    /// <summary>Tells whether the near plane clips an instance of an object; the back faces of a solid may then be visible.</summary>
+    /// <summary>
+    /// Tells whether the near plane or a section plane clips an instance of an object; the back faces of a solid may then be visible.
+    /// </summary>
     /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
     public bool IsNearClipped(int objectIndex)
     {

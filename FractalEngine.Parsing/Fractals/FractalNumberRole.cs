@@ -17,4 +17,7 @@ public enum FractalNumberRole
 
     /// <summary>The depth of a recursive, an integer.</summary>
     Depth,
+
+    /// <summary>An argument of a call in a set: the number of a vector, from 1.</summary>
+    Argument,
 }

@@ -16,6 +16,7 @@ public sealed partial class FractalParser
     private List<FractalNumber>? _numbers;
     private Dictionary<int, FractalNumberRole>? _vectorRoles;
     private int _outputCount;
+    private int _callCount;
 
     /// <summary>Parses a file, and lists its numbers.</summary>
     internal static ImmutableArray<FractalNumber> FindNumbers(SourceText source)
@@ -24,7 +25,7 @@ public sealed partial class FractalParser
         parser.ParseFile();
         return
         [
-            .. parser._numbers.Select(number => number.Role == FractalNumberRole.Depth ? number
+            .. parser._numbers.Select(number => number.Role is FractalNumberRole.Depth or FractalNumberRole.Argument ? number
                 : number with
                 {
                     Role = parser._vectorRoles.GetValueOrDefault(VectorNumber(number), FractalNumberRole.Vector),
@@ -56,13 +57,18 @@ public sealed partial class FractalParser
     private void ListDepth(string name, Cursor start, Cursor end, int depth) =>
         _numbers?.Add(new(FractalNumberRole.Depth, name, 0, start.Offset, end.Offset - start.Offset, depth));
 
-    /// <summary>Records what an argument of a call means, by what the function makes of it.</summary>
-    private void ListArgument(int vector, int index, TransformationFunction function)
+    /// <summary>Lists an argument of a call, and records what its vector means by what the function makes of it.</summary>
+    private void ListArgument(string name, Cursor start, Cursor end, int vector, int index, TransformationFunction function)
     {
         if (_vectorRoles is null || index >= function.ParameterCount)
         {
             return;
         }
+
+        _callCount += index == 0 ? 1 : 0;
+        _numbers!.Add(new(
+            FractalNumberRole.Argument, FormattableString.Invariant($"{name} {_callCount}"), index, start.Offset,
+            end.Offset - start.Offset, vector));
 
         // Each parameter has a value of its own, by which it is recognised in the outputs.
         var markers = Enumerable.Range(0, function.ParameterCount)

@@ -181,12 +181,13 @@ public sealed partial class FractalParser
 
         while (char.IsAsciiDigit(rest.Current))
         {
+            var start = rest;
             if (!ParseVectorNumber(rest, out var number, out var argument, out rest))
             {
                 return false;
             }
 
-            ListArgument(number, arguments.Count, function);
+            ListArgument(name, start, rest, number, arguments.Count, function);
             arguments.Add(argument);
             if (rest.Current != '.')
             {

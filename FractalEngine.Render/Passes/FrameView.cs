@@ -27,8 +27,14 @@ internal readonly record struct FrameView(View View, int X, int Y, int Width, in
         return new(view, viewport.X, viewport.Y, viewport.Width, viewport.Height, view.EffectiveAspect(width, height), near, far);
     }
 
+    /// <summary>Plane that cuts the scene open, in world axes about the camera; null for none.</summary>
+    public SectionPlane? Section { get; } = View.RelativeSection;
+
     /// <summary>Returns the same view in the form that culling takes.</summary>
     public CullingView ToCullingView() => new(
         View.Camera.Position, View.Camera.LocalAxes, View.Projection == Projection.Perspective, View.HalfHeight, Width, Height, Aspect,
-        Near, Far);
+        Near, Far)
+    {
+        Section = Section,
+    };
 }

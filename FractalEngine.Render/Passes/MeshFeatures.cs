@@ -41,4 +41,7 @@ internal enum MeshFeatures
 
     /// <summary>Shadows of lights that have a position are among them.</summary>
     PointShadows = 1024,
+
+    /// <summary>A plane beyond which nothing is drawn, and which shows solids filled where it cuts them.</summary>
+    Section = 2048,
 }

@@ -21,7 +21,7 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     /// <summary>Texture unit of the depth maps.</summary>
     public const int ShadowTextureUnit = 1;
 
-    private const int FeatureCombinations = 2048;
+    private const int FeatureCombinations = 4096;
     private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);
 
     // Indexed by features. Each program is built when it is first needed.
@@ -32,15 +32,23 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     private long _frameNumber;
     private (FrameView Frame, bool Wireframe, MeshFeatures Features)? _frameState;
 
+    /// <summary>The face of what is drawn next that lies inside a solid; none for open surfaces, which are hollow where cut.</summary>
+    public CullFace InnerFace { get; set; }
+
     /// <summary>Begins drawing the meshes of a frame.</summary>
     /// <param name="frame">View of the frame.</param>
     /// <param name="wireframe">Whether light grey edges are drawn instead of lit surfaces.</param>
     /// <param name="features">Features of all surfaces of the frame, unless it shows edges.</param>
     public void Begin(in FrameView frame, bool wireframe, MeshFeatures features)
     {
-        _frameState = (frame, wireframe, wireframe ? MeshFeatures.None : features);
+        var section = frame.Section is null ? MeshFeatures.None : MeshFeatures.Section;
+        _frameState = (frame, wireframe, section | (wireframe ? MeshFeatures.None : features));
         _frameNumber++;
         GlShim.SetWireframe(wireframe);
+        if (frame.Section is not null)
+        {
+            GL.Enable(EnableCap.ClipDistance0);
+        }
     }
 
     /// <summary>Makes the program for a material current, and sets its uniforms.</summary>
@@ -62,6 +70,15 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
         {
             program.View.Set(in frame);
             program.SetWireframe(wireframe, WireframeColour);
+            if (frame.Section is { } section)
+            {
+                program.SetSection(section);
+            }
+        }
+
+        if (frame.Section is not null)
+        {
+            program.SetInnerFace(InnerFace);
         }
 
         // The object's own colour is not tinted: objects with different tints then share the uniforms.
@@ -91,6 +108,7 @@ internal sealed class MeshPass(RenderContext context) : IDisposable
     {
         Cull(CullFace.None);
         GlShim.SetWireframe(false);
+        GL.Disable(EnableCap.ClipDistance0);
     }
 
     /// <inheritdoc/>

@@ -23,13 +23,18 @@ internal sealed class MeshProgram : IDisposable
         (MeshFeatures.Atmosphere, "ATMOSPHERE"),
         (MeshFeatures.Shadows, "SHADOWS"),
         (MeshFeatures.PointShadows, "POINT_SHADOWS"),
+        (MeshFeatures.Section, "SECTION"),
     ];
 
     private readonly RedundancyFilter _filter;
     private readonly ShaderProgram _program;
     private readonly int _flatColourLocation;
     private readonly MaterialUniforms _materialUniforms;
+    private readonly int _sectionLocation;
+    private readonly int _innerFaceLocation;
     private bool? _lastWireframe;
+    private SectionPlane? _lastSection;
+    private CullFace? _lastInnerFace;
 
     /// <summary>Compiles and links the program.</summary>
     /// <exception cref="GlException">The driver refuses the program.</exception>
@@ -47,6 +52,8 @@ internal sealed class MeshProgram : IDisposable
 
         View = new(_program, _filter, context.HasReversedDepth);
         _flatColourLocation = _program.UniformLocation("flatColour");
+        _sectionLocation = _program.UniformLocation("section");
+        _innerFaceLocation = _program.UniformLocation("innerFace");
         _program.Use();
         GL.Uniform1(_program.UniformLocation("surfaceTexture"), 0);
         GL.Uniform1(_program.UniformLocation("shadowMap"), MeshPass.ShadowTextureUnit);
@@ -68,6 +75,28 @@ internal sealed class MeshProgram : IDisposable
             GL.Uniform4(_flatColourLocation, (float)red, (float)green, (float)blue, wireframe ? 1 : 0);
         }
     }
+
+    /// <summary>Sets the plane that cuts the scene open, in world axes about the camera. The program must be in use.</summary>
+    public void SetSection(SectionPlane section)
+    {
+        if (_filter.Update(ref _lastSection, section))
+        {
+            SetSection(_sectionLocation, section);
+        }
+    }
+
+    /// <summary>Sets which face of triangles is inside a solid; none to leave sections hollow. The program must be in use.</summary>
+    public void SetInnerFace(CullFace face)
+    {
+        if (_filter.Update(ref _lastInnerFace, face))
+        {
+            GL.Uniform1(_innerFaceLocation, face == CullFace.None ? 0f : face == CullFace.Back ? -1f : 1f);
+        }
+    }
+
+    /// <summary>Sets a uniform to a plane, so that the shader's distances are positive on the side that is kept.</summary>
+    internal static void SetSection(int location, SectionPlane section) => GL.Uniform4(
+        location, -(float)section.Normal.X, -(float)section.Normal.Y, -(float)section.Normal.Z, (float)section.Distance);
 
     /// <summary>Sets the material of the next draw calls. The program must be in use.</summary>
     /// <param name="material">Null for the object's own colour.</param>

@@ -92,6 +92,7 @@ internal sealed class ObjectsPass : IDisposable
         if (spheres.Count > 0 && view.DeepZoom is null)
         {
             _meshPass.Cull(CullFace.None);
+            _meshPass.InnerFace = frame.Section is { HasCap: true } ? CullFace.Back : CullFace.None;
             _meshPass.UseMaterial(null, Colour.White, MeshFeatures.CameraRelative);
             _sphereBatch ??= new(_resources);
             _sphereBatch.Draw(spheres, view.Camera.Position, SphereInstance.Colour);
@@ -143,6 +144,7 @@ internal sealed class ObjectsPass : IDisposable
             var culledFace = settings.Wireframe || !settings.BackFaceCulling ? CullFace.None : FaceToCull(i, in frame);
             BackFaceCulledCount += culledFace == CullFace.None ? 0 : 1;
             _meshPass.Cull(culledFace);
+            _meshPass.InnerFace = frame.Section is { HasCap: true } ? InnerFaceOf(i) : CullFace.None;
             BindObjectBlock(i, frame.View);
             if (settings.Wireframe)
             {
@@ -163,6 +165,7 @@ internal sealed class ObjectsPass : IDisposable
     private void DrawTransparent(View view)
     {
         MeshPass.BeginTransparent();
+        _meshPass.InnerFace = CullFace.None;
         foreach (var index in _transparentOrder.SortBackToFront(view.Camera, _transforms.Bounds))
         {
             BindObjectBlock(index, view);
@@ -227,9 +230,16 @@ internal sealed class ObjectsPass : IDisposable
         var isCulled = _buffers.Culler.SelectsInstances(index);
         var windingSign = orientation
             * (isCulled ? _buffers.Culler.WindingSign(index) : _scene.Objects[index].Model.WindingSign);
-        // A solid that the near plane cuts shows its inner side. Culling has tested its instances one by one.
-        return windingSign == 0 || !(isCulled || frame.View.IsBeyondDepth(_transforms.Bounds[index], frame.Near)) ? CullFace.None
-            : windingSign < 0 ? CullFace.Front
-            : CullFace.Back;
+        // A solid that the near plane or a section cuts shows its inner side. Culling has tested its instances one by one.
+        return isCulled || (frame.Section is null && frame.View.IsBeyondDepth(_transforms.Bounds[index], frame.Near))
+            ? FaceOf(windingSign)
+            : CullFace.None;
     }
+
+    /// <summary>Returns the face of an object's triangles that lies inside; none for open surfaces.</summary>
+    private CullFace InnerFaceOf(int index) =>
+        FaceOf(Math.Sign(_transforms.ObjectToWorld[index].Linear.Determinant()) * _scene.Objects[index].Model.SolidSign.Value);
+
+    private static CullFace FaceOf(int windingSign) =>
+        windingSign == 0 ? CullFace.None : windingSign < 0 ? CullFace.Front : CullFace.Back;
 }

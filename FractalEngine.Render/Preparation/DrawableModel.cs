@@ -68,6 +68,11 @@ public sealed class DrawableModel
     /// </summary>
     internal int WindingSign { get; init; }
 
+    /// <summary>
+    /// As <see cref="WindingSign"/>, but found out for larger meshes too, when a section plane asks for it first: for filling them.
+    /// </summary>
+    internal Lazy<int> SolidSign { get; init; } = new(0);
+
     /// <summary>Hierarchy that visible instances are selected from for each frame; null where all instances are drawn.</summary>
     public LodHierarchy? LodHierarchy { get; init; }
 

@@ -14,6 +14,9 @@ internal static class ModelPreparation
     private const int MinInstancesForSolidTest = 100;
     private const int MaxFacesForSolidTest = 256;
 
+    // Tested on the thread that draws, once: about 0.2 s.
+    private const int MaxFacesForSections = 300_000;
+
     /// <summary>Prepares a model for the GPU.</summary>
     /// <param name="model">Model with its mesh and materials.</param>
     /// <param name="settings">Settings with the budgets and the crease angle.</param>
@@ -56,6 +59,9 @@ internal static class ModelPreparation
             DegenerateTriangleCount = batches.DegenerateTriangleCount,
             MeshWindingSign = meshWindingSign,
             WindingSign = meshWindingSign * instanceSign,
+            SolidSign = testsSolidity || isSeeThrough || mesh.FaceCount > MaxFacesForSections
+                ? new(meshWindingSign * instanceSign)
+                : new(() => ClosedSurface.IsSolid(mesh) ? instanceSign : 0),
         };
     }
 

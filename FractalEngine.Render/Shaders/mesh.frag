@@ -1,7 +1,7 @@
 #version 330 core
 #extension GL_ARB_texture_gather : enable
 // The colour of the visible face. Front faces are wound clockwise on the screen in a left-handed scene, the other way in a right-handed one.
-// PER_PIXEL, TEXTURED, GLOSSY, FRONT_FACES_ONLY, CUT_OUT, EMISSIVE, ATMOSPHERE and SHADOWS are defined where they apply.
+// PER_PIXEL, TEXTURED, GLOSSY, FRONT_FACES_ONLY, CUT_OUT, EMISSIVE, ATMOSPHERE, SHADOWS and SECTION are defined where they apply.
 
 #include "material.glsl"
 #if defined(PER_PIXEL) || defined(ATMOSPHERE)
@@ -41,29 +41,72 @@ uniform sampler2D surfaceTexture;
 
 out vec4 fragment;          // multiplied by its opacity
 
+#if defined(SECTION) && defined(PER_PIXEL)
+uniform vec4 section;       // points relative to the camera with dot(xyz, p) + w < 0 are cut away
+uniform float innerFace;    // which face of a solid's triangles is inside: -1 back, 1 front; 0 where the surface is open
+
+// So much nearer is what is seen of a cut solid's inner side than what touches it from outside, as neighbours in a fractal do.
+const float capBias = 1e-5;
+
+// Where the eye looks through the plane into a solid, the point of the plane before the inner side that it sees; otherwise the point
+// itself. Sets the depth: nearest is what lies behind the plane, so that the depth stays that of the inner side.
+vec3 fillSection(vec3 position, out bool isCap)
+{
+    float depth = dot(position, cameraAxes[2]);
+    vec3 eye = depthScale.z != 0.0 ? vec3(0.0) : position - depth * cameraAxes[2];
+    float atEye = dot(section.xyz, eye) + section.w;
+    float atPixel = dot(section.xyz, position) + section.w;
+    isCap = atEye < 0.0 && innerFace != 0.0 && gl_FrontFacing == (innerFace > 0.0);
+    gl_FragDepth = gl_FragCoord.z;
+    if (isCap)
+    {
+        float nearer = depth * (1.0 - capBias);
+        float z = (depthScale.x * nearer + depthScale.y) / (depthScale.z * nearer + depthScale.w);
+        // Reversed depths are stored as they are. At the edge of a steep face, the middle of a pixel may lie beyond the far plane.
+        gl_FragDepth = clamp(depthScale.x < 0.0 ? z : 0.5 * z + 0.5, 1e-6, 1.0 - 1e-6);
+    }
+
+    return isCap ? mix(eye, position, atEye / (atEye - max(atPixel, 0.0))) : position;
+}
+#endif
+
 void main()
 {
     vec3 highlights = vec3(0.0);
+#if defined(PER_PIXEL) || defined(ATMOSPHERE)
+    vec3 position = pixelPosition;
+#endif
 #ifdef PER_PIXEL
     vec3 n = direction(gl_FrontFacing ? pixelNormal : -pixelNormal);
 #ifdef SHADOWS
-    vec3 faceNormal = faceNormalTowardsEye(pixelPosition, towardsEye(pixelPosition, cameraAxes[2], depthScale), n);
+    vec3 faceNormal = faceNormalTowardsEye(position, towardsEye(position, cameraAxes[2], depthScale), n);
+#endif
+#ifdef SECTION
+    bool isCap;
+    position = fillSection(position, isCap);
+    if (isCap)
+    {
+        n = -section.xyz;
+#ifdef SHADOWS
+        faceNormal = n;
+#endif
+    }
 #endif
     vec3 light = material[2].rgb * ambientLight(n.y);
     for (int i = 0; i < lightCount.x; i++)
     {
         vec3 toLight;
-        vec3 incoming = incomingLight(lights[i], pixelPosition, toLight);
+        vec3 incoming = incomingLight(lights[i], position, toLight);
         float cosine = dot(n, toLight);
 #ifdef SHADOWS
         if (cosine > 0.0)
         {
-            incoming *= lightThatArrives(i, pixelPosition, faceNormal, toLight);
+            incoming *= lightThatArrives(i, position, faceNormal, toLight);
         }
 #endif
         light += max(cosine, 0.0) * incoming;
 #ifdef GLOSSY
-        vec3 toEye = towardsEye(pixelPosition, cameraAxes[2], depthScale);
+        vec3 toEye = towardsEye(position, cameraAxes[2], depthScale);
         highlights += max(sign(cosine), 0.0) * highlight(n, toLight, toEye, material[1].w) * incoming * material[1].rgb;
 #endif
     }
@@ -104,7 +147,7 @@ void main()
     vec3 shown = colour * opacity + highlights;
 #ifdef ATMOSPHERE
     // An orthographic view measures the distance from its plane.
-    float distance = depthScale.z != 0.0 ? length(pixelPosition) : max(dot(pixelPosition, cameraAxes[2]), 0.0);
+    float distance = depthScale.z != 0.0 ? length(position) : max(dot(position, cameraAxes[2]), 0.0);
     shown = opacity * toScreen(throughHaze(shown / max(opacity, 1e-4), distance));
 #endif
     fragment = vec4(shown, opacity);

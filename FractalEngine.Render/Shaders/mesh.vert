@@ -1,6 +1,6 @@
 #version 330 core
 // One vertex of one instance: projected by map(v) = axes^-1 * (v - position), and lit by all lights on both faces, unless pixels are lit.
-// PER_PIXEL, TEXTURED, GLOSSY, CAMERA_RELATIVE, FRONT_FACES_ONLY and VERTEX_COLOURS are defined where they apply.
+// PER_PIXEL, TEXTURED, GLOSSY, CAMERA_RELATIVE, FRONT_FACES_ONLY, VERTEX_COLOURS and SECTION are defined where they apply.
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -31,6 +31,9 @@ uniform vec3 cameraAxes[3]; // right, up and forward: the rows of the inverse ax
 uniform vec2 viewScale;     // 1 / (half height * aspect), 1 / half height
 uniform vec4 depthScale;    // z = x*depth + y, w = z*depth + w
 uniform vec4 flatColour;    // linear light; w: how much of it replaces the lit colour
+#ifdef SECTION
+uniform vec4 section;       // points relative to the camera with dot(xyz, p) + w < 0 are cut away
+#endif
 
 #if defined(PER_PIXEL) || defined(ATMOSPHERE)
 out vec3 pixelPosition;     // relative to the camera
@@ -67,6 +70,9 @@ void main()
     vec3 viewPosition = vec3(dot(cameraAxes[0], relative), dot(cameraAxes[1], relative), dot(cameraAxes[2], relative));
     gl_Position = vec4(
         viewPosition.xy * viewScale, depthScale.x * viewPosition.z + depthScale.y, depthScale.z * viewPosition.z + depthScale.w);
+#ifdef SECTION
+    gl_ClipDistance[0] = dot(section.xyz, relative) + section.w;
+#endif
 
     // The cofactor matrix maps the cross product of two edges to that of the mapped edges, also under skewed, mirrored and flat maps:
     // the normal stays on the side from which the triangle is seen as a front face.

@@ -22,6 +22,7 @@ layout(std140) uniform ObjectBlock
 uniform vec3 lightAxes[3];      // right, up and forward: the rows of the inverse axes
 uniform vec2 viewScale;         // 1 / half width, 1 / half height
 uniform vec4 depthScale;        // z = x*depth + y, w = z*depth + w
+uniform vec4 section;           // points relative to the light's eye with dot(xyz, p) + w < 0 are cut away, if clipping is on
 #ifdef CUT_OUT
 uniform vec4 textureTransform;  // scale and offset of texture coordinates
 
@@ -37,6 +38,7 @@ void main()
 #endif
     vec3 view = vec3(dot(lightAxes[0], relative), dot(lightAxes[1], relative), dot(lightAxes[2], relative));
     gl_Position = vec4(view.xy * viewScale, depthScale.x * view.z + depthScale.y, depthScale.z * view.z + depthScale.w);
+    gl_ClipDistance[0] = dot(section.xyz, relative) + section.w;
 #ifdef CUT_OUT
     vec2 scaledCoordinates = textureCoordinates * textureTransform.xy + textureTransform.zw;
     pixelTextureCoordinates = vec2(scaledCoordinates.x, 1.0 - scaledCoordinates.y);

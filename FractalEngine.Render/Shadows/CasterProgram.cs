@@ -13,6 +13,7 @@ internal sealed class CasterProgram : IDisposable
     private readonly int _viewScaleLocation;
     private readonly int _depthScaleLocation;
     private readonly int _textureTransformLocation;
+    private readonly int _sectionLocation;
     private readonly float[] _rows = new float[9];
 
     /// <summary>Compiles and links the program.</summary>
@@ -33,6 +34,7 @@ internal sealed class CasterProgram : IDisposable
         _viewScaleLocation = _program.UniformLocation("viewScale");
         _depthScaleLocation = _program.UniformLocation("depthScale");
         _textureTransformLocation = _program.UniformLocation("textureTransform");
+        _sectionLocation = _program.UniformLocation("section");
         _program.Use();
         GL.Uniform1(_program.UniformLocation("surfaceTexture"), 0);
     }
@@ -49,6 +51,10 @@ internal sealed class CasterProgram : IDisposable
         GL.Uniform2(_viewScaleLocation, (float)(1 / view.HalfWidth), (float)(1 / view.HalfHeight));
         var (zByDepth, z, wByDepth, w) = view.DepthScale;
         GL.Uniform4(_depthScaleLocation, (float)zByDepth, (float)z, (float)wByDepth, (float)w);
+        if (view.Section is { } section)
+        {
+            MeshProgram.SetSection(_sectionLocation, section);
+        }
     }
 
     /// <summary>Sets how texture coordinates are moved. The program must be in use.</summary>

@@ -123,6 +123,7 @@ internal sealed class ShadowPass : IDisposable
         }
 
         HasShadows = true;
+        CutViews(_zoom is null ? frame.View.Section : frame.Section);
         foreach (var view in _fit.Views)
         {
             HasPointShadows |= view.IsPerspective;
@@ -131,7 +132,7 @@ internal sealed class ShadowPass : IDisposable
         RefreshCuller();
         _culling = Resolve(settings.Culling);
         _maps = fitsToView ? _fittedMaps : _wholeMaps;
-        BeginDrawing();
+        BeginDrawing(frame.Section is not null);
         _maps.DrawStanding(_fit.Views, _culling, _zoom, _version, settings.ReuseBuffers, _drawStanding);
         DrawnMapCount = _maps.DrawnCount;
         _hasMoving = _zoom is null && (_movingObjects.Count > 0 || spheres.Count > 0);
@@ -166,8 +167,13 @@ internal sealed class ShadowPass : IDisposable
         _casters.Dispose();
     }
 
-    private static void BeginDrawing()
+    private static void BeginDrawing(bool isCut)
     {
+        if (isCut)
+        {
+            GL.Enable(EnableCap.ClipDistance0);
+        }
+
         GL.Enable(EnableCap.DepthTest);
         GL.DepthMask(true);
         GL.DepthFunc(DepthFunction.Greater);
@@ -175,7 +181,23 @@ internal sealed class ShadowPass : IDisposable
         GL.FrontFace(FrontFaceDirection.Cw);
     }
 
-    private static void EndDrawing() => GL.Disable(EnableCap.DepthClamp);
+    private static void EndDrawing()
+    {
+        GL.Disable(EnableCap.DepthClamp);
+        GL.Disable(EnableCap.ClipDistance0);
+    }
+
+    /// <summary>Gives all views the plane that cuts the scene open, about their own eyes.</summary>
+    /// <param name="section">
+    /// In the frame of the views, which does not follow the camera unless that is in a deep zoom; null for none.
+    /// </param>
+    private void CutViews(SectionPlane? section)
+    {
+        for (var i = 0; section is { } plane && i < _fit.Views.Count; i++)
+        {
+            _fit.Views[i] = _fit.Views[i] with { Section = plane.About(_fit.Views[i].Position) };
+        }
+    }
 
     /// <summary>Bounds of what stands; all bounds where nothing does.</summary>
     private BoundingBox StandingBounds(BoundingBox bounds)

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility;
 
@@ -17,12 +18,18 @@ internal readonly record struct ShadowView(
     Vector Position, Matrix Axes, bool IsPerspective, double HalfWidth, double HalfHeight, double Near, double Far, double CasterNear,
     int Size)
 {
+    /// <summary>Plane that cuts the casters open, in world axes about the eye of the view; null for none.</summary>
+    public SectionPlane? Section { get; init; }
+
     /// <summary>Size of a texel: at depth 1 in perspective, in scene units otherwise.</summary>
     public double TexelSize => 2 * Math.Max(HalfWidth, HalfHeight) / Size;
 
     /// <summary>The view in the form that culling takes.</summary>
     public CullingView ToCullingView() => new(
-        Position, Axes, IsPerspective, HalfHeight, Size, Size, HalfWidth / HalfHeight, CasterNear, Far);
+        Position, Axes, IsPerspective, HalfHeight, Size, Size, HalfWidth / HalfHeight, CasterNear, Far)
+    {
+        Section = Section,
+    };
 
     /// <summary>
     /// Coefficients of z = ZByDepth·depth + Z and w = WByDepth·depth + W, so that z/w is 1 at the near plane and 0 at the far one.

@@ -78,6 +78,7 @@ public sealed class PathTracer
         ArgumentNullException.ThrowIfNull(view);
         ArgumentOutOfRangeException.ThrowIfLessThan(width, 1);
         ArgumentOutOfRangeException.ThrowIfLessThan(height, 1);
+        _scene = scene.ForView(view.DeepZoom, view.DeepZoom is null ? view.Section : view.RelativeSection);
         if (view.DeepZoom is { } zoom)
         {
             _eye = view.Camera.Position;
@@ -86,7 +87,6 @@ public sealed class PathTracer
         }
 
         _camera = new(view, width, height, FootprintPixels);
-        _scene = scene.ForView(view);
         _lights = lights;
         _declared = declared;
         _display = DisplayTransform.Of(declared);

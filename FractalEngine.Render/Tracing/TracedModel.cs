@@ -14,6 +14,7 @@ internal sealed class TracedModel
 
     // Empty where no face has a material.
     private readonly byte[] _materialOfFace = [];
+    private readonly Lazy<bool> _isSolid;
     private readonly ushort[] _wideMaterialOfFace = [];
 
     /// <summary>Prepares the surface of a model.</summary>
@@ -24,6 +25,7 @@ internal sealed class TracedModel
     public TracedModel(Model model, double creaseAngle, TextureCache textures, ICollection<string> notices)
     {
         _mesh = model.Mesh;
+        _isSolid = new(() => ClosedSurface.IsSolid(model.Mesh));
         var hasAllNormals = _mesh.NormalIndices.Length > 0 && !_mesh.NormalIndices.AsSpan().Contains(-1);
         _meshWithNormals = hasAllNormals ? _mesh : NormalGenerator.Generate(_mesh, creaseAngle);
         var materials = new List<TracedMaterial> { TracedMaterial.Default };
@@ -54,6 +56,9 @@ internal sealed class TracedModel
 
         _materials = [.. materials];
     }
+
+    /// <summary>Whether the mesh is the closed surface of a solid, wound outwards. Found out when it is asked for first.</summary>
+    public bool IsSolid => _isSolid.Value;
 
     /// <summary>True where light may pass through any face.</summary>
     public bool IsSeeThrough => _materials.Any(static material => material.IsSeeThrough);

@@ -1,6 +1,7 @@
 using System.Collections.Concurrent;
 using System.Collections.Immutable;
 using FractalEngine.Core.Collision;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
 using FractalEngine.Core.Scenes;
@@ -19,6 +20,7 @@ internal sealed class TracedScene
     private readonly TracedScene _whole;
     private readonly DeepZoom? _zoom;
     private readonly ConcurrentDictionary<Model, DeepZoomRayCaster> _zoomCasters;
+    private readonly SectionPlane? _section;
     private readonly double _offset;
     private readonly ImmutableArray<PlacedModel> _objects;
     private readonly TracedModel[] _models;
@@ -47,13 +49,15 @@ internal sealed class TracedScene
         _offset = SurfaceOffset * scene.Bounds.FiniteDiagonalOr(1);
     }
 
-    private TracedScene(TracedScene scene, DeepZoom zoom)
+    private TracedScene(TracedScene scene, DeepZoom? zoom, SectionPlane? section)
     {
         _whole = scene;
-        _caster = scene._zoomCasters.GetOrAdd(
+        _caster = zoom is null ? scene._caster : scene._zoomCasters.GetOrAdd(
             scene._objects[zoom.ObjectIndex].Model,
             static model => new DeepZoomRayCaster(((FractalModel)model).Fractal, [])).WithRoots(zoom.Roots);
         _zoomCasters = scene._zoomCasters;
+        _offset = scene._offset;
+        _section = section;
         _objects = scene._objects;
         _models = scene._models;
         _colours = scene._colours;
@@ -74,16 +78,53 @@ internal sealed class TracedScene
     public double OffsetAt(Vector position) => _zoom is null ? _offset : SurfaceOffset * position.Length();
 
     /// <summary>The same surfaces for a view; those of a deep zoom are around the camera, in the unit of the zoom.</summary>
-    public TracedScene ForView(View view) => view.DeepZoom is { } zoom ? new(_whole, zoom) : _whole;
+    /// <param name="zoom">Deep zoom of the view; null for none.</param>
+    /// <param name="section">Plane that cuts the scene open, in the frame of the rays; null for none.</param>
+    public TracedScene ForView(DeepZoom? zoom, SectionPlane? section) =>
+        zoom is null && section is null ? _whole : new(_whole, zoom, section);
 
-    /// <summary>Finds the nearest surface along a ray.</summary>
+    /// <summary>Finds the nearest surface along a ray: a face, or the section through a solid.</summary>
     public bool TryIntersect(
         in Ray ray, RayFootprint footprint, double minDistance, double maxDistance, QueryContext context, out TracedSurface surface)
     {
-        var isHit = _caster.TryFindNearest(ray, context, out var hit, out var index, minDistance, maxDistance, footprint);
-        surface = isHit ? CreateSurface(ray.Direction, in hit, index, context) : default;
-        return isHit;
+        surface = default;
+        var start = minDistance;
+        if ((_section is { } section && !section.TryClip(in ray, ref start, ref maxDistance))
+            || !_caster.TryFindNearest(ray, context, out var hit, out var index, start, maxDistance, footprint))
+        {
+            return false;
+        }
+
+        surface = CreateSurface(ray.Direction, in hit, index, context);
+        if (start > minDistance && _section is { HasCap: true, Normal: var normal }
+            && IsWithinSolid(in ray, in hit, index, footprint, context))
+        {
+            surface = surface with { Position = ray.Origin + (start * ray.Direction), FaceNormal = normal, Normal = normal };
+        }
+
+        return true;
     }
+
+    /// <summary>Tells whether a ray comes to its first face from within a solid.</summary>
+    private bool IsWithinSolid(in Ray ray, in RayHit hit, int index, RayFootprint footprint, QueryContext context)
+    {
+        if (IsInnerSide(in hit, index))
+        {
+            return true;
+        }
+
+        // Where solids touch, as the instances of a fractal do, the face of the next one may be found before that of the solid around.
+        // From the other side, the latter is then found first, and seen from outside.
+        var offset = OffsetAt(hit.Point);
+        var back = new Ray(hit.Point + (offset * ray.Direction), -ray.Direction);
+        return ModelOf(index).IsSolid && _caster.TryFindNearest(back, context, out var twin, out var twinIndex, 0, 2 * offset, footprint)
+            && ModelOf(twinIndex).IsSolid && !IsInnerSide(in twin, twinIndex);
+    }
+
+    private bool IsInnerSide(in RayHit hit, int index) =>
+        ModelOf(index).IsSolid && hit.IsFrontFace == hit.InstanceMap.Linear.Determinant() < 0;
+
+    private TracedModel ModelOf(int index) => _models[_zoom?.ObjectIndex ?? index];
 
     /// <summary>Computes the part of light that reaches a point from a direction, from 0 to 1.</summary>
     /// <param name="ray">From the point towards the light.</param>
@@ -92,9 +133,15 @@ internal sealed class TracedScene
     /// <param name="context">Lends its memory.</param>
     public double Transmittance(Ray ray, RayFootprint footprint, double distance, QueryContext context)
     {
+        var minDistance = 0.0;
+        if (_section is { } section && !section.TryClip(in ray, ref minDistance, ref distance))
+        {
+            return 1;
+        }
+
         if (!IsSeeThrough)
         {
-            return _caster.HitsAny(ray, context, 0, distance, footprint) ? 0 : 1;
+            return _caster.HitsAny(ray, context, minDistance, distance, footprint) ? 0 : 1;
         }
 
         const int MaxLayers = 32;
@@ -121,8 +168,7 @@ internal sealed class TracedScene
     /// <param name="context">Has the path to the instance.</param>
     private TracedSurface CreateSurface(Vector direction, in RayHit hit, int index, QueryContext context)
     {
-        var objectIndex = _zoom?.ObjectIndex ?? index;
-        var model = _models[objectIndex];
+        var model = ModelOf(index);
         var material = model.MaterialOf(hit.FaceIndex);
         var map = hit.InstanceMap;
         var faceNormal = hit.IsFrontFace ? hit.Normal : -hit.Normal;

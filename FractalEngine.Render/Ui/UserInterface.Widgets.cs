@@ -293,19 +293,40 @@ public sealed partial class UserInterface
     public bool Knob(string label, double x, double y, Colour colour)
     {
         ArgumentNullException.ThrowIfNull(label);
-        var size = RowHeight;
-        var rect = new UiRect((int)x - (size / 2), (int)y - (size / 2), size, size);
-        BeginRoot(IdOf(label), rect, layer: 0);
-        var touch = Touch(IdOf(label), rect, takesFocus: false);
-        Fill(rect, colour, size / 2f);
-        Print(label, rect, touch.IsHot ? UiTheme.Dark.Accent : UiTheme.Dark.Text, UiAlign.Middle);
-        return touch.IsActivated;
+        return AddKnob(label, x, y, colour).IsActivated;
+    }
+
+    /// <summary>Adds a round handle anywhere in the frame, which is dragged.</summary>
+    /// <param name="label">One or two characters.</param>
+    /// <param name="name">Identity of the handle.</param>
+    /// <param name="x">Pixels from the left edge of the frame to the middle.</param>
+    /// <param name="y">Pixels from the upper edge of the frame to the middle.</param>
+    /// <param name="colour">Ground of the handle; dark, since the text is light.</param>
+    /// <remarks>The handle keeps the pointer until the button is released, wherever it is added meanwhile.</remarks>
+    public UiHandle Handle(string label, string name, double x, double y, Colour colour)
+    {
+        ArgumentNullException.ThrowIfNull(label);
+        ArgumentNullException.ThrowIfNull(name);
+        var touch = AddKnob(label, x, y, colour, name);
+        return new(touch.IsHot, touch.IsPressed, touch.IsHeld, _input.X, _input.Y, _input.IsControlHeld);
     }
 
     /// <summary>Explains the last widget while the pointer is over it.</summary>
     public void Tooltip(string text) => Tooltip(text, _isLastHot);
 
     private void Tooltip(string text, bool isHot) => _tooltip = isHot && !_input.IsDown ? text : _tooltip;
+
+    private UiTouch AddKnob(string label, double x, double y, Colour colour, string? name = null)
+    {
+        var size = RowHeight;
+        var rect = new UiRect((int)x - (size / 2), (int)y - (size / 2), size, size);
+        var id = IdOf(name ?? label);
+        BeginRoot(id, rect, layer: 0);
+        var touch = Touch(id, rect, takesFocus: false);
+        Fill(rect, colour, size / 2f);
+        Print(label, rect, touch.IsHot ? UiTheme.Dark.Accent : UiTheme.Dark.Text, UiAlign.Middle);
+        return touch;
+    }
 
     private void PrintLabel(string text, Colour colour, UiAlign align)
     {

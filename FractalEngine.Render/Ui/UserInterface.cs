@@ -153,6 +153,9 @@ public sealed partial class UserInterface
                 return true;
             case KeyPressed pressed:
                 return HandleKey(pressed);
+            case KeyReleased released:
+                _input.Modifiers = released.Modifiers;
+                return false;
             case TextEntered entered:
                 return HandleText(entered);
             case FocusLost:
@@ -260,7 +263,9 @@ public sealed partial class UserInterface
     private bool HandleKey(KeyPressed pressed)
     {
         _keyCount++;
-        Interaction++;
+        _input.Modifiers = pressed.Modifiers;
+        // A key that is pressed in the middle of a drag belongs to it.
+        Interaction += _active == 0 ? 1 : 0;
         var startsMenu = pressed.Key == Key.F10 && _menuTitles.Count > 0;
         if (_focus == 0 && !IsModal && !startsMenu && !(pressed.Key == Key.Tab && _focusable.Count > 0))
         {
@@ -275,7 +280,6 @@ public sealed partial class UserInterface
         }
 
         _input.Key = pressed.Key;
-        _input.Modifiers = pressed.Modifiers;
         _isKeyTaken = false;
         Rebuild();
         // Screenshots are taken of dialogs, too.

@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Maths;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
@@ -64,6 +65,10 @@ internal static class ActionTable
             IsOn = static a => a.Document?.Tool.Measure.IsActive == true,
         },
 
+        Handles("handles-move", "Move", "move", Key.Digit2, HandleKind.Move),
+        Handles("handles-turn", "Turn", "turn", Key.Digit4, HandleKind.Turn),
+        Handles("handles-scale", "Scale", "scale", Key.Digit6, HandleKind.Scale),
+
         new("frame-scene", "View", "Frame the scene", "frame the scene: what is visible of it fills 80 % of the frame")
         {
             Keys = [new(Key.F)], MoveCamera = static (camera, aspect) => camera.FrameScene(aspect), IsAvailable = HasDocument,
@@ -93,6 +98,22 @@ internal static class ActionTable
         {
             Keys = [new(Key.Y)], Flag = "--trace", Run = static a => a.ToggleTracing(),
             IsOn = static a => a.Tracing.IsEnabled,
+        },
+        new("section", "View", "Section", "cut the scene open along a plane, which a knob drags, or show it whole")
+        {
+            Keys = [new(Key.K)], Flag = "--section", IsAvailable = HasDocument, IsOn = static a => a.Document?.Section.IsOn == true,
+            Run = static a => a.Show(a.Document!.Section.Toggle(a.Document.File.Scene.Bounds, a.Document.Camera)) | Redraw.Scene,
+        },
+        new("flip-section", "View", "Flip", "cut away the other side of the section plane")
+        {
+            Keys = [KeyChord.Control(Key.K)], IsAvailable = HasSection,
+            Run = static a => a.Show(a.Document!.Section.Flip()) | Redraw.Scene,
+        },
+        new("section-cap", "View", "Filled", "show solids filled where the section plane cuts them, or hollow")
+        {
+            Keys = [KeyChord.ControlShift(Key.K)], IsAvailable = HasSection,
+            IsOn = static a => a.Document?.Section.Shown is { HasCap: true },
+            Run = static a => a.Show(a.Document!.Section.ToggleCap()) | Redraw.Scene,
         },
         new("papers-zoom", "View", "The paper's zoom",
             "the paper's zoom into a fractal (its matrix grows about the camera) instead of ours")
@@ -194,6 +215,17 @@ internal static class ActionTable
     private static bool HasDocument(WindowActions actions) => actions.Document is not null;
 
     private static bool HasSelection(WindowActions actions) => actions.Document?.Tool.Selected is not null;
+
+    private static bool HasSection(WindowActions actions) => actions.Document?.Section.IsOn == true;
+
+    private static WindowAction Handles(string id, string name, string verb, Key key, HandleKind kind) =>
+        new(id, "Edit", name, $"{verb} the selected object of a scene by handles, where Ctrl snaps; again for no handles")
+        {
+            Keys = [new(key)],
+            Run = a => a.Show(a.Document!.Tool.ToggleHandles(kind)) | Redraw.Scene,
+            IsOn = a => a.Document?.Tool.Handles == kind,
+            IsAvailable = HasDocument,
+        };
 
     private static WindowAction Direction(string id, string name, Key key, Vector direction) =>
         new(id, "View", name, $"view from the {name.ToLowerInvariant()}")

@@ -22,7 +22,7 @@ internal sealed class WindowActions(
     /// <summary>The document shown; null for none.</summary>
     public Document? Document { get; set; }
 
-    /// <summary>Saves and opens files.</summary>
+    /// <summary>Opens, edits and saves files, and asks before changes are lost.</summary>
     public required FileCommands Files { get; set; }
 
     /// <summary>Menus and panels of the window.</summary>

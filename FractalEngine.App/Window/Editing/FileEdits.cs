@@ -13,7 +13,7 @@ internal sealed class FileEdits : IEquatable<FileEdits>
         Texts = files.ToImmutableDictionary(static pair => pair.Key, static pair => pair.Value.Text);
     }
 
-    /// <summary>No file is edited.</summary>
+    /// <summary>The state of a window whose texts are all as they are on the disk.</summary>
     public static FileEdits None { get; } = new(ImmutableSortedDictionary.Create<string, EditedFile>(StringComparer.Ordinal));
 
     /// <summary>The edited files by their full paths.</summary>

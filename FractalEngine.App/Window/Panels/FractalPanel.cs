@@ -111,9 +111,17 @@ internal sealed class FractalPanel(WindowActions actions)
         }
 
         string? name = null;
+        var vectorCount = _numbers.Count(static number => number.Component == 2 && number.Role is not FractalNumberRole.Argument);
         for (var i = 0; i < _numbers.Length; i++)
         {
             var number = _numbers[i];
+            if (number.Role == FractalNumberRole.Argument)
+            {
+                BuildArgument(ui, i, vectorCount, isFirst: name != number.Name);
+                name = number.Name;
+                continue;
+            }
+
             if (number.Role == FractalNumberRole.Depth)
             {
                 ui.Row(1);
@@ -134,11 +142,27 @@ internal sealed class FractalPanel(WindowActions actions)
         }
     }
 
+    /// <summary>Adds an argument of a call: the number of a vector, of which there are so many.</summary>
+    private void BuildArgument(UserInterface ui, int index, int vectorCount, bool isFirst)
+    {
+        var number = _numbers[index];
+        if (isFirst)
+        {
+            ui.Row(1);
+            ui.Label($"call {number.Name}: vectors", isDim: true);
+            ui.Row(1, 1, 1);
+        }
+
+        BuildSlider(ui, index, "v", 1, vectorCount, 1);
+        ui.Tooltip("which vector the function takes here");
+    }
+
     private void BuildSlider(
         UserInterface ui, int index, string label, double minimum, double maximum, double step) => ui.Scope(index, () =>
     {
         var value = _numbers[index].Value;
-        if (!ui.Slider(label, ref value, minimum, maximum, step, isBounded: false))
+        var isBounded = _numbers[index].Role == FractalNumberRole.Argument;
+        if (!ui.Slider(label, ref value, minimum, maximum, step, isBounded))
         {
             return;
         }

@@ -6,7 +6,7 @@ namespace FractalEngine.App.Window.Panels;
 /// <summary>The list of all actions with their keys, which can be searched.</summary>
 internal sealed class KeyList
 {
-    /// <summary>Title of the dialog.</summary>
+    /// <summary>Names the dialog at its head, and in <see cref="UserInterface.OpenDialog"/>.</summary>
     public const string Title = "Keys";
 
     private readonly KeyBindings _bindings;

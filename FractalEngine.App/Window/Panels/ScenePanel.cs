@@ -15,11 +15,12 @@ namespace FractalEngine.App.Window.Panels;
 internal sealed class ScenePanel(WindowActions actions)
 {
     private readonly LightList _lights = new(actions);
+    private readonly PlacementFields _placement = new(actions);
+    private readonly SkyFields _sky = new(actions);
+    private readonly CameraFields _camera = new(actions);
     private int _object = -1;
     private bool _showsObjects = true;
     private string _addedFile = "";
-    private int _startInteraction = -1;
-    private Transformation _startPlacement;
 
     /// <summary>Adds the widgets of the panel.</summary>
     public void Build(UserInterface ui)
@@ -49,6 +50,8 @@ internal sealed class ScenePanel(WindowActions actions)
 
         BuildObjects(ui, document, scene);
         _lights.Build(ui, scene);
+        _sky.Build(ui, scene);
+        _camera.Build(ui, document);
         ui.Heading("Background");
         if (ui.Colour(scene.Background ?? RenderSettings.DefaultBackground) is { } background)
         {
@@ -114,7 +117,7 @@ internal sealed class ScenePanel(WindowActions actions)
             SetObject(ui, index, present => present with { Name = name.Length > 0 ? name : null });
         }
 
-        BuildPlacement(ui, declared, index);
+        _placement.Build(ui, declared, index);
         ui.Row(1);
         ui.Label("colour", isDim: true);
         if (ui.Colour(declared.Colour ?? Colour.White) is { } colour)
@@ -147,32 +150,6 @@ internal sealed class ScenePanel(WindowActions actions)
             actions.Document!.Tool.Selected = null;
         }
     }
-
-    private void BuildPlacement(UserInterface ui, SceneObject declared, int index)
-    {
-        if (ui.Interaction != _startInteraction)
-        {
-            _startInteraction = ui.Interaction;
-            _startPlacement = declared.Placement;
-        }
-
-        var placement = declared.Placement;
-        var bounds = actions.Document!.File.Scene.Bounds;
-        var reach = bounds.Size.IsFinite() && !bounds.IsEmpty ? Math.Max(1e-6, 0.5 * bounds.Diagonal) : 10;
-        var position = ui.Vector("position", placement.Position, _startPlacement.Position, reach, 0);
-        var rotation = ui.Vector("rotation in degrees", placement.Rotation, _startPlacement.Rotation, 180, 1);
-        var scale = ui.Vector("scale", placement.Scale, _startPlacement.Scale, null, 0.01);
-        var changed = new Transformation(position, rotation, scale);
-        if (changed != placement)
-        {
-            SetObject(ui, index, present => Place(present, changed));
-        }
-    }
-
-    private static SceneObject Place(SceneObject declared, Transformation placement) => declared with
-    {
-        Placement = placement, Motion = declared.Motion?.MovedBy(placement.Position - declared.Placement.Position),
-    };
 
     private void SetObject(UserInterface ui, int index, Func<SceneObject, SceneObject> change) => actions.ChangeScene(
         ui, scene => scene with { Objects = scene.Objects.SetItem(index, change(scene.Objects[index])) });

@@ -1,5 +1,7 @@
 using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.Tools;
 using FractalEngine.App.Window.Selecting;
+using FractalEngine.Parsing.Assets;
 using FractalEngine.Render.Ui;
 
 namespace FractalEngine.App.Window.Panels;
@@ -9,6 +11,8 @@ namespace FractalEngine.App.Window.Panels;
 /// <param name="choose">Runs an action.</param>
 internal sealed class SelectionPanel(WindowActions actions, Action<WindowAction> choose)
 {
+    private readonly PlacementFields _placement = new(actions);
+
     /// <summary>Adds the widgets of the panel.</summary>
     public void Build(UserInterface ui)
     {
@@ -30,6 +34,7 @@ internal sealed class SelectionPanel(WindowActions actions, Action<WindowAction>
             ui.Row(1, 1);
             ui.Action(actions, "select-up", choose);
             ui.Action(actions, "copy-selection", choose);
+            BuildPlacement(ui, document, selected.ObjectIndex);
         }
         else
         {
@@ -37,6 +42,26 @@ internal sealed class SelectionPanel(WindowActions actions, Action<WindowAction>
         }
 
         BuildMeasuring(ui, document.Tool.Measure);
+    }
+
+    /// <summary>Adds the handles of the object and its numbers, where it belongs to a scene.</summary>
+    private void BuildPlacement(UserInterface ui, Document document, int index)
+    {
+        var objects = document.File.Scene.Scene.Objects;
+        if (document.File.Kind != FileKind.Scene || index >= objects.Length)
+        {
+            return;
+        }
+
+        ui.Heading("Handles");
+        ui.Row(1, 1, 1);
+        ui.Action(actions, "handles-move", choose);
+        ui.Action(actions, "handles-turn", choose);
+        ui.Action(actions, "handles-scale", choose);
+        if (document.Tool.Handles != HandleKind.None)
+        {
+            ui.Scope($"object {index}", () => _placement.Build(ui, objects[index], index));
+        }
     }
 
     private void BuildMeasuring(UserInterface ui, MeasureTool measure)

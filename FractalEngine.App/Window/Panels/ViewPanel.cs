@@ -9,6 +9,8 @@ namespace FractalEngine.App.Window.Panels;
 internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choose)
 {
     private readonly List<(string Name, CameraState State)> _bookmarks = [];
+    private readonly SectionFields _section = new(actions, choose);
+    private readonly ClipFields _clip = new(actions);
 
     /// <summary>Adds the widgets of the panel.</summary>
     public void Build(UserInterface ui)
@@ -27,6 +29,7 @@ internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choo
         if (actions.Document is { } document)
         {
             BuildCamera(ui, document);
+            _clip.Build(ui, document);
         }
 
         ui.Heading("Drawing");
@@ -48,6 +51,16 @@ internal sealed class ViewPanel(WindowActions actions, Action<WindowAction> choo
             }
 
             ui.Tooltip("bounding boxes of the sub-fractals at a level; 0 for whole objects, -1 for none");
+            ui.Row(1);
+            var normals = shown.Tool.Normals.IsOn;
+            if (ui.CheckBox("Normals", ref normals))
+            {
+                shown.Tool.Normals.IsOn = normals;
+                actions.RequestDraw();
+            }
+
+            ui.Tooltip("normals of the selected instance's faces, or of all meshes where nothing is selected");
+            _section.Build(ui, shown);
             BuildBookmarks(ui, shown);
         }
     }

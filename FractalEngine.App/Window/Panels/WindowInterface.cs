@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.App.Window.Actions;
+using FractalEngine.App.Window.Tools;
 using FractalEngine.Render.Ui;
 using FractalEngine.Render.Windowing;
 
@@ -20,6 +21,8 @@ internal sealed class WindowInterface
     private readonly Queue<WindowAction> _chosen = [];
     private readonly KeyList _keyList;
     private readonly AxisGizmo _gizmo;
+    private readonly TransformHandles _handles;
+    private readonly SectionHandle _sectionHandle;
     private WindowSettings _settings;
     private int _width;
     private int _height;
@@ -38,6 +41,8 @@ internal sealed class WindowInterface
         Bindings = new(_settings.Keys);
         _keyList = new(Bindings, Choose);
         _gizmo = new(actions);
+        _handles = new(actions);
+        _sectionHandle = new(actions);
         _panels =
         [
             ("scene", new("Scene", new ScenePanel(actions).Build) { Dock = UiDock.Left }),
@@ -80,7 +85,7 @@ internal sealed class WindowInterface
     /// <summary>Tells whether a panel is shown.</summary>
     public bool IsOpen(string name) => PanelOf(name).IsOpen;
 
-    /// <summary>Shows or hides a panel.</summary>
+    /// <summary>Opens a panel that is closed, and closes one that is open; its place is remembered.</summary>
     public void Toggle(string name)
     {
         var panel = PanelOf(name);
@@ -154,6 +159,9 @@ internal sealed class WindowInterface
         if (IsShown)
         {
             MarkDimensions(ui);
+            // Behind all panels.
+            _sectionHandle.Build(ui);
+            _handles.Build(ui);
             ui.MenuBar(() => BuildMenus(ui));
             ui.Panels([.. _panels.Select(static pair => pair.Panel)], ui.FreeArea.Width < MinWidthForTexts * ui.Scale ? 2 : 0);
             _gizmo.Build(ui);

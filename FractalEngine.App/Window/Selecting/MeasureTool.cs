@@ -39,7 +39,7 @@ internal sealed class MeasureTool
         return IsActive ? $"measuring: {Hint}" : "clicks select";
     }
 
-    /// <summary>Takes what was clicked.</summary>
+    /// <summary>Remembers the first of two clicks, and measures at the second.</summary>
     /// <param name="clicked">The face under the pointer.</param>
     /// <param name="scene">The scene with its bodies where they are.</param>
     /// <returns>A message for the user.</returns>

@@ -16,7 +16,7 @@ internal sealed class Picker
     private LoadedScene? _scene;
     private SceneRayCaster? _caster;
 
-    /// <summary>Finds the face under a pixel.</summary>
+    /// <summary>Finds the face under a pixel: in a section through a solid, that which is seen behind the plane.</summary>
     /// <param name="scene">The scene with its bodies where they are.</param>
     /// <param name="view">View of the frame in world space, without a deep zoom.</param>
     /// <param name="pixel">Framebuffer pixels from the upper left corner.</param>
@@ -32,7 +32,9 @@ internal sealed class Picker
         }
 
         var ray = view.RayThrough(pixel.X, pixel.Y, size.Width, size.Height);
-        if (!_caster!.TryFindNearest(ray, _context, out var hit, out var objectIndex))
+        var (minDistance, maxDistance) = (0.0, double.PositiveInfinity);
+        if ((view.Section is { } section && !section.TryClip(in ray, ref minDistance, ref maxDistance))
+            || !_caster!.TryFindNearest(ray, _context, out var hit, out var objectIndex, minDistance, maxDistance))
         {
             return null;
         }

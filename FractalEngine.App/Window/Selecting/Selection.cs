@@ -51,6 +51,75 @@ internal sealed record Selection(int ObjectIndex, PlacedModel Object, ImmutableA
     /// <summary>Selects the sub-fractal that the selected part belongs to; the same selection where that is a whole object.</summary>
     public Selection Up() => Depth > 0 ? this with { Depth = Depth - 1, Outline = ComputeOutline(Object, Path, Depth - 1, Hit) } : this;
 
+    /// <summary>Selects the same part after the object was moved, or its model changed.</summary>
+    /// <param name="placed">The object as it is now.</param>
+    /// <returns>Null where the object has no such part any more.</returns>
+    public Selection? ContinueIn(PlacedModel placed)
+    {
+        var isSameModel = ReferenceEquals(placed.Model, Object.Model);
+        if (isSameModel && placed.ObjectToWorld == Object.ObjectToWorld)
+        {
+            return this with { Object = placed };
+        }
+
+        var mesh = placed.Model.Mesh;
+        if (!isSameModel && (placed.Model.SourcePath != Object.Model.SourcePath || mesh.FaceCount != Object.Model.Mesh.FaceCount))
+        {
+            return null;
+        }
+
+        if (MapOfInstance(placed) is not { } map)
+        {
+            return null;
+        }
+
+        var (a, b, c) = mesh.Face(Hit.FaceIndex);
+        var (x, y, z) = Hit.Barycentrics;
+        var normal = Vector.Cross(map.Linear * (b - a), map.Linear * (c - a));
+        var hit = Hit with
+        {
+            InstanceMap = map,
+            Point = map * ((x * a) + (y * b) + (z * c)),
+            Normal = normal.Length() > 0 ? normal.UnitVector() : Hit.Normal,
+        };
+        return this with { Object = placed, Hit = hit, Outline = ComputeOutline(placed, Path, Depth, hit) };
+    }
+
+    /// <summary>Returns the map of the instance at the path from the frame of its mesh to world space; null where there is none.</summary>
+    private AffineMap? MapOfInstance(PlacedModel placed)
+    {
+        if (placed.Model is not FractalModel { Fractal: var fractal })
+        {
+            return placed.ObjectToWorld;
+        }
+
+        if (fractal.Description.Composition != Composition.Affine)
+        {
+            return ReferenceEquals(placed.Model, Object.Model)
+                ? placed.ObjectToWorld * Object.ObjectToWorld.Inverse() * Hit.InstanceMap : null;
+        }
+
+        // An infinite fractal is hit at any of its levels.
+        if (fractal.LevelCount is { } levels && levels != Path.Length)
+        {
+            return null;
+        }
+
+        var map = placed.ObjectToWorld;
+        for (var level = 0; level < Path.Length; level++)
+        {
+            var maps = fractal.LevelAt(level).Maps;
+            if (Path[level] >= maps.Length)
+            {
+                return null;
+            }
+
+            map *= maps[Path[level]];
+        }
+
+        return map;
+    }
+
     /// <summary>Adds lines around the selected part, and those of the clicked face and its normal. World space.</summary>
     public void AddLines(List<LineSegment> lines)
     {

@@ -1,4 +1,6 @@
+using FractalEngine.App.Window.Tools;
 using FractalEngine.Core;
+using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
 
@@ -26,17 +28,38 @@ internal sealed class SelectionTool(Document document)
     /// <summary>The bounding boxes that are shown.</summary>
     public BoxesOfLevel Boxes { get; private set; } = new();
 
+    /// <summary>The normals that are shown.</summary>
+    public NormalLines Normals { get; private set; } = new();
+
+    /// <summary>The handles of the selected object.</summary>
+    public HandleKind Handles { get; private set; }
+
+    /// <summary>Distance of the handles from the middle of the object, as a part of the frame's height.</summary>
+    public double HandleReach { get; set; } = 0.1;
+
+    /// <summary>Shows handles at the selected object, or none where these are shown already.</summary>
+    /// <returns>A message for the user.</returns>
+    public string ToggleHandles(HandleKind kind)
+    {
+        Handles = Handles == kind ? HandleKind.None : kind;
+        return Handles == HandleKind.None ? "no handles"
+            : document.File.Kind != FileKind.Scene ? "save this as a scene first: then its objects can be moved"
+            : Selected is null ? "click an object: its handles appear"
+            : "drag a handle; Ctrl snaps, and the panel of the selection takes numbers";
+    }
+
     /// <summary>Takes over what was selected and measured in the same scene before it was loaded again.</summary>
     public void ContinueFrom(SelectionTool other)
     {
         Measure = other.Measure;
         Boxes = other.Boxes;
+        Normals = other.Normals;
+        Handles = other.Handles;
+        HandleReach = other.HandleReach;
         var objects = document.File.Scene.Objects;
-        if (other.Selected is { } selected && selected.ObjectIndex < objects.Length
-            && ReferenceEquals(objects[selected.ObjectIndex].Model, selected.Object.Model)
-            && objects[selected.ObjectIndex].ObjectToWorld == selected.Object.ObjectToWorld)
+        if (other.Selected is { } selected && selected.ObjectIndex < objects.Length)
         {
-            Selected = selected;
+            Selected = selected.ContinueIn(objects[selected.ObjectIndex]);
         }
     }
 
@@ -76,6 +99,7 @@ internal sealed class SelectionTool(Document document)
     {
         var lines = new List<LineSegment>();
         Boxes.AddTo(document.File.Scene, lines);
+        Normals.AddTo(document.File.Scene, Selected, lines);
         Selected?.AddLines(lines);
         lines.AddRange(Measure.Dimensions.Select(static dimension => dimension.Line));
         return lines;
@@ -94,7 +118,10 @@ internal sealed class SelectionTool(Document document)
         var scene = document.Physics.CurrentScene;
         try
         {
-            var view = View.Of(scene with { Scene = document.GetCurrentScene() }, (double)size.Width / size.Height);
+            var view = View.Of(scene with { Scene = document.GetCurrentScene() }, (double)size.Width / size.Height) with
+            {
+                Section = document.Section.Shown,
+            };
             var clicked = _picker.Pick(scene, view, pixel, size);
             if (Measure.IsActive && !isDouble)
             {

@@ -107,8 +107,11 @@ internal sealed partial class DrivenWindow : IDisposable
         return ((int, int))found;
     }
 
+    /// <summary>Returns the middle of a text that menus and panels show now; null where they don't.</summary>
+    public (int X, int Y)? TryFindText(string text) => ScreenText.Find(ScreenshotWithPanels(), text);
+
     /// <summary>Tells whether menus and panels show a text now.</summary>
-    public bool ShowsText(string text) => ScreenText.Find(ScreenshotWithPanels(), text) is not null;
+    public bool ShowsText(string text) => TryFindText(text) is not null;
 
     private PixelImage Screenshot(string command)
     {

@@ -44,6 +44,45 @@ public class UserInterfaceTests
     }
 
     [Fact]
+    public void Handle_Dragged_KeepsThePointerAndTellsOfCtrl()
+    {
+        var (x, y) = (100.0, 200.0);
+        var began = 0;
+        UiHandle last = default;
+        var ui = new UserInterface(ui =>
+        {
+            last = ui.Handle("h", "handle", x, y, new(0.2, 0.2, 0.2));
+            began += last.Begins ? 1 : 0;
+            if (last.IsHeld)
+            {
+                (x, y) = (last.X, last.Y);
+            }
+        });
+        ui.Update(640, 480);
+        Assert.False(ui.Handle(new MousePressed(MouseButton.Left, 300, 300, KeyModifiers.None)));
+        ui.Handle(new MouseReleased(MouseButton.Left, 300, 300, KeyModifiers.None));
+        Assert.True(ui.Handle(new MousePressed(MouseButton.Left, 102, 201, KeyModifiers.None)));
+        var interaction = ui.Interaction;
+        Assert.True(ui.Handle(new MouseMoved(400, 50, 298, -151)));
+        Assert.True(last.IsHeld);
+        Assert.False(last.IsControlHeld);
+        Assert.Equal((400.0, 50.0), (x, y));
+        // The key belongs to the drag, which stays one step.
+        ui.Handle(new KeyPressed(Key.Unknown, KeyModifiers.Control, false));
+        ui.Handle(new MouseMoved(410, 60, 10, 10));
+        Assert.True(last.IsControlHeld);
+        ui.Handle(new KeyReleased(Key.Unknown, KeyModifiers.None));
+        ui.Handle(new MouseMoved(411, 60, 1, 0));
+        Assert.False(last.IsControlHeld);
+        Assert.Equal(interaction, ui.Interaction);
+        Assert.True(ui.Handle(new MouseReleased(MouseButton.Left, 411, 60, KeyModifiers.None)));
+        ui.Handle(new MouseMoved(20, 20, -391, -40));
+        Assert.False(last.IsHeld);
+        Assert.Equal((411.0, 60.0), (x, y));
+        Assert.Equal(1, began);
+    }
+
+    [Fact]
     public void CheckBox_ClickedAndBySpace_Switches()
     {
         var isOn = false;

@@ -27,7 +27,11 @@ public sealed class EditingTests : IDisposable
     {
         var text = Fractal.Replace("y<z>. [u.1] z\n", "", StringComparison.Ordinal);
         var numbers = FractalNumber.FindAll(new("row.fdo", text));
-        Assert.Equal(13, numbers.Length);
+        Assert.Equal(16, numbers.Length);
+        Assert.Equal(
+            [("t 1", 0, 1.0), ("t 1", 1, 2.0), ("t 1", 2, 3.0)],
+            numbers.Where(static number => number.Role == FractalNumberRole.Argument)
+                .Select(static number => (number.Name, number.Component, number.Value)));
         Assert.All(numbers, number => Assert.Equal(
             number.Value, double.Parse(text.AsSpan(number.Offset, number.Length), System.Globalization.CultureInfo.InvariantCulture)));
         Assert.Equal(
@@ -42,10 +46,12 @@ public sealed class EditingTests : IDisposable
         var text = Fractal.Replace("y<z>. [u.1] z\n", "", StringComparison.Ordinal);
         foreach (var number in FractalNumber.FindAll(new("row.fdo", text)))
         {
-            var changed = number.Replace(text, 7);
+            // There are four vectors, and a call takes the number of one.
+            var value = number.Role == FractalNumberRole.Argument ? 4 : 7;
+            var changed = number.Replace(text, value);
             Assert.Equal(text[..number.Offset], changed[..number.Offset]);
             Assert.Equal(text[(number.Offset + number.Length)..], changed[(number.Offset + 1)..]);
-            Assert.Equal(7, FractalNumber.FindAll(new("row.fdo", changed)).Single(other => other.Offset == number.Offset).Value);
+            Assert.Equal(value, FractalNumber.FindAll(new("row.fdo", changed)).Single(other => other.Offset == number.Offset).Value);
         }
     }
 

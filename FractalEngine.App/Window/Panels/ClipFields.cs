@@ -1,0 +1,46 @@
+using FractalEngine.App.Window.Actions;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Render.Ui;
+
+namespace FractalEngine.App.Window.Panels;
+
+/// <summary>The near and the far clip plane of a scene, in the panel of the view. They belong to the scene's file.</summary>
+/// <param name="actions">The window with the document.</param>
+internal sealed class ClipFields(WindowActions actions)
+{
+    /// <summary>Adds a check box, and the two depths where they are fixed.</summary>
+    public void Build(UserInterface ui, Document document)
+    {
+        if (document.File.Kind != FileKind.Scene)
+        {
+            return;
+        }
+
+        var clip = document.File.Scene.Scene.Clip;
+        var isFixed = clip is not null;
+        ui.Row(1);
+        if (ui.CheckBox("Fixed clip planes", ref isFixed))
+        {
+            var planes = document.LatestView?.ClipPlanes(document.Renderer.Bounds) ?? (0.1, 1000);
+            Set(ui, isFixed ? (Math.Round(planes.Near, 6), Math.Round(planes.Far, 6)) : null);
+        }
+
+        ui.Tooltip("depths between which the scene is drawn; otherwise they follow the size of the scene");
+        if (clip is not var (near, far))
+        {
+            return;
+        }
+
+        ui.Row(1, 1);
+        var size = SceneSize.Of(document.File.Scene.Bounds);
+        var isChanged = ui.Slider("near", ref near, 1e-3 * size, size, isBounded: false)
+            | ui.Slider("far", ref far, 1e-3 * size, 10 * size, isBounded: false);
+        if (isChanged && near > 0 && near < far)
+        {
+            Set(ui, (near, far));
+        }
+    }
+
+    private void Set(UserInterface ui, (double Near, double Far)? planes) =>
+        actions.ChangeScene(ui, scene => scene with { Clip = planes });
+}

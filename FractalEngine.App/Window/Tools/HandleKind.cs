@@ -1,0 +1,17 @@
+namespace FractalEngine.App.Window.Tools;
+
+/// <summary>What the handles of the selected object do.</summary>
+internal enum HandleKind
+{
+    /// <summary>There are no handles.</summary>
+    None,
+
+    /// <summary>They move the object along the axes of the world, or in the plane of the frame.</summary>
+    Move,
+
+    /// <summary>They turn the object about axes of the world through its middle.</summary>
+    Turn,
+
+    /// <summary>They scale the object along its own axes, or all of it, about its middle.</summary>
+    Scale,
+}
