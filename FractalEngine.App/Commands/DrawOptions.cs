@@ -49,6 +49,11 @@ internal sealed class DrawOptions
 
     private readonly Option<bool> _noShadows = new("--no-shadows") { Description = "Draw no shadows." };
 
+    private readonly Option<bool> _noAmbientOcclusion = new("--no-ambient-occlusion")
+    {
+        Description = "Light the holes of fractals as if they were open to the sky.",
+    };
+
     private readonly Option<Optimisation[]> _disabled = WordOption.Repeatable(
         "--without", "OPTIMISATION",
         "Disable one optimisation, for comparison; repeatable. "
@@ -62,7 +67,10 @@ internal sealed class DrawOptions
     public void AddTo(Command command)
     {
         Option[] options =
-            [_resolution, _projection, _shading, _noShadows, _wireframe, _grid, _minProjectedSize, _maxInstances, _sampleCount, _disabled];
+        [
+            _resolution, _projection, _shading, _noShadows, _noAmbientOcclusion, _wireframe, _grid, _minProjectedSize, _maxInstances,
+            _sampleCount, _disabled,
+        ];
         foreach (var option in options)
         {
             command.Add(option);
@@ -106,6 +114,7 @@ internal sealed class DrawOptions
             Samples = result.GetValue(_sampleCount) ?? DefaultSettings.Samples,
             Shading = result.GetValue(_shading) ?? DefaultSettings.Shading,
             Shadows = !result.GetValue(_noShadows),
+            AmbientOcclusion = !result.GetValue(_noAmbientOcclusion),
             BackFaceCulling = IsEnabled(result, Optimisation.BackFaceCulling),
             RemoveDegenerateTriangles = IsEnabled(result, Optimisation.DegenerateRemoval),
             FilterRedundantState = IsEnabled(result, Optimisation.StateFiltering),

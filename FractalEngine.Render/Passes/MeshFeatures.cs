@@ -41,4 +41,7 @@ internal enum MeshFeatures
 
     /// <summary>Shadows of lights that have a position are among them.</summary>
     PointShadows = 1024,
+
+    /// <summary>Instances come with the parts of the sky that they see.</summary>
+    SkyParts = 2048,
 }

@@ -23,6 +23,7 @@ internal sealed class MeshProgram : IDisposable
         (MeshFeatures.Atmosphere, "ATMOSPHERE"),
         (MeshFeatures.Shadows, "SHADOWS"),
         (MeshFeatures.PointShadows, "POINT_SHADOWS"),
+        (MeshFeatures.SkyParts, "SKY_PARTS"),
     ];
 
     private readonly RedundancyFilter _filter;
